@@ -1,0 +1,68 @@
+#include "cache/cache_limits.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "cache/cache_tables.h"
+#include "cache/claimed_memory.h"
+#include "cache/frame_pool.h"
+#include "cache/page_cache.h"
+
+namespace planetree::cache {
+namespace {
+
+/// For the PageCache object itself and the allocator's header beside it.
+constexpr std::uint64_t kObjectBytes = 1024;
+static_assert(sizeof(PageCache) + 64 <= kObjectBytes);
+
+Error out_of_range(const char* name, std::uint32_t value, std::uint32_t most) noexcept {
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "%s is %u: choose a value from 1 to %u", name, value, most);
+}
+
+}  // namespace
+
+Result<void> check_limits(const CacheLimits& limits) noexcept {
+  constexpr std::uint32_t kMostPages = kNoFrame - 1;
+  if (limits.page_count < 1 || limits.page_count > kMostPages) {
+    return out_of_range("page_count", limits.page_count, kMostPages);
+  }
+  if (limits.frame_bytes < 1 || limits.frame_bytes > kMaxFrameBytes) {
+    return out_of_range("frame_bytes", limits.frame_bytes, kMaxFrameBytes);
+  }
+  if (limits.max_readers < 1 || limits.max_readers > kMaxReaders) {
+    return out_of_range("max_probes", limits.max_readers, kMaxReaders);
+  }
+  return {};
+}
+
+std::uint32_t minimum_frame_count(const CacheLimits& limits) noexcept {
+  return std::min(limits.page_count, limits.max_readers + 2);
+}
+
+std::uint64_t bytes_needed(const CacheLimits& limits, std::uint32_t frame_count) noexcept {
+  // Within checked limits these sums stay below 2^61.
+  const std::uint64_t own_bytes =
+      kObjectBytes + ClaimedMemory::claimed_bytes(tables_bytes(limits, frame_count)) +
+      ClaimedMemory::claimed_bytes(frame_count * FramePool::stride_bytes(limits.frame_bytes));
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+  return limits.reserved_bytes > kMost - own_bytes ? kMost : own_bytes + limits.reserved_bytes;
+}
+
+std::uint64_t minimum_budget_bytes(const CacheLimits& limits) noexcept {
+  return bytes_needed(limits, minimum_frame_count(limits));
+}
+
+std::uint32_t frames_within_budget(const CacheLimits& limits) noexcept {
+  // Bytes grow with frames, but in the steps of several roundings: halve the
+  // range [fits, fits_not) rather than solve for the number.
+  std::uint32_t fits = 0;
+  std::uint32_t fits_not = limits.page_count + 1;
+  while (fits_not - fits > 1) {
+    const std::uint32_t middle = fits + (fits_not - fits) / 2;
+    (bytes_needed(limits, middle) <= limits.budget_bytes ? fits : fits_not) = middle;
+  }
+  return fits;
+}
+
+}  // namespace planetree::cache

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "planetree/error.h"
+
+namespace planetree::cache {
+
+/// Anonymous memory taken from the system once, all of it backed before the
+/// claim returns, so that no later access faults a page in. Starts as zeros.
+/// Move-only; gives everything back when destroyed.
+class ClaimedMemory {
+ public:
+  /// Claims at least `bytes`, which must not be 0. Fails with kNoMemory.
+  static Result<ClaimedMemory> claim(std::uint64_t bytes) noexcept;
+
+  /// What claim(bytes) really takes: `bytes` rounded up to system pages.
+  static std::uint64_t claimed_bytes(std::uint64_t bytes) noexcept;
+
+  ClaimedMemory(ClaimedMemory&& other) noexcept;
+  ClaimedMemory& operator=(ClaimedMemory&& other) noexcept;
+  ~ClaimedMemory();
+
+  std::byte* data() const noexcept { return data_; }
+  std::uint64_t bytes() const noexcept { return bytes_; }
+
+ private:
+  ClaimedMemory(std::byte* data, std::uint64_t bytes) noexcept : data_(data), bytes_(bytes) {}
+
+  std::byte* data_;
+  std::uint64_t bytes_;
+};
+
+}  // namespace planetree::cache

@@ -1,0 +1,50 @@
+#include "cache/clock_policy.h"
+
+#include <cassert>
+
+namespace planetree::cache {
+
+ClockPolicy::ClockPolicy(std::span<Score> scores, std::span<State> states) noexcept
+    : scores_(scores), states_(states) {
+  assert(scores.size() == states.size() && !scores.empty() && scores.size() < kNoFrame);
+}
+
+void ClockPolicy::install(std::uint32_t frame) noexcept {
+  assert(states_[frame] == State::kIdle);
+  states_[frame] = State::kEvictable;
+  scores_[frame].store(kInstallScore, std::memory_order_relaxed);
+}
+
+void ClockPolicy::pin(std::uint32_t frame) noexcept {
+  assert(states_[frame] != State::kIdle);
+  states_[frame] = State::kPinned;
+}
+
+void ClockPolicy::remove(std::uint32_t frame) noexcept {
+  assert(states_[frame] == State::kEvictable);
+  states_[frame] = State::kIdle;
+}
+
+std::uint32_t ClockPolicy::advance() noexcept {
+  const std::uint32_t frame = hand_;
+  hand_ = hand_ + 1 == scores_.size() ? 0 : hand_ + 1;
+  return frame;
+}
+
+std::uint32_t ClockPolicy::choose_victim() noexcept {
+  // After kMaxScore rounds every score is 0 unless readers raised it again
+  // meanwhile. They could do so for ever, so after these rounds the score no
+  // longer counts, and one more round finds any evictable frame there is.
+  const std::uint64_t patient_steps = std::uint64_t{kMaxScore} * scores_.size();
+  const std::uint64_t most_steps = patient_steps + scores_.size();
+  for (std::uint64_t step = 0; step < most_steps; ++step) {
+    const std::uint32_t frame = advance();
+    if (states_[frame] != State::kEvictable) continue;
+    const std::uint8_t score = scores_[frame].load(std::memory_order_relaxed);
+    if (score == 0 || step >= patient_steps) return frame;
+    scores_[frame].store(static_cast<std::uint8_t>(score - 1), std::memory_order_relaxed);
+  }
+  return kNoFrame;
+}
+
+}  // namespace planetree::cache

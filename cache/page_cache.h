@@ -1,0 +1,124 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+
+#include "cache/cache_limits.h"
+#include "cache/cache_tables.h"
+#include "cache/claimed_memory.h"
+#include "cache/clock_policy.h"
+#include "cache/frame_pool.h"
+#include "cache/limbo.h"
+#include "cache/page_map.h"
+#include "cache/reader.h"
+#include "planetree/error.h"
+
+namespace planetree::cache {
+
+/// Fills `frame` (frame_bytes long, old bytes in it) with the decoded page.
+/// Called by one thread at a time, outside that thread's section. Must not
+/// throw and must not call the cache.
+using FillPage = Result<void> (*)(void* context, std::uint32_t page, std::span<std::byte> frame);
+
+/// Counts since create(). Taken while others work, they need not agree with
+/// each other to the last one.
+struct CacheStats {
+  std::uint64_t hits;         ///< finds that returned a frame
+  std::uint64_t misses;       ///< finds that returned nullptr
+  std::uint64_t fills;        ///< pages made resident; fills - evictions are resident
+  std::uint64_t evictions;    ///< pages removed to make room
+  std::uint64_t quarantined;  ///< pages found unreadable
+  std::uint32_t frame_count;
+  std::uint64_t arena_bytes;     ///< of the frames
+  std::uint64_t table_bytes;     ///< of the page map, reader slots and the like
+  std::uint64_t reserved_bytes;  ///< as asked
+  std::uint64_t budget_bytes;    ///< as asked; the three above and the object fit in it
+};
+
+/// Decoded pages in a fixed number of frames.
+///
+/// Many readers, one writer. Readers find pages without waiting; see
+/// reader_slot.h for the protocol. The writer is whoever holds the mutex: a
+/// thread that misses becomes the writer and reads the page itself.
+///
+/// A frame goes round:
+///
+///     free --fill--> resident --evict--> limbo --sections over--> filled again
+///       ^____________________________(fill failed)________________|
+///
+/// All memory is claimed in create(); nothing allocates after it.
+class PageCache {
+ public:
+  /// Takes as many frames as the budget allows, at most one per page.
+  /// `context` is handed to `fill` and must outlive the cache. Fails with
+  /// kBadArgument for limits out of range; with kNoMemory if the budget is
+  /// below the minimum, which the text names, or if the system has no memory.
+  static Result<std::unique_ptr<PageCache>> create(const CacheLimits& limits, FillPage fill,
+                                                   void* context) noexcept;
+
+  /// All readers must be gone.
+  ~PageCache();
+  PageCache(const PageCache&) = delete;
+  PageCache& operator=(const PageCache&) = delete;
+
+  /// Makes a page resident for good. Any thread that is not inside a section.
+  /// Fails with the error of `fill`; with kDamaged if the page was found
+  /// unreadable earlier; with kNoMemory if fetches would be left with too few
+  /// frames.
+  Result<void> pin(std::uint32_t page) noexcept;
+
+  /// Any thread. Fails with kBadArgument if max_readers are there already.
+  Result<Reader> claim_reader() noexcept;
+
+  /// Any thread; waits for nobody.
+  CacheStats stats() const noexcept;
+
+ private:
+  friend class Reader;
+
+  /// What one attempt to make a page resident came to.
+  enum class Attempt { kResident, kUnreadable, kNoFrameYet };
+
+  PageCache(const CacheLimits& limits, FillPage fill, void* context, ClaimedMemory memory,
+            FramePool frames) noexcept;
+
+  const std::byte* fetch(ReaderSlot& slot, std::uint32_t page) noexcept;
+
+  // All below need the mutex. An owner is a place in limbo: a reader's index,
+  // or pin_owner().
+  Attempt try_make_resident(std::uint32_t owner, std::uint32_t page, Error* why) noexcept;
+  std::uint32_t take_frame(std::uint32_t owner) noexcept;
+  void evict_into_limbo(std::uint32_t owner) noexcept;
+  Result<void> pin_resident(std::uint32_t page) noexcept;
+  std::uint32_t pin_owner() const noexcept { return limits_.max_readers; }
+  bool quarantined(std::uint32_t page) const noexcept;
+  void quarantine(std::uint32_t page) noexcept;
+
+  // Written under the mutex, read by stats() at any time: relaxed suffices.
+  struct Counts {
+    std::atomic<std::uint64_t> fills{0};
+    std::atomic<std::uint64_t> evictions{0};
+    std::atomic<std::uint64_t> quarantined{0};
+  };
+
+  const CacheLimits limits_;
+  const FillPage fill_;
+  void* const context_;
+  ClaimedMemory table_memory_;
+  FramePool frames_;
+  const CacheTables tables_;
+  const PageMap map_;
+
+  std::mutex mutex_;
+  ClockPolicy clock_;
+  Limbo limbo_;
+  std::uint32_t free_count_;
+  std::uint32_t pinned_count_ = 0;
+  Counts counts_;
+};
+
+}  // namespace planetree::cache

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cache/frame_pool.h"
+
+namespace planetree::cache {
+
+/// Which frame holds which page: one cell per page, frame + 1, 0 for absent.
+/// A plain array: page numbers are dense, so there is nothing to hash and a
+/// lookup is one load. A view of memory that PageCache owns; copies see the
+/// same cells.
+///
+/// Any thread inside a read section may call find(). The other calls belong to
+/// the one writer, the holder of the cache's mutex.
+class PageMap {
+ public:
+  using Cell = std::atomic<std::uint32_t>;
+  static_assert(Cell::is_always_lock_free);
+
+  explicit PageMap(std::span<Cell> cells) noexcept : cells_(cells.data()), count_(cells.size()) {}
+
+  /// The frame of `page`, or kNoFrame. Acquires the page's bytes. seq_cst
+  /// because it forms a store-buffering pair with withdraw(): see reader_slot.h.
+  std::uint32_t find(std::uint32_t page) const noexcept {
+    assert(page < count_);
+    // 0 - 1 wraps to kNoFrame.
+    return cells_[page].load(std::memory_order_seq_cst) - 1;
+  }
+
+  /// As find(), for the writer: relaxed, since it reads what it wrote itself,
+  /// or what earlier holders of the mutex wrote.
+  std::uint32_t frame_of(std::uint32_t page) const noexcept {
+    assert(page < count_);
+    return cells_[page].load(std::memory_order_relaxed) - 1;
+  }
+
+  /// Shows a filled frame to readers; release, so that who finds the page also
+  /// sees the bytes written into its frame.
+  void publish(std::uint32_t page, std::uint32_t frame) const noexcept {
+    assert(page < count_ && frame != kNoFrame);
+    cells_[page].store(frame + 1, std::memory_order_release);
+  }
+
+  /// Hides a page. Readers that found it before may still be reading its
+  /// frame. seq_cst: the other half of the pair with find().
+  void withdraw(std::uint32_t page) const noexcept {
+    assert(page < count_);
+    cells_[page].store(0, std::memory_order_seq_cst);
+  }
+
+ private:
+  Cell* cells_;
+  std::size_t count_;  // Only asserts read it.
+};
+
+static_assert(kNoFrame == std::uint32_t{0} - 1, "an empty cell must read as kNoFrame");
+
+}  // namespace planetree::cache

@@ -1,0 +1,50 @@
+#include "cache/reader.h"
+
+#include <utility>
+
+#include "cache/page_cache.h"
+
+namespace planetree::cache {
+
+Reader::Reader(PageCache& cache, ReaderSlot& slot) noexcept
+    : map_(cache.map_),
+      scores_(cache.clock_.scores()),
+      frames_(cache.frames_.frame(0)),
+      stride_bytes_(cache.frames_.stride_bytes()),
+      slot_(&slot),
+      cache_(&cache) {}
+
+Reader::Reader(Reader&& other) noexcept
+    : map_(other.map_),
+      scores_(other.scores_),
+      frames_(other.frames_),
+      stride_bytes_(other.stride_bytes_),
+      slot_(std::exchange(other.slot_, nullptr)),
+      cache_(other.cache_) {}
+
+Reader& Reader::operator=(Reader&& other) noexcept {
+  if (this == &other) return *this;
+  give_back();
+  map_ = other.map_;
+  scores_ = other.scores_;
+  frames_ = other.frames_;
+  stride_bytes_ = other.stride_bytes_;
+  slot_ = std::exchange(other.slot_, nullptr);
+  cache_ = other.cache_;
+  return *this;
+}
+
+Reader::~Reader() { give_back(); }
+
+void Reader::give_back() noexcept {
+  if (slot_ == nullptr) return;
+  if (slot_->inside()) slot_->leave();
+  std::exchange(slot_, nullptr)->release();
+}
+
+const std::byte* Reader::fetch(std::uint32_t page) noexcept {
+  slot_->leave();
+  return cache_->fetch(*slot_, page);
+}
+
+}  // namespace planetree::cache

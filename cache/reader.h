@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+
+#include "cache/clock_policy.h"
+#include "cache/page_map.h"
+#include "cache/reader_slot.h"
+
+namespace planetree::cache {
+
+class PageCache;
+
+/// One thread's access to the pages of a PageCache, which must outlive it.
+/// Move-only; gives its slot back when destroyed. Not for two threads at once.
+///
+/// Pages are read inside sections. A pointer to a frame is valid until the
+/// next leave() or fetch(); keep page numbers across these, not pointers.
+/// Sections must be short (some hundred lookups) and must not wait for
+/// anything, because other threads' fetches wait for them to end.
+class Reader {
+ public:
+  Reader(Reader&& other) noexcept;
+  Reader& operator=(Reader&& other) noexcept;
+  ~Reader();
+
+  /// Begins a section; not inside one. No lock, allocation or system call.
+  void enter() noexcept { slot_->enter(); }
+
+  /// Ends the section. No lock, allocation or system call.
+  void leave() noexcept { slot_->leave(); }
+
+  bool inside() const noexcept { return slot_->inside(); }
+
+  /// Inside a section: the frame of a page number below page_count, or nullptr
+  /// if it is not resident. No lock, allocation, loop or system call.
+  const std::byte* find(std::uint32_t page) noexcept {
+    assert(inside());
+    const std::uint32_t frame = map_.find(page);
+    if (frame == kNoFrame) {
+      slot_->count_miss();
+      return nullptr;
+    }
+    slot_->count_hit();
+    ClockPolicy::mark(scores_[frame]);
+    return frames_ + frame * stride_bytes_;
+  }
+
+  /// Inside a section: ends it, makes the page resident, begins another and
+  /// returns the page's frame; nullptr if the page is unreadable. All pointers
+  /// found before are invalid.
+  ///
+  /// The frame keeps the page's bytes until the section ends, even if others
+  /// evict the page at once so that find() no longer shows it. So read what is
+  /// needed from the pointer returned; do not start again from find(), or
+  /// threads may take each other's pages for ever.
+  ///
+  /// May wait for the disk, for other fetches and for other readers' sections:
+  /// not for threads that must answer in time.
+  const std::byte* fetch(std::uint32_t page) noexcept;
+
+ private:
+  friend class PageCache;
+  Reader(PageCache& cache, ReaderSlot& slot) noexcept;
+  void give_back() noexcept;
+
+  // Copies of what find() needs, so that it does not touch the cache object,
+  // whose lines the writer keeps changing.
+  PageMap map_;
+  ClockPolicy::Score* scores_;
+  const std::byte* frames_;
+  std::uint64_t stride_bytes_;
+  ReaderSlot* slot_;  // nullptr once moved from
+  PageCache* cache_;
+};
+
+}  // namespace planetree::cache

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "planetree/error.h"
+#include "planetree/stats.h"
+
+namespace planetree {
+
+namespace query {
+class ModelState;
+}
+
+struct OpenOptions {
+  /// Hard ceiling for all that the model holds in memory, its probes included.
+  /// Claimed at open: the pages of the whole model if they fit, else as many as
+  /// do. Nothing grows afterwards.
+  std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
+  /// Most probes at one time.
+  unsigned max_probes = 16;
+};
+
+/// An opened .ptree file: immutable, shared by any number of threads, each
+/// with a Probe of its own. Must outlive its probes.
+class Model {
+ public:
+  /// Opens and checks a file, claims the memory and loads the root.
+  ///
+  /// errors  kNotFound, kPermission, kReadFailed; kNotPlanetree, kUnsupported,
+  ///         kTruncated, kDamaged; kNoMemory, naming the least budget that will
+  ///         do; kBadArgument for options that make no sense.
+  [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
+                                          const OpenOptions& options = {});
+
+  Model(Model&&) noexcept;
+  Model& operator=(Model&&) noexcept;
+  ~Model();
+
+  const ModelInfo& info() const noexcept;
+  /// Any thread, at any time; waits for nobody.
+  Stats stats() const noexcept;
+
+ private:
+  friend class Probe;
+  explicit Model(std::unique_ptr<query::ModelState> state) noexcept;
+  std::unique_ptr<query::ModelState> state_;
+};
+
+}  // namespace planetree

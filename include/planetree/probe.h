@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "planetree/error.h"
+#include "planetree/model.h"
+#include "planetree/types.h"
+
+namespace planetree {
+
+namespace query {
+class ProbeState;
+}
+
+/// Asks a Model. One per thread: not for two threads at once.
+///
+/// No ask allocates, throws or prints. An ask reads the pages it misses from
+/// the file and may wait for the disk.
+class Probe {
+ public:
+  /// errors  kBadArgument when OpenOptions::max_probes are there already.
+  [[nodiscard]] static Result<Probe> create(const Model& model);
+
+  Probe(Probe&&) noexcept;
+  Probe& operator=(Probe&&) noexcept;
+  ~Probe();
+
+  /// Nearest surface point to `query`, model units.
+  ///
+  /// With the default Ask the answer is exact unless pages are unreadable, and
+  /// then it is a function of the file and the query alone: the same bits for
+  /// any thread, memory budget, order of asking and processor.
+  /// A query or limit that is NaN, infinite (but max_distance) or negative
+  /// (limits) gives kBadQuery.
+  ClosestPoint closest_point(Vec3 query, const Ask& ask = {}) noexcept;
+
+  /// One answer per query, the same bits as one by one, asked in an order that
+  /// turns pages seldom. The spans are equally long and do not overlap.
+  void closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
+                      const Ask& ask = {}) noexcept;
+
+ private:
+  explicit Probe(std::unique_ptr<query::ProbeState> state) noexcept;
+  std::unique_ptr<query::ProbeState> state_;
+};
+
+}  // namespace planetree

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/frame.h"
+#include "octree/raw_streams.h"
+
+namespace planetree::octree {
+
+/// Unpacks the triangle blocks of one page, in their order, into records of
+/// the serving layout. The counts in `streams` have been checked; everything
+/// else is checked here. Each fault is one sentence's end, or null.
+class BlockDecoder {
+ public:
+  BlockDecoder(const RawStreams& streams, const BlockShape& shape)
+      : streams_(streams), shape_(shape) {}
+
+  /// Unpacks the next block to `record`, which has the slots it needs.
+  const char* decode_next(std::byte* record) noexcept;
+
+  /// After the last block: whether every stream was used up.
+  const char* finish() const noexcept;
+
+ private:
+  using Vertices = std::array<std::uint32_t, kMaxBlockVertices>;
+
+  const char* collect_vertices(unsigned count, unsigned new_count, Vertices& vertices);
+  const char* store_corners(BlockHeader& header);
+  const char* store_vertices(BlockHeader& header, const Vertices& vertices);
+  const char* store_ids(BlockHeader& header);
+
+  const RawStreams& streams_;
+  const BlockShape& shape_;
+  std::size_t block_ = 0;
+  std::size_t next_ref_ = 0;
+  std::size_t next_vertex_ = 0;
+  std::size_t next_corner_byte_ = 0;
+  std::size_t next_id_step_ = 0;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "octree/build/morton_order.h"
+#include "octree/child_bounds.h"
+
+namespace planetree::octree {
+
+inline constexpr std::uint32_t kMaxAreaSplit = 128;
+
+/// A triangle about to be split off: its key, its box and its box centre.
+struct SplitItem {
+  MortonKey key;
+  FloatBox box;
+};
+
+/// Reorders `items` (17 to 128 of them) so that the first `return` of them
+/// make the left part of the cheapest split: least surface area times triangle
+/// blocks, over all places in the orders of the three centre coordinates. Ties
+/// go to the first axis and place, equal coordinates to the lesser position.
+std::uint32_t split_by_area(std::span<SplitItem> items);
+
+}  // namespace planetree::octree

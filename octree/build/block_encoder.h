@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "octree/build/mesh_store.h"
+#include "octree/build/morton_order.h"
+#include "octree/build/stream_writer.h"
+#include "octree/build/wide_tree.h"
+#include "octree/frame.h"
+#include "octree/page_streams.h"
+
+namespace planetree::octree {
+
+/// Collects the block streams of one page (octree/page_streams.h).
+///
+/// A page keeps each position once. A block names its vertices in page order:
+/// those an earlier block brought, then its own new ones, which are numbered on
+/// from there and need no reference.
+class BlockEncoder {
+ public:
+  BlockEncoder(const MeshStore& mesh, const std::vector<MortonKey>& keys, const BlockShape& shape)
+      : mesh_(mesh), keys_(keys), shape_(shape) {}
+
+  void add(const WideBlock& block);
+  /// Fills the block fields of the head.
+  void describe(PageHead& head) const;
+  void write(StreamWriter& writer) const;
+
+ private:
+  using Position = std::array<double, 3>;
+  struct Hash {
+    std::size_t operator()(const Position& position) const;
+  };
+  using Corners = std::array<std::array<std::uint32_t, 3>, kMaxBlockTriangles>;
+
+  std::vector<std::uint32_t> sorted_positions(const WideBlock& block) const;
+  void add_ids(const std::vector<std::uint32_t>& positions);
+  void add_corners(const Corners& corners, std::size_t count,
+                   const std::vector<std::uint32_t>& vertices);
+  std::vector<double> coordinates_by_axis() const;
+
+  const MeshStore& mesh_;
+  const std::vector<MortonKey>& keys_;
+  BlockShape shape_;
+  std::unordered_map<Position, std::uint32_t, Hash> vertex_of_;
+  std::vector<Position> vertices_;
+  std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
+  std::vector<std::uint16_t> vertex_refs_;
+  std::vector<std::byte> corners_;
+  std::vector<std::uint64_t> first_ids_, id_steps_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,153 @@
+#include "octree/build/disc_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <tbb/parallel_for.h>
+
+#include "octree/bounds.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint32_t kMaxTightTriangles = 1 << 16;
+// Of larger subtrees about this many faces stand for the normal.
+constexpr std::uint32_t kNormalCandidates = 512;
+
+// Twice the area times the unit normal.
+Point area_vector(const Triangle& triangle) {
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+}
+
+// The face normal next to the mean, among every `stride`-th face.
+class NormalChoice {
+ public:
+  explicit NormalChoice(const Point& mean) : mean_(mean) {}
+
+  void offer(const Point& vector) {
+    const double length = vector.norm();
+    if (!(length > 0)) return;
+    const double along = vector.dot(mean_) / length;
+    if (found_ && !(along > best_)) return;
+    found_ = true;
+    best_ = along;
+    normal_ = vector / length;
+  }
+  Point normal() const { return found_ ? normal_ : Point(0, 0, 1); }
+
+ private:
+  Point mean_;
+  Point normal_ = Point::Zero();
+  double best_ = 0;
+  bool found_ = false;
+};
+
+// How far points reach along a decoded normal and away from it.
+class DiscExtent {
+ public:
+  DiscExtent(const FloatBox& box, const std::array<float, 3>& normal) {
+    const std::array<float, 3> centre = box.centre();
+    centre_ = Point(centre[0], centre[1], centre[2]);
+    normal_ = Point(normal[0], normal[1], normal[2]);
+  }
+
+  void add(const Point& point) {
+    const Point from = point - centre_;
+    const double height = from.dot(normal_);
+    lower_ = std::min(lower_, height);
+    upper_ = std::max(upper_, height);
+    radius2_ = std::max(radius2_, from.cross(normal_).squaredNorm());
+  }
+
+  // Rounds outward, with the slack that float evaluation needs.
+  void pack(const FloatBox& box, PackedChild& packed) const {
+    const double step = box.plane_step();
+    if (!(step > 0)) return;
+    const double slack = kPlaneSlack * 32000 * step;
+    packed.slab_lower = static_cast<std::int16_t>(
+        std::clamp(std::floor((lower_ - slack) / step), -32767.0, 32767.0));
+    packed.slab_upper = static_cast<std::int16_t>(
+        std::clamp(std::ceil((upper_ + slack) / step), -32767.0, 32767.0));
+    // |normal| is 1 to a few 2^-24 only; the slack covers that too.
+    packed.radius = static_cast<std::uint16_t>(
+        std::clamp(std::ceil((std::sqrt(radius2_) + slack) / step), 0.0, 65535.0));
+  }
+
+ private:
+  Point centre_, normal_;
+  double lower_ = std::numeric_limits<double>::infinity();
+  double upper_ = -std::numeric_limits<double>::infinity();
+  double radius2_ = 0;
+};
+
+class DiscFitter {
+ public:
+  DiscFitter(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+             WideTree& tree)
+      : mesh_(mesh), centre_(centre), keys_(keys), tree_(tree) {}
+
+  void fit(WideChild& child) {
+    PackedChild& packed = child.packed;
+    const Point normal = choose_normal(child);
+    packed.normal = pack_normal(normal.x(), normal.y(), normal.z());
+    DiscExtent extent(child.box, unpack_normal(packed.normal));
+    if (child.count() <= kMaxTightTriangles)
+      for (std::uint32_t i = child.begin; i < child.end; ++i)
+        for (const Point& corner : mesh_.corners(keys_[i].position)) extent.add(corner - centre_);
+    else
+      add_boxes(tree_.nodes[child.index], extent);
+    extent.pack(child.box, packed);
+  }
+
+ private:
+  Point choose_normal(const WideChild& child) const {
+    const std::uint32_t stride = 1 + child.count() / kNormalCandidates;
+    Point mean = Point::Zero();
+    for (std::uint32_t i = child.begin; i < child.end; i += stride)
+      mean += area_vector(mesh_.corners(keys_[i].position));
+    NormalChoice choice(mean);
+    for (std::uint32_t i = child.begin; i < child.end; i += stride)
+      choice.offer(area_vector(mesh_.corners(keys_[i].position)));
+    return choice.normal();
+  }
+
+  void add_boxes(const WideNode& node, DiscExtent& extent) const {
+    for (unsigned i = 0; i < node.child_count; ++i) {
+      const WideChild& child = node.children[i];
+      if (child.block) {
+        add_corners(child.box, extent);
+        continue;
+      }
+      const WideNode& below = tree_.nodes[child.index];
+      for (unsigned j = 0; j < below.child_count; ++j)
+        add_corners(below.children[j].box, extent);
+    }
+  }
+
+  static void add_corners(const FloatBox& box, DiscExtent& extent) {
+    for (unsigned corner = 0; corner < 8; ++corner)
+      extent.add(Point(corner & 1 ? box.upper[0] : box.lower[0],
+                       corner & 2 ? box.upper[1] : box.lower[1],
+                       corner & 4 ? box.upper[2] : box.lower[2]));
+  }
+
+  const MeshStore& mesh_;
+  const Point& centre_;
+  const std::vector<MortonKey>& keys_;
+  WideTree& tree_;
+};
+
+}  // namespace
+
+void fit_discs(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+               WideTree& tree) {
+  DiscFitter fitter(mesh, centre, keys, tree);
+  tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
+    WideNode& node = tree.nodes[i];
+    for (unsigned child = 0; child < node.child_count; ++child) fitter.fit(node.children[child]);
+  });
+}
+
+}  // namespace planetree::octree

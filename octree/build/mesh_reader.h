@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "planetree/error.h"
+#include "planetree/types.h"
+
+/// Reading triangle meshes: PLY (ascii and both binary endians), STL (binary
+/// and ascii) and OBJ, streamed one triangle at a time.
+///
+/// A triangle's index is its place in the input: polygons of n corners are
+/// split into the fan (0, i, i + 1), i = 1 ... n - 2, and take n - 2 indices in
+/// that order. A record that cannot be used is set aside whole and still takes
+/// max(1, n - 2) indices, so that every index means the same whatever is wrong
+/// elsewhere. Structural damage ends the reading with kBadInput.
+namespace planetree::octree {
+
+/// What a set-aside record is, and so how it is counted.
+enum class RecordKind : std::uint8_t {
+  kFace,   ///< row of a PLY's face element, from 0
+  kFacet,  ///< facet of an STL, from 0
+  kLine,   ///< first line of an OBJ's f statement, from 1
+};
+
+/// Why a record was set aside.
+enum class RecordFault : std::uint8_t {
+  kVertexNotFinite,  ///< a coordinate of a corner is NaN or infinite
+  kIndexOutOfRange,  ///< a corner names a vertex that is not there
+  kTooFewCorners,    ///< fewer than three corners
+};
+
+/// A record that gives no triangles. Only the first few need words, so the
+/// sentence is made on demand.
+struct SetAside {
+  RecordKind kind = RecordKind::kFace;
+  RecordFault fault = RecordFault::kVertexNotFinite;
+  std::uint64_t record = 0;
+  /// The vertex or index as the file writes it (PLY from 0, OBJ from 1), an
+  /// STL's corner from 0, or the number of corners, as `fault` has it.
+  std::int64_t value = 0;
+  std::uint64_t vertex_count = 0;  ///< vertices in the file, for kIndexOutOfRange
+
+  /// One line, such as "face 17: vertex 5 is not finite".
+  [[nodiscard]] std::string text() const;
+};
+
+/// Takes what a mesh reader finds, in the order of the input, on the thread
+/// that called read_mesh. Indices arrive ascending and without a gap:
+/// triangle() and set_aside() together name each exactly once.
+class TriangleSink {
+ public:
+  virtual ~TriangleSink() = default;
+
+  /// A triangle with finite corners in model units, -0 given as +0. It may
+  /// have no area. An error returned here ends the reading and is passed on.
+  virtual Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) = 0;
+
+  /// A record that takes the indices first_index ... first_index + count - 1
+  /// and gives no triangle; count >= 1.
+  virtual void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) = 0;
+
+  /// Called about every 4 MiB and at the end; never decreases. bytes_total is
+  /// the file's size, or twice that for a format that is read twice (OBJ).
+  virtual void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) = 0;
+};
+
+struct MeshReadOptions {
+  /// About how much of the input may stay mapped into memory at once; 0 sets
+  /// no limit. Mapped pages count as resident memory of the process, although
+  /// the system can take them back. Under a limit below the vertices' size,
+  /// faces that jump about the file are read more slowly.
+  std::uint64_t max_mapped_bytes = 0;
+};
+
+struct MeshSummary {
+  std::uint64_t vertex_records = 0;    ///< vertices the file holds; three per STL facet
+  std::uint64_t face_records = 0;      ///< faces, facets or f statements, set-aside ones included
+  std::uint64_t triangle_indices = 0;  ///< indices given out, set-aside ones included
+  bool float32 = false;  ///< the format declares coordinates that float32 holds exactly
+};
+
+/// Reads the mesh at `path` into `sink`. The format is judged by content: a
+/// PLY by its first line, a binary STL by its size being exactly what its count
+/// says (even if it begins with "solid"), an ascii STL by "solid"; only then,
+/// for OBJ, by the extension.
+///
+/// path    a regular file. It is mapped, so it must not shrink or change during
+///         the call: pages cut off under the map end the process with SIGBUS.
+///         Its size is taken once, when it is opened.
+/// memory  vertices and faces of binary formats stay in the file; ascii formats
+///         keep 12 or 24 bytes per vertex actually read.
+/// errors  kNotFound, kPermission, kReadFailed, kNoMemory, kBadInput (structural damage,
+///         an unsupported layout, or no usable triangle; offset is set where a
+///         byte is to blame), or the sink's own. By then the sink may have
+///         taken part of the mesh.
+/// threads one call per sink; calls on different sinks are independent.
+Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink,
+                              const MeshReadOptions& options = {});
+
+}  // namespace planetree::octree

@@ -1,0 +1,121 @@
+#include "octree/build/page_encoder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "octree/build/block_encoder.h"
+#include "octree/build/stream_writer.h"
+#include "octree/page_streams.h"
+
+namespace planetree::octree {
+namespace {
+
+// Collects the node streams of one page.
+class NodeEncoder {
+ public:
+  NodeEncoder(const PagePlan& plan, std::uint32_t page_number)
+      : plan_(plan), links_(plan.page_bytes), page_number_(page_number) {}
+
+  void add(const WideNode& node, bool root) {
+    if (root) {
+      for (const float value : node.box.lower) root_boxes_.push_back(value);
+      for (const float value : node.box.upper) root_boxes_.push_back(value);
+    }
+    child_counts_.push_back(node.child_count);
+    heights_.push_back(node.height);
+    unsigned kinds = 0;
+    for (unsigned i = 0; i < node.child_count; ++i) {
+      const WideChild& child = node.children[i];
+      packed_.push_back(child.packed);
+      kinds |= static_cast<unsigned>(kind_of(child)) << (2 * i);
+    }
+    kinds_.push_back(static_cast<std::uint16_t>(kinds));
+  }
+
+  void describe(PageHead& head) const {
+    head.node_count = static_cast<std::uint16_t>(child_counts_.size());
+    head.child_count = static_cast<std::uint16_t>(packed_.size());
+    head.page_link_count = static_cast<std::uint16_t>(page_links_.size());
+  }
+
+  void write(StreamWriter& writer) const {
+    writer.shuffled(root_boxes_);
+    writer.shuffled(child_counts_);
+    writer.shuffled(heights_);
+    writer.shuffled(kinds_);
+    std::vector<std::uint8_t> boxes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const PackedChild& child : packed_) boxes.push_back(child.lower[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const PackedChild& child : packed_) boxes.push_back(child.upper[axis]);
+    writer.shuffled(boxes);
+    std::vector<std::int16_t> normals, slabs;
+    std::vector<std::uint16_t> radii;
+    for (const PackedChild& child : packed_) normals.push_back(child.normal.u);
+    for (const PackedChild& child : packed_) normals.push_back(child.normal.v);
+    for (const PackedChild& child : packed_) slabs.push_back(child.slab_lower);
+    for (const PackedChild& child : packed_) slabs.push_back(child.slab_upper);
+    for (const PackedChild& child : packed_) radii.push_back(child.radius);
+    writer.shuffled(normals);
+    writer.shuffled(slabs);
+    writer.shuffled(radii);
+    writer.shuffled(page_links_);
+  }
+
+ private:
+  ChildKind kind_of(const WideChild& child) {
+    const std::uint32_t link =
+        child.block ? plan_.block_links[child.index] : plan_.node_links[child.index];
+    if (links_.page(link) == page_number_)
+      return child.block ? ChildKind::kBlock : ChildKind::kNode;
+    page_links_.push_back(link);
+    return ChildKind::kPage;
+  }
+
+  const PagePlan& plan_;
+  LinkFormat links_;
+  std::uint32_t page_number_;
+  std::vector<float> root_boxes_;
+  std::vector<std::uint8_t> child_counts_, heights_;
+  std::vector<std::uint16_t> kinds_;
+  std::vector<PackedChild> packed_;
+  std::vector<std::uint32_t> page_links_;
+};
+
+}  // namespace
+
+unsigned count_block_vertices(const MeshStore& mesh, const std::vector<MortonKey>& keys,
+                              const WideBlock& block) {
+  std::array<std::array<double, 3>, kMaxBlockVertices> positions;
+  std::size_t count = 0;
+  for (std::uint32_t i = block.begin; i < block.end; ++i)
+    for (const Point& corner : mesh.corners(keys[i].position))
+      positions[count++] = {corner.x(), corner.y(), corner.z()};
+  const auto end = positions.begin() + static_cast<std::ptrdiff_t>(count);
+  std::sort(positions.begin(), end);
+  return static_cast<unsigned>(std::unique(positions.begin(), end) - positions.begin());
+}
+
+std::vector<std::byte> PageEncoder::encode(std::uint32_t page_number) const {
+  const PlannedPage& page = plan_.pages[page_number];
+  NodeEncoder nodes(plan_, page_number);
+  BlockEncoder blocks(mesh_, keys_, shape_);
+  for (std::size_t i = 0; i < page.nodes.size(); ++i)
+    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count);
+  for (const std::uint32_t block : page.blocks) blocks.add(tree_.blocks[block]);
+  PageHead head{};
+  head.page_number = page_number;
+  head.octcode = page.octcode;
+  head.ordinal = page.ordinal;
+  head.root_node_count = page.root_node_count;
+  head.root_block_count = page.root_block_count;
+  nodes.describe(head);
+  blocks.describe(head);
+  StreamWriter writer;
+  writer.plain(&head, sizeof head);
+  nodes.write(writer);
+  blocks.write(writer);
+  return writer.take();
+}
+
+}  // namespace planetree::octree

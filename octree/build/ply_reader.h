@@ -1,0 +1,13 @@
+#pragma once
+
+#include "octree/build/mesh_file.h"
+#include "octree/build/mesh_reader.h"
+#include "octree/build/ply_header.h"
+
+namespace planetree::octree {
+
+/// Reads a PLY file (is_ply()): ascii or binary, elements in any order.
+/// Contract as read_mesh.
+Result<MeshSummary> read_ply(MeshFile& file, TriangleSink& sink);
+
+}  // namespace planetree::octree

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "octree/build/binary_tree.h"
+#include "octree/child_bounds.h"
+#include "octree/frame.h"
+
+namespace planetree::octree {
+
+/// One child of a wide node: a wide node, or a block of triangles.
+struct WideChild {
+  bool block = false;
+  std::uint32_t index = 0;  ///< into WideTree::nodes or WideTree::blocks
+  std::uint32_t begin = 0;  ///< its triangles are keys[begin ... end)
+  std::uint32_t end = 0;
+  FloatBox true_box;     ///< encloses the triangles
+  PackedChild packed;    ///< as stored
+  FloatBox box;          ///< as decoded; encloses true_box
+
+  std::uint32_t count() const { return end - begin; }
+};
+
+struct WideNode {
+  FloatBox box;  ///< as decoded from its parent; the root's own is exact
+  std::uint8_t child_count = 0;
+  std::uint8_t height = 0;
+  std::array<WideChild, kFanOut> children;
+};
+
+/// Triangles keys[begin ... end), at most 16.
+struct WideBlock {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+/// The tree as it will be stored: nodes of up to eight children, parents
+/// before children, their boxes already rounded to what is stored. A model of
+/// at most 16 triangles is one block and no node.
+struct WideTree {
+  std::vector<WideNode> nodes;  ///< in preorder
+  std::vector<WideBlock> blocks;
+};
+
+/// Collapses a binary tree: a node's children are the two halves, of which the
+/// one of largest surface is opened until there are eight.
+WideTree collapse(const std::vector<BinaryNode>& binary);
+
+}  // namespace planetree::octree

@@ -1,0 +1,80 @@
+#include "octree/conclusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double down(double value) { return std::max(0.0, value - std::fabs(value) * 0x1p-52); }
+double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<double>::min(); }
+
+// A bound on the whole model from its box alone.
+double distance_to_box(const TreeFacts& tree, const Point& query) {
+  const Point gap = (tree.box_lower - query).cwiseMax(query - tree.box_upper).cwiseMax(0.0);
+  return gap.norm() * (1 - 0x1p-48);
+}
+
+NearestAnswer beyond(const NearestLimits& limits) {
+  NearestAnswer answer;
+  answer.distance = answer.upper = kInfinity;
+  answer.lower = limits.max_distance;
+  answer.status = Status::kBeyondMaxDistance;
+  return answer;
+}
+
+// Nothing was reached: all that is known is one vertex and what was left out.
+NearestAnswer nothing_read(const TreeFacts& tree, const Point& query, double lower) {
+  NearestAnswer answer;
+  const double distance = (query - tree.sample).norm();
+  answer.point = tree.sample;
+  answer.upper = up(distance * (1 + 0x1p-48));
+  answer.distance = answer.upper;
+  answer.lower = std::min(lower, down(distance * (1 - 0x1p-48)));
+  answer.feature = Feature::kVertex;
+  answer.status = Status::kDegraded;
+  return answer;
+}
+
+NearestAnswer place(const NearestOnTriangle& nearest, std::uint64_t triangle) {
+  NearestAnswer answer;
+  answer.distance = std::sqrt(nearest.squared);
+  answer.lower = down(answer.distance - nearest.error);
+  answer.upper = up(answer.distance + nearest.error);
+  answer.point = nearest.point;
+  answer.triangle = triangle;
+  answer.barycentric = nearest.barycentric;
+  answer.feature = nearest.feature;
+  answer.status = Status::kExact;
+  return answer;
+}
+
+}  // namespace
+
+NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
+                       const BestTriangle& best, const FloatQuery& wide, float pruned,
+                       float unread) noexcept {
+  const bool spent = unread <= best.exact_threshold();
+  const double from_box = distance_to_box(tree, query);
+  if (!best.found() && !spent) return beyond(limits);
+  if (!best.found())
+    return nothing_read(
+        tree, query, std::min(limits.max_distance, std::max(from_box, certified(wide, unread))));
+  NearestAnswer answer = place(nearest_on_triangle(query, best.corners()), best.triangle());
+  if (pruned <= best.exact_threshold()) {
+    answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, pruned)));
+    answer.status = Status::kWithinError;
+  }
+  if (spent) {
+    answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, unread)));
+    answer.status = Status::kDegraded;
+  }
+  return answer;
+}
+
+}  // namespace planetree::octree

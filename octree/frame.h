@@ -1,0 +1,132 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+/// The serving layout: what a decoded page looks like in its frame. Nothing
+/// here is ever stored; format-spec/v1/spec.md, "Distance page", states what is.
+///
+///   slot 0            FrameHeader
+///   slot 1 ...        block starts, one bit a slot
+///   first node slot   nodes, 7 slots each, subtree roots first, then breadth first
+///   ...               blocks, in the order their parents name them
+///
+/// A slot is 64 bytes, so that a link addresses a record in few bits and every
+/// record begins on a cache line.
+namespace planetree::octree {
+
+inline constexpr std::size_t kSlotBytes = 64;
+inline constexpr unsigned kFanOut = 8;
+inline constexpr unsigned kMaxBlockTriangles = 16;
+inline constexpr unsigned kMaxBlockVertices = 48;
+inline constexpr unsigned kMaxHeight = 96;
+
+struct FrameHeader {
+  std::uint32_t page_number;
+  std::uint32_t used_bytes;
+  std::uint64_t octcode;
+  std::uint32_t ordinal;
+  std::uint16_t node_count;
+  std::uint16_t block_count;
+  std::uint16_t root_node_count;
+  std::uint16_t root_block_count;
+  std::uint16_t first_node_slot;
+  std::uint16_t first_block_slot;
+  std::uint8_t reserved[32];
+};
+static_assert(sizeof(FrameHeader) == kSlotBytes);
+
+/// Up to eight children, field by field, so that one vector holds one field of
+/// all of them. Boxes and planes are relative to the model's centre. The first
+/// four lines answer near queries; the last three, the discs, are read only
+/// where they can pay (see octree/bounds.h).
+struct alignas(kSlotBytes) Node {
+  float lower[3][kFanOut];    ///< box; unused children are +infinity
+  float upper[3][kFanOut];
+  std::uint32_t link[kFanOut];
+  float gate;                 ///< discs pay where this node's own bound^2 is larger
+  std::uint8_t child_count;   ///< 1 to 8
+  std::uint8_t height;        ///< nodes below and including this one on the longest path
+  std::uint8_t reserved[26];
+  float normal[3][kFanOut];   ///< of the slab; unit to a few ulps
+  float slab_lower[kFanOut];  ///< normal . (x - box centre) of all surface points x
+  float slab_upper[kFanOut];
+  float radius[kFanOut];      ///< greatest distance of a surface point from the slab's axis
+};
+static_assert(sizeof(Node) == 7 * kSlotBytes);
+static_assert(offsetof(Node, normal) == 4 * kSlotBytes);
+inline constexpr unsigned kNodeSlots = sizeof(Node) / kSlotBytes;
+
+/// Head of a triangle block. Behind it, each array on a slot of its own:
+///   float  local[3][stride]     float32 models: the exact vertices
+///                               float64 models: vertices minus `origin`, rounded
+///   double exact[3][stride]     float64 models only
+///   uint32 or uint64 ids[16]    triangle indices, ascending
+struct alignas(kSlotBytes) BlockHeader {
+  std::uint8_t triangle_count;  ///< 1 to 16
+  std::uint8_t vertex_count;    ///< 1 to 48
+  std::uint8_t stride;          ///< 16, 24, 32 or 48
+  std::uint8_t reserved;
+  float extent;                 ///< at least the distance of any vertex from vertex 0
+  std::uint8_t reserved_words[8];
+  std::uint8_t corner[3][kMaxBlockTriangles];  ///< vertex of each corner, by corner
+};
+static_assert(sizeof(BlockHeader) == kSlotBytes);
+
+/// How blocks of one file are laid out; a function of two header fields.
+struct BlockShape {
+  bool float64 = false;
+  bool wide_ids = false;
+
+  static constexpr unsigned stride(unsigned vertex_count) {
+    return vertex_count <= 16 ? 16 : vertex_count <= 24 ? 24 : vertex_count <= 32 ? 32 : 48;
+  }
+  constexpr std::size_t exact_offset(unsigned stride) const {
+    return kSlotBytes + align(3 * stride * sizeof(float));
+  }
+  constexpr std::size_t id_offset(unsigned stride) const {
+    return exact_offset(stride) + (float64 ? align(3 * stride * sizeof(double)) : 0);
+  }
+  constexpr unsigned slots(unsigned vertex_count) const {
+    const std::size_t ids = kMaxBlockTriangles * (wide_ids ? 8 : 4);
+    return static_cast<unsigned>((id_offset(stride(vertex_count)) + ids) / kSlotBytes);
+  }
+
+ private:
+  static constexpr std::size_t align(std::size_t bytes) {
+    return (bytes + kSlotBytes - 1) / kSlotBytes * kSlotBytes;
+  }
+};
+
+/// A child's address in 32 bits: [leaf 1][page 31 - s][slot s], where s is
+/// log2(page bytes / 64).
+class LinkFormat {
+ public:
+  explicit constexpr LinkFormat(std::uint32_t page_bytes)
+      : slot_bits_(static_cast<unsigned>(std::countr_zero(page_bytes)) - 6) {}
+
+  static constexpr std::uint32_t kLeafBit = std::uint32_t{1} << 31;
+  static constexpr bool is_leaf(std::uint32_t link) { return (link & kLeafBit) != 0; }
+  constexpr std::uint32_t page(std::uint32_t link) const {
+    return (link & ~kLeafBit) >> slot_bits_;
+  }
+  constexpr std::uint32_t slot(std::uint32_t link) const { return link & slot_mask(); }
+  constexpr std::uint32_t make(bool leaf, std::uint32_t page, std::uint32_t slot) const {
+    return (leaf ? kLeafBit : 0) | page << slot_bits_ | slot;
+  }
+  constexpr std::uint32_t max_pages() const { return std::uint32_t{1} << (31 - slot_bits_); }
+
+ private:
+  constexpr std::uint32_t slot_mask() const { return (std::uint32_t{1} << slot_bits_) - 1; }
+  unsigned slot_bits_;
+};
+
+/// Slots taken by the frame header and the bits that say where blocks start.
+constexpr unsigned frame_head_slots(std::uint32_t page_bytes) {
+  const std::size_t bit_bytes = page_bytes / kSlotBytes / 8;
+  return static_cast<unsigned>(1 + (bit_bytes + kSlotBytes - 1) / kSlotBytes);
+}
+
+}  // namespace planetree::octree

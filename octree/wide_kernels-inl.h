@@ -1,0 +1,195 @@
+// The two wide loops of a descent, compiled once for each instruction set that
+// Highway knows at hand. Multiplications and additions are never fused and
+// lanes never mixed, so that every set computes the same bits.
+
+#if defined(PLANETREE_OCTREE_WIDE_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_WIDE_KERNELS_INL_H_
+#undef PLANETREE_OCTREE_WIDE_KERNELS_INL_H_
+#else
+#define PLANETREE_OCTREE_WIDE_KERNELS_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#include "octree/bounds.h"
+#include "octree/frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, kFanOut>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+
+struct Wide3 {
+  Floats x, y, z;
+};
+
+HWY_INLINE Wide3 sub(const Wide3& a, const Wide3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+HWY_INLINE Floats dot(const Wide3& a, const Wide3& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+HWY_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+
+HWY_INLINE Floats outside(Floats lower, Floats upper, Floats at) {
+  const Floats zero = hn::Zero(FloatTag());
+  return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
+}
+
+// Squared lower bounds of a node's children; see octree/bounds.h.
+HWY_INLINE void node_bounds(const Node& node, const FloatQuery& query, bool discs,
+                            float* HWY_RESTRICT bounds) {
+  const FloatTag d;
+  const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const Wide3 lower{hn::Load(d, node.lower[0] + i), hn::Load(d, node.lower[1] + i),
+                      hn::Load(d, node.lower[2] + i)};
+    const Wide3 upper{hn::Load(d, node.upper[0] + i), hn::Load(d, node.upper[1] + i),
+                      hn::Load(d, node.upper[2] + i)};
+    const Wide3 gap{outside(lower.x, upper.x, p.x), outside(lower.y, upper.y, p.y),
+                    outside(lower.z, upper.z, p.z)};
+    Floats bound = dot(gap, gap);
+    if (discs) {
+      const Floats half = hn::Set(d, 0.5f);
+      const Floats zero = hn::Zero(d);
+      const Wide3 centre{hn::Mul(hn::Add(lower.x, upper.x), half),
+                         hn::Mul(hn::Add(lower.y, upper.y), half),
+                         hn::Mul(hn::Add(lower.z, upper.z), half)};
+      const Wide3 normal{hn::Load(d, node.normal[0] + i), hn::Load(d, node.normal[1] + i),
+                         hn::Load(d, node.normal[2] + i)};
+      const Wide3 from = sub(p, centre);
+      const Floats height = dot(normal, from);
+      const Floats off = outside(hn::Load(d, node.slab_lower + i),
+                                 hn::Load(d, node.slab_upper + i), height);
+      const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
+      const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
+      const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
+      bound = hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
+    }
+    hn::Store(bound, d, bounds + i);
+  }
+}
+
+// Squared distance to the segment from `a` along `edge`, seen from the query.
+HWY_INLINE Floats segment_squared(const Wide3& a, const Wide3& edge, Floats along, Floats edge2) {
+  const FloatTag d;
+  const Floats least = hn::Set(d, 0x1p-126f);
+  const Floats zero = hn::Zero(d);
+  const Floats one = hn::Set(d, 1.0f);
+  const Floats t = hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), zero), one);
+  const Wide3 at{hn::Add(a.x, hn::Mul(t, edge.x)), hn::Add(a.y, hn::Mul(t, edge.y)),
+                 hn::Add(a.z, hn::Mul(t, edge.z))};
+  return dot(at, at);
+}
+
+// Squared distances of triangles given by vectors from the query to corners,
+// right within kFilterSlack; 0 where float cannot tell.
+HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& c) {
+  const FloatTag d;
+  const Floats zero = hn::Zero(d);
+  const Wide3 ab = sub(b, a), ac = sub(c, a), bc = sub(c, b);
+  const Floats ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
+  const Floats a_ab = hn::Neg(dot(a, ab)), a_ac = hn::Neg(dot(a, ac));
+  const Floats edges =
+      hn::Min(hn::Min(segment_squared(a, ab, a_ab, ab2), segment_squared(a, ac, a_ac, ac2)),
+              segment_squared(b, bc, hn::Neg(dot(b, bc)), bc2));
+  const Wide3 normal = cross(ab, ac);
+  const Floats normal2 = dot(normal, normal);
+  const Floats ab_ac = dot(ab, ac);
+  const Floats v = hn::Sub(hn::Mul(ac2, a_ab), hn::Mul(ab_ac, a_ac));
+  const Floats w = hn::Sub(hn::Mul(ab2, a_ac), hn::Mul(ab_ac, a_ab));
+  const Floats whole = hn::Sub(hn::Mul(ab2, ac2), hn::Mul(ab_ac, ab_ac));
+  const auto inside = hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)),
+                              hn::Lt(hn::Add(v, w), whole));
+  const Floats height = dot(normal, a);
+  const Floats face = hn::Div(hn::Mul(height, height), normal2);
+  Floats squared = hn::IfThenElse(inside, hn::Min(face, edges), edges);
+
+  // A face too flat for float lies within its own height of its edges.
+  const auto round = hn::And(
+      hn::Ge(normal2, hn::Mul(hn::Set(d, 0x1p-8f), hn::Mul(ab2, ac2))),
+      hn::Ge(normal2, hn::Set(d, 0x1p-100f)));
+  if (!hn::AllTrue(d, round)) {
+    const Floats longest2 = hn::Max(hn::Max(ab2, ac2), bc2);
+    const Floats span = hn::Max(hn::Max(hn::Abs(normal.x), hn::Abs(normal.y)),
+                                hn::Abs(normal.z));
+    const Floats rise = hn::Div(hn::Mul(span, hn::Set(d, 1.75f)), hn::Sqrt(longest2));
+    const Floats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
+    const auto told = hn::Gt(longest2, hn::Set(d, 0x1p-90f));
+    const Floats flat2 = hn::IfThenElseZero(told, hn::Mul(flat, flat));
+    squared = hn::IfThenElse(round, squared, flat2);
+  }
+  return squared;
+}
+
+// One coordinate of all of a block's vertices, seen from the query.
+struct VertexRow {
+  HWY_ALIGN float from_query[kMaxBlockVertices];
+
+  HWY_INLINE VertexRow(const float* HWY_RESTRICT local, unsigned stride, float query) {
+    const FloatTag d;
+    const Floats first = hn::Set(d, local[0]);
+    const Floats q = hn::Set(d, query);
+    for (std::size_t i = 0; i < stride; i += hn::Lanes(d))
+      hn::Store(hn::Sub(hn::Sub(hn::Load(d, local + i), first), q), d, from_query + i);
+  }
+
+  HWY_INLINE Floats at(Ints index, unsigned stride) const {
+    const FloatTag d;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    // A gather costs more than looking each vector of the row up in registers.
+    const IntTag di;
+    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
+    Floats found = hn::TableLookupLanes(hn::Load(d, from_query), lane);
+    for (unsigned i = 8; i < stride; i += 8) {
+      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, static_cast<int>(i) - 1)));
+      found = hn::IfThenElse(here, hn::TableLookupLanes(hn::Load(d, from_query + i), lane), found);
+    }
+    return found;
+#else
+    (void)stride;
+    return hn::GatherIndex(d, from_query, index);
+#endif
+  }
+};
+
+// Filter values of a block's 16 lanes. `query` is relative to vertex 0.
+HWY_INLINE void block_filter(const BlockHeader& block, const float (&query)[3],
+                             float* HWY_RESTRICT squared) {
+  const FloatTag d;
+  const IntTag di;
+  const hn::Rebind<std::uint8_t, IntTag> du8;
+  const unsigned stride = block.stride;
+  const auto* local = reinterpret_cast<const float*>(&block + 1);
+  const VertexRow x(local, stride, query[0]);
+  const VertexRow y(local + stride, stride, query[1]);
+  const VertexRow z(local + 2 * stride, stride, query[2]);
+  for (std::size_t i = 0; i < block.triangle_count; i += hn::Lanes(d)) {
+    Wide3 corner[3];
+    for (int k = 0; k < 3; ++k) {
+      const Ints index = hn::PromoteTo(di, hn::LoadU(du8, block.corner[k] + i));
+      corner[k] = {x.at(index, stride), y.at(index, stride), z.at(index, stride)};
+    }
+    hn::Store(triangle_squared(corner[0], corner[1], corner[2]), d, squared + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

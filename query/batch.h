@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "planetree/types.h"
+#include "query/probe_state.h"
+
+namespace planetree::query {
+
+/// See Probe::closest_points.
+void closest_points(ProbeState& probe, std::span<const Vec3> queries,
+                    std::span<ClosestPoint> answers, const Ask& ask) noexcept;
+
+}  // namespace planetree::query

@@ -1,0 +1,86 @@
+#include "query/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "octree/strict_math.h"
+
+namespace planetree::query {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool makes_sense(const Vec3& query, const Ask& ask) {
+  return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z) &&
+         ask.max_error >= 0 && std::isfinite(ask.max_error) && ask.max_distance >= 0;
+}
+
+ClosestPoint bad_query() {
+  ClosestPoint answer;
+  answer.distance = answer.upper = kInfinity;
+  answer.status = Status::kBadQuery;
+  return answer;
+}
+
+// Beyond octree::kFarthestQuery all triangles are equally far in double.
+ClosestPoint far_answer(const ModelState& model, const Vec3& query, const Ask& ask) {
+  const double largest =
+      std::max({std::fabs(query.x), std::fabs(query.y), std::fabs(query.z)});
+  const double x = query.x / largest, y = query.y / largest, z = query.z / largest;
+  ClosestPoint answer;
+  answer.distance = largest * std::sqrt(x * x + y * y + z * z);
+  if (answer.distance > ask.max_distance) {
+    answer.distance = answer.upper = kInfinity;
+    answer.lower = ask.max_distance;
+    answer.status = Status::kBeyondMaxDistance;
+    return answer;
+  }
+  answer.upper = answer.distance * (1 + 0x1p-48);
+  answer.lower = std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - 0x1p-48);
+  answer.point = model.scale().out(model.tree().sample);
+  answer.triangle = model.tree().sample_triangle;
+  answer.barycentric = {1, 0, 0};
+  answer.feature = Feature::kVertex;
+  answer.status = Status::kExact;
+  return answer;
+}
+
+ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nearest) {
+  ClosestPoint answer;
+  answer.distance = scale.out(nearest.distance);
+  answer.lower = scale.out_below(nearest.lower);
+  answer.upper = std::max(scale.out_above(nearest.upper), std::nextafter(answer.lower, kInfinity));
+  answer.point = scale.out(nearest.point);
+  answer.triangle = nearest.triangle;
+  answer.barycentric = {nearest.barycentric[0], nearest.barycentric[1], nearest.barycentric[2]};
+  answer.feature = nearest.feature;
+  answer.status = nearest.status;
+  return answer;
+}
+
+}  // namespace
+
+ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
+  if (!makes_sense(query, ask)) return bad_query();
+  const ModelState& model = probe.model();
+  const octree::Point point = model.scale().in(query);
+  if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery))
+    return far_answer(model, query, ask);
+  octree::NearestLimits limits;
+  limits.max_error = model.scale().in(ask.max_error);
+  limits.max_distance = model.scale().in(ask.max_distance);
+  limits.max_nodes = ask.max_nodes;
+  octree::NearestWork work;
+  PageTurner turner(probe.reader());
+  const octree::PageReader pages{&turner, [](void* context, std::uint32_t number) noexcept {
+                                   return static_cast<PageTurner*>(context)->page(number);
+                                 }};
+  const octree::NearestAnswer nearest = octree::nearest(model.tree(), point, limits, pages, work);
+  if (nearest.status == Status::kDegraded) model.count_degraded();
+  ClosestPoint answer = in_model_units(model.scale(), nearest);
+  if (answer.status == Status::kBeyondMaxDistance) answer.lower = ask.max_distance;
+  return answer;
+}
+
+}  // namespace planetree::query

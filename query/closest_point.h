@@ -1,0 +1,11 @@
+#pragma once
+
+#include "planetree/types.h"
+#include "query/probe_state.h"
+
+namespace planetree::query {
+
+/// See Probe::closest_point.
+ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
+
+}  // namespace planetree::query

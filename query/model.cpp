@@ -1,0 +1,107 @@
+#include "planetree/model.h"
+
+#include <utility>
+
+#include "query/model_state.h"
+#include "query/probe_state.h"
+
+namespace planetree {
+namespace query {
+namespace {
+
+ModelInfo describe(const storage::PageFile& file) {
+  const storage::FileHeader& header = file.header();
+  const storage::ModelRecord& model = header.model;
+  ModelInfo info;
+  info.triangles = model.triangle_count;
+  info.set_aside = model.set_aside_count;
+  info.first_set_aside = model.first_set_aside;
+  info.vertices = model.vertex_count;
+  info.box_lower = {model.box_lower[0], model.box_lower[1], model.box_lower[2]};
+  info.box_upper = {model.box_upper[0], model.box_upper[1], model.box_upper[2]};
+  info.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
+  info.nodes = model.node_count;
+  info.blocks = model.block_count;
+  info.levels = model.height;
+  info.pages = header.page_count;
+  info.page_bytes = header.page_bytes;
+  info.file_bytes = header.file_bytes;
+  info.section_bytes.headers = 2 * sizeof header;
+  info.section_bytes.page_table = file.entries().size_bytes();
+  info.section_bytes.distance_pages =
+      header.file_bytes - info.section_bytes.headers - info.section_bytes.page_table;
+  info.content_id[0] = header.content_id[0];
+  info.content_id[1] = header.content_id[1];
+  return info;
+}
+
+octree::TreeFacts tree_facts(const storage::FileHeader& header, const Scale& scale) {
+  const storage::ModelRecord& model = header.model;
+  octree::TreeFacts tree;
+  tree.page_bytes = header.page_bytes;
+  tree.root_link = model.root_link;
+  tree.shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
+  tree.shape.wide_ids = model.triangle_id_bytes == 8;
+  tree.record_count = model.node_count + model.block_count;
+  tree.box_lower = scale.in(Vec3{model.box_lower[0], model.box_lower[1], model.box_lower[2]});
+  tree.box_upper = scale.in(Vec3{model.box_upper[0], model.box_upper[1], model.box_upper[2]});
+  tree.centre = {model.centre[0], model.centre[1], model.centre[2]};
+  tree.sample = {model.sample[0], model.sample[1], model.sample[2]};
+  tree.sample_triangle = model.sample_triangle;
+  return tree;
+}
+
+}  // namespace
+
+ModelState::ModelState(std::unique_ptr<Pager> pager)
+    : pager_(std::move(pager)),
+      info_(describe(pager_->file())),
+      scale_(pager_->file().header().model.scale_exponent) {
+  tree_ = tree_facts(pager_->file().header(), scale_);
+}
+
+Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
+                                                     const OpenOptions& options) {
+  Pager::Limits limits;
+  limits.budget_bytes = options.memory_budget_bytes;
+  limits.max_probes = options.max_probes;
+  limits.probe_bytes = sizeof(ProbeState);
+  auto pager = Pager::open(path, limits);
+  if (!pager) return pager.error();
+  return std::unique_ptr<ModelState>(new ModelState(std::move(*pager)));
+}
+
+Stats ModelState::stats() const noexcept {
+  const cache::CacheStats cache = pager_->cache().stats();
+  Stats stats;
+  stats.page_hits = cache.hits;
+  stats.page_misses = cache.misses;
+  stats.pages_read = cache.fills;
+  stats.pages_evicted = cache.evictions;
+  stats.quarantined_pages = cache.quarantined;
+  stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
+  stats.frames = cache.frame_count;
+  stats.arena_bytes = cache.arena_bytes;
+  stats.table_bytes = cache.table_bytes + cache.reserved_bytes;
+  stats.budget_bytes = cache.budget_bytes;
+  stats.header_copy_damaged = pager_->file().header_copy_damaged();
+  return stats;
+}
+
+}  // namespace query
+
+Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
+  auto state = query::ModelState::open(path, options);
+  if (!state) return state.error();
+  return Model(std::move(*state));
+}
+
+Model::Model(std::unique_ptr<query::ModelState> state) noexcept : state_(std::move(state)) {}
+Model::Model(Model&&) noexcept = default;
+Model& Model::operator=(Model&&) noexcept = default;
+Model::~Model() = default;
+
+const ModelInfo& Model::info() const noexcept { return state_->info(); }
+Stats Model::stats() const noexcept { return state_->stats(); }
+
+}  // namespace planetree

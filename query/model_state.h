@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "octree/nearest.h"
+#include "planetree/error.h"
+#include "planetree/model.h"
+#include "planetree/stats.h"
+#include "query/pager.h"
+#include "query/scale.h"
+
+namespace planetree::query {
+
+/// What stands behind a Model.
+class ModelState {
+ public:
+  static Result<std::unique_ptr<ModelState>> open(const std::filesystem::path& path,
+                                                  const OpenOptions& options);
+
+  const ModelInfo& info() const noexcept { return info_; }
+  Stats stats() const noexcept;
+  const octree::TreeFacts& tree() const noexcept { return tree_; }
+  const Scale& scale() const noexcept { return scale_; }
+  Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
+  /// Any thread.
+  void count_degraded() const noexcept { degraded_.fetch_add(1, std::memory_order_relaxed); }
+
+ private:
+  explicit ModelState(std::unique_ptr<Pager> pager);
+
+  std::unique_ptr<Pager> pager_;
+  ModelInfo info_;
+  octree::TreeFacts tree_;
+  Scale scale_;
+  mutable std::atomic<std::uint64_t> degraded_{0};
+};
+
+}  // namespace planetree::query

@@ -1,0 +1,67 @@
+#include "query/pager.h"
+
+#include <new>
+#include <utility>
+
+namespace planetree::query {
+
+Pager::Pager(storage::PageFile file) : file_(std::move(file)) {
+  const storage::ModelRecord& model = file_.header().model;
+  shape_.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
+  shape_.wide_ids = model.triangle_id_bytes == 8;
+}
+
+Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path,
+                                           const Limits& limits) {
+  auto file = storage::PageFile::open(path);
+  if (!file) return file.error();
+  std::unique_ptr<Pager> pager(new Pager(std::move(*file)));
+  if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
+  if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();
+  return pager;
+}
+
+std::uint64_t Pager::scratch_bytes() const noexcept {
+  return file_.header().max_stored_bytes + file_.header().max_raw_bytes;
+}
+
+Result<void> Pager::claim(const Limits& limits) {
+  const storage::FileHeader& header = file_.header();
+  cache::CacheLimits cache_limits{};
+  cache_limits.budget_bytes = limits.budget_bytes;
+  cache_limits.page_count = header.page_count;
+  cache_limits.frame_bytes = header.page_bytes;
+  cache_limits.max_readers = limits.max_probes;
+  cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
+                                limits.probe_bytes * limits.max_probes;
+  const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
+    return static_cast<Pager*>(context)->fill(page, frame);
+  };
+  auto cache = cache::PageCache::create(cache_limits, fill, this);
+  if (!cache) return cache.error();
+  cache_ = std::move(*cache);
+  stored_scratch_.reset(new (std::nothrow) std::byte[header.max_stored_bytes]);
+  raw_scratch_.reset(new (std::nothrow) std::byte[header.max_raw_bytes]);
+  if (!stored_scratch_ || !raw_scratch_)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory to read pages; free some and try again");
+  return {};
+}
+
+Result<void> Pager::fill(std::uint32_t page, std::span<std::byte> frame) noexcept {
+  const storage::FileHeader& header = file_.header();
+  const storage::PageEntry& entry = file_.entries()[page];
+  const std::span<std::byte> raw(raw_scratch_.get(), entry.raw_bytes);
+  const std::span<std::byte> stored(stored_scratch_.get(), header.max_stored_bytes);
+  if (const auto read = file_.read_page(page, stored, raw); !read) return read;
+  octree::PageFacts facts;
+  facts.page_bytes = header.page_bytes;
+  facts.page_count = header.page_count;
+  facts.shape = shape_;
+  facts.page_number = page;
+  facts.octcode = entry.octcode;
+  facts.ordinal = entry.ordinal;
+  return octree::decode_page(raw, facts, frame);
+}
+
+}  // namespace planetree::query

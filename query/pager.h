@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "cache/page_cache.h"
+#include "octree/page_decoder.h"
+#include "planetree/error.h"
+#include "storage/page_file.h"
+
+namespace planetree::query {
+
+/// Page number to decoded frame: storage and cache joined, with octree's
+/// decoder between them. Holds all the memory a model may hold.
+class Pager {
+ public:
+  struct Limits {
+    std::uint64_t budget_bytes = 0;
+    std::uint64_t probe_bytes = 0;  ///< what each probe claims for itself
+    unsigned max_probes = 0;
+  };
+
+  /// Opens the file, claims the memory, loads and pins the root page.
+  static Result<std::unique_ptr<Pager>> open(const std::filesystem::path& path,
+                                             const Limits& limits);
+
+  const storage::PageFile& file() const noexcept { return file_; }
+  cache::PageCache& cache() const noexcept { return *cache_; }
+  std::uint64_t scratch_bytes() const noexcept;
+
+ private:
+  explicit Pager(storage::PageFile file);
+  Result<void> claim(const Limits& limits);
+  Result<void> fill(std::uint32_t page, std::span<std::byte> frame) noexcept;
+
+  storage::PageFile file_;
+  octree::BlockShape shape_;
+  // Of the one page being read: the cache fills one at a time.
+  std::unique_ptr<std::byte[]> stored_scratch_;
+  std::unique_ptr<std::byte[]> raw_scratch_;
+  std::unique_ptr<cache::PageCache> cache_;
+};
+
+/// One probe's way to pages during one ask: a section of the cache, ended with
+/// this object.
+class PageTurner {
+ public:
+  explicit PageTurner(cache::Reader& reader) noexcept : reader_(reader) { reader_.enter(); }
+  ~PageTurner() { reader_.leave(); }
+  PageTurner(const PageTurner&) = delete;
+  PageTurner& operator=(const PageTurner&) = delete;
+
+  /// The page's frame, good until the next call; null if it is unreadable.
+  const std::byte* page(std::uint32_t number) noexcept {
+    if (++turns_ % kTurnsPerSection == 0) {
+      reader_.leave();
+      reader_.enter();
+    }
+    if (const std::byte* frame = reader_.find(number)) return frame;
+    return reader_.fetch(number);
+  }
+
+ private:
+  // Evicted frames are reused only after sections that may see them end.
+  static constexpr std::uint32_t kTurnsPerSection = 256;
+  cache::Reader& reader_;
+  std::uint32_t turns_ = 0;
+};
+
+}  // namespace planetree::query

@@ -1,0 +1,37 @@
+#include "planetree/probe.h"
+
+#include <new>
+#include <utility>
+
+#include "query/batch.h"
+#include "query/closest_point.h"
+#include "query/probe_state.h"
+
+namespace planetree {
+
+Result<Probe> Probe::create(const Model& model) {
+  auto reader = model.state_->claim_reader();
+  if (!reader) return reader.error();
+  std::unique_ptr<query::ProbeState> state(
+      new (std::nothrow) query::ProbeState(*model.state_, std::move(*reader)));
+  if (!state)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory for a probe; free some and try again");
+  return Probe(std::move(state));
+}
+
+Probe::Probe(std::unique_ptr<query::ProbeState> state) noexcept : state_(std::move(state)) {}
+Probe::Probe(Probe&&) noexcept = default;
+Probe& Probe::operator=(Probe&&) noexcept = default;
+Probe::~Probe() = default;
+
+ClosestPoint Probe::closest_point(Vec3 query, const Ask& ask) noexcept {
+  return query::closest_point(*state_, query, ask);
+}
+
+void Probe::closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
+                           const Ask& ask) noexcept {
+  query::closest_points(*state_, queries, answers, ask);
+}
+
+}  // namespace planetree

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+/// XXH3 over bytes. The only place that knows xxHash.
+///
+/// The values go into files, so they are the published XXH3 ones (final since
+/// xxHash 0.8.0) and the tests hold them against known answers.
+namespace planetree::storage {
+
+struct Hash128 {
+  std::uint64_t low;
+  std::uint64_t high;
+
+  friend bool operator==(const Hash128&, const Hash128&) = default;
+};
+
+/// XXH3-64 of `bytes`, which may be empty.
+[[nodiscard]] std::uint64_t hash64(std::span<const std::byte> bytes,
+                                   std::uint64_t seed = 0) noexcept;
+
+/// XXH3-128 of `bytes`, which may be empty, with seed 0.
+[[nodiscard]] Hash128 hash128(std::span<const std::byte> bytes) noexcept;
+
+/// XXH3-128 of bytes that come in parts: the parts' boundaries do not matter.
+/// Holds its state in place, so that hashing a page table allocates nothing.
+class Hasher128 {
+ public:
+  Hasher128() noexcept;
+
+  void add(std::span<const std::byte> bytes) noexcept;
+  [[nodiscard]] Hash128 value() const noexcept;
+
+ private:
+  static constexpr std::size_t kStateBytes = 576;
+  static constexpr std::size_t kStateAlignment = 64;
+
+  alignas(kStateAlignment) std::byte state_[kStateBytes];
+};
+
+}  // namespace planetree::storage

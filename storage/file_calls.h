@@ -1,0 +1,40 @@
+#pragma once
+
+#include <sys/stat.h>
+#include <sys/types.h>
+
+#include <cstddef>
+
+/// The system calls storage makes, so that tests can make any of them fail.
+///
+/// Each does what the call of its name does: it sets errno and returns what
+/// the system returns. The base class is the real system; it has no state, so
+/// any thread may use it.
+namespace planetree::storage {
+
+class FileCalls {
+ public:
+  virtual ~FileCalls() = default;
+
+  virtual int openat(int directory, const char* path, int flags, mode_t mode) noexcept;
+  virtual int close(int descriptor) noexcept;
+  virtual int fstat(int descriptor, struct stat* status) noexcept;
+  virtual int fstatat(int directory, const char* path, struct stat* status, int flags) noexcept;
+  virtual ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept;
+  virtual ssize_t pwrite(int descriptor, const void* in, std::size_t bytes, off_t offset) noexcept;
+  virtual int fsync(int descriptor) noexcept;
+  virtual int linkat(int old_directory, const char* old_path, int new_directory,
+                     const char* new_path, int flags) noexcept;
+  virtual int renameat2(int old_directory, const char* old_path, int new_directory,
+                        const char* new_path, unsigned flags) noexcept;
+  virtual int unlinkat(int directory, const char* path, int flags) noexcept;
+  virtual void* mmap(std::size_t bytes, int protection, int flags, int descriptor,
+                     off_t offset) noexcept;
+  virtual int munmap(void* address, std::size_t bytes) noexcept;
+  virtual int madvise(void* address, std::size_t bytes, int advice) noexcept;
+
+  /// The system itself; lives as long as the program.
+  static FileCalls& real() noexcept;
+};
+
+}  // namespace planetree::storage

@@ -1,0 +1,81 @@
+#include "storage/file_handle.h"
+
+#include <fcntl.h>
+
+#include <cerrno>
+#include <utility>
+
+#include "storage/file_error.h"
+
+namespace planetree::storage {
+
+FileHandle::FileHandle(FileHandle&& other) noexcept
+    : calls_(other.calls_), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FileHandle& FileHandle::operator=(FileHandle&& other) noexcept {
+  if (this != &other) {
+    close();
+    calls_ = other.calls_;
+    descriptor_ = std::exchange(other.descriptor_, -1);
+  }
+  return *this;
+}
+
+FileHandle::~FileHandle() { close(); }
+
+FileHandle FileHandle::open(FileCalls& calls, int directory, const char* path, int flags,
+                            mode_t mode) noexcept {
+  FileHandle handle;
+  handle.calls_ = &calls;
+  do {
+    handle.descriptor_ = calls.openat(directory, path, flags | O_CLOEXEC, mode);
+  } while (handle.descriptor_ < 0 && errno == EINTR);
+  return handle;
+}
+
+void FileHandle::close() noexcept {
+  if (!is_open()) return;
+  // The descriptor is gone whatever close() says, and what had to be durable was synced before.
+  const int kept_errno = errno;
+  calls_->close(std::exchange(descriptor_, -1));
+  errno = kept_errno;
+}
+
+Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out) const noexcept {
+  while (!out.empty()) {
+    const ssize_t count =
+        calls_->pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return file_error(errno, FileAction::kRead, "read the file", Error::kNowhere, offset);
+    }
+    if (count == 0) {
+      return make_error(ErrorCode::kTruncated, Error::kNowhere, offset,
+                        "the file ends %zu bytes early: it became shorter after it was opened; "
+                        "restore it from a copy or build it again",
+                        out.size());
+    }
+    out = out.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+  return {};
+}
+
+Result<void> FileHandle::write_at(std::uint64_t offset,
+                                  std::span<const std::byte> bytes) const noexcept {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        calls_->pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      // A device that takes nothing without saying why would keep us here forever.
+      return file_error(count < 0 ? errno : EIO, FileAction::kWrite, "write the file",
+                        Error::kNowhere, offset);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+  return {};
+}
+
+}  // namespace planetree::storage

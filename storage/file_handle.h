@@ -1,0 +1,46 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "planetree/error.h"
+#include "storage/file_calls.h"
+
+namespace planetree::storage {
+
+/// An open file, closed with the handle. Reads and writes name their offset,
+/// so that any number of threads may share one.
+class FileHandle {
+ public:
+  FileHandle() noexcept = default;
+  FileHandle(FileHandle&& other) noexcept;
+  FileHandle& operator=(FileHandle&& other) noexcept;
+  ~FileHandle();
+
+  /// As openat(2), close-on-exec, resumed when a signal interrupts it. On
+  /// failure the handle is closed and errno says why.
+  static FileHandle open(FileCalls& calls, int directory, const char* path, int flags,
+                         mode_t mode = 0) noexcept;
+
+  bool is_open() const noexcept { return descriptor_ >= 0; }
+  int descriptor() const noexcept { return descriptor_; }
+  FileCalls& calls() const noexcept { return *calls_; }
+  void close() noexcept;
+
+  /// Fills `out` from `offset`, through interruptions and short reads.
+  /// errors  kTruncated: the file ends before; else as file_error().
+  Result<void> read_at(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+
+  /// Writes all of `bytes` at `offset`, through interruptions and short writes.
+  /// errors  as file_error(), kNoSpace among them.
+  Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes) const noexcept;
+
+ private:
+  FileCalls* calls_ = nullptr;
+  int descriptor_ = -1;
+};
+
+}  // namespace planetree::storage

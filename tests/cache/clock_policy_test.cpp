@@ -1,0 +1,83 @@
+#include "cache/clock_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace planetree::cache {
+namespace {
+
+template <std::size_t kFrames>
+struct Frames {
+  std::array<ClockPolicy::Score, kFrames> scores{};
+  std::array<ClockPolicy::State, kFrames> states{};
+  ClockPolicy clock{scores, states};
+
+  Frames() {
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) clock.install(frame);
+  }
+  void mark(std::uint32_t frame, int times) {
+    for (int i = 0; i < times; ++i) ClockPolicy::mark(scores[frame]);
+  }
+  std::uint32_t evict() {
+    const std::uint32_t victim = clock.choose_victim();
+    if (victim != kNoFrame) clock.remove(victim);
+    return victim;
+  }
+};
+
+TEST(ClockPolicy, TakesUnusedFramesInTurn) {
+  Frames<4> frames;
+  for (std::uint32_t frame = 0; frame < 4; ++frame) EXPECT_EQ(frames.evict(), frame);
+  EXPECT_EQ(frames.evict(), kNoFrame);
+}
+
+TEST(ClockPolicy, ScoreStopsAtThree) {
+  ClockPolicy::Score score{0};
+  for (const int expected : {1, 2, 3, 3, 3}) {
+    ClockPolicy::mark(score);
+    EXPECT_EQ(score.load(), expected);
+  }
+}
+
+TEST(ClockPolicy, InstalledFramesStartAtTwo) {
+  Frames<2> frames;
+  EXPECT_EQ(frames.scores[0].load(), 2);
+  // Marked once from 0, frame 1 would go before frame 0; it starts higher.
+  frames.scores[0].store(1);
+  EXPECT_EQ(frames.evict(), 0u);
+  EXPECT_EQ(frames.scores[1].load(), 1);
+}
+
+TEST(ClockPolicy, UsedFramesOutliveUnusedOnes) {
+  Frames<4> frames;
+  frames.mark(0, 1);
+  frames.mark(2, 5);
+  EXPECT_EQ(frames.evict(), 1u);
+  EXPECT_EQ(frames.evict(), 3u);
+  EXPECT_EQ(frames.evict(), 0u);
+  EXPECT_EQ(frames.evict(), 2u);
+}
+
+TEST(ClockPolicy, PassesOverPinnedAndIdleFrames) {
+  Frames<4> frames;
+  frames.clock.pin(0);
+  frames.clock.pin(2);
+  EXPECT_EQ(frames.evict(), 1u);
+  EXPECT_EQ(frames.evict(), 3u);
+  EXPECT_EQ(frames.evict(), kNoFrame);
+  frames.clock.install(1);
+  EXPECT_EQ(frames.evict(), 1u);
+  EXPECT_EQ(frames.clock.state(0), ClockPolicy::State::kPinned);
+}
+
+TEST(ClockPolicy, FindsAVictimEvenWhenEveryScoreIsHighest) {
+  Frames<3> frames;
+  for (std::uint32_t frame = 0; frame < 3; ++frame) frames.mark(frame, 3);
+  EXPECT_EQ(frames.evict(), 0u);
+}
+
+}  // namespace
+}  // namespace planetree::cache

@@ -1,0 +1,85 @@
+#include "cache/limbo.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+
+namespace planetree::cache {
+namespace {
+
+/// Two readers, and so three owners.
+struct LimboOfTwo {
+  std::array<ReaderSlot, 2> slots{};
+  std::array<Limbo::Place, 3> places{};
+  std::array<std::uint64_t, 6> stamps{};
+  Limbo limbo{slots, places, stamps};
+};
+
+TEST(Limbo, GivesAFrameBackAtOnceWhenNobodyIsInside) {
+  LimboOfTwo two;
+  EXPECT_FALSE(two.limbo.holds(1));
+  EXPECT_EQ(two.limbo.take(1), kNoFrame);
+  two.limbo.retire(1, 7);
+  EXPECT_TRUE(two.limbo.holds(1));
+  EXPECT_EQ(two.limbo.take(0), kNoFrame);
+  EXPECT_EQ(two.limbo.take(1), 7u);
+  EXPECT_FALSE(two.limbo.holds(1));
+}
+
+TEST(Limbo, WaitsForEverySectionThatWasOpen) {
+  LimboOfTwo two;
+  two.slots[0].enter();
+  two.slots[1].enter();
+  two.limbo.retire(2, 7);
+  EXPECT_EQ(two.limbo.take(2), kNoFrame);
+  two.slots[1].leave();
+  EXPECT_EQ(two.limbo.take(2), kNoFrame);
+  two.slots[0].leave();
+  EXPECT_EQ(two.limbo.take(2), 7u);
+}
+
+TEST(Limbo, DoesNotWaitForLaterSections) {
+  LimboOfTwo two;
+  two.slots[0].enter();
+  two.limbo.retire(2, 7);
+  two.slots[1].enter();  // Begun after the page was withdrawn.
+  two.slots[0].leave();
+  two.slots[0].enter();  // Inside again, but not in the section that counts.
+  EXPECT_EQ(two.limbo.take(2), 7u);
+}
+
+TEST(Limbo, SectionSeenToBeOverStaysOver) {
+  LimboOfTwo two;
+  two.slots[0].enter();
+  two.slots[1].enter();
+  two.limbo.retire(2, 7);
+  two.slots[0].leave();
+  EXPECT_EQ(two.limbo.take(2), kNoFrame);
+  two.slots[0].enter();
+  two.slots[1].leave();
+  EXPECT_EQ(two.limbo.take(2), 7u);
+}
+
+TEST(Limbo, OwnersFramesWaitForTheirOwnSections) {
+  LimboOfTwo two;
+  two.limbo.retire(0, 5);
+  two.slots[1].enter();
+  two.limbo.retire(1, 6);
+  EXPECT_EQ(two.limbo.take(1), kNoFrame);
+  EXPECT_EQ(two.limbo.take(0), 5u);
+}
+
+TEST(Limbo, AwaitedFramesAreLeftToTheirOwner) {
+  LimboOfTwo two;
+  two.limbo.retire(0, 5);
+  two.limbo.retire(1, 6);
+  two.limbo.set_awaited(0, true);
+  EXPECT_EQ(two.limbo.take_unawaited(), 6u);
+  EXPECT_EQ(two.limbo.take_unawaited(), kNoFrame);
+  two.limbo.set_awaited(0, false);
+  EXPECT_EQ(two.limbo.take_unawaited(), 5u);
+}
+
+}  // namespace
+}  // namespace planetree::cache

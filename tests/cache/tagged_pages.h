@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <set>
+#include <span>
+
+#include "cache/page_cache.h"
+
+namespace planetree::cache {
+
+/// A model for tests: every 8-byte word of a page follows from its page number
+/// and its place, so that a reader sees at once if it holds the wrong page or
+/// one that is being overwritten.
+class TaggedPages {
+ public:
+  static std::uint64_t word(std::uint32_t page, std::size_t index) noexcept {
+    return (std::uint64_t{page} + 1) * 0x9e3779b97f4a7c15u + index;
+  }
+
+  /// Whether all words of a frame are those of `page`.
+  static bool matches(const std::byte* frame, std::uint32_t frame_bytes,
+                      std::uint32_t page) noexcept {
+    for (std::size_t i = 0; i < frame_bytes / sizeof(std::uint64_t); ++i) {
+      std::uint64_t found;
+      std::memcpy(&found, frame + i * sizeof found, sizeof found);
+      if (found != word(page, i)) return false;
+    }
+    return true;
+  }
+
+  /// The FillPage; `context` is a TaggedPages.
+  static Result<void> fill(void* context, std::uint32_t page, std::span<std::byte> frame) {
+    auto& pages = *static_cast<TaggedPages*>(context);
+    pages.fill_calls_.fetch_add(1, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < frame.size() / sizeof(std::uint64_t); ++i) {
+      const std::uint64_t value = word(page, i);
+      std::memcpy(frame.data() + i * sizeof value, &value, sizeof value);
+    }
+    // Fails after writing, as a page does that turns out wrong when decoded.
+    if (pages.unreadable_.contains(page)) {
+      return make_error(ErrorCode::kDamaged, page, Error::kNowhere, "page %u is damaged", page);
+    }
+    return {};
+  }
+
+  void make_unreadable(std::uint32_t page) { unreadable_.insert(page); }
+  std::uint64_t fill_calls() const noexcept { return fill_calls_.load(std::memory_order_relaxed); }
+
+ private:
+  std::set<std::uint32_t> unreadable_;
+  std::atomic<std::uint64_t> fill_calls_{0};
+};
+
+/// Limits with a budget that gives exactly `frame_count` frames.
+inline CacheLimits limits_for_frames(std::uint32_t frame_count, std::uint32_t page_count,
+                                     std::uint32_t max_readers,
+                                     std::uint32_t frame_bytes = 4096) noexcept {
+  CacheLimits limits{0, page_count, frame_bytes, max_readers, 0};
+  limits.budget_bytes = bytes_needed(limits, frame_count);
+  return limits;
+}
+
+/// A small repeatable stream of numbers.
+class Numbers {
+ public:
+  explicit Numbers(std::uint64_t seed) noexcept : state_(seed) {}
+
+  /// 0 ... limit - 1.
+  std::uint32_t below(std::uint32_t limit) noexcept {
+    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::uint32_t>((state_ >> 33) % limit);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace planetree::cache

@@ -1,0 +1,77 @@
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "storage/page_file.h"
+#include "tests/storage/file_image.h"
+
+/// Opens any bytes as a .ptree file and reads every page.
+///
+/// The first byte says which hashes are put right before that: without, no
+/// input would ever get past them.
+namespace planetree::storage {
+namespace {
+
+constexpr std::uint8_t kSealPages = 1;
+constexpr std::uint8_t kSealTable = 2;
+constexpr std::uint8_t kSealHeader = 4;
+constexpr std::uint8_t kSealLength = 8;
+constexpr std::uint8_t kSealMagic = 16;
+
+void seal(FileImage& image, std::uint8_t how) {
+  if (image.bytes().size() < kHeaderBytes) return;
+  image.change_header([&](FileHeader& header) {
+    if ((how & kSealLength) != 0) header.file_bytes = image.bytes().size();
+    if ((how & kSealMagic) == 0) return;
+    std::copy_n(kMagic, sizeof kMagic, header.magic);
+    header.version = kFormatVersion;
+    header.header_bytes = kHeaderBytes;
+    header.incompatible_features = 0;
+  });
+  if (image.table_fits() && (how & kSealPages) != 0) image.seal_pages();
+  if (image.table_fits() && (how & kSealTable) != 0) image.seal_table();
+  if ((how & kSealHeader) != 0) image.seal_header();
+}
+
+void read_all_pages(const PageFile& file) {
+  Bytes scratch(file.header().max_stored_bytes);
+  for (std::uint32_t page = 0; page < file.page_count(); ++page) {
+    // Of exactly the page's size, so that the sanitizer sees one byte too far.
+    Bytes raw(file.entries()[page].raw_bytes);
+    const Result<void> read = file.read_page(page, scratch, raw);
+    if (!read && read.error().page != page) std::abort();
+  }
+}
+
+void open_and_read(std::span<const std::byte> bytes) {
+  const int memory = ::memfd_create("header_fuzz", MFD_CLOEXEC);
+  if (memory < 0) std::abort();
+  if (::write(memory, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) {
+    std::abort();
+  }
+  const Result<PageFile> file = PageFile::open("/proc/self/fd/" + std::to_string(memory));
+  ::close(memory);
+  if (file) {
+    read_all_pages(*file);
+  } else if (file.error().text[0] == 0) {
+    std::abort();
+  }
+}
+
+}  // namespace
+}  // namespace planetree::storage
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace planetree::storage;
+  if (size == 0) return 0;
+  const auto* bytes = reinterpret_cast<const std::byte*>(data);
+  FileImage image(Bytes(bytes + 1, bytes + size));
+  seal(image, data[0]);
+  open_and_read(image.bytes());
+  return 0;
+}

@@ -1,0 +1,10 @@
+#include "tests/fuzz/mesh_fuzz.h"
+
+/// Any bytes, read as whatever they look like; the seeds are PLY files.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using namespace planetree::octree;
+  const MemoryFile file(bytes, size);
+  CheckingSink sink;
+  sink.check(read_mesh(file.path(), sink));
+  return 0;
+}

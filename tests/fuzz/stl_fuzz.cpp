@@ -1,0 +1,28 @@
+#include "octree/build/mesh_file.h"
+#include "octree/build/stl_reader.h"
+#include "tests/fuzz/mesh_fuzz.h"
+
+namespace {
+
+using namespace planetree::octree;
+
+template <class Read>
+void read_as(const MemoryFile& memory, const Read& read) {
+  planetree::Result<MeshFile> file = MeshFile::open(memory.path(), 0);
+  if (!file) std::abort();
+  CheckingSink sink;
+  sink.check(read(*file, sink));
+}
+
+}  // namespace
+
+/// Any bytes, read as binary and as ascii STL whatever they look like: judging
+/// the format by the size would let few through.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const MemoryFile memory(bytes, size);
+  read_as(memory, read_stl_binary);
+  read_as(memory, read_stl_ascii);
+  CheckingSink sink;
+  sink.check(read_mesh(memory.path(), sink));
+  return 0;
+}

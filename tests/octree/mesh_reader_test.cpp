@@ -1,0 +1,183 @@
+#include "octree/build/mesh_reader.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdint>
+
+#include "tests/octree/mesh_recorder.h"
+
+namespace planetree::octree {
+namespace {
+
+const std::string kTriangleLog = "0: 0 0 0, 1 0 0, 0 1 0\n";
+const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST(MeshReader, JudgesContentBeforeExtension) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string stl =
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\nendsolid\n";
+  for (const std::string extension : {"", ".ply", ".stl", ".obj", ".txt"}) {
+    EXPECT_EQ(read_bytes(ply, extension).log, kTriangleLog) << extension;
+    EXPECT_EQ(read_bytes(stl, extension).log, kTriangleLog) << extension;
+  }
+  EXPECT_EQ(read_bytes(kObj, ".obj").log, kTriangleLog);
+  EXPECT_EQ(read_bytes(kObj, ".OBJ").log, kTriangleLog);
+}
+
+TEST(MeshReader, RefusesWhatItDoesNotKnow) {
+  for (const std::string extension : {"", ".ply", ".txt"}) {
+    const Reading reading = read_bytes(kObj, extension);
+    EXPECT_EQ(reading.code, ErrorCode::kBadInput);
+    EXPECT_EQ(reading.error,
+              "byte 0: neither a PLY nor an STL, and not named .obj; give a PLY, STL or OBJ mesh "
+              "(an OBJ needs its extension)");
+  }
+  EXPECT_EQ(read_bytes("", ".ply").code, ErrorCode::kBadInput);
+  EXPECT_EQ(read_bytes("ply", ".ply").code, ErrorCode::kBadInput);
+}
+
+TEST(MeshReader, RefusesPathsItCannotRead) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const Reading missing = read_path(folder / "planetree_no_such_mesh.ply");
+  EXPECT_EQ(missing.code, ErrorCode::kNotFound);
+  EXPECT_EQ(missing.error, "no such file; check the path");
+  const Reading directory = read_path(folder);
+  EXPECT_EQ(directory.code, ErrorCode::kBadInput);
+  EXPECT_NE(directory.error.find("not a regular file"), std::string::npos);
+  const TemporaryFile taken("", ".fifo");
+  std::filesystem::remove(taken.path());
+  ASSERT_EQ(::mkfifo(taken.path().c_str(), 0600), 0);
+  EXPECT_EQ(read_path(taken.path()).code, ErrorCode::kBadInput);
+}
+
+TEST(MeshReader, PassesTheSinksErrorOnAtOnce) {
+  const TemporaryFile file(kObj + "v 1 1 0\nf 1 2 3 4\nf 3 2 1\n", ".obj");
+  Recorder recorder;
+  recorder.refuse_index = 1;
+  const Result<MeshSummary> summary = read_mesh(file.path(), recorder);
+  ASSERT_FALSE(summary);
+  EXPECT_EQ(summary.error().code, ErrorCode::kNoSpace);
+  EXPECT_EQ(recorder.log, kTriangleLog + "1: 0 0 0, 1 0 0, 0 1 0\n");
+}
+
+/// A binary STL of `count` facets, whose corners say which facet it is.
+std::string large_stl(std::uint32_t count) {
+  Bytes bytes;
+  bytes.text(std::string(80, '\0')).put(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    bytes.put(0.0F, 0.0F, 0.0F).put(static_cast<float>(i), 0.0F, 0.0F);
+    bytes.put(0.0F, 1.0F, 0.0F).put(0.0F, 0.0F, 1.0F).put(std::uint16_t{0});
+  }
+  return bytes.str();
+}
+
+TEST(MeshReader, ReportsProgressAboutEveryFourMebibytes) {
+  constexpr std::uint32_t kCount = 200000;
+  constexpr std::uint64_t kBytes = 84 + 50 * std::uint64_t{kCount};
+  const TemporaryFile file(large_stl(kCount), ".stl");
+  Recorder recorder;
+  ASSERT_TRUE(read_mesh(file.path(), recorder));
+  ASSERT_EQ(recorder.reports.size(), 3U);
+  std::uint64_t last = 0;
+  for (const auto& [done, total] : recorder.reports) {
+    EXPECT_EQ(total, kBytes);
+    EXPECT_GT(done, last);
+    EXPECT_LE(done - last, (std::uint64_t{4} << 20) + 50);
+    last = done;
+  }
+  EXPECT_EQ(last, kBytes);
+}
+
+/// Counts triangles and sums their first x.
+class Summer : public TriangleSink {
+ public:
+  Result<void> triangle(std::uint64_t, const std::array<Vec3, 3>& corners) override {
+    sum += corners[0].x;
+    ++count;
+    return {};
+  }
+  void set_aside(std::uint64_t, std::uint64_t, const SetAside&) override {}
+  void progress(std::uint64_t, std::uint64_t) override {}
+
+  double sum = 0;
+  std::uint64_t count = 0;
+};
+
+TEST(MeshReader, ReadsTheSameUnderALimitOnMappedMemory) {
+  constexpr std::uint32_t kCount = 20000;
+  const TemporaryFile file(large_stl(kCount), ".stl");
+  for (const std::uint64_t limit : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 17}) {
+    Summer summer;
+    ASSERT_TRUE(read_mesh(file.path(), summer, MeshReadOptions{limit}));
+    EXPECT_EQ(summer.count, kCount);
+    EXPECT_EQ(summer.sum, kCount * (kCount - 1.0) / 2);
+  }
+}
+
+/// A file of holes with bytes at chosen places.
+class SparseFile {
+ public:
+  explicit SparseFile(std::uint64_t size_bytes) : file_("", ".ply") {
+    descriptor_ = ::open(file_.path().c_str(), O_RDWR | O_CLOEXEC);
+    ok_ = ::ftruncate(descriptor_, static_cast<off_t>(size_bytes)) == 0;
+  }
+  ~SparseFile() { ::close(descriptor_); }
+  void write(std::uint64_t offset, const std::string& bytes) {
+    const auto size = static_cast<ssize_t>(bytes.size());
+    ok_ &= ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset)) == size;
+  }
+  [[nodiscard]] bool ok() const { return ok_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+
+ private:
+  TemporaryFile file_;
+  int descriptor_ = -1;
+  bool ok_ = false;
+};
+
+TEST(MeshReader, ReachesIndicesPast31BitsAndOffsetsPast32) {
+  constexpr std::uint64_t kVertexCount = (std::uint64_t{1} << 32) - 5;
+  constexpr std::uint32_t kIndices[] = {2147483648U, 3000000000U, 4294967290U, 0U};
+  const std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                           std::to_string(kVertexCount) +
+                           "\nproperty float x\nproperty float y\nproperty float z\n"
+                           "element face 3\nproperty list uchar uint vertex_indices\nend_header\n";
+  Bytes faces;
+  faces.put(std::uint8_t{3}, kIndices[0], kIndices[1], kIndices[2]);
+  faces.put(std::uint8_t{4}, kIndices[3], kIndices[2], kIndices[1], kIndices[0]);
+  faces.put(std::uint8_t{3}, kIndices[0], kIndices[1], std::uint32_t{4294967291U});
+  const std::uint64_t faces_begin = head.size() + 12 * kVertexCount;
+
+  SparseFile file(faces_begin + faces.str().size());
+  file.write(0, head);
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const float x = static_cast<float>(i + 1);
+    file.write(head.size() + std::uint64_t{12} * kIndices[i],
+               Bytes().put(x, 10 * x, 100 * x).str());
+  }
+  file.write(faces_begin, faces.str());
+  ASSERT_TRUE(file.ok()) << "the temporary folder's file system has no sparse files of 52 GB";
+
+  for (const std::uint64_t limit : {std::uint64_t{0}, std::uint64_t{1} << 20}) {
+    const Reading reading = read_path(file.path(), MeshReadOptions{limit});
+    EXPECT_EQ(reading.error, "");
+    EXPECT_EQ(reading.log,
+              "0: 1 10 100, 2 20 200, 3 30 300\n"
+              "1: 4 40 400, 3 30 300, 2 20 200\n"
+              "2: 4 40 400, 2 20 200, 1 10 100\n"
+              "3+1 aside: face 2: vertex index 4294967291 is out of range, the file has 4294967291 "
+              "vertices\n");
+    ASSERT_TRUE(reading.summary);
+    EXPECT_EQ(reading.summary->vertex_records, kVertexCount);
+  }
+}
+
+}  // namespace
+}  // namespace planetree::octree
