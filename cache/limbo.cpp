@@ -21,13 +21,11 @@ void Limbo::retire(std::uint32_t owner, std::uint32_t frame) noexcept {
   places_[owner].frame = frame;
 }
 
-bool Limbo::sections_are_over(std::uint32_t owner) noexcept {
-  const std::span<std::uint64_t> stamps = stamps_of(owner);
+bool Limbo::sections_are_over(std::uint32_t owner) const noexcept {
+  const std::span<const std::uint64_t> stamps = stamps_of(owner);
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
     if (stamps[slot] == kNoSection) continue;
     if (slots_[slot].sequence_before_reuse() == stamps[slot]) return false;
-    // Over once is over for good: do not look again.
-    stamps[slot] = kNoSection;
   }
   return true;
 }

@@ -46,7 +46,7 @@ class Limbo {
   std::uint32_t take_unawaited() noexcept;
 
  private:
-  bool sections_are_over(std::uint32_t owner) noexcept;
+  bool sections_are_over(std::uint32_t owner) const noexcept;
   std::span<std::uint64_t> stamps_of(std::uint32_t owner) const noexcept {
     return stamps_.subspan(owner * slots_.size(), slots_.size());
   }

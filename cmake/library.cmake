@@ -9,6 +9,10 @@ set(planetree_headers
   planetree.h
   probe.h
   stats.h
+  model.h
+  planetree.h
+  probe.h
+  stats.h
   types.h)
 
 add_library(planetree)

@@ -61,8 +61,7 @@ const char* BlockDecoder::finish() const noexcept {
 }
 
 // Vertices that the page has had come first, ascending; then new ones in order.
-const char* BlockDecoder::collect_vertices(unsigned count, unsigned new_count,
-                                           Vertices& vertices) {
+const char* BlockDecoder::collect_vertices(unsigned count, unsigned new_count, Vertices& vertices) {
   const unsigned old_count = count - new_count;
   if (old_count > streams_.vertex_refs.size() - next_ref_ ||
       new_count > streams_.head.vertex_count - next_vertex_)
@@ -122,9 +121,9 @@ const char* BlockDecoder::store_vertices(BlockHeader& header, const Vertices& ve
   }
   for (unsigned i = 0; i < header.vertex_count; ++i) {
     const unsigned stride = header.stride;
-    header.extent = std::max(
-        header.extent, distance_up(local[i] - local[0], local[stride + i] - local[stride],
-                                   local[2 * stride + i] - local[2 * stride]));
+    header.extent =
+        std::max(header.extent, distance_up(local[i] - local[0], local[stride + i] - local[stride],
+                                            local[2 * stride + i] - local[2 * stride]));
   }
   return std::isfinite(header.extent) ? nullptr : "a block is too large";
 }
@@ -135,8 +134,8 @@ const char* BlockDecoder::store_ids(BlockHeader& header) {
   const std::uint64_t limit = shape_.wide_ids ? ~std::uint64_t{0} : 0xffffffff;
   for (unsigned i = 0; i < kMaxBlockTriangles; ++i) {
     if (i > 0 && i < header.triangle_count) {
-      const std::uint64_t step = shape_.wide_ids ? streams_.id_steps64[next_id_step_]
-                                                 : streams_.id_steps32[next_id_step_];
+      const std::uint64_t step =
+          shape_.wide_ids ? streams_.id_steps64[next_id_step_] : streams_.id_steps32[next_id_step_];
       ++next_id_step_;
       if (step == 0 || step > limit - id) return "triangle indices do not ascend";
       id += step;

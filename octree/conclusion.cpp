@@ -63,8 +63,8 @@ NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestL
   const double from_box = distance_to_box(tree, query);
   if (!best.found() && !spent) return beyond(limits);
   if (!best.found())
-    return nothing_read(
-        tree, query, std::min(limits.max_distance, std::max(from_box, certified(wide, unread))));
+    return nothing_read(tree, query,
+                        std::min(limits.max_distance, std::max(from_box, certified(wide, unread))));
   NearestAnswer answer = place(nearest_on_triangle(query, best.corners()), best.triangle());
   if (pruned <= best.exact_threshold()) {
     answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, pruned)));

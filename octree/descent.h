@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "octree/block_view.h"
 #include "octree/bounds.h"
@@ -62,31 +64,42 @@ class BestTriangle {
   float exact_threshold_ = 0;
 };
 
-/// Children still to visit: nearest on top, each with the bound it was pushed
-/// with. Depth and fan-out bound its size.
+/// A child to visit: its squared bound and its link in one integer, which
+/// orders as the bound does because bounds are not negative. Children of equal
+/// bound go by link, so that every run takes the same way.
+class FrontierEntry {
+ public:
+  FrontierEntry() = default;
+  FrontierEntry(float bound, std::uint32_t link)
+      : key_(std::uint64_t{std::bit_cast<std::uint32_t>(bound)} << 32 | link) {}
+  float bound() const { return std::bit_cast<float>(static_cast<std::uint32_t>(key_ >> 32)); }
+  std::uint32_t link() const { return static_cast<std::uint32_t>(key_); }
+  bool nearer_than(FrontierEntry other) const { return key_ < other.key_; }
+
+ private:
+  std::uint64_t key_;
+};
+
+/// Children still to visit, the nearest siblings on top. Depth and fan-out
+/// bound its size.
 class Frontier {
  public:
-  struct Entry {
-    float bound;
-    std::uint32_t link;
-  };
-
   bool empty() const { return size_ == 0; }
   bool has_room() const { return size_ + kFanOut <= kCapacity; }
-  Entry pop() { return entries_[--size_]; }
+  FrontierEntry pop() { return entries_[--size_]; }
   std::size_t mark() const { return size_; }
 
   /// Adds a child among those pushed since `mark`, farthest first.
-  void push(std::size_t mark, float bound, std::uint32_t link) {
+  void push(std::size_t mark, FrontierEntry entry) {
     std::size_t at = size_++;
-    for (; at > mark && entries_[at - 1].bound < bound; --at) entries_[at] = entries_[at - 1];
-    entries_[at] = {bound, link};
+    for (; at > mark && entries_[at - 1].nearer_than(entry); --at) entries_[at] = entries_[at - 1];
+    entries_[at] = entry;
   }
 
  private:
   static constexpr std::size_t kCapacity = (kFanOut - 1) * kMaxHeight + 2 * kFanOut;
   std::size_t size_ = 0;
-  Entry entries_[kCapacity];
+  FrontierEntry entries_[kCapacity];
 };
 
 }  // namespace planetree::octree

@@ -43,17 +43,17 @@ static_assert(sizeof(FrameHeader) == kSlotBytes);
 /// four lines answer near queries; the last three, the discs, are read only
 /// where they can pay (see octree/bounds.h).
 struct alignas(kSlotBytes) Node {
-  float lower[3][kFanOut];    ///< box; unused children are +infinity
+  float lower[3][kFanOut];  ///< box; unused children are +infinity
   float upper[3][kFanOut];
   std::uint32_t link[kFanOut];
-  float gate;                 ///< discs pay where this node's own bound^2 is larger
-  std::uint8_t child_count;   ///< 1 to 8
-  std::uint8_t height;        ///< nodes below and including this one on the longest path
+  float gate;                ///< discs pay where this node's own bound^2 is larger
+  std::uint8_t child_count;  ///< 1 to 8
+  std::uint8_t height;       ///< nodes below and including this one on the longest path
   std::uint8_t reserved[26];
   float normal[3][kFanOut];   ///< of the slab; unit to a few ulps
   float slab_lower[kFanOut];  ///< normal . (x - box centre) of all surface points x
   float slab_upper[kFanOut];
-  float radius[kFanOut];      ///< greatest distance of a surface point from the slab's axis
+  float radius[kFanOut];  ///< greatest distance of a surface point from the slab's axis
 };
 static_assert(sizeof(Node) == 7 * kSlotBytes);
 static_assert(offsetof(Node, normal) == 4 * kSlotBytes);
@@ -69,7 +69,7 @@ struct alignas(kSlotBytes) BlockHeader {
   std::uint8_t vertex_count;    ///< 1 to 48
   std::uint8_t stride;          ///< 16, 24, 32 or 48
   std::uint8_t reserved;
-  float extent;                 ///< at least the distance of any vertex from vertex 0
+  float extent;  ///< at least the distance of any vertex from vertex 0
   std::uint8_t reserved_words[8];
   std::uint8_t corner[3][kMaxBlockTriangles];  ///< vertex of each corner, by corner
 };

@@ -1,10 +1,12 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "octree/nearest.cpp"
-#include <hwy/foreach_target.h>
-
 #include "octree/nearest.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "octree/nearest.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -37,20 +39,17 @@ class Descent {
   void run() {
     // An honest tree cannot be visited longer than it is; a forged one could.
     const std::uint64_t most = std::min<std::uint64_t>(limits_.max_nodes, tree_.record_count);
-    std::uint64_t visits = 0;
-    frontier_.push(0, 0.0f, tree_.root_link);
-    while (!frontier_.empty()) {
-      const Frontier::Entry entry = frontier_.pop();
-      if (entry.bound > best_.threshold()) {
-        pruned_ = std::min(pruned_, entry.bound);
-        continue;
+    frontier_.push(0, FrontierEntry(0.0f, tree_.root_link));
+    for (std::uint64_t visits = 0; !frontier_.empty();) {
+      const FrontierEntry entry = frontier_.pop();
+      if (entry.bound() > best_.threshold()) {
+        pruned_ = std::min(pruned_, entry.bound());
+      } else if (visits == most) {
+        unread_ = std::min(unread_, entry.bound());
+      } else {
+        ++visits;
+        visit(entry);
       }
-      if (visits == most) {
-        unread_ = std::min(unread_, entry.bound);
-        continue;
-      }
-      ++visits;
-      visit(entry);
     }
   }
 
@@ -62,16 +61,16 @@ class Descent {
   float unread() const { return unread_; }
 
  private:
-  HWY_INLINE void visit(const Frontier::Entry& entry) {
-    const std::byte* record = find(entry.link);
+  HWY_INLINE void visit(FrontierEntry entry) {
+    const std::byte* record = find(entry.link());
     if (!record) {
-      unread_ = std::min(unread_, entry.bound);
-    } else if (LinkFormat::is_leaf(entry.link)) {
+      unread_ = std::min(unread_, entry.bound());
+    } else if (LinkFormat::is_leaf(entry.link())) {
       ++work_.blocks;
       visit_block(BlockView(record, tree_.shape));
     } else {
       ++work_.nodes;
-      visit_node(*reinterpret_cast<const Node*>(record), entry.bound);
+      visit_node(*reinterpret_cast<const Node*>(record), entry.bound());
     }
   }
 
@@ -83,13 +82,16 @@ class Descent {
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
       if (!frame_) return nullptr;
-      if (!leads_to_record(link, slot)) return nullptr;
+    } else if (frontier_.mark() >= entered_) {
+      return frame_ + slot * kSlotBytes;
     }
-    return frame_ + slot * kSlotBytes;
+    entered_ = frontier_.mark();
+    return leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
   }
 
   // Links within a page were checked when it was decoded, links between pages
-  // cannot be before both are here.
+  // cannot be before both are here: those are all that were pushed before the
+  // page was entered.
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
     if (LinkFormat::is_leaf(link)) {
@@ -107,40 +109,62 @@ class Descent {
       return;
     }
     HWY_ALIGN float bounds[kFanOut];
-    node_bounds(node, wide_, own_bound > node.gate, bounds);
+    unsigned near = node_bounds(node, wide_, own_bound > node.gate, best_.threshold(), bounds);
+    near &= (1u << node.child_count) - 1;
+    if (limits_.max_error > 0) note_pruned(node, near, bounds);
     const std::size_t mark = frontier_.mark();
-    const float threshold = best_.threshold();
-    for (unsigned child = 0; child < node.child_count; ++child) {
-      if (bounds[child] > threshold)
-        pruned_ = std::min(pruned_, bounds[child]);
-      else
-        frontier_.push(mark, bounds[child], node.link[child]);
+    for (; near != 0; near &= near - 1) {
+      const auto child = static_cast<unsigned>(std::countr_zero(near));
+      prefetch(node.link[child]);
+      frontier_.push(mark, FrontierEntry(bounds[child], node.link[child]));
     }
   }
 
+  HWY_INLINE void prefetch(std::uint32_t link) const {
+    if (links_.page(link) != page_number_) return;
+    const std::byte* record = frame_ + links_.slot(link) * kSlotBytes;
+    for (std::size_t line = 0; line < 4; ++line) hwy::Prefetch(record + line * kSlotBytes);
+  }
+
+  void note_pruned(const Node& node, unsigned near, const float* bounds) {
+    for (unsigned child = 0; child < node.child_count; ++child)
+      if ((near >> child & 1) == 0) pruned_ = std::min(pruned_, bounds[child]);
+  }
+
   HWY_INLINE void visit_block(const BlockView& block) {
-    HWY_ALIGN float squared[kMaxBlockTriangles] = {};
+    HWY_ALIGN float squared[kMaxBlockTriangles];
     const Point first = block.vertex(0);
     const float local[3] = {static_cast<float>(query_.x() - first.x()),
                             static_cast<float>(query_.y() - first.y()),
                             static_cast<float>(query_.z() - first.z())};
-    block_filter(block.header(), local, squared);
-    const unsigned count = block.triangle_count();
+    float limit = limit_for(block);
+    unsigned near = block_filter(block.header(), local, limit, squared);
+    near &= (1u << block.triangle_count()) - 1;
+    if (near == 0) return;
     // The most promising triangle first: it usually rules the others out.
-    unsigned first_choice = 0;
-    for (unsigned i = 1; i < count; ++i)
-      if (squared[i] < squared[first_choice]) first_choice = i;
-    if (!offer(block, first_choice, squared[first_choice])) return;
-    for (unsigned i = 0; i < count; ++i)
-      if (i != first_choice) offer(block, i, squared[i]);
+    auto choice = static_cast<unsigned>(std::countr_zero(near));
+    for (unsigned rest = near & (near - 1); rest != 0; rest &= rest - 1) {
+      const auto at = static_cast<unsigned>(std::countr_zero(rest));
+      if (squared[at] < squared[choice]) choice = at;
+    }
+    offer(block, choice);
+    near &= ~(1u << choice);
+    limit = limit_for(block);
+    for (; near != 0; near &= near - 1) {
+      const auto at = static_cast<unsigned>(std::countr_zero(near));
+      if (squared[at] > limit) continue;
+      offer(block, at);
+      limit = limit_for(block);
+    }
   }
 
-  HWY_INLINE bool offer(const BlockView& block, unsigned index, float squared) {
-    const float limit = filter_threshold(wide_, best_.reach(), block.header().extent);
-    if (squared > limit) return false;
+  float limit_for(const BlockView& block) const {
+    return filter_threshold(wide_, best_.reach(), block.header().extent);
+  }
+
+  void offer(const BlockView& block, unsigned index) {
     ++work_.triangles;
     best_.offer(block.triangle(index), block.id(index));
-    return true;
   }
 
   const TreeFacts& tree_;
@@ -154,6 +178,7 @@ class Descent {
   Frontier frontier_;
   std::uint32_t page_number_ = 0;
   const std::byte* frame_ = nullptr;
+  std::size_t entered_ = 0;  // entries left when the page's last link from outside was taken
   float pruned_ = std::numeric_limits<float>::infinity();
   float unread_ = std::numeric_limits<float>::infinity();
 };

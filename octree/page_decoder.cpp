@@ -154,7 +154,8 @@ const char* PageDecoder::decode_child(Node& parent, std::size_t child, const Flo
     packed.upper[axis] = streams_.child_boxes[(3 + axis) * count + next_child_];
     if (packed.lower[axis] > packed.upper[axis]) return "a child's box is not a box";
   }
-  packed.normal = {streams_.child_normals[next_child_], streams_.child_normals[count + next_child_]};
+  packed.normal = {streams_.child_normals[next_child_],
+                   streams_.child_normals[count + next_child_]};
   packed.slab_lower = streams_.child_slabs[next_child_];
   packed.slab_upper = streams_.child_slabs[count + next_child_];
   packed.radius = streams_.child_radii[next_child_];

@@ -11,7 +11,7 @@ namespace planetree::octree {
 
 /// What decoding a page must know of its file and of its table entry.
 struct PageFacts {
-  std::uint32_t page_bytes = 0;   ///< of every frame
+  std::uint32_t page_bytes = 0;  ///< of every frame
   std::uint32_t page_count = 0;
   BlockShape shape;
   std::uint32_t page_number = 0;

@@ -45,10 +45,10 @@ struct PageHead {
   std::uint16_t root_block_count;  ///< so are the first blocks
   std::uint16_t child_count;       ///< of all nodes
   std::uint16_t page_link_count;
-  std::uint16_t vertex_count;      ///< distinct in this page
+  std::uint16_t vertex_count;  ///< distinct in this page
   std::uint16_t vertex_ref_count;
   std::uint16_t triangle_count;
-  std::uint16_t reserved[3];       ///< zero
+  std::uint16_t reserved[3];  ///< zero
 };
 static_assert(sizeof(PageHead) == 40);
 

@@ -26,9 +26,25 @@ constexpr double kErrorFactor = 64 * 0x1p-53;
 // Squares below 2^-1022 underflow; distances below this are not resolved.
 constexpr double kAbsoluteError = 0x1p-500;
 
-bool before(const Point& left, const Point& right) {
-  return std::lexicographical_compare(left.data(), left.data() + 3, right.data(),
-                                      right.data() + 3);
+// Lexicographic order, without branches: which corner comes first is a coin
+// toss to the processor.
+unsigned before(const Point& a, const Point& b) {
+  const unsigned x_less = a.x() < b.x(), x_same = a.x() == b.x();
+  const unsigned y_less = a.y() < b.y(), y_same = a.y() == b.y();
+  const unsigned z_less = a.z() < b.z();
+  return x_less | (x_same & (y_less | (y_same & z_less)));
+}
+
+// order[k] is the corner that comes k-th; equal corners keep their order.
+std::array<int, 3> lexicographic_order(const Triangle& triangle) {
+  const unsigned swapped01 = before(triangle[1], triangle[0]);
+  const unsigned swapped02 = before(triangle[2], triangle[0]);
+  const unsigned swapped12 = before(triangle[2], triangle[1]);
+  std::array<int, 3> order{};
+  order[swapped01 + swapped02] = 0;
+  order[1 - swapped01 + swapped12] = 1;
+  order[2 - swapped02 - swapped12] = 2;
+  return order;
 }
 
 // Nearest point of a segment from u to v: at u + t (v - u).
@@ -37,19 +53,22 @@ struct OnSegment {
   double t;
 };
 
-OnSegment on_segment(const Point& to_u, const Point& to_v, const Point& edge, double edge2) {
+// Without branches, too. t = 0 leaves the bits of u's distance as they are,
+// t = 1 takes v's: a vertex is equally far whichever edge it is seen from.
+OnSegment on_segment(const Point& to_u, double to_v2, const Point& edge, double edge2) {
   const double along = -to_u.dot(edge);
-  if (!(along > 0)) return {to_u.squaredNorm(), 0};
-  if (!(along < edge2)) return {to_v.squaredNorm(), 1};
-  const double t = along / edge2;
-  return {(to_u + t * edge).squaredNorm(), t};
+  const double share = along > 0 ? along / edge2 : 0;
+  const double t = share < 1 ? share : 1;
+  const double inner2 = (to_u + t * edge).squaredNorm();
+  return {t < 1 ? inner2 : to_v2, t};
 }
 
-// Nearest point inside the face: at apex + v (first - apex) + w (second - apex).
+// Nearest point inside the face, at
+// apex + v / whole (first - apex) + w / whole (second - apex).
 struct OnFace {
   bool inside = false;
   double squared = 0;
-  double v = 0, w = 0;
+  double v = 0, w = 0, whole = 1;
   double inverse_sine = 1;
 };
 
@@ -76,15 +95,15 @@ Vector<Scalar> difference(const Point& a, const Point& b) {
 template <class Scalar>
 OnFace project(const Vector<Scalar>& e1, const Vector<Scalar>& e2, const Vector<Scalar>& normal,
                const Scalar& normal2, const Vector<Scalar>& from_apex) {
-  OnFace face;
   const Scalar v = dot(cross(from_apex, e2), normal);
   const Scalar w = dot(cross(e1, from_apex), normal);
-  if (!(v > 0 && w > 0 && v + w < normal2)) return face;
   const Scalar height = dot(from_apex, normal);
-  face.inside = true;
+  OnFace face;
+  face.inside = (v > 0) & (w > 0) & (v + w < normal2);
   face.squared = static_cast<double>(height * height / normal2);
-  face.v = static_cast<double>(v / normal2);
-  face.w = static_cast<double>(w / normal2);
+  face.v = static_cast<double>(v);
+  face.w = static_cast<double>(w);
+  face.whole = static_cast<double>(normal2);
   return face;
 }
 
@@ -113,9 +132,9 @@ OnFace on_face(const Point& query, const Point& apex, const Point& first, const 
 
 // All that the value needs, over corners in lexicographic order.
 struct Evaluation {
-  std::array<int, 3> order;         // order[k] is the caller's corner k-th in order
-  std::array<Point, 3> corner;      // in order
-  std::array<OnSegment, 3> edges;   // opposite to each corner: 12, 02, 01
+  std::array<int, 3> order;        // order[k] is the caller's corner k-th in order
+  std::array<Point, 3> corner;     // in order
+  std::array<OnSegment, 3> edges;  // opposite to each corner: 12, 02, 01
   int apex = 0;
   OnFace face;
   double corner2_max = 0;
@@ -134,28 +153,23 @@ struct Evaluation {
 constexpr int kFirst[3] = {1, 0, 0};
 constexpr int kSecond[3] = {2, 2, 1};
 
-Evaluation::Evaluation(const Point& query, const Triangle& triangle) : order{0, 1, 2} {
-  const auto swap_if_after = [&](int i, int j) {
-    if (before(triangle[order[j]], triangle[order[i]])) std::swap(order[i], order[j]);
-  };
-  swap_if_after(0, 1);
-  swap_if_after(1, 2);
-  swap_if_after(0, 1);
+Evaluation::Evaluation(const Point& query, const Triangle& triangle)
+    : order(lexicographic_order(triangle)) {
   std::array<Point, 3> to;
+  std::array<double, 3> to2;
   for (int k = 0; k < 3; ++k) {
     corner[k] = triangle[order[k]];
     to[k] = corner[k] - query;
-    corner2_max = std::max(corner2_max, to[k].squaredNorm());
+    to2[k] = to[k].squaredNorm();
   }
+  corner2_max = std::max({to2[0], to2[1], to2[2]});
   double longest2 = -1;
   for (int k = 0; k < 3; ++k) {
     const Point edge = corner[kSecond[k]] - corner[kFirst[k]];
     const double edge2 = edge.squaredNorm();
-    edges[k] = on_segment(to[kFirst[k]], to[kSecond[k]], edge, edge2);
-    if (edge2 > longest2) {
-      longest2 = edge2;
-      apex = k;
-    }
+    edges[k] = on_segment(to[kFirst[k]], to2[kSecond[k]], edge, edge2);
+    apex = edge2 > longest2 ? k : apex;
+    longest2 = std::max(longest2, edge2);
   }
   face = octree::on_face(query, corner[apex], corner[kFirst[apex]], corner[kSecond[apex]]);
 }
@@ -165,10 +179,12 @@ void place_on_face(const Evaluation& e, NearestOnTriangle& nearest) {
   const Point first = e.corner[kFirst[e.apex]] - apex;
   const Point second = e.corner[kSecond[e.apex]] - apex;
   nearest.feature = Feature::kFace;
-  nearest.point = apex + (e.face.v * first + e.face.w * second);
-  nearest.barycentric[e.order[e.apex]] = (1 - e.face.v) - e.face.w;
-  nearest.barycentric[e.order[kFirst[e.apex]]] = e.face.v;
-  nearest.barycentric[e.order[kSecond[e.apex]]] = e.face.w;
+  const double v = e.face.v / e.face.whole;
+  const double w = e.face.w / e.face.whole;
+  nearest.point = apex + (v * first + w * second);
+  nearest.barycentric[e.order[e.apex]] = (1 - v) - w;
+  nearest.barycentric[e.order[kFirst[e.apex]]] = v;
+  nearest.barycentric[e.order[kSecond[e.apex]]] = w;
 }
 
 void place_on_edge(const Evaluation& e, NearestOnTriangle& nearest) {

@@ -50,10 +50,20 @@ HWY_INLINE Floats outside(Floats lower, Floats upper, Floats at) {
   return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
 }
 
-// Squared lower bounds of a node's children; see octree/bounds.h.
-HWY_INLINE void node_bounds(const Node& node, const FloatQuery& query, bool discs,
-                            float* HWY_RESTRICT bounds) {
+// A bit for each lane that is not above the limit, or not a number.
+HWY_INLINE unsigned bits_not_above(Floats values, float limit) {
   const FloatTag d;
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::Not(hn::Gt(values, hn::Set(d, limit))), bits);
+  return bits[0];
+}
+
+// Squared lower bounds of a node's children, see octree/bounds.h; returns a bit
+// for each that is not above the threshold.
+HWY_INLINE unsigned node_bounds(const Node& node, const FloatQuery& query, bool discs,
+                                float threshold, float* HWY_RESTRICT bounds) {
+  const FloatTag d;
+  unsigned near = 0;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
     const Wide3 lower{hn::Load(d, node.lower[0] + i), hn::Load(d, node.lower[1] + i),
@@ -73,15 +83,17 @@ HWY_INLINE void node_bounds(const Node& node, const FloatQuery& query, bool disc
                          hn::Load(d, node.normal[2] + i)};
       const Wide3 from = sub(p, centre);
       const Floats height = dot(normal, from);
-      const Floats off = outside(hn::Load(d, node.slab_lower + i),
-                                 hn::Load(d, node.slab_upper + i), height);
+      const Floats off =
+          outside(hn::Load(d, node.slab_lower + i), hn::Load(d, node.slab_upper + i), height);
       const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
       const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
       const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
       bound = hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
     }
     hn::Store(bound, d, bounds + i);
+    near |= bits_not_above(bound, threshold) << i;
   }
+  return near;
 }
 
 // Squared distance to the segment from `a` along `edge`, seen from the query.
@@ -113,20 +125,18 @@ HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& 
   const Floats v = hn::Sub(hn::Mul(ac2, a_ab), hn::Mul(ab_ac, a_ac));
   const Floats w = hn::Sub(hn::Mul(ab2, a_ac), hn::Mul(ab_ac, a_ab));
   const Floats whole = hn::Sub(hn::Mul(ab2, ac2), hn::Mul(ab_ac, ab_ac));
-  const auto inside = hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)),
-                              hn::Lt(hn::Add(v, w), whole));
+  const auto inside =
+      hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
   const Floats height = dot(normal, a);
   const Floats face = hn::Div(hn::Mul(height, height), normal2);
   Floats squared = hn::IfThenElse(inside, hn::Min(face, edges), edges);
 
   // A face too flat for float lies within its own height of its edges.
-  const auto round = hn::And(
-      hn::Ge(normal2, hn::Mul(hn::Set(d, 0x1p-8f), hn::Mul(ab2, ac2))),
-      hn::Ge(normal2, hn::Set(d, 0x1p-100f)));
+  const auto round = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, 0x1p-8f), hn::Mul(ab2, ac2))),
+                             hn::Ge(normal2, hn::Set(d, 0x1p-100f)));
   if (!hn::AllTrue(d, round)) {
     const Floats longest2 = hn::Max(hn::Max(ab2, ac2), bc2);
-    const Floats span = hn::Max(hn::Max(hn::Abs(normal.x), hn::Abs(normal.y)),
-                                hn::Abs(normal.z));
+    const Floats span = hn::Max(hn::Max(hn::Abs(normal.x), hn::Abs(normal.y)), hn::Abs(normal.z));
     const Floats rise = hn::Div(hn::Mul(span, hn::Set(d, 1.75f)), hn::Sqrt(longest2));
     const Floats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
     const auto told = hn::Gt(longest2, hn::Set(d, 0x1p-90f));
@@ -167,14 +177,17 @@ struct VertexRow {
   }
 };
 
-// Filter values of a block's 16 lanes. `query` is relative to vertex 0.
-HWY_INLINE void block_filter(const BlockHeader& block, const float (&query)[3],
-                             float* HWY_RESTRICT squared) {
+// Filter values of a block's lanes; returns a bit for each that is not above
+// the limit. `query` is relative to vertex 0. Lanes past the last triangle
+// repeat it.
+HWY_INLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
+                                 float* HWY_RESTRICT squared) {
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, IntTag> du8;
   const unsigned stride = block.stride;
   const auto* local = reinterpret_cast<const float*>(&block + 1);
+  unsigned near = 0;
   const VertexRow x(local, stride, query[0]);
   const VertexRow y(local + stride, stride, query[1]);
   const VertexRow z(local + 2 * stride, stride, query[2]);
@@ -184,8 +197,11 @@ HWY_INLINE void block_filter(const BlockHeader& block, const float (&query)[3],
       const Ints index = hn::PromoteTo(di, hn::LoadU(du8, block.corner[k] + i));
       corner[k] = {x.at(index, stride), y.at(index, stride), z.at(index, stride)};
     }
-    hn::Store(triangle_squared(corner[0], corner[1], corner[2]), d, squared + i);
+    const Floats values = triangle_squared(corner[0], corner[1], corner[2]);
+    hn::Store(values, d, squared + i);
+    near |= bits_not_above(values, limit) << i;
   }
+  return near;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -136,9 +136,10 @@ class Obj {
   }
 
   [[nodiscard]] MeshCorner corner(std::int64_t number, std::int64_t vertices_so_far) const {
+    // Number 0 is none: it becomes the index -1.
     const std::int64_t index = number < 0 ? number + vertices_so_far : number - 1;
     const auto vertex_count = static_cast<std::int64_t>(coordinates_.size() / 3);
-    if (number == 0 || index < 0 || index >= vertex_count) return {{}, number, false};
+    if (index < 0 || index >= vertex_count) return {{}, number, false};
     const auto at = 3 * static_cast<std::size_t>(index);
     return {{coordinates_[at], coordinates_[at + 1], coordinates_[at + 2]}, number, true};
   }

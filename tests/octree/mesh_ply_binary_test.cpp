@@ -115,7 +115,7 @@ TEST(PlyBinary, FindsPropertiesInAnyOrderAmongOthers) {
                       "element edge 2\nproperty int vertex1\nproperty list uchar int vertex_index\n"
                       "element nothing 5\n"
                       "element face 2\nproperty list uchar float texcoord\nproperty int material\n"
-                      "property list int ushort vertex_index\nproperty uchar flags\n"
+                      "property list int ushort vertex_index\nproperty list uchar char flags\n"
                       "element tail 1\nproperty list uint uint items\n"));
     using u8 = std::uint8_t;
     using u16 = std::uint16_t;
@@ -124,8 +124,8 @@ TEST(PlyBinary, FindsPropertiesInAnyOrderAmongOthers) {
     bytes.put(u8{9}, 6.0, 7.0F, 4.0F, std::int16_t{-5});
     bytes.put(u8{9}, 0.0, 7.0F, 0.5F, std::int16_t{0});
     bytes.put(8, u8{1}, 99).put(8, u8{0});
-    bytes.put(u8{2}, 0.5F, 0.5F, 77, 3, u16{0}, u16{1}, u16{2}, u8{1});
-    bytes.put(u8{0}, 77, 3, u16{2}, u16{1}, u16{0}, u8{1});
+    bytes.put(u8{2}, 0.5F, 0.5F, 77, 3, u16{0}, u16{1}, u16{2}, u8{1}, u8{9});
+    bytes.put(u8{0}, 77, 3, u16{2}, u16{1}, u16{0}, u8{2}, u8{8}, u8{9});
     bytes.put(std::uint32_t{1}, std::uint32_t{5}).text("\n");
     const Reading reading = read_bytes(bytes.str());
     EXPECT_EQ(reading.error, "");
@@ -213,9 +213,9 @@ TEST(PlyBinary, RefusesCountsThatLie) {
   expect_refused(text, ": 13 bytes follow the last record: a count in the header is too small");
   text = triangle_file().str();
   text.replace(text.find("element face"), 12,
-               "element gap 4000000000000000000\nproperty int a\n"
+               "element gap 4611686018427387904\nproperty int a\n"
                "element face");
-  expect_refused(text, "4000000000000000000 records 'gap' of 4 bytes or more do not fit");
+  expect_refused(text, "4611686018427387904 records 'gap' of 4 bytes or more do not fit");
 }
 
 TEST(PlyBinary, RefusesListLengthsThatLie) {

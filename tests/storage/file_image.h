@@ -111,7 +111,7 @@ class FileImage {
  private:
   std::vector<PageEntry> all_entries() const {
     std::vector<PageEntry> entries(header().page_count);
-    std::memcpy(entries.data(), bytes_.data() + kHeaderBytes, entries.size() * sizeof(PageEntry));
+    for (std::uint32_t page = 0; page < entries.size(); ++page) entries[page] = entry(page);
     return entries;
   }
 

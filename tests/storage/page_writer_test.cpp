@@ -63,7 +63,8 @@ TEST(PageWriter, NeverFollowsALinkAtTheDestination) {
   std::filesystem::create_symlink("precious", directory / "link");
   std::filesystem::create_symlink("nowhere", directory / "dangling");
   EXPECT_EQ(code_of(SampleFile().write(directory / "link")), ErrorCode::kAlreadyExists);
-  EXPECT_EQ(code_of(SampleFile().write(directory / "dangling")), ErrorCode::kAlreadyExists);
+  EXPECT_EQ(code_of(PageWriter::create(directory / "dangling", 1, false)),
+            ErrorCode::kAlreadyExists);
   EXPECT_TRUE(SampleFile().write(directory / "link", true));
   EXPECT_TRUE(SampleFile().write(directory / "dangling", true));
   EXPECT_EQ(read_bytes(directory / "precious"), precious);
@@ -117,6 +118,18 @@ TEST(PageWriter, RefusesPagesOutOfOrder) {
   EXPECT_EQ(code_of(second(4, 9)), ErrorCode::kBadArgument);
 }
 
+TEST(PageWriter, AnErrorIsFinal) {
+  const TemporaryDirectory directory;
+  const StoredPage page = encode_page(sample_page(0, 64));
+  Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
+  ASSERT_TRUE(writer->append(5, 5, 64, page));
+  const Result<void> failed = writer->append(5, 5, 64, page);
+  ASSERT_FALSE(failed);
+  const Result<void> right = writer->append(6, 0, 64, page);
+  ASSERT_FALSE(right);
+  EXPECT_STREQ(right.error().text, failed.error().text);
+}
+
 TEST(PageWriter, RefusesAWrongNumberOfPages) {
   const TemporaryDirectory directory;
   EXPECT_EQ(code_of(PageWriter::create(directory / "a", 0, false)), ErrorCode::kBadArgument);
@@ -124,8 +137,7 @@ TEST(PageWriter, RefusesAWrongNumberOfPages) {
   Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
   ASSERT_TRUE(writer->append(0, 0, 64, page));
   EXPECT_EQ(code_of(writer->append(1, 0, 64, page)), ErrorCode::kBadArgument);
-  EXPECT_EQ(code_of(writer->finish(sample_model(), kMinPageBytes)), ErrorCode::kBadArgument)
-      << "an error is final";
+  EXPECT_EQ(code_of(writer->finish(sample_model(), kMinPageBytes)), ErrorCode::kBadArgument);
   Result<PageWriter> early = PageWriter::create(directory / "a", 2, false);
   ASSERT_TRUE(early->append(0, 0, 64, page));
   EXPECT_EQ(code_of(early->finish(sample_model(), kMinPageBytes)), ErrorCode::kBadArgument);

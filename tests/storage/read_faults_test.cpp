@@ -126,6 +126,11 @@ TEST_F(ReadFaults, AMapCoversAnyRange) {
                            whole.begin() + static_cast<std::ptrdiff_t>(offset)));
     EXPECT_TRUE(made->bytes().empty());
   }
+  // Two system pages, for all that it is short.
+  std::filesystem::resize_file(path_, 1 << 20);
+  const Result<Mapping> across = Mapping::create(file, 65536 - 10, 20);
+  ASSERT_TRUE(across);
+  EXPECT_EQ(across->bytes()[19], std::byte{0});
   EXPECT_FALSE(Mapping::create(file, 1, SIZE_MAX));
   EXPECT_FALSE(Mapping::create(file, std::uint64_t{1} << 63, 1));
 }

@@ -149,6 +149,20 @@ TEST_P(WriteFaults, AFailedSyncIsNotRetried) {
   EXPECT_GE(call_count, 10);
 }
 
+TEST_P(WriteFaults, ANameTakenMeanwhileIsLeftAlone) {
+  if (GetParam().replace) GTEST_SKIP() << "replacing was asked for";
+  FaultyCalls made = calls(Fault::kNone, 0, 0);
+  Result<PageWriter> writer = PageWriter::create(path_, 1, false, made);
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->append(0, 0, 64, encode_page(sample_page(0, 64))));
+  write_bytes(path_, old_);
+  const Result<FileHeader> header = writer->finish(sample_model(), kMinPageBytes);
+  ASSERT_FALSE(header);
+  EXPECT_EQ(header.error().code, ErrorCode::kAlreadyExists);
+  EXPECT_EQ(read_bytes(path_), old_);
+  EXPECT_EQ(directory_.names(), Names{"a.ptree"});
+}
+
 // The process dies before its n-th call.
 TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
   const bool named = GetParam().no_unnamed || GetParam().no_proc;
@@ -177,6 +191,29 @@ TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
       return;
     }
   }
+}
+
+// Temporary names can be guessed: what is planted there is neither followed nor replaced.
+TEST(TemporaryNames, APlantedLinkIsPassedOver) {
+  const TemporaryDirectory directory;
+  const Bytes precious(10, std::byte{7});
+  write_bytes(directory / "precious", precious);
+  FaultyCalls made;
+  made.no_unnamed = true;
+  std::string name;
+  {
+    const Result<NewFile> first = NewFile::create(directory / "a", false, made);
+    ASSERT_TRUE(first);
+    name = directory.names().front();
+  }
+  const std::size_t number_at = name.rfind('-') + 1;
+  const int next = std::stoi(name.substr(number_at)) + 1;
+  const std::string planted = name.substr(0, number_at) + std::to_string(next) + ".tmp";
+  std::filesystem::create_symlink("precious", directory / planted.c_str());
+  EXPECT_TRUE(SampleFile().write(directory / "a", false, made));
+  EXPECT_EQ(read_bytes(directory / "precious"), precious);
+  EXPECT_EQ(directory.names(), (Names{planted, "a", "precious"}));
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / planted.c_str()));
 }
 
 std::string name_of(const testing::TestParamInfo<Surroundings>& surroundings) {

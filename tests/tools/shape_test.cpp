@@ -275,42 +275,5 @@ TEST(Shape, KnowsItsNames) {
   EXPECT_FALSE(shape_named(""));
 }
 
-TEST(CubeLattice, CountsEveryPointOfTheSurfaceOnce) {
-  for (const std::uint64_t n : {1U, 2U, 3U, 8U}) {
-    const CubeLattice lattice(n);
-    std::set<std::array<std::uint64_t, 3>> points;
-    std::uint64_t layer = 0;
-    for (std::uint64_t index = 0; index < lattice.point_count(); ++index) {
-      const LatticePoint p = lattice.point(index);
-      EXPECT_TRUE(p.i <= n && p.j <= n && p.k <= n);
-      EXPECT_TRUE(p.i % n == 0 || p.j % n == 0 || p.k % n == 0);
-      EXPECT_GE(p.k, layer);
-      layer = p.k;
-      points.insert({p.i, p.j, p.k});
-    }
-    EXPECT_EQ(points.size(), (n + 1) * (n + 1) * (n + 1) - (n - 1) * (n - 1) * (n - 1));
-  }
-}
-
-TEST(FractalNoise, IsContinuousAndBounded) {
-  const FractalNoise noise(kSeed, 1.5);
-  double least = 0, greatest = 0;
-  for (std::uint64_t sample = 0; sample < 5000; ++sample) {
-    const auto coordinate = [&](std::uint64_t axis) {
-      return 2 * random_unit(kSeed, 3 * sample + axis) - 1;
-    };
-    const Vec3 p = {coordinate(0), coordinate(1), coordinate(2)};
-    const double here = noise.at(p);
-    // Across one lattice plane of every octave there may be a kink, but no step.
-    EXPECT_NEAR(noise.at({p.x + 1e-9, p.y - 1e-9, p.z + 1e-9}), here, 1e-6);
-    least = std::min(least, here);
-    greatest = std::max(greatest, here);
-  }
-  EXPECT_GT(least, -FractalNoise::kBound);
-  EXPECT_LT(least, -0.5);
-  EXPECT_LT(greatest, FractalNoise::kBound);
-  EXPECT_GT(greatest, 0.5);
-}
-
 }  // namespace
 }  // namespace planetree::tools

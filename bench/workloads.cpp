@@ -1,0 +1,83 @@
+#include "bench/workloads.h"
+
+#include <cmath>
+#include <random>
+
+namespace planetree::bench {
+namespace {
+
+Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec3 operator*(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+double length(const Vec3& a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
+
+class QueryMaker {
+ public:
+  QueryMaker(const Box& box, const SurfaceOf& surface, std::uint64_t seed)
+      : box_(box), surface_(surface), random_(seed) {}
+
+  Vec3 uniform() {
+    const Vec3 size = box_.upper - box_.lower;
+    return box_.lower + Vec3{size.x * around(), size.y * around(), size.z * around()};
+  }
+
+  Vec3 near() {
+    const double reach = 0.001 * box_.diagonal();
+    return surface_(uniform()).point + Vec3{sway(), sway(), sway()} * reach;
+  }
+
+  std::vector<Vec3> path(std::size_t count, double step) {
+    std::vector<Vec3> points(count);
+    const double reach = 0.002 * box_.diagonal();
+    Vec3 at = near();
+    Vec3 heading{1, 0, 0};
+    for (Vec3& point : points) {
+      heading = heading + Vec3{sway(), sway(), sway()} * 0.3;
+      heading = heading * (1 / length(heading));
+      at = at + heading * (step * box_.diagonal());
+      const ClosestPoint nearest = surface_(at);
+      if (nearest.distance > reach)
+        at = nearest.point + (at - nearest.point) * (reach / nearest.distance);
+      point = at;
+    }
+    return points;
+  }
+
+ private:
+  double around() { return std::uniform_real_distribution<double>(-0.1, 1.1)(random_); }
+  double sway() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
+
+  Box box_;
+  const SurfaceOf& surface_;
+  std::mt19937_64 random_;
+};
+
+}  // namespace
+
+double Box::diagonal() const { return length(upper - lower); }
+
+std::string name_of(Workload workload) {
+  switch (workload) {
+    case Workload::kUniform:
+      return "uniform";
+    case Workload::kNear:
+      return "near";
+    case Workload::kPath:
+      return "path";
+    case Workload::kContact:
+      return "contact";
+  }
+  return "";
+}
+
+std::vector<Vec3> make_queries(Workload workload, const Box& box, const SurfaceOf& surface,
+                               std::size_t count, std::uint64_t seed) {
+  QueryMaker maker(box, surface, seed);
+  if (workload == Workload::kPath) return maker.path(count, 0.0005);
+  if (workload == Workload::kContact) return maker.path(count, 0.00005);
+  std::vector<Vec3> queries(count);
+  for (Vec3& query : queries) query = workload == Workload::kNear ? maker.near() : maker.uniform();
+  return queries;
+}
+
+}  // namespace planetree::bench

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "planetree/types.h"
+
+/// Query points that people's programs ask, made from a seed.
+namespace planetree::bench {
+
+struct Box {
+  Vec3 lower, upper;
+  double diagonal() const;
+};
+
+/// Nearest surface point and distance, from the library itself: paths hug the
+/// surface.
+using SurfaceOf = std::function<ClosestPoint(const Vec3&)>;
+
+enum class Workload {
+  kUniform,  ///< anywhere in the box and 10 % around it
+  kNear,     ///< within 0.1 % of the diagonal of the surface, all over it
+  kPath,     ///< a haptic path: steps of 0.05 % of the diagonal, within 0.2 % of the surface
+  kContact,  ///< a contact path: steps of 0.005 %
+};
+
+std::string name_of(Workload workload);
+
+/// `count` points of a workload on a model.
+std::vector<Vec3> make_queries(Workload workload, const Box& box, const SurfaceOf& surface,
+                               std::size_t count, std::uint64_t seed);
+
+}  // namespace planetree::bench

@@ -1,0 +1,136 @@
+#include "tests/golden/format_fields.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "octree/page_streams.h"
+#include "storage/file_layout.h"
+
+namespace planetree::golden {
+namespace {
+
+template <class T>
+std::string encoding_of() {
+  if constexpr (std::is_array_v<T>) {
+    return encoding_of<std::remove_extent_t<T>>() + " x " + std::to_string(std::extent_v<T>);
+  } else if constexpr (std::is_enum_v<T>) {
+    return encoding_of<std::underlying_type_t<T>>();
+  } else if constexpr (std::is_class_v<T>) {
+    return "record";
+  } else {
+    const char kind = std::is_floating_point_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u';
+    return kind + std::to_string(8 * sizeof(T));
+  }
+}
+
+template <class Struct>
+class FieldList {
+ public:
+  explicit FieldList(std::string heading) : struct_{std::move(heading), sizeof(Struct), {}} {}
+
+  template <class T>
+  FieldList& add(const char* name, std::size_t offset) {
+    struct_.fields.push_back({name, offset, sizeof(T), encoding_of<T>()});
+    return *this;
+  }
+  FormatStruct take() { return std::move(struct_); }
+
+ private:
+  FormatStruct struct_;
+};
+
+// C++20 has no other way to get at a member's name and offset.
+#define PLANETREE_FIELD(Struct, member) \
+  add<decltype(Struct::member)>(#member, offsetof(Struct, member))
+
+FormatStruct header_fields() {
+  using storage::FileHeader;
+  return FieldList<FileHeader>("Header")
+      .PLANETREE_FIELD(FileHeader, magic)
+      .PLANETREE_FIELD(FileHeader, version)
+      .PLANETREE_FIELD(FileHeader, header_bytes)
+      .PLANETREE_FIELD(FileHeader, page_bytes)
+      .PLANETREE_FIELD(FileHeader, incompatible_features)
+      .PLANETREE_FIELD(FileHeader, compatible_features)
+      .PLANETREE_FIELD(FileHeader, file_bytes)
+      .PLANETREE_FIELD(FileHeader, content_id)
+      .PLANETREE_FIELD(FileHeader, table_hash)
+      .PLANETREE_FIELD(FileHeader, page_count)
+      .PLANETREE_FIELD(FileHeader, max_raw_bytes)
+      .PLANETREE_FIELD(FileHeader, max_stored_bytes)
+      .PLANETREE_FIELD(FileHeader, model)
+      .PLANETREE_FIELD(FileHeader, reserved)
+      .PLANETREE_FIELD(FileHeader, header_hash)
+      .take();
+}
+
+FormatStruct model_fields() {
+  using storage::ModelRecord;
+  return FieldList<ModelRecord>("Model record")
+      .PLANETREE_FIELD(ModelRecord, triangle_count)
+      .PLANETREE_FIELD(ModelRecord, set_aside_count)
+      .PLANETREE_FIELD(ModelRecord, first_set_aside)
+      .PLANETREE_FIELD(ModelRecord, vertex_count)
+      .PLANETREE_FIELD(ModelRecord, node_count)
+      .PLANETREE_FIELD(ModelRecord, block_count)
+      .PLANETREE_FIELD(ModelRecord, box_lower)
+      .PLANETREE_FIELD(ModelRecord, box_upper)
+      .PLANETREE_FIELD(ModelRecord, centre)
+      .PLANETREE_FIELD(ModelRecord, sample)
+      .PLANETREE_FIELD(ModelRecord, sample_triangle)
+      .PLANETREE_FIELD(ModelRecord, scale_exponent)
+      .PLANETREE_FIELD(ModelRecord, root_link)
+      .PLANETREE_FIELD(ModelRecord, vertex_kind)
+      .PLANETREE_FIELD(ModelRecord, triangle_id_bytes)
+      .PLANETREE_FIELD(ModelRecord, height)
+      .PLANETREE_FIELD(ModelRecord, reserved)
+      .take();
+}
+
+FormatStruct entry_fields() {
+  using storage::PageEntry;
+  return FieldList<PageEntry>("Page table")
+      .PLANETREE_FIELD(PageEntry, offset)
+      .PLANETREE_FIELD(PageEntry, check)
+      .PLANETREE_FIELD(PageEntry, octcode)
+      .PLANETREE_FIELD(PageEntry, ordinal)
+      .PLANETREE_FIELD(PageEntry, codec)
+      .PLANETREE_FIELD(PageEntry, stored_bytes)
+      .PLANETREE_FIELD(PageEntry, raw_bytes)
+      .take();
+}
+
+FormatStruct page_head_fields() {
+  using octree::PageHead;
+  return FieldList<PageHead>("Distance page")
+      .PLANETREE_FIELD(PageHead, page_number)
+      .PLANETREE_FIELD(PageHead, ordinal)
+      .PLANETREE_FIELD(PageHead, octcode)
+      .PLANETREE_FIELD(PageHead, node_count)
+      .PLANETREE_FIELD(PageHead, block_count)
+      .PLANETREE_FIELD(PageHead, root_node_count)
+      .PLANETREE_FIELD(PageHead, root_block_count)
+      .PLANETREE_FIELD(PageHead, child_count)
+      .PLANETREE_FIELD(PageHead, page_link_count)
+      .PLANETREE_FIELD(PageHead, vertex_count)
+      .PLANETREE_FIELD(PageHead, vertex_ref_count)
+      .PLANETREE_FIELD(PageHead, triangle_count)
+      .PLANETREE_FIELD(PageHead, reserved)
+      .take();
+}
+
+#undef PLANETREE_FIELD
+
+}  // namespace
+
+const std::vector<FormatStruct>& format_structs() {
+  static const std::vector<FormatStruct> all = {header_fields(), model_fields(), entry_fields(),
+                                                page_head_fields()};
+  return all;
+}
+
+const FormatStruct& format_struct(const std::string& heading) {
+  return *std::ranges::find(format_structs(), heading, &FormatStruct::heading);
+}
+
+}  // namespace planetree::golden

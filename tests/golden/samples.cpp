@@ -1,0 +1,73 @@
+#include "tests/golden/samples.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "octree/build/mesh_reader.h"
+#include "octree/build/tree_builder.h"
+#include "tests/storage/temporary_directory.h"
+
+namespace planetree::golden {
+namespace {
+
+const std::filesystem::path kFolder = PLANETREE_SOURCE_DIR "/format-spec/v1/samples";
+
+class Silence final : public octree::BuildProgress {
+ public:
+  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+};
+
+class Collector final : public octree::TriangleSink {
+ public:
+  Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
+    found.push_back({index, corners});
+    return {};
+  }
+  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) override {}
+  void progress(std::uint64_t, std::uint64_t) override {}
+
+  std::vector<MeshTriangle> found;
+};
+
+}  // namespace
+
+std::filesystem::path Sample::mesh_path() const { return kFolder / mesh; }
+std::filesystem::path Sample::ptree_path() const { return kFolder / ptree; }
+
+const std::vector<Sample>& samples() {
+  static const std::vector<Sample> all = {
+      {"tetrahedron.ply", "tetrahedron.ptree", 4096},
+      {"sheet.obj", "sheet.ptree", 4096},
+      {"sphere.ply", "sphere.ptree", 4096},
+  };
+  return all;
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw std::runtime_error("cannot read " + path.string());
+  std::vector<std::byte> bytes(std::filesystem::file_size(path));
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
+                                   unsigned threads) {
+  const storage::TemporaryDirectory folder;
+  octree::BuildOptions options;
+  options.page_bytes = page_bytes;
+  options.threads = threads;
+  Silence silence;
+  const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
+  if (!report) throw std::runtime_error(report.error().text);
+  return read_file(folder / "built.ptree");
+}
+
+std::vector<MeshTriangle> mesh_triangles(const std::filesystem::path& mesh) {
+  Collector collector;
+  const auto read = octree::read_mesh(mesh, collector);
+  if (!read) throw std::runtime_error(read.error().text);
+  return std::move(collector.found);
+}
+
+}  // namespace planetree::golden

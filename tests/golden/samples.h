@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planetree/types.h"
+
+/// The files in format-spec/v1/samples: each a mesh and the .ptree made of it.
+namespace planetree::golden {
+
+struct Sample {
+  const char* mesh;   ///< file name
+  const char* ptree;  ///< file name
+  std::uint32_t page_bytes;
+
+  std::filesystem::path mesh_path() const;
+  std::filesystem::path ptree_path() const;
+};
+
+const std::vector<Sample>& samples();
+
+std::vector<std::byte> read_file(const std::filesystem::path& path);
+
+/// The bytes of the .ptree file built from `mesh`; throws where it cannot be.
+std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
+                                   unsigned threads);
+
+struct MeshTriangle {
+  std::uint64_t id;
+  std::array<Vec3, 3> corners;
+};
+
+/// The usable triangles of a mesh file, as its reader gives them.
+std::vector<MeshTriangle> mesh_triangles(const std::filesystem::path& mesh);
+
+}  // namespace planetree::golden

@@ -1,0 +1,259 @@
+#include "tests/golden/spec_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+namespace planetree::golden {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+// Takes streams off the front of the raw bytes.
+class StreamCutter {
+ public:
+  explicit StreamCutter(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  std::span<const std::byte> bytes(std::size_t count) {
+    require(count <= rest_.size(), "the page is too short");
+    const auto taken = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return taken;
+  }
+  /// Element i has its byte k at k n + i.
+  template <class T>
+  std::vector<T> shuffled(std::size_t count) {
+    const auto stream = bytes(count * sizeof(T));
+    std::vector<T> values(count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < sizeof(T); ++k)
+        reinterpret_cast<std::byte*>(&values[i])[k] = stream[k * count + i];
+    return values;
+  }
+  template <class Narrow, class Wide>
+  std::vector<Wide> either(bool wide, std::size_t count) {
+    if (wide) return shuffled<Wide>(count);
+    const std::vector<Narrow> values = shuffled<Narrow>(count);
+    return {values.begin(), values.end()};
+  }
+  bool empty() const { return rest_.empty(); }
+
+ private:
+  std::span<const std::byte> rest_;
+};
+
+struct Head {
+  std::uint32_t page_number, ordinal;
+  std::uint64_t octcode;
+  std::uint16_t nodes, blocks, root_nodes, root_blocks, children, page_links;
+  std::uint16_t vertices, vertex_refs, triangles, reserved[3];
+};
+static_assert(sizeof(Head) == 40);
+
+class PageReader {
+ public:
+  PageReader(std::span<const std::byte> raw, std::uint32_t number, const SpecHeader& header)
+      : header_(header), number_(number), cutter_(raw) {
+    std::memcpy(&head_, cutter_.bytes(40).data(), 40);
+    require(head_.page_number == number, "another page");
+  }
+
+  SpecPage read() {
+    cut_node_streams();
+    cut_block_streams();
+    require(cutter_.empty(), "the page is too long");
+    place_records();
+    SpecPage page{head_.octcode, head_.ordinal, {}, {}, {}};
+    read_nodes(page);
+    for (std::size_t j = 0; j < head_.blocks; ++j) page.blocks[block_links_[j]] = read_block(j);
+    for (std::size_t i = 0; i < head_.root_nodes; ++i) page.roots.insert(node_links_[i]);
+    for (std::size_t j = 0; j < head_.root_blocks; ++j) page.roots.insert(block_links_[j]);
+    return page;
+  }
+
+ private:
+  void cut_node_streams() {
+    root_boxes_ = cutter_.shuffled<float>(6u * head_.root_nodes);
+    child_counts_ = cutter_.shuffled<std::uint8_t>(head_.nodes);
+    heights_ = cutter_.shuffled<std::uint8_t>(head_.nodes);
+    kinds_ = cutter_.shuffled<std::uint16_t>(head_.nodes);
+    boxes_ = cutter_.shuffled<std::uint8_t>(6u * head_.children);
+    normals_ = cutter_.shuffled<std::int16_t>(2u * head_.children);
+    slabs_ = cutter_.shuffled<std::int16_t>(2u * head_.children);
+    radii_ = cutter_.shuffled<std::uint16_t>(head_.children);
+    page_links_ = cutter_.shuffled<std::uint32_t>(head_.page_links);
+  }
+
+  void cut_block_streams() {
+    triangle_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
+    vertex_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
+    new_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
+    vertex_refs_ = cutter_.shuffled<std::uint16_t>(head_.vertex_refs);
+    for (std::size_t j = 0; j < head_.blocks; ++j)
+      corners_.push_back(cutter_.bytes((3u * triangle_counts_[j] * corner_bits(j) + 7) / 8));
+    vertices_ = cutter_.either<float, double>(header_.float64, 3u * head_.vertices);
+    first_ids_ = cutter_.either<std::uint32_t, std::uint64_t>(header_.wide_ids, head_.blocks);
+    const std::size_t steps = std::size_t{head_.triangles} - head_.blocks;
+    id_steps_ = cutter_.either<std::uint32_t, std::uint64_t>(header_.wide_ids, steps);
+  }
+
+  unsigned corner_bits(std::size_t block) const {
+    return vertex_counts_[block] <= 16 ? 4 : vertex_counts_[block] <= 32 ? 5 : 6;
+  }
+
+  std::uint32_t block_slots(std::size_t block) const {
+    const unsigned v = vertex_counts_[block];
+    const std::size_t row = v <= 16 ? 0 : v <= 24 ? 1 : v <= 32 ? 2 : 3;
+    constexpr std::uint32_t kSlots[4][2] = {{5, 11}, {7, 16}, {8, 20}, {11, 29}};
+    return kSlots[row][header_.float64] + (header_.wide_ids ? 1 : 0);
+  }
+
+  void place_records() {
+    const std::uint32_t slots = header_.page_bytes / 64;
+    std::uint32_t slot = 1 + (header_.page_bytes + 32767) / 32768;
+    for (std::size_t i = 0; i < head_.nodes; ++i, slot += 7)
+      node_links_.push_back(number_ * slots + slot);
+    for (std::size_t j = 0; j < head_.blocks; ++j) {
+      block_links_.push_back(0x80000000 | (number_ * slots + slot));
+      slot += block_slots(j);
+    }
+    require(slot <= slots, "the records do not fit");
+  }
+
+  void read_nodes(SpecPage& page) {
+    std::vector<SpecBox> boxes(head_.nodes);
+    for (std::size_t i = 0; i < head_.root_nodes; ++i)
+      std::memcpy(&boxes[i], &root_boxes_[6 * i], sizeof(SpecBox));
+    std::size_t child = 0, next_node = head_.root_nodes, next_block = head_.root_blocks;
+    std::size_t next_link = 0;
+    for (std::size_t i = 0; i < head_.nodes; ++i) {
+      require(i < next_node, "a node without a parent");
+      SpecNode node{boxes[i], heights_[i], {}};
+      for (unsigned c = 0; c < child_counts_[i]; ++c, ++child) {
+        SpecChild read = read_child(boxes[i], child);
+        const unsigned kind = kinds_[i] >> (2 * c) & 3;
+        require(kind < 3, "kind of a child");
+        if (kind == 0) boxes.at(next_node) = read.box;
+        read.link = kind == 0   ? node_links_.at(next_node++)
+                    : kind == 1 ? block_links_.at(next_block++)
+                                : page_links_.at(next_link++);
+        node.children.push_back(read);
+      }
+      page.nodes[node_links_[i]] = node;
+    }
+    require(child == head_.children && next_node == head_.nodes && next_block == head_.blocks &&
+                next_link == head_.page_links,
+            "children do not add up");
+  }
+
+  SpecChild read_child(const SpecBox& parent, std::size_t child) const {
+    const std::size_t n = head_.children;
+    const auto plane = [&](std::size_t k) { return boxes_[k * n + child]; };
+    SpecChild read{};
+    read.box = decode_box(parent, {plane(0), plane(1), plane(2)}, {plane(3), plane(4), plane(5)});
+    SpecDisc& disc = read.disc;
+    SpecVector edge{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      edge[axis] = read.box.upper[axis] - read.box.lower[axis];
+      disc.middle[axis] = (read.box.lower[axis] + read.box.upper[axis]) * 0.5f;
+    }
+    disc.normal = decode_normal(normals_[child], normals_[n + child]);
+    disc.unit = decode_unit(edge[0], edge[1], edge[2]);
+    disc.slab_lower = static_cast<float>(slabs_[child]) * disc.unit;
+    disc.slab_upper = static_cast<float>(slabs_[n + child]) * disc.unit;
+    disc.radius = static_cast<float>(radii_[child]) * disc.unit;
+    return read;
+  }
+
+  SpecBlock read_block(std::size_t block) {
+    std::vector<std::uint32_t> vertices;
+    const std::size_t old_count = vertex_counts_[block] - new_counts_[block];
+    for (std::size_t i = 0; i < old_count; ++i)
+      vertices.push_back((i == 0 ? 0 : vertices.back()) + vertex_refs_.at(next_ref_++));
+    while (vertices.size() < vertex_counts_[block]) vertices.push_back(next_vertex_++);
+    SpecBlock read{{}, vertices.size()};
+    std::uint64_t id = first_ids_[block];
+    for (std::size_t i = 0; i < triangle_counts_[block]; ++i) {
+      if (i > 0) id += id_steps_.at(next_step_++);
+      SpecTriangle triangle{id, {}, {}};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = vertices.at(corner(block, 3 * i + k));
+        triangle.page_vertex[k] = vertex;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          triangle.corners[k][axis] = vertices_.at(axis * head_.vertices + vertex);
+      }
+      read.triangles.push_back(triangle);
+    }
+    return read;
+  }
+
+  // Bits count from the lowest of each byte.
+  std::size_t corner(std::size_t block, std::size_t index) const {
+    const unsigned bits = corner_bits(block);
+    std::size_t value = 0;
+    for (unsigned b = 0; b < bits; ++b) {
+      const std::size_t at = index * bits + b;
+      const auto byte = static_cast<unsigned>(corners_[block][at / 8]);
+      value |= static_cast<std::size_t>(byte >> at % 8 & 1) << b;
+    }
+    return value;
+  }
+
+  const SpecHeader& header_;
+  std::uint32_t number_;
+  StreamCutter cutter_;
+  Head head_{};
+  std::vector<float> root_boxes_;
+  std::vector<std::uint8_t> child_counts_, heights_, boxes_;
+  std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
+  std::vector<std::uint16_t> kinds_, radii_, vertex_refs_;
+  std::vector<std::int16_t> normals_, slabs_;
+  std::vector<std::uint32_t> page_links_, node_links_, block_links_;
+  std::vector<std::span<const std::byte>> corners_;
+  std::vector<double> vertices_;
+  std::vector<std::uint64_t> first_ids_, id_steps_;
+  std::size_t next_ref_ = 0, next_step_ = 0;
+  std::uint32_t next_vertex_ = 0;
+};
+
+}  // namespace
+
+SpecPage decode_spec_page(std::span<const std::byte> raw, std::uint32_t number,
+                          const SpecHeader& header) {
+  return PageReader(raw, number, header).read();
+}
+
+SpecBox decode_box(const SpecBox& parent, const std::array<std::uint8_t, 3>& lower,
+                   const std::array<std::uint8_t, 3>& upper) {
+  SpecBox box{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float low = parent.lower[axis], high = parent.upper[axis];
+    const float step = (high - low) * (1.0f / 255);
+    box.lower[axis] = std::min(low + static_cast<float>(lower[axis]) * step, high);
+    box.upper[axis] = std::min(low + static_cast<float>(upper[axis]) * step, high);
+    if (upper[axis] == 255) box.upper[axis] = high;
+  }
+  return box;
+}
+
+SpecVector decode_normal(std::int16_t u, std::int16_t v) {
+  float x = std::max(static_cast<float>(u) / 32767, -1.0f);
+  float y = std::max(static_cast<float>(v) / 32767, -1.0f);
+  const float z = (1 - std::fabs(x)) - std::fabs(y);
+  if (z < 0) {
+    const float old_x = x;
+    x = (1 - std::fabs(y)) * (x < 0 ? -1.0f : 1.0f);
+    y = (1 - std::fabs(old_x)) * (y < 0 ? -1.0f : 1.0f);
+  }
+  const float length = std::sqrt((x * x + y * y) + z * z);
+  return {x / length, y / length, z / length};
+}
+
+float decode_unit(float dx, float dy, float dz) {
+  return std::sqrt((dx * dx + dy * dy) + dz * dz) * (0.5f / 32000);
+}
+
+}  // namespace planetree::golden

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "tests/golden/spec_reader.h"
+
+namespace planetree::golden {
+
+/// The raw bytes of page `number` -> its records ("Distance page", "Slots and
+/// links", "Bounds").
+SpecPage decode_spec_page(std::span<const std::byte> raw, std::uint32_t number,
+                          const SpecHeader& header);
+
+}  // namespace planetree::golden

@@ -1,0 +1,131 @@
+#include "tests/golden/spec_reader.h"
+
+#include <lz4.h>
+#include <xxhash.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "tests/golden/spec_page.h"
+
+namespace planetree::golden {
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+template <class T>
+T get(Bytes bytes, std::size_t offset) {
+  T value;
+  require(offset + sizeof value <= bytes.size(), "beyond the end");
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
+  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
+
+bool is_whole(Bytes header) {
+  constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
+  return std::memcmp(header.data(), kMagic, 8) == 0 &&
+         hash64(header.first(312), 0) == get<std::uint64_t>(header, 312);
+}
+
+SpecHeader read_header(Bytes header) {
+  const Bytes model = header.subspan(80, 168);
+  SpecHeader read{};
+  read.page_bytes = get<std::uint32_t>(header, 12);
+  read.page_count = get<std::uint32_t>(header, 64);
+  read.triangle_count = get<std::uint64_t>(model, 0);
+  read.node_count = get<std::uint64_t>(model, 32);
+  read.block_count = get<std::uint64_t>(model, 40);
+  read.box_lower = get<SpecPoint>(model, 48);
+  read.box_upper = get<SpecPoint>(model, 72);
+  read.centre = get<SpecPoint>(model, 96);
+  read.sample = get<SpecPoint>(model, 120);
+  read.sample_triangle = get<std::uint64_t>(model, 144);
+  read.scale_exponent = get<std::int32_t>(model, 152);
+  read.root_link = get<std::uint32_t>(model, 156);
+  read.float64 = get<std::uint8_t>(model, 160) == 1;
+  read.wide_ids = get<std::uint8_t>(model, 161) == 8;
+  read.height = get<std::uint8_t>(model, 162);
+  return read;
+}
+
+}  // namespace
+
+SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
+  const Bytes header = choose_header();
+  require(get<std::uint16_t>(header, 8) == 1, "another version");
+  require(get<std::uint16_t>(header, 10) == 320, "header length");
+  require(get<std::uint64_t>(header, 16) == 0, "unknown features");
+  require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
+  header_ = read_header(header);
+  content_id_ = get<std::uint64_t>(header, 40);
+  check_table(header);
+}
+
+Bytes SpecFile::choose_header() const {
+  const Bytes all(bytes_);
+  require(all.size() >= 681, "too short");
+  if (is_whole(all.first(320))) return all.first(320);
+  require(is_whole(all.last(320)), "no whole header");
+  return all.last(320);
+}
+
+void SpecFile::check_table(Bytes header) const {
+  const Bytes table = Bytes(bytes_).subspan(320, std::size_t{40} * header_.page_count);
+  require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
+  std::vector<std::uint64_t> page_hashes;
+  std::uint64_t end = 320 + table.size();
+  std::pair<std::uint64_t, std::uint32_t> last_key{};
+  for (std::uint32_t k = 0; k < header_.page_count; ++k) {
+    page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
+    require(get<std::uint64_t>(entry(k), 0) == end, "pages do not tile the file");
+    end += get<std::uint32_t>(entry(k), 32);
+    const std::pair key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
+    require(k == 0 || last_key < key, "order of keys");
+    last_key = key;
+  }
+  require(end == bytes_.size() - 320, "pages do not tile the file");
+  const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
+  require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
+}
+
+Bytes SpecFile::entry(std::uint32_t number) const {
+  return Bytes(bytes_).subspan(320 + std::size_t{40} * number, 40);
+}
+
+std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {
+  const Bytes stored = Bytes(bytes_).subspan(get<std::uint64_t>(entry(number), 0),
+                                             get<std::uint32_t>(entry(number), 32));
+  const std::uint64_t check = get<std::uint64_t>(entry(number), 8);
+  require((hash64(stored, number) ^ content_id_) == check, "page hash");
+  const auto raw_bytes = get<std::uint32_t>(entry(number), 36);
+  if (get<std::uint32_t>(entry(number), 28) == 0) return {stored.begin(), stored.end()};
+  std::vector<std::byte> raw(raw_bytes);
+  const int length = LZ4_decompress_safe(
+      reinterpret_cast<const char*>(stored.data()), reinterpret_cast<char*>(raw.data()),
+      static_cast<int>(stored.size()), static_cast<int>(raw.size()));
+  require(length == static_cast<int>(raw_bytes), "raw length");
+  return raw;
+}
+
+SpecPage SpecFile::page(std::uint32_t number) const {
+  const SpecPage page = decode_spec_page(raw_page(number), number, header_);
+  require(page.octcode == get<std::uint64_t>(entry(number), 16) &&
+              page.ordinal == get<std::uint32_t>(entry(number), 24),
+          "the page's key");
+  return page;
+}
+
+std::uint32_t SpecFile::page_of(std::uint32_t link) const {
+  return (link & 0x7fffffff) / (header_.page_bytes / 64);
+}
+
+}  // namespace planetree::golden

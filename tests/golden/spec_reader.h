@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+/// A reader of .ptree files written from format-spec/v1/spec.md alone: it
+/// shares no line with the implementation, so where both agree the text is
+/// right. Plain rather than fast. Faults are thrown as std::runtime_error.
+namespace planetree::golden {
+
+using SpecVector = std::array<float, 3>;
+using SpecPoint = std::array<double, 3>;
+
+/// "Header" and "Model record": what the reader needs of them.
+struct SpecHeader {
+  std::uint32_t page_bytes, page_count;
+  std::uint64_t triangle_count, node_count, block_count;
+  SpecPoint box_lower, box_upper, centre, sample;
+  std::uint64_t sample_triangle;
+  std::int32_t scale_exponent;
+  std::uint32_t root_link;
+  bool float64, wide_ids;
+  unsigned height;
+};
+
+struct SpecBox {
+  SpecVector lower, upper;
+};
+
+struct SpecDisc {
+  SpecVector normal, middle;
+  float unit, slab_lower, slab_upper, radius;
+};
+
+struct SpecChild {
+  SpecBox box;
+  SpecDisc disc;
+  std::uint32_t link;
+};
+
+struct SpecNode {
+  SpecBox box;
+  unsigned height;
+  std::vector<SpecChild> children;
+};
+
+struct SpecTriangle {
+  std::uint64_t id;
+  std::array<SpecPoint, 3> corners;           ///< model frame
+  std::array<std::uint32_t, 3> page_vertex;   ///< their numbers in the page
+};
+
+struct SpecBlock {
+  std::vector<SpecTriangle> triangles;
+  std::size_t vertex_count;
+};
+
+/// A decoded page: its records by their links, which are unique in a file.
+struct SpecPage {
+  std::uint64_t octcode;
+  std::uint32_t ordinal;
+  std::map<std::uint32_t, SpecNode> nodes;
+  std::map<std::uint32_t, SpecBlock> blocks;
+  std::set<std::uint32_t> roots;
+};
+
+/// A file that has been opened: header and page table are checked.
+class SpecFile {
+ public:
+  explicit SpecFile(std::vector<std::byte> bytes);
+
+  const SpecHeader& header() const { return header_; }
+  /// The raw bytes of a page, checked and decompressed.
+  std::vector<std::byte> raw_page(std::uint32_t number) const;
+  SpecPage page(std::uint32_t number) const;
+  /// The page a link leads to.
+  std::uint32_t page_of(std::uint32_t link) const;
+
+ private:
+  std::span<const std::byte> choose_header() const;
+  void check_table(std::span<const std::byte> header) const;
+  std::span<const std::byte> entry(std::uint32_t number) const;
+
+  std::vector<std::byte> bytes_;
+  SpecHeader header_{};
+  std::uint64_t content_id_ = 0;  // its first word
+};
+
+/// "Bounds": what is stored -> what it means.
+SpecBox decode_box(const SpecBox& parent, const std::array<std::uint8_t, 3>& lower,
+                   const std::array<std::uint8_t, 3>& upper);
+SpecVector decode_normal(std::int16_t u, std::int16_t v);
+float decode_unit(float dx, float dy, float dz);
+
+}  // namespace planetree::golden

@@ -1,0 +1,133 @@
+// What the independent reader finds in the samples is the mesh they were made
+// of.
+
+#include "tests/golden/spec_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "planetree/planetree.h"
+#include "tests/golden/samples.h"
+#include "tests/golden/spec_tree.h"
+
+namespace planetree::golden {
+namespace {
+
+class SpecReader : public testing::TestWithParam<Sample> {};
+
+std::string name_of(const testing::TestParamInfo<Sample>& info) {
+  return std::filesystem::path(info.param.mesh).stem();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpecReader, testing::ValuesIn(samples()), name_of);
+
+SpecTree open_tree(const Sample& sample) {
+  return SpecTree(SpecFile(read_file(sample.ptree_path())));
+}
+
+// The same bits, so that -0 is not 0.
+bool is_same(const SpecPoint& found, const Vec3& expected, int scale_exponent) {
+  const double back[3] = {std::ldexp(found[0], -scale_exponent),
+                          std::ldexp(found[1], -scale_exponent),
+                          std::ldexp(found[2], -scale_exponent)};
+  return std::memcmp(back, &expected, sizeof back) == 0;
+}
+
+TEST_P(SpecReader, FindsTheMeshExactly) {
+  const SpecTree tree = open_tree(GetParam());
+  const SpecHeader& header = tree.header();
+  std::vector<SpecTriangle> found = tree.triangles(header.root_link);
+  std::ranges::sort(found, {}, &SpecTriangle::id);
+  const std::vector<MeshTriangle> expected = mesh_triangles(GetParam().mesh_path());
+  ASSERT_EQ(found.size(), expected.size());
+  ASSERT_EQ(found.size(), header.triangle_count);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(found[i].id, expected[i].id);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_TRUE(is_same(found[i].corners[k], expected[i].corners[k], header.scale_exponent))
+          << "triangle " << found[i].id << ", corner " << k;
+  }
+}
+
+TEST_P(SpecReader, FindsBoxAndSampleInTheMesh) {
+  const SpecHeader header = open_tree(GetParam()).header();
+  const std::vector<MeshTriangle> mesh = mesh_triangles(GetParam().mesh_path());
+  SpecPoint lower{}, upper{};
+  lower.fill(INFINITY);
+  upper.fill(-INFINITY);
+  for (const MeshTriangle& triangle : mesh)
+    for (const Vec3& corner : triangle.corners) {
+      const SpecPoint point = {corner.x, corner.y, corner.z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lower[axis] = std::min(lower[axis], point[axis]);
+        upper[axis] = std::max(upper[axis], point[axis]);
+      }
+    }
+  EXPECT_EQ(header.box_lower, lower);
+  EXPECT_EQ(header.box_upper, upper);
+  EXPECT_EQ(header.sample_triangle, mesh.front().id);
+  EXPECT_TRUE(is_same(header.sample, mesh.front().corners[0], header.scale_exponent));
+  double longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = std::ldexp(lower[axis], header.scale_exponent);
+    const double high = std::ldexp(upper[axis], header.scale_exponent);
+    EXPECT_EQ(header.centre[axis], (low + high) * 0.5);
+    longest = std::max(longest, high - low);
+  }
+  EXPECT_GE(longest, 1);
+  EXPECT_LT(longest, 2);
+}
+
+// The two share nothing but the file, so rounding may differ in the last bits.
+TEST_P(SpecReader, AnswersAsTheLibraryDoes) {
+  const SpecTree tree = open_tree(GetParam());
+  const auto model = Model::open(GetParam().ptree_path());
+  ASSERT_TRUE(model) << model.error().text;
+  auto probe = Probe::create(*model);
+  ASSERT_TRUE(probe) << probe.error().text;
+  const SpecHeader& header = tree.header();
+  std::mt19937_64 random(20240229);
+  for (int i = 0; i < 500; ++i) {
+    SpecPoint point{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double edge = header.box_upper[axis] - header.box_lower[axis];
+      const double share = static_cast<double>(random() >> 11) * 0x1p-53;
+      point[axis] = header.box_lower[axis] + edge * (2 * share - 0.5);
+    }
+    const ClosestPoint answer = probe->closest_point({point[0], point[1], point[2]});
+    for (double& coordinate : point) coordinate = std::ldexp(coordinate, header.scale_exponent);
+    const SpecNearest nearest = tree.nearest(point);
+    EXPECT_EQ(answer.status, Status::kExact);
+    EXPECT_NEAR(nearest.distance, std::ldexp(answer.distance, header.scale_exponent), 1e-13);
+  }
+}
+
+TEST(SpecReaderFile, GoesByTheLastHeaderWhenTheFirstIsDamaged) {
+  std::vector<std::byte> bytes = read_file(samples().front().ptree_path());
+  bytes[100] ^= std::byte{1};
+  EXPECT_EQ(SpecFile(bytes).header().triangle_count, 4u);
+  bytes[bytes.size() - 100] ^= std::byte{1};
+  EXPECT_THROW(SpecFile{bytes}, std::runtime_error);
+}
+
+// Every byte is under some hash or check: the first header alone has a spare.
+TEST(SpecReaderFile, NoticesEveryDamagedByteButOfOneHeader) {
+  const std::vector<std::byte> whole = read_file(samples().front().ptree_path());
+  for (std::size_t at = 320; at + 320 < whole.size(); ++at) {
+    std::vector<std::byte> bytes = whole;
+    bytes[at] ^= std::byte{0x10};
+    EXPECT_THROW(SpecTree{SpecFile(bytes)}, std::runtime_error) << at;
+  }
+}
+
+}  // namespace
+}  // namespace planetree::golden

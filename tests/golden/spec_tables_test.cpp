@@ -1,0 +1,111 @@
+// The specification's tables say what the structs are, row by row.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+
+#include "octree/octcode.h"
+#include "octree/page_streams.h"
+#include "storage/file_layout.h"
+#include "tests/golden/format_fields.h"
+#include "tests/golden/spec_text.h"
+
+namespace planetree::golden {
+
+// For messages.
+void PrintTo(const FormatField& field, std::ostream* out) {
+  *out << field.name << " at " << field.offset << ", " << field.size << " bytes, "
+       << field.encoding;
+}
+
+namespace {
+
+SpecTable byte_table(const std::string& heading) {
+  for (const SpecTable& table : spec_tables(heading))
+    if (!table.heads.empty() && table.heads.front() == "offset") return table;
+  ADD_FAILURE() << "no byte table in " << heading;
+  return {};
+}
+
+std::vector<FormatField> stated_fields(const std::string& heading) {
+  std::vector<FormatField> fields;
+  for (const TableRow& row : byte_table(heading).rows)
+    fields.push_back({row.at(2), std::stoul(row.at(0)), std::stoul(row.at(1)), row.at(4)});
+  return fields;
+}
+
+TEST(SpecTables, StateEveryFieldOfEveryStruct) {
+  for (const FormatStruct& format : format_structs())
+    EXPECT_EQ(stated_fields(format.heading), format.fields) << format.heading;
+}
+
+// A field that is in no list would leave a gap here.
+TEST(SpecTables, CoverEveryByteOfEveryStruct) {
+  for (const FormatStruct& format : format_structs()) {
+    std::size_t end = 0;
+    for (const FormatField& field : format.fields) {
+      EXPECT_EQ(field.offset, end) << format.heading << ": " << field.name;
+      end = field.offset + field.size;
+    }
+    EXPECT_EQ(end, format.size) << format.heading;
+  }
+}
+
+TEST(SpecTables, HaveTheirColumns) {
+  const TableRow heads = {"offset", "size", "field", "meaning", "encoding", "valid range"};
+  for (const FormatStruct& format : format_structs()) {
+    const SpecTable table = byte_table(format.heading);
+    EXPECT_EQ(table.heads, heads) << format.heading;
+    for (const TableRow& row : table.rows) EXPECT_EQ(row.size(), heads.size()) << row.front();
+  }
+}
+
+std::string read_source(const std::string& path) {
+  std::ifstream stream(PLANETREE_SOURCE_DIR "/" + path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The list in octree/page_streams.h: "///   name   element", by order.
+std::vector<std::string> coded_streams() {
+  const std::string source = read_source("octree/page_streams.h");
+  const std::regex line(R"(\n///   (\w+(?: \w+)*)  +\S)");
+  std::vector<std::string> names;
+  for (std::sregex_iterator match(source.begin(), source.end(), line), end; match != end; ++match)
+    names.push_back((*match)[1]);
+  return names;
+}
+
+SpecTable stream_table() { return spec_tables("Distance page").at(1); }
+
+TEST(SpecTables, StateTheStreamsInTheirOrder) {
+  EXPECT_EQ(coded_streams().size(), 17u);
+  EXPECT_EQ(stream_table().column("stream"), coded_streams());
+}
+
+TEST(SpecTables, ShuffleWhatIsWiderThanAByte) {
+  const SpecTable table = stream_table();
+  const std::vector<std::string> elements = table.column("element");
+  const std::vector<std::string> shuffled = table.column("shuffled");
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const bool is_wide = elements[i] != "u8" && elements[i] != "bits";
+    EXPECT_EQ(shuffled[i], is_wide ? "yes" : "") << table.rows[i].front();
+  }
+}
+
+TEST(SpecTables, StateTheOctcodesOfCells) {
+  const SpecTable table = spec_tables("Octcode").at(0);
+  EXPECT_GE(table.rows.size(), 5u);
+  for (const TableRow& row : table.rows) {
+    const auto number = [&](std::size_t cell) {
+      return static_cast<std::uint32_t>(std::stoul(row.at(cell)));
+    };
+    const std::uint64_t morton = octree::morton_code(number(0), number(1), number(2));
+    EXPECT_EQ(std::stoull(row.at(4), nullptr, 16), octree::octcode_of_prefix(morton, number(3)));
+  }
+}
+
+}  // namespace
+}  // namespace planetree::golden

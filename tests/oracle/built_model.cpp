@@ -1,0 +1,85 @@
+#include "tests/oracle/built_model.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "octree/build/tree_builder.h"
+#include "storage/page_file.h"
+
+namespace planetree::oracle {
+namespace {
+
+class Silent final : public octree::BuildProgress {
+  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+};
+
+[[noreturn]] void give_up(const Error& error) {
+  std::fprintf(stderr, "oracle: %s\n", error.text);
+  std::abort();
+}
+
+template <class T>
+void put(std::ofstream& file, T value) {
+  file.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+void write_ply(const std::filesystem::path& path, std::span<const Corners> triangles) {
+  std::ofstream file(path, std::ios::binary);
+  file << "ply\nformat binary_little_endian 1.0\nelement vertex " << 3 * triangles.size()
+       << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+       << triangles.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
+  for (const Corners& triangle : triangles)
+    for (const Vec3& corner : triangle) {
+      put(file, corner.x);
+      put(file, corner.y);
+      put(file, corner.z);
+    }
+  for (std::uint32_t i = 0; i < 3 * triangles.size(); i += 3) {
+    put<std::uint8_t>(file, 3);
+    for (std::uint32_t k = 0; k < 3; ++k) put<std::uint32_t>(file, i + k);
+  }
+}
+
+BuiltModel::BuiltModel(Soup triangles, const BuildChoices& choices)
+    : triangles_(std::move(triangles)) {
+  const std::filesystem::path mesh = folder_ / "model.ply";
+  write_ply(mesh, triangles_);
+  build(mesh, choices);
+  std::filesystem::remove(mesh);
+}
+
+BuiltModel::BuiltModel(const std::filesystem::path& mesh, const BuildChoices& choices) {
+  build(mesh, choices);
+}
+
+void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& choices) {
+  octree::BuildOptions options;
+  options.page_bytes = choices.page_bytes;
+  Silent silent;
+  const auto report = octree::build_tree(mesh, path(), options, silent);
+  if (!report) give_up(report.error());
+  scale_exponent_ = report->header.model.scale_exponent;
+  OpenOptions open;
+  open.memory_budget_bytes = choices.budget_bytes;
+  open.max_probes = choices.max_probes;
+  auto model = Model::open(path(), open);
+  if (!model) give_up(model.error());
+  model_.emplace(std::move(*model));
+  auto probe = Probe::create(*model_);
+  if (!probe) give_up(probe.error());
+  probe_.emplace(std::move(*probe));
+}
+
+std::string build_failure(std::span<const Corners> triangles) {
+  const storage::TemporaryDirectory folder;
+  write_ply(folder / "model.ply", triangles);
+  Silent silent;
+  const auto report =
+      octree::build_tree(folder / "model.ply", folder / "model.ptree", {}, silent);
+  return report ? std::string() : std::string(report.error().text);
+}
+
+}  // namespace planetree::oracle

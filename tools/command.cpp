@@ -1,0 +1,89 @@
+#include "tools/command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <new>
+#include <string>
+
+#include "octree/build/mesh_text.h"
+#include "tools/build.h"
+#include "tools/generate.h"
+
+#include "tools/query.h"
+#include "tools/verify.h"
+
+namespace planetree::tools {
+namespace {
+
+constexpr const char* kFooter =
+    "Sizes take K, M and G. Exit status: 0 done, 1 the data is at fault, 2 the command line is\n"
+    "at fault, 3 the machine is at fault (space, memory, permission).";
+
+int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) {
+  std::string cause = error.what();
+  std::replace(cause.begin(), cause.end(), '\n', ' ');
+  const auto verbs = app.get_subcommands();
+  if (verbs.empty()) {
+    fmt::print(console.errors(), "planetree: {}; see planetree --help\n", cause);
+  } else {
+    const std::string verb = verbs.front()->get_name();
+    fmt::print(console.errors(), "planetree: {}: {}; see planetree {} --help\n", verb, cause, verb);
+  }
+  return kCommandLineAtFault;
+}
+
+/// Says so where the first argument ought to be a verb and is none.
+bool lacks_verb(const CLI::App& app, int argc, const char* const* argv, Console& console) {
+  if (argc < 2) {
+    fmt::print(console.errors(), "planetree: no verb; planetree --help lists them\n");
+    return true;
+  }
+  const std::string first = argv[1];
+  const auto verbs =
+      app.get_subcommands([&first](const CLI::App* verb) { return verb->get_name() == first; });
+  if (first.starts_with('-') || !verbs.empty()) return false;
+  fmt::print(console.errors(), "planetree: no verb '{}'; planetree --help lists them\n",
+             octree::printable(first));
+  return true;
+}
+
+int run_action(const std::function<int()>& action, Console& console) {
+  try {
+    return action();
+  } catch (const std::bad_alloc&) {
+    const Error error = make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                                   "the system gives no more; free some, or lower --memory");
+    return console.fail("memory", error);
+  }
+}
+
+}  // namespace
+
+int run_command(int argc, const char* const* argv, Console& console) {
+  CLI::App app("Exact closest-point questions about triangle meshes larger than memory",
+               "planetree");
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  std::function<int()> action;
+  add_generate(app, action);
+  add_build(app, console, action);
+  add_query(app, console, action);
+
+  add_verify(app, console, action);
+  if (lacks_verb(app, argc, argv, console)) return kCommandLineAtFault;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success&) {
+    console.print(app.help());
+    return console.finish(kDone);
+  } catch (const CLI::ParseError& error) {
+    return refuse(app, error, console);
+  }
+  return run_action(action, console);
+}
+
+}  // namespace planetree::tools

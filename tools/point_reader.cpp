@@ -1,0 +1,56 @@
+#include "tools/point_reader.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "octree/build/mesh_file.h"
+#include "octree/build/ply_header.h"
+#include "tools/csv_points.h"
+#include "tools/input_file.h"
+#include "tools/ply_points.h"
+#include "tools/raw_points.h"
+
+namespace planetree::tools {
+namespace {
+
+// Most of a PLY file that counts as resident memory at one time.
+constexpr std::uint64_t kMappedBytes = std::uint64_t{32} << 20;
+
+bool is_regular(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
+bool has_extension(const std::string& path, std::string_view extension) {
+  std::string found = std::filesystem::path(path).extension().string();
+  std::transform(found.begin(), found.end(), found.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; });
+  return found == extension;
+}
+
+}  // namespace
+
+std::string points_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
+                                                 std::FILE* standard_input) {
+  const auto csv = [&path](InputFile file) -> std::unique_ptr<PointReader> {
+    return std::make_unique<CsvPoints>(points_name(path), std::move(file));
+  };
+  if (path == "-") return csv(InputFile::borrow(standard_input));
+  const bool raw = has_extension(path, ".f64");
+  // A pipe is read once, in order: CSV or raw numbers.
+  if (!raw && is_regular(path)) {
+    auto mapped = octree::MeshFile::open(path, kMappedBytes);
+    if (!mapped) return mapped.error();
+    if (octree::is_ply(mapped->text())) return PlyPoints::create(path, *std::move(mapped));
+  }
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  if (raw) return std::unique_ptr<PointReader>(std::make_unique<RawPoints>(path, *std::move(file)));
+  return csv(*std::move(file));
+}
+
+}  // namespace planetree::tools

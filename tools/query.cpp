@@ -1,0 +1,175 @@
+#include "tools/query.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "planetree/model.h"
+#include "planetree/probe.h"
+#include "tools/point_reader.h"
+#include "tools/progress.h"
+#include "tools/size_text.h"
+#include "tools/verb_options.h"
+
+namespace planetree::tools {
+namespace {
+
+constexpr std::size_t kChunkPoints = 65536;
+
+/// How many answers ended how.
+struct Tally {
+  std::uint64_t points = 0;
+  std::array<std::uint64_t, kStatusCount> by_status{};
+
+  void add(std::span<const ClosestPoint> answers) {
+    points += answers.size();
+    for (const ClosestPoint& answer : answers) ++by_status[static_cast<std::size_t>(answer.status)];
+  }
+};
+
+class Session {
+ public:
+  Session(const QueryArguments& arguments, Console& console, const Model& model, Probe& probe)
+      : arguments_(arguments), console_(console), model_(model), probe_(probe) {}
+
+  int run(PointReader& points) {
+    const int status = answer_all(points);
+    if (const std::uint64_t pages = model_.stats().quarantined_pages; pages > 0) {
+      const Error error =
+          make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
+                     "%llu of its pages cannot be read, so %llu answers are degraded; planetree "
+                     "verify names the pages",
+                     static_cast<unsigned long long>(pages),
+                     static_cast<unsigned long long>(model_.stats().degraded_answers));
+      return std::max(status, console_.fail(arguments_.file.string(), error));
+    }
+    return status;
+  }
+
+  std::string json_report(double seconds) const {
+    const Stats stats = model_.stats();
+    nlohmann::ordered_json report = {{"points", tally_.points}};
+    for (std::size_t i = 0; i < kStatusCount; ++i)
+      report[std::string(status_word(static_cast<Status>(i)))] = tally_.by_status[i];
+    report["seconds"] = seconds;
+    report["points_per_second"] = static_cast<double>(tally_.points) / std::max(seconds, 1e-9);
+    report["pages_read"] = stats.pages_read;
+    report["quarantined_pages"] = stats.quarantined_pages;
+    report["budget_bytes"] = stats.budget_bytes;
+    report["peak_resident_bytes"] = peak_resident_bytes();
+    return json_line(report);
+  }
+
+ private:
+  int answer_all(PointReader& points) {
+    AnswerWriter writer(console_, arguments_.format);
+    // Rows on a terminal and a bar on the same terminal would overwrite each other.
+    Progress progress(arguments_.quiet || console_.output_is_terminal());
+    progress.start("answering", 0, "points");
+    std::vector<Vec3> queries(kChunkPoints);
+    std::vector<ClosestPoint> answers(kChunkPoints);
+    bool wanted = writer.begin();
+    while (wanted) {
+      const auto count = points.read(queries);
+      if (!count) {
+        progress.finish();
+        return console_.fail(points.name(), count.error());
+      }
+      if (*count == 0) break;
+      const auto asked = std::span(queries).first(*count);
+      const auto answered = std::span(answers).first(*count);
+      probe_.closest_points(asked, answered, arguments_.ask);
+      tally_.add(answered);
+      wanted = writer.write(asked, answered);
+      progress.add(*count);
+    }
+    return kDone;
+  }
+
+  const QueryArguments& arguments_;
+  Console& console_;
+  const Model& model_;
+  Probe& probe_;
+  Tally tally_;
+};
+
+Result<void> check_output(const QueryArguments& arguments, const Console& console) {
+  if (arguments.format != AnswerFormat::kF64 || !console.output_is_terminal()) return {};
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "a terminal cannot show raw numbers; redirect it, or leave out --format f64");
+}
+
+}  // namespace
+
+int run_query(const QueryArguments& arguments, Console& console) {
+  if (const auto checked = check_output(arguments, console); !checked)
+    return console.fail("standard output", checked.error());
+  const std::string file = arguments.file.string();
+  OpenOptions options;
+  options.memory_budget_bytes = arguments.memory_bytes;
+  options.max_probes = 1;
+  const auto model = Model::open(arguments.file, options);
+  if (!model) return console.fail(file, model.error());
+  if (model->stats().header_copy_damaged)
+    console.warn(file, "one of its two headers is damaged; copy the file anew or build it again");
+  auto probe = Probe::create(*model);
+  if (!probe) return console.fail(file, probe.error());
+  const auto points = open_points(arguments.points, console.input());
+  if (!points) return console.fail(points_name(arguments.points), points.error());
+
+  const auto started = std::chrono::steady_clock::now();
+  Session session(arguments, console, *model, *probe);
+  const int status = session.run(**points);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  if (arguments.json) fmt::print(console.errors(), "{}", session.json_report(elapsed.count()));
+  return console.finish(status);
+}
+
+void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
+  static const std::map<std::string, AnswerFormat> kFormats = {{"csv", AnswerFormat::kCsv},
+                                                               {"jsonl", AnswerFormat::kJsonLines},
+                                                               {"f64", AnswerFormat::kF64}};
+  CLI::App* verb = app.add_subcommand("query", "Find the surface point nearest to each point");
+  const auto options = std::make_shared<QueryArguments>();
+  verb->add_option("file", options->file, "File that planetree build wrote")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("points", options->points,
+                   "Points to ask about, in model units: CSV (x,y,z, further columns are passed "
+                   "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
+                   "little-endian float64 triples); - is CSV from standard input")
+      ->default_str("-")
+      ->type_name("POINTS");
+  add_length_option(*verb, "--max-error", options->ask.max_error, false,
+                    "May stop once the distance is known within this, in model units; 0 goes on "
+                    "until it is exact")
+      ->default_str("0");
+  add_length_option(*verb, "--max-distance", options->ask.max_distance, true,
+                    "Look no farther than this, in model units")
+      ->default_str("inf");
+  add_bytes_option(*verb, "--memory", options->memory_bytes, "Most memory for the model")
+      ->default_str("256M");
+  verb->add_option_function<std::string>(
+          "--format", [options](const std::string& name) { options->format = kFormats.at(name); },
+          "csv: a header and a row for each point; jsonl: an object for each point, null for "
+          "what is not a finite number; f64: 10 little-endian float64 for each point (x y z "
+          "distance lower upper px py pz triangle, which is NaN for none)")
+      ->type_name("NAME")
+      ->default_str("csv")
+      ->check(CLI::IsMember(kFormats).description(""));
+  verb->add_flag("--json", options->json,
+                 "Afterwards report as one JSON object, on standard error");
+  verb->add_flag("--quiet", options->quiet, "Show no progress");
+  verb->callback([options, &console, &action] {
+    action = [options, &console] { return run_query(*options, console); };
+  });
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "planetree/types.h"
+#include "tools/answer_writer.h"
+#include "tools/verb.h"
+
+namespace CLI {
+class App;
+}
+
+namespace planetree::tools {
+
+struct QueryArguments {
+  std::filesystem::path file;
+  std::string points = "-";  ///< "-" is standard input
+  Ask ask;
+  std::uint64_t memory_bytes = std::uint64_t{256} << 20;
+  AnswerFormat format = AnswerFormat::kCsv;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Answers every point, in the order of the input. Returns the exit status.
+int run_query(const QueryArguments& arguments, Console& console);
+
+/// Adds the verb `query` to the command line. If a person gives it, parsing
+/// sets `action` to what runs it.
+void add_query(CLI::App& app, Console& console, std::function<int()>& action);
+
+}  // namespace planetree::tools

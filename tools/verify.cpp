@@ -1,0 +1,75 @@
+#include "tools/verify.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/file_check.h"
+#include "tools/file_parts.h"
+#include "tools/progress.h"
+#include "tools/size_text.h"
+
+namespace planetree::tools {
+namespace {
+
+std::string json_report(const VerifyArguments& arguments, const CheckReport& report) {
+  nlohmann::ordered_json issues = nlohmann::ordered_json::array();
+  for (const Issue& issue : report.issues.kept()) issues.push_back(issue_json(issue));
+  return json_line({{"file", arguments.file.string()},
+                    {"full", arguments.full},
+                    {"pages", report.pages},
+                    {"nodes", report.nodes},
+                    {"blocks", report.blocks},
+                    {"triangles", report.triangles},
+                    {"issue_count", report.issues.count()},
+                    {"issues", issues}});
+}
+
+std::string plain_report(const VerifyArguments& arguments, const CheckReport& report) {
+  const std::string file = arguments.file.string();
+  std::string text;
+  for (const Issue& issue : report.issues.kept())
+    text += fmt::format("{}: {}\n", file, issue_text(issue));
+  const std::uint64_t untold = report.issues.count() - report.issues.kept().size();
+  if (untold > 0) text += fmt::format("{}: ... and {} more\n", file, grouped_count(untold));
+  const std::string found = report.issues.count() == 0 ? "no issue"
+                            : report.issues.count() == 1
+                                ? "1 issue"
+                                : grouped_count(report.issues.count()) + " issues";
+  return text + fmt::format("{}: {} in {} pages, {} nodes, {} blocks, {} triangles{}\n", file,
+                            found, grouped_count(report.pages), grouped_count(report.nodes),
+                            grouped_count(report.blocks), grouped_count(report.triangles),
+                            arguments.full ? "" : " (--full also looks at every vertex)");
+}
+
+}  // namespace
+
+int run_verify(const VerifyArguments& arguments, Console& console) {
+  auto parts = FileParts::open(arguments.file);
+  if (!parts) return console.fail(arguments.file.string(), parts.error());
+  Progress progress(arguments.quiet);
+  progress.start("verifying", parts->page_count(), "pages");
+  const CheckReport report =
+      check_file(*parts, arguments.full, [&progress](std::uint32_t) { progress.add(1); });
+  progress.finish();
+  console.print(arguments.json ? json_report(arguments, report) : plain_report(arguments, report));
+  return console.finish(report.issues.count() > 0 ? kDataAtFault : kDone);
+}
+
+void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
+  CLI::App* verb = app.add_subcommand("verify", "Hold a .ptree file against its format");
+  const auto options = std::make_shared<VerifyArguments>();
+  verb->add_option("file", options->file, "File to verify")->required()->type_name("FILE");
+  verb->add_flag("--full", options->full,
+                 "Also look at every triangle and vertex: unique indices, bounds that hold");
+  verb->add_flag("--json", options->json, "Report as one JSON object");
+  verb->add_flag("--quiet", options->quiet, "Show no progress");
+  verb->callback([options, &console, &action] {
+    action = [options, &console] { return run_verify(*options, console); };
+  });
+}
+
+}  // namespace planetree::tools
