@@ -45,8 +45,7 @@ Float3 nearest_on_triangle(Float3 p, Float3 a, Float3 b, Float3 c) {
 struct VertexHash {
   std::size_t operator()(const std::array<float, 3>& v) const {
     std::size_t hash = 0;
-    for (const float value : v)
-      hash = hash * 1000003 ^ std::hash<float>()(value);
+    for (const float value : v) hash = hash * 1000003 ^ std::hash<float>()(value);
     return hash;
   }
 };
@@ -112,9 +111,8 @@ double EmbreePeer::distance(const Vec3& query) const {
     const auto& scene = *static_cast<const Scene*>(arguments->userPtr);
     const auto& triangle = scene.triangles[arguments->primID];
     const Float3 p{arguments->query->x, arguments->query->y, arguments->query->z};
-    const Float3 nearest =
-        nearest_on_triangle(p, scene.vertices[triangle[0]], scene.vertices[triangle[1]],
-                            scene.vertices[triangle[2]]);
+    const Float3 nearest = nearest_on_triangle(
+        p, scene.vertices[triangle[0]], scene.vertices[triangle[1]], scene.vertices[triangle[2]]);
     const Float3 off = p - nearest;
     const float distance = std::sqrt(dot(off, off));
     if (!(distance < arguments->query->radius)) return false;

@@ -9,10 +9,6 @@ set(planetree_headers
   planetree.h
   probe.h
   stats.h
-  model.h
-  planetree.h
-  probe.h
-  stats.h
   types.h)
 
 add_library(planetree)

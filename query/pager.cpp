@@ -1,5 +1,6 @@
 #include "query/pager.h"
 
+#include <cstddef>
 #include <new>
 #include <utility>
 
@@ -15,6 +16,13 @@ Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path,
                                            const Limits& limits) {
   auto file = storage::PageFile::open(path);
   if (!file) return file.error();
+  // Links in pages are checked as those are decoded; this one is in the header.
+  const storage::FileHeader& header = file->header();
+  if (octree::LinkFormat(header.page_bytes).page(header.model.root_link) != 0)
+    return make_error(
+        ErrorCode::kDamaged, Error::kNowhere,
+        offsetof(storage::FileHeader, model) + offsetof(storage::ModelRecord, root_link),
+        "the tree's root is not on the first page; restore the file from a copy or build it again");
   std::unique_ptr<Pager> pager(new Pager(std::move(*file)));
   if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
   if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();

@@ -28,7 +28,8 @@ std::string json_report(const VerifyArguments& arguments, const CheckReport& rep
                     {"issues", issues}});
 }
 
-std::string plain_report(const VerifyArguments& arguments, const CheckReport& report) {
+std::string plain_report(const VerifyArguments& arguments, const CheckReport& report,
+                         std::uint32_t page_count) {
   const std::string file = arguments.file.string();
   std::string text;
   for (const Issue& issue : report.issues.kept())
@@ -39,8 +40,8 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
                             : report.issues.count() == 1
                                 ? "1 issue"
                                 : grouped_count(report.issues.count()) + " issues";
-  return text + fmt::format("{}: {} in {} pages, {} nodes, {} blocks, {} triangles{}\n", file,
-                            found, grouped_count(report.pages), grouped_count(report.nodes),
+  return text + fmt::format("{}: {}; read {} of {} pages, {} nodes, {} blocks, {} triangles{}\n", file,
+                            found, grouped_count(report.pages), grouped_count(page_count), grouped_count(report.nodes),
                             grouped_count(report.blocks), grouped_count(report.triangles),
                             arguments.full ? "" : " (--full also looks at every vertex)");
 }
@@ -55,7 +56,8 @@ int run_verify(const VerifyArguments& arguments, Console& console) {
   const CheckReport report =
       check_file(*parts, arguments.full, [&progress](std::uint32_t) { progress.add(1); });
   progress.finish();
-  console.print(arguments.json ? json_report(arguments, report) : plain_report(arguments, report));
+  console.print(arguments.json ? json_report(arguments, report)
+                               : plain_report(arguments, report, parts->page_count()));
   return console.finish(report.issues.count() > 0 ? kDataAtFault : kDone);
 }
 

@@ -69,7 +69,8 @@ void MeshStore::normalise() {
     widen();
   for (float& value : narrow_)
     value = static_cast<float>(std::ldexp(static_cast<double>(value), scale_exponent_));
-  for (double& value : wide_) value = std::ldexp(value, scale_exponent_);
+  // What underflows may become -0, which is another position bit by bit; adding 0 makes it +0.
+  for (double& value : wide_) value = std::ldexp(value, scale_exponent_) + 0.0;
 }
 
 Triangle MeshStore::corners(std::uint32_t position) const {
@@ -84,9 +85,9 @@ Triangle MeshStore::corners(std::uint32_t position) const {
 }
 
 std::uint64_t MeshStore::index(std::uint32_t position) const {
-  const auto after = std::upper_bound(
-      gaps_.begin(), gaps_.end(), position,
-      [](std::uint64_t value, const Gap& gap) { return value < gap.position; });
+  const auto after =
+      std::upper_bound(gaps_.begin(), gaps_.end(), position,
+                       [](std::uint64_t value, const Gap& gap) { return value < gap.position; });
   return position + (after == gaps_.begin() ? 0 : std::prev(after)->skipped);
 }
 

@@ -55,7 +55,7 @@ void run_section(Reader& reader, Numbers& numbers, Seen& seen) {
     pages[kept++] = page;
   }
   // Be caught inside the section by other threads' evictions, on few cores too.
-  if (numbers.below(4) == 0) std::this_thread::yield();
+  if (numbers.below(64) == 0) std::this_thread::yield();
   for (std::uint32_t i = 0; i < kept; ++i) check_frame(frames[i], pages[i], seen);
   reader.leave();
 }
@@ -92,7 +92,7 @@ void storm(std::uint32_t reader_count, std::uint32_t frame_count) {
       --waiting;
       while (waiting != 0) std::this_thread::yield();
       Seen mine;
-      run_reader(cache, i + 1, 12000 / reader_count, mine);
+      run_reader(cache, i + 1, 5000 / reader_count, mine);
       seen[i] = mine;
     });
   }

@@ -49,8 +49,8 @@ TEST(DecodingVectors, HoldForBoxes) {
     const float low = as_float(row.at(0)), high = as_float(row.at(1));
     const auto lower = static_cast<std::uint8_t>(std::stoi(row.at(2)));
     const auto upper = static_cast<std::uint8_t>(std::stoi(row.at(3)));
-    const SpecBox read =
-        decode_box({{low, low, low}, {high, high, high}}, {lower, lower, lower}, {upper, upper, upper});
+    const SpecBox read = decode_box({{low, low, low}, {high, high, high}}, {lower, lower, lower},
+                                    {upper, upper, upper});
     octree::PackedChild packed;
     packed.lower = {lower, lower, lower};
     packed.upper = {upper, upper, upper};

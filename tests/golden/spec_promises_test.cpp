@@ -119,8 +119,8 @@ void expect_enclosed(const SpecDisc& disc, const SpecPoint& d) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     e[axis] = d[axis] - static_cast<double>(disc.middle[axis]);
   const double height = n[0] * e[0] + n[1] * e[1] + n[2] * e[2];
-  const double from_axis = std::hypot(e[1] * n[2] - e[2] * n[1], e[2] * n[0] - e[0] * n[2],
-                                      e[0] * n[1] - e[1] * n[0]);
+  const double from_axis =
+      std::hypot(e[1] * n[2] - e[2] * n[1], e[2] * n[0] - e[0] * n[2], e[0] * n[1] - e[1] * n[0]);
   const double slack = 8 * 0x1p-24 * 32000 * static_cast<double>(disc.unit);
   EXPECT_LE(static_cast<double>(disc.slab_lower) + slack, height);
   EXPECT_GE(static_cast<double>(disc.slab_upper) - slack, height);
@@ -157,8 +157,7 @@ TEST_P(SpecPromises, HeightsCountTheLongestWay) {
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     unsigned below = 0;
     for (const SpecChild& child : node.children)
-      if (!SpecTree::is_block(child.link))
-        below = std::max(below, tree_.node(child.link).height);
+      if (!SpecTree::is_block(child.link)) below = std::max(below, tree_.node(child.link).height);
     EXPECT_EQ(node.height, below + 1);
     EXPECT_GE(node.children.size(), 2u);
     EXPECT_LE(node.children.size(), 8u);
@@ -229,8 +228,7 @@ std::uint64_t octcode_below(const SpecTree& tree, std::uint32_t link) {
 TEST_P(SpecPromises, PageKeysNameTheirFirstSubtree) {
   for (const SpecPage& page : tree_.pages()) {
     std::uint64_t least = ~std::uint64_t{0};
-    for (const std::uint32_t root : page.roots)
-      least = std::min(least, octcode_below(tree_, root));
+    for (const std::uint32_t root : page.roots) least = std::min(least, octcode_below(tree_, root));
     EXPECT_EQ(page.octcode, least);
   }
 }

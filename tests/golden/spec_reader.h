@@ -51,8 +51,8 @@ struct SpecNode {
 
 struct SpecTriangle {
   std::uint64_t id;
-  std::array<SpecPoint, 3> corners;           ///< model frame
-  std::array<std::uint32_t, 3> page_vertex;   ///< their numbers in the page
+  std::array<SpecPoint, 3> corners;          ///< model frame
+  std::array<std::uint32_t, 3> page_vertex;  ///< their numbers in the page
 };
 
 struct SpecBlock {

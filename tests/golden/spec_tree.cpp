@@ -32,11 +32,11 @@ double distance_to_segment(const SpecPoint& p, const SpecPoint& a, const SpecPoi
 
 double distance_to_triangle(const SpecPoint& p, const SpecTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
-  const double to_edges = std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c),
-                                    distance_to_segment(p, c, a)});
+  const double to_edges = std::min(
+      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
   const SpecPoint normal = cross(b - a, c - a);
-  const bool above = dot(cross(b - a, p - a), normal) > 0 &&
-                     dot(cross(c - b, p - b), normal) > 0 && dot(cross(a - c, p - c), normal) > 0;
+  const bool above = dot(cross(b - a, p - a), normal) > 0 && dot(cross(c - b, p - b), normal) > 0 &&
+                     dot(cross(a - c, p - c), normal) > 0;
   if (!above) return to_edges;
   return std::min(to_edges, std::fabs(dot(p - a, normal)) / std::sqrt(dot(normal, normal)));
 }
@@ -56,8 +56,8 @@ double disc_bound(const SpecDisc& disc, const SpecPoint& q) {
   const SpecPoint normal = {disc.normal[0], disc.normal[1], disc.normal[2]};
   const SpecPoint e = q - middle;
   const double h = dot(normal, e);
-  const double s = std::max({0.0, static_cast<double>(disc.slab_lower) - h,
-                             h - static_cast<double>(disc.slab_upper)});
+  const double s = std::max(
+      {0.0, static_cast<double>(disc.slab_lower) - h, h - static_cast<double>(disc.slab_upper)});
   const double from_axis = std::sqrt(std::max(0.0, (1 - 0x1p-19) * dot(e, e) - h * h));
   const double t = std::max(0.0, from_axis - static_cast<double>(disc.radius));
   return std::sqrt(s * s + t * t) * (1 - 0x1p-20);

@@ -84,8 +84,7 @@ class Listing {
 std::size_t read_length(std::span<const std::byte> file, unsigned nibble, std::size_t& at) {
   std::size_t length = nibble;
   if (nibble < 15) return length;
-  for (unsigned more = 255; more == 255; length += more)
-    more = static_cast<unsigned>(file[at++]);
+  for (unsigned more = 255; more == 255; length += more) more = static_cast<unsigned>(file[at++]);
   return length;
 }
 

@@ -1,0 +1,37 @@
+// What a header says is checked even where its hash is right.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "planetree/planetree.h"
+#include "storage/file_layout.h"
+#include "tests/golden/samples.h"
+#include "tests/storage/file_image.h"
+#include "tests/storage/temporary_directory.h"
+
+namespace planetree::golden {
+namespace {
+
+// The text of the error, or "opened".
+std::string open_with_root_link(std::uint32_t link) {
+  storage::FileImage image(read_file(samples().front().ptree_path()));
+  image.change_header([link](storage::FileHeader& header) {
+    header.model.root_link = link;
+    header.header_hash = storage::header_hash(header);
+  });
+  const storage::TemporaryDirectory folder;
+  storage::write_bytes(folder / "forged.ptree", image.bytes());
+  const auto model = Model::open(folder / "forged.ptree");
+  return model ? "opened" : model.error().text;
+}
+
+TEST(ForgedHeader, HasItsRootOnPageZero) {
+  EXPECT_EQ(open_with_root_link(0x80000002), "opened");
+  for (const std::uint32_t page : {1u, 2u, 500'000u, (1u << 25) - 1})
+    EXPECT_NE(open_with_root_link(0x80000002 | page << 6).find("root"), std::string::npos) << page;
+}
+
+}  // namespace
+}  // namespace planetree::golden

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "octree/build/binary_tree.h"
+#include "octree/build/mesh_store.h"
+#include "octree/build/morton_order.h"
+#include "octree/build/page_plan.h"
+#include "octree/build/wide_tree.h"
+#include "octree/frame.h"
+#include "octree/nearest.h"
+#include "octree/page_decoder.h"
+
+/// Small models, every stage of their building, and their decoded pages.
+namespace planetree::octree {
+
+using Soup = std::vector<std::array<Vec3, 3>>;
+
+/// The same numbers on every machine.
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15 + 1) {}
+  std::uint32_t bits() {
+    state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::uint32_t>(state_ >> 33);
+  }
+  /// In [low, high), 31 bits.
+  double uniform(double low, double high) { return low + (high - low) * (bits() * 0x1p-31); }
+  Vec3 point(double low, double high) {
+    const double x = uniform(low, high), y = uniform(low, high), z = uniform(low, high);
+    return {x, y, z};
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// An octahedron, each face divided into 4^`levels`, drawn to the unit sphere;
+/// float32 coordinates.
+Soup sphere(unsigned levels);
+/// 2 `side`^2 triangles of a wavy sheet; float32 coordinates.
+Soup sheet(unsigned side);
+/// Triangles anywhere in the unit cube, of edges up to `edge`; float64 coordinates.
+Soup scattered(std::size_t count, double edge, std::uint64_t seed = 1);
+/// One triangle again and again, so that all have one Morton code.
+Soup repeated(std::size_t count);
+
+/// A model, normalised, its triangles' indices counted from `first_index`.
+MeshStore store(const Soup& soup, std::uint64_t first_index = 0);
+
+/// A model through all stages of a build but the last.
+struct SampleTree {
+  MeshStore mesh;
+  Point centre = Point::Zero();
+  BlockShape shape;
+  std::vector<MortonKey> keys;
+  std::vector<BinaryNode> binary;
+  WideTree tree;
+  std::vector<std::uint8_t> block_slots;
+  PagePlan plan;
+};
+
+SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes = 4096,
+                        std::uint64_t first_index = 0);
+
+PageFacts page_facts(const SampleTree& sample, std::uint32_t page);
+TreeFacts tree_facts(const SampleTree& sample);
+
+/// Room for one decoded page, aligned as frames are and not a byte longer.
+class SampleFrame {
+ public:
+  explicit SampleFrame(std::uint32_t page_bytes) : slots_(page_bytes / kSlotBytes) {}
+  std::span<std::byte> bytes() {
+    return {reinterpret_cast<std::byte*>(slots_.data()), slots_.size() * kSlotBytes};
+  }
+  const std::byte* data() const { return reinterpret_cast<const std::byte*>(slots_.data()); }
+  const FrameHeader& header() const { return *reinterpret_cast<const FrameHeader*>(data()); }
+  const Node& node(std::size_t index) const {
+    return reinterpret_cast<const Node*>(data() + header().first_node_slot * kSlotBytes)[index];
+  }
+
+ private:
+  struct alignas(kSlotBytes) Slot {
+    std::byte bytes[kSlotBytes];
+  };
+  std::vector<Slot> slots_;
+};
+
+/// All pages of a sample, encoded and decoded again.
+class SamplePages {
+ public:
+  explicit SamplePages(const SampleTree& sample);
+
+  std::size_t size() const { return frames_.size(); }
+  const std::vector<std::byte>& raw(std::uint32_t page) const { return raw_[page]; }
+  const SampleFrame& frame(std::uint32_t page) const { return frames_[page]; }
+  SampleFrame& frame(std::uint32_t page) { return frames_[page]; }
+  /// The record a link leads to.
+  const std::byte* record(const LinkFormat& links, std::uint32_t link) const {
+    return frames_[links.page(link)].data() + links.slot(link) * kSlotBytes;
+  }
+
+  void withhold(std::uint32_t page) { withheld_[page] = true; }
+  PageReader reader();
+
+ private:
+  std::vector<std::vector<std::byte>> raw_;
+  std::vector<SampleFrame> frames_;
+  std::vector<bool> withheld_;
+};
+
+}  // namespace planetree::octree

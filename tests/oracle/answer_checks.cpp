@@ -1,0 +1,175 @@
+#include "tests/oracle/answer_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+
+#include "octree/nearest.h"
+#include "octree/triangle_distance.h"
+
+namespace planetree::oracle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::string words(const Vec3& query, const Ask& ask, const ClosestPoint& answer) {
+  char line[512];
+  std::snprintf(line, sizeof line,
+                "query %a %a %a (%g %g %g), max_error %g max_distance %g max_nodes %u: "
+                "distance %.17g in [%.17g, %.17g] triangle %lld status %d",
+                query.x, query.y, query.z, query.x, query.y, query.z, ask.max_error,
+                ask.max_distance, ask.max_nodes, answer.distance, answer.lower, answer.upper,
+                static_cast<long long>(answer.triangle), static_cast<int>(answer.status));
+  return line;
+}
+
+octree::Point in_frame(const Vec3& p, int exponent) {
+  return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+}
+
+octree::Triangle in_frame(const Corners& t, int exponent) {
+  return {in_frame(t[0], exponent), in_frame(t[1], exponent), in_frame(t[2], exponent)};
+}
+
+void expect_finite(const ClosestPoint& answer) {
+  const double numbers[] = {answer.distance,      answer.lower,         answer.upper,
+                            answer.point.x,       answer.point.y,       answer.point.z,
+                            answer.barycentric.x, answer.barycentric.y, answer.barycentric.z};
+  for (const double number : numbers) EXPECT_TRUE(std::isfinite(number));
+}
+
+// The truth is inside, and so is the distance that was found.
+void expect_interval_holds(const ClosestPoint& answer, const Wide& truth) {
+  EXPECT_LE(0, answer.lower);
+  EXPECT_LT(answer.lower, answer.upper);
+  EXPECT_LE(answer.lower, answer.distance);
+  EXPECT_LE(answer.distance, answer.upper);
+  EXPECT_LE(Wide(answer.lower), truth) << "by " << static_cast<double>(Wide(answer.lower) - truth);
+  if (std::isfinite(answer.upper)) {
+    EXPECT_LE(truth, Wide(answer.upper))
+        << "by " << static_cast<double>(truth - Wide(answer.upper));
+  }
+}
+
+// The triangle is the least by (value, index), and the value is what it says.
+void expect_least(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
+  const octree::Point point = in_frame(query, model.scale_exponent());
+  std::uint64_t least = 0;
+  double squared = kInfinity;
+  for (std::size_t i = 0; i < model.triangles().size(); ++i) {
+    const double value =
+        octree::squared_distance(point, in_frame(model.triangles()[i], model.scale_exponent()));
+    if (value < squared) {
+      squared = value;
+      least = i;
+    }
+  }
+  EXPECT_EQ(answer.triangle, least);
+  const double distance = std::ldexp(std::sqrt(squared), -model.scale_exponent());
+  if (distance >= std::numeric_limits<double>::min()) {
+    EXPECT_EQ(answer.distance, distance);
+  }
+}
+
+Wide gap(const Vec3& a, const Vec3& b) {
+  const Wide x = Wide(a.x) - Wide(b.x), y = Wide(a.y) - Wide(b.y), z = Wide(a.z) - Wide(b.z);
+  return sqrt(x * x + y * y + z * z);
+}
+
+double largest_coordinate(const Corners& triangle) {
+  double largest = 0;
+  for (const Vec3& p : triangle)
+    largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return largest;
+}
+
+// `point` is on the triangle, where the barycentric coordinates say, as far
+// away as the interval says; all to a few roundings of coordinates.
+void expect_on_triangle(const Corners& t, const Vec3& query, const ClosestPoint& answer) {
+  const Vec3& b = answer.barycentric;
+  EXPECT_NEAR(b.x + b.y + b.z, 1, 4e-16);
+  EXPECT_GE(std::min({b.x, b.y, b.z}), -4e-16);
+  const Wide rounding = Wide(largest_coordinate(t)) * Wide(0x1p-48) + Wide(0x1p-1070);
+  const Wide u(b.x), v(b.y), w(b.z);
+  const Vec3 at{static_cast<double>(u * Wide(t[0].x) + v * Wide(t[1].x) + w * Wide(t[2].x)),
+                static_cast<double>(u * Wide(t[0].y) + v * Wide(t[1].y) + w * Wide(t[2].y)),
+                static_cast<double>(u * Wide(t[0].z) + v * Wide(t[1].z) + w * Wide(t[2].z))};
+  EXPECT_LE(gap(at, answer.point), rounding);
+  EXPECT_LE(gap(query, answer.point), Wide(answer.upper) + rounding);
+  EXPECT_GE(gap(query, answer.point), Wide(answer.lower) - rounding);
+}
+
+// An exact interval is a few roundings of the coordinates it came from wide.
+void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
+  const Corners& triangle = model.triangles()[answer.triangle];
+  Wide farthest = Wide(largest_coordinate(triangle)) * Wide(0x1p-60) + Wide(1e-150) * Wide(
+      std::ldexp(1.0, std::clamp(-model.scale_exponent(), -1000, 1000)));
+  for (const Vec3& corner : triangle) farthest = std::max(farthest, gap(query, corner));
+  EXPECT_LE(Wide(answer.upper) - Wide(answer.lower),
+            farthest * Wide(0x1p-39) + Wide(0x1p-1000));
+}
+
+void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
+  ASSERT_LT(answer.triangle, model.triangles().size());
+  const octree::Point point = in_frame(query, model.scale_exponent());
+  if (point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) expect_least(model, query, answer);
+  expect_on_triangle(model.triangles()[answer.triangle], query, answer);
+}
+
+}  // namespace
+
+void expect_same_bits(const ClosestPoint& left, const ClosestPoint& right) {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  EXPECT_EQ(bits(left.distance), bits(right.distance));
+  EXPECT_EQ(bits(left.lower), bits(right.lower));
+  EXPECT_EQ(bits(left.upper), bits(right.upper));
+  EXPECT_EQ(bits(left.point.x), bits(right.point.x));
+  EXPECT_EQ(bits(left.point.y), bits(right.point.y));
+  EXPECT_EQ(bits(left.point.z), bits(right.point.z));
+  EXPECT_EQ(left.triangle, right.triangle);
+  EXPECT_EQ(bits(left.barycentric.x), bits(right.barycentric.x));
+  EXPECT_EQ(bits(left.barycentric.y), bits(right.barycentric.y));
+  EXPECT_EQ(bits(left.barycentric.z), bits(right.barycentric.z));
+  EXPECT_EQ(left.feature, right.feature);
+  EXPECT_EQ(left.status, right.status);
+}
+
+ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) {
+  const ClosestPoint answer = model.ask(query, ask);
+  SCOPED_TRACE(words(query, ask, answer));
+  expect_same_bits(answer, model.ask(query, ask));
+  const Wide truth = exact_distance(query, model.triangles());
+  expect_interval_holds(answer, truth);
+  const bool unlimited = ask.max_error == 0 && ask.max_distance == kInfinity &&
+                         ask.max_nodes == std::numeric_limits<std::uint32_t>::max();
+  if (unlimited) {
+    EXPECT_EQ(answer.status, Status::kExact);
+  }
+  switch (answer.status) {
+    case Status::kExact:
+      expect_exact(model, query, answer);
+      if (unlimited) expect_narrow(model, query, answer);
+      break;
+    case Status::kWithinError:
+      EXPECT_LE(answer.upper - answer.lower, ask.max_error);
+      break;
+    case Status::kDegraded:
+      EXPECT_LT(ask.max_nodes, model.model().info().nodes + model.model().info().blocks);
+      break;
+    case Status::kBeyondMaxDistance:
+      EXPECT_EQ(answer.triangle, kNoTriangle);
+      EXPECT_EQ(answer.distance, kInfinity);
+      EXPECT_LE(answer.lower, ask.max_distance);
+      return answer;
+    case Status::kBadQuery:
+      ADD_FAILURE() << "a query of finite numbers was refused";
+  }
+  expect_finite(answer);
+  return answer;
+}
+
+}  // namespace planetree::oracle

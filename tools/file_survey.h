@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "octree/page_streams.h"
+#include "storage/file_layout.h"
+#include "tools/file_check.h"
+#include "tools/file_parts.h"
+#include "tools/stream_rows.h"
+
+namespace planetree::tools {
+
+/// All that lies at one depth of the tree; the root is at depth 0.
+struct LevelRow {
+  std::uint64_t nodes = 0;
+  std::uint64_t children = 0;  ///< of those nodes
+  std::uint64_t blocks = 0;
+  std::uint64_t triangles = 0;  ///< in those blocks
+};
+
+/// One page. What a page that cannot be read holds is not known.
+struct PageRow {
+  std::uint32_t number = 0;
+  storage::PageEntry entry{};
+  std::optional<octree::PageHead> head;
+};
+
+/// What is in a file, counted by walking its pages once.
+struct FileSurvey {
+  IssueList issues;
+  std::vector<StreamRow> streams;  ///< sums over all pages; empty if none can be read
+  std::vector<LevelRow> levels;    ///< by depth
+  std::uint64_t unplaced_pages = 0;  ///< that hang from what cannot be read, so not in `levels`
+};
+
+struct SurveyVisitor {
+  std::function<void(const PageRow&)> page;  ///< may be empty; each page in its order
+  std::function<void()> progress;            ///< may be empty; after each page
+};
+
+/// memory  one page and the links to pages not yet come
+FileSurvey survey_file(FileParts& parts, const SurveyVisitor& visitor);
+
+}  // namespace planetree::tools

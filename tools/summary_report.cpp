@@ -1,0 +1,160 @@
+#include "tools/summary_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "tools/file_text.h"
+#include "tools/size_text.h"
+
+namespace planetree::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Sections {
+  std::uint64_t headers = 0;
+  std::uint64_t page_table = 0;
+  std::uint64_t distance_pages = 0;
+};
+
+Sections sections_of(const storage::FileHeader& header) {
+  Sections sections;
+  sections.headers = 2 * storage::kHeaderBytes;
+  sections.page_table = header.page_count * sizeof(storage::PageEntry);
+  const std::uint64_t rest = sections.headers + sections.page_table;
+  sections.distance_pages = header.file_bytes - std::min(rest, header.file_bytes);
+  return sections;
+}
+
+std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
+  std::array<std::uint64_t, kStreamGroupCount> bytes{};
+  for (const StreamRow& row : survey.streams) bytes[static_cast<std::size_t>(row.group)] += row.bytes;
+  return bytes;
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json bytes_json(const storage::FileHeader& header, const FileSurvey& survey) {
+  const Sections sections = sections_of(header);
+  Json raw = Json::object();
+  const auto groups = bytes_by_group(survey);
+  for (std::size_t i = 0; i < kStreamGroupCount; ++i)
+    raw[std::string(group_name(static_cast<StreamGroup>(i)))] = groups[i];
+  Json streams = Json::object();
+  for (const StreamRow& row : survey.streams) streams[std::string(row.name)] = row.bytes;
+  return {{"headers", sections.headers},
+          {"page_table", sections.page_table},
+          {"distance_pages", sections.distance_pages},
+          {"within_pages", raw},
+          {"within_pages_by_stream", streams}};
+}
+
+std::string point_text(const double (&values)[3]) {
+  return fmt::format("{:.9g} {:.9g} {:.9g}", values[0], values[1], values[2]);
+}
+
+std::string raw_text(const FileSurvey& survey) {
+  const auto groups = bytes_by_group(survey);
+  std::uint64_t sum = 0;
+  for (const std::uint64_t bytes : groups) sum += bytes;
+  std::string text;
+  for (std::size_t i = 0; i < kStreamGroupCount; ++i)
+    text += fmt::format("{}{} {:.1f}%", i == 0 ? "" : ", ", group_name(static_cast<StreamGroup>(i)),
+                        100 * share(groups[i], sum));
+  return fmt::format("{} before compression: {}", short_bytes(sum), text);
+}
+
+}  // namespace
+
+Json summary_json(const FileParts& parts, const FileSurvey& survey) {
+  if (parts.header() == nullptr) return {{"file_bytes", parts.actual_bytes()}};
+  const storage::FileHeader& header = *parts.header();
+  const storage::ModelRecord& model = header.model;
+  Json json = {{"triangles", model.triangle_count},
+               {"set_aside", model.set_aside_count},
+               {"first_set_aside", nullptr},
+               {"vertices", model.vertex_count},
+               {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
+               {"coordinates", parts.shape().float64 ? "float64" : "float32"},
+               {"levels", model.height},
+               {"nodes", model.node_count},
+               {"blocks", model.block_count},
+               {"pages", header.page_count},
+               {"page_bytes", header.page_bytes},
+               {"file_bytes", parts.actual_bytes()},
+               {"bytes_per_triangle", share(header.file_bytes, model.triangle_count)},
+               {"format_version", header.version},
+               {"content_id", content_id_text(header.content_id)},
+               {"bytes", bytes_json(header, survey)}};
+  if (model.first_set_aside != storage::kNoTriangle)
+    json["first_set_aside"] = model.first_set_aside;
+  return json;
+}
+
+std::string summary_text(const std::string& name, const FileParts& parts,
+                         const FileSurvey& survey) {
+  if (parts.header() == nullptr) return fmt::format("{}: {}\n", name, short_bytes(parts.actual_bytes()));
+  const storage::FileHeader& header = *parts.header();
+  const storage::ModelRecord& model = header.model;
+  const Sections sections = sections_of(header);
+  std::string text = fmt::format("{}: {} triangles, {} vertices of {}\n", name,
+                                 grouped_count(model.triangle_count),
+                                 grouped_count(model.vertex_count),
+                                 parts.shape().float64 ? "float64" : "float32");
+  if (model.set_aside_count > 0)
+    text += fmt::format("  set aside   {} triangles of bad records, the first is {}\n",
+                        grouped_count(model.set_aside_count), model.first_set_aside);
+  text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
+                      point_text(model.box_upper));
+  text += fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",
+                      model.height, grouped_count(model.node_count),
+                      grouped_count(model.block_count),
+                      share(model.triangle_count, model.block_count));
+  text += fmt::format("  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, pages "
+                      "{}\n",
+                      short_bytes(parts.actual_bytes()),
+                      share(header.file_bytes, model.triangle_count),
+                      short_bytes(sections.headers), short_bytes(sections.page_table),
+                      short_bytes(sections.distance_pages));
+  text += fmt::format("  pages       {} of {} in memory; {}\n", grouped_count(header.page_count),
+                      short_bytes(header.page_bytes), raw_text(survey));
+  text += fmt::format("  content id  {}\n", content_id_text(header.content_id));
+  return text;
+}
+
+Json levels_json(const FileSurvey& survey) {
+  Json rows = Json::array();
+  for (std::size_t depth = 0; depth < survey.levels.size(); ++depth) {
+    const LevelRow& row = survey.levels[depth];
+    rows.push_back({{"depth", depth},
+                    {"nodes", row.nodes},
+                    {"blocks", row.blocks},
+                    {"triangles", row.triangles},
+                    {"children_per_node", share(row.children, row.nodes)},
+                    {"triangles_per_block", share(row.triangles, row.blocks)}});
+  }
+  return rows;
+}
+
+std::string levels_text(const FileSurvey& survey) {
+  std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "depth", "nodes",
+                                 "blocks", "triangles", "children/node", "triangles/block");
+  for (std::size_t depth = 0; depth < survey.levels.size(); ++depth) {
+    const LevelRow& row = survey.levels[depth];
+    text += fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13.2f} {:>15.2f}\n", depth,
+                        grouped_count(row.nodes), grouped_count(row.blocks),
+                        grouped_count(row.triangles), share(row.children, row.nodes),
+                        share(row.triangles, row.blocks));
+  }
+  if (survey.unplaced_pages > 0)
+    text += fmt::format("{} pages hang from pages that cannot be read and are not counted\n",
+                        grouped_count(survey.unplaced_pages));
+  return text;
+}
+
+}  // namespace planetree::tools
