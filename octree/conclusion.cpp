@@ -10,6 +10,8 @@ namespace planetree::octree {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Squares below 2^-1022 underflow; lengths below this are not told apart.
+constexpr double kUnresolved = 0x1p-500;
 
 double down(double value) { return std::max(0.0, value - std::fabs(value) * 0x1p-52); }
 double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<double>::min(); }
@@ -17,7 +19,7 @@ double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<d
 // A bound on the whole model from its box alone.
 double distance_to_box(const TreeFacts& tree, const Point& query) {
   const Point gap = (tree.box_lower - query).cwiseMax(query - tree.box_upper).cwiseMax(0.0);
-  return gap.norm() * (1 - 0x1p-48);
+  return std::max(0.0, gap.norm() * (1 - 0x1p-48) - kUnresolved);
 }
 
 NearestAnswer beyond(const NearestLimits& limits) {
@@ -33,12 +35,19 @@ NearestAnswer nothing_read(const TreeFacts& tree, const Point& query, double low
   NearestAnswer answer;
   const double distance = (query - tree.sample).norm();
   answer.point = tree.sample;
-  answer.upper = up(distance * (1 + 0x1p-48));
+  answer.upper = up(distance * (1 + 0x1p-48) + kUnresolved);
   answer.distance = answer.upper;
-  answer.lower = std::min(lower, down(distance * (1 - 0x1p-48)));
+  answer.lower = std::min(lower, down(distance * (1 - 0x1p-48) - kUnresolved));
   answer.feature = Feature::kVertex;
   answer.status = Status::kDegraded;
   return answer;
+}
+
+// Whether children left out, of this least bound, may hold the nearest
+// triangle. Infinity says that none were left out; the threshold is infinite
+// too where the query is too far away for float.
+bool may_matter(float bound, const BestTriangle& best) {
+  return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
 }
 
 NearestAnswer place(const NearestOnTriangle& nearest, std::uint64_t triangle) {
@@ -59,14 +68,15 @@ NearestAnswer place(const NearestOnTriangle& nearest, std::uint64_t triangle) {
 NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& wide, float pruned,
                        float unread) noexcept {
-  const bool spent = unread <= best.exact_threshold();
+  const bool spent = may_matter(unread, best);
   const double from_box = distance_to_box(tree, query);
   if (!best.found() && !spent) return beyond(limits);
   if (!best.found())
     return nothing_read(tree, query,
                         std::min(limits.max_distance, std::max(from_box, certified(wide, unread))));
   NearestAnswer answer = place(nearest_on_triangle(query, best.corners()), best.triangle());
-  if (pruned <= best.exact_threshold()) {
+  if (answer.lower > limits.max_distance && !spent) return beyond(limits);
+  if (may_matter(pruned, best)) {
     answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, pruned)));
     answer.status = Status::kWithinError;
   }

@@ -34,7 +34,7 @@ class BestTriangle {
   void offer(const Triangle& corners, std::uint64_t index) {
     const double squared = squared_distance(query_, corners);
     if (squared > squared_ || (squared == squared_ && index >= triangle_)) return;
-    if (std::sqrt(squared) > limits_.max_distance) return;
+    if (std::sqrt(squared) > farthest_) return;
     const bool nearer = squared < squared_;
     squared_ = squared;
     triangle_ = index;
@@ -44,9 +44,11 @@ class BestTriangle {
 
  private:
   void refresh() {
-    reach_ = std::min(std::sqrt(squared_), limits_.max_distance);
+    reach_ = std::min(std::sqrt(squared_), farthest_);
     exact_threshold_ = prune_threshold(wide_, reach_);
     threshold_ = exact_threshold_;
+    // While nothing is found there is nothing that an error could be allowed of.
+    if (!found()) return;
     // The last 2^-40 pays for the rounding of both ends of the interval.
     const double wanted = limits_.max_error - (reach_ + limits_.max_error) * 0x1p-40;
     if (limits_.max_error > 0 && wanted > 0)
@@ -56,6 +58,10 @@ class BestTriangle {
   Point query_;
   FloatQuery wide_;
   NearestLimits limits_;
+  // max_distance and what a value near it may err: no corner is farther away
+  // than that and a diagonal of the model, which is below 4 (see
+  // octree/triangle_distance.cpp for the factor).
+  double farthest_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
   double squared_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
@@ -80,26 +86,45 @@ class FrontierEntry {
   std::uint64_t key_;
 };
 
-/// Children still to visit, the nearest siblings on top. Depth and fan-out
-/// bound its size.
+/// Children still to visit: a group for each node on the way down, the last
+/// on top. A group is not sorted, because most are dropped whole once the first
+/// block has been read. Depth and fan-out bound its size.
 class Frontier {
  public:
-  bool empty() const { return size_ == 0; }
-  bool has_room() const { return size_ + kFanOut <= kCapacity; }
-  FrontierEntry pop() { return entries_[--size_]; }
-  std::size_t mark() const { return size_; }
+  bool has_room() const { return size_ + kFanOut <= kMaxEntries && group_count_ < kMaxGroups; }
 
-  /// Adds a child among those pushed since `mark`, farthest first.
-  void push(std::size_t mark, FrontierEntry entry) {
-    std::size_t at = size_++;
-    for (; at > mark && entries_[at - 1].nearer_than(entry); --at) entries_[at] = entries_[at - 1];
-    entries_[at] = entry;
+  void open_group() { groups_[group_count_++] = static_cast<std::uint16_t>(size_); }
+  /// Adds to the group opened last.
+  void push(FrontierEntry entry) { entries_[size_++] = entry; }
+
+  /// Takes the nearest child of the last group. Groups with none within
+  /// `threshold` are dropped; `dropped` becomes the least bound of such, if
+  /// less. False when nothing is left.
+  bool pop(float threshold, FrontierEntry& entry, float& dropped) {
+    for (; group_count_ > 0; --group_count_) {
+      const std::size_t begin = groups_[group_count_ - 1];
+      if (begin == size_) continue;
+      std::size_t nearest = begin;
+      for (std::size_t i = begin + 1; i < size_; ++i)
+        if (entries_[i].nearer_than(entries_[nearest])) nearest = i;
+      entry = entries_[nearest];
+      if (entry.bound() <= threshold) {
+        entries_[nearest] = entries_[--size_];
+        return true;
+      }
+      dropped = std::min(dropped, entry.bound());
+      size_ = begin;
+    }
+    return false;
   }
 
  private:
-  static constexpr std::size_t kCapacity = (kFanOut - 1) * kMaxHeight + 2 * kFanOut;
+  static constexpr std::size_t kMaxGroups = kMaxHeight + 1;
+  static constexpr std::size_t kMaxEntries = (kFanOut - 1) * kMaxHeight + 2 * kFanOut;
   std::size_t size_ = 0;
-  FrontierEntry entries_[kCapacity];
+  std::size_t group_count_ = 0;
+  std::uint16_t groups_[kMaxGroups];
+  FrontierEntry entries_[kMaxEntries];
 };
 
 }  // namespace planetree::octree

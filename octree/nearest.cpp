@@ -2,7 +2,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "octree/nearest.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
@@ -39,18 +38,16 @@ class Descent {
   void run() {
     // An honest tree cannot be visited longer than it is; a forged one could.
     const std::uint64_t most = std::min<std::uint64_t>(limits_.max_nodes, tree_.record_count);
-    frontier_.push(0, FrontierEntry(0.0f, tree_.root_link));
-    for (std::uint64_t visits = 0; !frontier_.empty();) {
-      const FrontierEntry entry = frontier_.pop();
-      if (entry.bound() > best_.threshold()) {
-        pruned_ = std::min(pruned_, entry.bound());
-      } else if (visits == most) {
+    FrontierEntry entry(0.0f, tree_.root_link);
+    std::uint64_t visits = 0;
+    do {
+      if (visits == most) {
         unread_ = std::min(unread_, entry.bound());
       } else {
         ++visits;
         visit(entry);
       }
-    }
+    } while (frontier_.pop(best_.threshold(), entry, pruned_));
   }
 
   const BestTriangle& best() const { return best_; }
@@ -81,17 +78,12 @@ class Descent {
       ++work_.page_turns;
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
-      if (!frame_) return nullptr;
-    } else if (frontier_.mark() >= entered_) {
-      return frame_ + slot * kSlotBytes;
     }
-    entered_ = frontier_.mark();
-    return leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
+    return frame_ && leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
   }
 
-  // Links within a page were checked when it was decoded, links between pages
-  // cannot be before both are here: those are all that were pushed before the
-  // page was entered.
+  // Links within a page were checked when it was decoded; links between pages
+  // could not be before both were here.
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
     if (LinkFormat::is_leaf(link)) {
@@ -112,18 +104,11 @@ class Descent {
     unsigned near = node_bounds(node, wide_, own_bound > node.gate, best_.threshold(), bounds);
     near &= (1u << node.child_count) - 1;
     if (limits_.max_error > 0) note_pruned(node, near, bounds);
-    const std::size_t mark = frontier_.mark();
+    frontier_.open_group();
     for (; near != 0; near &= near - 1) {
       const auto child = static_cast<unsigned>(std::countr_zero(near));
-      prefetch(node.link[child]);
-      frontier_.push(mark, FrontierEntry(bounds[child], node.link[child]));
+      frontier_.push(FrontierEntry(bounds[child], node.link[child]));
     }
-  }
-
-  HWY_INLINE void prefetch(std::uint32_t link) const {
-    if (links_.page(link) != page_number_) return;
-    const std::byte* record = frame_ + links_.slot(link) * kSlotBytes;
-    for (std::size_t line = 0; line < 4; ++line) hwy::Prefetch(record + line * kSlotBytes);
   }
 
   void note_pruned(const Node& node, unsigned near, const float* bounds) {
@@ -178,7 +163,6 @@ class Descent {
   Frontier frontier_;
   std::uint32_t page_number_ = 0;
   const std::byte* frame_ = nullptr;
-  std::size_t entered_ = 0;  // entries left when the page's last link from outside was taken
   float pruned_ = std::numeric_limits<float>::infinity();
   float unread_ = std::numeric_limits<float>::infinity();
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <Eigen/Geometry>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -100,10 +101,18 @@ OnFace project(const Vector<Scalar>& e1, const Vector<Scalar>& e2, const Vector<
   const Scalar height = dot(from_apex, normal);
   OnFace face;
   face.inside = (v > 0) & (w > 0) & (v + w < normal2);
-  face.squared = static_cast<double>(height * height / normal2);
-  face.v = static_cast<double>(v);
-  face.w = static_cast<double>(w);
-  face.whole = static_cast<double>(normal2);
+  // Not height * height: above a face of short edges that underflows.
+  face.squared = static_cast<double>(height / normal2 * height);
+  if constexpr (std::is_same_v<Scalar, double>) {
+    face.v = v;
+    face.w = w;
+    face.whole = normal2;
+  } else {
+    // Products of four short edges are no doubles, their ratios are.
+    face.v = static_cast<double>(v / normal2);
+    face.w = static_cast<double>(w / normal2);
+    face.whole = 1;
+  }
   return face;
 }
 

@@ -146,62 +146,73 @@ HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& 
   return squared;
 }
 
-// One coordinate of all of a block's vertices, seen from the query.
-struct VertexRow {
-  HWY_ALIGN float from_query[kMaxBlockVertices];
+// Which vertices a vector of corners names, prepared for looking them up.
+struct CornerIndex {
+  explicit HWY_INLINE CornerIndex(const std::uint8_t* HWY_RESTRICT corners)
+      : index(hn::PromoteTo(IntTag(), hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), corners))) {}
+  Ints index;
+};
 
-  HWY_INLINE VertexRow(const float* HWY_RESTRICT local, unsigned stride, float query) {
+// One coordinate of all of a block's vertices, seen from the query.
+template <unsigned kStride>
+struct VertexRow {
+  HWY_ALIGN float from_query[kStride];
+
+  HWY_INLINE VertexRow(const float* HWY_RESTRICT local, float query) {
     const FloatTag d;
     const Floats first = hn::Set(d, local[0]);
     const Floats q = hn::Set(d, query);
-    for (std::size_t i = 0; i < stride; i += hn::Lanes(d))
+    for (unsigned i = 0; i < kStride; i += static_cast<unsigned>(hn::Lanes(d)))
       hn::Store(hn::Sub(hn::Sub(hn::Load(d, local + i), first), q), d, from_query + i);
   }
 
-  HWY_INLINE Floats at(Ints index, unsigned stride) const {
+  HWY_INLINE Floats at(const CornerIndex& corners) const {
     const FloatTag d;
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
     // A gather costs more than looking each vector of the row up in registers.
     const IntTag di;
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
+    const auto lane = hn::IndicesFromVec(d, hn::And(corners.index, hn::Set(di, 7)));
     Floats found = hn::TableLookupLanes(hn::Load(d, from_query), lane);
-    for (unsigned i = 8; i < stride; i += 8) {
-      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, static_cast<int>(i) - 1)));
+    for (unsigned i = 8; i < kStride; i += 8) {
+      const auto here =
+          hn::RebindMask(d, hn::Gt(corners.index, hn::Set(di, static_cast<int>(i) - 1)));
       found = hn::IfThenElse(here, hn::TableLookupLanes(hn::Load(d, from_query + i), lane), found);
     }
     return found;
 #else
-    (void)stride;
-    return hn::GatherIndex(d, from_query, index);
+    return hn::GatherIndex(d, from_query, corners.index);
 #endif
   }
 };
+
+template <unsigned kStride>
+HWY_INLINE unsigned filter_of_stride(const BlockHeader& block, const float (&query)[3], float limit,
+                                     float* HWY_RESTRICT squared) {
+  const FloatTag d;
+  const auto* local = reinterpret_cast<const float*>(&block + 1);
+  const VertexRow<kStride> x(local, query[0]);
+  const VertexRow<kStride> y(local + kStride, query[1]);
+  const VertexRow<kStride> z(local + 2 * kStride, query[2]);
+  unsigned near = 0;
+  for (std::size_t i = 0; i < block.triangle_count; i += hn::Lanes(d)) {
+    const CornerIndex a(block.corner[0] + i), b(block.corner[1] + i), c(block.corner[2] + i);
+    const Floats values = triangle_squared({x.at(a), y.at(a), z.at(a)}, {x.at(b), y.at(b), z.at(b)},
+                                           {x.at(c), y.at(c), z.at(c)});
+    hn::Store(values, d, squared + i);
+    near |= bits_not_above(values, limit) << i;
+  }
+  return near;
+}
 
 // Filter values of a block's lanes; returns a bit for each that is not above
 // the limit. `query` is relative to vertex 0. Lanes past the last triangle
 // repeat it.
 HWY_INLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
                                  float* HWY_RESTRICT squared) {
-  const FloatTag d;
-  const IntTag di;
-  const hn::Rebind<std::uint8_t, IntTag> du8;
-  const unsigned stride = block.stride;
-  const auto* local = reinterpret_cast<const float*>(&block + 1);
-  unsigned near = 0;
-  const VertexRow x(local, stride, query[0]);
-  const VertexRow y(local + stride, stride, query[1]);
-  const VertexRow z(local + 2 * stride, stride, query[2]);
-  for (std::size_t i = 0; i < block.triangle_count; i += hn::Lanes(d)) {
-    Wide3 corner[3];
-    for (int k = 0; k < 3; ++k) {
-      const Ints index = hn::PromoteTo(di, hn::LoadU(du8, block.corner[k] + i));
-      corner[k] = {x.at(index, stride), y.at(index, stride), z.at(index, stride)};
-    }
-    const Floats values = triangle_squared(corner[0], corner[1], corner[2]);
-    hn::Store(values, d, squared + i);
-    near |= bits_not_above(values, limit) << i;
-  }
-  return near;
+  if (block.stride == 16) return filter_of_stride<16>(block, query, limit, squared);
+  if (block.stride == 24) return filter_of_stride<24>(block, query, limit, squared);
+  if (block.stride == 32) return filter_of_stride<32>(block, query, limit, squared);
+  return filter_of_stride<48>(block, query, limit, squared);
 }
 
 }  // namespace HWY_NAMESPACE

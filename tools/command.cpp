@@ -12,6 +12,7 @@
 #include "tools/build.h"
 #include "tools/generate.h"
 
+#include "tools/inspect.h"
 #include "tools/query.h"
 #include "tools/verify.h"
 
@@ -73,6 +74,7 @@ int run_command(int argc, const char* const* argv, Console& console) {
   add_build(app, console, action);
   add_query(app, console, action);
 
+  add_inspect(app, console, action);
   add_verify(app, console, action);
   if (lacks_verb(app, argc, argv, console)) return kCommandLineAtFault;
   try {

@@ -122,12 +122,13 @@ octree::BlockShape FileParts::shape() const {
 /// A damaged table may say anything: nothing is claimed or read before this.
 const char* FileParts::fault_of(const storage::PageEntry& entry) const {
   if (entry.offset > actual_bytes_ || entry.stored_bytes > actual_bytes_ - entry.offset)
-    return "the page lies beyond the file's end";
+    return "the page lies beyond the file's end; restore the file from a copy or build it again";
   if (entry.codec != storage::Codec::kStored && entry.codec != storage::Codec::kLz4)
-    return "the page's codec is unknown";
+    return "the page's codec is unknown; restore the file from a copy or build it again";
   if (entry.raw_bytes > storage::kMaxRawBytes ||
       !storage::lengths_are_plausible(entry.codec, entry.stored_bytes, entry.raw_bytes))
-    return "the page's stored length cannot give its raw length";
+    return "the page's stored length cannot give its raw length; restore the file from a copy or "
+           "build it again";
   return nullptr;
 }
 

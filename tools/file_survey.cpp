@@ -14,15 +14,14 @@ class Surveyor {
  public:
   explicit Surveyor(FileParts& parts) : parts_(parts), links_(parts.header()->page_bytes) {}
 
-  FileSurvey run(const SurveyVisitor& visitor) {
+  FileSurvey run(const PageVisitor& visit) {
     for (const Issue& issue : parts_.issues()) survey_.issues.add(issue);
     const std::uint32_t root = parts_.header()->model.root_link;
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
       PageRow row{page, parts_.entries()[page], {}};
       look_at(row);
-      if (visitor.page) visitor.page(row);
-      if (visitor.progress) visitor.progress();
+      if (!visit(row)) break;
     }
     return std::move(survey_);
   }
@@ -116,8 +115,8 @@ class Surveyor {
 
 }  // namespace
 
-FileSurvey survey_file(FileParts& parts, const SurveyVisitor& visitor) {
-  if (parts.header() != nullptr) return Surveyor(parts).run(visitor);
+FileSurvey survey_file(FileParts& parts, const PageVisitor& visit) {
+  if (parts.header() != nullptr) return Surveyor(parts).run(visit);
   FileSurvey survey;
   for (const Issue& issue : parts.issues()) survey.issues.add(issue);
   return survey;

@@ -32,17 +32,15 @@ struct PageRow {
 /// What is in a file, counted by walking its pages once.
 struct FileSurvey {
   IssueList issues;
-  std::vector<StreamRow> streams;  ///< sums over all pages; empty if none can be read
-  std::vector<LevelRow> levels;    ///< by depth
+  std::vector<StreamRow> streams;    ///< sums over all pages; empty if none can be read
+  std::vector<LevelRow> levels;      ///< by depth
   std::uint64_t unplaced_pages = 0;  ///< that hang from what cannot be read, so not in `levels`
 };
 
-struct SurveyVisitor {
-  std::function<void(const PageRow&)> page;  ///< may be empty; each page in its order
-  std::function<void()> progress;            ///< may be empty; after each page
-};
+/// Shown each page in its order; false ends the walk.
+using PageVisitor = std::function<bool(const PageRow&)>;
 
 /// memory  one page and the links to pages not yet come
-FileSurvey survey_file(FileParts& parts, const SurveyVisitor& visitor);
+FileSurvey survey_file(FileParts& parts, const PageVisitor& visit);
 
 }  // namespace planetree::tools

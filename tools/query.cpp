@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <map>
@@ -13,6 +14,7 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tools/open_model.h"
 #include "tools/point_reader.h"
 #include "tools/progress.h"
 #include "tools/size_text.h"
@@ -41,16 +43,8 @@ class Session {
 
   int run(PointReader& points) {
     const int status = answer_all(points);
-    if (const std::uint64_t pages = model_.stats().quarantined_pages; pages > 0) {
-      const Error error =
-          make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
-                     "%llu of its pages cannot be read, so %llu answers are degraded; planetree "
-                     "verify names the pages",
-                     static_cast<unsigned long long>(pages),
-                     static_cast<unsigned long long>(model_.stats().degraded_answers));
-      return std::max(status, console_.fail(arguments_.file.string(), error));
-    }
-    return status;
+    const auto error = unreadable_pages(model_.stats());
+    return error ? std::max(status, console_.fail(arguments_.file.string(), *error)) : status;
   }
 
   std::string json_report(double seconds) const {
@@ -112,13 +106,8 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments, console); !checked)
     return console.fail("standard output", checked.error());
   const std::string file = arguments.file.string();
-  OpenOptions options;
-  options.memory_budget_bytes = arguments.memory_bytes;
-  options.max_probes = 1;
-  const auto model = Model::open(arguments.file, options);
+  const auto model = open_model(arguments.file, arguments.memory_bytes, console);
   if (!model) return console.fail(file, model.error());
-  if (model->stats().header_copy_damaged)
-    console.warn(file, "one of its two headers is damaged; copy the file anew or build it again");
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
   const auto points = open_points(arguments.points, console.input());

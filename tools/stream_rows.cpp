@@ -22,27 +22,27 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
                                    const octree::BlockShape& shape) {
   using enum StreamGroup;
   const octree::RawStreams& s = streams;
-  return {{"page_head", kHead, 1, sizeof(octree::PageHead)},
-          row("root_boxes", kNodes, s.root_boxes),
-          row("child_counts", kNodes, s.child_counts),
-          row("heights", kNodes, s.heights),
-          row("child_kinds", kNodes, s.child_kinds),
-          row("child_boxes", kNodes, s.child_boxes),
-          row("child_normals", kNodes, s.child_normals),
-          row("child_slabs", kNodes, s.child_slabs),
-          row("child_radii", kNodes, s.child_radii),
-          row("page_links", kNodes, s.page_links),
-          row("triangle_counts", kBlocks, s.triangle_counts),
-          row("vertex_counts", kBlocks, s.vertex_counts),
-          row("new_counts", kBlocks, s.new_counts),
-          row("vertex_refs", kVertices, s.vertex_refs),
-          {"corners", kCorners, s.corners.size(), s.corners.size()},
-          shape.float64 ? row("vertices", kVertices, s.vertices64)
-                        : row("vertices", kVertices, s.vertices32),
-          shape.wide_ids ? row("first_ids", kIds, s.first_ids64)
-                         : row("first_ids", kIds, s.first_ids32),
-          shape.wide_ids ? row("id_steps", kIds, s.id_steps64)
-                         : row("id_steps", kIds, s.id_steps32)};
+  return {
+      {"page_head", kHead, 1, sizeof(octree::PageHead)},
+      row("root_boxes", kNodes, s.root_boxes),
+      row("child_counts", kNodes, s.child_counts),
+      row("heights", kNodes, s.heights),
+      row("child_kinds", kNodes, s.child_kinds),
+      row("child_boxes", kNodes, s.child_boxes),
+      row("child_normals", kNodes, s.child_normals),
+      row("child_slabs", kNodes, s.child_slabs),
+      row("child_radii", kNodes, s.child_radii),
+      row("page_links", kNodes, s.page_links),
+      row("triangle_counts", kBlocks, s.triangle_counts),
+      row("vertex_counts", kBlocks, s.vertex_counts),
+      row("new_counts", kBlocks, s.new_counts),
+      row("vertex_refs", kVertices, s.vertex_refs),
+      {"corners", kCorners, s.corners.size(), s.corners.size()},
+      shape.float64 ? row("vertices", kVertices, s.vertices64)
+                    : row("vertices", kVertices, s.vertices32),
+      shape.wide_ids ? row("first_ids", kIds, s.first_ids64)
+                     : row("first_ids", kIds, s.first_ids32),
+      shape.wide_ids ? row("id_steps", kIds, s.id_steps64) : row("id_steps", kIds, s.id_steps32)};
 }
 
 }  // namespace planetree::tools

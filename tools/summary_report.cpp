@@ -31,7 +31,8 @@ Sections sections_of(const storage::FileHeader& header) {
 
 std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
   std::array<std::uint64_t, kStreamGroupCount> bytes{};
-  for (const StreamRow& row : survey.streams) bytes[static_cast<std::size_t>(row.group)] += row.bytes;
+  for (const StreamRow& row : survey.streams)
+    bytes[static_cast<std::size_t>(row.group)] += row.bytes;
   return bytes;
 }
 
@@ -98,29 +99,29 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
 
 std::string summary_text(const std::string& name, const FileParts& parts,
                          const FileSurvey& survey) {
-  if (parts.header() == nullptr) return fmt::format("{}: {}\n", name, short_bytes(parts.actual_bytes()));
+  if (parts.header() == nullptr)
+    return fmt::format("{}: {}\n", name, short_bytes(parts.actual_bytes()));
   const storage::FileHeader& header = *parts.header();
   const storage::ModelRecord& model = header.model;
   const Sections sections = sections_of(header);
-  std::string text = fmt::format("{}: {} triangles, {} vertices of {}\n", name,
-                                 grouped_count(model.triangle_count),
-                                 grouped_count(model.vertex_count),
-                                 parts.shape().float64 ? "float64" : "float32");
+  std::string text = fmt::format(
+      "{}: {} triangles, {} vertices of {}\n", name, grouped_count(model.triangle_count),
+      grouped_count(model.vertex_count), parts.shape().float64 ? "float64" : "float32");
   if (model.set_aside_count > 0)
     text += fmt::format("  set aside   {} triangles of bad records, the first is {}\n",
                         grouped_count(model.set_aside_count), model.first_set_aside);
   text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
                       point_text(model.box_upper));
-  text += fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",
-                      model.height, grouped_count(model.node_count),
-                      grouped_count(model.block_count),
-                      share(model.triangle_count, model.block_count));
-  text += fmt::format("  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, pages "
-                      "{}\n",
-                      short_bytes(parts.actual_bytes()),
-                      share(header.file_bytes, model.triangle_count),
-                      short_bytes(sections.headers), short_bytes(sections.page_table),
-                      short_bytes(sections.distance_pages));
+  text +=
+      fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",
+                  model.height, grouped_count(model.node_count), grouped_count(model.block_count),
+                  share(model.triangle_count, model.block_count));
+  text += fmt::format(
+      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, pages "
+      "{}\n",
+      short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
+      short_bytes(sections.headers), short_bytes(sections.page_table),
+      short_bytes(sections.distance_pages));
   text += fmt::format("  pages       {} of {} in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));

@@ -10,8 +10,7 @@
 namespace planetree::tools {
 
 /// Only what can be known: a file without a whole header has but its length.
-[[nodiscard]] nlohmann::ordered_json summary_json(const FileParts& parts,
-                                                  const FileSurvey& survey);
+[[nodiscard]] nlohmann::ordered_json summary_json(const FileParts& parts, const FileSurvey& survey);
 [[nodiscard]] std::string summary_text(const std::string& name, const FileParts& parts,
                                        const FileSurvey& survey);
 

@@ -38,6 +38,7 @@ class Console {
       : input_(input), output_(output), errors_(errors) {}
 
   std::FILE* input() const { return input_; }
+  std::FILE* output() const { return output_; }
   std::FILE* errors() const { return errors_; }
   bool output_is_terminal() const;
 

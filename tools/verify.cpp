@@ -28,6 +28,11 @@ std::string json_report(const VerifyArguments& arguments, const CheckReport& rep
                     {"issues", issues}});
 }
 
+const char* remark(const VerifyArguments& arguments, const CheckReport& report) {
+  if (report.issues.count() > 0) return "; restore the file from a copy or build it again";
+  return arguments.full ? "" : " (--full also looks at every vertex)";
+}
+
 std::string plain_report(const VerifyArguments& arguments, const CheckReport& report,
                          std::uint32_t page_count) {
   const std::string file = arguments.file.string();
@@ -40,10 +45,10 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
                             : report.issues.count() == 1
                                 ? "1 issue"
                                 : grouped_count(report.issues.count()) + " issues";
-  return text + fmt::format("{}: {}; read {} of {} pages, {} nodes, {} blocks, {} triangles{}\n", file,
-                            found, grouped_count(report.pages), grouped_count(page_count), grouped_count(report.nodes),
-                            grouped_count(report.blocks), grouped_count(report.triangles),
-                            arguments.full ? "" : " (--full also looks at every vertex)");
+  return text + fmt::format("{}: {}; read {} of {} pages, {} nodes, {} blocks, {} triangles{}\n",
+                            file, found, grouped_count(report.pages), grouped_count(page_count),
+                            grouped_count(report.nodes), grouped_count(report.blocks),
+                            grouped_count(report.triangles), remark(arguments, report));
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
 
 #include "octree/bounds.h"
 #include "octree/strict_math.h"
@@ -121,8 +121,7 @@ class DiscFitter {
         continue;
       }
       const WideNode& below = tree_.nodes[child.index];
-      for (unsigned j = 0; j < below.child_count; ++j)
-        add_corners(below.children[j].box, extent);
+      for (unsigned j = 0; j < below.child_count; ++j) add_corners(below.children[j].box, extent);
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <map>
 #include <numeric>
 
@@ -38,7 +37,7 @@ class PagePlanner {
     plan_.page_bytes = page_bytes;
   }
 
-  PagePlan plan() {
+  Result<PagePlan> plan() {
     slots_of_root();
     drafts_.emplace_back();
     const RecordRef root{tree_.nodes.empty(), 0};
@@ -49,6 +48,10 @@ class PagePlanner {
       fill(drafts_[i].page, below);
       pack(below);
     }
+    if (drafts_.size() > links_.max_pages())
+      return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                        "%zu pages, more than links can tell apart; build with a larger page size",
+                        drafts_.size());
     number_pages();
     return std::move(plan_);
   }
@@ -133,7 +136,8 @@ class PagePlanner {
       least = std::min(least, keys_[i].code);
       greatest = std::max(greatest, keys_[i].code);
     }
-    const auto same = static_cast<unsigned>(std::countl_zero(least ^ greatest)) - (64 - kMortonBits);
+    const auto same =
+        static_cast<unsigned>(std::countl_zero(least ^ greatest)) - (64 - kMortonBits);
     return octcode_of_prefix(least, std::min(same, kMortonBits));
   }
 
@@ -178,7 +182,6 @@ class PagePlanner {
               [](const PlannedPage& a, const PlannedPage& b) {
                 return Key{a.octcode, a.ordinal} < Key{b.octcode, b.ordinal};
               });
-    assert(plan_.pages.size() <= links_.max_pages());
     plan_.node_links.resize(tree_.nodes.size());
     plan_.block_links.resize(tree_.blocks.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) link_page(number);
@@ -212,8 +215,8 @@ class PagePlanner {
 
 }  // namespace
 
-PagePlan plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
-                    std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes) {
+Result<PagePlan> plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
+                            std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes) {
   return PagePlanner(tree, keys, block_slots, page_bytes).plan();
 }
 

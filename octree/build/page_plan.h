@@ -7,6 +7,7 @@
 #include "octree/build/morton_order.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
+#include "planetree/error.h"
 
 namespace planetree::octree {
 
@@ -36,7 +37,9 @@ struct PagePlan {
 /// no others: so a page is read only after its one parent page.
 ///
 /// block_slots  frame slots of each block.
-PagePlan plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
-                    std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes);
+/// errors       kBadArgument when links of 31 bits cannot tell so many pages
+///              apart: 2^21 of 64 KiB.
+Result<PagePlan> plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
+                            std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes);
 
 }  // namespace planetree::octree

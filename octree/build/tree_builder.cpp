@@ -37,14 +37,14 @@ class TreeBuild {
   Result<BuildReport> run() {
     if (const auto read = read_model(); !read) return read.error();
     order_triangles();
-    bound_nodes();
+    if (const auto bounded = bound_nodes(); !bounded) return bounded.error();
     return write_pages();
   }
 
  private:
   Result<void> read_model();
   void order_triangles();
-  void bound_nodes();
+  Result<void> bound_nodes();
   Result<BuildReport> write_pages();
   Result<void> append_pages(storage::PageWriter& writer, const PageEncoder& encoder);
   storage::ModelRecord describe() const;
@@ -91,7 +91,7 @@ void TreeBuild::order_triangles() {
   progress_.progress(BuildPhase::kOrdering, 3, 3);
 }
 
-void TreeBuild::bound_nodes() {
+Result<void> TreeBuild::bound_nodes() {
   progress_.progress(BuildPhase::kBounding, 0, 2);
   fit_discs(mesh_, centre_, keys_, tree_);
   progress_.progress(BuildPhase::kBounding, 1, 2);
@@ -100,8 +100,11 @@ void TreeBuild::bound_nodes() {
     const unsigned vertices = count_block_vertices(mesh_, keys_, tree_.blocks[i]);
     block_slots[i] = static_cast<std::uint8_t>(shape_.slots(vertices));
   });
-  plan_ = plan_pages(tree_, keys_, block_slots, options_.page_bytes);
+  auto plan = plan_pages(tree_, keys_, block_slots, options_.page_bytes);
+  if (!plan) return plan.error();
+  plan_ = std::move(*plan);
   progress_.progress(BuildPhase::kBounding, 2, 2);
+  return {};
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
@@ -173,10 +176,9 @@ Result<BuildReport> build_tree(const std::filesystem::path& input,
   if (!std::has_single_bit(options.page_bytes) || options.page_bytes < storage::kMinPageBytes ||
       options.page_bytes > storage::kMaxPageBytes)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "a page of %u bytes; use a power of two from 4K to 256K",
-                      options.page_bytes);
-  const int threads = options.threads > 0 ? static_cast<int>(options.threads)
-                                          : tbb::task_arena::automatic;
+                      "a page of %u bytes; use a power of two from 4K to 256K", options.page_bytes);
+  const int threads =
+      options.threads > 0 ? static_cast<int>(options.threads) : tbb::task_arena::automatic;
   std::optional<tbb::global_control> limit;
   if (options.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);

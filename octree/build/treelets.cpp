@@ -13,7 +13,8 @@ class TreeletCutter {
         left_(tree.nodes.size(), true) {
     cut.cut_nodes.resize(tree.nodes.size());
     cut.cut_blocks.resize(tree.blocks.size());
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) place_blocks(i, block_slots, bottom_slots);
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)
+      place_blocks(i, block_slots, bottom_slots);
   }
 
   bool done() const { return !left_[0]; }

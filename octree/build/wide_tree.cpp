@@ -59,14 +59,12 @@ void pack_box(const FloatBox& parent, WideChild& child) {
       return static_cast<int>(std::clamp(steps, 0.0f, 255.0f));
     };
     int lower = std::min(guess(child.true_box.lower[axis]) + 1, 254);
-    while (lower > 0 &&
-           unpack_coordinate(low, high, static_cast<std::uint8_t>(lower)) >
-               child.true_box.lower[axis])
+    while (lower > 0 && unpack_coordinate(low, high, static_cast<std::uint8_t>(lower)) >
+                            child.true_box.lower[axis])
       --lower;
     int upper = std::max(guess(child.true_box.upper[axis]) - 1, lower);
-    while (upper < 255 &&
-           unpack_coordinate(low, high, static_cast<std::uint8_t>(upper)) <
-               child.true_box.upper[axis])
+    while (upper < 255 && unpack_coordinate(low, high, static_cast<std::uint8_t>(upper)) <
+                              child.true_box.upper[axis])
       ++upper;
     child.packed.lower[axis] = static_cast<std::uint8_t>(lower);
     child.packed.upper[axis] = static_cast<std::uint8_t>(upper);

@@ -16,9 +16,9 @@ struct WideChild {
   std::uint32_t index = 0;  ///< into WideTree::nodes or WideTree::blocks
   std::uint32_t begin = 0;  ///< its triangles are keys[begin ... end)
   std::uint32_t end = 0;
-  FloatBox true_box;     ///< encloses the triangles
-  PackedChild packed;    ///< as stored
-  FloatBox box;          ///< as decoded; encloses true_box
+  FloatBox true_box;   ///< encloses the triangles
+  PackedChild packed;  ///< as stored
+  FloatBox box;        ///< as decoded; encloses true_box
 
   std::uint32_t count() const { return end - begin; }
 };

@@ -299,13 +299,17 @@ TEST(PageCache, AnswersAreTheSameAtAnyBudget) {
 }
 
 /// Filling while another reader is inside its section is the mistake looked for.
+/// All relaxed, so that nothing but the cache orders one thread's reads of a
+/// frame before another's writes, and ThreadSanitizer can tell if it does not.
 struct WatchedPages {
   std::atomic<bool> holder_inside{false};
   std::atomic<int> fills_while_held{0};
 
   static Result<void> fill(void* context, std::uint32_t page, std::span<std::byte> frame) {
     auto& watched = *static_cast<WatchedPages*>(context);
-    if (watched.holder_inside) ++watched.fills_while_held;
+    if (watched.holder_inside.load(std::memory_order_relaxed)) {
+      watched.fills_while_held.fetch_add(1, std::memory_order_relaxed);
+    }
     TaggedPages tags;
     return TaggedPages::fill(&tags, page, frame);
   }
@@ -321,7 +325,7 @@ TEST(PageCache, FetchWaitsForSectionsThatMayHoldTheFrame) {
   for (std::uint32_t page = 0; page < 4; ++page) holder.fetch(page);
   const std::byte* held[4];
   for (std::uint32_t page = 0; page < 4; ++page) held[page] = holder.find(page);
-  watched.holder_inside = true;
+  watched.holder_inside.store(true, std::memory_order_relaxed);
 
   std::thread other([&cache] {
     Reader reader = make_reader(cache);
@@ -336,7 +340,7 @@ TEST(PageCache, FetchWaitsForSectionsThatMayHoldTheFrame) {
   for (std::uint32_t page = 0; page < 4; ++page) {
     EXPECT_TRUE(TaggedPages::matches(held[page], kFrameBytes, page));
   }
-  watched.holder_inside = false;
+  watched.holder_inside.store(false, std::memory_order_relaxed);
   holder.leave();
   other.join();
   EXPECT_EQ(watched.fills_while_held, 0);

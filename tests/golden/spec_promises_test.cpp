@@ -209,7 +209,7 @@ std::string morton_bits(const SpecHeader& header, const SpecTriangle& triangle) 
   }
   std::string bits;
   for (unsigned level = 19; level-- > 0;)
-    for (const std::size_t axis : {2, 1, 0}) bits += (cell[axis] >> level & 1) != 0 ? '1' : '0';
+    for (const std::size_t axis : {2u, 1u, 0u}) bits += (cell[axis] >> level & 1) != 0 ? '1' : '0';
   return bits;
 }
 

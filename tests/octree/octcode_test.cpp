@@ -9,7 +9,7 @@ constexpr std::uint32_t kMost = (1u << kLevels) - 1;
 
 TEST(Octcode, SpreadsBitsThreeApartAndGathersThem) {
   EXPECT_EQ(spread_bits(0b1011), 0b1000001001u);
-  EXPECT_EQ(spread_bits(kMost), 0x1249249249249249u);
+  EXPECT_EQ(spread_bits(kMost), 0x49249249249249u);
   for (std::uint32_t value = 1; value <= kMost; value = value * 3 + 1)
     EXPECT_EQ(gather_bits(spread_bits(value)), value);
   EXPECT_EQ(gather_bits(~std::uint64_t{0}), kMost);

@@ -75,7 +75,9 @@ class Walk {
         EXPECT_LE((block.vertex(block.header().corner[k][i]) - block.vertex(0)).norm(),
                   double{block.header().extent});
       }
-      if (i > 0) EXPECT_LT(block.id(i - 1), block.id(i));
+      if (i > 0) {
+        EXPECT_LT(block.id(i - 1), block.id(i));
+      }
     }
     // What the wide kernels read beyond the last triangle is that triangle.
     for (unsigned i = block.triangle_count(); i < kMaxBlockTriangles; ++i)
@@ -151,7 +153,7 @@ TEST(PageDecoder, MarksWhereBlocksStartAndNothingElse) {
 }
 
 TEST(PageDecoder, DoesNotCareWhatTheFrameHeldBefore) {
-  const SampleTree sample = build_sample(sphere(3), 65536);
+  const SampleTree sample = build_sample(sphere(3), 262144);
   SamplePages pages(sample);
   SampleFrame other(sample.plan.page_bytes);
   std::ranges::fill(other.bytes(), std::byte{0xee});

@@ -10,9 +10,14 @@
 namespace planetree::octree {
 namespace {
 
-Vec3 to_float(const Vec3& p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+// Volatile, because g++ 12 at -O2 drops the rounding where it vectorises a pair
+// of conversions from double to float and back.
+double rounded(double value) {
+  const volatile float result = static_cast<float>(value);
+  return result;
 }
+
+Vec3 to_float(const Vec3& p) { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
 
 Vec3 on_sphere(const Vec3& a, const Vec3& b) {
   const Vec3 sum{a.x + b.x, a.y + b.y, a.z + b.z};
@@ -98,7 +103,7 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_
   for (const WideBlock& block : sample.tree.blocks)
     sample.block_slots.push_back(static_cast<std::uint8_t>(
         sample.shape.slots(count_block_vertices(sample.mesh, sample.keys, block))));
-  sample.plan = plan_pages(sample.tree, sample.keys, sample.block_slots, page_bytes);
+  sample.plan = *plan_pages(sample.tree, sample.keys, sample.block_slots, page_bytes);
   return sample;
 }
 

@@ -103,14 +103,19 @@ void expect_on_triangle(const Corners& t, const Vec3& query, const ClosestPoint&
   EXPECT_GE(gap(query, answer.point), Wide(answer.lower) - rounding);
 }
 
-// An exact interval is a few roundings of the coordinates it came from wide.
+// An exact interval is no wider than the rounding of what may have decided it:
+// some 2^-41 of the farthest corner, in the worst of cases.
 void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
-  const Corners& triangle = model.triangles()[answer.triangle];
-  Wide farthest = Wide(largest_coordinate(triangle)) * Wide(0x1p-60) + Wide(1e-150) * Wide(
-      std::ldexp(1.0, std::clamp(-model.scale_exponent(), -1000, 1000)));
-  for (const Vec3& corner : triangle) farthest = std::max(farthest, gap(query, corner));
+  const ModelInfo& info = model.model().info();
+  const auto reach = [](double low, double high, double at) {
+    const long double from = at;
+    return std::max(std::fabs(low - from), std::fabs(high - from));
+  };
+  const long double farthest = reach(info.box_lower.x, info.box_upper.x, query.x) +
+                               reach(info.box_lower.y, info.box_upper.y, query.y) +
+                               reach(info.box_lower.z, info.box_upper.z, query.z);
   EXPECT_LE(Wide(answer.upper) - Wide(answer.lower),
-            farthest * Wide(0x1p-39) + Wide(0x1p-1000));
+            Wide(farthest) * Wide(0x1p-39) + Wide(0x1p-1060));
 }
 
 void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {

@@ -1,0 +1,110 @@
+// Every bit of a file turned, one at a time: the file is refused, or every
+// answer's interval holds the truth.
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "planetree/probe.h"
+#include "tests/query/sample_model.h"
+#include "tests/storage/file_image.h"
+
+namespace planetree {
+namespace {
+
+using query::bits_of;
+using query::make_probe;
+using query::SampleModel;
+
+// Changes bytes in place, and puts them back.
+class Patient {
+ public:
+  explicit Patient(const std::filesystem::path& path)
+      : bytes_(storage::read_bytes(path)), file_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {}
+  ~Patient() { ::close(file_); }
+  Patient(const Patient&) = delete;
+  Patient& operator=(const Patient&) = delete;
+
+  std::size_t size() const { return bytes_.size(); }
+  void turn(std::size_t at, unsigned bit) { put(at, bytes_[at] ^ std::byte{1} << bit); }
+  void heal(std::size_t at) { put(at, bytes_[at]); }
+
+ private:
+  void put(std::size_t at, std::byte byte) {
+    ASSERT_EQ(::pwrite(file_, &byte, 1, static_cast<off_t>(at)), 1);
+  }
+  storage::Bytes bytes_;
+  int file_;
+};
+
+class BitFlip : public testing::Test {
+ protected:
+  BitFlip()
+      : sample_(octree::sheet(9)),
+        budget_(sample_.least_budget()),
+        queries_(query::random_queries(3, -0.5, 1.5)) {
+    const Model model = sample_.open(budget_);
+    Probe probe = make_probe(model);
+    for (const Vec3& at : queries_) exact_.push_back(bits_of(probe.closest_point(at)));
+  }
+
+  // What came of one turned bit.
+  std::string outcome() {
+    OpenOptions options;
+    options.memory_budget_bytes = budget_;
+    options.max_probes = 1;
+    const auto model = Model::open(sample_.path(), options);
+    if (!model) {
+      EXPECT_NE(model.error().text[0], 0);
+      return "refused";
+    }
+    Probe probe = make_probe(*model);
+    bool degraded = false;
+    for (std::size_t i = 0; i < queries_.size(); ++i) {
+      const ClosestPoint answer = probe.closest_point(queries_[i]);
+      EXPECT_TRUE(sample_.interval_holds(answer, queries_[i]));
+      if (answer.status == Status::kExact) {
+        EXPECT_EQ(bits_of(answer), exact_[i]);
+      } else {
+        EXPECT_EQ(answer.status, Status::kDegraded);
+        degraded = true;
+      }
+    }
+    if (model->stats().header_copy_damaged) return "header copy damaged";
+    return degraded ? "degraded" : "unharmed";
+  }
+
+  SampleModel sample_;
+  std::uint64_t budget_;
+  std::vector<Vec3> queries_;
+  std::vector<std::string> exact_;
+};
+
+TEST_F(BitFlip, NeverGivesAWrongInterval) {
+  ASSERT_GE(sample_.page_count(), 3u);
+  Patient patient(sample_.path());
+  std::map<std::string, std::size_t> outcomes;
+  for (std::size_t at = 0; at < patient.size(); ++at)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      patient.turn(at, bit);
+      ++outcomes[outcome()];
+      patient.heal(at);
+      ASSERT_FALSE(HasFailure()) << "byte " << at << ", bit " << bit;
+    }
+  EXPECT_EQ(outcome(), "unharmed");
+  // Either header, a page read at open or the table; a page below.
+  EXPECT_EQ(outcomes["header copy damaged"], 2u * 8 * storage::kHeaderBytes);
+  EXPECT_GT(outcomes["refused"], 1000u);
+  EXPECT_GT(outcomes["degraded"], 1000u);
+  std::size_t all = 0;
+  for (const auto& [name, count] : outcomes) all += count;
+  EXPECT_EQ(all, 8 * patient.size());
+}
+
+}  // namespace
+}  // namespace planetree

@@ -1,0 +1,183 @@
+// What nodes say of their children is true, after quantising and in float.
+
+#include "octree/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "octree/wide_kernels-inl.h"
+#include "tests/oracle/nasty_models.h"
+#include "tests/oracle/random.h"
+#include "tests/oracle/tree_pages.h"
+
+namespace planetree::oracle {
+namespace {
+
+using octree::FloatQuery;
+using octree::Node;
+using octree::Point;
+using octree::Triangle;
+
+Vec3 plain(const Point& p) { return {p.x(), p.y(), p.z()}; }
+Corners plain(const Triangle& t) { return {plain(t[0]), plain(t[1]), plain(t[2])}; }
+
+FloatQuery float_query(const TreePages& pages, const Point& query) {
+  const Point from = query - pages.centre();
+  return FloatQuery::from(from.x(), from.y(), from.z());
+}
+
+// A child's box and disc hold every corner below it. Stored numbers are taken
+// as they are; corners may miss them by the rounding of the centre alone.
+void expect_encloses(const Node& node, unsigned child, const Point& from_centre, double slack) {
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_LE(node.lower[axis][child], from_centre[axis] + slack);
+    EXPECT_GE(node.upper[axis][child], from_centre[axis] - slack);
+  }
+}
+
+void expect_enclosing_nodes(const TreePages& pages) {
+  const double slack = octree::kAbsoluteSlack;
+  pages.each_node([&](const Node& node) {
+    for (unsigned child = 0; child < node.child_count; ++child)
+      for (const Triangle& triangle : pages.triangles(node.link[child]))
+        for (const Point& corner : triangle)
+          expect_encloses(node, child, corner - pages.centre(), slack);
+  });
+}
+
+// No child's bound rules it out at its true distance.
+void expect_bounds_below(const Node& node, unsigned child, const Soup& below,
+                         const TreePages& pages, const Point& query) {
+  const FloatQuery wide = float_query(pages, query);
+  alignas(64) float bounds[octree::kFanOut];
+  const auto distance = static_cast<double>(extended_distance(plain(query), below));
+  const float threshold = octree::prune_threshold(wide, distance);
+  for (const bool discs : {false, true}) {
+    const unsigned near =
+        octree::HWY_NAMESPACE::node_bounds(node, wide, discs, threshold, bounds);
+    EXPECT_TRUE((near >> child & 1) != 0)
+        << (discs ? "disc" : "box") << " bound " << std::sqrt(bounds[child]) << " distance "
+        << distance << " slack " << wide.slack;
+    if (wide.usable) {
+      EXPECT_LE(octree::certified(wide, bounds[child]), distance * (1 + 1e-15) + 0x1p-500);
+    }
+  }
+}
+
+Soup below(const TreePages& pages, std::uint32_t link) {
+  Soup soup;
+  for (const Triangle& triangle : pages.triangles(link)) soup.push_back(plain(triangle));
+  return soup;
+}
+
+// Bounds of nasty models hold for nasty queries.
+TEST(NodeBounds, HoldAfterQuantising) {
+  for (const NastyFamily& family : nasty_families()) {
+    SCOPED_TRACE(std::string(family.name));
+    Random random(6);
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const BuiltModel model(family.make(random), {4096, 1 << 20, 1});
+      const TreePages pages(model.path());
+      expect_enclosing_nodes(pages);
+      pages.each_node([&](const Node& node) {
+        for (unsigned child = 0; child < node.child_count; ++child) {
+          const Soup soup = below(pages, node.link[child]);
+          for (int i = 0; i < 20; ++i) {
+            const Vec3 q = nasty_query(random, soup, 1);
+            expect_bounds_below(node, child, soup, pages, Point(q.x, q.y, q.z));
+          }
+        }
+      });
+    }
+  }
+}
+
+// Clusters so small that the boxes about them are a float's ulp or two wide:
+// the box's centre is then as far off as its corner.
+Soup ulp_cluster(Random& random, double width) {
+  const Vec3 at{0.5, 0.5, 0.5};
+  Soup triangles{{Vec3{-0.99, -0.99, -0.99}, Vec3{-0.98, -0.99, -0.99}, Vec3{-0.99, -0.98, -0.99}},
+                 {Vec3{0.99, 0.99, 0.99}, Vec3{0.98, 0.99, 0.99}, Vec3{0.99, 0.98, 0.99}}};
+  for (int i = 0; i < 20000; ++i) {
+    const double along = i < 2000 ? random.unit() : random.between(0.9, 1);
+    const auto corner = [&] {
+      const auto coordinate = [&] { return width * (along - 0.02 * random.unit()); };
+      return at + Vec3{coordinate(), coordinate(), coordinate()};
+    };
+    triangles.push_back({corner(), corner(), corner()});
+  }
+  return triangles;
+}
+
+TEST(NodeBounds, HoldInBoxesOfFewUlps) {
+  constexpr double kUlp = 0x1p-24;
+  Random random(5);
+  for (const double width : {kUlp, 2 * kUlp, 3 * kUlp}) {
+    const BuiltModel model(ulp_cluster(random, width));
+    const TreePages pages(model.path());
+    int tested = 0;
+    pages.each_node([&](const Node& node) {
+      for (unsigned child = 0; child < node.child_count; ++child) {
+        if (node.upper[0][child] - node.lower[0][child] > 8 * kUlp) continue;
+        if (!octree::LinkFormat::is_leaf(node.link[child])) continue;
+        if (++tested % 16 != 0) continue;
+        const Soup soup = below(pages, node.link[child]);
+        for (int step = -4; step <= 6; ++step)
+          for (const double part : {-0.4999, 0.4999}) {
+            const double at = 0.5 + kUlp * (step + part);
+            expect_bounds_below(node, child, soup, pages, Point(at, at, at));
+          }
+      }
+    });
+    EXPECT_GT(tested, 100);
+  }
+}
+
+// The float filter lets every triangle pass that is no farther than the limit.
+void expect_filter_passes(const octree::BlockView& block, const TreePages& pages,
+                          const Point& query) {
+  const FloatQuery wide = float_query(pages, query);
+  const Point from = query - block.vertex(0);
+  const float local[3] = {static_cast<float>(from.x()), static_cast<float>(from.y()),
+                          static_cast<float>(from.z())};
+  alignas(64) float squared[octree::kMaxBlockTriangles] = {};
+  for (unsigned i = 0; i < block.triangle_count(); ++i) {
+    const double reach = std::sqrt(octree::squared_distance(query, block.triangle(i)));
+    const float limit = octree::filter_threshold(wide, reach, block.header().extent);
+    const unsigned near =
+        octree::HWY_NAMESPACE::block_filter(block.header(), local, limit, squared);
+    EXPECT_TRUE((near >> i & 1) != 0)
+        << "value " << std::sqrt(squared[i]) << " distance " << reach << " extent "
+        << block.header().extent;
+  }
+}
+
+TEST(TriangleFilter, NeverRejectsTheNearest) {
+  for (const NastyFamily& family : nasty_families()) {
+    SCOPED_TRACE(std::string(family.name));
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      Random random(seed);
+      const BuiltModel model(family.make(random), {4096, 1 << 20, 1});
+      const TreePages pages(model.path());
+      const auto check = [&](std::uint32_t link) {
+        const octree::BlockView block = pages.block(link);
+        const Soup soup = below(pages, link);
+        for (int k = 0; k < 40; ++k) {
+          const Vec3 q = nasty_query(random, soup, 1);
+          expect_filter_passes(block, pages, Point(q.x, q.y, q.z));
+        }
+      };
+      if (octree::LinkFormat::is_leaf(pages.model().root_link)) check(pages.model().root_link);
+      pages.each_node([&](const Node& node) {
+        for (unsigned child = 0; child < node.child_count; ++child)
+          if (octree::LinkFormat::is_leaf(node.link[child])) check(node.link[child]);
+      });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace planetree::oracle

@@ -1,0 +1,74 @@
+// What an ask may not do: allocate, ever; take a lock, when all is resident.
+
+#include <gtest/gtest.h>
+
+#include <mutex>
+
+#include "planetree/probe.h"
+#include "tests/cache/allocation_count.h"
+#include "tests/query/lock_count.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+using cache::allocation_count;
+
+class AskingPath : public testing::Test {
+ protected:
+  AskingPath() : sample_(octree::sphere(5)), queries_(random_queries(1500, -1.5, 1.5)) {
+    answers_.resize(queries_.size());
+  }
+  void SetUp() override {
+    if (!cache::allocations_are_counted() || !locks_are_counted())
+      GTEST_SKIP() << "a sanitizer counts instead";
+  }
+
+  void ask_everything(Probe& probe) {
+    for (std::size_t i = 0; i < queries_.size(); ++i)
+      answers_[i] = probe.closest_point(queries_[i]);
+    probe.closest_points(queries_, answers_, {.max_error = 0.01});
+    probe.closest_points(queries_, answers_, {.max_nodes = 7});
+    probe.closest_point({1e300, 0, 0});
+    probe.closest_point({0, 0, 1e30}, {.max_distance = 1});
+  }
+
+  SampleModel sample_;
+  std::vector<Vec3> queries_;
+  std::vector<ClosestPoint> answers_;
+};
+
+TEST_F(AskingPath, IsCounted) {
+  const std::uint64_t allocations = allocation_count(), locks = lock_count();
+  std::mutex mutex;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const std::vector<int> memory(10);
+  }
+  EXPECT_GT(allocation_count(), allocations);
+  EXPECT_GT(lock_count(), locks);
+}
+
+TEST_F(AskingPath, NeitherAllocatesNorLocksWhenAllIsResident) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  ask_everything(probe);
+  const std::uint64_t read = model.stats().pages_read;
+  const std::uint64_t allocations = allocation_count(), locks = lock_count();
+  ask_everything(probe);
+  EXPECT_EQ(allocation_count(), allocations);
+  EXPECT_EQ(lock_count(), locks);
+  EXPECT_EQ(model.stats().pages_read, read);
+}
+
+TEST_F(AskingPath, DoesNotAllocateWhileItFetches) {
+  const Model model = sample_.open(sample_.least_budget());
+  Probe probe = make_probe(model);
+  const std::uint64_t allocations = allocation_count();
+  ask_everything(probe);
+  EXPECT_EQ(allocation_count(), allocations);
+  EXPECT_GT(model.stats().pages_evicted, 1000u);
+}
+
+}  // namespace
+}  // namespace planetree::query

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "planetree/probe.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+class Batch : public testing::Test {
+ protected:
+  // More than the probe puts in order at once, some of them odd.
+  Batch() : sample_(octree::sphere(4)), queries_(random_queries(2600, -1.5, 1.5)) {
+    queries_[3] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+    queries_[1023] = {1e300, -1e300, 0};
+    queries_[1024] = {0, std::numeric_limits<double>::infinity(), 0};
+    queries_[2000] = queries_[17];
+    queries_[2001] = {1e20, 1, 1};
+  }
+
+  void expect_as_one_by_one(const Ask& ask) {
+    const Model model = sample_.open();
+    Probe probe = make_probe(model);
+    std::vector<ClosestPoint> answers(queries_.size());
+    probe.closest_points(queries_, answers, ask);
+    for (std::size_t i = 0; i < queries_.size(); ++i)
+      ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries_[i], ask))) << i;
+  }
+
+  SampleModel sample_;
+  std::vector<Vec3> queries_;
+};
+
+TEST_F(Batch, HasTheBitsOfOneByOne) { expect_as_one_by_one({}); }
+
+TEST_F(Batch, HasThemUnderLimitsToo) {
+  expect_as_one_by_one({.max_error = 0.1, .max_distance = 0.5, .max_nodes = 12});
+}
+
+TEST_F(Batch, HasThemInAnyOrderAndAnyMemory) {
+  const Model large = sample_.open(), small = sample_.open(sample_.least_budget());
+  Probe of_large = make_probe(large), of_small = make_probe(small);
+  std::vector<ClosestPoint> answers(queries_.size()), turned(queries_.size());
+  of_large.closest_points(queries_, answers);
+  std::ranges::reverse(queries_);
+  of_small.closest_points(queries_, turned);
+  std::ranges::reverse(turned);
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    ASSERT_EQ(bits_of(turned[i]), bits_of(answers[i])) << i;
+}
+
+TEST_F(Batch, MayBeOfAnySize) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  probe.closest_points({}, {});
+  for (const std::size_t size : {1u, 2u, 1023u, 1024u, 1025u}) {
+    std::vector<ClosestPoint> answers(size);
+    probe.closest_points(std::span(queries_).first(size), answers);
+    EXPECT_EQ(bits_of(answers[size - 1]), bits_of(probe.closest_point(queries_[size - 1])));
+  }
+}
+
+TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
+  const std::uint64_t budget = sample_.least_budget() + sample_.page_count() / 3 * 4096;
+  const Model one = sample_.open(budget), batch = sample_.open(budget);
+  ASSERT_LT(one.stats().frames, sample_.page_count());
+  Probe of_one = make_probe(one), of_batch = make_probe(batch);
+  std::vector<ClosestPoint> answers(queries_.size());
+  for (const Vec3& query : queries_) of_one.closest_point(query);
+  of_batch.closest_points(queries_, answers);
+  EXPECT_LT(batch.stats().pages_read * 2, one.stats().pages_read);
+}
+
+}  // namespace
+}  // namespace planetree::query

@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "planetree/probe.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+using octree::repeated;
+using octree::scattered;
+using octree::sphere;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+TEST(ClosestPoint, IsNearestAndOnItsTriangle) {
+  // Input units that the model frame is 2^7 times smaller than.
+  Soup soup = sphere(4);
+  for (auto& triangle : soup)
+    for (Vec3& corner : triangle) corner = {corner.x * 100, corner.y * 100, corner.z * 100};
+  const SampleModel sample(soup);
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  for (const Vec3& query : random_queries(300, -180, 180)) {
+    const ClosestPoint answer = probe.closest_point(query);
+    ASSERT_EQ(answer.status, Status::kExact);
+    EXPECT_EQ(answer.distance, sample.distance(query));
+    EXPECT_EQ(answer.triangle, sample.nearest_triangle(query));
+    EXPECT_TRUE(sample.interval_holds(answer, query));
+    EXPECT_LT(answer.upper - answer.lower, 1e-10);
+    const auto& [a, b, c] = soup[answer.triangle];
+    const auto& [u, v, w] = answer.barycentric;
+    EXPECT_NEAR(u + v + w, 1, 1e-15);
+    const Vec3 off{u * a.x + v * b.x + w * c.x - answer.point.x,
+                   u * a.y + v * b.y + w * c.y - answer.point.y,
+                   u * a.z + v * b.z + w * c.z - answer.point.z};
+    EXPECT_LT(length(off), 1e-12);
+  }
+}
+
+TEST(ClosestPoint, RefusesWhatMakesNoSense) {
+  const SampleModel sample(repeated(1));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  struct Row {
+    Vec3 query;
+    Ask ask;
+  };
+  std::vector<Row> rows;
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    rows.push_back({{bad, 0, 0}, {}});
+    rows.push_back({{0, bad, 0}, {}});
+    rows.push_back({{0, 0, bad}, {}});
+    rows.push_back({{}, {.max_error = bad}});
+  }
+  rows.push_back({{}, {.max_error = -1e-300}});
+  rows.push_back({{}, {.max_distance = kNaN}});
+  rows.push_back({{}, {.max_distance = -1}});
+  rows.push_back({{}, {.max_distance = -kInfinity}});
+  for (const Row& row : rows) {
+    const ClosestPoint answer = probe.closest_point(row.query, row.ask);
+    EXPECT_EQ(answer.status, Status::kBadQuery);
+    EXPECT_EQ(answer.lower, 0);
+    EXPECT_EQ(answer.upper, kInfinity);
+    EXPECT_EQ(answer.distance, kInfinity);
+    EXPECT_EQ(answer.triangle, kNoTriangle);
+    EXPECT_FALSE(std::isnan(answer.point.x + answer.barycentric.x));
+  }
+  EXPECT_EQ(probe.closest_point({}, {.max_error = 0, .max_distance = kInfinity}).status,
+            Status::kExact);
+}
+
+TEST(ClosestPoint, AnswersQueriesFromVeryFarAway) {
+  const SampleModel sample(sphere(3));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  for (const double far : {1e6, 1e15, 1e30, 1e80, 1e91, 1e200, 1e300, 1.7e308})
+    for (const Vec3& query : {Vec3{far, 0, 0}, Vec3{-far, far, -far / 3}}) {
+      const ClosestPoint answer = probe.closest_point(query);
+      EXPECT_EQ(answer.status, Status::kExact) << far;
+      EXPECT_NE(answer.triangle, kNoTriangle);
+      EXPECT_LT(answer.lower, answer.upper);
+      // Divided first, so that the truth is a double.
+      const double truth = length({query.x / far, query.y / far, query.z / far});
+      EXPECT_LE(answer.lower / far, truth);
+      EXPECT_GE(answer.upper / far, truth - 1 / far);
+      EXPECT_NEAR(answer.barycentric.x + answer.barycentric.y + answer.barycentric.z, 1, 1e-15);
+      EXPECT_LE(length(answer.point), 1.0000001);
+    }
+}
+
+TEST(ClosestPoint, NamesTheLeastIndexAmongTheEquallyFar) {
+  const SampleModel sample(repeated(100), 4096, 7);
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  EXPECT_EQ(probe.closest_point({0.2, 0.2, 3}).triangle, 7u);
+  EXPECT_EQ(probe.closest_point({1e300, 0, 0}).triangle, 7u);
+  EXPECT_EQ(probe.closest_point({0, 0, 0}).triangle, 7u);
+}
+
+TEST(ClosestPoint, CountsTrianglesBeyond32Bits) {
+  const std::uint64_t first = (std::uint64_t{1} << 40) + 5;
+  const SampleModel sample(sphere(3), 4096, first);
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  for (const Vec3& query : random_queries(50, -1.5, 1.5)) {
+    const ClosestPoint answer = probe.closest_point(query);
+    EXPECT_GE(answer.triangle, first);
+    EXPECT_EQ(answer.triangle, sample.nearest_triangle(query));
+  }
+}
+
+TEST(ClosestPoint, LooksNoFartherThanTold) {
+  const SampleModel sample(sphere(4));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  for (const Vec3& query : random_queries(200, -2, 2)) {
+    const double truth = sample.distance(query);
+    for (const double share : {0.0, 0.5, 0.999999, 1.000001, 3.0}) {
+      const Ask ask{.max_distance = truth * share};
+      const ClosestPoint answer = probe.closest_point(query, ask);
+      if (share < 1) {
+        EXPECT_EQ(answer.status, Status::kBeyondMaxDistance);
+        EXPECT_EQ(answer.lower, ask.max_distance);
+        EXPECT_EQ(answer.upper, kInfinity);
+        EXPECT_EQ(answer.distance, kInfinity);
+        EXPECT_EQ(answer.triangle, kNoTriangle);
+      } else {
+        EXPECT_EQ(answer.status, Status::kExact);
+        EXPECT_EQ(answer.distance, truth);
+      }
+    }
+  }
+  const ClosestPoint far = probe.closest_point({1e300, 0, 0}, {.max_distance = 1e299});
+  EXPECT_EQ(far.status, Status::kBeyondMaxDistance);
+  EXPECT_EQ(far.lower, 1e299);
+  EXPECT_EQ(probe.closest_point({1, 0, 0}, {.max_distance = 0}).status, Status::kExact);
+}
+
+TEST(ClosestPoint, StaysWithinTheErrorAllowed) {
+  const SampleModel sample(sphere(5));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  int within = 0;
+  for (const Vec3& query : random_queries(150, -1.5, 1.5)) {
+    for (const double error : {1e-9, 1e-3, 0.05, 1.0, 1e300}) {
+      const ClosestPoint answer = probe.closest_point(query, {.max_error = error});
+      EXPECT_TRUE(answer.status == Status::kExact || answer.status == Status::kWithinError);
+      EXPECT_LE(answer.upper - answer.lower, error);
+      EXPECT_TRUE(sample.interval_holds(answer, query));
+      within += answer.status == Status::kWithinError;
+    }
+  }
+  EXPECT_GT(within, 50);
+}
+
+TEST(ClosestPoint, HoldsTheTruthWhateverTheLimits) {
+  const SampleModel sample(scattered(1200, 0.2));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  octree::Noise noise(9);
+  int counts[5] = {};
+  for (const Vec3& query : random_queries(600, -1, 2)) {
+    Ask ask;
+    if (noise.bits() % 2 == 0) ask.max_nodes = noise.bits() % 40;
+    if (noise.bits() % 2 == 0) ask.max_error = noise.uniform(0, 0.3);
+    if (noise.bits() % 3 == 0) ask.max_distance = noise.uniform(0, 1);
+    const ClosestPoint answer = probe.closest_point(query, ask);
+    EXPECT_TRUE(sample.interval_holds(answer, query));
+    ++counts[static_cast<int>(answer.status)];
+  }
+  for (const Status status : {Status::kExact, Status::kWithinError, Status::kDegraded,
+                              Status::kBeyondMaxDistance})
+    EXPECT_GT(counts[static_cast<int>(status)], 10);
+}
+
+TEST(ClosestPoint, AnswersAtOnceWithoutAnyNode) {
+  const SampleModel sample(sphere(5));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  const std::uint64_t hits = model.stats().page_hits;
+  const Vec3 query{0.5, 0.25, 3};
+  const ClosestPoint answer = probe.closest_point(query, {.max_nodes = 0});
+  EXPECT_EQ(answer.status, Status::kDegraded);
+  EXPECT_EQ(answer.triangle, kNoTriangle);
+  EXPECT_EQ(answer.distance, answer.upper);
+  EXPECT_TRUE(sample.interval_holds(answer, query));
+  EXPECT_GT(answer.lower, 1.9);  // the box is known
+  EXPECT_EQ(model.stats().page_hits, hits);
+  EXPECT_EQ(model.stats().degraded_answers, 1u);
+}
+
+TEST(ClosestPoint, KnowsMoreTheMoreNodesItMayVisit) {
+  const SampleModel sample(sphere(5));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  for (const Vec3& query : random_queries(30, -1.5, 1.5)) {
+    for (std::uint32_t nodes = 0; nodes < 60; ++nodes)
+      EXPECT_TRUE(sample.interval_holds(probe.closest_point(query, {.max_nodes = nodes}), query));
+    EXPECT_EQ(probe.closest_point(query, {.max_nodes = 1}).status, Status::kDegraded);
+    EXPECT_EQ(probe.closest_point(query, {.max_nodes = 5000}).status, Status::kExact);
+  }
+}
+
+TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
+  const SampleModel sample(scattered(3000, 0.05));
+  const Model large = sample.open(), small = sample.open(sample.least_budget());
+  ASSERT_GT(large.stats().frames, 4 * small.stats().frames);
+  Probe of_large = make_probe(large), of_small = make_probe(small);
+  const std::vector<Vec3> queries = random_queries(400, -0.2, 1.2);
+  std::vector<std::string> forward;
+  for (const Vec3& query : queries) forward.push_back(bits_of(of_large.closest_point(query)));
+  for (std::size_t i = queries.size(); i-- > 0;)
+    EXPECT_EQ(bits_of(of_small.closest_point(queries[i])), forward[i]);
+  EXPECT_GT(small.stats().pages_evicted, 100u);
+}
+
+}  // namespace
+}  // namespace planetree::query

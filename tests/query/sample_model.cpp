@@ -1,0 +1,145 @@
+#include "tests/query/sample_model.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "storage/page_writer.h"
+
+namespace planetree::query {
+namespace {
+
+[[noreturn]] void give_up(const Error& error) {
+  std::fprintf(stderr, "sample: %s\n", error.text);
+  std::abort();
+}
+
+storage::ModelRecord describe(const octree::SampleTree& sample) {
+  const octree::TreeFacts facts = octree::tree_facts(sample);
+  storage::ModelRecord model{};
+  model.triangle_count = sample.mesh.size();
+  model.first_set_aside = storage::kNoTriangle;
+  model.vertex_count = std::uint64_t{3} * sample.mesh.size();
+  model.node_count = sample.tree.nodes.size();
+  model.block_count = sample.tree.blocks.size();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    model.box_lower[axis] = sample.mesh.input_lower()[axis];
+    model.box_upper[axis] = sample.mesh.input_upper()[axis];
+    model.centre[axis] = facts.centre[axis];
+    model.sample[axis] = facts.sample[axis];
+  }
+  model.sample_triangle = facts.sample_triangle;
+  model.scale_exponent = sample.mesh.scale_exponent();
+  model.root_link = facts.root_link;
+  model.vertex_kind =
+      sample.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
+  model.triangle_id_bytes = sample.shape.wide_ids ? 8 : 4;
+  model.height = sample.tree.nodes.empty() ? 0 : sample.tree.nodes[0].height;
+  return model;
+}
+
+void write(const octree::SampleTree& sample, const std::filesystem::path& path) {
+  const octree::SamplePages pages(sample);
+  const auto page_count = static_cast<std::uint32_t>(pages.size());
+  auto writer = storage::PageWriter::create(path, page_count, false);
+  if (!writer) give_up(writer.error());
+  for (std::uint32_t page = 0; page < page_count; ++page) {
+    const octree::PlannedPage& planned = sample.plan.pages[page];
+    const auto appended =
+        writer->append(planned.octcode, planned.ordinal,
+                       static_cast<std::uint32_t>(pages.raw(page).size()),
+                       storage::encode_page(pages.raw(page)));
+    if (!appended) give_up(appended.error());
+  }
+  const auto header = writer->finish(describe(sample), sample.plan.page_bytes);
+  if (!header) give_up(header.error());
+}
+
+}  // namespace
+
+SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index)
+    : sample_(octree::build_sample(soup, page_bytes, first_index)) {
+  write(sample_, path());
+}
+
+std::uint64_t SampleModel::least_budget(unsigned max_probes) const {
+  OpenOptions options;
+  options.memory_budget_bytes = 0;
+  options.max_probes = max_probes;
+  const auto model = Model::open(path(), options);
+  if (model) return 0;
+  const std::string text = model.error().text;
+  const std::string before = "at least ";
+  const std::size_t at = text.find(before);
+  if (at == std::string::npos) give_up(model.error());
+  return std::strtoull(text.c_str() + at + before.size(), nullptr, 10);
+}
+
+Model SampleModel::open(std::uint64_t budget_bytes, unsigned max_probes) const {
+  OpenOptions options;
+  options.memory_budget_bytes = budget_bytes;
+  options.max_probes = max_probes;
+  auto model = Model::open(path(), options);
+  if (!model) give_up(model.error());
+  return *std::move(model);
+}
+
+SampleModel::Truth SampleModel::truth(const Vec3& query) const {
+  const double scale = std::ldexp(1.0, sample_.mesh.scale_exponent());
+  const octree::Point point(query.x * scale, query.y * scale, query.z * scale);
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t nearest = 0;
+  for (std::uint32_t i = 0; i < sample_.mesh.size(); ++i) {
+    const double squared = octree::squared_distance(point, sample_.mesh.corners(i));
+    if (squared >= least) continue;
+    least = squared;
+    nearest = i;
+  }
+  const double error = octree::nearest_on_triangle(point, sample_.mesh.corners(nearest)).error;
+  return {std::sqrt(least) / scale, error / scale, sample_.mesh.index(nearest)};
+}
+
+double SampleModel::distance(const Vec3& query) const { return truth(query).distance; }
+
+std::uint64_t SampleModel::nearest_triangle(const Vec3& query) const {
+  return truth(query).triangle;
+}
+
+bool SampleModel::interval_holds(const ClosestPoint& answer, const Vec3& query) const {
+  const Truth known = truth(query);
+  return answer.lower < answer.upper && answer.lower <= known.distance + known.error &&
+         answer.upper >= known.distance - known.error;
+}
+
+Probe make_probe(const Model& model) {
+  auto probe = Probe::create(model);
+  if (!probe) give_up(probe.error());
+  return *std::move(probe);
+}
+
+std::vector<Vec3> random_queries(std::size_t count, double low, double high, std::uint64_t seed) {
+  octree::Noise noise(seed);
+  std::vector<Vec3> queries;
+  for (std::size_t i = 0; i < count; ++i) queries.push_back(noise.point(low, high));
+  return queries;
+}
+
+std::string bits_of(const ClosestPoint& answer) {
+  const double values[] = {answer.distance,      answer.lower,         answer.upper,
+                           answer.point.x,       answer.point.y,       answer.point.z,
+                           answer.barycentric.x, answer.barycentric.y, answer.barycentric.z};
+  std::string words;
+  for (const double value : values) {
+    char word[32];
+    std::snprintf(word, sizeof word, "%016llx ",
+                  static_cast<unsigned long long>(std::bit_cast<std::uint64_t>(value)));
+    words += word;
+  }
+  return words + std::to_string(answer.triangle) + ' ' +
+         std::to_string(static_cast<int>(answer.feature)) + ' ' +
+         std::to_string(static_cast<int>(answer.status));
+}
+
+}  // namespace planetree::query

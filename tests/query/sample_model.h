@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planetree/model.h"
+#include "planetree/probe.h"
+#include "tests/octree/sample_tree.h"
+#include "tests/storage/temporary_directory.h"
+
+/// Small models in files, and what is true of them.
+namespace planetree::query {
+
+using octree::Soup;
+
+/// A .ptree file of a soup, in a folder that goes with it, and the soup itself
+/// to compare answers with. What fails ends the test program with a word.
+class SampleModel {
+ public:
+  explicit SampleModel(const Soup& soup, std::uint32_t page_bytes = 4096,
+                       std::uint64_t first_index = 0);
+
+  std::filesystem::path path() const { return folder_ / "model.ptree"; }
+  const octree::SampleTree& sample() const { return sample_; }
+  std::uint32_t page_count() const { return static_cast<std::uint32_t>(sample_.plan.pages.size()); }
+
+  /// Least budget the model opens with, as the error names it.
+  std::uint64_t least_budget(unsigned max_probes = 1) const;
+  Model open(std::uint64_t budget_bytes = std::uint64_t{64} << 20, unsigned max_probes = 1) const;
+
+  /// The distance to every triangle, the least of them; model units, with the
+  /// arithmetic of the library.
+  double distance(const Vec3& query) const;
+  std::uint64_t nearest_triangle(const Vec3& query) const;
+  /// Whether [lower, upper] may hold the true distance.
+  bool interval_holds(const ClosestPoint& answer, const Vec3& query) const;
+
+ private:
+  struct Truth {
+    double distance = 0;
+    double error = 0;
+    std::uint64_t triangle = 0;
+  };
+  Truth truth(const Vec3& query) const;
+
+  storage::TemporaryDirectory folder_;
+  octree::SampleTree sample_;
+};
+
+Probe make_probe(const Model& model);
+
+std::vector<Vec3> random_queries(std::size_t count, double low, double high,
+                                 std::uint64_t seed = 1);
+
+/// Every bit of an answer, in words that a failure can show.
+std::string bits_of(const ClosestPoint& answer);
+
+}  // namespace planetree::query

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "planetree/probe.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+constexpr unsigned kThreads = 8;
+
+// Every thread asks everything, each beginning elsewhere, and with hardly any
+// memory: pages are taken from under one thread by another all the time.
+TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
+  const SampleModel sample(octree::sphere(5));
+  const std::vector<Vec3> queries = random_queries(400, -1.3, 1.3);
+  std::vector<std::string> expected;
+  {
+    const Model model = sample.open();
+    Probe probe = make_probe(model);
+    for (const Vec3& query : queries) expected.push_back(bits_of(probe.closest_point(query)));
+  }
+  const Model model = sample.open(sample.least_budget(kThreads), kThreads);
+  ASSERT_LT(model.stats().frames, sample.page_count() / 2);
+  std::vector<std::vector<ClosestPoint>> answers(kThreads);
+  std::vector<std::thread> threads;
+  for (unsigned t = 0; t < kThreads; ++t)
+    threads.emplace_back([&, t] {
+      Probe probe = make_probe(model);
+      std::vector<ClosestPoint>& own = answers[t];
+      own.resize(queries.size());
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        const std::size_t at = (i + t * queries.size() / kThreads) % queries.size();
+        own[at] = probe.closest_point(queries[at]);
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (unsigned t = 0; t < kThreads; ++t)
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      ASSERT_EQ(bits_of(answers[t][i]), expected[i]) << t << ' ' << i;
+  EXPECT_GT(model.stats().pages_evicted, 500u);
+  EXPECT_EQ(model.stats().degraded_answers, 0u);
+}
+
+TEST(Threads, ShareBatchesToo) {
+  const SampleModel sample(octree::scattered(2000, 0.1));
+  const std::vector<Vec3> queries = random_queries(1500, -0.2, 1.2);
+  const Model model = sample.open(sample.least_budget(kThreads), kThreads);
+  std::vector<std::vector<ClosestPoint>> answers(kThreads,
+                                                 std::vector<ClosestPoint>(queries.size()));
+  std::vector<std::thread> threads;
+  for (unsigned t = 0; t < kThreads; ++t)
+    threads.emplace_back([&, t] { make_probe(model).closest_points(queries, answers[t]); });
+  for (std::thread& thread : threads) thread.join();
+  for (unsigned t = 1; t < kThreads; ++t)
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      ASSERT_EQ(bits_of(answers[t][i]), bits_of(answers[0][i])) << t << ' ' << i;
+}
+
+}  // namespace
+}  // namespace planetree::query

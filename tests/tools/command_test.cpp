@@ -1,0 +1,412 @@
+#include "tools/command.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/storage/temporary_directory.h"
+#include "tests/tools/captured_console.h"
+#include "tests/tools/sample_tree.h"
+#include "tools/file_text.h"
+
+namespace planetree::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class Command : public testing::Test {
+ protected:
+  void SetUp() override {
+    before_ = fs::current_path();
+    fs::current_path(folder_ / ".");
+    write_mesh("mesh.obj", kSide);
+    build_sample("mesh.obj", "tree.ptree");
+    const auto file = storage::PageFile::open("tree.ptree");
+    ASSERT_TRUE(file);
+    ASSERT_GT(file->page_count(), 2u);
+    entries_.assign(file->entries().begin(), file->entries().end());
+  }
+  void TearDown() override { fs::current_path(before_); }
+
+  static void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+  }
+  static void flip(const fs::path& path, std::uint64_t offset) {
+    auto bytes = storage::read_bytes(path);
+    bytes[offset] ^= std::byte{1};
+    storage::write_bytes(path, bytes);
+  }
+
+  static constexpr unsigned kSide = 14;
+  static constexpr std::uint64_t kTriangles = 2 * kSide * kSide;
+
+  storage::TemporaryDirectory folder_;
+  fs::path before_;
+  std::vector<storage::PageEntry> entries_;
+};
+
+struct Refused {
+  std::vector<std::string> arguments;
+  int status;
+  std::string line;
+};
+
+// These lines are what people and scripts see: each names the file, the place
+// in it, the cause and what to do.
+TEST_F(Command, RefusesInOneLine) {
+  write("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 7\n");
+  write("short.csv", "x,y,z\n1,2,3\n1,2\n");
+  write("word.csv", "1,2,3\n1,two,3\n");
+  write("odd.f64", std::string(25, '\0'));
+  write("cut.ptree", std::string(100, '\0').replace(0, 8, "\x89PTREE\r\n", 8));
+  const std::vector<Refused> cases = {
+      {{}, 2, "planetree: no verb; planetree --help lists them"},
+      {{"frobnicate"}, 2, "planetree: no verb 'frobnicate'; planetree --help lists them"},
+      {{"build", "mesh.obj"},
+       2,
+       "planetree: build: --output is required; see planetree build --help"},
+      {{"build", "mesh.obj", "-o", "tree.ptree"},
+       2,
+       "planetree: tree.ptree: the file exists; use --force to replace it, or another name"},
+      {{"build", "none.obj", "-o", "new.ptree"},
+       2,
+       "planetree: none.obj: no such file; check the path"},
+      {{"build", "mesh.obj", "-o", "none/new.ptree"},
+       2,
+       "planetree: none/new.ptree: its directory does not exist; create it first"},
+      {{"build", "mesh.obj", "-o", "mesh.obj", "--force"},
+       2,
+       "planetree: mesh.obj: this is the input itself; name another output"},
+      {{"build", "mesh.obj", "-o", "."}, 2, "planetree: .: this is a directory; name a file in it"},
+      {{"build", "mesh.obj", "-o", "new.ptree", "--page-size", "5000"},
+       2,
+       "planetree: build: --page-size: 5000 is not a page size; give a power of two from 4K to "
+       "256K; see planetree build --help"},
+      {{"build", "mesh.obj", "-o", "new.ptree", "--threads", "1025"},
+       2,
+       "planetree: build: --threads: 1025 is too many; at most 1024; see planetree build --help"},
+      {{"build", "bad_index.obj", "-o", "new.ptree", "--strict"},
+       1,
+       "planetree: bad_index.obj: line 5: vertex index 7 is out of range, the file has 3 vertices; "
+       "repair the mesh or build without --strict"},
+      {{"query", "none.ptree"},
+       2,
+       "planetree: none.ptree: cannot open the file: No such file or directory; check the path"},
+      {{"query", "tree.ptree", "none.csv"},
+       2,
+       "planetree: none.csv: cannot open it: No such file or directory; check the path"},
+      {{"query", "tree.ptree", "short.csv"},
+       1,
+       "planetree: short.csv: line 3: it has fewer numbers than x,y,z; give x,y,z, one point a "
+       "line"},
+      {{"query", "tree.ptree", "word.csv"},
+       1,
+       "planetree: word.csv: line 2: 'two' is not a number; give x,y,z, one point a line"},
+      {{"query", "tree.ptree", "odd.f64"},
+       1,
+       "planetree: odd.f64: at byte 24: the file ends 1 bytes into a point of 24; write whole "
+       "points"},
+      {{"query", "tree.ptree", "--max-error", "-1"},
+       2,
+       "planetree: query: --max-error: '-1' is not a length; give a number from 0 on, in model "
+       "units; see planetree query --help"},
+      {{"query", "tree.ptree", "--memory", "lots"},
+       2,
+       "planetree: query: --memory: 'lots' is not a size; give a whole number of bytes such as "
+       "4096, 64K, 256M or 1.5G (K is 1024); see planetree query --help"},
+      {{"inspect", "tree.ptree", "--page", "99"},
+       2,
+       "planetree: tree.ptree: there is no page 99; its last is " +
+           std::to_string(entries_.size() - 1)},
+      {{"inspect", "tree.ptree", "--node", "7:1:2"},
+       2,
+       "planetree: inspect: --node: '7:1:2' is no octcode; give 0x... or level:x:y:z; see "
+       "planetree inspect --help"},
+      {{"inspect", "tree.ptree", "--node", "9:1:2:3"},
+       2,
+       "planetree: tree.ptree: no page begins at that octcode; --pages lists where pages begin"},
+      {{"inspect", "tree.ptree", "--slice", "z=1"},
+       2,
+       "planetree: inspect: --slice requires --image; see planetree inspect --help"},
+      {{"inspect", "cut.ptree"},
+       1,
+       "planetree: cut.ptree: FILE_LENGTH: at byte 100: the file should have at least 640 bytes "
+       "and has 100; restore it from a copy or build it again"},
+      {{"verify", "none.ptree"},
+       2,
+       "planetree: none.ptree: cannot open the file: No such file or directory; check the path"},
+  };
+  for (const Refused& each : cases) {
+    const Outcome result = run(each.arguments);
+    EXPECT_EQ(result.errors, each.line + "\n");
+    EXPECT_EQ(result.status, each.status) << each.line;
+  }
+  EXPECT_FALSE(fs::exists("new.ptree"));
+}
+
+TEST_F(Command, ExplainsItself) {
+  const Outcome all = run({"--help"});
+  EXPECT_EQ(all.status, 0);
+  for (const char* verb : {"generate", "build", "query", "inspect", "verify"}) {
+    EXPECT_NE(all.output.find(verb), std::string::npos);
+    const Outcome one = run({verb, "--help"});
+    EXPECT_EQ(one.status, 0);
+    EXPECT_NE(one.output.find("--json"), std::string::npos) << verb;
+    EXPECT_NE(one.output.find("--quiet"), std::string::npos) << verb;
+    EXPECT_EQ(one.errors, "");
+  }
+}
+
+TEST_F(Command, BuildsAndReports) {
+  const Outcome result = run(
+      {"build", "mesh.obj", "-o", "new.ptree", "--page-size", "4K", "--threads", "1", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.errors, "");
+  const Json report = Json::parse(result.output);
+  EXPECT_EQ(report["triangles"], kTriangles);
+  EXPECT_EQ(report["set_aside"], 0);
+  EXPECT_EQ(report["first_set_aside"], nullptr);
+  EXPECT_EQ(report["file_bytes"], fs::file_size("new.ptree"));
+  EXPECT_EQ(report["page_bytes"], 4096);
+  EXPECT_GT(report["seconds"], 0);
+  EXPECT_GT(report["peak_resident_bytes"], 0);
+  EXPECT_EQ(report["sha256"].get<std::string>().size(), 64u);
+  EXPECT_EQ(storage::read_bytes("new.ptree"), storage::read_bytes("tree.ptree"));
+  const Outcome again = run({"build", "mesh.obj", "-o", "new.ptree", "--force"});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(lines_of(again.output).size(), 1u);
+}
+
+TEST_F(Command, BuildNamesTheFirstRecordSetAside) {
+  write_mesh("holes.obj", 3, "f 1 2 99\nf 1 2 3 98\n");
+  const Outcome result = run({"build", "holes.obj", "-o", "holes.ptree", "--json"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(
+      result.errors,
+      "planetree: warning: holes.obj: 3 triangles of bad records set aside, the first: line "
+      "35: vertex index 99 is out of range, the file has 16 vertices; repair the mesh, or use "
+      "--strict to refuse it\n");
+  const Json report = Json::parse(result.output);
+  EXPECT_EQ(report["set_aside"], 3);
+  EXPECT_EQ(report["first_set_aside"], 18);
+}
+
+TEST_F(Command, QueryAnswersInTheOrderOfTheInput) {
+  const Outcome result = run({"query", "tree.ptree"}, "0,0,3\n\nnan,0,0\n0,0,1e308\n8,8,0\n");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto lines = lines_of(result.output);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0], "x,y,z,distance,lower,upper,px,py,pz,triangle,feature,status");
+  EXPECT_EQ(lines[1].substr(0, 6), "0,0,3,");
+  EXPECT_EQ(lines[2], "nan,0,0,inf,0,inf,0,0,0,,face,bad_query");
+  EXPECT_TRUE(lines[3].starts_with("0,0,1e+308,")) << lines[3];
+  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 11);
+  EXPECT_TRUE(lines[4].ends_with(",exact"));
+}
+
+TEST_F(Command, QueryAnswersWhatComesBeforeABadLine) {
+  const Outcome result = run({"query", "tree.ptree"}, "x,y,z\n1,1,1\n2,2,2\n3;3;3\n4,4,4\n");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(lines_of(result.output).size(), 3u);
+  EXPECT_EQ(result.errors,
+            "planetree: standard input: line 4: '3;3;3' is not a number; give x,y,z, one point a "
+            "line\n");
+}
+
+TEST_F(Command, QueryObeysItsLimits) {
+  const Outcome far = run({"query", "tree.ptree", "--max-distance", "2"}, "4,4,9\n");
+  EXPECT_EQ(lines_of(far.output).back(), "4,4,9,inf,2,inf,0,0,0,,face,beyond_max_distance");
+  const Outcome coarse = run({"query", "tree.ptree", "--max-error", "100"}, "4,4,9\n");
+  EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
+}
+
+TEST_F(Command, QuerySumsUpOnStandardError) {
+  const Outcome result =
+      run({"query", "tree.ptree", "--json", "--format", "jsonl"}, "1,1,1\ninf,1,1\n");
+  EXPECT_EQ(result.status, 0);
+  const Json report = Json::parse(result.errors);
+  EXPECT_EQ(report["points"], 2);
+  EXPECT_EQ(report["exact"], 1);
+  EXPECT_EQ(report["bad_query"], 1);
+  const auto lines = lines_of(result.output);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(Json::parse(lines[0])["status"], "exact");
+  EXPECT_EQ(Json::parse(lines[1])["x"], nullptr);
+}
+
+TEST_F(Command, QueryGivesTheSameWhateverTheInputFormat) {
+  write("points.csv", "id,z,y,x\n7,3,2,1\n8,6,5,4.5\n");
+  write("points.ply",
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty "
+        "double z\nend_header\n1 2 3\n4.5 5 6\n");
+  const double triples[] = {1, 2, 3, 4.5, 5, 6};
+  write("points.f64", std::string(reinterpret_cast<const char*>(triples), sizeof triples));
+  const std::string expected = run({"query", "tree.ptree"}, "1,2,3\n4.5,5,6").output;
+  ASSERT_EQ(lines_of(expected).size(), 3u);
+  for (const char* name : {"points.csv", "points.ply", "points.f64"})
+    EXPECT_EQ(run({"query", "tree.ptree", name}).output, expected) << name;
+}
+
+TEST_F(Command, QueryTellsOfPagesItCannotRead) {
+  flip("tree.ptree", entries_[1].offset);
+  std::string points;
+  for (int i = 0; i <= 14; ++i) points += std::to_string(i) + "," + std::to_string(i) + ",0.5\n";
+  const Outcome result = run({"query", "tree.ptree"}, points);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.output.find(",degraded\n"), std::string::npos);
+  EXPECT_EQ(lines_of(result.output).size(), 16u);
+  EXPECT_TRUE(result.errors.starts_with("planetree: tree.ptree: 1 of its pages cannot be read"));
+}
+
+TEST_F(Command, QueryWarnsOfADamagedHeaderAndGoesOn) {
+  flip("tree.ptree", 50);
+  const Outcome result = run({"query", "tree.ptree"}, "1,1,1\n");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(lines_of(result.output).size(), 2u);
+  EXPECT_EQ(result.errors,
+            "planetree: warning: tree.ptree: one of its two headers is damaged; copy the file "
+            "anew or build it again\n");
+}
+
+TEST_F(Command, InspectSaysWhatIsThere) {
+  const Outcome result = run({"inspect", "tree.ptree", "--json", "--levels", "--pages"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json report = Json::parse(result.output);
+  EXPECT_EQ(report["triangles"], kTriangles);
+  EXPECT_EQ(report["vertices"], 225);
+  EXPECT_EQ(report["box"]["upper"][0], 14.0);
+  EXPECT_EQ(report["file_bytes"], fs::file_size("tree.ptree"));
+  std::uint64_t sum = 0;
+  for (const char* section : {"headers", "page_table", "distance_pages"})
+    sum += report["bytes"][section].get<std::uint64_t>();
+  EXPECT_EQ(sum, fs::file_size("tree.ptree"));
+  std::uint64_t nodes = 0, triangles = 0, in_pages = 0, raw = 0, streams = 0;
+  for (const Json& level : report["by_level"]) {
+    nodes += level["nodes"].get<std::uint64_t>();
+    triangles += level["triangles"].get<std::uint64_t>();
+  }
+  for (const Json& page : report["by_page"]) {
+    in_pages += page["triangles"].get<std::uint64_t>();
+    raw += page["raw_bytes"].get<std::uint64_t>();
+  }
+  for (const auto& [name, bytes] : report["bytes"]["within_pages"].items())
+    streams += bytes.get<std::uint64_t>();
+  EXPECT_EQ(nodes, report["nodes"]);
+  EXPECT_EQ(triangles, kTriangles);
+  EXPECT_EQ(in_pages, kTriangles);
+  EXPECT_EQ(streams, raw);
+  EXPECT_EQ(report["by_page"].size(), report["pages"]);
+}
+
+TEST_F(Command, InspectGoesOnInADamagedFile) {
+  flip("tree.ptree", entries_[2].offset);
+  const Outcome plain = run({"inspect", "tree.ptree", "--pages"});
+  EXPECT_EQ(plain.status, 1);
+  EXPECT_NE(plain.output.find("unreadable"), std::string::npos);
+  EXPECT_NE(plain.output.find("392 triangles"), std::string::npos);
+  EXPECT_TRUE(plain.errors.starts_with("planetree: tree.ptree: PAGE_CHECKSUM: page 2, at byte "));
+  const Outcome page = run({"inspect", "tree.ptree", "--page", "2"});
+  EXPECT_EQ(page.status, 1);
+  EXPECT_NE(page.output.find("stored_bytes"), std::string::npos);
+  const Outcome json = run({"inspect", "tree.ptree", "--json"});
+  EXPECT_EQ(json.status, 1);
+  EXPECT_EQ(Json::parse(json.output)["issues"][0]["code"], "PAGE_CHECKSUM");
+}
+
+TEST_F(Command, InspectShowsAPageByItsNames) {
+  const Outcome result = run({"inspect", "tree.ptree", "--page", "0", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json page = Json::parse(result.output);
+  EXPECT_EQ(page["entry"]["offset"], 320 + 40 * entries_.size());
+  EXPECT_EQ(page["head"]["page_number"], 0);
+  std::uint64_t bytes = 0;
+  for (const Json& stream : page["streams"]) {
+    EXPECT_EQ(stream["offset"], bytes);
+    bytes += stream["bytes"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(page["entry"]["raw_bytes"], bytes);
+  EXPECT_EQ(page["nodes"].size(), page["head"]["node_count"]);
+}
+
+TEST_F(Command, InspectFindsNodesByOctcode) {
+  const std::string shown = cell_text(entries_[0].octcode);
+  std::string typed = shown;
+  std::replace(typed.begin(), typed.end(), '/', ':');
+  for (const std::string& cell : {shown, typed, fmt::format("{:#x}", entries_[0].octcode)}) {
+    const Outcome result = run({"inspect", "tree.ptree", "--node", cell, "--json"});
+    ASSERT_EQ(result.status, 0) << cell << result.errors;
+    const Json found = Json::parse(result.output);
+    EXPECT_EQ(found["pages"][0]["page"], 0);
+    EXPECT_GE(found["pages"][0]["nodes"][0]["children"].size(), 2u);
+    EXPECT_TRUE(found["pages"][0]["nodes"][0].contains("box_lower"));
+  }
+}
+
+TEST_F(Command, InspectDrawsASlice) {
+  const std::vector<std::string> draw = {"inspect", "tree.ptree", "--slice", "z=50%",
+                                         "--image", "slice.png",  "--json"};
+  const Outcome result = run(draw);
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json report = Json::parse(result.output);
+  EXPECT_EQ(report["width"], 800);
+  EXPECT_EQ(report["height"], 800);
+  EXPECT_EQ(report["coordinate"], 0.4375);
+  EXPECT_EQ(storage::read_bytes("slice.png")[1], std::byte{'P'});
+  EXPECT_EQ(run(draw).status, 2);
+}
+
+TEST_F(Command, VerifyListsIssuesAndFails) {
+  const Outcome well = run({"verify", "tree.ptree", "--full", "--json"});
+  EXPECT_EQ(well.status, 0);
+  EXPECT_EQ(Json::parse(well.output)["issues"], Json::array());
+  const std::uint64_t offset = entries_[1].offset;
+  flip("tree.ptree", offset);
+  const Outcome damaged = run({"verify", "tree.ptree", "--json"});
+  EXPECT_EQ(damaged.status, 1);
+  EXPECT_EQ(damaged.errors, "");
+  const Json issue = Json::parse(damaged.output)["issues"][0];
+  EXPECT_EQ(issue["code"], "PAGE_CHECKSUM");
+  EXPECT_EQ(issue["page"], 1);
+  EXPECT_EQ(issue["offset"], offset);
+  const Outcome plain = run({"verify", "tree.ptree"});
+  EXPECT_TRUE(plain.output.starts_with("tree.ptree: PAGE_CHECKSUM: page 1, at byte "));
+}
+
+TEST_F(Command, ReportsAFullDevice) {
+  std::FILE* full = std::fopen("/dev/full", "w");
+  CapturedConsole captured;
+  Console console(captured.console().input(), full, captured.console().errors());
+  const char* argv[] = {"planetree", "verify", "tree.ptree", nullptr};
+  EXPECT_EQ(run_command(3, argv, console), 3);
+  std::fclose(full);
+  EXPECT_EQ(captured.errors(),
+            "planetree: standard output: cannot write the answer: No space left on device; free "
+            "some space or choose another device\n");
+}
+
+#ifdef PLANETREE_COMMAND
+TEST_F(Command, EndsQuietlyWhenItsReaderHasSeenEnough) {
+  std::string points;
+  for (int i = 0; i < 5000; ++i) points += "1,1,1\n";
+  write("points.csv", points);
+  const std::string line =
+      std::string("exec ") + PLANETREE_COMMAND + " query tree.ptree points.csv 2>errors.txt";
+  std::FILE* pipe = popen(line.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  EXPECT_EQ(std::fgetc(pipe), 'x');
+  const int status = pclose(pipe);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(fs::file_size("errors.txt"), 0u);
+}
+#endif
+
+}  // namespace
+}  // namespace planetree::tools

@@ -1,0 +1,278 @@
+#include "tools/inspect.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/file_parts.h"
+#include "tools/file_survey.h"
+#include "tools/open_model.h"
+#include "tools/page_report.h"
+#include "tools/progress.h"
+#include "tools/summary_report.h"
+#include "tools/verb_options.h"
+
+namespace planetree::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint64_t kSliceMemoryBytes = std::uint64_t{256} << 20;
+
+class Inspection {
+ public:
+  Inspection(const InspectArguments& arguments, Console& console, FileParts& parts)
+      : arguments_(arguments), console_(console), parts_(parts) {}
+
+  int show_all();
+  int show_page(std::uint32_t page);
+  int show_nodes();
+
+ private:
+  FileSurvey survey(Json& page_rows);
+  int tell_issues(const IssueList& issues);
+  void tell(const Issue& issue);
+  Json issues_json(const IssueList& issues) const;
+
+  const InspectArguments& arguments_;
+  Console& console_;
+  FileParts& parts_;
+};
+
+Error refusal(const std::string& text) {
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", text.c_str());
+}
+
+void Inspection::tell(const Issue& issue) {
+  fmt::print(console_.errors(), "planetree: {}: {}\n", arguments_.file.string(), issue_text(issue));
+}
+
+/// A few lines stand for all: `verify` is there to list them.
+int Inspection::tell_issues(const IssueList& issues) {
+  constexpr std::size_t kMostTold = 10;
+  if (issues.count() == 0) return kDone;
+  std::fflush(console_.output());
+  const std::size_t told = std::min(issues.kept().size(), kMostTold);
+  for (std::size_t i = 0; i < told; ++i) tell(issues.kept()[i]);
+  if (issues.count() > told)
+    fmt::print(console_.errors(), "planetree: {}: {} more issues; planetree verify lists them\n",
+               arguments_.file.string(), issues.count() - told);
+  return kDataAtFault;
+}
+
+Json Inspection::issues_json(const IssueList& issues) const {
+  Json array = Json::array();
+  for (const Issue& issue : issues.kept()) array.push_back(issue_json(issue));
+  return array;
+}
+
+FileSurvey Inspection::survey(Json& page_rows) {
+  const bool print_rows = arguments_.pages && !arguments_.json;
+  Progress progress(arguments_.quiet || (print_rows && console_.output_is_terminal()));
+  progress.start("reading", parts_.page_count(), "pages");
+  if (print_rows && parts_.page_count() > 0) console_.print(page_heading());
+  return survey_file(parts_, [&](const PageRow& row) {
+    progress.add(1);
+    if (!arguments_.pages) return true;
+    if (print_rows) return console_.print(page_line(row));
+    page_rows.push_back(page_json(row));
+    return true;
+  });
+}
+
+int Inspection::show_all() {
+  Json page_rows = Json::array();
+  const FileSurvey found = survey(page_rows);
+  if (!arguments_.json) {
+    if (arguments_.levels) console_.print(levels_text(found));
+    console_.print(summary_text(arguments_.file.string(), parts_, found));
+    return console_.finish(tell_issues(found.issues));
+  }
+  Json json = {{"file", arguments_.file.string()}};
+  json.update(summary_json(parts_, found));
+  if (arguments_.levels) json["by_level"] = levels_json(found);
+  if (arguments_.pages) json["by_page"] = std::move(page_rows);
+  json["issue_count"] = found.issues.count();
+  json["issues"] = issues_json(found.issues);
+  console_.print(json_line(json));
+  return console_.finish(found.issues.count() > 0 ? kDataAtFault : kDone);
+}
+
+int Inspection::show_page(std::uint32_t page) {
+  IssueList issues;
+  for (const Issue& issue : parts_.issues()) issues.add(issue);
+  PageRow row{page, parts_.entries()[page], {}};
+  std::optional<Issue> issue = parts_.read_page(page);
+  if (octree::RawStreams streams; !issue && parts_.cut(streams)) row.head = streams.head;
+  if (!issue) issue = parts_.decode_page();
+  Json details = page_details(parts_, row, !issue);
+  if (issue) issues.add(*issue);
+  if (!arguments_.json) {
+    console_.print(page_details_text(details));
+    return console_.finish(tell_issues(issues));
+  }
+  details["issues"] = issues_json(issues);
+  console_.print(json_line(details));
+  return console_.finish(issues.count() > 0 ? kDataAtFault : kDone);
+}
+
+/// Every page that begins at the cell; a few may share one.
+int Inspection::show_nodes() {
+  IssueList issues;
+  for (const Issue& issue : parts_.issues()) issues.add(issue);
+  Json pages = Json::array();
+  for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
+    const storage::PageEntry& entry = parts_.entries()[page];
+    if (!arguments_.node->matches(entry.octcode)) continue;
+    Json json = {{"page", page},
+                 {"octcode", fmt::format("0x{:016x}", entry.octcode)},
+                 {"cell", cell_text(entry.octcode)},
+                 {"ordinal", entry.ordinal},
+                 {"nodes", Json::array()}};
+    std::optional<Issue> issue = parts_.read_page(page);
+    if (!issue) issue = parts_.decode_page();
+    if (issue)
+      issues.add(*issue);
+    else
+      json["nodes"] = nodes_json(parts_, true);
+    pages.push_back(std::move(json));
+  }
+  if (pages.empty()) {
+    const Error error = refusal("no page begins at that octcode; --pages lists where pages begin");
+    return std::max(tell_issues(issues), console_.fail(arguments_.file.string(), error));
+  }
+  if (arguments_.json) {
+    console_.print(json_line({{"pages", pages}, {"issues", issues_json(issues)}}));
+    return console_.finish(issues.count() > 0 ? kDataAtFault : kDone);
+  }
+  for (const Json& page : pages)
+    console_.print(fmt::format("page {} at {} ({}), ordinal {}\n{}", page["page"].dump(),
+                               page["cell"].get<std::string>(), page["octcode"].get<std::string>(),
+                               page["ordinal"].dump(), nodes_text(page["nodes"])));
+  return console_.finish(tell_issues(issues));
+}
+
+int show_slice(const InspectArguments& arguments, Console& console) {
+  const std::string file = arguments.file.string();
+  const auto model = open_model(arguments.file, kSliceMemoryBytes, console);
+  if (!model) return console.fail(file, model.error());
+  auto probe = Probe::create(*model);
+  if (!probe) return console.fail(file, probe.error());
+  Progress progress(arguments.quiet);
+  std::uint64_t drawn = 0;
+  const auto slice =
+      draw_slice(*model, *probe, *arguments.slice, [&](std::uint64_t done, std::uint64_t total) {
+        if (drawn == 0) progress.start("drawing", total, "pixels");
+        progress.add(done - drawn);
+        drawn = done;
+      });
+  progress.finish();
+  if (!slice) return console.fail(file, slice.error());
+  if (const auto written = slice->image.write(arguments.image, arguments.replace_image); !written)
+    return console.fail(arguments.image.string(), written.error());
+  const char axis = "xyz"[arguments.slice->axis];
+  if (arguments.json)
+    console.print(json_line({{"image", arguments.image.string()},
+                             {"width", slice->image.width()},
+                             {"height", slice->image.height()},
+                             {"axis", std::string(1, axis)},
+                             {"coordinate", slice->coordinate},
+                             {"pixel_length", slice->pixel_length},
+                             {"line_distance", slice->line_distance},
+                             {"least_distance", slice->least},
+                             {"greatest_distance", slice->greatest}}));
+  else
+    console.print(fmt::format(
+        "{}: {} = {:.6g}, {} by {} pixels of {:.3g}, a line every {:.3g}, "
+        "farthest {:.6g}\n",
+        arguments.image.string(), axis, slice->coordinate, slice->image.width(),
+        slice->image.height(), slice->pixel_length, slice->line_distance, slice->greatest));
+  const auto error = unreadable_pages(model->stats());
+  return console.finish(error ? console.fail(file, *error) : kDone);
+}
+
+}  // namespace
+
+int run_inspect(const InspectArguments& arguments, Console& console) {
+  if (arguments.slice) return show_slice(arguments, console);
+  const std::string file = arguments.file.string();
+  auto parts = FileParts::open(arguments.file);
+  if (!parts) return console.fail(file, parts.error());
+  Inspection inspection(arguments, console, *parts);
+  // A file whose header or table is lost has no pages to look into.
+  const bool has_pages = parts->page_count() > 0;
+  if (arguments.node && has_pages) return inspection.show_nodes();
+  if (!arguments.page || !has_pages) return inspection.show_all();
+  if (*arguments.page >= parts->page_count())
+    return console.fail(file, refusal(fmt::format("there is no page {}; its last is {}",
+                                                  *arguments.page, parts->page_count() - 1)));
+  return inspection.show_page(static_cast<std::uint32_t>(*arguments.page));
+}
+
+void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) {
+  struct Options {
+    InspectArguments arguments;
+    std::uint64_t page = 0;
+  };
+  CLI::App* verb = app.add_subcommand("inspect", "Say what is in a .ptree file, damaged or not");
+  const auto options = std::make_shared<Options>();
+  InspectArguments& arguments = options->arguments;
+  verb->add_option("file", arguments.file, "File to inspect")->required()->type_name("FILE");
+  verb->add_flag("--levels", arguments.levels, "Also a row for each depth of the tree");
+  verb->add_flag("--pages", arguments.pages,
+                 "Also a row for each page; its octcode is shown as level/x/y/z");
+  CLI::Option* node =
+      verb->add_option_function<std::string>(
+              "--node",
+              [&arguments](const std::string& text) { arguments.node = OctcodeQuery::parse(text); },
+              "Instead the nodes at the top of the pages that begin at this octcode (0x... or "
+              "level:x:y:z): box, children and bounding planes, relative to the model's centre")
+          ->type_name("OCTCODE")
+          ->check(CLI::Validator(
+              [](std::string& text) {
+                return OctcodeQuery::parse(text)
+                           ? std::string()
+                           : fmt::format("'{}' is no octcode; give 0x... or level:x:y:z", text);
+              },
+              "", ""));
+  CLI::Option* page =
+      add_count_option(*verb, "--page", options->page, std::numeric_limits<std::uint32_t>::max(),
+                       "Instead all about one page, counted from 0, by the names of format-spec");
+  CLI::Option* image =
+      verb->add_option("--image", arguments.image, "PNG file to write")->type_name("OUT.png");
+  CLI::Option* slice =
+      verb->add_option_function<std::string>(
+              "--slice",
+              [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
+              "Instead a picture of the distance over a plane, such as z=1.5 (model units) or "
+              "z=50% (of the box)")
+          ->type_name("AXIS=VALUE")
+          ->check(CLI::Validator(
+              [](std::string& text) {
+                return SlicePlane::parse(text)
+                           ? std::string()
+                           : fmt::format(
+                                 "'{}' is no plane; give x, y or z, =, and a number or a "
+                                 "percentage",
+                                 text);
+              },
+              "", ""));
+  slice->needs(image)->excludes(node)->excludes(page);
+  image->needs(slice);
+  page->excludes(node);
+  verb->add_flag("--force", arguments.replace_image, "Replace the image if it exists")
+      ->needs(image);
+  verb->add_flag("--json", arguments.json, "Answer with one JSON object");
+  verb->add_flag("--quiet", arguments.quiet, "Show no progress");
+  verb->callback([options, page, &console, &action] {
+    if (page->count() > 0) options->arguments.page = options->page;
+    action = [options, &console] { return run_inspect(options->arguments, console); };
+  });
+}
+
+}  // namespace planetree::tools
