@@ -31,6 +31,12 @@ class BitReader {
   unsigned held_ = 0;
 };
 
+// An honest model's coordinates are below 2^55. Up to here no square and no
+// product of squares overflows, wherever vertices go from here.
+constexpr double kFarthestVertex = 0x1p60;
+
+bool in_range(double coordinate) { return std::fabs(coordinate) <= kFarthestVertex; }
+
 float distance_up(float x, float y, float z) {
   return std::sqrt(x * x + y * y + z * z) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
 }
@@ -98,6 +104,7 @@ const char* BlockDecoder::store_corners(BlockHeader& header) {
 }
 
 const char* BlockDecoder::store_vertices(BlockHeader& header, const Vertices& vertices) {
+  constexpr const char* kOutOfRange = "a vertex is out of range";
   auto* record = reinterpret_cast<std::byte*>(&header);
   auto* local = reinterpret_cast<float*>(record + kSlotBytes);
   auto* exact = reinterpret_cast<double*>(record + shape_.exact_offset(header.stride));
@@ -108,12 +115,12 @@ const char* BlockDecoder::store_vertices(BlockHeader& header, const Vertices& ve
       const std::size_t element = axis * std::size_t{streams_.head.vertex_count} + vertices[i];
       if (shape_.float64) {
         exact_row[i] = streams_.vertices64[element];
-        if (!std::isfinite(exact_row[i])) return "a vertex is not finite";
+        if (!in_range(exact_row[i])) return kOutOfRange;
         row[i] = static_cast<float>(exact_row[i] - exact_row[0]);
       } else {
         row[i] = streams_.vertices32[element];
+        if (!in_range(static_cast<double>(row[i]))) return kOutOfRange;
       }
-      if (!std::isfinite(row[i])) return "a vertex is not finite";
     }
     std::fill(row + header.vertex_count, row + header.stride, row[0]);
     if (shape_.float64)
@@ -125,7 +132,7 @@ const char* BlockDecoder::store_vertices(BlockHeader& header, const Vertices& ve
         std::max(header.extent, distance_up(local[i] - local[0], local[stride + i] - local[stride],
                                             local[2 * stride + i] - local[2 * stride]));
   }
-  return std::isfinite(header.extent) ? nullptr : "a block is too large";
+  return nullptr;
 }
 
 const char* BlockDecoder::store_ids(BlockHeader& header) {

@@ -18,8 +18,9 @@
 ///
 /// Errors. Rounding p to float moves the query by at most sqrt(3) u |p|. Box
 /// bounds then err by a factor (1 + 4u). For the disc, with D = |p-c| <= d + r
-/// (r half the box diagonal), h errs by 8uD: the share 8ud is a factor on d,
-/// the share 8ur is added to the stored offsets (kPlaneSlack). |p-c|^2 - h^2
+/// (r the box diagonal, for c may be rounded to a corner), h errs by 8uD: the
+/// share 8ud is a factor on d, the share 8ur is more than paid by what is added
+/// to the stored offsets (kPlaneSlack). |p-c|^2 - h^2
 /// cancels, so that kCancellation * D^2 is taken off first, which is more than
 /// its rounding (24u D^2) and the normal's own (8u D^2) together. So every
 /// computed bound b obeys  b <= d (1 + 16u) + sqrt(3) u |p|,  and comparing it
@@ -28,7 +29,7 @@ namespace planetree::octree {
 
 inline constexpr float kUlp = 0x1p-24f;
 inline constexpr float kCancellation = 40 * kUlp;
-inline constexpr double kPlaneSlack = 16 * 0x1p-24;  ///< of half the box diagonal
+inline constexpr double kPlaneSlack = 16 * 0x1p-24;  ///< of the box diagonal
 inline constexpr double kBoundFactor = 1 + 32 * 0x1p-24;
 
 /// Besides: doubles relative to the centre are rounded to 2^-53 of the model's

@@ -50,13 +50,13 @@ bool may_matter(float bound, const BestTriangle& best) {
   return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
 }
 
-NearestAnswer place(const NearestOnTriangle& nearest, std::uint64_t triangle) {
+NearestAnswer place(const NearestOnTriangle& nearest, const BestTriangle& best) {
   NearestAnswer answer;
-  answer.distance = std::sqrt(nearest.squared);
-  answer.lower = down(answer.distance - nearest.error);
-  answer.upper = up(answer.distance + nearest.error);
+  answer.distance = std::sqrt(nearest.value.squared);
+  answer.lower = down(best.lower());
+  answer.upper = up(answer.distance + nearest.value.error);
   answer.point = nearest.point;
-  answer.triangle = triangle;
+  answer.triangle = best.triangle();
   answer.barycentric = nearest.barycentric;
   answer.feature = nearest.feature;
   answer.status = Status::kExact;
@@ -74,12 +74,13 @@ NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestL
   if (!best.found())
     return nothing_read(tree, query,
                         std::min(limits.max_distance, std::max(from_box, certified(wide, unread))));
-  NearestAnswer answer = place(nearest_on_triangle(query, best.corners()), best.triangle());
-  if (answer.lower > limits.max_distance && !spent) return beyond(limits);
+  NearestAnswer answer = place(nearest_on_triangle(query, best.corners()), best);
   if (may_matter(pruned, best)) {
     answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, pruned)));
     answer.status = Status::kWithinError;
   }
+  // Only now: what max_error left out may be nearer than what was found.
+  if (answer.lower > limits.max_distance && !spent) return beyond(limits);
   if (spent) {
     answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, unread)));
     answer.status = Status::kDegraded;

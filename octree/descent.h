@@ -30,9 +30,14 @@ class BestTriangle {
   /// Child bounds above this cannot hold the nearest triangle.
   float exact_threshold() const { return exact_threshold_; }
 
+  /// No triangle offered so far is truly nearer than this: one of a greater
+  /// value may be, if its value is less certain.
+  double lower() const { return lower_; }
+
   /// Evaluates a triangle; keeps it if (value, index) is less.
   void offer(const Triangle& corners, std::uint64_t index) {
-    const double squared = squared_distance(query_, corners);
+    const auto [squared, error] = triangle_value(query_, corners);
+    lower_ = std::min(lower_, std::sqrt(squared) - error);
     if (squared > squared_ || (squared == squared_ && index >= triangle_)) return;
     if (std::sqrt(squared) > farthest_) return;
     const bool nearer = squared < squared_;
@@ -63,6 +68,7 @@ class BestTriangle {
   // octree/triangle_distance.cpp for the factor).
   double farthest_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
   double squared_ = std::numeric_limits<double>::infinity();
+  double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   double reach_ = 0;

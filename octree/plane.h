@@ -53,10 +53,10 @@ inline PackedNormal pack_normal(double x, double y, double z) {
 }
 
 /// Length of one step of a plane offset or radius for a child whose box has
-/// edges of these lengths: offsets lie within half a diagonal of the box
-/// centre, so 16 bits reach a little beyond it.
+/// edges of these lengths: 16 bits reach a whole diagonal, because the centre of
+/// a box of few ulps is rounded to as much as one of its sides.
 inline float plane_step(float dx, float dy, float dz) {
-  return std::sqrt(dx * dx + dy * dy + dz * dz) * (0.5f / 32000.0f);
+  return std::sqrt(dx * dx + dy * dy + dz * dz) * (1.0f / 32000.0f);
 }
 
 }  // namespace planetree::octree

@@ -70,7 +70,7 @@ struct OnFace {
   bool inside = false;
   double squared = 0;
   double v = 0, w = 0, whole = 1;
-  double inverse_sine = 1;
+  double inverse_sine2 = 1;
 };
 
 template <class Scalar>
@@ -100,7 +100,8 @@ OnFace project(const Vector<Scalar>& e1, const Vector<Scalar>& e2, const Vector<
   const Scalar w = dot(cross(e1, from_apex), normal);
   const Scalar height = dot(from_apex, normal);
   OnFace face;
-  face.inside = (v > 0) & (w > 0) & (v + w < normal2);
+  const unsigned beside = v > 0, above = w > 0, below = v + w < normal2;
+  face.inside = (beside & above & below) != 0;
   // Not height * height: above a face of short edges that underflows.
   face.squared = static_cast<double>(height / normal2 * height);
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -135,7 +136,7 @@ OnFace on_face(const Point& query, const Point& apex, const Point& first, const 
   if (!(normal2 >= kFlatSine2 * edges2 && normal2 >= kTinySquare))
     return on_flat_face(query, apex, first, second);
   OnFace face = project(e1, e2, normal, normal2, difference<double>(query, apex));
-  face.inverse_sine = std::sqrt(edges2 / normal2);
+  face.inverse_sine2 = edges2 / normal2;
   return face;
 }
 
@@ -155,8 +156,11 @@ struct Evaluation {
       if (edges[k].squared < edges[best].squared) best = k;
     return best;
   }
+  TriangleValue value() const {
+    return {on_face() ? face.squared : edges[nearest_edge()].squared,
+            kErrorFactor * std::sqrt(corner2_max * face.inverse_sine2) + kAbsoluteError};
+  }
   bool on_face() const { return face.inside && face.squared <= edges[nearest_edge()].squared; }
-  double squared() const { return on_face() ? face.squared : edges[nearest_edge()].squared; }
 };
 
 constexpr int kFirst[3] = {1, 0, 0};
@@ -209,16 +213,14 @@ void place_on_edge(const Evaluation& e, NearestOnTriangle& nearest) {
 
 }  // namespace
 
-double squared_distance(const Point& query, const Triangle& triangle) noexcept {
-  return Evaluation(query, triangle).squared();
+TriangleValue triangle_value(const Point& query, const Triangle& triangle) noexcept {
+  return Evaluation(query, triangle).value();
 }
 
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
   const Evaluation evaluation(query, triangle);
   NearestOnTriangle nearest;
-  nearest.squared = evaluation.squared();
-  nearest.error = kErrorFactor * std::sqrt(evaluation.corner2_max) * evaluation.face.inverse_sine +
-                  kAbsoluteError;
+  nearest.value = evaluation.value();
   if (evaluation.on_face())
     place_on_face(evaluation, nearest);
   else

@@ -16,19 +16,21 @@ namespace planetree::octree {
 using Point = Eigen::Vector3d;
 using Triangle = std::array<Point, 3>;
 
+/// What triangles are compared by.
+struct TriangleValue {
+  double squared = 0;  ///< squared distance, rounded
+  double error = 0;    ///< |sqrt(squared) - true distance| is at most this
+};
+
 /// The nearest point of one triangle.
 struct NearestOnTriangle {
-  /// Squared distance: the triangle's *value*, by which triangles are compared.
-  double squared = 0;
-  /// |sqrt(squared) - true distance| is at most this.
-  double error = 0;
+  TriangleValue value;
   Point point = Point::Zero();
   std::array<double, 3> barycentric{};  ///< in the order of `triangle`
   Feature feature = Feature::kFace;
 };
 
-/// The value of `triangle` for `query`, in any frame whose coordinates are
-/// below 2^400.
+/// The value of `triangle` for `query`, in the model frame.
 ///
 /// The value depends on the set of corners, not their order; where the nearest
 /// point lies on an edge or a vertex, it depends on that edge or vertex alone,
@@ -39,7 +41,7 @@ struct NearestOnTriangle {
 /// falls inside, the plane distance about the corner of the largest angle.
 /// Where that angle is so flat that double would lose more than 5 bits, the
 /// plane part is evaluated with 113 bits.
-double squared_distance(const Point& query, const Triangle& triangle) noexcept;
+TriangleValue triangle_value(const Point& query, const Triangle& triangle) noexcept;
 
 /// The same value with all that is known of it.
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept;

@@ -49,7 +49,7 @@ ClosestPoint far_answer(const ModelState& model, const Vec3& query, const Ask& a
 ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nearest) {
   ClosestPoint answer;
   answer.distance = scale.out(nearest.distance);
-  answer.lower = scale.out_below(nearest.lower);
+  answer.lower = std::min(scale.out_below(nearest.lower), std::numeric_limits<double>::max());
   answer.upper = std::max(scale.out_above(nearest.upper), std::nextafter(answer.lower, kInfinity));
   answer.point = scale.out(nearest.point);
   answer.triangle = nearest.triangle;

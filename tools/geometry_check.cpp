@@ -31,10 +31,10 @@ bool is_inside(const octree::FloatBox& box, const Point& point) {
 
 /// Whether a point lies between the bounding planes and within the disc's
 /// radius, with the room that evaluation in float needs (octree/bounds.h):
-/// 8 units of 2^-24 times half the box's diagonal.
+/// 8 units of 2^-24 times the box's diagonal.
 bool is_inside(const Bounds& bounds, const Point& point) {
-  const double half_diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
-  const double room = octree::kPlaneSlack / 2 * half_diagonal - octree::kAbsoluteSlack;
+  const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
+  const double room = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
   const Point normal = point_of(bounds.disc.normal);
   const Point from = point - point_of(bounds.box.centre());
   const double height = from.dot(normal);

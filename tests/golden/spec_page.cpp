@@ -253,7 +253,7 @@ SpecVector decode_normal(std::int16_t u, std::int16_t v) {
 }
 
 float decode_unit(float dx, float dy, float dz) {
-  return std::sqrt((dx * dx + dy * dy) + dz * dz) * (0.5f / 32000);
+  return std::sqrt((dx * dx + dy * dy) + dz * dz) * (1.0f / 32000);
 }
 
 }  // namespace planetree::golden

@@ -96,16 +96,17 @@ TEST(Disc, CountsOffsetsInStepsOfTheBox) {
   child.slab_upper = 16000;
   child.radius = 32000;
   const Disc disc = unpack_disc(box, child);
-  const double half_diagonal = std::sqrt(3.0);
-  EXPECT_NEAR(disc.slab_lower, -half_diagonal, 1e-6);
-  EXPECT_NEAR(disc.slab_upper, half_diagonal / 2, 1e-6);
-  EXPECT_NEAR(disc.radius, half_diagonal, 1e-6);
+  const double diagonal = 2 * std::sqrt(3.0);
+  EXPECT_NEAR(disc.slab_lower, -diagonal, 1e-6);
+  EXPECT_NEAR(disc.slab_upper, diagonal / 2, 1e-6);
+  EXPECT_NEAR(disc.radius, diagonal, 1e-6);
 }
 
 TEST(FloatRounding, EnclosesTheDouble) {
   Noise noise(3);
   for (int i = 0; i < 20000; ++i) {
-    const double value = std::ldexp(noise.uniform(-1, 1), static_cast<int>(noise.bits() % 200) - 140);
+    const double value =
+        std::ldexp(noise.uniform(-1, 1), static_cast<int>(noise.bits() % 200) - 140);
     EXPECT_LE(double{float_below(value)}, value);
     EXPECT_GE(double{float_above(value)}, value);
     EXPECT_LE(float_above(value), std::nextafter(float_below(value), 1e38f));

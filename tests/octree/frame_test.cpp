@@ -43,7 +43,7 @@ TEST(BlockShape, TakesTheSlotsTheFormatStates) {
   struct Row {
     unsigned vertices, narrow, wide;
   };
-  constexpr Row kRows[] = {{1, 5, 11}, {16, 5, 11}, {17, 7, 16}, {24, 7, 16},
+  constexpr Row kRows[] = {{1, 5, 11},  {16, 5, 11}, {17, 7, 16},  {24, 7, 16},
                            {25, 8, 20}, {32, 8, 20}, {33, 11, 29}, {48, 11, 29}};
   for (const Row& row : kRows) {
     EXPECT_EQ((BlockShape{false, false}.slots(row.vertices)), row.narrow);

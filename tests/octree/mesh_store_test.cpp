@@ -118,7 +118,8 @@ TEST(MortonOrder, PutsBoxCentresInTheirCells) {
   const MeshStore mesh = store(scattered(500, 0.01));
   for (const MortonKey& key : morton_order(mesh)) {
     const Triangle t = mesh.corners(key.position);
-    const Point centre = (t[0].cwiseMin(t[1]).cwiseMin(t[2]) + t[0].cwiseMax(t[1]).cwiseMax(t[2])) / 2;
+    const Point centre =
+        (t[0].cwiseMin(t[1]).cwiseMin(t[2]) + t[0].cwiseMax(t[1]).cwiseMax(t[2])) / 2;
     const Cell cell = cell_of_octcode(octcode_of_prefix(key.code, kMortonBits));
     const Point corner = mesh.lower() + Point(cell.x, cell.y, cell.z) * 0x1p-18;
     EXPECT_GE((centre - corner).minCoeff(), -1e-12);

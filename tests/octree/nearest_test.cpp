@@ -34,7 +34,8 @@ struct Asked {
   std::pair<double, std::uint64_t> least(const Point& query) const {
     std::pair<double, std::uint64_t> best{kInfinity, kNoTriangle};
     for (std::uint32_t i = 0; i < sample.mesh.size(); ++i)
-      best = std::min(best, {squared_distance(query, sample.mesh.corners(i)), sample.mesh.index(i)});
+      best = std::min(
+          best, {triangle_value(query, sample.mesh.corners(i)).squared, sample.mesh.index(i)});
     return best;
   }
 
@@ -42,7 +43,7 @@ struct Asked {
   void expect_interval_holds(const NearestAnswer& answer, const Point& query) const {
     const auto [squared, index] = least(query);
     const auto position = static_cast<std::uint32_t>(index);
-    const double error = nearest_on_triangle(query, sample.mesh.corners(position)).error;
+    const double error = nearest_on_triangle(query, sample.mesh.corners(position)).value.error;
     EXPECT_LE(answer.lower, std::sqrt(squared) + error);
     EXPECT_GE(answer.upper, std::sqrt(squared) - error);
     EXPECT_LT(answer.lower, answer.upper);

@@ -23,9 +23,7 @@ TEST(Octcode, PutsXInTheLowestBitOfEachTriple) {
   EXPECT_EQ(morton_code(kMost, kMost, kMost), (std::uint64_t{1} << kMortonBits) - 1);
 }
 
-TEST(Octcode, OfNoBitsIsTheRoot) {
-  EXPECT_EQ(octcode_of_prefix(morton_code(kMost, 5, 9), 0), 0u);
-}
+TEST(Octcode, OfNoBitsIsTheRoot) { EXPECT_EQ(octcode_of_prefix(morton_code(kMost, 5, 9), 0), 0u); }
 
 TEST(Octcode, GivesEveryPrefixBackAsItsCell) {
   const std::uint32_t x = 0x5a5a5, y = 0x12345, z = 0x7ffff;

@@ -59,7 +59,8 @@ TEST_F(RawStreamsTest, CutAPageIntoItsStreams) {
 
 TEST_F(RawStreamsTest, RefuseEveryShorterPage) {
   for (std::size_t size = 0; size < raw_.size(); ++size) {
-    const std::vector<std::byte> part(raw_.begin(), raw_.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::vector<std::byte> part(raw_.begin(),
+                                      raw_.begin() + static_cast<std::ptrdiff_t>(size));
     RawStreams streams;
     const char* fault = streams.cut(part, BlockShape{});
     ASSERT_NE(fault, nullptr) << size;

@@ -26,7 +26,7 @@ const Triangle kRight{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
 TEST(TriangleDistance, FindsTheFaceBelow) {
   const NearestOnTriangle nearest = nearest_on_triangle({0.25, 0.25, -3}, kRight);
   EXPECT_EQ(nearest.feature, Feature::kFace);
-  EXPECT_EQ(nearest.squared, 9);
+  EXPECT_EQ(nearest.value.squared, 9);
   EXPECT_EQ(nearest.point, Point(0.25, 0.25, 0));
   EXPECT_EQ(nearest.barycentric, (std::array<double, 3>{0.5, 0.25, 0.25}));
 }
@@ -44,7 +44,7 @@ TEST(TriangleDistance, FindsEachEdge) {
     EXPECT_EQ(nearest.feature, Feature::kEdge);
     EXPECT_EQ(nearest.point, row.point);
     EXPECT_EQ(nearest.barycentric, row.barycentric);
-    EXPECT_EQ(nearest.squared, (row.query - row.point).squaredNorm());
+    EXPECT_EQ(nearest.value.squared, (row.query - row.point).squaredNorm());
   }
 }
 
@@ -59,17 +59,16 @@ TEST(TriangleDistance, FindsEachVertex) {
 }
 
 TEST(TriangleDistance, IsZeroOnTheTriangle) {
-  EXPECT_EQ(squared_distance({0.25, 0.5, 0}, kRight), 0);
-  EXPECT_EQ(squared_distance({0.5, 0, 0}, kRight), 0);
-  EXPECT_EQ(squared_distance({0, 1, 0}, kRight), 0);
+  EXPECT_EQ(triangle_value({0.25, 0.5, 0}, kRight).squared, 0);
+  EXPECT_EQ(triangle_value({0.5, 0, 0}, kRight).squared, 0);
+  EXPECT_EQ(triangle_value({0, 1, 0}, kRight).squared, 0);
 }
 
 TEST(TriangleDistance, GivesWeightsThatSumToOneAndMakeThePoint) {
   Noise noise(1);
   for (int i = 0; i < 5000; ++i) {
     const Triangle triangle = random_triangle(noise);
-    const NearestOnTriangle nearest =
-        nearest_on_triangle(to_point(noise.point(-2, 2)), triangle);
+    const NearestOnTriangle nearest = nearest_on_triangle(to_point(noise.point(-2, 2)), triangle);
     const auto& [a, b, c] = nearest.barycentric;
     EXPECT_NEAR(a + b + c, 1, 4e-16);
     for (const double weight : nearest.barycentric) {
@@ -87,8 +86,9 @@ TEST(TriangleDistance, AgreesWithItselfAboutValueAndPoint) {
     const Triangle triangle = random_triangle(noise);
     const Point query = to_point(noise.point(-2, 2));
     const NearestOnTriangle nearest = nearest_on_triangle(query, triangle);
-    EXPECT_EQ(bits(nearest.squared), bits(squared_distance(query, triangle)));
-    EXPECT_NEAR((nearest.point - query).norm(), std::sqrt(nearest.squared), nearest.error + 1e-15);
+    EXPECT_EQ(bits(nearest.value.squared), bits(triangle_value(query, triangle).squared));
+    EXPECT_NEAR((nearest.point - query).norm(), std::sqrt(nearest.value.squared),
+                nearest.value.error + 1e-15);
   }
 }
 
@@ -107,8 +107,8 @@ TEST(TriangleDistance, GivesTheSameBitsInAnyOrderOfCorners) {
     do {
       const NearestOnTriangle other =
           nearest_on_triangle(query, {triangle[order[0]], triangle[order[1]], triangle[order[2]]});
-      EXPECT_EQ(bits(other.squared), bits(first.squared));
-      EXPECT_EQ(bits(other.error), bits(first.error));
+      EXPECT_EQ(bits(other.value.squared), bits(first.value.squared));
+      EXPECT_EQ(bits(other.value.error), bits(first.value.error));
       EXPECT_EQ(other.feature, first.feature);
       EXPECT_EQ(other.point, first.point);
       if (i % 4 > 1) continue;  // equal corners may take each other's weight
@@ -131,7 +131,7 @@ TEST(TriangleDistance, GivesSharedEdgesTheSameBits) {
     if (a.feature != Feature::kEdge || a.barycentric[2] != 0) continue;
     if (b.feature != Feature::kEdge || b.barycentric[1] != 0) continue;
     ++edges;
-    EXPECT_EQ(bits(a.squared), bits(b.squared));
+    EXPECT_EQ(bits(a.value.squared), bits(b.value.squared));
     EXPECT_EQ(a.point, b.point);
   }
   EXPECT_GT(edges, 200);
@@ -149,8 +149,8 @@ TEST(TriangleDistance, GivesSharedVerticesTheSameBits) {
     if (a.feature != Feature::kVertex || a.point != one[0]) continue;
     if (b.feature != Feature::kVertex || b.point != one[0]) continue;
     ++vertices;
-    EXPECT_EQ(bits(a.squared), bits(b.squared));
-    EXPECT_EQ(bits(a.squared), bits((one[0] - query).squaredNorm()));
+    EXPECT_EQ(bits(a.value.squared), bits(b.value.squared));
+    EXPECT_EQ(bits(a.value.squared), bits((one[0] - query).squaredNorm()));
   }
   EXPECT_GT(vertices, 50);
 }
@@ -158,7 +158,7 @@ TEST(TriangleDistance, GivesSharedVerticesTheSameBits) {
 TEST(TriangleDistance, TakesFlatTrianglesForTheSegmentsTheyAre) {
   const Triangle segment{Point(0, 0, 0), Point(2, 0, 0), Point(1, 0, 0)};
   const NearestOnTriangle nearest = nearest_on_triangle({0.5, 3, 4}, segment);
-  EXPECT_EQ(nearest.squared, 25);
+  EXPECT_EQ(nearest.value.squared, 25);
   EXPECT_EQ(nearest.point, Point(0.5, 0, 0));
   EXPECT_NE(nearest.feature, Feature::kFace);
 }
@@ -166,7 +166,7 @@ TEST(TriangleDistance, TakesFlatTrianglesForTheSegmentsTheyAre) {
 TEST(TriangleDistance, TakesOnePointForTheVertexItIs) {
   const Triangle dot{Point(1, 1, 1), Point(1, 1, 1), Point(1, 1, 1)};
   const NearestOnTriangle nearest = nearest_on_triangle({1, 1, 3}, dot);
-  EXPECT_EQ(nearest.squared, 4);
+  EXPECT_EQ(nearest.value.squared, 4);
   EXPECT_EQ(nearest.feature, Feature::kVertex);
   EXPECT_EQ(nearest.barycentric[0] + nearest.barycentric[1] + nearest.barycentric[2], 1);
 }
@@ -177,7 +177,7 @@ TEST(TriangleDistance, SeesTheFaceOfANeedle) {
   const Triangle needle{Point(-1, 0, 0), Point(1, 0, 0), Point(0, width, 0)};
   const NearestOnTriangle nearest = nearest_on_triangle({0, width / 2, 1}, needle);
   EXPECT_EQ(nearest.feature, Feature::kFace);
-  EXPECT_EQ(nearest.squared, 1);
+  EXPECT_EQ(nearest.value.squared, 1);
 }
 
 TEST(TriangleDistance, ScalesByPowersOfTwoBitForBit) {
@@ -185,10 +185,10 @@ TEST(TriangleDistance, ScalesByPowersOfTwoBitForBit) {
   for (int i = 0; i < 500; ++i) {
     Triangle triangle = random_triangle(noise);
     Point query = to_point(noise.point(-2, 2));
-    const double squared = squared_distance(query, triangle);
+    const double squared = triangle_value(query, triangle).squared;
     for (Point& corner : triangle) corner *= 0x1p-60;
     query *= 0x1p-60;
-    EXPECT_EQ(bits(squared_distance(query, triangle)), bits(squared * 0x1p-120));
+    EXPECT_EQ(bits(triangle_value(query, triangle).squared), bits(squared * 0x1p-120));
   }
 }
 

@@ -62,7 +62,8 @@ void expect_least(const BuiltModel& model, const Vec3& query, const ClosestPoint
   double squared = kInfinity;
   for (std::size_t i = 0; i < model.triangles().size(); ++i) {
     const double value =
-        octree::squared_distance(point, in_frame(model.triangles()[i], model.scale_exponent()));
+        octree::triangle_value(point, in_frame(model.triangles()[i], model.scale_exponent()))
+            .squared;
     if (value < squared) {
       squared = value;
       least = i;
@@ -104,7 +105,8 @@ void expect_on_triangle(const Corners& t, const Vec3& query, const ClosestPoint&
 }
 
 // An exact interval is no wider than the rounding of what may have decided it:
-// some 2^-41 of the farthest corner, in the worst of cases.
+// some 2^-41 of the farthest corner, in the worst of cases, and 2^-500 of the
+// model, below which squares underflow.
 void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
   const ModelInfo& info = model.model().info();
   const auto reach = [](double low, double high, double at) {
@@ -114,8 +116,8 @@ void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoin
   const long double farthest = reach(info.box_lower.x, info.box_upper.x, query.x) +
                                reach(info.box_lower.y, info.box_upper.y, query.y) +
                                reach(info.box_lower.z, info.box_upper.z, query.z);
-  EXPECT_LE(Wide(answer.upper) - Wide(answer.lower),
-            Wide(farthest) * Wide(0x1p-39) + Wide(0x1p-1060));
+  const Wide unresolved = ldexp(Wide(1), -498 - model.scale_exponent()) + Wide(0x1p-1060);
+  EXPECT_LE(Wide(answer.upper) - Wide(answer.lower), Wide(farthest) * Wide(0x1p-39) + unresolved);
 }
 
 void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {

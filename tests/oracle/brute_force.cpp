@@ -56,7 +56,7 @@ bool less(const Fraction<Scalar>& left, const Fraction<Scalar>& right) {
 template <class Scalar>
 Fraction<Scalar> to_edges(const Vector<Scalar>& p, const std::array<Vector<Scalar>, 3>& corner) {
   auto best = to_segment(p, corner[0], corner[1]);
-  for (int k = 1; k < 3; ++k) {
+  for (std::size_t k = 1; k < 3; ++k) {
     const auto other = to_segment(p, corner[k], corner[(k + 1) % 3]);
     if (less(other, best)) best = other;
   }
@@ -65,8 +65,7 @@ Fraction<Scalar> to_edges(const Vector<Scalar>& p, const std::array<Vector<Scala
 
 // Signs of region tests are right where Scalar is exact.
 template <class Scalar>
-Fraction<Scalar> to_triangle(const Vector<Scalar>& p,
-                             const std::array<Vector<Scalar>, 3>& corner) {
+Fraction<Scalar> to_triangle(const Vector<Scalar>& p, const std::array<Vector<Scalar>, 3>& corner) {
   const auto& [a, b, c] = corner;
   const auto ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const auto normal = cross(ab, ac);
@@ -150,9 +149,8 @@ RoughBounds rough_bounds(const Vec3& query, const Corners& triangle) {
 }  // namespace
 
 long double extended_distance(const Vec3& query, const Corners& triangle) {
-  const auto fraction =
-      to_triangle<long double>(extended(query), {extended(triangle[0]), extended(triangle[1]),
-                                                 extended(triangle[2])});
+  const auto fraction = to_triangle<long double>(
+      extended(query), {extended(triangle[0]), extended(triangle[1]), extended(triangle[2])});
   return std::sqrt(fraction.numerator / fraction.denominator);
 }
 
@@ -171,9 +169,9 @@ ExactSquare exact_square(const Vec3& query, const Corners& triangle) {
   int exponent = std::min({last_exponent(query), last_exponent(triangle[0]),
                            last_exponent(triangle[1]), last_exponent(triangle[2])});
   if (exponent == std::numeric_limits<int>::max()) exponent = 0;
-  auto fraction = to_triangle<Integer>(whole(query, exponent),
-                                       {whole(triangle[0], exponent), whole(triangle[1], exponent),
-                                        whole(triangle[2], exponent)});
+  auto fraction = to_triangle<Integer>(
+      whole(query, exponent),
+      {whole(triangle[0], exponent), whole(triangle[1], exponent), whole(triangle[2], exponent)});
   return {std::move(fraction.numerator), std::move(fraction.denominator), exponent};
 }
 

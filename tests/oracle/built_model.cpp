@@ -77,8 +77,7 @@ std::string build_failure(std::span<const Corners> triangles) {
   const storage::TemporaryDirectory folder;
   write_ply(folder / "model.ply", triangles);
   Silent silent;
-  const auto report =
-      octree::build_tree(folder / "model.ply", folder / "model.ptree", {}, silent);
+  const auto report = octree::build_tree(folder / "model.ply", folder / "model.ptree", {}, silent);
   return report ? std::string() : std::string(report.error().text);
 }
 

@@ -72,13 +72,12 @@ Soup fan(Random& random) {
   const Axes axes = random_axes(random);
   const double rise = random.one_in(2) ? 0 : random.magnitude(-30, 1);
   const auto rim = [&](std::size_t i) {
-    const double angle = 6.283185307179586 * static_cast<double>(i % count) /
-                         static_cast<double>(count);
+    const double angle =
+        6.283185307179586 * static_cast<double>(i % count) / static_cast<double>(count);
     return axes.x * std::cos(angle) + axes.y * std::sin(angle);
   };
   Soup triangles;
-  for (std::size_t i = 0; i < count; ++i)
-    triangles.push_back({axes.z * rise, rim(i), rim(i + 1)});
+  for (std::size_t i = 0; i < count; ++i) triangles.push_back({axes.z * rise, rim(i), rim(i + 1)});
   return triangles;
 }
 

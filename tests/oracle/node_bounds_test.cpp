@@ -56,8 +56,7 @@ void expect_bounds_below(const Node& node, unsigned child, const Soup& below,
   const auto distance = static_cast<double>(extended_distance(plain(query), below));
   const float threshold = octree::prune_threshold(wide, distance);
   for (const bool discs : {false, true}) {
-    const unsigned near =
-        octree::HWY_NAMESPACE::node_bounds(node, wide, discs, threshold, bounds);
+    const unsigned near = octree::HWY_NAMESPACE::node_bounds(node, wide, discs, threshold, bounds);
     EXPECT_TRUE((near >> child & 1) != 0)
         << (discs ? "disc" : "box") << " bound " << std::sqrt(bounds[child]) << " distance "
         << distance << " slack " << wide.slack;
@@ -145,13 +144,12 @@ void expect_filter_passes(const octree::BlockView& block, const TreePages& pages
                           static_cast<float>(from.z())};
   alignas(64) float squared[octree::kMaxBlockTriangles] = {};
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
-    const double reach = std::sqrt(octree::squared_distance(query, block.triangle(i)));
+    const double reach = std::sqrt(octree::triangle_value(query, block.triangle(i)).squared);
     const float limit = octree::filter_threshold(wide, reach, block.header().extent);
     const unsigned near =
         octree::HWY_NAMESPACE::block_filter(block.header(), local, limit, squared);
-    EXPECT_TRUE((near >> i & 1) != 0)
-        << "value " << std::sqrt(squared[i]) << " distance " << reach << " extent "
-        << block.header().extent;
+    EXPECT_TRUE((near >> i & 1) != 0) << "value " << std::sqrt(squared[i]) << " distance " << reach
+                                      << " extent " << block.header().extent;
   }
 }
 

@@ -50,9 +50,8 @@ void each_nasty_case(std::uint64_t seed, const Check& check) {
 }
 
 TEST(RandomModels, AnswerExactly) {
-  each_nasty_case(1, [](Random&, NastyModel& model, const Vec3& query) {
-    expect_sound(model.built, query);
-  });
+  each_nasty_case(
+      1, [](Random&, NastyModel& model, const Vec3& query) { expect_sound(model.built, query); });
 }
 
 TEST(RandomModels, KeepTheErrorAskedFor) {

@@ -30,8 +30,8 @@ TEST(StabilityQuery, OnTheSurface) {
   const Soup triangles{{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}},
                        {Vec3{4, 4, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}}};
   BuiltModel model(triangles);
-  for (const Vec3& query : {Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{2, 0, 0}, Vec3{2, 2, 0},
-                            Vec3{1, 1, 0}, Vec3{3, 3, 0}}) {
+  for (const Vec3& query :
+       {Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{2, 0, 0}, Vec3{2, 2, 0}, Vec3{1, 1, 0}, Vec3{3, 3, 0}}) {
     const ClosestPoint answer = expect_sound(model, query);
     EXPECT_EQ(answer.distance, 0);
     EXPECT_EQ(answer.lower, 0);

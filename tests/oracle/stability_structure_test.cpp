@@ -23,8 +23,7 @@ Soup scattered(Random& random, int count, double size) {
   Soup triangles;
   for (int i = 0; i < count; ++i) {
     const Vec3 at = random.in_cube();
-    triangles.push_back(
-        {at, at + random.in_cube() * size, at + random.in_cube() * size});
+    triangles.push_back({at, at + random.in_cube() * size, at + random.in_cube() * size});
   }
   return triangles;
 }

@@ -89,10 +89,10 @@ TEST(StabilityTriangle, EdgesWhoseSquaresOverflow) {
 // Millimetres at a place on the map some thousands of kilometres from its zero.
 TEST(StabilityTriangle, SmallEdgesFarFromTheOrigin) {
   const double x = 1e7, y = -1e7, z = 300;
-  expect_sound_around({{Vec3{x, y, z}, Vec3{x + 1e-4, y, z}, Vec3{x, y + 1e-4, z}},
-                       {Vec3{x + 1e-4, y + 1e-4, z + 1e-5}, Vec3{x + 1e-4, y, z},
-                        Vec3{x, y + 1e-4, z}}},
-                      1e-4);
+  expect_sound_around(
+      {{Vec3{x, y, z}, Vec3{x + 1e-4, y, z}, Vec3{x, y + 1e-4, z}},
+       {Vec3{x + 1e-4, y + 1e-4, z + 1e-5}, Vec3{x + 1e-4, y, z}, Vec3{x, y + 1e-4, z}}},
+      1e-4);
 }
 
 // A triangle of next to no size in a model of size one: products of its edges

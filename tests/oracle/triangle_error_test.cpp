@@ -22,16 +22,15 @@ constexpr int kSteps = 1500;
 using Case = std::array<double, 12>;
 
 Vec3 vertex(const Case& c, std::size_t k) { return {c[3 * k], c[3 * k + 1], c[3 * k + 2]}; }
-octree::Point point(const Case& c, std::size_t k) {
-  return {c[3 * k], c[3 * k + 1], c[3 * k + 2]};
-}
+octree::Point point(const Case& c, std::size_t k) { return {c[3 * k], c[3 * k + 1], c[3 * k + 2]}; }
 
 // The error made as a share of the error claimed.
 double share(const Case& c) {
   const auto nearest =
       octree::nearest_on_triangle(point(c, 3), {point(c, 0), point(c, 1), point(c, 2)});
   const Wide truth = exact_square(vertex(c, 3), {vertex(c, 0), vertex(c, 1), vertex(c, 2)}).root();
-  return static_cast<double>(abs(truth - Wide(std::sqrt(nearest.squared))) / Wide(nearest.error));
+  return static_cast<double>(abs(truth - Wide(std::sqrt(nearest.value.squared))) /
+                             Wide(nearest.value.error));
 }
 
 Case random_case(Random& random, const NastyFamily& family) {

@@ -143,7 +143,7 @@ TEST(ClosestPoint, LooksNoFartherThanTold) {
 }
 
 TEST(ClosestPoint, StaysWithinTheErrorAllowed) {
-  const SampleModel sample(sphere(5));
+  const SampleModel sample(sphere(4));
   const Model model = sample.open();
   Probe probe = make_probe(model);
   int within = 0;
@@ -174,8 +174,8 @@ TEST(ClosestPoint, HoldsTheTruthWhateverTheLimits) {
     EXPECT_TRUE(sample.interval_holds(answer, query));
     ++counts[static_cast<int>(answer.status)];
   }
-  for (const Status status : {Status::kExact, Status::kWithinError, Status::kDegraded,
-                              Status::kBeyondMaxDistance})
+  for (const Status status :
+       {Status::kExact, Status::kWithinError, Status::kDegraded, Status::kBeyondMaxDistance})
     EXPECT_GT(counts[static_cast<int>(status)], 10);
 }
 
@@ -196,10 +196,10 @@ TEST(ClosestPoint, AnswersAtOnceWithoutAnyNode) {
 }
 
 TEST(ClosestPoint, KnowsMoreTheMoreNodesItMayVisit) {
-  const SampleModel sample(sphere(5));
+  const SampleModel sample(sphere(4));
   const Model model = sample.open();
   Probe probe = make_probe(model);
-  for (const Vec3& query : random_queries(30, -1.5, 1.5)) {
+  for (const Vec3& query : random_queries(15, -1.5, 1.5)) {
     for (std::uint32_t nodes = 0; nodes < 60; ++nodes)
       EXPECT_TRUE(sample.interval_holds(probe.closest_point(query, {.max_nodes = nodes}), query));
     EXPECT_EQ(probe.closest_point(query, {.max_nodes = 1}).status, Status::kDegraded);

@@ -47,10 +47,9 @@ void write(const octree::SampleTree& sample, const std::filesystem::path& path) 
   if (!writer) give_up(writer.error());
   for (std::uint32_t page = 0; page < page_count; ++page) {
     const octree::PlannedPage& planned = sample.plan.pages[page];
-    const auto appended =
-        writer->append(planned.octcode, planned.ordinal,
-                       static_cast<std::uint32_t>(pages.raw(page).size()),
-                       storage::encode_page(pages.raw(page)));
+    const auto appended = writer->append(planned.octcode, planned.ordinal,
+                                         static_cast<std::uint32_t>(pages.raw(page).size()),
+                                         storage::encode_page(pages.raw(page)));
     if (!appended) give_up(appended.error());
   }
   const auto header = writer->finish(describe(sample), sample.plan.page_bytes);
@@ -92,12 +91,13 @@ SampleModel::Truth SampleModel::truth(const Vec3& query) const {
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t nearest = 0;
   for (std::uint32_t i = 0; i < sample_.mesh.size(); ++i) {
-    const double squared = octree::squared_distance(point, sample_.mesh.corners(i));
+    const double squared = octree::triangle_value(point, sample_.mesh.corners(i)).squared;
     if (squared >= least) continue;
     least = squared;
     nearest = i;
   }
-  const double error = octree::nearest_on_triangle(point, sample_.mesh.corners(nearest)).error;
+  const double error =
+      octree::nearest_on_triangle(point, sample_.mesh.corners(nearest)).value.error;
   return {std::sqrt(least) / scale, error / scale, sample_.mesh.index(nearest)};
 }
 

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "octree/nearest.h"
+#include "octree/page_decoder.h"
+#include "octree/page_streams.h"
+
+/// Decodes any bytes as the pages of a small file and asks the tree they make.
+///
+///   0  shape of blocks and page size, see kFloat64 and the rest
+///   1  length of the first page, 2 bytes, lowest first
+///   3  the pages: number 0, and one that stands for every other number
+///
+/// The first page is given the number 0 and keys are what the pages say of
+/// themselves: that they are those of the page table is one comparison each,
+/// which few inputs would get past.
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint8_t kFloat64 = 1;
+constexpr std::uint8_t kWideIds = 2;
+constexpr std::uint8_t kLargePages = 4;
+constexpr std::uint8_t kRootIsBlock = 8;
+constexpr std::uint32_t kPageCount = 64;
+
+// Lengths are exact, so that the sanitizer sees one byte too far.
+class Frame {
+ public:
+  explicit Frame(std::uint32_t page_bytes)
+      : page_bytes_(page_bytes),
+        bytes_(static_cast<std::byte*>(std::aligned_alloc(kSlotBytes, page_bytes))) {
+    if (!bytes_) std::abort();
+    std::memset(bytes_, 0xa5, page_bytes);
+  }
+  ~Frame() { std::free(bytes_); }
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  std::span<std::byte> bytes() { return {bytes_, page_bytes_}; }
+  const FrameHeader& header() const { return *reinterpret_cast<const FrameHeader*>(bytes_); }
+
+ private:
+  std::uint32_t page_bytes_;
+  std::byte* bytes_;
+};
+
+struct Pages {
+  Frame* root;
+  Frame* other;  // null if it does not decode
+};
+
+bool decode(std::span<const std::byte> bytes, PageFacts facts, Frame& frame) {
+  std::vector<std::byte> raw(bytes.begin(), bytes.end());
+  PageHead head{};
+  const std::size_t head_bytes = std::min(raw.size(), sizeof head);
+  std::copy_n(raw.begin(), head_bytes, reinterpret_cast<std::byte*>(&head));
+  head.page_number = facts.page_number;
+  std::copy_n(reinterpret_cast<const std::byte*>(&head), head_bytes, raw.begin());
+  facts.octcode = head.octcode;
+  facts.ordinal = head.ordinal;
+  return static_cast<bool>(decode_page(raw, facts, frame.bytes()));
+}
+
+void check(const NearestAnswer& answer) {
+  const bool beyond = answer.status == Status::kBeyondMaxDistance;
+  const double values[] = {answer.lower,
+                           beyond ? 0 : answer.distance,
+                           beyond ? 0 : answer.upper,
+                           answer.point.x(),
+                           answer.point.y(),
+                           answer.point.z(),
+                           answer.barycentric[0],
+                           answer.barycentric[1],
+                           answer.barycentric[2]};
+  for (const double value : values)
+    if (!std::isfinite(value)) std::abort();
+  if (!(answer.lower < answer.upper) || answer.lower < 0) std::abort();
+}
+
+void ask(const TreeFacts& tree, Pages& pages) {
+  const PageReader reader{&pages,
+                          [](void* context, std::uint32_t page) noexcept -> const std::byte* {
+                            const auto& both = *static_cast<Pages*>(context);
+                            Frame* frame = page == 0 ? both.root : both.other;
+                            return frame ? frame->bytes().data() : nullptr;
+                          }};
+  const Point queries[] = {{0.1, 0.2, 0.3}, {-3, 0, 1}, {1e9, -1e9, 1}, {1e90, 0, 0}};
+  NearestLimits some;
+  some.max_error = 0.1;
+  some.max_distance = 0.7;
+  for (const Point& query : queries)
+    for (const NearestLimits& limits : {NearestLimits{}, some}) {
+      NearestWork work;
+      check(nearest(tree, query, limits, reader, work));
+      if (work.nodes + work.blocks > tree.record_count) std::abort();
+    }
+}
+
+void decode_and_ask(std::uint8_t choices, std::span<const std::byte> first,
+                    std::span<const std::byte> second) {
+  PageFacts facts;
+  facts.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
+  facts.page_count = kPageCount;
+  facts.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0};
+  Frame root(facts.page_bytes), other(facts.page_bytes);
+  if (!decode(first, facts, root)) return;
+  facts.page_number = 1 + choices / 16;
+  Pages pages{&root, decode(second, facts, other) ? &other : nullptr};
+  TreeFacts tree;
+  tree.page_bytes = facts.page_bytes;
+  tree.shape = facts.shape;
+  tree.record_count = 1000;
+  tree.box_lower = Point(-1, -1, -1);
+  tree.box_upper = Point(1, 1, 1);
+  const bool leaf = (choices & kRootIsBlock) != 0;
+  tree.root_link =
+      LinkFormat(facts.page_bytes)
+          .make(leaf, 0, leaf ? root.header().first_block_slot : root.header().first_node_slot);
+  ask(tree, pages);
+}
+
+}  // namespace
+}  // namespace planetree::octree
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 3) return 0;
+  const std::span bytes(reinterpret_cast<const std::byte*>(data + 3), size - 3);
+  const std::size_t first_bytes = std::min<std::size_t>(data[1] | data[2] << 8, bytes.size());
+  planetree::octree::decode_and_ask(data[0], bytes.first(first_bytes), bytes.subspan(first_bytes));
+  return 0;
+}
