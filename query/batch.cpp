@@ -14,7 +14,7 @@ namespace {
 // neighbours there share pages. Only the order of asking depends on it.
 std::uint64_t place(const ModelState& model, const Vec3& query) {
   const octree::TreeFacts& tree = model.tree();
-  const octree::Point from = (model.scale().in(query) - tree.centre) * 0.25;
+  const octree::Point from = (model.scale().in(query)-tree.centre) * 0.25;
   const auto coordinate = [](double value) {
     constexpr double kCells = 1 << octree::kLevels;
     const double cell = (value + 0.5) * kCells;

@@ -25,8 +25,7 @@ ClosestPoint bad_query() {
 
 // Beyond octree::kFarthestQuery all triangles are equally far in double.
 ClosestPoint far_answer(const ModelState& model, const Vec3& query, const Ask& ask) {
-  const double largest =
-      std::max({std::fabs(query.x), std::fabs(query.y), std::fabs(query.z)});
+  const double largest = std::max({std::fabs(query.x), std::fabs(query.y), std::fabs(query.z)});
   const double x = query.x / largest, y = query.y / largest, z = query.z / largest;
   ClosestPoint answer;
   answer.distance = largest * std::sqrt(x * x + y * y + z * z);

@@ -13,19 +13,19 @@ namespace planetree {
 
 /// What kind of failure this is; who has to act follows from it.
 enum class ErrorCode : std::uint16_t {
-  kBadArgument = 1,    ///< the caller's request makes no sense
-  kNotFound,           ///< no such file
-  kAlreadyExists,      ///< the destination exists and may not be replaced
-  kPermission,         ///< the system refused access
-  kNoSpace,            ///< no room on the device
-  kNoMemory,           ///< no memory, or the memory budget is too small
-  kReadFailed,         ///< the device or the system failed to read
-  kWriteFailed,        ///< the device or the system failed to write
-  kBadInput,           ///< a mesh or point file is structurally damaged
-  kNotPlanetree,       ///< the file is not a .ptree file
-  kUnsupported,        ///< a newer version or an unknown feature
-  kTruncated,          ///< the file is shorter or longer than it says
-  kDamaged,            ///< a checksum, a count or a structure is wrong
+  kBadArgument = 1,  ///< the caller's request makes no sense
+  kNotFound,         ///< no such file
+  kAlreadyExists,    ///< the destination exists and may not be replaced
+  kPermission,       ///< the system refused access
+  kNoSpace,          ///< no room on the device
+  kNoMemory,         ///< no memory, or the memory budget is too small
+  kReadFailed,       ///< the device or the system failed to read
+  kWriteFailed,      ///< the device or the system failed to write
+  kBadInput,         ///< a mesh or point file is structurally damaged
+  kNotPlanetree,     ///< the file is not a .ptree file
+  kUnsupported,      ///< a newer version or an unknown feature
+  kTruncated,        ///< the file is shorter or longer than it says
+  kDamaged,          ///< a checksum, a count or a structure is wrong
 };
 
 /// A failure: its kind, the place, the cause and the remedy. Plain data: no

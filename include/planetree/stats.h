@@ -18,14 +18,14 @@ struct ModelInfo {
   std::uint64_t blocks = 0;           ///< leaves: blocks of up to 16 triangles
   std::uint32_t levels = 0;           ///< most nodes between the root and a block
   std::uint32_t pages = 0;
-  std::uint32_t page_bytes = 0;       ///< of a page in memory
+  std::uint32_t page_bytes = 0;  ///< of a page in memory
   std::uint64_t file_bytes = 0;
   struct {
     std::uint64_t headers = 0;
     std::uint64_t page_table = 0;
     std::uint64_t distance_pages = 0;
-  } section_bytes;                    ///< adds up to file_bytes
-  std::uint64_t content_id[2] = {};   ///< names the content: equal for equal models
+  } section_bytes;                   ///< adds up to file_bytes
+  std::uint64_t content_id[2] = {};  ///< names the content: equal for equal models
 };
 
 /// What an open model has done and holds. Counters since it was opened, of all
@@ -33,15 +33,15 @@ struct ModelInfo {
 struct Stats {
   std::uint64_t page_hits = 0;
   std::uint64_t page_misses = 0;
-  std::uint64_t pages_read = 0;        ///< from the file
+  std::uint64_t pages_read = 0;  ///< from the file
   std::uint64_t pages_evicted = 0;
-  std::uint64_t quarantined_pages = 0; ///< found unreadable or damaged; not tried again
+  std::uint64_t quarantined_pages = 0;  ///< found unreadable or damaged; not tried again
   std::uint64_t degraded_answers = 0;
-  std::uint64_t frames = 0;            ///< most pages in memory at once
-  std::uint64_t arena_bytes = 0;       ///< memory of those
-  std::uint64_t table_bytes = 0;       ///< page table, page map, reader slots, scratch
-  std::uint64_t budget_bytes = 0;      ///< as asked; arena and tables stay within it
-  bool header_copy_damaged = false;    ///< one of the file's two headers; copy the file anew
+  std::uint64_t frames = 0;          ///< most pages in memory at once
+  std::uint64_t arena_bytes = 0;     ///< memory of those
+  std::uint64_t table_bytes = 0;     ///< page table, page map, reader slots, scratch
+  std::uint64_t budget_bytes = 0;    ///< as asked; arena and tables stay within it
+  bool header_copy_damaged = false;  ///< one of the file's two headers; copy the file anew
 };
 
 }  // namespace planetree

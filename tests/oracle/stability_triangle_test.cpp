@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "tests/oracle/answer_checks.h"
@@ -174,11 +175,11 @@ TEST(StabilityTriangle, OrderDoesNotMatter) {
   std::vector<Vec3> queries;
   for (int i = 0; i < 60; ++i) queries.push_back(nasty_query(random, Soup{{a, b, c}, other}, 1));
   BuiltModel reference({{a, b, c}, other});
-  std::array<Vec3, 3> corners{a, b, c};
-  for (const auto& order : {std::array{0, 1, 2}, std::array{0, 2, 1}, std::array{1, 0, 2},
-                            std::array{1, 2, 0}, std::array{2, 0, 1}, std::array{2, 1, 0}}) {
-    const auto at = [&](int k) { return corners[static_cast<std::size_t>(order[k])]; };
-    const Corners turned{at(0), at(1), at(2)};
+  using Order = std::array<std::size_t, 3>;
+  const Corners corners{a, b, c};
+  for (const auto& order : {Order{0, 1, 2}, Order{0, 2, 1}, Order{1, 0, 2}, Order{1, 2, 0},
+                            Order{2, 0, 1}, Order{2, 1, 0}}) {
+    const Corners turned{corners[order[0]], corners[order[1]], corners[order[2]]};
     BuiltModel model({other, turned, {a, b, c}, other});
     for (const Vec3& query : queries) {
       const ClosestPoint expected = reference.ask(query), answer = expect_sound(model, query);

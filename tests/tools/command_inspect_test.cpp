@@ -1,0 +1,120 @@
+#include "tools/command.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/tools/command_fixture.h"
+#include "tools/file_text.h"
+
+namespace planetree::tools {
+namespace {
+
+TEST_F(Command, InspectSaysWhatIsThere) {
+  const Outcome result = run({"inspect", "tree.ptree", "--json", "--levels", "--pages"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json report = Json::parse(result.output);
+  EXPECT_EQ(report["triangles"], kTriangles);
+  EXPECT_EQ(report["vertices"], 225);
+  EXPECT_EQ(report["box"]["upper"][0], 14.0);
+  EXPECT_EQ(report["file_bytes"], fs::file_size("tree.ptree"));
+  std::uint64_t sum = 0;
+  for (const char* section : {"headers", "page_table", "distance_pages"})
+    sum += report["bytes"][section].get<std::uint64_t>();
+  EXPECT_EQ(sum, fs::file_size("tree.ptree"));
+  std::uint64_t nodes = 0, triangles = 0, in_pages = 0, raw = 0, streams = 0;
+  for (const Json& level : report["by_level"]) {
+    nodes += level["nodes"].get<std::uint64_t>();
+    triangles += level["triangles"].get<std::uint64_t>();
+  }
+  for (const Json& page : report["by_page"]) {
+    in_pages += page["triangles"].get<std::uint64_t>();
+    raw += page["raw_bytes"].get<std::uint64_t>();
+  }
+  for (const auto& [name, bytes] : report["bytes"]["within_pages"].items())
+    streams += bytes.get<std::uint64_t>();
+  EXPECT_EQ(nodes, report["nodes"]);
+  EXPECT_EQ(triangles, kTriangles);
+  EXPECT_EQ(in_pages, kTriangles);
+  EXPECT_EQ(streams, raw);
+  EXPECT_EQ(report["by_page"].size(), report["pages"]);
+}
+
+TEST_F(Command, InspectGoesOnInADamagedFile) {
+  flip("tree.ptree", entries_[2].offset);
+  const Outcome plain = run({"inspect", "tree.ptree", "--pages"});
+  EXPECT_EQ(plain.status, 1);
+  EXPECT_NE(plain.output.find("unreadable"), std::string::npos);
+  EXPECT_NE(plain.output.find("392 triangles"), std::string::npos);
+  EXPECT_TRUE(plain.errors.starts_with("planetree: tree.ptree: PAGE_CHECKSUM: page 2, at byte "));
+  const Outcome page = run({"inspect", "tree.ptree", "--page", "2"});
+  EXPECT_EQ(page.status, 1);
+  EXPECT_NE(page.output.find("stored_bytes"), std::string::npos);
+  const Outcome json = run({"inspect", "tree.ptree", "--json"});
+  EXPECT_EQ(json.status, 1);
+  EXPECT_EQ(Json::parse(json.output)["issues"][0]["code"], "PAGE_CHECKSUM");
+}
+
+TEST_F(Command, InspectShowsAPageByItsNames) {
+  const Outcome result = run({"inspect", "tree.ptree", "--page", "0", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json page = Json::parse(result.output);
+  EXPECT_EQ(page["entry"]["offset"], 320 + 40 * entries_.size());
+  EXPECT_EQ(page["head"]["page_number"], 0);
+  std::uint64_t bytes = 0;
+  for (const Json& stream : page["streams"]) {
+    EXPECT_EQ(stream["offset"], bytes);
+    bytes += stream["bytes"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(page["entry"]["raw_bytes"], bytes);
+  EXPECT_EQ(page["nodes"].size(), page["head"]["node_count"]);
+}
+
+TEST_F(Command, InspectFindsNodesByOctcode) {
+  const std::string shown = cell_text(entries_[0].octcode);
+  std::string typed = shown;
+  std::replace(typed.begin(), typed.end(), '/', ':');
+  for (const std::string& cell : {shown, typed, fmt::format("{:#x}", entries_[0].octcode)}) {
+    const Outcome result = run({"inspect", "tree.ptree", "--node", cell, "--json"});
+    ASSERT_EQ(result.status, 0) << cell << result.errors;
+    const Json found = Json::parse(result.output);
+    EXPECT_EQ(found["pages"][0]["page"], 0);
+    EXPECT_GE(found["pages"][0]["nodes"][0]["children"].size(), 2u);
+    EXPECT_TRUE(found["pages"][0]["nodes"][0].contains("box_lower"));
+  }
+}
+
+TEST_F(Command, InspectDrawsASlice) {
+  const std::vector<std::string> draw = {"inspect", "tree.ptree", "--slice", "z=50%",
+                                         "--image", "slice.png",  "--json"};
+  const Outcome result = run(draw);
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json report = Json::parse(result.output);
+  EXPECT_EQ(report["width"], 800);
+  EXPECT_EQ(report["height"], 800);
+  EXPECT_EQ(report["coordinate"], 0.4375);
+  EXPECT_EQ(storage::read_bytes("slice.png")[1], std::byte{'P'});
+  EXPECT_EQ(run(draw).status, 2);
+}
+
+TEST_F(Command, VerifyListsIssuesAndFails) {
+  const Outcome well = run({"verify", "tree.ptree", "--full", "--json"});
+  EXPECT_EQ(well.status, 0);
+  EXPECT_EQ(Json::parse(well.output)["issues"], Json::array());
+  const std::uint64_t offset = entries_[1].offset;
+  flip("tree.ptree", offset);
+  const Outcome damaged = run({"verify", "tree.ptree", "--json"});
+  EXPECT_EQ(damaged.status, 1);
+  EXPECT_EQ(damaged.errors, "");
+  const Json issue = Json::parse(damaged.output)["issues"][0];
+  EXPECT_EQ(issue["code"], "PAGE_CHECKSUM");
+  EXPECT_EQ(issue["page"], 1);
+  EXPECT_EQ(issue["offset"], offset);
+  const Outcome plain = run({"verify", "tree.ptree"});
+  EXPECT_TRUE(plain.output.starts_with("tree.ptree: PAGE_CHECKSUM: page 1, at byte "));
+}
+
+}  // namespace
+}  // namespace planetree::tools
