@@ -146,73 +146,67 @@ HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& 
   return squared;
 }
 
-// Which vertices a vector of corners names, prepared for looking them up.
-struct CornerIndex {
-  explicit HWY_INLINE CornerIndex(const std::uint8_t* HWY_RESTRICT corners)
-      : index(hn::PromoteTo(IntTag(), hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), corners))) {}
-  Ints index;
-};
-
-// One coordinate of all of a block's vertices, seen from the query.
-template <unsigned kStride>
-struct VertexRow {
-  HWY_ALIGN float from_query[kStride];
-
-  HWY_INLINE VertexRow(const float* HWY_RESTRICT local, float query) {
+// All of a block's vertices, seen from the query.
+class VertexRows {
+ public:
+  // `local` is relative to the block, `query` to its vertex 0.
+  HWY_INLINE VertexRows(const float* HWY_RESTRICT local, unsigned stride, const float (&query)[3])
+      : stride_(stride) {
     const FloatTag d;
-    const Floats first = hn::Set(d, local[0]);
-    const Floats q = hn::Set(d, query);
-    for (unsigned i = 0; i < kStride; i += static_cast<unsigned>(hn::Lanes(d)))
-      hn::Store(hn::Sub(hn::Sub(hn::Load(d, local + i), first), q), d, from_query + i);
+    for (unsigned axis = 0; axis < 3; ++axis, local += stride) {
+      const Floats first = hn::Set(d, local[0]);
+      const Floats q = hn::Set(d, query[axis]);
+      for (unsigned i = 0; i < stride; i += static_cast<unsigned>(hn::Lanes(d)))
+        hn::Store(hn::Sub(hn::Sub(hn::Load(d, local + i), first), q), d, row_[axis] + i);
+    }
   }
 
-  HWY_INLINE Floats at(const CornerIndex& corners) const {
+  // The vertices that a vector of corners names.
+  HWY_INLINE Wide3 at(const std::uint8_t* HWY_RESTRICT corners) const {
     const FloatTag d;
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
-    // A gather costs more than looking each vector of the row up in registers.
     const IntTag di;
-    const auto lane = hn::IndicesFromVec(d, hn::And(corners.index, hn::Set(di, 7)));
-    Floats found = hn::TableLookupLanes(hn::Load(d, from_query), lane);
-    for (unsigned i = 8; i < kStride; i += 8) {
-      const auto here =
-          hn::RebindMask(d, hn::Gt(corners.index, hn::Set(di, static_cast<int>(i) - 1)));
-      found = hn::IfThenElse(here, hn::TableLookupLanes(hn::Load(d, from_query + i), lane), found);
+    const Ints index = hn::PromoteTo(di, hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), corners));
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+    // A gather costs more than looking each vector of a row up in registers.
+    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
+    const auto look_up = [&](unsigned axis, unsigned i) {
+      return hn::TableLookupLanes(hn::Load(d, row_[axis] + i), lane);
+    };
+    Wide3 found{look_up(0, 0), look_up(1, 0), look_up(2, 0)};
+    for (unsigned i = 8; i < stride_; i += 8) {
+      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, static_cast<int>(i) - 1)));
+      found.x = hn::IfThenElse(here, look_up(0, i), found.x);
+      found.y = hn::IfThenElse(here, look_up(1, i), found.y);
+      found.z = hn::IfThenElse(here, look_up(2, i), found.z);
     }
     return found;
 #else
-    return hn::GatherIndex(d, from_query, corners.index);
+    return {hn::GatherIndex(d, row_[0], index), hn::GatherIndex(d, row_[1], index),
+            hn::GatherIndex(d, row_[2], index)};
 #endif
   }
-};
 
-template <unsigned kStride>
-HWY_INLINE unsigned filter_of_stride(const BlockHeader& block, const float (&query)[3], float limit,
-                                     float* HWY_RESTRICT squared) {
-  const FloatTag d;
-  const auto* local = reinterpret_cast<const float*>(&block + 1);
-  const VertexRow<kStride> x(local, query[0]);
-  const VertexRow<kStride> y(local + kStride, query[1]);
-  const VertexRow<kStride> z(local + 2 * kStride, query[2]);
-  unsigned near = 0;
-  for (std::size_t i = 0; i < block.triangle_count; i += hn::Lanes(d)) {
-    const CornerIndex a(block.corner[0] + i), b(block.corner[1] + i), c(block.corner[2] + i);
-    const Floats values = triangle_squared({x.at(a), y.at(a), z.at(a)}, {x.at(b), y.at(b), z.at(b)},
-                                           {x.at(c), y.at(c), z.at(c)});
-    hn::Store(values, d, squared + i);
-    near |= bits_not_above(values, limit) << i;
-  }
-  return near;
-}
+ private:
+  HWY_ALIGN float row_[3][kMaxBlockVertices];
+  unsigned stride_;
+};
 
 // Filter values of a block's lanes; returns a bit for each that is not above
 // the limit. `query` is relative to vertex 0. Lanes past the last triangle
 // repeat it.
-HWY_INLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
-                                 float* HWY_RESTRICT squared) {
-  if (block.stride == 16) return filter_of_stride<16>(block, query, limit, squared);
-  if (block.stride == 24) return filter_of_stride<24>(block, query, limit, squared);
-  if (block.stride == 32) return filter_of_stride<32>(block, query, limit, squared);
-  return filter_of_stride<48>(block, query, limit, squared);
+HWY_NOINLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
+                                   float* HWY_RESTRICT squared) {
+  const FloatTag d;
+  const VertexRows vertices(reinterpret_cast<const float*>(&block + 1), block.stride, query);
+  unsigned near = 0;
+  for (std::size_t i = 0; i < block.triangle_count; i += hn::Lanes(d)) {
+    const Floats values =
+        triangle_squared(vertices.at(block.corner[0] + i), vertices.at(block.corner[1] + i),
+                         vertices.at(block.corner[2] + i));
+    hn::Store(values, d, squared + i);
+    near |= bits_not_above(values, limit) << i;
+  }
+  return near;
 }
 
 }  // namespace HWY_NAMESPACE
