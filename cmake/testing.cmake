@@ -1,12 +1,13 @@
-# planetree_add_tests(LABEL [EXCEPT files...] [DEPENDS targets...])
+# planetree_add_tests(LABEL [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...])
 #
 # One program of the sources in the current folder; each test in it is a test
 # of ctest with this label. Nothing happens in a folder without a *_test.cpp.
+# HEADERS, and GoogleTest's, are compiled once for all of them.
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
 function(planetree_add_tests label)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "EXCEPT;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "EXCEPT;DEPENDS;HEADERS")
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
   if(NOT tests)
     return()
@@ -21,6 +22,11 @@ function(planetree_add_tests label)
   target_link_libraries(${program} PRIVATE ${test_DEPENDS} GTest::gtest_main)
   target_compile_definitions(${program}
     PRIVATE PLANETREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Most of the time of a full run goes into compiling: what is tested is
+  # optimised, the tests are not.
+  target_compile_options(${program} PRIVATE -O0)
+  target_precompile_headers(${program}
+    PRIVATE <gtest/gtest.h> <filesystem> <string> <vector> ${test_HEADERS})
   set(properties LABELS ${label} TIMEOUT 120)
   if(PLANETREE_DATA)
     list(APPEND properties ENVIRONMENT PLANETREE_DATA=${PLANETREE_DATA})

@@ -194,7 +194,7 @@ class VertexRows {
 // Filter values of a block's lanes; returns a bit for each that is not above
 // the limit. `query` is relative to vertex 0. Lanes past the last triangle
 // repeat it.
-HWY_NOINLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
+inline HWY_NOINLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
                                    float* HWY_RESTRICT squared) {
   const FloatTag d;
   const VertexRows vertices(reinterpret_cast<const float*>(&block + 1), block.stride, query);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -177,35 +176,31 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
     std::uint64_t threads = 0;
     std::uint64_t page_bytes = octree::BuildOptions{}.page_bytes;
   };
-  CLI::App* verb = app.add_subcommand("build", "Build the .ptree file of a mesh");
   const auto options = std::make_shared<Options>();
   BuildArguments& arguments = options->arguments;
-  verb->add_option("input", arguments.input,
-                   "Mesh to read: PLY (ascii or binary), STL (ascii or binary) or OBJ")
-      ->required()
-      ->type_name("IN");
-  verb->add_option("-o,--output", arguments.output, "File to write; it appears whole or not at all")
-      ->required()
-      ->type_name("OUT.ptree");
-  add_count_option(*verb, "--threads", options->threads, kMostThreads,
-                   "Threads to work with; 0 means one for each processor. The file does not "
-                   "depend on it")
-      ->default_str("0");
-  add_bytes_option(*verb, "--page-size", options->page_bytes,
-                   "Bytes of a page in memory: a power of two from 4K to 256K")
-      ->default_str("64K");
-  verb->add_flag("--strict", arguments.options.strict,
-                 "Refuse a mesh with bad records (a vertex that is not finite, an index out of "
-                 "range, fewer than 3 corners) instead of setting them aside");
-  verb->add_flag("--force", arguments.options.replace, "Replace the output if it exists");
-  verb->add_flag("--json", arguments.json, "Report as one JSON object");
-  verb->add_flag("--quiet", arguments.quiet, "Show no progress");
-  verb->callback([options, &console, &action] {
-    const std::string complaint = page_size_complaint(options->page_bytes);
-    if (!complaint.empty()) throw CLI::ValidationError(complaint);
+  VerbOptions verb(app, "build", "Build the .ptree file of a mesh");
+  verb.require(verb.path("input", "IN", arguments.input,
+                         "Mesh to read: PLY (ascii or binary), STL (ascii or binary) or OBJ"));
+  verb.require(verb.path("-o,--output", "OUT.ptree", arguments.output,
+                         "File to write; it appears whole or not at all"));
+  verb.default_text(verb.count("--threads", options->threads, kMostThreads,
+                               "Threads to work with; 0 means one for each processor. The file "
+                               "does not depend on it"),
+                    "0");
+  verb.default_text(verb.bytes("--page-size", options->page_bytes,
+                               "Bytes of a page in memory: a power of two from 4K to 256K"),
+                    "64K");
+  verb.flag("--strict", arguments.options.strict,
+            "Refuse a mesh with bad records (a vertex that is not finite, an index out of range, "
+            "fewer than 3 corners) instead of setting them aside");
+  verb.flag("--force", arguments.options.replace, "Replace the output if it exists");
+  verb.flag("--json", arguments.json, "Report as one JSON object");
+  verb.flag("--quiet", arguments.quiet, "Show no progress");
+  verb.on_given([options, &console, &action] {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);
     options->arguments.options.page_bytes = static_cast<std::uint32_t>(options->page_bytes);
     action = [options, &console] { return run_build(options->arguments, console); };
+    return page_size_complaint(options->page_bytes);
   });
 }
 

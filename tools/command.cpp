@@ -11,7 +11,6 @@
 #include "octree/build/mesh_text.h"
 #include "tools/build.h"
 #include "tools/generate.h"
-
 #include "tools/inspect.h"
 #include "tools/query.h"
 #include "tools/verify.h"
@@ -70,10 +69,9 @@ int run_command(int argc, const char* const* argv, Console& console) {
   app.footer(kFooter);
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   std::function<int()> action;
-  add_generate(app, action);
+  add_generate(app, console, action);
   add_build(app, console, action);
   add_query(app, console, action);
-
   add_inspect(app, console, action);
   add_verify(app, console, action);
   if (lacks_verb(app, argc, argv, console)) return kCommandLineAtFault;

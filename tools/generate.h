@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "tools/shape_model.h"
+#include "tools/verb.h"
 
 namespace CLI {
 class App;
@@ -24,10 +25,10 @@ struct GenerateOptions {
 
 /// Writes the model and says on standard output what it is (on standard error if
 /// the model goes to standard output). Returns the exit status.
-int run_generate(const GenerateOptions& options);
+int run_generate(const GenerateOptions& options, Console& console);
 
 /// Adds the verb `generate` to the command line. If a person gives it, parsing
 /// sets `action` to what runs it.
-void add_generate(CLI::App& app, std::function<int()>& action);
+void add_generate(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -196,6 +195,16 @@ int show_slice(const InspectArguments& arguments, Console& console) {
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
 
+std::string node_complaint(const std::string& text) {
+  if (OctcodeQuery::parse(text)) return {};
+  return fmt::format("'{}' is no octcode; give 0x... or level:x:y:z", text);
+}
+
+std::string slice_complaint(const std::string& text) {
+  if (SlicePlane::parse(text)) return {};
+  return fmt::format("'{}' is no plane; give x, y or z, =, and a number or a percentage", text);
+}
+
 }  // namespace
 
 int run_inspect(const InspectArguments& arguments, Console& console) {
@@ -219,59 +228,39 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
     InspectArguments arguments;
     std::uint64_t page = 0;
   };
-  CLI::App* verb = app.add_subcommand("inspect", "Say what is in a .ptree file, damaged or not");
   const auto options = std::make_shared<Options>();
   InspectArguments& arguments = options->arguments;
-  verb->add_option("file", arguments.file, "File to inspect")->required()->type_name("FILE");
-  verb->add_flag("--levels", arguments.levels, "Also a row for each depth of the tree");
-  verb->add_flag("--pages", arguments.pages,
-                 "Also a row for each page; its octcode is shown as level/x/y/z");
-  CLI::Option* node =
-      verb->add_option_function<std::string>(
-              "--node",
-              [&arguments](const std::string& text) { arguments.node = OctcodeQuery::parse(text); },
-              "Instead the nodes at the top of the pages that begin at this octcode (0x... or "
-              "level:x:y:z): box, children and bounding planes, relative to the model's centre")
-          ->type_name("OCTCODE")
-          ->check(CLI::Validator(
-              [](std::string& text) {
-                return OctcodeQuery::parse(text)
-                           ? std::string()
-                           : fmt::format("'{}' is no octcode; give 0x... or level:x:y:z", text);
-              },
-              "", ""));
-  CLI::Option* page =
-      add_count_option(*verb, "--page", options->page, std::numeric_limits<std::uint32_t>::max(),
-                       "Instead all about one page, counted from 0, by the names of format-spec");
-  CLI::Option* image =
-      verb->add_option("--image", arguments.image, "PNG file to write")->type_name("OUT.png");
-  CLI::Option* slice =
-      verb->add_option_function<std::string>(
-              "--slice",
-              [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
-              "Instead a picture of the distance over a plane, such as z=1.5 (model units) or "
-              "z=50% (of the box)")
-          ->type_name("AXIS=VALUE")
-          ->check(CLI::Validator(
-              [](std::string& text) {
-                return SlicePlane::parse(text)
-                           ? std::string()
-                           : fmt::format(
-                                 "'{}' is no plane; give x, y or z, =, and a number or a "
-                                 "percentage",
-                                 text);
-              },
-              "", ""));
-  slice->needs(image)->excludes(node)->excludes(page);
-  image->needs(slice);
-  page->excludes(node);
-  verb->add_flag("--force", arguments.replace_image, "Replace the image if it exists")
-      ->needs(image);
-  verb->add_flag("--json", arguments.json, "Answer with one JSON object");
-  verb->add_flag("--quiet", arguments.quiet, "Show no progress");
-  verb->callback([options, page, &console, &action] {
-    if (page->count() > 0) options->arguments.page = options->page;
+  VerbOptions verb(app, "inspect", "Say what is in a .ptree file, damaged or not");
+  verb.require(verb.path("file", "FILE", arguments.file, "File to inspect"));
+  verb.flag("--levels", arguments.levels, "Also a row for each depth of the tree");
+  verb.flag("--pages", arguments.pages,
+            "Also a row for each page; its octcode is shown as level/x/y/z");
+  const auto node = verb.text(
+      "--node", "OCTCODE", node_complaint,
+      [&arguments](const std::string& text) { arguments.node = OctcodeQuery::parse(text); },
+      "Instead the nodes at the top of the pages that begin at this octcode (0x... or "
+      "level:x:y:z): box, children and bounding planes, relative to the model's centre");
+  const auto page =
+      verb.count("--page", options->page, std::numeric_limits<std::uint32_t>::max(),
+                 "Instead all about one page, counted from 0, by the names of format-spec");
+  const auto image = verb.path("--image", "OUT.png", arguments.image, "PNG file to write");
+  const auto slice = verb.text(
+      "--slice", "AXIS=VALUE", slice_complaint,
+      [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
+      "Instead a picture of the distance over a plane, such as z=1.5 (model units) or z=50% "
+      "(of the box)");
+  verb.need(slice, image);
+  verb.exclude(slice, node);
+  verb.exclude(slice, page);
+  verb.need(image, slice);
+  verb.exclude(page, node);
+  verb.need(verb.flag("--force", arguments.replace_image, "Replace the image if it exists"), image);
+  verb.flag("--json", arguments.json, "Answer with one JSON object");
+  verb.flag("--quiet", arguments.quiet, "Show no progress");
+  verb.on_given([options, page, &console, &action] {
+    if (VerbOptions::given(page)) options->arguments.page = options->page;
     action = [options, &console] { return run_inspect(options->arguments, console); };
+    return std::string();
   });
 }
 

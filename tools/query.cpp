@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -110,14 +109,14 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
-  const auto points = open_points(arguments.points, console.input());
-  if (!points) return console.fail(points_name(arguments.points), points.error());
+  const auto points = open_points(arguments.points.string(), console.input());
+  if (!points) return console.fail(points_name(arguments.points.string()), points.error());
 
   const auto started = std::chrono::steady_clock::now();
   Session session(arguments, console, *model, *probe);
   const int status = session.run(**points);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  if (arguments.json) fmt::print(console.errors(), "{}", session.json_report(elapsed.count()));
+  if (arguments.json) console.note(session.json_report(elapsed.count()));
   return console.finish(status);
 }
 
@@ -125,39 +124,37 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
   static const std::map<std::string, AnswerFormat> kFormats = {{"csv", AnswerFormat::kCsv},
                                                                {"jsonl", AnswerFormat::kJsonLines},
                                                                {"f64", AnswerFormat::kF64}};
-  CLI::App* verb = app.add_subcommand("query", "Find the surface point nearest to each point");
   const auto options = std::make_shared<QueryArguments>();
-  verb->add_option("file", options->file, "File that planetree build wrote")
-      ->required()
-      ->type_name("FILE");
-  verb->add_option("points", options->points,
-                   "Points to ask about, in model units: CSV (x,y,z, further columns are passed "
-                   "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
-                   "little-endian float64 triples); - is CSV from standard input")
-      ->default_str("-")
-      ->type_name("POINTS");
-  add_length_option(*verb, "--max-error", options->ask.max_error, false,
-                    "May stop once the distance is known within this, in model units; 0 goes on "
-                    "until it is exact")
-      ->default_str("0");
-  add_length_option(*verb, "--max-distance", options->ask.max_distance, true,
-                    "Look no farther than this, in model units")
-      ->default_str("inf");
-  add_bytes_option(*verb, "--memory", options->memory_bytes, "Most memory for the model")
-      ->default_str("256M");
-  verb->add_option_function<std::string>(
-          "--format", [options](const std::string& name) { options->format = kFormats.at(name); },
+  VerbOptions verb(app, "query", "Find the surface point nearest to each point");
+  verb.require(verb.path("file", "FILE", options->file, "File that planetree build wrote"));
+  verb.default_text(
+      verb.path("points", "POINTS", options->points,
+                "Points to ask about, in model units: CSV (x,y,z, further columns are passed "
+                "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
+                "little-endian float64 triples); - is CSV from standard input"),
+      "-");
+  verb.default_text(verb.length("--max-error", options->ask.max_error, false,
+                                "May stop once the distance is known within this, in model units; "
+                                "0 goes on until it is exact"),
+                    "0");
+  verb.default_text(verb.length("--max-distance", options->ask.max_distance, true,
+                                "Look no farther than this, in model units"),
+                    "inf");
+  verb.default_text(verb.bytes("--memory", options->memory_bytes, "Most memory for the model"),
+                    "256M");
+  verb.default_text(
+      verb.word(
+          "--format", {"csv", "jsonl", "f64"},
+          [options](const std::string& name) { options->format = kFormats.at(name); },
           "csv: a header and a row for each point; jsonl: an object for each point, null for "
           "what is not a finite number; f64: 10 little-endian float64 for each point (x y z "
-          "distance lower upper px py pz triangle, which is NaN for none)")
-      ->type_name("NAME")
-      ->default_str("csv")
-      ->check(CLI::IsMember(kFormats).description(""));
-  verb->add_flag("--json", options->json,
-                 "Afterwards report as one JSON object, on standard error");
-  verb->add_flag("--quiet", options->quiet, "Show no progress");
-  verb->callback([options, &console, &action] {
+          "distance lower upper px py pz triangle, which is NaN for none)"),
+      "csv");
+  verb.flag("--json", options->json, "Afterwards report as one JSON object, on standard error");
+  verb.flag("--quiet", options->quiet, "Show no progress");
+  verb.on_given([options, &console, &action] {
     action = [options, &console] { return run_query(*options, console); };
+    return std::string();
   });
 }
 

@@ -17,7 +17,7 @@ namespace planetree::tools {
 
 struct QueryArguments {
   std::filesystem::path file;
-  std::string points = "-";  ///< "-" is standard input
+  std::filesystem::path points = "-";  ///< "-" is standard input
   Ask ask;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   AnswerFormat format = AnswerFormat::kCsv;

@@ -78,6 +78,8 @@ bool Console::print(std::string_view text) {
   return false;
 }
 
+void Console::note(std::string_view text) { std::fwrite(text.data(), 1, text.size(), errors_); }
+
 void Console::warn(std::string_view file, std::string_view text) {
   const std::string line = in_one_line(fmt::format("planetree: warning: {}: {}", file, text));
   fmt::print(errors_, "{}\n", line);

@@ -45,6 +45,8 @@ class Console {
   /// Appends to standard output. False once it takes no more: nothing is
   /// written from then on, and a verb should end with finish().
   bool print(std::string_view text);
+  /// A report on standard error, where standard output carries data.
+  void note(std::string_view text);
   /// One line on standard error.
   void warn(std::string_view file, std::string_view text);
   /// Writes error_line() to standard error; returns the exit status.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "octree/build/mesh_text.h"
@@ -10,13 +11,15 @@
 namespace planetree::tools {
 namespace {
 
-/// Adds an option whose text `complaint` judges (empty: it is good) before
-/// `take` reads it.
-template <class Complaint, class Take>
-CLI::Option* add_checked(CLI::App& verb, const std::string& name, const std::string& help,
-                         Complaint complaint, Take take) {
-  return verb.add_option_function<std::string>(name, take, help)
-      ->check(CLI::Validator([complaint](std::string& text) { return complaint(text); }, "", ""));
+std::string count_complaint(const std::string& text, std::uint64_t most) {
+  const auto count = parse_count(text);
+  if (!count) return count.error().text;
+  return *count <= most ? std::string() : fmt::format("{} is too many; at most {}", *count, most);
+}
+
+std::string bytes_complaint(const std::string& text) {
+  const auto bytes = parse_bytes(text);
+  return bytes ? std::string() : std::string(bytes.error().text);
 }
 
 std::string length_complaint(const std::string& text, bool infinite) {
@@ -29,34 +32,76 @@ std::string length_complaint(const std::string& text, bool infinite) {
 
 }  // namespace
 
-CLI::Option* add_bytes_option(CLI::App& verb, const std::string& name, std::uint64_t& value,
-                              const std::string& help) {
-  const auto complaint = [](const std::string& text) {
-    const auto bytes = parse_bytes(text);
-    return bytes ? std::string() : std::string(bytes.error().text);
-  };
-  const auto take = [&value](const std::string& text) { value = *parse_bytes(text); };
-  return add_checked(verb, name, help, complaint, take)->type_name("SIZE");
+VerbOptions::VerbOptions(CLI::App& app, const std::string& name, const std::string& help)
+    : verb_(*app.add_subcommand(name, help)) {}
+
+VerbOptions::Option VerbOptions::path(const std::string& name, const char* type,
+                                      std::filesystem::path& value, const std::string& help) {
+  return verb_.add_option(name, value, help)->type_name(type);
 }
 
-CLI::Option* add_count_option(CLI::App& verb, const std::string& name, std::uint64_t& value,
-                              std::uint64_t most, const std::string& help) {
-  const auto complaint = [most](const std::string& text) {
-    const auto count = parse_count(text);
-    if (!count) return std::string(count.error().text);
-    return *count <= most ? std::string() : fmt::format("{} is too many; at most {}", *count, most);
-  };
-  const auto take = [&value](const std::string& text) { value = *parse_count(text); };
-  return add_checked(verb, name, help, complaint, take)->type_name("N");
+VerbOptions::Option VerbOptions::flag(const std::string& name, bool& value,
+                                      const std::string& help) {
+  return verb_.add_flag(name, value, help);
 }
 
-CLI::Option* add_length_option(CLI::App& verb, const std::string& name, double& value,
-                               bool infinite, const std::string& help) {
-  const auto complaint = [infinite](const std::string& text) {
-    return length_complaint(text, infinite);
+VerbOptions::Option VerbOptions::bytes(const std::string& name, std::uint64_t& value,
+                                       const std::string& help) {
+  const auto take = [&value](const std::string& given) { value = *parse_bytes(given); };
+  return text(name, "SIZE", bytes_complaint, take, help);
+}
+
+VerbOptions::Option VerbOptions::count(const std::string& name, std::uint64_t& value,
+                                       std::uint64_t most, const std::string& help) {
+  const auto complaint = [most](const std::string& given) { return count_complaint(given, most); };
+  const auto take = [&value](const std::string& given) { value = *parse_count(given); };
+  return text(name, "N", complaint, take, help);
+}
+
+VerbOptions::Option VerbOptions::length(const std::string& name, double& value, bool infinite,
+                                        const std::string& help) {
+  const auto complaint = [infinite](const std::string& given) {
+    return length_complaint(given, infinite);
   };
-  const auto take = [&value](const std::string& text) { octree::parse_real(text, value); };
-  return add_checked(verb, name, help, complaint, take)->type_name("LENGTH");
+  const auto take = [&value](const std::string& given) { octree::parse_real(given, value); };
+  return text(name, "LENGTH", complaint, take, help);
+}
+
+VerbOptions::Option VerbOptions::word(const std::string& name,
+                                      const std::vector<std::string>& words,
+                                      std::function<void(const std::string&)> take,
+                                      const std::string& help) {
+  return verb_.add_option_function<std::string>(name, take, help)
+      ->type_name("NAME")
+      ->check(CLI::IsMember(words).description(""));
+}
+
+VerbOptions::Option VerbOptions::text(const std::string& name, const char* type,
+                                      std::function<std::string(const std::string&)> complaint,
+                                      std::function<void(const std::string&)> take,
+                                      const std::string& help) {
+  return verb_.add_option_function<std::string>(name, take, help)
+      ->type_name(type)
+      ->check(CLI::Validator([complaint](std::string& given) { return complaint(given); }, "", ""));
+}
+
+VerbOptions::Option VerbOptions::require(Option option) { return option->required(); }
+
+VerbOptions::Option VerbOptions::default_text(Option option, const std::string& text) {
+  return option->default_str(text);
+}
+
+void VerbOptions::need(Option option, Option other) { option->needs(other); }
+
+void VerbOptions::exclude(Option option, Option other) { option->excludes(other); }
+
+bool VerbOptions::given(Option option) { return option->count() > 0; }
+
+void VerbOptions::on_given(std::function<std::string()> act) {
+  verb_.callback([act] {
+    const std::string complaint = act();
+    if (!complaint.empty()) throw CLI::ValidationError(complaint);
+  });
 }
 
 }  // namespace planetree::tools

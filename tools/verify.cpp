@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +10,7 @@
 #include "tools/file_parts.h"
 #include "tools/progress.h"
 #include "tools/size_text.h"
+#include "tools/verb_options.h"
 
 namespace planetree::tools {
 namespace {
@@ -67,15 +67,16 @@ int run_verify(const VerifyArguments& arguments, Console& console) {
 }
 
 void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
-  CLI::App* verb = app.add_subcommand("verify", "Hold a .ptree file against its format");
   const auto options = std::make_shared<VerifyArguments>();
-  verb->add_option("file", options->file, "File to verify")->required()->type_name("FILE");
-  verb->add_flag("--full", options->full,
-                 "Also look at every triangle and vertex: unique indices, bounds that hold");
-  verb->add_flag("--json", options->json, "Report as one JSON object");
-  verb->add_flag("--quiet", options->quiet, "Show no progress");
-  verb->callback([options, &console, &action] {
+  VerbOptions verb(app, "verify", "Hold a .ptree file against its format");
+  verb.require(verb.path("file", "FILE", options->file, "File to verify"));
+  verb.flag("--full", options->full,
+            "Also look at every triangle and vertex: unique indices, bounds that hold");
+  verb.flag("--json", options->json, "Report as one JSON object");
+  verb.flag("--quiet", options->quiet, "Show no progress");
+  verb.on_given([options, &console, &action] {
     action = [options, &console] { return run_verify(*options, console); };
+    return std::string();
   });
 }
 

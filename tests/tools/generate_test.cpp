@@ -1,9 +1,9 @@
 #include "tools/generate.h"
+#include "tests/tools/captured_console.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstring>
 #include <fstream>
@@ -36,26 +36,15 @@ class Generate : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// The exit status of `planetree generate` with these words, 2 if they do not
-  /// parse, and what it says.
+  /// The exit status of `planetree generate` with these words, and what it says.
   int run(std::vector<std::string> words) {
-    CLI::App app;
-    std::function<int()> action;
-    add_generate(app, action);
     words.insert(words.begin(), "generate");
-    std::reverse(words.begin(), words.end());
-    try {
-      app.parse(words);
-    } catch (const CLI::ParseError& error) {
-      said_ = error.what();
-      return 2;
-    }
+    // The model itself goes to the descriptor of standard output.
     testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    const int status = action();
-    said_ = testing::internal::GetCapturedStdout();
-    complained_ = testing::internal::GetCapturedStderr();
-    return status;
+    const Outcome outcome = tools::run(words);
+    said_ = testing::internal::GetCapturedStdout() + outcome.output;
+    complained_ = outcome.errors;
+    return outcome.status;
   }
 
   fs::path folder_;
@@ -182,7 +171,7 @@ TEST_F(Generate, RefusesCommandLinesThatMakeNoSense) {
   EXPECT_EQ(run({output_}), 2);
   EXPECT_EQ(run({"--triangles", "100"}), 2);
   EXPECT_EQ(run({output_, "--triangles", "many"}), 2);
-  EXPECT_NE(said_.find("'many'"), std::string::npos);
+  EXPECT_NE(complained_.find("'many'"), std::string::npos);
   EXPECT_EQ(run({output_, "--triangles", "-5"}), 2);
   EXPECT_EQ(run({output_, "--triangles", "0"}), 2);
   EXPECT_EQ(run({output_, "--triangles", "10G"}), 2);
