@@ -1,4 +1,4 @@
-# planetree_add_tests(LABEL [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...])
+# planetree_add_tests(LABEL [OPTIMISED] [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...])
 #
 # One program of the sources in the current folder; each test in it is a test
 # of ctest with this label. Nothing happens in a folder without a *_test.cpp.
@@ -7,7 +7,7 @@ find_package(GTest REQUIRED)
 include(GoogleTest)
 
 function(planetree_add_tests label)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "EXCEPT;DEPENDS;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "OPTIMISED" "" "EXCEPT;DEPENDS;HEADERS")
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
   if(NOT tests)
     return()
@@ -23,8 +23,10 @@ function(planetree_add_tests label)
   target_compile_definitions(${program}
     PRIVATE PLANETREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # Most of the time of a full run goes into compiling: what is tested is
-  # optimised, the tests are not.
-  target_compile_options(${program} PRIVATE -O0)
+  # optimised, tests are not unless they say that they compute much.
+  if(NOT test_OPTIMISED)
+    target_compile_options(${program} PRIVATE -O0)
+  endif()
   target_precompile_headers(${program}
     PRIVATE <gtest/gtest.h> <filesystem> <string> <vector> ${test_HEADERS})
   set(properties LABELS ${label} TIMEOUT 120)
