@@ -23,9 +23,10 @@ function(planetree_add_tests label)
   target_compile_definitions(${program}
     PRIVATE PLANETREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # Most of the time of a full run goes into compiling: what is tested is
-  # optimised, tests are not unless they say that they compute much.
+  # optimised, tests are not unless they say that they compute much, or run
+  # with a sanitizer.
   if(NOT test_OPTIMISED)
-    target_compile_options(${program} PRIVATE -O0)
+    target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O0>)
   endif()
   target_precompile_headers(${program}
     PRIVATE <gtest/gtest.h> <filesystem> <string> <vector> ${test_HEADERS})

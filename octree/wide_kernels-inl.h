@@ -188,14 +188,14 @@ class VertexRows {
 
  private:
   HWY_ALIGN float row_[3][kMaxBlockVertices];
-  unsigned stride_;
+  [[maybe_unused]] unsigned stride_;  // a gather does without
 };
 
 // Filter values of a block's lanes; returns a bit for each that is not above
 // the limit. `query` is relative to vertex 0. Lanes past the last triangle
 // repeat it.
-inline HWY_NOINLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3], float limit,
-                                   float* HWY_RESTRICT squared) {
+inline HWY_NOINLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3],
+                                          float limit, float* HWY_RESTRICT squared) {
   const FloatTag d;
   const VertexRows vertices(reinterpret_cast<const float*>(&block + 1), block.stride, query);
   unsigned near = 0;
