@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 #include "tests/storage/file_image.h"
 
 namespace planetree {
 namespace {
 
-using query::bits_of;
 using query::make_probe;
 using query::SampleModel;
 

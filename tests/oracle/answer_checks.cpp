@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +9,7 @@
 
 #include "octree/nearest.h"
 #include "octree/triangle_distance.h"
+#include "tests/query/answer_bits.h"
 
 namespace planetree::oracle {
 namespace {
@@ -130,19 +130,7 @@ void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint
 }  // namespace
 
 void expect_same_bits(const ClosestPoint& left, const ClosestPoint& right) {
-  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  EXPECT_EQ(bits(left.distance), bits(right.distance));
-  EXPECT_EQ(bits(left.lower), bits(right.lower));
-  EXPECT_EQ(bits(left.upper), bits(right.upper));
-  EXPECT_EQ(bits(left.point.x), bits(right.point.x));
-  EXPECT_EQ(bits(left.point.y), bits(right.point.y));
-  EXPECT_EQ(bits(left.point.z), bits(right.point.z));
-  EXPECT_EQ(left.triangle, right.triangle);
-  EXPECT_EQ(bits(left.barycentric.x), bits(right.barycentric.x));
-  EXPECT_EQ(bits(left.barycentric.y), bits(right.barycentric.y));
-  EXPECT_EQ(bits(left.barycentric.z), bits(right.barycentric.z));
-  EXPECT_EQ(left.feature, right.feature);
-  EXPECT_EQ(left.status, right.status);
+  EXPECT_EQ(bits_of(left), bits_of(right));
 }
 
 ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) {

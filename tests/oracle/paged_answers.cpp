@@ -3,7 +3,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <bit>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -56,22 +55,6 @@ std::uint64_t peak_resident_bytes() {
 }
 
 }  // namespace
-
-AnswerBits bits_of(const ClosestPoint& a) {
-  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  return {bits(a.distance),
-          bits(a.lower),
-          bits(a.upper),
-          bits(a.point.x),
-          bits(a.point.y),
-          bits(a.point.z),
-          a.triangle,
-          bits(a.barycentric.x),
-          bits(a.barycentric.y),
-          bits(a.barycentric.z),
-          static_cast<std::uint64_t>(a.feature),
-          static_cast<std::uint64_t>(a.status)};
-}
 
 std::vector<ClosestPoint> answers_of(const fs::path& tree, std::uint64_t budget_bytes,
                                      const std::vector<Vec3>& queries) {

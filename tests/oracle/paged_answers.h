@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +8,7 @@
 
 #include "planetree/error.h"
 #include "planetree/types.h"
+#include "tests/query/answer_bits.h"
 
 /// Asking with much memory, and with little in a process of its own, so that
 /// its memory can be measured. For check_real: what fails ends the program.
@@ -26,10 +26,6 @@ T need(Result<T> result, const char* what) {
   if (!result) give_up(what, result.error().text);
   return std::move(*result);
 }
-
-/// Everything an answer says, in bits.
-using AnswerBits = std::array<std::uint64_t, 12>;
-AnswerBits bits_of(const ClosestPoint& answer);
 
 /// One answer per query, by one probe.
 std::vector<ClosestPoint> answers_of(const std::filesystem::path& tree, std::uint64_t budget_bytes,

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {

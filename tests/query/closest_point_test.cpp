@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -213,7 +214,7 @@ TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
   ASSERT_GT(large.stats().frames, 4 * small.stats().frames);
   Probe of_large = make_probe(large), of_small = make_probe(small);
   const std::vector<Vec3> queries = random_queries(400, -0.2, 1.2);
-  std::vector<std::string> forward;
+  std::vector<AnswerBits> forward;
   for (const Vec3& query : queries) forward.push_back(bits_of(of_large.closest_point(query)));
   for (std::size_t i = queries.size(); i-- > 0;)
     EXPECT_EQ(bits_of(of_small.closest_point(queries[i])), forward[i]);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 #include "tests/storage/file_image.h"
 

@@ -1,10 +1,10 @@
 #include "tests/query/sample_model.h"
 
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <string>
 
 #include "storage/page_writer.h"
 
@@ -124,22 +124,6 @@ std::vector<Vec3> random_queries(std::size_t count, double low, double high, std
   std::vector<Vec3> queries;
   for (std::size_t i = 0; i < count; ++i) queries.push_back(noise.point(low, high));
   return queries;
-}
-
-std::string bits_of(const ClosestPoint& answer) {
-  const double values[] = {answer.distance,      answer.lower,         answer.upper,
-                           answer.point.x,       answer.point.y,       answer.point.z,
-                           answer.barycentric.x, answer.barycentric.y, answer.barycentric.z};
-  std::string words;
-  for (const double value : values) {
-    char word[32];
-    std::snprintf(word, sizeof word, "%016llx ",
-                  static_cast<unsigned long long>(std::bit_cast<std::uint64_t>(value)));
-    words += word;
-  }
-  return words + std::to_string(answer.triangle) + ' ' +
-         std::to_string(static_cast<int>(answer.feature)) + ' ' +
-         std::to_string(static_cast<int>(answer.status));
 }
 
 }  // namespace planetree::query

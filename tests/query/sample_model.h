@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "planetree/model.h"
@@ -53,8 +52,5 @@ Probe make_probe(const Model& model);
 
 std::vector<Vec3> random_queries(std::size_t count, double low, double high,
                                  std::uint64_t seed = 1);
-
-/// Every bit of an answer, in words that a failure can show.
-std::string bits_of(const ClosestPoint& answer);
 
 }  // namespace planetree::query

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -16,7 +17,7 @@ constexpr unsigned kThreads = 8;
 TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
   const SampleModel sample(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(400, -1.3, 1.3);
-  std::vector<std::string> expected;
+  std::vector<AnswerBits> expected;
   {
     const Model model = sample.open();
     Probe probe = make_probe(model);

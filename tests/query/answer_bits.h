@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "planetree/types.h"
+
+namespace planetree {
+
+/// Everything an answer says, in bits: distance, lower, upper, point, triangle,
+/// barycentric, feature, status.
+using AnswerBits = std::array<std::uint64_t, 12>;
+
+inline AnswerBits bits_of(const ClosestPoint& answer) {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  return {bits(answer.distance),
+          bits(answer.lower),
+          bits(answer.upper),
+          bits(answer.point.x),
+          bits(answer.point.y),
+          bits(answer.point.z),
+          answer.triangle,
+          bits(answer.barycentric.x),
+          bits(answer.barycentric.y),
+          bits(answer.barycentric.z),
+          static_cast<std::uint64_t>(answer.feature),
+          static_cast<std::uint64_t>(answer.status)};
+}
+
+}  // namespace planetree
