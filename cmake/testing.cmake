@@ -1,19 +1,43 @@
-# planetree_add_tests(LABEL [OPTIMISED] [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...])
+# planetree_add_tests(LABEL [GEOMETRY] [EXCEPT files...] [DEPENDS targets...])
 #
 # One program of the sources in the current folder; each test in it is a test
 # of ctest with this label. Nothing happens in a folder without a *_test.cpp.
-# HEADERS, and GoogleTest's, are compiled once for all of them.
+# GEOMETRY: the tests compute much, with the headers that this takes.
 find_package(GTest REQUIRED)
+find_package(nlohmann_json REQUIRED CONFIG)
 include(GoogleTest)
 
+# Most of the time of a full run goes into compiling: so the headers that tests
+# share are compiled once, and what is tested is optimised, tests are not. But
+# with a sanitizer those that compute much are, for they would take minutes.
+function(planetree_share_headers name)
+  cmake_parse_arguments(PARSE_ARGV 1 shared "" "" "OPTIONS;HEADERS")
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/tests/headers.cpp)
+  target_compile_definitions(${name} PRIVATE PLANETREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_options(${name} PRIVATE ${shared_OPTIONS})
+  target_link_libraries(${name}
+    PRIVATE GTest::gtest_main Eigen3::Eigen nlohmann_json::nlohmann_json)
+  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <filesystem> <string> <vector>
+    ${shared_HEADERS})
+endfunction()
+planetree_share_headers(test_headers
+  OPTIONS $<$<CONFIG:Release,RelWithDebInfo>:-O0> HEADERS <nlohmann/json.hpp>)
+planetree_share_headers(geometry_test_headers
+  OPTIONS $<$<CONFIG:Release>:-O0>
+  HEADERS <Eigen/Core> <boost/multiprecision/cpp_bin_float.hpp> <boost/multiprecision/cpp_int.hpp>)
+
 function(planetree_add_tests label)
-  cmake_parse_arguments(PARSE_ARGV 1 test "OPTIMISED" "" "EXCEPT;DEPENDS;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY" "" "EXCEPT;DEPENDS")
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
   if(NOT tests)
     return()
   endif()
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   list(REMOVE_ITEM sources ${test_EXCEPT})
+  set(headers test_headers)
+  if(test_GEOMETRY)
+    set(headers geometry_test_headers)
+  endif()
 
   set(program ${label}_tests)
   add_executable(${program} ${sources})
@@ -22,14 +46,9 @@ function(planetree_add_tests label)
   target_link_libraries(${program} PRIVATE ${test_DEPENDS} GTest::gtest_main)
   target_compile_definitions(${program}
     PRIVATE PLANETREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  # Most of the time of a full run goes into compiling: what is tested is
-  # optimised, tests are not unless they say that they compute much, or run
-  # with a sanitizer.
-  if(NOT test_OPTIMISED)
-    target_compile_options(${program} PRIVATE $<$<CONFIG:Release>:-O0>)
-  endif()
-  target_precompile_headers(${program}
-    PRIVATE <gtest/gtest.h> <filesystem> <string> <vector> ${test_HEADERS})
+  get_target_property(options ${headers} COMPILE_OPTIONS)
+  target_compile_options(${program} PRIVATE ${options})
+  target_precompile_headers(${program} REUSE_FROM ${headers})
   set(properties LABELS ${label} TIMEOUT 120)
   if(PLANETREE_DATA)
     list(APPEND properties ENVIRONMENT PLANETREE_DATA=${PLANETREE_DATA})

@@ -24,15 +24,14 @@ namespace HWY_NAMESPACE {
 class Descent {
  public:
   Descent(const TreeFacts& tree, const Point& query, const NearestLimits& limits, PageReader pages,
-          NearestWork& work)
+          TreeWork& work)
       : tree_(tree),
         query_(query),
         wide_(FloatQuery::from(query.x() - tree.centre.x(), query.y() - tree.centre.y(),
                                query.z() - tree.centre.z())),
         limits_(limits),
-        pages_(pages),
         work_(work),
-        links_(tree.page_bytes),
+        records_(tree, pages),
         best_(query, wide_, limits) {}
 
   void run() {
@@ -59,7 +58,7 @@ class Descent {
 
  private:
   HWY_INLINE void visit(FrontierEntry entry) {
-    const std::byte* record = find(entry.link());
+    const std::byte* record = records_.find(entry.link(), work_);
     if (!record) {
       unread_ = std::min(unread_, entry.bound());
     } else if (LinkFormat::is_leaf(entry.link())) {
@@ -69,30 +68,6 @@ class Descent {
       ++work_.nodes;
       visit_node(*reinterpret_cast<const Node*>(record), entry.bound());
     }
-  }
-
-  HWY_INLINE const std::byte* find(std::uint32_t link) {
-    const std::uint32_t page = links_.page(link);
-    const std::uint32_t slot = links_.slot(link);
-    if (page != page_number_ || !frame_) {
-      ++work_.page_turns;
-      page_number_ = page;
-      frame_ = pages_.page(pages_.context, page);
-    }
-    return frame_ && leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
-  }
-
-  // Links within a page were checked when it was decoded; links between pages
-  // could not be before both were here.
-  bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
-    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
-    if (LinkFormat::is_leaf(link)) {
-      const auto* starts = reinterpret_cast<const std::uint64_t*>(frame_ + kSlotBytes);
-      return (starts[slot / 64] >> slot % 64 & 1) != 0;
-    }
-    if (slot < header.first_node_slot) return false;
-    const std::uint32_t offset = slot - header.first_node_slot;
-    return offset % kNodeSlots == 0 && offset / kNodeSlots < header.node_count;
   }
 
   HWY_INLINE void visit_node(const Node& node, float own_bound) {
@@ -156,19 +131,16 @@ class Descent {
   const Point query_;
   const FloatQuery wide_;
   const NearestLimits limits_;
-  const PageReader pages_;
-  NearestWork& work_;
-  const LinkFormat links_;
+  TreeWork& work_;
+  RecordFinder records_;
   BestTriangle best_;
   Frontier frontier_;
-  std::uint32_t page_number_ = 0;
-  const std::byte* frame_ = nullptr;
   float pruned_ = std::numeric_limits<float>::infinity();
   float unread_ = std::numeric_limits<float>::infinity();
 };
 
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
-                                const NearestLimits& limits, PageReader pages, NearestWork& work) {
+                                const NearestLimits& limits, PageReader pages, TreeWork& work) {
   Descent descent(tree, query, limits, pages, work);
   descent.run();
   return conclude(tree, query, limits, descent.best(), descent.wide(), descent.pruned(),
@@ -185,7 +157,7 @@ namespace planetree::octree {
 HWY_EXPORT(nearest_on_target);
 
 NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      PageReader pages, NearestWork& work) noexcept {
+                      PageReader pages, TreeWork& work) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
   return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work);
 }

@@ -70,7 +70,7 @@ ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask)
   limits.max_error = model.scale().in(ask.max_error);
   limits.max_distance = model.scale().in(ask.max_distance);
   limits.max_nodes = ask.max_nodes;
-  octree::NearestWork work;
+  octree::TreeWork work;
   PageTurner turner(probe.reader());
   const octree::PageReader pages{&turner, [](void* context, std::uint32_t number) noexcept {
                                    return static_cast<PageTurner*>(context)->page(number);

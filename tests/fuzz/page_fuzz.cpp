@@ -95,7 +95,7 @@ void ask(const TreeFacts& tree, Pages& pages) {
   some.max_distance = 0.7;
   for (const Point& query : queries)
     for (const NearestLimits& limits : {NearestLimits{}, some}) {
-      NearestWork work;
+      TreeWork work;
       check(nearest(tree, query, limits, reader, work));
       if (work.nodes + work.blocks > tree.record_count) std::abort();
     }

@@ -52,7 +52,7 @@ struct Asked {
   SampleTree sample;
   SamplePages pages;
   TreeFacts facts;
-  NearestWork work;
+  TreeWork work;
 };
 
 TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
@@ -247,7 +247,7 @@ TEST(Nearest, FollowsNoLinkThatMissesARecord) {
         if (links.page(link) == page) link = links.make(leaf, page, slot);
       root.page_links[0] = root.page_links[1] = links.make(leaf, page, slot);
       ASSERT_TRUE(decode_page(root.bytes(), page_facts(sample, 0), pages.frame(0).bytes()));
-      NearestWork work;
+      TreeWork work;
       const NearestAnswer answer =
           nearest(tree_facts(sample), Point(0, 0, 0), {}, pages.reader(), work);
       const auto& header = pages.frame(page).header();
@@ -268,7 +268,7 @@ TEST(Nearest, EndsHoweverLongAForgedTreeIs) {
   SamplePages pages(sample);
   TreeFacts facts = tree_facts(sample);
   facts.record_count = 100;
-  NearestWork work;
+  TreeWork work;
   const NearestAnswer answer = nearest(facts, Point(0, 0, 0), {}, pages.reader(), work);
   EXPECT_EQ(work.nodes + work.blocks, 100u);
   EXPECT_EQ(answer.status, Status::kDegraded);

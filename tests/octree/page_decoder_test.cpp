@@ -186,7 +186,7 @@ TEST(PageDecoder, SurvivesEveryByteChanged) {
       raw[at] ^= static_cast<std::byte>(change);
       if (!decode_page(raw, page_facts(sample, 0), frame.bytes())) continue;
       ++accepted;
-      NearestWork work;
+      TreeWork work;
       const NearestAnswer answer = nearest(facts, Point(0.3, 0.7, -2), {}, reader, work);
       EXPECT_FALSE(std::isnan(answer.distance));
       EXPECT_LE(answer.lower, answer.upper);

@@ -86,15 +86,18 @@ TEST_F(Command, InspectFindsNodesByOctcode) {
   }
 }
 
+// Of a long model, so that there are few pixels.
 TEST_F(Command, InspectDrawsASlice) {
-  const std::vector<std::string> draw = {"inspect", "tree.ptree", "--slice", "z=50%",
-                                         "--image", "slice.png",  "--json"};
+  write("rod.obj", "v 0 0 0\nv 64 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  build_sample("rod.obj", "rod.ptree");
+  const std::vector<std::string> draw = {"inspect", "rod.ptree", "--slice", "z=25%",
+                                         "--image", "slice.png", "--json"};
   const Outcome result = run(draw);
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json report = Json::parse(result.output);
   EXPECT_EQ(report["width"], 800);
-  EXPECT_EQ(report["height"], 800);
-  EXPECT_EQ(report["coordinate"], 0.4375);
+  EXPECT_EQ(report["height"], 122);
+  EXPECT_EQ(report["coordinate"], 0.25);
   EXPECT_EQ(storage::read_bytes("slice.png")[1], std::byte{'P'});
   EXPECT_EQ(run(draw).status, 2);
 }

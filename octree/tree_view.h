@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/frame.h"
+#include "octree/triangle_distance.h"
+
+/// A tree as its readers see it: facts of the whole, and records by link.
+namespace planetree::octree {
+
+/// Page number to frame. `page` returns the decoded frame, or null where the
+/// page cannot be had; the pointer is good until the next call.
+struct PageReader {
+  void* context = nullptr;
+  const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
+};
+
+/// What a descent must know of a tree; lengths are in the model frame.
+struct TreeFacts {
+  std::uint32_t page_bytes = 0;
+  std::uint32_t root_link = 0;
+  BlockShape shape;
+  std::uint64_t record_count = 0;  ///< nodes and blocks together
+  Point box_lower = Point::Zero();
+  Point box_upper = Point::Zero();
+  Point centre = Point::Zero();  ///< boxes and planes are relative to it
+  Point sample = Point::Zero();  ///< a vertex of the triangle of least index
+  std::uint64_t sample_triangle = 0;
+};
+
+/// What reading a tree took; for tests and benchmarks.
+struct TreeWork {
+  std::uint64_t nodes = 0;
+  std::uint64_t blocks = 0;
+  std::uint64_t triangles = 0;  ///< evaluated in double
+  std::uint64_t page_turns = 0;
+};
+
+/// Link to record, by way of its page. Looks a page up only where the page
+/// changes.
+class RecordFinder {
+ public:
+  RecordFinder(const TreeFacts& tree, PageReader pages) : links_(tree.page_bytes), pages_(pages) {}
+
+  /// The node or block that `link` leads to, good until the next call; null
+  /// where its page cannot be had or holds no such record.
+  const std::byte* find(std::uint32_t link, TreeWork& work) {
+    const std::uint32_t page = links_.page(link);
+    const std::uint32_t slot = links_.slot(link);
+    if (page != page_number_ || !frame_) {
+      ++work.page_turns;
+      page_number_ = page;
+      frame_ = pages_.page(pages_.context, page);
+    }
+    return frame_ && leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
+  }
+
+ private:
+  // Links within a page were checked when it was decoded; links between pages
+  // could not be before both were here.
+  bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
+    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
+    if (LinkFormat::is_leaf(link)) {
+      const auto* starts = reinterpret_cast<const std::uint64_t*>(frame_ + kSlotBytes);
+      return (starts[slot / 64] >> slot % 64 & 1) != 0;
+    }
+    if (slot < header.first_node_slot) return false;
+    const std::uint32_t offset = slot - header.first_node_slot;
+    return offset % kNodeSlots == 0 && offset / kNodeSlots < header.node_count;
+  }
+
+  const LinkFormat links_;
+  const PageReader pages_;
+  std::uint32_t page_number_ = 0;
+  const std::byte* frame_ = nullptr;
+};
+
+}  // namespace planetree::octree
