@@ -47,6 +47,22 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   return exact_normal_sign(a, b, c, axis);
 }
 
+bool lies_on(const Point& point, const Triangle& triangle) noexcept {
+  const auto& [a, b, c] = triangle;
+  if (orientation(a, b, c, point) != 0) return false;
+  // In its plane the point is on the triangle where, seen along any axis, it is
+  // not on different sides of two edges. A triangle without area is the part of
+  // its line that its box holds.
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const int sides[] = {normal_sign(a, b, point, axis), normal_sign(b, c, point, axis),
+                         normal_sign(c, a, point, axis)};
+    const auto [least, greatest] = std::minmax_element(std::begin(sides), std::end(sides));
+    if (*least < 0 && *greatest > 0) return false;
+  }
+  return (point.array() >= a.cwiseMin(b).cwiseMin(c).array()).all() &&
+         (point.array() <= a.cwiseMax(b).cwiseMax(c).array()).all();
+}
+
 namespace {
 
 /// Side of the triangle's plane of a point moved by (s1, s2, s3), s1 >> s2 >> s3

@@ -19,6 +19,9 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
 /// The sign of one component, 0 to 2, of (b - a) x (c - a).
 int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
 
+/// Whether `point` is on the closed triangle, which may be a segment or a point.
+bool lies_on(const Point& point, const Triangle& triangle) noexcept;
+
 /// The segment between two points moved by infinitesimal steps, so that no
 /// vertex, edge or face is ever met edge-on: from + (e1, e2, e3) and
 /// to + (d1, d2, d3), e1 >> e2 >> e3 >> d1 >> d2 >> d3 > 0, each beyond every

@@ -24,10 +24,11 @@ std::uint64_t place(const ModelState& model, const Vec3& query) {
   return octree::morton_code(coordinate(from.x()), coordinate(from.y()), coordinate(from.z()));
 }
 
-}  // namespace
-
-void closest_points(ProbeState& probe, std::span<const Vec3> queries,
-                    std::span<ClosestPoint> answers, const Ask& ask) noexcept {
+// Asks every query, in an order that turns pages seldom.
+template <class Answer>
+void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
+                  const Ask& ask,
+                  Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept) noexcept {
   assert(queries.size() == answers.size());
   auto& batch = probe.batch();
   for (std::size_t first = 0; first < queries.size(); first += batch.size()) {
@@ -40,9 +41,21 @@ void closest_points(ProbeState& probe, std::span<const Vec3> queries,
               });
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t at = first + batch[i].index;
-      answers[at] = closest_point(probe, queries[at], ask);
+      answers[at] = answer(probe, queries[at], ask);
     }
   }
+}
+
+}  // namespace
+
+void closest_points(ProbeState& probe, std::span<const Vec3> queries,
+                    std::span<ClosestPoint> answers, const Ask& ask) noexcept {
+  ask_in_order(probe, queries, answers, ask, &closest_point);
+}
+
+void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
+              const Ask& ask) noexcept {
+  ask_in_order<Containment>(probe, queries, answers, ask, &contains);
 }
 
 }  // namespace planetree::query

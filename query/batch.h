@@ -11,4 +11,8 @@ namespace planetree::query {
 void closest_points(ProbeState& probe, std::span<const Vec3> queries,
                     std::span<ClosestPoint> answers, const Ask& ask) noexcept;
 
+/// See Probe::contains.
+void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
+              const Ask& ask) noexcept;
+
 }  // namespace planetree::query

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "octree/strict_math.h"
+#include "query/side.h"
 
 namespace planetree::query {
 namespace {
@@ -13,14 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool makes_sense(const Vec3& query, const Ask& ask) {
   return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z) &&
-         ask.max_error >= 0 && std::isfinite(ask.max_error) && ask.max_distance >= 0;
-}
-
-ClosestPoint bad_query() {
-  ClosestPoint answer;
-  answer.distance = answer.upper = kInfinity;
-  answer.status = Status::kBadQuery;
-  return answer;
+         ask.max_error >= 0 && std::isfinite(ask.max_error) && ask.max_distance >= 0 &&
+         (ask.parts & ~kAllParts) == 0;
 }
 
 // Beyond octree::kFarthestQuery all triangles are equally far in double.
@@ -58,28 +53,59 @@ ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nea
   return answer;
 }
 
-}  // namespace
-
-ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  if (!makes_sense(query, ask)) return bad_query();
-  const ModelState& model = probe.model();
-  const octree::Point point = model.scale().in(query);
-  if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery))
-    return far_answer(model, query, ask);
+// Everything but the side.
+ClosestPoint nearest_answer(const ModelState& model, const octree::Point& point, const Ask& ask,
+                            octree::PageReader pages, octree::TreeWork& work) {
   octree::NearestLimits limits;
   limits.max_error = model.scale().in(ask.max_error);
   limits.max_distance = model.scale().in(ask.max_distance);
   limits.max_nodes = ask.max_nodes;
-  octree::TreeWork work;
-  PageTurner turner(probe.reader());
-  const octree::PageReader pages{&turner, [](void* context, std::uint32_t number) noexcept {
-                                   return static_cast<PageTurner*>(context)->page(number);
-                                 }};
-  const octree::NearestAnswer nearest = octree::nearest(model.tree(), point, limits, pages, work);
-  if (nearest.status == Status::kDegraded) model.count_degraded();
-  ClosestPoint answer = in_model_units(model.scale(), nearest);
+  ClosestPoint answer =
+      in_model_units(model.scale(), octree::nearest(model.tree(), point, limits, pages, work));
   if (answer.status == Status::kBeyondMaxDistance) answer.lower = ask.max_distance;
   return answer;
+}
+
+// As if no triangle was reached.
+ClosestPoint without_distance(Status status) {
+  ClosestPoint answer;
+  answer.distance = answer.upper = kInfinity;
+  answer.status = status;
+  return answer;
+}
+
+}  // namespace
+
+ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
+  if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
+  const ModelState& model = probe.model();
+  const octree::Point point = model.scale().in(query);
+  const bool far = !(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
+  PageTurner turner(probe.reader());
+  octree::TreeWork work;
+  ClosestPoint answer = without_distance(Status::kExact);
+  if ((ask.parts & kDistance) != 0)
+    answer = far ? far_answer(model, query, ask)
+                 : nearest_answer(model, point, ask, turner.pages(), work);
+  if ((ask.parts & kSide) != 0) {
+    const Containment found = find_side(model, point, ask.max_nodes, turner.pages(), work);
+    answer.side = found.side;
+    if (found.status == Status::kDegraded && answer.status != Status::kBeyondMaxDistance)
+      answer.status = found.status;
+  }
+  if (answer.status == Status::kDegraded) model.count_degraded();
+  return answer;
+}
+
+Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
+  if (!makes_sense(query, ask)) return {};
+  const ModelState& model = probe.model();
+  PageTurner turner(probe.reader());
+  octree::TreeWork work;
+  const Containment found =
+      find_side(model, model.scale().in(query), ask.max_nodes, turner.pages(), work);
+  if (found.status == Status::kDegraded) model.count_degraded();
+  return found;
 }
 
 }  // namespace planetree::query

@@ -8,4 +8,7 @@ namespace planetree::query {
 /// See Probe::closest_point.
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
 
+/// See Probe::contains.
+Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
+
 }  // namespace planetree::query

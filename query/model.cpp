@@ -19,6 +19,7 @@ ModelInfo describe(const storage::PageFile& file) {
   info.vertices = model.vertex_count;
   info.box_lower = {model.box_lower[0], model.box_lower[1], model.box_lower[2]};
   info.box_upper = {model.box_upper[0], model.box_upper[1], model.box_upper[2]};
+  info.open_edges = model.open_edge_count;
   info.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
   info.nodes = model.node_count;
   info.blocks = model.block_count;

@@ -7,6 +7,7 @@
 
 #include "cache/page_cache.h"
 #include "octree/page_decoder.h"
+#include "octree/tree_view.h"
 #include "planetree/error.h"
 #include "storage/page_file.h"
 
@@ -60,6 +61,12 @@ class PageTurner {
     }
     if (const std::byte* frame = reader_.find(number)) return frame;
     return reader_.fetch(number);
+  }
+
+  octree::PageReader pages() noexcept {
+    return {this, [](void* context, std::uint32_t number) noexcept {
+              return static_cast<PageTurner*>(context)->page(number);
+            }};
   }
 
  private:

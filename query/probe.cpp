@@ -29,6 +29,15 @@ ClosestPoint Probe::closest_point(Vec3 query, const Ask& ask) noexcept {
   return query::closest_point(*state_, query, ask);
 }
 
+Containment Probe::contains(Vec3 query, const Ask& ask) noexcept {
+  return query::contains(*state_, query, ask);
+}
+
+void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,
+                     const Ask& ask) noexcept {
+  query::contains(*state_, queries, answers, ask);
+}
+
 void Probe::closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                            const Ask& ask) noexcept {
   query::closest_points(*state_, queries, answers, ask);

@@ -133,6 +133,22 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
   return {};
 }
 
+Result<void> check_open_edges(const ModelRecord& model) noexcept {
+  constexpr OpenEdge kNothing{};
+  for (std::uint64_t i = 0; i < std::size(model.open_edge); ++i) {
+    const OpenEdge& edge = model.open_edge[i];
+    const bool listed = std::memcmp(&edge, &kNothing, sizeof edge) != 0;
+    if (listed != (i < model.open_edge_count)) {
+      return bad_model(offsetof(ModelRecord, open_edge),
+                       "the list of open edges is not as long as their number says");
+    }
+    if (!all_finite(edge.from) || !all_finite(edge.to) || (listed && edge.along == edge.against)) {
+      return bad_model(offsetof(ModelRecord, open_edge), "an open edge is not one");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) noexcept {
@@ -186,7 +202,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   if (!all_zero(model.reserved)) {
     return bad_model(offsetof(ModelRecord, reserved), "the model's reserved bytes are not zero");
   }
-  return {};
+  return check_open_edges(model);
 }
 
 Result<void> check_table(const FileHeader& header, std::span<const PageEntry> entries) noexcept {

@@ -12,7 +12,7 @@
 ///   0                      header          kHeaderBytes
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
 ///   ...                    pages           stored bytes, page 0 first, no gap
-///   file_bytes - 320       header again    the same kHeaderBytes bytes
+///   file_bytes - 512       header again    the same kHeaderBytes bytes
 namespace planetree::storage {
 
 static_assert(std::endian::native == std::endian::little,
@@ -20,13 +20,23 @@ static_assert(std::endian::native == std::endian::little,
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
 inline constexpr std::uint16_t kFormatVersion = 1;
-inline constexpr std::size_t kHeaderBytes = 320;
+inline constexpr std::size_t kHeaderBytes = 512;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
 inline constexpr std::uint32_t kMaxPageBytes = 262144;
 inline constexpr std::uint64_t kNoTriangle = ~std::uint64_t{0};
 
 enum class VertexKind : std::uint8_t { kFloat32 = 0, kFloat64 = 1 };
+
+/// An edge along which as many faces do not run one way as the other.
+struct OpenEdge {
+  double from[3];          ///< input coordinates, exact: the edge as `triangle` runs along it
+  double to[3];            ///< input coordinates, exact
+  std::uint64_t triangle;  ///< the least index of a triangle that has it
+  std::uint32_t along;     ///< triangles that run from `from` to `to`
+  std::uint32_t against;   ///< triangles that run the other way
+};
+static_assert(sizeof(OpenEdge) == 64);
 
 /// What the whole model is. "Model frame" is the input's coordinates times
 /// 2^scale_exponent, so that the longest box edge lies in [1, 2).
@@ -48,8 +58,10 @@ struct ModelRecord {
   std::uint8_t triangle_id_bytes;  ///< width of stored triangle indices: 4 or 8
   std::uint8_t height;             ///< most nodes on a path from root to block
   std::uint8_t reserved[5];        ///< zero
+  std::uint64_t open_edge_count;   ///< 0: the surface is watertight
+  OpenEdge open_edge[3];           ///< the first, by triangle, then corner; else zero
 };
-static_assert(sizeof(ModelRecord) == 168);
+static_assert(sizeof(ModelRecord) == 368);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
@@ -65,7 +77,7 @@ struct FileHeader {
   std::uint32_t max_raw_bytes;          ///< largest PageEntry::raw_bytes
   std::uint64_t max_stored_bytes;       ///< largest PageEntry::stored_bytes
   ModelRecord model;
-  std::uint8_t reserved[64];  ///< zero
+  std::uint8_t reserved[56];  ///< zero
   std::uint64_t header_hash;  ///< XXH3-64 of all bytes before it
 };
 static_assert(sizeof(FileHeader) == kHeaderBytes);

@@ -17,48 +17,147 @@ static_assert(std::endian::native == std::endian::little, "f64 rows are written 
 // Text is handed on in pieces of about this size.
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
-constexpr std::array<std::string_view, 9> kNumberNames = {"x",     "y",  "z",  "distance", "lower",
-                                                          "upper", "px", "py", "pz"};
+struct Named {
+  std::string_view name;
+  double number;
+};
 
-std::array<double, 9> numbers_of(const Vec3& query, const ClosestPoint& answer) {
-  return {query.x,      query.y,        query.z,        answer.distance, answer.lower,
-          answer.upper, answer.point.x, answer.point.y, answer.point.z};
+// Numbers of an answer before and behind its side.
+std::array<Named, 6> numbers_before(const Vec3& query, const ClosestPoint& answer) {
+  return {{{"x", query.x},
+           {"y", query.y},
+           {"z", query.z},
+           {"distance", answer.distance},
+           {"lower", answer.lower},
+           {"upper", answer.upper}}};
+}
+std::array<Named, 3> numbers_before(const Vec3& query, const Containment&) {
+  return {{{"x", query.x}, {"y", query.y}, {"z", query.z}}};
+}
+std::array<Named, 3> numbers_behind(const ClosestPoint& answer) {
+  return {{{"px", answer.point.x}, {"py", answer.point.y}, {"pz", answer.point.z}}};
 }
 
-void add_csv(fmt::memory_buffer& text, const Vec3& query, const ClosestPoint& answer) {
-  const auto out = std::back_inserter(text);
-  for (const double number : numbers_of(query, answer)) fmt::format_to(out, "{:.17g},", number);
-  if (answer.triangle != kNoTriangle) fmt::format_to(out, "{}", answer.triangle);
-  fmt::format_to(out, ",{},{}\n", feature_word(answer.feature), status_word(answer.status));
-}
+class CsvRow {
+ public:
+  explicit CsvRow(fmt::memory_buffer& text) : out_(std::back_inserter(text)) {}
 
-void add_json(fmt::memory_buffer& text, const Vec3& query, const ClosestPoint& answer) {
-  const auto out = std::back_inserter(text);
-  const auto numbers = numbers_of(query, answer);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    fmt::format_to(out, "{}\"{}\":", i == 0 ? '{' : ',', kNumberNames[i]);
-    // JSON has no word for infinity.
-    if (std::isfinite(numbers[i]))
-      fmt::format_to(out, "{:.17g}", numbers[i]);
-    else
-      fmt::format_to(out, "null");
+  void add(const Vec3& query, const ClosestPoint& answer) {
+    add_numbers(numbers_before(query, answer));
+    fmt::format_to(out_, "{},", side_word(answer.side));
+    add_numbers(numbers_behind(answer));
+    if (answer.triangle != kNoTriangle) fmt::format_to(out_, "{}", answer.triangle);
+    fmt::format_to(out_, ",{},{}\n", feature_word(answer.feature), status_word(answer.status));
   }
-  if (answer.triangle != kNoTriangle)
-    fmt::format_to(out, ",\"triangle\":{}", answer.triangle);
-  else
-    fmt::format_to(out, ",\"triangle\":null");
-  fmt::format_to(out, ",\"feature\":\"{}\",\"status\":\"{}\"}}\n", feature_word(answer.feature),
-                 status_word(answer.status));
+  void add(const Vec3& query, const Containment& answer) {
+    add_numbers(numbers_before(query, answer));
+    fmt::format_to(out_, "{},{}\n", side_word(answer.side), status_word(answer.status));
+  }
+
+ private:
+  template <std::size_t kCount>
+  void add_numbers(const std::array<Named, kCount>& numbers) {
+    for (const Named& named : numbers) fmt::format_to(out_, "{:.17g},", named.number);
+  }
+
+  std::back_insert_iterator<fmt::memory_buffer> out_;
+};
+
+class JsonRow {
+ public:
+  explicit JsonRow(fmt::memory_buffer& text) : out_(std::back_inserter(text)) {}
+
+  void add(const Vec3& query, const ClosestPoint& answer) {
+    add_numbers('{', numbers_before(query, answer));
+    fmt::format_to(out_, ",\"side\":\"{}\"", side_word(answer.side));
+    add_numbers(',', numbers_behind(answer));
+    if (answer.triangle != kNoTriangle)
+      fmt::format_to(out_, ",\"triangle\":{}", answer.triangle);
+    else
+      fmt::format_to(out_, ",\"triangle\":null");
+    fmt::format_to(out_, ",\"feature\":\"{}\",\"status\":\"{}\"}}\n", feature_word(answer.feature),
+                   status_word(answer.status));
+  }
+  void add(const Vec3& query, const Containment& answer) {
+    add_numbers('{', numbers_before(query, answer));
+    fmt::format_to(out_, ",\"side\":\"{}\",\"status\":\"{}\"}}\n", side_word(answer.side),
+                   status_word(answer.status));
+  }
+
+ private:
+  template <std::size_t kCount>
+  void add_numbers(char before, const std::array<Named, kCount>& numbers) {
+    for (const Named& named : numbers) {
+      fmt::format_to(out_, "{}\"{}\":", before, named.name);
+      // JSON has no word for infinity.
+      if (std::isfinite(named.number))
+        fmt::format_to(out_, "{:.17g}", named.number);
+      else
+        fmt::format_to(out_, "null");
+      before = ',';
+    }
+  }
+
+  std::back_insert_iterator<fmt::memory_buffer> out_;
+};
+
+class F64Row {
+ public:
+  explicit F64Row(fmt::memory_buffer& text) : text_(text) {}
+
+  void add(const Vec3& query, const ClosestPoint& answer) {
+    for (const Named& named : numbers_before(query, answer)) add(named.number);
+    add(number_of(answer.side));
+    for (const Named& named : numbers_behind(answer)) add(named.number);
+    add(answer.triangle != kNoTriangle ? static_cast<double>(answer.triangle) : kNone);
+  }
+  void add(const Vec3& query, const Containment& answer) {
+    for (const Named& named : numbers_before(query, answer)) add(named.number);
+    add(number_of(answer.side));
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  static double number_of(Side side) {
+    return side == Side::kInside    ? -1
+           : side == Side::kOutside ? 1
+           : side == Side::kUnknown ? kNone
+                                    : 0;
+  }
+  void add(double value) {
+    const auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
+    text_.append(bytes.data(), bytes.data() + bytes.size());
+  }
+
+  fmt::memory_buffer& text_;
+};
+
+template <class Row, class Answer>
+bool write_rows(Console& console, std::span<const Vec3> queries, std::span<const Answer> answers) {
+  assert(queries.size() == answers.size());
+  fmt::memory_buffer text;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    Row(text).add(queries[i], answers[i]);
+    if (text.size() < kPieceBytes && i + 1 < queries.size()) continue;
+    if (!console.print({text.data(), text.size()})) return false;
+    text.clear();
+  }
+  return true;
 }
 
-void add_f64(fmt::memory_buffer& text, const Vec3& query, const ClosestPoint& answer) {
-  const auto add = [&text](double value) {
-    const auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
-    text.append(bytes.data(), bytes.data() + bytes.size());
-  };
-  for (const double number : numbers_of(query, answer)) add(number);
-  add(answer.triangle != kNoTriangle ? static_cast<double>(answer.triangle)
-                                     : std::numeric_limits<double>::quiet_NaN());
+template <class Answer>
+bool write_as(AnswerFormat format, Console& console, std::span<const Vec3> queries,
+              std::span<const Answer> answers) {
+  switch (format) {
+    case AnswerFormat::kCsv:
+      return write_rows<CsvRow>(console, queries, answers);
+    case AnswerFormat::kJsonLines:
+      return write_rows<JsonRow>(console, queries, answers);
+    case AnswerFormat::kF64:
+      break;
+  }
+  return write_rows<F64Row>(console, queries, answers);
 }
 
 }  // namespace
@@ -73,6 +172,20 @@ std::string_view feature_word(Feature feature) {
       break;
   }
   return "vertex";
+}
+
+std::string_view side_word(Side side) {
+  switch (side) {
+    case Side::kInside:
+      return "inside";
+    case Side::kOutside:
+      return "outside";
+    case Side::kOnSurface:
+      return "on_surface";
+    case Side::kUnknown:
+      break;
+  }
+  return "unknown";
 }
 
 std::string_view status_word(Status status) {
@@ -91,24 +204,16 @@ std::string_view status_word(Status status) {
   return "bad_query";
 }
 
-bool AnswerWriter::begin() {
-  if (format_ != AnswerFormat::kCsv) return true;
-  return console_.print("x,y,z,distance,lower,upper,px,py,pz,triangle,feature,status\n");
+bool AnswerWriter::heading(std::string_view names) {
+  return format_ != AnswerFormat::kCsv || console_.print(names);
 }
 
 bool AnswerWriter::write(std::span<const Vec3> queries, std::span<const ClosestPoint> answers) {
-  assert(queries.size() == answers.size());
-  const auto add = format_ == AnswerFormat::kCsv         ? add_csv
-                   : format_ == AnswerFormat::kJsonLines ? add_json
-                                                         : add_f64;
-  fmt::memory_buffer text;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    add(text, queries[i], answers[i]);
-    if (text.size() < kPieceBytes && i + 1 < queries.size()) continue;
-    if (!console_.print({text.data(), text.size()})) return false;
-    text.clear();
-  }
-  return true;
+  return write_as(format_, console_, queries, answers);
+}
+
+bool AnswerWriter::write(std::span<const Vec3> queries, std::span<const Containment> answers) {
+  return write_as(format_, console_, queries, answers);
 }
 
 }  // namespace planetree::tools

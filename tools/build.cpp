@@ -48,6 +48,8 @@ class BuildMeter final : public octree::BuildProgress {
     switch (*phase_) {
       case octree::BuildPhase::kReading:
         return progress_.start("reading", total, "bytes");
+      case octree::BuildPhase::kClosing:
+        return progress_.start("matching edges", total, "steps");
       case octree::BuildPhase::kOrdering:
         return progress_.start("ordering", total, "steps");
       case octree::BuildPhase::kBounding:

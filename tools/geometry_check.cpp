@@ -51,6 +51,7 @@ Point point_of(const double (&values)[3]) { return {values[0], values[1], values
 GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issues)
     : model_(header.model),
       issues_(issues),
+      edges_(model_),
       lower_(Point::Constant(kInfinity)),
       upper_(Point::Constant(-kInfinity)) {}
 
@@ -64,6 +65,7 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
     lower_ = lower_.cwiseMin(block.vertex(i));
     upper_ = upper_.cwiseMax(block.vertex(i));
   }
+  for (unsigned i = 0; i < block.triangle_count(); ++i) edges_.add(block.triangle(i));
   if (bounds != nullptr) check_vertices(block, page, *bounds);
 }
 
@@ -126,6 +128,7 @@ void GeometryCheck::finish(bool complete) {
         scale.in(model_.box_upper[axis]) != upper_[axis])
       whole_file(IssueCode::kModelBox,
                  fmt::format("the header's box is not that of the vertices along {}", "xyz"[axis]));
+  if (auto finding = edges_.finding()) whole_file(IssueCode::kOpenEdges, *std::move(finding));
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
                fmt::format("the header's sample triangle {} is not there", model_.sample_triangle));

@@ -8,6 +8,7 @@
 #include "octree/block_view.h"
 #include "octree/child_bounds.h"
 #include "storage/file_layout.h"
+#include "tools/edge_check.h"
 #include "tools/file_check.h"
 
 namespace planetree::tools {
@@ -44,6 +45,7 @@ class GeometryCheck {
   std::unordered_map<std::uint64_t, std::array<std::uint64_t, 8>> seen_;
   std::uint64_t least_id_ = storage::kNoTriangle;
   bool sample_seen_ = false;
+  EdgeCheck edges_;
   octree::Point lower_, upper_;  // of all vertices, model frame
 };
 

@@ -32,7 +32,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "VERTEX_OUTSIDE_BOX",
                                                                   "VERTEX_OUTSIDE_PLANES",
                                                                   "MODEL_BOX",
-                                                                  "SAMPLE"};
+                                                                  "SAMPLE",
+                                                                  "OPEN_EDGES"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

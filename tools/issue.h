@@ -37,8 +37,9 @@ enum class IssueCode : std::uint8_t {
   kVertexOutsidePlanes,
   kModelBox,
   kSample,
+  kOpenEdges,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kSample) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kOpenEdges) + 1;
 
 /// Such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

@@ -28,10 +28,15 @@ constexpr std::size_t kChunkPoints = 65536;
 struct Tally {
   std::uint64_t points = 0;
   std::array<std::uint64_t, kStatusCount> by_status{};
+  std::array<std::uint64_t, kSideCount> by_side{};
 
-  void add(std::span<const ClosestPoint> answers) {
+  template <class Answer>
+  void add(std::span<const Answer> answers) {
     points += answers.size();
-    for (const ClosestPoint& answer : answers) ++by_status[static_cast<std::size_t>(answer.status)];
+    for (const Answer& answer : answers) {
+      ++by_status[static_cast<std::size_t>(answer.status)];
+      ++by_side[static_cast<std::size_t>(answer.side)];
+    }
   }
 };
 
@@ -41,7 +46,8 @@ class Session {
       : arguments_(arguments), console_(console), model_(model), probe_(probe) {}
 
   int run(PointReader& points) {
-    const int status = answer_all(points);
+    const int status =
+        arguments_.contains ? answer_all<Containment>(points) : answer_all<ClosestPoint>(points);
     const auto error = unreadable_pages(model_.stats());
     return error ? std::max(status, console_.fail(arguments_.file.string(), *error)) : status;
   }
@@ -51,6 +57,8 @@ class Session {
     nlohmann::ordered_json report = {{"points", tally_.points}};
     for (std::size_t i = 0; i < kStatusCount; ++i)
       report[std::string(status_word(static_cast<Status>(i)))] = tally_.by_status[i];
+    for (std::size_t i = 0; i < kSideCount; ++i)
+      report["sides"][std::string(side_word(static_cast<Side>(i)))] = tally_.by_side[i];
     report["seconds"] = seconds;
     report["points_per_second"] = static_cast<double>(tally_.points) / std::max(seconds, 1e-9);
     report["pages_read"] = stats.pages_read;
@@ -61,14 +69,22 @@ class Session {
   }
 
  private:
+  void ask(std::span<const Vec3> queries, std::span<ClosestPoint> answers) {
+    probe_.closest_points(queries, answers, arguments_.ask);
+  }
+  void ask(std::span<const Vec3> queries, std::span<Containment> answers) {
+    probe_.contains(queries, answers, arguments_.ask);
+  }
+
+  template <class Answer>
   int answer_all(PointReader& points) {
     AnswerWriter writer(console_, arguments_.format);
     // Rows on a terminal and a bar on the same terminal would overwrite each other.
     Progress progress(arguments_.quiet || console_.output_is_terminal());
     progress.start("answering", 0, "points");
     std::vector<Vec3> queries(kChunkPoints);
-    std::vector<ClosestPoint> answers(kChunkPoints);
-    bool wanted = writer.begin();
+    std::vector<Answer> answers(kChunkPoints);
+    bool wanted = writer.begin(Answer());
     while (wanted) {
       const auto count = points.read(queries);
       if (!count) {
@@ -78,9 +94,9 @@ class Session {
       if (*count == 0) break;
       const auto asked = std::span(queries).first(*count);
       const auto answered = std::span(answers).first(*count);
-      probe_.closest_points(asked, answered, arguments_.ask);
-      tally_.add(answered);
-      wanted = writer.write(asked, answered);
+      ask(asked, answered);
+      tally_.add<Answer>(answered);
+      wanted = writer.write(asked, std::span<const Answer>(answered));
       progress.add(*count);
     }
     return kDone;
@@ -125,7 +141,8 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
                                                                {"jsonl", AnswerFormat::kJsonLines},
                                                                {"f64", AnswerFormat::kF64}};
   const auto options = std::make_shared<QueryArguments>();
-  VerbOptions verb(app, "query", "Find the surface point nearest to each point");
+  VerbOptions verb(app, "query",
+                   "Find the surface point nearest to each point and the side it is on");
   verb.require(verb.path("file", "FILE", options->file, "File that planetree build wrote"));
   verb.default_text(
       verb.path("points", "POINTS", options->points,
@@ -133,6 +150,8 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
                 "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
                 "little-endian float64 triples); - is CSV from standard input"),
       "-");
+  verb.flag("--contains", options->contains,
+            "Tell only which side of the surface each point is on");
   verb.default_text(verb.length("--max-error", options->ask.max_error, false,
                                 "May stop once the distance is known within this, in model units; "
                                 "0 goes on until it is exact"),
@@ -147,8 +166,9 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
           "--format", {"csv", "jsonl", "f64"},
           [options](const std::string& name) { options->format = kFormats.at(name); },
           "csv: a header and a row for each point; jsonl: an object for each point, null for "
-          "what is not a finite number; f64: 10 little-endian float64 for each point (x y z "
-          "distance lower upper px py pz triangle, which is NaN for none)"),
+          "what is not a finite number; f64: 11 little-endian float64 for each point (x y z "
+          "distance lower upper side px py pz triangle; side is -1 inside, 0 on the surface, 1 "
+          "outside; NaN is an unknown side and no triangle), with --contains 4 (x y z side)"),
       "csv");
   verb.flag("--json", options->json, "Afterwards report as one JSON object, on standard error");
   verb.flag("--quiet", options->quiet, "Show no progress");

@@ -19,6 +19,7 @@ struct QueryArguments {
   std::filesystem::path file;
   std::filesystem::path points = "-";  ///< "-" is standard input
   Ask ask;
+  bool contains = false;  ///< ask for the side alone
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   AnswerFormat format = AnswerFormat::kCsv;
   bool json = false;

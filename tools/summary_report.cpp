@@ -59,6 +59,38 @@ std::string point_text(const double (&values)[3]) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", values[0], values[1], values[2]);
 }
 
+// How sides are found, in a word.
+std::string_view sign_rule(const storage::ModelRecord& model) {
+  return model.open_edge_count == 0 ? "crossings" : "none";
+}
+
+std::span<const storage::OpenEdge> listed_open_edges(const storage::ModelRecord& model) {
+  const std::uint64_t listed = std::min<std::uint64_t>(model.open_edge_count, 3);
+  return std::span(model.open_edge).first(static_cast<std::size_t>(listed));
+}
+
+Json open_edges_json(const storage::ModelRecord& model) {
+  Json edges = Json::array();
+  for (const storage::OpenEdge& edge : listed_open_edges(model))
+    edges.push_back({{"triangle", edge.triangle},
+                     {"from", edge.from},
+                     {"to", edge.to},
+                     {"along", edge.along},
+                     {"against", edge.against}});
+  return edges;
+}
+
+std::string surface_text(const storage::ModelRecord& model) {
+  if (model.open_edge_count == 0) return "  surface     watertight; sides by crossings, exactly\n";
+  std::string text = fmt::format("  surface     not watertight, sides are unknown: {} open edges\n",
+                                 grouped_count(model.open_edge_count));
+  for (const storage::OpenEdge& edge : listed_open_edges(model))
+    text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
+                        point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
+                        edge.against);
+  return text;
+}
+
 std::string raw_text(const FileSurvey& survey) {
   const auto groups = bytes_by_group(survey);
   std::uint64_t sum = 0;
@@ -82,6 +114,10 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"vertices", model.vertex_count},
                {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
+               {"watertight", model.open_edge_count == 0},
+               {"sign_rule", sign_rule(model)},
+               {"open_edges", model.open_edge_count},
+               {"first_open_edges", open_edges_json(model)},
                {"levels", model.height},
                {"nodes", model.node_count},
                {"blocks", model.block_count},
@@ -112,6 +148,7 @@ std::string summary_text(const std::string& name, const FileParts& parts,
                         grouped_count(model.set_aside_count), model.first_set_aside);
   text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
                       point_text(model.box_upper));
+  text += surface_text(model);
   text +=
       fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",
                   model.height, grouped_count(model.node_count), grouped_count(model.block_count),

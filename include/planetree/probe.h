@@ -35,10 +35,17 @@ class Probe {
   /// (limits) gives kBadQuery.
   ClosestPoint closest_point(Vec3 query, const Ask& ask = {}) noexcept;
 
+  /// Which side of the surface `query` is on: exactly, however near it is. (Only
+  /// coordinates below 2^-1022 of the model's size are rounded.) Of the Ask,
+  /// `max_nodes` counts. Of a model that is not watertight the side is unknown.
+  Containment contains(Vec3 query, const Ask& ask = {}) noexcept;
+
   /// One answer per query, the same bits as one by one, asked in an order that
   /// turns pages seldom. The spans are equally long and do not overlap.
   void closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                       const Ask& ask = {}) noexcept;
+  void contains(std::span<const Vec3> queries, std::span<Containment> answers,
+                const Ask& ask = {}) noexcept;
 
  private:
   explicit Probe(std::unique_ptr<query::ProbeState> state) noexcept;

@@ -13,6 +13,7 @@ struct ModelInfo {
   std::uint64_t first_set_aside = 0;  ///< index of the first of those, or kNoTriangle
   std::uint64_t vertices = 0;         ///< vertex records of the input
   Vec3 box_lower, box_upper;          ///< model units
+  std::uint64_t open_edges = 0;       ///< along which faces do not balance; see watertight()
   bool float64 = false;               ///< coordinates are doubles that float32 does not hold
   std::uint64_t nodes = 0;            ///< inner nodes of the tree
   std::uint64_t blocks = 0;           ///< leaves: blocks of up to 16 triangles
@@ -26,6 +27,10 @@ struct ModelInfo {
     std::uint64_t distance_pages = 0;
   } section_bytes;                   ///< adds up to file_bytes
   std::uint64_t content_id[2] = {};  ///< names the pages: equal for equal trees
+
+  /// Whether as many faces run along every edge one way as the other, edges
+  /// being the same where their ends are. Sides are told of such models.
+  bool watertight() const noexcept { return open_edges == 0; }
 };
 
 /// What an open model has done and holds. Counters since it was opened, of all

@@ -17,6 +17,19 @@ struct Vec3 {
 /// The part of a triangle that is nearest.
 enum class Feature : std::uint8_t { kFace, kEdge, kVertex };
 
+/// Where a point is with respect to the solid that the surface bounds.
+///
+/// With w the winding number of the surface about the point (the sum of its
+/// solid angles over 4 pi, a whole number where the surface is watertight), a
+/// point off the surface is inside where w is not 0. So overlapping, nested,
+/// doubled and inside-out solids count as what they enclose.
+enum class Side : std::uint8_t {
+  kInside,
+  kOutside,
+  kOnSurface,  ///< exactly on a triangle
+  kUnknown,    ///< not told: pages unreadable, work spent, or the surface is not watertight
+};
+
 /// How far an answer may be trusted.
 enum class Status : std::uint8_t {
   kExact,              ///< proven: nothing left unread can be nearer
@@ -28,8 +41,16 @@ enum class Status : std::uint8_t {
 
 inline constexpr std::uint64_t kNoTriangle = std::numeric_limits<std::uint64_t>::max();
 
+/// Parts of an answer, for Ask::parts.
+inline constexpr std::uint32_t kDistance = 1;  ///< nearest point, triangle and interval
+inline constexpr std::uint32_t kSide = 2;
+inline constexpr std::uint32_t kAllParts = kDistance | kSide;
+
 /// What is asked beyond the point itself.
 struct Ask {
+  /// kDistance, kSide or both. What is not asked is not computed, nor are its
+  /// pages read: without kDistance an answer is as if no triangle was reached.
+  std::uint32_t parts = kAllParts;
   /// May stop once upper - lower <= max_error. Model units, >= 0; 0 goes on
   /// until the answer is exact.
   double max_error = 0;
@@ -44,7 +65,8 @@ struct ClosestPoint {
   double distance = 0;  ///< >= 0: to `point`, the best surface point known
   double lower = 0;     ///< the true distance is at least this ...
   double upper = 0;     ///< ... and at most this; lower < upper even when exact
-  Vec3 point;           ///< on the surface
+  Side side = Side::kUnknown;
+  Vec3 point;  ///< on the surface
   /// Counted in the input's order after fan-splitting polygons, triangles set
   /// aside included; kNoTriangle when none was reached. Among equally near
   /// triangles the one of least index.
@@ -52,6 +74,15 @@ struct ClosestPoint {
   Vec3 barycentric;  ///< of `point`, in the triangle's corner order; sums to 1
   Feature feature = Feature::kFace;
   Status status = Status::kBadQuery;
+
+  /// Negative inside; positive where the side is unknown.
+  double signed_distance() const noexcept { return side == Side::kInside ? -distance : distance; }
+};
+
+/// The side alone.
+struct Containment {
+  Side side = Side::kUnknown;
+  Status status = Status::kBadQuery;  ///< kExact where the side is known
 };
 
 }  // namespace planetree

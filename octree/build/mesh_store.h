@@ -13,10 +13,10 @@ namespace planetree::octree {
 
 /// The triangles of a model, held in memory in the order of the input.
 ///
-/// Filled as a sink; normalise() then moves them to the model frame, where the
-/// longest box edge lies in [1, 2). Coordinates are kept as float32 for as long
-/// as every one of them is a float32 there, so that scanned models take 36
-/// bytes a triangle. At most 2^32 - 1 triangles.
+/// Filled as a sink, so that no coordinate is -0; normalise() then moves them to
+/// the model frame, where the longest box edge lies in [1, 2). Coordinates are
+/// kept as float32 for as long as every one of them is a float32 there, so that
+/// scanned models take 36 bytes a triangle. At most 2^32 - 1 triangles.
 class MeshStore final : public TriangleSink {
  public:
   using ProgressCall = void (*)(void* context, std::uint64_t done, std::uint64_t total);

@@ -11,6 +11,7 @@
 
 #include "octree/build/binary_tree.h"
 #include "octree/build/disc_fit.h"
+#include "octree/build/edge_balance.h"
 #include "octree/build/mesh_reader.h"
 #include "octree/build/mesh_store.h"
 #include "octree/build/morton_order.h"
@@ -36,6 +37,7 @@ class TreeBuild {
 
   Result<BuildReport> run() {
     if (const auto read = read_model(); !read) return read.error();
+    balance();
     order_triangles();
     if (const auto bounded = bound_nodes(); !bounded) return bounded.error();
     return write_pages();
@@ -43,6 +45,7 @@ class TreeBuild {
 
  private:
   Result<void> read_model();
+  void balance();
   void order_triangles();
   Result<void> bound_nodes();
   Result<BuildReport> write_pages();
@@ -57,6 +60,7 @@ class TreeBuild {
   std::uint64_t vertex_records_ = 0;
   Point centre_ = Point::Zero();
   BlockShape shape_;
+  EdgeBalance edges_;
   std::vector<MortonKey> keys_;
   WideTree tree_;
   PagePlan plan_;
@@ -79,6 +83,12 @@ Result<void> TreeBuild::read_model() {
   shape_.float64 = mesh_.float64();
   shape_.wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
   return {};
+}
+
+void TreeBuild::balance() {
+  progress_.progress(BuildPhase::kClosing, 0, 1);
+  edges_ = balance_edges(mesh_);
+  progress_.progress(BuildPhase::kClosing, 1, 1);
 }
 
 void TreeBuild::order_triangles() {
@@ -165,6 +175,7 @@ storage::ModelRecord TreeBuild::describe() const {
       shape_.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = shape_.wide_ids ? 8 : 4;
   model.height = tree_.nodes.empty() ? 0 : tree_.nodes[0].height;
+  edges_.describe(mesh_.scale_exponent(), model);
   return model;
 }
 

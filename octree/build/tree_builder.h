@@ -11,7 +11,7 @@
 namespace planetree::octree {
 
 /// What a build is doing.
-enum class BuildPhase : std::uint8_t { kReading, kOrdering, kBounding, kWriting };
+enum class BuildPhase : std::uint8_t { kReading, kClosing, kOrdering, kBounding, kWriting };
 
 /// Told how far a build is, on the thread that called build_tree.
 class BuildProgress {

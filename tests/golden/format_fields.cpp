@@ -84,6 +84,19 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, triangle_id_bytes)
       .PLANETREE_FIELD(ModelRecord, height)
       .PLANETREE_FIELD(ModelRecord, reserved)
+      .PLANETREE_FIELD(ModelRecord, open_edge_count)
+      .PLANETREE_FIELD(ModelRecord, open_edge)
+      .take();
+}
+
+FormatStruct open_edge_fields() {
+  using storage::OpenEdge;
+  return FieldList<OpenEdge>("Open edges")
+      .PLANETREE_FIELD(OpenEdge, from)
+      .PLANETREE_FIELD(OpenEdge, to)
+      .PLANETREE_FIELD(OpenEdge, triangle)
+      .PLANETREE_FIELD(OpenEdge, along)
+      .PLANETREE_FIELD(OpenEdge, against)
       .take();
 }
 
@@ -124,8 +137,8 @@ FormatStruct page_head_fields() {
 }  // namespace
 
 const std::vector<FormatStruct>& format_structs() {
-  static const std::vector<FormatStruct> all = {header_fields(), model_fields(), entry_fields(),
-                                                page_head_fields()};
+  static const std::vector<FormatStruct> all = {header_fields(), model_fields(), open_edge_fields(),
+                                                entry_fields(), page_head_fields()};
   return all;
 }
 

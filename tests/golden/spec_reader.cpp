@@ -33,11 +33,11 @@ std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
 bool is_whole(Bytes header) {
   constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
   return std::memcmp(header.data(), kMagic, 8) == 0 &&
-         hash64(header.first(312), 0) == get<std::uint64_t>(header, 312);
+         hash64(header.first(504), 0) == get<std::uint64_t>(header, 504);
 }
 
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 168);
+  const Bytes model = header.subspan(80, 368);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -62,7 +62,7 @@ SpecHeader read_header(Bytes header) {
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
   require(get<std::uint16_t>(header, 8) == 1, "another version");
-  require(get<std::uint16_t>(header, 10) == 320, "header length");
+  require(get<std::uint16_t>(header, 10) == 512, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
   header_ = read_header(header);
@@ -72,17 +72,17 @@ SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
 
 Bytes SpecFile::choose_header() const {
   const Bytes all(bytes_);
-  require(all.size() >= 681, "too short");
-  if (is_whole(all.first(320))) return all.first(320);
-  require(is_whole(all.last(320)), "no whole header");
-  return all.last(320);
+  require(all.size() >= 1065, "too short");
+  if (is_whole(all.first(512))) return all.first(512);
+  require(is_whole(all.last(512)), "no whole header");
+  return all.last(512);
 }
 
 void SpecFile::check_table(Bytes header) const {
-  const Bytes table = Bytes(bytes_).subspan(320, std::size_t{40} * header_.page_count);
+  const Bytes table = Bytes(bytes_).subspan(512, std::size_t{40} * header_.page_count);
   require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
   std::vector<std::uint64_t> page_hashes;
-  std::uint64_t end = 320 + table.size();
+  std::uint64_t end = 512 + table.size();
   std::pair<std::uint64_t, std::uint32_t> last_key{};
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
     page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
@@ -92,13 +92,13 @@ void SpecFile::check_table(Bytes header) const {
     require(k == 0 || last_key < key, "order of keys");
     last_key = key;
   }
-  require(end == bytes_.size() - 320, "pages do not tile the file");
+  require(end == bytes_.size() - 512, "pages do not tile the file");
   const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
   require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {
-  return Bytes(bytes_).subspan(320 + std::size_t{40} * number, 40);
+  return Bytes(bytes_).subspan(512 + std::size_t{40} * number, 40);
 }
 
 std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {

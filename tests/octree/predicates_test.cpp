@@ -175,5 +175,33 @@ TEST(Crossings, PassByTrianglesWithoutArea) {
   EXPECT_NE(crossing({p, q}, {Point(-1, -1, 0), Point(1, -1, 0), Point(0, 1, 0)}), 0);
 }
 
+// On a grid so coarse that most points are in some plane, line or corner.
+TEST(Predicates, LiesOnIsExactOnALattice) {
+  std::mt19937_64 random(33);
+  std::uniform_int_distribution<int> step(0, 3);
+  const auto place = [&] { return Point(step(random), step(random), step(random)); };
+  int on = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Triangle triangle{place(), place(), place()};
+    const Point point = i % 2 == 0 ? place() : Point(place() * 0.5);
+    // Whole multiples of 2^-52: no square is rounded.
+    const bool expected = triangle_value(point, triangle).squared == 0;
+    ASSERT_EQ(lies_on(point, triangle), expected)
+        << point.transpose() << " on " << triangle[0].transpose() << ", " << triangle[1].transpose()
+        << ", " << triangle[2].transpose();
+    on += expected;
+  }
+  EXPECT_GT(on, 200);
+}
+
+TEST(Predicates, LiesOnTellsUlpsApart) {
+  const Triangle triangle{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
+  EXPECT_TRUE(lies_on({0.5, 0.5, 0}, triangle));
+  EXPECT_FALSE(lies_on({0.5, std::nextafter(0.5, 1.0), 0}, triangle));
+  EXPECT_FALSE(lies_on({0.25, 0.25, 0x1p-1074}, triangle));
+  EXPECT_FALSE(lies_on({0.25, -0x1p-1074, 0}, triangle));
+  EXPECT_TRUE(lies_on({0.25, 0x1p-1074, 0}, triangle));
+}
+
 }  // namespace
 }  // namespace planetree::octree

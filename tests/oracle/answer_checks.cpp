@@ -9,6 +9,7 @@
 
 #include "octree/nearest.h"
 #include "octree/triangle_distance.h"
+#include "tests/oracle/winding.h"
 #include "tests/query/answer_bits.h"
 
 namespace planetree::oracle {
@@ -127,10 +128,30 @@ void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint
   expect_on_triangle(model.triangles()[answer.triangle], query, answer);
 }
 
+// In the model frame, where the smallest of subnormal numbers are rounded away.
+Side true_side(const BuiltModel& model, const Vec3& query) {
+  const auto scaled = [&](const Vec3& p) {
+    const auto scale = [&](double value) { return std::ldexp(value, model.scale_exponent()); };
+    return Vec3{scale(p.x), scale(p.y), scale(p.z)};
+  };
+  Soup triangles = model.triangles();
+  for (Corners& triangle : triangles)
+    for (Vec3& corner : triangle) corner = scaled(corner);
+  return exact_side(scaled(query), triangles);
+}
+
 }  // namespace
 
 void expect_same_bits(const ClosestPoint& left, const ClosestPoint& right) {
   EXPECT_EQ(bits_of(left), bits_of(right));
+}
+
+void expect_side(BuiltModel& model, const Vec3& query) {
+  const Containment found = model.probe().contains(query);
+  SCOPED_TRACE(testing::Message() << "side of " << words(query, {}, {}));
+  EXPECT_EQ(found.status, Status::kExact);
+  EXPECT_EQ(found.side,
+            model.model().info().watertight() ? true_side(model, query) : Side::kUnknown);
 }
 
 ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) {
@@ -164,6 +185,11 @@ ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) 
       ADD_FAILURE() << "a query of finite numbers was refused";
   }
   expect_finite(answer);
+  if (answer.side != Side::kUnknown) {
+    EXPECT_EQ(answer.side, true_side(model, query));
+  } else if (answer.status != Status::kDegraded) {
+    EXPECT_FALSE(model.model().info().watertight());
+  }
   return answer;
 }
 

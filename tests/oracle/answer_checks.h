@@ -11,8 +11,12 @@ namespace planetree::oracle {
 /// [lower, upper], an interval that is honest but not lazy. Of an exact one:
 /// the triangle of least (value, index) among all, found by evaluating each,
 /// and a point that lies on it at that distance. Of an inexact one: that the
-/// limits asked for allow it.
+/// limits asked for allow it. A side that is told must be the exact one.
 ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask = {});
+
+/// Asks for the side alone; it must be the exact one where the model is
+/// watertight, and unknown elsewhere.
+void expect_side(BuiltModel& model, const Vec3& query);
 
 /// Every field has the same bits.
 void expect_same_bits(const ClosestPoint& left, const ClosestPoint& right);

@@ -9,8 +9,8 @@
 namespace planetree {
 
 /// Everything an answer says, in bits: distance, lower, upper, point, triangle,
-/// barycentric, feature, status.
-using AnswerBits = std::array<std::uint64_t, 12>;
+/// barycentric, feature, side, status.
+using AnswerBits = std::array<std::uint64_t, 13>;
 
 inline AnswerBits bits_of(const ClosestPoint& answer) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
@@ -25,6 +25,7 @@ inline AnswerBits bits_of(const ClosestPoint& answer) {
           bits(answer.barycentric.y),
           bits(answer.barycentric.z),
           static_cast<std::uint64_t>(answer.feature),
+          static_cast<std::uint64_t>(answer.side),
           static_cast<std::uint64_t>(answer.status)};
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "octree/build/edge_balance.h"
 #include "storage/page_writer.h"
 
 namespace planetree::query {
@@ -37,6 +38,7 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
       sample.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = sample.shape.wide_ids ? 8 : 4;
   model.height = sample.tree.nodes.empty() ? 0 : sample.tree.nodes[0].height;
+  octree::balance_edges(sample.mesh).describe(sample.mesh.scale_exponent(), model);
   return model;
 }
 

@@ -83,7 +83,7 @@ TEST_F(PageFileDamage, EveryOtherLengthIsRefused) {
     const std::string found = "has " + std::to_string(length);
     ASSERT_TRUE(length == 0 || std::strstr(file.error().text, found.c_str())) << file.error().text;
   }
-  for (const std::size_t extra : {1u, 320u, 5000u}) {
+  for (const std::size_t extra : {1u, 512u, 5000u}) {
     Bytes longer = good_;
     longer.resize(good_.size() + extra);
     write_bytes(path_, longer);

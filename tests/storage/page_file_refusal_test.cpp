@@ -110,7 +110,7 @@ TEST_F(PageFileRefusal, HeaderFields) {
                                   const char* said) {
     expect_header_refused(change, ErrorCode::kDamaged, said);
   };
-  expect_damaged([](FileHeader& h) { h.header_bytes = 312; }, "header's length");
+  expect_damaged([](FileHeader& h) { h.header_bytes = 504; }, "header's length");
   for (const std::uint32_t bytes : {0u, 2048u, 4095u, 5000u, 524288u, ~0u}) {
     expect_damaged([&](FileHeader& h) { h.page_bytes = bytes; }, "page size");
   }
@@ -125,7 +125,7 @@ TEST_F(PageFileRefusal, HeaderFields) {
   expect_damaged([](FileHeader& h) { h.max_stored_bytes = ~std::uint64_t{0}; },
                  "largest stored page");
   expect_damaged([](FileHeader& h) { h.reserved[0] = 1; }, "reserved");
-  expect_damaged([](FileHeader& h) { h.reserved[63] = 1; }, "reserved");
+  expect_damaged([](FileHeader& h) { h.reserved[55] = 1; }, "reserved");
   expect_damaged([](FileHeader& h) { ++h.max_raw_bytes; }, "no page is as large");
 }
 
@@ -153,6 +153,32 @@ TEST_F(PageFileRefusal, ModelFields) {
   for (const int at : {0, 4}) {
     expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
   }
+}
+
+TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
+  const OpenEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
+  for (const std::uint64_t count : {0u, 2u, 3u})
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          m.open_edge_count = count;
+          m.open_edge[0] = edge;
+        },
+        "as long as their number");
+  expect_model_refused(
+      [&](ModelRecord& m) {
+        m.open_edge_count = 1;
+        m.open_edge[0] = edge;
+        m.open_edge[0].against = 1;
+      },
+      "is not one");
+  for (const double value : {kNan, kInfinity})
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          m.open_edge_count = 1;
+          m.open_edge[0] = edge;
+          m.open_edge[0].to[2] = value;
+        },
+        "is not one");
 }
 
 TEST_F(PageFileRefusal, NotModelsAtTheLimits) {

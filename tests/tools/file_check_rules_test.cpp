@@ -147,6 +147,18 @@ TEST_F(FileCheck, FindsASampleThatIsNone) {
   EXPECT_EQ(codes_of_model([](auto& model) { model.sample_triangle = 5; }), Codes{"SAMPLE"});
 }
 
+TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
+  EXPECT_EQ(codes_of_model([](auto& model) {
+              model.open_edge_count = 0;
+              for (auto& edge : model.open_edge) edge = {};
+            }),
+            Codes{"OPEN_EDGES"});
+  EXPECT_EQ(codes_of_model([](auto& model) { ++model.open_edge[2].along; }), Codes{"OPEN_EDGES"});
+  EXPECT_EQ(codes_of_model(
+                [](auto& model) { std::swap(model.open_edge[1].from, model.open_edge[1].to); }),
+            Codes{"OPEN_EDGES"});
+}
+
 TEST_F(FileCheck, CountsWhatItDoesNotKeep) {
   IssueList list;
   for (int i = 0; i < 1500; ++i) list.add({IssueCode::kTable, Error::kNowhere, 0, "x"});

@@ -1,0 +1,74 @@
+#include "query/side.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "octree/crossings.h"
+#include "octree/strict_math.h"
+
+namespace planetree::query {
+namespace {
+
+using octree::Point;
+
+/// The ways straight out of a box along the axes, the shortest first.
+class WaysOut {
+ public:
+  WaysOut(const octree::TreeFacts& tree, const Point& from) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      add(from, axis, tree.box_lower[axis], -1);
+      add(from, axis, tree.box_upper[axis], 1);
+    }
+    std::stable_sort(ways_.begin(), ways_.end(),
+                     [](const Way& a, const Way& b) { return a.length < b.length; });
+  }
+
+  struct Way {
+    double length = 0;
+    Point end = Point::Zero();  ///< strictly outside
+  };
+  const std::array<Way, 6>& all() const { return ways_; }
+
+ private:
+  void add(const Point& from, Eigen::Index axis, double side, double direction) {
+    Way& way = ways_[count_++];
+    way.length = std::fabs(side - from[axis]);
+    way.end = from;
+    // A side far from the origin may absorb the step of 1.
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double beyond = std::nextafter(side, direction * infinity);
+    way.end[axis] = direction < 0 ? std::min(side - 1, beyond) : std::max(side + 1, beyond);
+  }
+
+  std::size_t count_ = 0;
+  std::array<Way, 6> ways_;
+};
+
+bool outside_box(const octree::TreeFacts& tree, const Point& point) {
+  return (point.array() < tree.box_lower.array()).any() ||
+         (point.array() > tree.box_upper.array()).any();
+}
+
+}  // namespace
+
+Containment find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
+                      octree::PageReader pages, octree::TreeWork& work) noexcept {
+  if (!model.info().watertight()) return {Side::kUnknown, Status::kExact};
+  if (outside_box(model.tree(), point)) return {Side::kOutside, Status::kExact};
+  // Usually the first way tells; another may do without a page that is lost.
+  const WaysOut ways(model.tree(), point);
+  for (const WaysOut::Way& way : ways.all()) {
+    const std::uint64_t spent = work.nodes + work.blocks;
+    if (spent >= max_nodes) break;
+    const octree::Crossings crossings =
+        octree::count_crossings(model.tree(), {point, way.end}, max_nodes - spent, pages, work);
+    if (!crossings.complete) continue;
+    if (crossings.on_surface) return {Side::kOnSurface, Status::kExact};
+    return {crossings.difference != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+  }
+  return {Side::kUnknown, Status::kDegraded};
+}
+
+}  // namespace planetree::query

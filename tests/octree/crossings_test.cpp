@@ -1,0 +1,82 @@
+#include "octree/crossings.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/octree/sample_tree.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint64_t kEveryNode = ~std::uint64_t{0};
+
+// What one triangle after the other makes of it.
+Crossings count_all(const MeshStore& mesh, const MovedSegment& segment) {
+  Crossings count;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    count.on_surface = count.on_surface || lies_on(segment.from, mesh.corners(i));
+    count.difference += crossing(segment, mesh.corners(i));
+  }
+  return count;
+}
+
+Point point_in(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+void expect_as_one_by_one(const Soup& soup, std::uint64_t seed) {
+  const SampleTree sample = build_sample(soup);
+  SamplePages pages(sample);
+  const TreeFacts tree = tree_facts(sample);
+  Noise noise(seed);
+  for (int i = 0; i < 300; ++i) {
+    const Point corner = sample.mesh.corners(noise.bits() % sample.mesh.size())[0];
+    const Point from = i % 4 == 0 ? corner : point_in(noise.point(-1, 1));
+    Point to = point_in(noise.point(-1, 1));
+    if (i % 3 == 0) to = {from.x(), from.y(), 3};
+    TreeWork work;
+    const Crossings found = count_crossings(tree, {from, to}, kEveryNode, pages.reader(), work);
+    const Crossings expected = count_all(sample.mesh, {from, to});
+    ASSERT_TRUE(found.complete);
+    ASSERT_EQ(found.on_surface, expected.on_surface) << i;
+    if (!expected.on_surface) {
+      ASSERT_EQ(found.difference, expected.difference) << i;
+    }
+  }
+}
+
+TEST(CountCrossings, IsTheSumOverAllTriangles) {
+  expect_as_one_by_one(sphere(4), 1);
+  expect_as_one_by_one(sheet(20), 2);
+  expect_as_one_by_one(scattered(600, 0.3), 3);
+  expect_as_one_by_one(repeated(50), 4);
+  expect_as_one_by_one(repeated(1), 5);
+}
+
+TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
+  const SampleTree sample = build_sample(sphere(6));
+  SamplePages pages(sample);
+  TreeWork work;
+  const Crossings found = count_crossings(tree_facts(sample), {{0.1, 0.2, 0}, {0.1, 0.2, 3}},
+                                          kEveryNode, pages.reader(), work);
+  EXPECT_NE(found.difference, 0);
+  EXPECT_LT(work.nodes + work.blocks, 40u);
+  EXPECT_LT(work.triangles, 40u);
+}
+
+TEST(CountCrossings, IsIncompleteWhereWorkOrPagesEnd) {
+  const SampleTree sample = build_sample(sphere(5));
+  SamplePages pages(sample);
+  const TreeFacts tree = tree_facts(sample);
+  const MovedSegment segment{{0.1, 0.2, 0}, {0.1, 0.2, 3}};
+  TreeWork work;
+  ASSERT_TRUE(count_crossings(tree, segment, kEveryNode, pages.reader(), work).complete);
+  const std::uint64_t needed = work.nodes + work.blocks;
+  EXPECT_TRUE(count_crossings(tree, segment, needed, pages.reader(), work).complete);
+  EXPECT_FALSE(count_crossings(tree, segment, needed - 1, pages.reader(), work).complete);
+  EXPECT_FALSE(count_crossings(tree, segment, 0, pages.reader(), work).complete);
+  for (std::uint32_t page = 1; page < pages.size(); ++page) pages.withhold(page);
+  EXPECT_FALSE(count_crossings(tree, segment, kEveryNode, pages.reader(), work).complete);
+}
+
+}  // namespace
+}  // namespace planetree::octree

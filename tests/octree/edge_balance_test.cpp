@@ -1,0 +1,104 @@
+#include "octree/build/edge_balance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <tbb/global_control.h>
+
+#include "tests/octree/sample_tree.h"
+
+namespace planetree::octree {
+namespace {
+
+EdgeBalance balance(const Soup& soup, std::uint64_t first_index = 0) {
+  return balance_edges(store(soup, first_index));
+}
+
+Soup tetrahedron() {
+  const Vec3 a{0, 0, 0}, b{0, 1, 0}, c{1, 0, 0}, d{0, 0, 1};
+  return {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
+}
+
+Soup joined(Soup left, const Soup& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+// Every second octant of this sphere faces inward: it is mended first.
+Soup closed_sphere(unsigned levels) {
+  Soup soup = sphere(levels);
+  for (auto& triangle : soup) {
+    double sign = 1;
+    for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+      sign *= triangle[0].*axis + triangle[1].*axis + triangle[2].*axis;
+    if (sign < 0) std::swap(triangle[1], triangle[2]);
+  }
+  return soup;
+}
+
+TEST(EdgeBalance, OfClosedSurfacesIsEven) {
+  EXPECT_TRUE(balance(tetrahedron()).closed());
+  EXPECT_TRUE(balance(closed_sphere(5)).closed());
+  EXPECT_TRUE(balance(joined(tetrahedron(), tetrahedron())).closed());
+  EXPECT_TRUE(balance(joined(tetrahedron(), closed_sphere(2))).closed());
+}
+
+TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
+  Soup soup = tetrahedron();
+  const Vec3 p{0.25, 0.5, 0};
+  soup.push_back({p, p, p});
+  soup.push_back({p, p, {1, 1, 1}});  // there and back
+  EXPECT_TRUE(balance(soup).closed());
+}
+
+TEST(EdgeBalance, FindsTheEdgesOfAHole) {
+  Soup soup = tetrahedron();
+  soup.pop_back();  // c d a
+  const EdgeBalance found = balance(soup, 40);
+  EXPECT_EQ(found.open_edges, 3u);
+  const std::uint64_t triangles[] = {40, 41, 42};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(found.first[i].triangle, triangles[i]);
+    EXPECT_EQ(found.first[i].along, 1u);
+    EXPECT_EQ(found.first[i].against, 0u);
+  }
+  // 40 is a b c and runs from c to a, and the model frame is the input's.
+  EXPECT_EQ(found.first[0].from, Point(1, 0, 0));
+  EXPECT_EQ(found.first[0].to, Point(0, 0, 0));
+}
+
+TEST(EdgeBalance, FindsAFaceTheOtherWayRound) {
+  Soup soup = closed_sphere(3);
+  std::swap(soup[17][0], soup[17][1]);
+  const EdgeBalance found = balance(soup);
+  EXPECT_EQ(found.open_edges, 3u);
+  EXPECT_TRUE(std::ranges::any_of(found.first, [](const OpenEdge& edge) {
+    return edge.along + edge.against == 2 && edge.along != edge.against;
+  }));
+}
+
+TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
+  const EdgeBalance found = balance(sheet(9));
+  EXPECT_EQ(found.open_edges, 36u);
+  EXPECT_LE(found.first[0].triangle, found.first[1].triangle);
+  EXPECT_LE(found.first[1].triangle, found.first[2].triangle);
+  EXPECT_EQ(found.first[0].triangle, 0u);
+}
+
+TEST(EdgeBalance, DoesNotDependOnThreads) {
+  const MeshStore mesh = store(scattered(3000, 0.2));
+  const EdgeBalance many = balance_edges(mesh);
+  EXPECT_EQ(many.open_edges, 9000u);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const EdgeBalance alone = balance_edges(mesh);
+  EXPECT_EQ(alone.open_edges, many.open_edges);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(alone.first[i].triangle, many.first[i].triangle);
+    EXPECT_EQ(alone.first[i].from, many.first[i].from);
+  }
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,146 @@
+#include "tests/oracle/closed_models.h"
+
+#include <cmath>
+
+namespace planetree::oracle {
+namespace {
+
+Vec3 on_lattice(Random& random, std::size_t steps) {
+  const auto coordinate = [&] {
+    return static_cast<double>(random.below(steps + 1)) / static_cast<double>(steps);
+  };
+  return {coordinate(), coordinate(), coordinate()};
+}
+
+template <class Place>
+Soup tetrahedra(std::size_t count, const Place& place) {
+  Soup soup;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 a = place(), b = place(), c = place(), d = place();
+    soup = soup + tetrahedron(a, b, c, d);
+  }
+  return soup;
+}
+
+// Any size, any way round, through each other.
+Soup overlapping(Random& random) {
+  return tetrahedra(20, [&] { return random.in_cube(); });
+}
+
+// Many flat ones, faces in one plane, edges through corners.
+Soup lattice_tetrahedra(Random& random) {
+  return tetrahedra(60, [&] { return on_lattice(random, 4); });
+}
+
+Soup lattice_boxes(Random& random) {
+  Soup soup;
+  for (int i = 0; i < 25; ++i) {
+    const Vec3 lower = on_lattice(random, 4);
+    const Soup one = box(lower, lower + Vec3{0.25, 0.25, 0.5} * double(1 + random.below(3)));
+    soup = soup + (random.one_in(3) ? inside_out(one) : one);
+  }
+  return soup;
+}
+
+Soup slivers(Random& random) {
+  const Vec3 along = random.in_cube();
+  return tetrahedra(30, [&] {
+    return along * random.either_sign() + random.in_cube() * random.magnitude(-40, -10);
+  });
+}
+
+Soup scales(Random& random) {
+  return tetrahedra(30, [&] { return random.in_cube() * random.magnitude(-30, 0); });
+}
+
+Soup nested_balls(Random& random) {
+  const double gap = random.magnitude(-50, -1);
+  return ball(1) + scaled(inside_out(ball(1)), 1 - gap) + scaled(ball(0), 0.5);
+}
+
+Soup rotated_ball(Random& random) {
+  const double angle = random.between(0, 6.28), c = std::cos(angle), s = std::sin(angle);
+  Soup soup = ball(2);
+  for (Corners& triangle : soup)
+    for (Vec3& p : triangle) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z + 0.1 * p.x};
+  return soup;
+}
+
+// As far from the origin as maps are, and as fine.
+Soup far_away(Random& random) {
+  return moved(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
+}
+
+void divide(const Corners& face, unsigned levels, Soup& soup) {
+  if (levels == 0) {
+    soup.push_back(face);
+    return;
+  }
+  const auto middle = [](const Vec3& a, const Vec3& b) {
+    const Vec3 sum = a + b;
+    return sum * (1 / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z));
+  };
+  const auto& [a, b, c] = face;
+  const Vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+  divide({a, ab, ca}, levels - 1, soup);
+  divide({ab, b, bc}, levels - 1, soup);
+  divide({ca, bc, c}, levels - 1, soup);
+  divide({ab, bc, ca}, levels - 1, soup);
+}
+
+constexpr NastyFamily kFamilies[] = {
+    {"overlapping", overlapping},
+    {"lattice tetrahedra", lattice_tetrahedra},
+    {"lattice boxes", lattice_boxes},
+    {"slivers", slivers},
+    {"scales", scales},
+    {"nested balls", nested_balls},
+    {"rotated ball", rotated_ball},
+    {"far away", far_away},
+};
+
+}  // namespace
+
+Soup operator+(Soup left, const Soup& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+Soup inside_out(Soup triangles) {
+  for (Corners& triangle : triangles) std::swap(triangle[1], triangle[2]);
+  return triangles;
+}
+
+Soup tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
+}
+
+Soup box(const Vec3& lower, const Vec3& upper) {
+  const auto corner = [&](unsigned i) {
+    return Vec3{i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z};
+  };
+  constexpr unsigned kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  Soup soup;
+  for (const auto& f : kFaces) {
+    soup.push_back({corner(f[0]), corner(f[1]), corner(f[2])});
+    soup.push_back({corner(f[0]), corner(f[2]), corner(f[3])});
+  }
+  return soup;
+}
+
+Soup ball(unsigned levels) {
+  Soup soup;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    const double x = octant & 1 ? -1 : 1, y = octant & 2 ? -1 : 1, z = octant & 4 ? -1 : 1;
+    const Corners face{Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
+    Soup part;
+    divide(face, levels, part);
+    soup = soup + (x * y * z > 0 ? part : inside_out(part));
+  }
+  return soup;
+}
+
+std::span<const NastyFamily> closed_families() { return kFamilies; }
+
+}  // namespace planetree::oracle
