@@ -58,6 +58,7 @@ NearestAnswer place(const NearestOnTriangle& nearest, const BestTriangle& best) 
   answer.point = nearest.point;
   answer.triangle = best.triangle();
   answer.barycentric = nearest.barycentric;
+  answer.corners = best.corners();
   answer.feature = nearest.feature;
   answer.status = Status::kExact;
   return answer;

@@ -10,7 +10,7 @@ namespace planetree::octree {
 /// How the winding number differs between the ends of a segment.
 struct Crossings {
   std::int64_t difference = 0;  ///< winding(from) - winding(to); a sum of +1 and -1
-  bool on_surface = false;      ///< `from` is on a triangle; `difference` then says nothing
+  bool on_surface = false;      ///< `from` is on a triangle; `difference` is of a step beside it
   bool complete = true;         ///< false: pages missing or `max_nodes` spent, nothing is known
 };
 

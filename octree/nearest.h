@@ -30,6 +30,7 @@ struct NearestAnswer {
   Point point = Point::Zero();
   std::uint64_t triangle = kNoTriangle;
   std::array<double, 3> barycentric{};
+  Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< of `triangle`
   Feature feature = Feature::kFace;
   Status status = Status::kBadQuery;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "octree/strict_math.h"
+#include "query/contact_normal.h"
 #include "query/side.h"
 
 namespace planetree::query {
@@ -18,26 +19,37 @@ bool makes_sense(const Vec3& query, const Ask& ask) {
          (ask.parts & ~kAllParts) == 0;
 }
 
+// As if no triangle was reached.
+ClosestPoint without_distance(Status status) {
+  ClosestPoint answer;
+  answer.distance = answer.upper = kInfinity;
+  answer.status = status;
+  return answer;
+}
+
 // Beyond octree::kFarthestQuery all triangles are equally far in double.
-ClosestPoint far_answer(const ModelState& model, const Vec3& query, const Ask& ask) {
+octree::NearestAnswer farthest(const octree::TreeFacts& tree) {
+  octree::NearestAnswer nearest;
+  nearest.point = nearest.corners[0] = tree.sample;
+  nearest.triangle = tree.sample_triangle;
+  nearest.barycentric = {1, 0, 0};
+  nearest.feature = Feature::kVertex;
+  nearest.status = Status::kExact;
+  return nearest;
+}
+
+// In model units, where the frame's could overflow.
+void measure_far(const Vec3& query, const Ask& ask, ClosestPoint& answer) {
   const double largest = std::max({std::fabs(query.x), std::fabs(query.y), std::fabs(query.z)});
   const double x = query.x / largest, y = query.y / largest, z = query.z / largest;
-  ClosestPoint answer;
   answer.distance = largest * std::sqrt(x * x + y * y + z * z);
   if (answer.distance > ask.max_distance) {
-    answer.distance = answer.upper = kInfinity;
+    answer = without_distance(Status::kBeyondMaxDistance);
     answer.lower = ask.max_distance;
-    answer.status = Status::kBeyondMaxDistance;
-    return answer;
+    return;
   }
   answer.upper = answer.distance * (1 + 0x1p-48);
   answer.lower = std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - 0x1p-48);
-  answer.point = model.scale().out(model.tree().sample);
-  answer.triangle = model.tree().sample_triangle;
-  answer.barycentric = {1, 0, 0};
-  answer.feature = Feature::kVertex;
-  answer.status = Status::kExact;
-  return answer;
 }
 
 ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nearest) {
@@ -53,59 +65,88 @@ ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nea
   return answer;
 }
 
-// Everything but the side.
-ClosestPoint nearest_answer(const ModelState& model, const octree::Point& point, const Ask& ask,
-                            octree::PageReader pages, octree::TreeWork& work) {
-  octree::NearestLimits limits;
-  limits.max_error = model.scale().in(ask.max_error);
-  limits.max_distance = model.scale().in(ask.max_distance);
-  limits.max_nodes = ask.max_nodes;
-  ClosestPoint answer =
-      in_model_units(model.scale(), octree::nearest(model.tree(), point, limits, pages, work));
-  if (answer.status == Status::kBeyondMaxDistance) answer.lower = ask.max_distance;
-  return answer;
-}
+// The parts of one ask, in the order in which they need each other.
+class Asking {
+ public:
+  Asking(ProbeState& probe, const Vec3& query, const Ask& ask)
+      : model_(probe.model()),
+        query_(query),
+        ask_(ask),
+        point_(model_.scale().in(query)),
+        turner_(probe.reader()) {}
 
-// As if no triangle was reached.
-ClosestPoint without_distance(Status status) {
-  ClosestPoint answer;
-  answer.distance = answer.upper = kInfinity;
-  answer.status = status;
-  return answer;
-}
+  ClosestPoint run() {
+    const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
+    if ((parts & kDistance) != 0) find_nearest();
+    if ((parts & kSide) != 0) find_side();
+    if ((parts & kNormal) != 0 && answer_.triangle != kNoTriangle) find_normal();
+    if (answer_.status == Status::kDegraded) model_.count_degraded();
+    return answer_;
+  }
+
+  Containment contain() {
+    find_side();
+    if (standing_.status == Status::kDegraded) model_.count_degraded();
+    return {standing_.side, standing_.status};
+  }
+
+ private:
+  std::uint64_t nodes_left() const {
+    const std::uint64_t spent = work_.nodes + work_.blocks;
+    return spent < ask_.max_nodes ? ask_.max_nodes - spent : 0;
+  }
+
+  void find_nearest() {
+    const bool far = !(point_.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
+    octree::NearestLimits limits;
+    limits.max_error = model_.scale().in(ask_.max_error);
+    limits.max_distance = model_.scale().in(ask_.max_distance);
+    limits.max_nodes = ask_.max_nodes;
+    nearest_ = far ? farthest(model_.tree())
+                   : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_);
+    answer_ = in_model_units(model_.scale(), nearest_);
+    if (far) measure_far(query_, ask_, answer_);
+    if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
+  }
+
+  void find_side() {
+    standing_ = query::find_side(model_, point_, nodes_left(), turner_.pages(), work_);
+    answer_.side = standing_.side;
+    if (standing_.status == Status::kDegraded) degrade();
+  }
+
+  void find_normal() {
+    const ContactNormal contact = contact_normal(model_.tree(), point_, nearest_, standing_,
+                                                 nodes_left(), turner_.pages(), work_);
+    answer_.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
+    if (!contact.complete) degrade();
+  }
+
+  void degrade() {
+    if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
+  }
+
+  const ModelState& model_;
+  const Vec3& query_;
+  const Ask& ask_;
+  const octree::Point point_;
+  PageTurner turner_;
+  octree::TreeWork work_;
+  octree::NearestAnswer nearest_;
+  Standing standing_;
+  ClosestPoint answer_ = without_distance(Status::kExact);
+};
 
 }  // namespace
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
-  const ModelState& model = probe.model();
-  const octree::Point point = model.scale().in(query);
-  const bool far = !(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
-  PageTurner turner(probe.reader());
-  octree::TreeWork work;
-  ClosestPoint answer = without_distance(Status::kExact);
-  if ((ask.parts & kDistance) != 0)
-    answer = far ? far_answer(model, query, ask)
-                 : nearest_answer(model, point, ask, turner.pages(), work);
-  if ((ask.parts & kSide) != 0) {
-    const Containment found = find_side(model, point, ask.max_nodes, turner.pages(), work);
-    answer.side = found.side;
-    if (found.status == Status::kDegraded && answer.status != Status::kBeyondMaxDistance)
-      answer.status = found.status;
-  }
-  if (answer.status == Status::kDegraded) model.count_degraded();
-  return answer;
+  return Asking(probe, query, ask).run();
 }
 
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return {};
-  const ModelState& model = probe.model();
-  PageTurner turner(probe.reader());
-  octree::TreeWork work;
-  const Containment found =
-      find_side(model, model.scale().in(query), ask.max_nodes, turner.pages(), work);
-  if (found.status == Status::kDegraded) model.count_degraded();
-  return found;
+  return Asking(probe, query, ask).contain();
 }
 
 }  // namespace planetree::query

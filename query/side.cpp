@@ -53,20 +53,22 @@ bool outside_box(const octree::TreeFacts& tree, const Point& point) {
 
 }  // namespace
 
-Containment find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-                      octree::PageReader pages, octree::TreeWork& work) noexcept {
-  if (!model.info().watertight()) return {Side::kUnknown, Status::kExact};
-  if (outside_box(model.tree(), point)) return {Side::kOutside, Status::kExact};
+Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
+                   octree::PageReader pages, octree::TreeWork& work) noexcept {
+  if (!model.info().watertight()) return {};
+  if (outside_box(model.tree(), point)) return {Side::kOutside};
   // Usually the first way tells; another may do without a page that is lost.
   const WaysOut ways(model.tree(), point);
+  const std::uint64_t before = work.nodes + work.blocks;
   for (const WaysOut::Way& way : ways.all()) {
-    const std::uint64_t spent = work.nodes + work.blocks;
+    const std::uint64_t spent = work.nodes + work.blocks - before;
     if (spent >= max_nodes) break;
     const octree::Crossings crossings =
         octree::count_crossings(model.tree(), {point, way.end}, max_nodes - spent, pages, work);
     if (!crossings.complete) continue;
-    if (crossings.on_surface) return {Side::kOnSurface, Status::kExact};
-    return {crossings.difference != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+    const Side off_surface = crossings.difference != 0 ? Side::kInside : Side::kOutside;
+    return {crossings.on_surface ? Side::kOnSurface : off_surface, Status::kExact,
+            crossings.difference};
   }
   return {Side::kUnknown, Status::kDegraded};
 }

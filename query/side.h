@@ -8,14 +8,20 @@
 
 namespace planetree::query {
 
+/// Where a point stands with respect to a model's surface.
+struct Standing {
+  Side side = Side::kUnknown;
+  Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
+  /// Winding number of the point; of a step beside it on the surface.
+  std::int64_t winding = 0;
+};
+
 /// Which side of a model's surface a point is on.
 ///
 /// point      model frame.
 /// max_nodes  most nodes and blocks to visit.
-/// return     kExact with the side of a watertight model, kUnknown of another;
-///            kDegraded with kUnknown where pages are missing or the work is
-///            spent.
-Containment find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
-                      octree::PageReader pages, octree::TreeWork& work) noexcept;
+/// return     kUnknown of a model that is not watertight, and where degraded.
+Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
+                   octree::PageReader pages, octree::TreeWork& work) noexcept;
 
 }  // namespace planetree::query

@@ -1,7 +1,7 @@
 #include "storage/new_file.h"
 
 #include <fcntl.h>
-#include <stdio.h>
+#include <stdio.h>  // NOLINT(modernize-deprecated-headers): for renameat2
 #include <sys/stat.h>
 #include <unistd.h>
 

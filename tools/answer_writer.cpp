@@ -34,8 +34,13 @@ std::array<Named, 6> numbers_before(const Vec3& query, const ClosestPoint& answe
 std::array<Named, 3> numbers_before(const Vec3& query, const Containment&) {
   return {{{"x", query.x}, {"y", query.y}, {"z", query.z}}};
 }
-std::array<Named, 3> numbers_behind(const ClosestPoint& answer) {
-  return {{{"px", answer.point.x}, {"py", answer.point.y}, {"pz", answer.point.z}}};
+std::array<Named, 6> numbers_behind(const ClosestPoint& answer) {
+  return {{{"px", answer.point.x},
+           {"py", answer.point.y},
+           {"pz", answer.point.z},
+           {"nx", answer.normal.x},
+           {"ny", answer.normal.y},
+           {"nz", answer.normal.z}}};
 }
 
 class CsvRow {

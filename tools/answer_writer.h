@@ -27,7 +27,7 @@ class AnswerWriter {
   /// What comes before the first row of answers of this kind. False when output
   /// takes no more.
   bool begin(const ClosestPoint&) {
-    return heading("x,y,z,distance,lower,upper,side,px,py,pz,triangle,feature,status\n");
+    return heading("x,y,z,distance,lower,upper,side,px,py,pz,nx,ny,nz,triangle,feature,status\n");
   }
   bool begin(const Containment&) { return heading("x,y,z,side,status\n"); }
   /// The spans are equally long. False when output takes no more.

@@ -166,8 +166,9 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
           "--format", {"csv", "jsonl", "f64"},
           [options](const std::string& name) { options->format = kFormats.at(name); },
           "csv: a header and a row for each point; jsonl: an object for each point, null for "
-          "what is not a finite number; f64: 11 little-endian float64 for each point (x y z "
-          "distance lower upper side px py pz triangle; side is -1 inside, 0 on the surface, 1 "
+          "what is not a finite number; f64: 14 little-endian float64 for each point (x y z "
+          "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
+          "surface, 1 "
           "outside; NaN is an unknown side and no triangle), with --contains 4 (x y z side)"),
       "csv");
   verb.flag("--json", options->json, "Afterwards report as one JSON object, on standard error");

@@ -26,7 +26,7 @@ class Probe {
   Probe& operator=(Probe&&) noexcept;
   ~Probe();
 
-  /// Nearest surface point to `query`, model units.
+  /// Nearest surface point to `query`, model units; its side and contact normal.
   ///
   /// With the default Ask the answer is exact unless pages are unreadable, and
   /// then it is a function of the file and the query alone: the same bits for

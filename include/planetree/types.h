@@ -44,12 +44,14 @@ inline constexpr std::uint64_t kNoTriangle = std::numeric_limits<std::uint64_t>:
 /// Parts of an answer, for Ask::parts.
 inline constexpr std::uint32_t kDistance = 1;  ///< nearest point, triangle and interval
 inline constexpr std::uint32_t kSide = 2;
-inline constexpr std::uint32_t kAllParts = kDistance | kSide;
+inline constexpr std::uint32_t kNormal = 4;  ///< needs the others and brings them
+inline constexpr std::uint32_t kAllParts = kDistance | kSide | kNormal;
 
 /// What is asked beyond the point itself.
 struct Ask {
-  /// kDistance, kSide or both. What is not asked is not computed, nor are its
-  /// pages read: without kDistance an answer is as if no triangle was reached.
+  /// Of kDistance, kSide and kNormal any. What is not asked is not computed, nor
+  /// are its pages read: without kDistance an answer is as if no triangle was
+  /// reached.
   std::uint32_t parts = kAllParts;
   /// May stop once upper - lower <= max_error. Model units, >= 0; 0 goes on
   /// until the answer is exact.
@@ -67,6 +69,10 @@ struct ClosestPoint {
   double upper = 0;     ///< ... and at most this; lower < upper even when exact
   Side side = Side::kUnknown;
   Vec3 point;  ///< on the surface
+  /// Contact normal, of length 1: the angle-weighted pseudo-normal of the face,
+  /// edge or vertex that is nearest, turned to point out of the solid. As the
+  /// mesh is oriented where the side is unknown; (0, 0, 1) where there is none.
+  Vec3 normal{0, 0, 1};
   /// Counted in the input's order after fan-splitting polygons, triangles set
   /// aside included; kNoTriangle when none was reached. Among equally near
   /// triangles the one of least index.

@@ -30,7 +30,8 @@ void sort_by_axis(std::span<const SplitItem> items, std::size_t axis, Order& ord
 }
 
 float blocks_for(std::size_t triangles) {
-  return static_cast<float>((triangles + kMaxBlockTriangles - 1) / kMaxBlockTriangles);
+  const std::size_t blocks = (triangles + kMaxBlockTriangles - 1) / kMaxBlockTriangles;
+  return static_cast<float>(blocks);
 }
 
 struct Split {

@@ -14,7 +14,7 @@ namespace {
 struct Key {
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;
-  auto operator<=>(const Key&) const = default;
+  auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): of its zeros
 };
 
 // A page before it has its number.

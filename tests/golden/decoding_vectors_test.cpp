@@ -16,7 +16,7 @@ namespace planetree::golden {
 namespace {
 
 SpecTable vectors(std::size_t table) {
-  const SpecTable found = spec_tables("Test vectors").at(table);
+  SpecTable found = spec_tables("Test vectors").at(table);
   EXPECT_GE(found.rows.size(), 4u);
   return found;
 }

@@ -117,7 +117,7 @@ std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {
 }
 
 SpecPage SpecFile::page(std::uint32_t number) const {
-  const SpecPage page = decode_spec_page(raw_page(number), number, header_);
+  SpecPage page = decode_spec_page(raw_page(number), number, header_);
   require(page.octcode == get<std::uint64_t>(entry(number), 16) &&
               page.ordinal == get<std::uint32_t>(entry(number), 24),
           "the page's key");

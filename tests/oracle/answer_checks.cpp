@@ -9,6 +9,7 @@
 
 #include "octree/nearest.h"
 #include "octree/triangle_distance.h"
+#include "tests/oracle/pseudo_normal.h"
 #include "tests/oracle/winding.h"
 #include "tests/query/answer_bits.h"
 
@@ -121,11 +122,42 @@ void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoin
   EXPECT_LE(Wide(answer.upper) - Wide(answer.lower), Wide(farthest) * Wide(0x1p-39) + unresolved);
 }
 
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+// The pseudo-normal of its feature, or the opposite; and out of the solid, where
+// the way from the nearest point to the query can be told from rounding.
+void expect_normal(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
+  const Vec3& normal = answer.normal;
+  EXPECT_NEAR(dot(normal, normal), 1, 1e-15);
+  const ReferenceNormal reference =
+      reference_normal(model.triangles(), answer.triangle, answer.barycentric);
+  if (reference.certainty < 1e-6) return;
+  const double sign = dot(normal, reference.normal) < 0 ? -1 : 1;
+  EXPECT_NEAR(normal.x, sign * reference.normal.x, 1e-6);
+  EXPECT_NEAR(normal.y, sign * reference.normal.y, 1e-6);
+  EXPECT_NEAR(normal.z, sign * reference.normal.z, 1e-6);
+  if (answer.side == Side::kUnknown) {
+    EXPECT_EQ(sign, 1);
+  } else if (answer.side != Side::kOnSurface) {
+    const Vec3 way{query.x - answer.point.x, query.y - answer.point.y, query.z - answer.point.z};
+    const double length = std::sqrt(dot(way, way));
+    const double rounding = 1e-9 * largest_coordinate(model.triangles()[answer.triangle]);
+    if (!(length > rounding && std::isfinite(length))) return;
+    const double height = dot(way, normal) / length;
+    if (answer.side == Side::kOutside) {
+      EXPECT_GT(height, -1e-6);
+    } else {
+      EXPECT_LT(height, 1e-6);
+    }
+  }
+}
+
 void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
   ASSERT_LT(answer.triangle, model.triangles().size());
   const octree::Point point = in_frame(query, model.scale_exponent());
   if (point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) expect_least(model, query, answer);
   expect_on_triangle(model.triangles()[answer.triangle], query, answer);
+  expect_normal(model, query, answer);
 }
 
 // In the model frame, where the smallest of subnormal numbers are rounded away.
@@ -174,7 +206,8 @@ ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) 
       EXPECT_LE(answer.upper - answer.lower, ask.max_error);
       break;
     case Status::kDegraded:
-      EXPECT_LT(ask.max_nodes, model.model().info().nodes + model.model().info().blocks);
+      // Visited for the distance, for each of six ways out and for the normal.
+      EXPECT_LT(ask.max_nodes, 8 * (model.model().info().nodes + model.model().info().blocks));
       break;
     case Status::kBeyondMaxDistance:
       EXPECT_EQ(answer.triangle, kNoTriangle);

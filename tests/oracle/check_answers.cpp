@@ -40,19 +40,19 @@ struct Answer {
   std::uint64_t triangle;
 };
 
-// x,y,z,distance,lower,upper,side,px,py,pz,triangle,...
+// x,y,z,distance,lower,upper,side,px,py,pz,nx,ny,nz,triangle,...
 Answer parse(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream stream(line);
   for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  if (fields.size() < 11) return {};
+  if (fields.size() < 14) return {};
   const auto number = [&](std::size_t i) { return std::strtod(fields[i].c_str(), nullptr); };
   return {{number(0), number(1), number(2)},
           number(3),
           number(4),
           number(5),
           fields[6],
-          std::strtoull(fields[10].c_str(), nullptr, 10)};
+          std::strtoull(fields[13].c_str(), nullptr, 10)};
 }
 
 double gap(double a, double b, double c, double at) {

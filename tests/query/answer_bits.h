@@ -9,8 +9,8 @@
 namespace planetree {
 
 /// Everything an answer says, in bits: distance, lower, upper, point, triangle,
-/// barycentric, feature, side, status.
-using AnswerBits = std::array<std::uint64_t, 13>;
+/// normal, barycentric, feature, side, status.
+using AnswerBits = std::array<std::uint64_t, 16>;
 
 inline AnswerBits bits_of(const ClosestPoint& answer) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
@@ -20,6 +20,9 @@ inline AnswerBits bits_of(const ClosestPoint& answer) {
           bits(answer.point.x),
           bits(answer.point.y),
           bits(answer.point.z),
+          bits(answer.normal.x),
+          bits(answer.normal.y),
+          bits(answer.normal.z),
           answer.triangle,
           bits(answer.barycentric.x),
           bits(answer.barycentric.y),

@@ -112,7 +112,12 @@ TEST_F(Contains, LeavesOutWhatIsNotAsked) {
   ClosestPoint distance = probe.closest_point(query, {.parts = kDistance});
   EXPECT_EQ(distance.side, Side::kUnknown);
   distance.side = Side::kInside;
-  EXPECT_EQ(bits_of(distance), bits_of(probe.closest_point(query)));
+  const ClosestPoint both = probe.closest_point(query, {.parts = kDistance | kSide});
+  EXPECT_EQ(bits_of(distance), bits_of(both));
+  ClosestPoint all = probe.closest_point(query);
+  EXPECT_GT(all.normal.x * query.x + all.normal.y * query.y + all.normal.z * query.z, 0.5);
+  all.normal = {0, 0, 1};
+  EXPECT_EQ(bits_of(all), bits_of(both));
   EXPECT_EQ(probe.closest_point(query, {.parts = 1u << 31}).status, Status::kBadQuery);
 }
 

@@ -164,11 +164,11 @@ TEST_F(Command, QueryAnswersInTheOrderOfTheInput) {
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto lines = lines_of(result.output);
   ASSERT_EQ(lines.size(), 5u);
-  EXPECT_EQ(lines[0], "x,y,z,distance,lower,upper,side,px,py,pz,triangle,feature,status");
+  EXPECT_EQ(lines[0], "x,y,z,distance,lower,upper,side,px,py,pz,nx,ny,nz,triangle,feature,status");
   EXPECT_EQ(lines[1].substr(0, 6), "0,0,3,");
-  EXPECT_EQ(lines[2], "nan,0,0,inf,0,inf,unknown,0,0,0,,face,bad_query");
+  EXPECT_EQ(lines[2], "nan,0,0,inf,0,inf,unknown,0,0,0,0,0,1,,face,bad_query");
   EXPECT_TRUE(lines[3].starts_with("0,0,1e+308,")) << lines[3];
-  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 12);
+  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 15);
   EXPECT_TRUE(lines[4].ends_with(",exact"));
 }
 
@@ -183,7 +183,8 @@ TEST_F(Command, QueryAnswersWhatComesBeforeABadLine) {
 
 TEST_F(Command, QueryObeysItsLimits) {
   const Outcome far = run({"query", "tree.ptree", "--max-distance", "2"}, "4,4,9\n");
-  EXPECT_EQ(lines_of(far.output).back(), "4,4,9,inf,2,inf,unknown,0,0,0,,face,beyond_max_distance");
+  EXPECT_EQ(lines_of(far.output).back(),
+            "4,4,9,inf,2,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance");
   const Outcome coarse = run({"query", "tree.ptree", "--max-error", "100"}, "4,4,9\n");
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
 }

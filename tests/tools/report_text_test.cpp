@@ -27,6 +27,7 @@ ClosestPoint sample_answer() {
   answer.upper = 1.0 / 3;
   answer.side = Side::kInside;
   answer.point = {-0.0, 1e-5, 2};
+  answer.normal = {0, -1, 0};
   answer.triangle = 12345678901234;
   answer.feature = Feature::kEdge;
   answer.status = Status::kExact;
@@ -43,9 +44,10 @@ std::string written(AnswerFormat format, const Answer& answer) {
 }
 
 TEST(AnswerWriter, WritesSeventeenDigits) {
-  EXPECT_EQ(written(AnswerFormat::kCsv, sample_answer()),
-            "1,nan,0.10000000000000001,0.10000000000000001,0.089999999999999997,"
-            "0.33333333333333331,inside,-0,1.0000000000000001e-05,2,12345678901234,edge,exact\n");
+  EXPECT_EQ(
+      written(AnswerFormat::kCsv, sample_answer()),
+      "1,nan,0.10000000000000001,0.10000000000000001,0.089999999999999997,"
+      "0.33333333333333331,inside,-0,1.0000000000000001e-05,2,0,-1,0,12345678901234,edge,exact\n");
 }
 
 TEST(AnswerWriter, LeavesAMissingTriangleEmpty) {
@@ -53,7 +55,7 @@ TEST(AnswerWriter, LeavesAMissingTriangleEmpty) {
   answer.distance = answer.upper = std::numeric_limits<double>::infinity();
   answer.status = Status::kBeyondMaxDistance;
   EXPECT_EQ(written(AnswerFormat::kCsv, answer),
-            "1,nan,0.10000000000000001,inf,0,inf,unknown,0,0,0,,face,beyond_max_distance\n");
+            "1,nan,0.10000000000000001,inf,0,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance\n");
   const auto json = nlohmann::json::parse(written(AnswerFormat::kJsonLines, answer));
   EXPECT_EQ(json["triangle"], nullptr);
   EXPECT_EQ(json["distance"], nullptr);
@@ -75,12 +77,12 @@ TEST(AnswerWriter, WritesTheSideAlone) {
 
 TEST(AnswerWriter, WritesRawNumbers) {
   const std::string bytes = written(AnswerFormat::kF64, sample_answer());
-  ASSERT_EQ(bytes.size(), 88u);
-  double numbers[11];
+  ASSERT_EQ(bytes.size(), 112u);
+  double numbers[14];
   std::memcpy(numbers, bytes.data(), sizeof numbers);
   EXPECT_EQ(numbers[3], 0.1);
   EXPECT_EQ(numbers[6], -1.0);
-  EXPECT_EQ(numbers[10], 12345678901234.0);
+  EXPECT_EQ(numbers[13], 12345678901234.0);
 }
 
 TEST(AnswerWriter, HasAWordForEverything) {

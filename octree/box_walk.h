@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "octree/block_view.h"
+#include "octree/bounds.h"
+#include "octree/child_bounds.h"
+#include "octree/tree_view.h"
+
+namespace planetree::octree {
+
+/// Visits every block whose box meets a box, in an order that depends on the
+/// tree alone. No allocation, no lock.
+class BoxWalk {
+ public:
+  /// lower, upper  model frame.
+  BoxWalk(const TreeFacts& tree, const Point& lower, const Point& upper, PageReader pages,
+          TreeWork& work)
+      : tree_(tree),
+        box_(rounded_outward(lower, upper, tree.centre)),
+        work_(work),
+        records_(tree, pages) {}
+
+  /// Calls visit(BlockView). False where pages are missing or there was more
+  /// than `max_nodes` nodes and blocks to visit: some blocks were not.
+  template <class Visit>
+  bool run(std::uint64_t max_nodes, const Visit& visit) {
+    // An honest tree cannot be visited longer than it is; a forged one could.
+    std::uint64_t left = std::min(max_nodes, tree_.record_count);
+    bool complete = true;
+    for (push(tree_.root_link); size_ > 0; --left) {
+      if (left == 0) return false;
+      const std::uint32_t link = links_[--size_];
+      const std::byte* record = records_.find(link, work_);
+      if (!record) {
+        complete = false;
+      } else if (LinkFormat::is_leaf(link)) {
+        ++work_.blocks;
+        visit(BlockView(record, tree_.shape));
+      } else {
+        ++work_.nodes;
+        complete = push_children(*reinterpret_cast<const Node*>(record)) && complete;
+      }
+    }
+    return complete;
+  }
+
+ private:
+  /// A box as child boxes are stored: in float, relative to the centre.
+  static FloatBox rounded_outward(const Point& lower, const Point& upper, const Point& centre) {
+    FloatBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<Eigen::Index>(axis);
+      const double least = lower[at] - centre[at], greatest = upper[at] - centre[at];
+      const double slack =
+          0x1p-23 * std::max(std::fabs(least), std::fabs(greatest)) + kAbsoluteSlack;
+      box.lower[axis] = static_cast<float>(least - slack);
+      box.upper[axis] = static_cast<float>(greatest + slack);
+    }
+    return box;
+  }
+
+  void push(std::uint32_t link) { links_[size_++] = link; }
+
+  // A tree deeper than its header may say is forged.
+  bool push_children(const Node& node) {
+    if (size_ + kFanOut > links_.size()) return false;
+    for (unsigned child = 0; child < node.child_count; ++child)
+      if (meets(node, child)) push(node.link[child]);
+    return true;
+  }
+
+  bool meets(const Node& node, unsigned child) const {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (node.lower[axis][child] > box_.upper[axis] || node.upper[axis][child] < box_.lower[axis])
+        return false;
+    return true;
+  }
+
+  const TreeFacts& tree_;
+  const FloatBox box_;
+  TreeWork& work_;
+  RecordFinder records_;
+  std::size_t size_ = 0;
+  std::array<std::uint32_t, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,121 @@
+#include "octree/feature_normal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include "octree/angle.h"
+#include "octree/box_walk.h"
+#include "octree/predicates.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+
+/// Thinner faces, by the square of their angle's sine, are evaluated with 113
+/// bits: they lose half of a double's.
+constexpr double kThinSine2 = 0x1p-48;
+/// Edges this short have squares that underflow.
+constexpr double kShortEdge = 0x1p-200;
+/// Sums below this share of their terms are rounding.
+constexpr double kNoSum = 0x1p-40;
+
+Point thin_normal(const Triangle& triangle) {
+  const auto edge = [&](std::size_t corner) {
+    std::array<Quad, 3> result;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      result[axis] = Quad(triangle[corner][axis]) - Quad(triangle[0][axis]);
+    return result;
+  };
+  const std::array<Quad, 3> u = edge(1), v = edge(2);
+  const std::array<Quad, 3> normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                   u[0] * v[1] - u[1] * v[0]};
+  using boost::multiprecision::abs;
+  const Quad largest = std::max({Quad(abs(normal[0])), Quad(abs(normal[1])), Quad(abs(normal[2]))});
+  if (largest == 0) return Point::Zero();
+  const Point shorter(static_cast<double>(normal[0] / largest),
+                      static_cast<double>(normal[1] / largest),
+                      static_cast<double>(normal[2] / largest));
+  return shorter / shorter.norm();
+}
+
+/// Sums the faces around an edge or a vertex.
+class Fan {
+ public:
+  Fan(const Point& vertex, const Point* other) : vertex_(vertex), other_(other) {}
+
+  void add(const Triangle& triangle, std::uint64_t index) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (triangle[corner] != vertex_) continue;
+      const Point& next = triangle[(corner + 1) % 3];
+      const Point& last = triangle[(corner + 2) % 3];
+      if (other_ && next != *other_ && last != *other_) continue;
+      const auto normal = face_normal(triangle);
+      if (!normal) continue;
+      const double weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
+      sum_ += weight * *normal;
+      weights_ += weight;
+      if (index < first_index_) {
+        first_index_ = index;
+        first_ = *normal;
+      }
+    }
+  }
+
+  Point normal() const {
+    const double length = sum_.norm();
+    return length > kNoSum * weights_ ? Point(sum_ / length) : first_;
+  }
+
+ private:
+  const Point& vertex_;
+  const Point* other_;  ///< the edge's other end; null for a vertex
+  Point sum_ = Point::Zero();
+  double weights_ = 0;
+  Point first_ = Point::Zero();
+  std::uint64_t first_index_ = kNoTriangle;
+};
+
+}  // namespace
+
+std::optional<Point> face_normal(const Triangle& triangle) noexcept {
+  const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const Point normal = u.cross(v);
+  const double normal2 = normal.squaredNorm();
+  const bool short_edge = std::min(u.squaredNorm(), v.squaredNorm()) < kShortEdge * kShortEdge;
+  if (!short_edge && normal2 > kThinSine2 * u.squaredNorm() * v.squaredNorm())
+    return Point(normal / std::sqrt(normal2));
+  bool flat = true;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    flat = flat && normal_sign(triangle[0], triangle[1], triangle[2], axis) == 0;
+  if (flat) return std::nullopt;
+  return thin_normal(triangle);
+}
+
+FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest,
+                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+  FeatureNormal found;
+  if (nearest.feature == Feature::kFace) {
+    found.normal = face_normal(nearest.corners).value_or(Point::Zero());
+    return found;
+  }
+  // The corners that the nearest point is made of: one, or two.
+  const Point* ends[3] = {};
+  std::size_t count = 0;
+  for (std::size_t corner = 0; corner < 3; ++corner)
+    if (nearest.barycentric[corner] > 0) ends[count++] = &nearest.corners[corner];
+  Fan fan(*ends[0], nearest.feature == Feature::kEdge ? ends[1] : nullptr);
+  BoxWalk walk(tree, *ends[0], *ends[0], pages, work);
+  found.complete = walk.run(max_nodes, [&](const BlockView& block) {
+    for (unsigned i = 0; i < block.triangle_count(); ++i) fan.add(block.triangle(i), block.id(i));
+  });
+  found.normal = fan.normal();
+  return found;
+}
+
+}  // namespace planetree::octree

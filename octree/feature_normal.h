@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "octree/nearest.h"
+#include "octree/tree_view.h"
+
+namespace planetree::octree {
+
+/// The unit normal of a triangle, (b - a) x (c - a), right within 1e-7 rad
+/// however thin it is; nothing if it has no area.
+std::optional<Point> face_normal(const Triangle& triangle) noexcept;
+
+/// A pseudo-normal, as the mesh is oriented.
+struct FeatureNormal {
+  /// Of length 1; zero where no face at the feature has an area.
+  Point normal = Point::Zero();
+  bool complete = true;  ///< false: pages missing or `max_nodes` spent; of what was found
+};
+
+/// The normal at a nearest point: that of the face, the sum over the faces of
+/// an edge, or the sum over the faces of a vertex weighted by their angles
+/// there. Faces share an edge or a vertex where its ends are equal. Where the
+/// sum is zero, to rounding, it is that of the first face that has an area.
+///
+/// nearest    an answer that names a triangle.
+/// max_nodes  most nodes and blocks to visit.
+/// threads    any; no allocation, no lock, no exception of its own.
+/// source     Baerentzen & Aanaes 2005, "Signed distance computation using the
+///            angle weighted pseudonormal".
+FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest,
+                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+
+}  // namespace planetree::octree

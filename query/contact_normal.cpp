@@ -1,0 +1,63 @@
+#include "query/contact_normal.h"
+
+#include <cmath>
+
+#include "octree/feature_normal.h"
+#include "octree/predicates.h"
+#include "octree/strict_math.h"
+
+namespace planetree::query {
+namespace {
+
+using octree::Point;
+
+/// Nearer than this share of its own rounding to a nearest point, the way from
+/// there to the query says nothing. Lengths of the frame are about 1.
+constexpr double kNoWay = 0x1p-36;
+
+/// Side of the nearest triangle's plane that the query is on, or a step beside
+/// it if it is on the plane (see octree/predicates.h).
+int plane_side(const octree::NearestAnswer& nearest, const Point& query) {
+  const auto& [a, b, c] = nearest.corners;
+  int side = octree::orientation(a, b, c, query);
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = octree::normal_sign(a, b, c, axis);
+  return side;
+}
+
+/// Whether the normal points to where the query is, or a step beside it: 1 or
+/// -1, or 0 where that cannot be told from rounding.
+int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
+                  const Point& normal) {
+  if (nearest.feature == Feature::kFace) return plane_side(nearest, query);
+  if (side == Side::kOnSurface || nearest.distance < kNoWay) return 0;
+  const double along = (query - nearest.point).dot(normal);
+  return along > 0 ? 1 : along < 0 ? -1 : 0;
+}
+
+/// Whether the normal points into the solid: away from a query that is outside,
+/// to one that is inside. Where that cannot be told, the winding number says
+/// which way round the faces are.
+bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
+                   const Standing& standing, const Point& normal) {
+  if (standing.side == Side::kUnknown) return false;
+  const int towards = towards_query(query, nearest, standing.side, normal);
+  if (towards == 0) return standing.winding < 0;
+  return (towards > 0) == (standing.winding != 0);
+}
+
+}  // namespace
+
+ContactNormal contact_normal(const octree::TreeFacts& tree, const Point& query,
+                             const octree::NearestAnswer& nearest, const Standing& standing,
+                             std::uint64_t max_nodes, octree::PageReader pages,
+                             octree::TreeWork& work) noexcept {
+  const octree::FeatureNormal found = octree::feature_normal(tree, nearest, max_nodes, pages, work);
+  ContactNormal contact;
+  contact.complete = found.complete;
+  if (found.normal.squaredNorm() > 0)
+    contact.normal =
+        points_inward(query, nearest, standing, found.normal) ? Point(-found.normal) : found.normal;
+  return contact;
+}
+
+}  // namespace planetree::query
