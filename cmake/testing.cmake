@@ -1,8 +1,9 @@
-# planetree_add_tests(LABEL [GEOMETRY] [EXCEPT files...] [DEPENDS targets...])
+# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [EXCEPT files...] [DEPENDS targets...])
 #
 # One program of the sources in the current folder; each test in it is a test
 # of ctest with this label. Nothing happens in a folder without a *_test.cpp.
-# GEOMETRY: the tests compute much, with the headers that this takes.
+# GEOMETRY: the tests compute much, with the headers that this takes. TOGETHER:
+# compile several files at once; their names without a namespace must differ.
 find_package(GTest REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
 include(GoogleTest)
@@ -27,7 +28,7 @@ planetree_share_headers(geometry_test_headers
   HEADERS <Eigen/Core> <boost/multiprecision/cpp_bin_float.hpp> <boost/multiprecision/cpp_int.hpp>)
 
 function(planetree_add_tests label)
-  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY" "" "EXCEPT;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY;TOGETHER" "" "EXCEPT;DEPENDS")
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
   if(NOT tests)
     return()
@@ -49,6 +50,8 @@ function(planetree_add_tests label)
   get_target_property(options ${headers} COMPILE_OPTIONS)
   target_compile_options(${program} PRIVATE ${options})
   target_precompile_headers(${program} REUSE_FROM ${headers})
+  set_target_properties(${program}
+    PROPERTIES UNITY_BUILD ${test_TOGETHER} UNITY_BUILD_BATCH_SIZE 6)
   set(properties LABELS ${label} TIMEOUT 120)
   if(PLANETREE_DATA)
     list(APPEND properties ENVIRONMENT PLANETREE_DATA=${PLANETREE_DATA})

@@ -33,10 +33,11 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  // A clearance is wanted to a thousandth of the path, not to the last bit.
+  // A clearance is a distance, wanted to a thousandth of the path and not to the last bit.
   const planetree::Vec3 from = model->info().box_lower;
   const planetree::Vec3 to = model->info().box_upper;
   planetree::Ask ask;
+  ask.parts = planetree::kDistance;
   ask.max_error = 1e-3 * (to.x - from.x);
 
   planetree::ClosestPoint tightest;

@@ -49,6 +49,9 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
 
 bool lies_on(const Point& point, const Triangle& triangle) noexcept {
   const auto& [a, b, c] = triangle;
+  if ((point.array() < a.cwiseMin(b).cwiseMin(c).array()).any() ||
+      (point.array() > a.cwiseMax(b).cwiseMax(c).array()).any())
+    return false;
   if (orientation(a, b, c, point) != 0) return false;
   // In its plane the point is on the triangle where, seen along any axis, it is
   // not on different sides of two edges. A triangle without area is the part of
@@ -59,8 +62,7 @@ bool lies_on(const Point& point, const Triangle& triangle) noexcept {
     const auto [least, greatest] = std::minmax_element(std::begin(sides), std::end(sides));
     if (*least < 0 && *greatest > 0) return false;
   }
-  return (point.array() >= a.cwiseMin(b).cwiseMin(c).array()).all() &&
-         (point.array() <= a.cwiseMax(b).cwiseMax(c).array()).all();
+  return true;
 }
 
 namespace {

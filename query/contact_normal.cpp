@@ -1,6 +1,6 @@
 #include "query/contact_normal.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "octree/feature_normal.h"
 #include "octree/predicates.h"
@@ -11,9 +11,15 @@ namespace {
 
 using octree::Point;
 
-/// Nearer than this share of its own rounding to a nearest point, the way from
-/// there to the query says nothing. Lengths of the frame are about 1.
+/// Nearer than this share of coordinates to a nearest point, which is rounded,
+/// the way from there to the query says nothing.
 constexpr double kNoWay = 0x1p-36;
+
+double largest_coordinate(const octree::Triangle& triangle) {
+  double largest = 0;
+  for (const Point& corner : triangle) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+  return largest;
+}
 
 /// Side of the nearest triangle's plane that the query is on, or a step beside
 /// it if it is on the plane (see octree/predicates.h).
@@ -29,7 +35,8 @@ int plane_side(const octree::NearestAnswer& nearest, const Point& query) {
 int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
                   const Point& normal) {
   if (nearest.feature == Feature::kFace) return plane_side(nearest, query);
-  if (side == Side::kOnSurface || nearest.distance < kNoWay) return 0;
+  if (side == Side::kOnSurface || nearest.distance < kNoWay * largest_coordinate(nearest.corners))
+    return 0;
   const double along = (query - nearest.point).dot(normal);
   return along > 0 ? 1 : along < 0 ? -1 : 0;
 }

@@ -21,8 +21,6 @@ class WaysOut {
       add(from, axis, tree.box_lower[axis], -1);
       add(from, axis, tree.box_upper[axis], 1);
     }
-    std::stable_sort(ways_.begin(), ways_.end(),
-                     [](const Way& a, const Way& b) { return a.length < b.length; });
   }
 
   struct Way {
@@ -33,13 +31,15 @@ class WaysOut {
 
  private:
   void add(const Point& from, Eigen::Index axis, double side, double direction) {
-    Way& way = ways_[count_++];
-    way.length = std::fabs(side - from[axis]);
-    way.end = from;
+    Way way{std::fabs(side - from[axis]), from};
     // A side far from the origin may absorb the step of 1.
     const double infinity = std::numeric_limits<double>::infinity();
     const double beyond = std::nextafter(side, direction * infinity);
     way.end[axis] = direction < 0 ? std::min(side - 1, beyond) : std::max(side + 1, beyond);
+    // Behind those that are as short.
+    std::size_t at = count_++;
+    for (; at > 0 && way.length < ways_[at - 1].length; --at) ways_[at] = ways_[at - 1];
+    ways_[at] = way;
   }
 
   std::size_t count_ = 0;

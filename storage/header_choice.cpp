@@ -74,11 +74,11 @@ Error explain(std::span<const std::byte> leading, std::uint64_t actual_bytes) no
   }
   std::uint16_t version;
   std::memcpy(&version, leading.data() + offsetof(FileHeader, version), sizeof version);
-  if (version > kFormatVersion) {
-    // A later version may hash its header otherwise, so its own word has to do.
+  if (version != kFormatVersion) {
+    // Another version may have another header, so its own word has to do.
     return make_error(ErrorCode::kUnsupported, Error::kNowhere, offsetof(FileHeader, version),
-                      "the file has format version %d and this program reads version %d; update "
-                      "planetree or build the file again",
+                      "the file has format version %d and this program reads version %d; use a "
+                      "planetree of that version or build the file again",
                       version, kFormatVersion);
   }
   return make_error(ErrorCode::kDamaged, Error::kNowhere, 0,

@@ -98,6 +98,8 @@ std::string json_report(const BuildArguments& arguments, const storage::FileHead
       {"set_aside", model.set_aside_count},
       {"first_set_aside", nullptr},
       {"vertices", model.vertex_count},
+      {"watertight", model.open_edge_count == 0},
+      {"open_edges", model.open_edge_count},
       {"levels", model.height},
       {"nodes", model.node_count},
       {"blocks", model.block_count},
@@ -118,10 +120,13 @@ std::string json_report(const BuildArguments& arguments, const storage::FileHead
 std::string plain_report(const BuildArguments& arguments, const storage::FileHeader& header,
                          double seconds) {
   const storage::ModelRecord& model = header.model;
+  const std::string surface = model.open_edge_count == 0
+                                  ? "watertight"
+                                  : grouped_count(model.open_edge_count) + " open edges";
   return fmt::format(
-      "{}: {} triangles, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
+      "{}: {} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
       "({} triangles/s), {} of memory\n",
-      arguments.output.string(), grouped_count(model.triangle_count),
+      arguments.output.string(), grouped_count(model.triangle_count), surface,
       short_bytes(header.file_bytes), grouped_count(header.page_count), bytes_per_triangle(header),
       seconds, short_count(static_cast<double>(model.triangle_count) / seconds),
       short_bytes(peak_resident_bytes()));

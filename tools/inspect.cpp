@@ -166,7 +166,7 @@ int show_slice(const InspectArguments& arguments, Console& console) {
   std::uint64_t drawn = 0;
   const auto slice =
       draw_slice(*model, *probe, *arguments.slice, [&](std::uint64_t done, std::uint64_t total) {
-        if (drawn == 0) progress.start("drawing", total, "pixels");
+        if (done == 0) progress.start("drawing", total, "pixels");
         progress.add(done - drawn);
         drawn = done;
       });

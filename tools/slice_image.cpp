@@ -107,12 +107,14 @@ class Raster {
 
 std::vector<double> distances(const Raster& raster, Probe& probe, const SliceProgress& progress) {
   Ask ask;
+  ask.parts = kDistance;
   ask.max_error = raster.pixel() * kErrorPixels;
   const std::size_t total = std::size_t{raster.width()} * raster.height();
   std::vector<double> found;
   found.reserve(total);
   // A band of rows at a time, as high as lets the probe order them well.
   constexpr std::uint32_t kRows = 64;
+  if (progress) progress(0, total);
   std::vector<Vec3> points;
   std::vector<ClosestPoint> answers;
   for (std::uint32_t first = 0; first < raster.height(); first += kRows) {

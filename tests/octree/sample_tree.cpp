@@ -44,7 +44,8 @@ Soup sphere(unsigned levels) {
   Soup soup;
   for (unsigned octant = 0; octant < 8; ++octant) {
     const double x = octant & 1 ? -1 : 1, y = octant & 2 ? -1 : 1, z = octant & 4 ? -1 : 1;
-    divide({Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}}, levels, soup);
+    const Vec3 a{x, 0, 0}, b{0, y, 0}, c{0, 0, z};
+    divide(x * y * z > 0 ? std::array{a, b, c} : std::array{a, c, b}, levels, soup);
   }
   return soup;
 }

@@ -40,7 +40,7 @@ class Noise {
 };
 
 /// An octahedron, each face divided into 4^`levels`, drawn to the unit sphere;
-/// float32 coordinates.
+/// float32 coordinates; watertight.
 Soup sphere(unsigned levels);
 /// 2 `side`^2 triangles of a wavy sheet; float32 coordinates.
 Soup sheet(unsigned side);

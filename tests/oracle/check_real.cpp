@@ -20,6 +20,7 @@
 #include "planetree/planetree.h"
 #include "tests/oracle/brute_force.h"
 #include "tests/oracle/cgal_oracle.h"
+#include "tests/oracle/cgal_side.h"
 #include "tests/oracle/paged_answers.h"
 #include "tests/oracle/random.h"
 #include "tests/storage/temporary_directory.h"
@@ -83,13 +84,33 @@ std::vector<Vec3> make_queries(const ModelInfo& info, const std::vector<Corners>
   return queries;
 }
 
+// Ways straight through the model, a twentieth of a percent of its diagonal a step.
+std::vector<Vec3> make_path(const ModelInfo& info, const std::vector<Corners>& triangles) {
+  Random random(20240602);
+  const double step = 0.0005 * diagonal_of(info);
+  std::vector<Vec3> path;
+  while (path.size() < kQueriesPerKind) {
+    const Vec3 from = triangles[random.below(triangles.size())][0];
+    const Vec3 to = triangles[random.below(triangles.size())][0];
+    const double length = std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
+    if (!(length > 0)) continue;
+    for (double along = -5 * step; along < length + 5 * step; along += step) {
+      const double t = along / length;
+      path.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
+                      from.z + t * (to.z - from.z)});
+    }
+  }
+  path.resize(kQueriesPerKind);
+  return path;
+}
+
 // Counts of what went wrong on one mesh.
 struct Misses {
-  std::size_t status = 0, distance = 0, interval = 0, triangle = 0, tie = 0, paging = 0;
+  std::size_t status = 0, distance = 0, interval = 0, triangle = 0, tie = 0, side = 0, paging = 0;
   double worst_share = 0;  // of kAllowedShare
 
   [[nodiscard]] std::size_t all() const {
-    return status + distance + interval + triangle + tie + paging;
+    return status + distance + interval + triangle + tie + side + paging;
   }
 };
 
@@ -114,6 +135,21 @@ class MeshCheck {
     for (std::size_t i = 0; i < kTieChecks; ++i) judge_tie(i * (queries_.size() / kTieChecks));
   }
 
+  // Sides of a watertight mesh, on a path besides. What CGAL does not take for a
+  // closed mesh it cannot tell of.
+  void run_sides() {
+    if (!info_.watertight()) return;
+    const CgalSide oracle(triangles_);
+    if (!oracle.usable()) return;
+    std::vector<Vec3> queries = make_path(info_, triangles_);
+    const std::vector<ClosestPoint> on_path = answers_of(tree_, kLargeBudgetBytes, queries);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      misses_.side += oracle.side(queries[i]) != on_path[i].side;
+    for (std::size_t i = 0; i < queries_.size(); ++i)
+      misses_.side += oracle.side(queries_[i]) != answers_[i].side;
+    sides_ = queries.size() + queries_.size();
+  }
+
   // The same bits with hardly any memory, and no more memory than that.
   void run_paged() {
     const PagedAnswers paged = ask_in_new_process(tree_, tree_.parent_path(), queries_);
@@ -124,10 +160,11 @@ class MeshCheck {
   }
 
   void print() const {
-    std::printf("%-28s %9zu %6zu %8zu %7zu %8zu %9zu %9zu %5zu %7zu %9.2g %9.1f\n",
-                mesh_.stem().c_str(), triangles_.size(), thin_, queries_.size(), misses_.status,
-                misses_.distance, misses_.interval, misses_.triangle, misses_.tie, misses_.paging,
-                misses_.worst_share, static_cast<double>(resident_bytes_) / (1 << 20));
+    std::printf("%-28s %9zu %6zu %8zu %6zu %7zu %8zu %9zu %9zu %5zu %5zu %7zu %9.2g %9.1f\n",
+                mesh_.stem().c_str(), triangles_.size(), thin_, queries_.size(), sides_,
+                misses_.status, misses_.distance, misses_.interval, misses_.triangle, misses_.tie,
+                misses_.side, misses_.paging, misses_.worst_share,
+                static_cast<double>(resident_bytes_) / (1 << 20));
     std::fflush(stdout);
   }
   [[nodiscard]] const Misses& misses() const { return misses_; }
@@ -178,6 +215,7 @@ class MeshCheck {
   std::vector<Vec3> queries_;
   std::vector<ClosestPoint> answers_;
   std::size_t thin_ = 0;
+  std::size_t sides_ = 0;  // compared
   std::uint64_t resident_bytes_ = 0;
   Misses misses_;
 };
@@ -198,6 +236,7 @@ bool check_mesh(const std::vector<fs::path>& folders, std::string_view name) {
   }
   MeshCheck check(path);
   check.run();
+  check.run_sides();
   if (name == kPagedMesh) check.run_paged();
   check.print();
   return check.misses().all() == 0;
@@ -218,8 +257,9 @@ int run(int count, char** arguments) {
   }
   folders.push_back(fs::temp_directory_path() / "planetree-data");
   if (names.empty()) names.assign(std::begin(kMeshes), std::end(kMeshes));
-  std::printf("%-28s %9s %6s %8s | misses: %s\n", "mesh", "triangles", "thin", "queries",
-              "status distance interval triangle ties paging; error/allowed, MiB at 32 MiB");
+  std::printf("%-28s %9s %6s %8s %6s | misses: %s\n", "mesh", "triangles", "thin", "queries",
+              "sides",
+              "status distance interval triangle ties sides paging; error/allowed, MiB at 32 MiB");
   bool good = true;
   for (const std::string_view name : names) good &= check_mesh(folders, name);
   std::printf(good ? "all answers are right\n" : "some answers are wrong\n");

@@ -74,14 +74,14 @@ TEST(StabilityStructure, MillionCoincidentTriangles) {
   EXPECT_LE(info.levels, 20U);
   ClosestPoint answer;
   for (const Vec3& query : {Vec3{0, 0, 0}, Vec3{0.5, 0.5, 0.5}, Vec3{9, 9, 9}}) {
-    answer = model.ask(query);
+    answer = model.ask(query, {.parts = kDistance});
     EXPECT_EQ(answer.triangle, 0U);
     EXPECT_EQ(answer.status, Status::kExact);
     const Wide truth = exact_distance(query, std::span(&triangle, 1));
     EXPECT_LE(Wide(answer.lower), truth);
     EXPECT_LE(truth, Wide(answer.upper));
   }
-  expect_same_bits(answer, model.ask({9, 9, 9}));
+  expect_same_bits(answer, model.ask({9, 9, 9}, {.parts = kDistance}));
   const Stats stats = model.model().stats();
   EXPECT_LE(stats.page_misses, 2 * info.pages);
 }

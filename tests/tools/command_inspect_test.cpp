@@ -42,6 +42,26 @@ TEST_F(Command, InspectSaysWhatIsThere) {
   EXPECT_EQ(report["by_page"].size(), report["pages"]);
 }
 
+TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
+  const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
+  EXPECT_EQ(open["watertight"], false);
+  EXPECT_EQ(open["sign_rule"], "none");
+  EXPECT_EQ(open["open_edges"], 4 * kSide);
+  ASSERT_EQ(open["first_open_edges"].size(), 3u);
+  EXPECT_EQ(open["first_open_edges"][0]["triangle"], 0);
+  EXPECT_EQ(open["first_open_edges"][0]["along"], 1);
+  EXPECT_EQ(open["first_open_edges"][0]["against"], 0);
+  const std::string text = run({"inspect", "tree.ptree"}).output;
+  EXPECT_NE(text.find("not watertight"), std::string::npos) << text;
+  EXPECT_NE(text.find("in triangle 0: 1 faces that way, 0 the other"), std::string::npos) << text;
+  write("solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  build_sample("solid.obj", "solid.ptree");
+  const Json closed = Json::parse(run({"inspect", "solid.ptree", "--json"}).output);
+  EXPECT_EQ(closed["watertight"], true);
+  EXPECT_EQ(closed["sign_rule"], "crossings");
+  EXPECT_EQ(closed["first_open_edges"], Json::array());
+}
+
 TEST_F(Command, InspectGoesOnInADamagedFile) {
   flip("tree.ptree", entries_[2].offset);
   const Outcome plain = run({"inspect", "tree.ptree", "--pages"});

@@ -133,6 +133,8 @@ TEST_F(Command, BuildsAndReports) {
   const Json report = Json::parse(result.output);
   EXPECT_EQ(report["triangles"], kTriangles);
   EXPECT_EQ(report["set_aside"], 0);
+  EXPECT_EQ(report["watertight"], false);
+  EXPECT_EQ(report["open_edges"], 4 * kSide);
   EXPECT_EQ(report["first_set_aside"], nullptr);
   EXPECT_EQ(report["file_bytes"], fs::file_size("new.ptree"));
   EXPECT_EQ(report["page_bytes"], 4096);
@@ -187,6 +189,22 @@ TEST_F(Command, QueryObeysItsLimits) {
             "4,4,9,inf,2,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance");
   const Outcome coarse = run({"query", "tree.ptree", "--max-error", "100"}, "4,4,9\n");
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
+}
+
+TEST_F(Command, QueryTellsTheSideAlone) {
+  write("solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  build_sample("solid.obj", "solid.ptree");
+  const Outcome result = run({"query", "solid.ptree", "--contains", "--json"},
+                             "0.25,0.25,0.25\n1,1,1\n0,0,0\nnan,0,0\n");
+  EXPECT_EQ(lines_of(result.output),
+            (std::vector<std::string>{"x,y,z,side,status", "0.25,0.25,0.25,inside,exact",
+                                      "1,1,1,outside,exact", "0,0,0,on_surface,exact",
+                                      "nan,0,0,unknown,bad_query"}));
+  EXPECT_EQ(Json::parse(result.errors)["sides"]["inside"], 1);
+  const Outcome whole = run({"query", "solid.ptree"}, "2,0.25,0.25\n");
+  EXPECT_NE(lines_of(whole.output).back().find(",outside,"), std::string::npos);
+  EXPECT_TRUE(run({"query", "tree.ptree", "--contains"}, "1,1,1\n")
+                  .output.ends_with("1,1,1,unknown,exact\n"));
 }
 
 TEST_F(Command, QuerySumsUpOnStandardError) {

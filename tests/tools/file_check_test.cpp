@@ -59,7 +59,7 @@ TEST_F(FileCheck, TellsWhatKindOfFileItIs) {
             Codes{"NOT_PLANETREE"});
   EXPECT_EQ(codes_of(check(Bytes{})), Codes{"NOT_PLANETREE"});
   auto newer = image();
-  newer.change_header([](storage::FileHeader& header) { header.version = 2; });
+  newer.change_header([](storage::FileHeader& header) { header.version = 3; });
   newer.seal_header();
   EXPECT_EQ(codes_of(check(newer.bytes())), Codes{"FORMAT_UNSUPPORTED"});
   auto featured = image();

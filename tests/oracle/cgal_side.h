@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "tests/oracle/brute_force.h"
+
+namespace planetree::oracle {
+
+/// Sides by CGAL's Side_of_triangle_mesh, with exact predicates.
+class CgalSide {
+ public:
+  /// A closed surface; corners at equal positions are one vertex.
+  explicit CgalSide(std::span<const Corners> triangles);
+  ~CgalSide();
+  CgalSide(const CgalSide&) = delete;
+  CgalSide& operator=(const CgalSide&) = delete;
+
+  /// Whether CGAL takes the triangles for a closed mesh; if not, ask nothing.
+  [[nodiscard]] bool usable() const;
+  [[nodiscard]] Side side(const Vec3& query) const;
+
+ private:
+  class Mesh;
+  std::unique_ptr<Mesh> mesh_;
+};
+
+}  // namespace planetree::oracle
