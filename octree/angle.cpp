@@ -29,7 +29,7 @@ constexpr std::array<double, 9> kArctangents = {
 /// what is left, (t - c) / (1 + t c), below 1/16. The first term left out is
 /// below 2^-68 / 17.
 double arctangent(double t) {
-  const auto eighth = static_cast<std::size_t>(t * 8 + 0.5);
+  const std::size_t eighth = (static_cast<std::size_t>(t * 16) + 1) / 2;
   const double c = static_cast<double>(eighth) / 8;
   const double x = (t - c) / (1 + t * c);
   const double x2 = x * x;

@@ -137,9 +137,9 @@ int run_query(const QueryArguments& arguments, Console& console) {
 }
 
 void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
-  static const std::map<std::string, AnswerFormat> kFormats = {{"csv", AnswerFormat::kCsv},
-                                                               {"jsonl", AnswerFormat::kJsonLines},
-                                                               {"f64", AnswerFormat::kF64}};
+  static const std::map<std::string, AnswerFormat> formats = {{"csv", AnswerFormat::kCsv},
+                                                              {"jsonl", AnswerFormat::kJsonLines},
+                                                              {"f64", AnswerFormat::kF64}};
   const auto options = std::make_shared<QueryArguments>();
   VerbOptions verb(app, "query",
                    "Find the surface point nearest to each point and the side it is on");
@@ -164,7 +164,7 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
   verb.default_text(
       verb.word(
           "--format", {"csv", "jsonl", "f64"},
-          [options](const std::string& name) { options->format = kFormats.at(name); },
+          [options](const std::string& name) { options->format = formats.at(name); },
           "csv: a header and a row for each point; jsonl: an object for each point, null for "
           "what is not a finite number; f64: 14 little-endian float64 for each point (x y z "
           "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
