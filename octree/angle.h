@@ -4,9 +4,9 @@
 
 namespace planetree::octree {
 
-/// The angle between two directions, 0 to pi, within 1e-15 of the true angle of
-/// what is given. Neither may be zero; their lengths do not matter. Exchanging the two changes no
-/// bit.
+/// The angle between two directions, 0 to pi, right to some 4 roundings of pi:
+/// 2^-50. Neither may be zero; their lengths do not matter. Exchanging the two
+/// changes no bit.
 ///
 /// Uses no function of the mathematics library but sqrt: those differ from one
 /// processor to the next, and angles reach answers.

@@ -1,21 +1,18 @@
 #include "octree/feature_normal.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "octree/angle.h"
 #include "octree/box_walk.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
+#include "octree/vector3.h"
 
 namespace planetree::octree {
 namespace {
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 /// Thinner faces, by the square of their angle's sine, are evaluated with 113
 /// bits: they lose half of a double's.
@@ -26,15 +23,8 @@ constexpr double kShortEdge = 0x1p-200;
 constexpr double kNoSum = 0x1p-40;
 
 Point thin_normal(const Triangle& triangle) {
-  const auto edge = [&](std::size_t corner) {
-    std::array<Quad, 3> result;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      result[axis] = Quad(triangle[corner][axis]) - Quad(triangle[0][axis]);
-    return result;
-  };
-  const std::array<Quad, 3> u = edge(1), v = edge(2);
-  const std::array<Quad, 3> normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                   u[0] * v[1] - u[1] * v[0]};
+  const Vector3<Quad> normal =
+      cross(difference<Quad>(triangle[1], triangle[0]), difference<Quad>(triangle[2], triangle[0]));
   using boost::multiprecision::abs;
   const Quad largest = std::max({Quad(abs(normal[0])), Quad(abs(normal[1])), Quad(abs(normal[2]))});
   if (largest == 0) return Point::Zero();

@@ -5,14 +5,12 @@
 #include <type_traits>
 
 #include <Eigen/Geometry>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "octree/strict_math.h"
+#include "octree/vector3.h"
 
 namespace planetree::octree {
 namespace {
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 // Below this squared sine the face is evaluated with 113 bits.
 constexpr double kFlatSine2 = 0x1p-10;
@@ -73,29 +71,10 @@ struct OnFace {
   double inverse_sine2 = 1;
 };
 
-template <class Scalar>
-using Vector = std::array<Scalar, 3>;
-
-template <class Scalar>
-Vector<Scalar> cross(const Vector<Scalar>& a, const Vector<Scalar>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-template <class Scalar>
-Scalar dot(const Vector<Scalar>& a, const Vector<Scalar>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <class Scalar>
-Vector<Scalar> difference(const Point& a, const Point& b) {
-  return {Scalar(a.x()) - Scalar(b.x()), Scalar(a.y()) - Scalar(b.y()),
-          Scalar(a.z()) - Scalar(b.z())};
-}
-
 // The face's part given its edges from the apex; `normal2` > 0.
 template <class Scalar>
-OnFace project(const Vector<Scalar>& e1, const Vector<Scalar>& e2, const Vector<Scalar>& normal,
-               const Scalar& normal2, const Vector<Scalar>& from_apex) {
+OnFace project(const Vector3<Scalar>& e1, const Vector3<Scalar>& e2, const Vector3<Scalar>& normal,
+               const Scalar& normal2, const Vector3<Scalar>& from_apex) {
   const Scalar v = dot(cross(from_apex, e2), normal);
   const Scalar w = dot(cross(e1, from_apex), normal);
   const Scalar height = dot(from_apex, normal);

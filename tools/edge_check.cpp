@@ -58,7 +58,7 @@ std::optional<std::string> EdgeCheck::finding() const {
   if (watertight != (model_.open_edge_count == 0))
     return watertight ? "the header says that edges are open and none is"
                       : "the header says that the surface is watertight and it is not";
-  for (std::size_t i = 0; i < std::min<std::uint64_t>(model_.open_edge_count, 3); ++i)
+  for (std::size_t i = 0; i < std::min<std::uint64_t>(model_.open_edge_count, listed_.size()); ++i)
     if (listed_[i].along != model_.open_edge[i].along ||
         listed_[i].against != model_.open_edge[i].against)
       return fmt::format("{} triangles run along open edge {} and {} against it, not {} and {}",

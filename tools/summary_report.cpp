@@ -65,7 +65,8 @@ std::string_view sign_rule(const storage::ModelRecord& model) {
 }
 
 std::span<const storage::OpenEdge> listed_open_edges(const storage::ModelRecord& model) {
-  const std::uint64_t listed = std::min<std::uint64_t>(model.open_edge_count, 3);
+  const std::uint64_t listed =
+      std::min<std::uint64_t>(model.open_edge_count, std::size(model.open_edge));
   return std::span(model.open_edge).first(static_cast<std::size_t>(listed));
 }
 
