@@ -12,7 +12,8 @@ namespace planetree::octree {
 /// What decoding a page must know of its file and of its table entry.
 struct PageFacts {
   std::uint32_t page_bytes = 0;  ///< of every frame
-  std::uint32_t page_count = 0;
+  std::uint32_t first_page = 0;  ///< of the page's section
+  std::uint32_t page_count = 0;  ///< of the page's section
   BlockShape shape;
   std::uint32_t page_number = 0;
   std::uint64_t octcode = 0;

@@ -33,6 +33,8 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
   const double largest =
       std::max({u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff(), w.cwiseAbs().maxCoeff()});
   if (std::fabs(volume) > kOrientationFilter * permanent + flushed(largest)) return sign_of(volume);
+  // By far the most frequent of the rest: a vertex of the triangle itself.
+  if (d == a || d == b || d == c) return 0;
   return exact_orientation(a, b, c, d);
 }
 
@@ -45,6 +47,14 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   if (std::fabs(area) > kNormalFilter * (std::fabs(left) + std::fabs(right)) + flushed(largest))
     return sign_of(area);
   return exact_normal_sign(a, b, c, axis);
+}
+
+// The step is (s1, s2, s3), s1 >> s2 >> s3 > 0.
+int moved_side(const Triangle& triangle, const Point& point) noexcept {
+  const auto& [a, b, c] = triangle;
+  int side = orientation(a, b, c, point);
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(a, b, c, axis);
+  return side;
 }
 
 bool lies_on(const Point& point, const Triangle& triangle) noexcept {
@@ -66,15 +76,6 @@ bool lies_on(const Point& point, const Triangle& triangle) noexcept {
 }
 
 namespace {
-
-/// Side of the triangle's plane of a point moved by (s1, s2, s3), s1 >> s2 >> s3
-/// > 0; 0 only where the triangle has no area.
-int moved_side(const Triangle& triangle, const Point& point) {
-  const auto& [a, b, c] = triangle;
-  int side = orientation(a, b, c, point);
-  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(a, b, c, axis);
-  return side;
-}
 
 int compare(double left, double right) { return left < right ? -1 : left > right ? 1 : 0; }
 

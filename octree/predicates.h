@@ -19,6 +19,10 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
 /// The sign of one component, 0 to 2, of (b - a) x (c - a).
 int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
 
+/// Side of a triangle's plane that `point` is on once moved by an infinitesimal
+/// step (see MovedSegment): 0 only where the triangle has no area.
+int moved_side(const Triangle& triangle, const Point& point) noexcept;
+
 /// Whether `point` is on the closed triangle, which may be a segment or a point.
 bool lies_on(const Point& point, const Triangle& triangle) noexcept;
 

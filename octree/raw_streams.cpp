@@ -1,39 +1,9 @@
 #include "octree/raw_streams.h"
 
+#include "octree/stream_cutter.h"
+
 namespace planetree::octree {
 namespace {
-
-// Takes arrays off the front of the bytes; false once they do not suffice.
-class Cutter {
- public:
-  explicit Cutter(std::span<const std::byte> bytes) : rest_(bytes) {}
-
-  template <class T>
-  void take(Shuffled<T>& stream, std::size_t count) {
-    const std::size_t bytes = Shuffled<T>::bytes_for(count);
-    const std::byte* start = skip(bytes);
-    stream = start ? Shuffled<T>(start, count) : Shuffled<T>();
-  }
-  std::span<const std::byte> take_bytes(std::size_t bytes) {
-    const std::byte* start = skip(bytes);
-    return start ? std::span(start, bytes) : std::span<const std::byte>();
-  }
-  bool whole() const { return ok_; }
-  bool empty() const { return rest_.empty(); }
-
- private:
-  const std::byte* skip(std::size_t bytes) {
-    if (!ok_ || bytes > rest_.size()) {
-      ok_ = false;
-      return nullptr;
-    }
-    const std::byte* start = rest_.data();
-    rest_ = rest_.subspan(bytes);
-    return start;
-  }
-  std::span<const std::byte> rest_;
-  bool ok_ = true;
-};
 
 const char* check_head(const PageHead& head) {
   if (head.node_count == 0 && head.block_count == 0) return "the page holds no record";
@@ -50,7 +20,7 @@ const char* check_head(const PageHead& head) {
   return nullptr;
 }
 
-void take_nodes(Cutter& cutter, RawStreams& s) {
+void take_nodes(StreamCutter& cutter, RawStreams& s) {
   const PageHead& head = s.head;
   cutter.take(s.root_boxes, 6 * std::size_t{head.root_node_count});
   cutter.take(s.child_counts, head.node_count);
@@ -64,7 +34,7 @@ void take_nodes(Cutter& cutter, RawStreams& s) {
 }
 
 // The corner stream's length follows from the counts just taken.
-const char* take_corners(Cutter& cutter, RawStreams& s) {
+const char* take_corners(StreamCutter& cutter, RawStreams& s) {
   std::size_t bytes = 0, triangles = 0;
   for (std::size_t i = 0; i < s.head.block_count; ++i) {
     const unsigned triangle_count = s.triangle_counts[i];
@@ -80,7 +50,7 @@ const char* take_corners(Cutter& cutter, RawStreams& s) {
   return nullptr;
 }
 
-void take_blocks(Cutter& cutter, RawStreams& s, const BlockShape& shape) {
+void take_blocks(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
   const PageHead& head = s.head;
   const std::size_t coordinates = 3 * std::size_t{head.vertex_count};
   const std::size_t steps = std::size_t{head.triangle_count} - head.block_count;
@@ -104,7 +74,7 @@ const char* RawStreams::cut(std::span<const std::byte> raw, const BlockShape& sh
   if (raw.size() < sizeof(PageHead)) return kShort;
   std::memcpy(&head, raw.data(), sizeof head);
   if (const char* fault = check_head(head)) return fault;
-  Cutter cutter(raw.subspan(sizeof head));
+  StreamCutter cutter(raw.subspan(sizeof head));
   take_nodes(cutter, *this);
   cutter.take(triangle_counts, head.block_count);
   cutter.take(vertex_counts, head.block_count);

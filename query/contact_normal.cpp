@@ -21,20 +21,11 @@ double largest_coordinate(const octree::Triangle& triangle) {
   return largest;
 }
 
-/// Side of the nearest triangle's plane that the query is on, or a step beside
-/// it if it is on the plane (see octree/predicates.h).
-int plane_side(const octree::NearestAnswer& nearest, const Point& query) {
-  const auto& [a, b, c] = nearest.corners;
-  int side = octree::orientation(a, b, c, query);
-  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = octree::normal_sign(a, b, c, axis);
-  return side;
-}
-
 /// Whether the normal points to where the query is, or a step beside it: 1 or
 /// -1, or 0 where that cannot be told from rounding.
 int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
                   const Point& normal) {
-  if (nearest.feature == Feature::kFace) return plane_side(nearest, query);
+  if (nearest.feature == Feature::kFace) return octree::moved_side(nearest.corners, query);
   if (side == Side::kOnSurface || nearest.distance < kNoWay * largest_coordinate(nearest.corners))
     return 0;
   const double along = (query - nearest.point).dot(normal);

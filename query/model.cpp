@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "query/model_state.h"
+#include "query/page_decoding.h"
 #include "query/probe_state.h"
 
 namespace planetree {
@@ -29,8 +30,10 @@ ModelInfo describe(const storage::PageFile& file) {
   info.file_bytes = header.file_bytes;
   info.section_bytes.headers = 2 * sizeof header;
   info.section_bytes.page_table = file.entries().size_bytes();
-  info.section_bytes.distance_pages =
-      header.file_bytes - info.section_bytes.headers - info.section_bytes.page_table;
+  for (std::uint32_t page = 0; page < header.page_count; ++page)
+    (page < header.first_mask_page() ? info.section_bytes.distance_pages
+                                     : info.section_bytes.mask_pages) +=
+        file.entries()[page].stored_bytes;
   info.content_id[0] = header.content_id[0];
   info.content_id[1] = header.content_id[1];
   return info;
@@ -41,8 +44,7 @@ octree::TreeFacts tree_facts(const storage::FileHeader& header, const Scale& sca
   octree::TreeFacts tree;
   tree.page_bytes = header.page_bytes;
   tree.root_link = model.root_link;
-  tree.shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
-  tree.shape.wide_ids = model.triangle_id_bytes == 8;
+  tree.shape = block_shape(model);
   tree.record_count = model.node_count + model.block_count;
   tree.box_lower = scale.in(Vec3{model.box_lower[0], model.box_lower[1], model.box_lower[2]});
   tree.box_upper = scale.in(Vec3{model.box_upper[0], model.box_upper[1], model.box_upper[2]});
@@ -52,6 +54,15 @@ octree::TreeFacts tree_facts(const storage::FileHeader& header, const Scale& sca
   return tree;
 }
 
+octree::MaskFacts mask_facts(const storage::FileHeader& header, const octree::TreeFacts& tree) {
+  octree::MaskFacts mask;
+  mask.page_bytes = header.page_bytes;
+  mask.first_page = header.first_mask_page();
+  mask.page_count = header.model.mask_page_count;
+  mask.lower = tree.box_lower;
+  return mask;
+}
+
 }  // namespace
 
 ModelState::ModelState(std::unique_ptr<Pager> pager)
@@ -59,6 +70,7 @@ ModelState::ModelState(std::unique_ptr<Pager> pager)
       info_(describe(pager_->file())),
       scale_(pager_->file().header().model.scale_exponent) {
   tree_ = tree_facts(pager_->file().header(), scale_);
+  mask_ = mask_facts(pager_->file().header(), tree_);
 }
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "octree/mask_lookup.h"
 #include "octree/nearest.h"
 #include "planetree/error.h"
 #include "planetree/model.h"
@@ -23,6 +24,7 @@ class ModelState {
   const ModelInfo& info() const noexcept { return info_; }
   Stats stats() const noexcept;
   const octree::TreeFacts& tree() const noexcept { return tree_; }
+  const octree::MaskFacts& mask() const noexcept { return mask_; }
   const Scale& scale() const noexcept { return scale_; }
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   /// Any thread.
@@ -34,6 +36,7 @@ class ModelState {
   std::unique_ptr<Pager> pager_;
   ModelInfo info_;
   octree::TreeFacts tree_;
+  octree::MaskFacts mask_;
   Scale scale_;
   mutable std::atomic<std::uint64_t> degraded_{0};
 };

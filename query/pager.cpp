@@ -4,13 +4,9 @@
 #include <new>
 #include <utility>
 
-namespace planetree::query {
+#include "query/page_decoding.h"
 
-Pager::Pager(storage::PageFile file) : file_(std::move(file)) {
-  const storage::ModelRecord& model = file_.header().model;
-  shape_.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
-  shape_.wide_ids = model.triangle_id_bytes == 8;
-}
+namespace planetree::query {
 
 Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path,
                                            const Limits& limits) {
@@ -62,14 +58,7 @@ Result<void> Pager::fill(std::uint32_t page, std::span<std::byte> frame) noexcep
   const std::span<std::byte> raw(raw_scratch_.get(), entry.raw_bytes);
   const std::span<std::byte> stored(stored_scratch_.get(), header.max_stored_bytes);
   if (const auto read = file_.read_page(page, stored, raw); !read) return read;
-  octree::PageFacts facts;
-  facts.page_bytes = header.page_bytes;
-  facts.page_count = header.page_count;
-  facts.shape = shape_;
-  facts.page_number = page;
-  facts.octcode = entry.octcode;
-  facts.ordinal = entry.ordinal;
-  return octree::decode_page(raw, facts, frame);
+  return decode_frame(header, entry, page, raw, frame);
 }
 
 }  // namespace planetree::query

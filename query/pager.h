@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "cache/page_cache.h"
-#include "octree/page_decoder.h"
 #include "octree/tree_view.h"
 #include "planetree/error.h"
 #include "storage/page_file.h"
@@ -32,12 +32,11 @@ class Pager {
   std::uint64_t scratch_bytes() const noexcept;
 
  private:
-  explicit Pager(storage::PageFile file);
+  explicit Pager(storage::PageFile file) : file_(std::move(file)) {}
   Result<void> claim(const Limits& limits);
   Result<void> fill(std::uint32_t page, std::span<std::byte> frame) noexcept;
 
   storage::PageFile file_;
-  octree::BlockShape shape_;
   // Of the one page being read: the cache fills one at a time.
   std::unique_ptr<std::byte[]> stored_scratch_;
   std::unique_ptr<std::byte[]> raw_scratch_;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/cell_grid.h"
 #include "octree/crossings.h"
+#include "octree/mask_lookup.h"
 #include "octree/strict_math.h"
 
 namespace planetree::query {
@@ -51,26 +53,84 @@ bool outside_box(const octree::TreeFacts& tree, const Point& point) {
          (point.array() > tree.box_upper.array()).any();
 }
 
+/// One search for the side of a point, and what it may still spend.
+class SideSearch {
+ public:
+  SideSearch(const ModelState& model, const Point& point, std::uint64_t max_nodes,
+             octree::PageReader pages, octree::TreeWork& work)
+      : model_(model),
+        point_(point),
+        max_nodes_(max_nodes),
+        pages_(pages),
+        work_(work),
+        before_(work.nodes + work.blocks) {}
+
+  Standing run() {
+    if (ask_mask()) return standing_;
+    // Usually the first way tells; another may do without a page that is lost.
+    const WaysOut ways(model_.tree(), point_);
+    for (const WaysOut::Way& way : ways.all())
+      if (go(way.end, 0)) return standing_;
+    return {Side::kUnknown, Status::kDegraded};
+  }
+
+ private:
+  std::uint64_t nodes_left() const {
+    const std::uint64_t spent = work_.nodes + work_.blocks - before_;
+    return spent < max_nodes_ ? max_nodes_ - spent : 0;
+  }
+
+  bool ask_mask() {
+    using Kind = octree::MaskFinding::Kind;
+    const octree::MaskFinding found =
+        octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+    if (found.kind == Kind::kCorners) return go_to_corner(found);
+    if (found.kind == Kind::kNothing) return false;
+    settle(found.winding, found.on_surface);
+    return true;
+  }
+
+  // The nearest corner, for few triangles are between.
+  bool go_to_corner(const octree::MaskFinding& found) {
+    const octree::CellGrid grid(model_.mask().lower);
+    const Point lower = grid.lower(found.cell), upper = grid.upper(found.cell);
+    unsigned nearest = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      nearest |= static_cast<unsigned>(point_[axis] - lower[axis] > upper[axis] - point_[axis])
+                 << axis;
+    return go(grid.corner(found.cell, nearest), found.corners[nearest]);
+  }
+
+  // To where the winding number is known. False if that way cannot be gone.
+  bool go(const Point& end, std::int64_t winding) {
+    if (nodes_left() == 0) return false;
+    const octree::Crossings crossings =
+        octree::count_crossings(model_.tree(), {point_, end}, nodes_left(), pages_, work_);
+    if (crossings.complete) settle(winding + crossings.difference, crossings.on_surface);
+    return crossings.complete;
+  }
+
+  void settle(std::int64_t winding, bool on_surface) {
+    const Side off_surface = winding != 0 ? Side::kInside : Side::kOutside;
+    standing_ = {on_surface ? Side::kOnSurface : off_surface, Status::kExact, winding};
+  }
+
+  const ModelState& model_;
+  const Point& point_;
+  const std::uint64_t max_nodes_;
+  const octree::PageReader pages_;
+  octree::TreeWork& work_;
+  const std::uint64_t before_;
+  Standing standing_;
+};
+
 }  // namespace
 
 Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work) noexcept {
   if (!model.info().watertight()) return {};
   if (outside_box(model.tree(), point)) return {Side::kOutside};
-  // Usually the first way tells; another may do without a page that is lost.
-  const WaysOut ways(model.tree(), point);
-  const std::uint64_t before = work.nodes + work.blocks;
-  for (const WaysOut::Way& way : ways.all()) {
-    const std::uint64_t spent = work.nodes + work.blocks - before;
-    if (spent >= max_nodes) break;
-    const octree::Crossings crossings =
-        octree::count_crossings(model.tree(), {point, way.end}, max_nodes - spent, pages, work);
-    if (!crossings.complete) continue;
-    const Side off_surface = crossings.difference != 0 ? Side::kInside : Side::kOutside;
-    return {crossings.on_surface ? Side::kOnSurface : off_surface, Status::kExact,
-            crossings.difference};
-  }
-  return {Side::kUnknown, Status::kDegraded};
+  return SideSearch(model, point, max_nodes, pages, work).run();
 }
 
 }  // namespace planetree::query

@@ -12,7 +12,8 @@ namespace planetree::query {
 struct Standing {
   Side side = Side::kUnknown;
   Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
-  /// Winding number of the point; of a step beside it on the surface.
+  /// As much as 0 and of the sign of the winding number of the point, of a step
+  /// beside it on the surface.
   std::int64_t winding = 0;
 };
 

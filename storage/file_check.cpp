@@ -13,6 +13,7 @@ namespace planetree::storage {
 namespace {
 
 constexpr int kMaxHeight = 96;
+constexpr int kMaxMaskLevel = 19;
 constexpr std::int32_t kMaxScaleExponent = 1200;
 
 Error damaged(std::uint64_t page, std::uint64_t offset, const char* cause) noexcept {
@@ -115,7 +116,7 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
       return bad_entry(page, "the page does not start where the one before ends");
     }
     if (const Result<void> checked = check_entry(header, page, entry); !checked) return checked;
-    if (page > 0 && !key_less(entries[page - 1], entry)) {
+    if (page > 0 && page != header.first_mask_page() && !key_less(entries[page - 1], entry)) {
       return bad_entry(page, "the page's key does not follow the one before");
     }
     offset += entry.stored_bytes;
@@ -149,6 +150,22 @@ Result<void> check_open_edges(const ModelRecord& model) noexcept {
   return {};
 }
 
+Result<void> check_mask(const ModelRecord& model) noexcept {
+  if (model.mask_page_count > 0 && model.open_edge_count > 0) {
+    return bad_model(offsetof(ModelRecord, mask_page_count),
+                     "there is a mask of a surface that is not watertight");
+  }
+  if ((model.mask_page_count > 0) != (model.mask_cell_count > 0) ||
+      (model.mask_page_count == 0 && model.mask_levels > 0) || model.mask_levels > kMaxMaskLevel) {
+    return bad_model(offsetof(ModelRecord, mask_cell_count), "the mask's size is out of range");
+  }
+  if (!all_zero(model.mask_reserved)) {
+    return bad_model(offsetof(ModelRecord, mask_reserved),
+                     "the mask's reserved bytes are not zero");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) noexcept {
@@ -167,6 +184,9 @@ Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) 
   }
   if (!all_zero(header.reserved)) {
     return bad_header(offsetof(FileHeader, reserved), "the header's reserved bytes are not zero");
+  }
+  if (header.model.mask_page_count >= header.page_count) {
+    return bad_model(offsetof(ModelRecord, mask_page_count), "there are only pages of the mask");
   }
   return check_model(header.model);
 }
@@ -202,6 +222,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   if (!all_zero(model.reserved)) {
     return bad_model(offsetof(ModelRecord, reserved), "the model's reserved bytes are not zero");
   }
+  if (const Result<void> checked = check_mask(model); !checked) return checked;
   return check_open_edges(model);
 }
 

@@ -11,7 +11,8 @@
 ///
 ///   0                      header          kHeaderBytes
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
-///   ...                    pages           stored bytes, page 0 first, no gap
+///   ...                    pages           stored bytes, page 0 first, no gap:
+///                                          distance pages, then mask pages
 ///   file_bytes - 512       header again    the same kHeaderBytes bytes
 namespace planetree::storage {
 
@@ -19,7 +20,7 @@ static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 2;
+inline constexpr std::uint16_t kFormatVersion = 3;
 inline constexpr std::size_t kHeaderBytes = 512;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
@@ -60,8 +61,12 @@ struct ModelRecord {
   std::uint8_t reserved[5];        ///< zero
   std::uint64_t open_edge_count;   ///< 0: the surface is watertight
   OpenEdge open_edge[3];           ///< the first, by triangle, then corner; else zero
+  std::uint64_t mask_cell_count;   ///< grey cells of the mask
+  std::uint32_t mask_page_count;   ///< the last pages of the file; 0: there is no mask
+  std::uint8_t mask_levels;        ///< level of the finest grey cell
+  std::uint8_t mask_reserved[3];   ///< zero
 };
-static_assert(sizeof(ModelRecord) == 368);
+static_assert(sizeof(ModelRecord) == 384);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
@@ -77,8 +82,13 @@ struct FileHeader {
   std::uint32_t max_raw_bytes;          ///< largest PageEntry::raw_bytes
   std::uint64_t max_stored_bytes;       ///< largest PageEntry::stored_bytes
   ModelRecord model;
-  std::uint8_t reserved[56];  ///< zero
+  std::uint8_t reserved[40];  ///< zero
   std::uint64_t header_hash;  ///< XXH3-64 of all bytes before it
+
+  /// Pages before it are distance pages, it and those behind it mask pages.
+  [[nodiscard]] std::uint32_t first_mask_page() const noexcept {
+    return page_count - (model.mask_page_count < page_count ? model.mask_page_count : page_count);
+  }
 };
 static_assert(sizeof(FileHeader) == kHeaderBytes);
 static_assert(offsetof(FileHeader, model) == 80);
@@ -87,7 +97,7 @@ static_assert(std::is_trivially_copyable_v<FileHeader>);
 enum class Codec : std::uint32_t { kStored = 0, kLz4 = 1 };
 
 /// One page. Its key is (octcode, ordinal) of its first subtree; its number is
-/// the key's rank among all pages.
+/// the key's rank among the pages of its kind, those of the mask last.
 struct PageEntry {
   std::uint64_t offset;        ///< of the stored bytes in the file
   std::uint64_t check;         ///< XXH3-64 of the stored bytes seeded with the page number,

@@ -59,7 +59,7 @@ Result<void> PageWriter::check_next(std::uint64_t octcode, std::uint32_t ordinal
                                     const StoredPage& stored) const noexcept {
   const std::size_t page = entries_.size();
   if (page == page_count_) return bad_argument(page, "more pages than the writer was created for");
-  if (!entries_.empty()) {
+  if (!entries_.empty() && page != first_mask_page_) {
     const PageEntry& last = entries_.back();
     if (std::pair(last.octcode, last.ordinal) >= std::pair(octcode, ordinal)) {
       return bad_argument(page, "the page's key does not follow the one before");
@@ -93,6 +93,9 @@ Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t pa
   if (failure_) return *failure_;
   if (entries_.size() != page_count_) {
     return fail(bad_argument(entries_.size(), "fewer pages than the writer was created for"));
+  }
+  if (model.mask_page_count != page_count_ - first_mask_page_.value_or(page_count_)) {
+    return fail(bad_argument(Error::kNowhere, "the mask has not as many pages as the model says"));
   }
   const FileHeader header = make_header(model, page_bytes);
   // What a reader would refuse must not be written.

@@ -35,12 +35,15 @@ class PageWriter {
 
   /// Adds the next page.
   ///
-  /// octcode, ordinal  its key, above that of the page before.
+  /// octcode, ordinal  its key, above that of the page before it of its kind.
   /// raw_bytes         its length before encode_page().
   /// errors            kBadArgument: out of order, too many, or lengths no page can have;
   ///                   kNoSpace, kWriteFailed and the like.
   Result<void> append(std::uint64_t octcode, std::uint32_t ordinal, std::uint32_t raw_bytes,
                       const StoredPage& stored);
+
+  /// The pages that follow are the mask's: their keys begin anew.
+  void begin_mask() noexcept { first_mask_page_ = static_cast<std::uint32_t>(entries_.size()); }
 
   /// Completes the file, after page_count pages, and gives it its name.
   ///
@@ -65,6 +68,7 @@ class PageWriter {
   std::vector<PageEntry>
       entries_;  // `check` holds the bare page hash until the content id is known
   std::uint32_t page_count_ = 0;
+  std::optional<std::uint32_t> first_mask_page_;
   std::vector<std::byte> buffer_;
   std::uint64_t buffer_offset_ = 0;  // in the file, of the buffer's first byte
   std::optional<Error> failure_;     // also set when finished

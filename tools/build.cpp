@@ -40,7 +40,8 @@ class BuildMeter final : public octree::BuildProgress {
   }
   void finish() { progress_.finish(); }
   bool is_writing() const {
-    return phase_ == octree::BuildPhase::kBounding || phase_ == octree::BuildPhase::kWriting;
+    return phase_ == octree::BuildPhase::kBounding || phase_ == octree::BuildPhase::kColouring ||
+           phase_ == octree::BuildPhase::kWriting;
   }
 
  private:
@@ -54,6 +55,8 @@ class BuildMeter final : public octree::BuildProgress {
         return progress_.start("ordering", total, "steps");
       case octree::BuildPhase::kBounding:
         return progress_.start("bounding", total, "steps");
+      case octree::BuildPhase::kColouring:
+        return progress_.start("colouring", total, "steps");
       case octree::BuildPhase::kWriting:
         return progress_.start("writing", total, "pages");
     }

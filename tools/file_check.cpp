@@ -93,12 +93,12 @@ CheckReport TreeCheck::run(const CheckProgress& progress) {
   Promise whole;
   whole.is_root = true;
   pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, whole);
-  if (parts_.page_count() == 0) complete_ = false;
-  for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
+  if (parts_.first_mask_page() == 0) complete_ = false;
+  for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
     check_page(page);
     if (progress) progress(page + 1);
   }
-  if (links_.page(root) >= parts_.page_count() && parts_.page_count() > 0)
+  if (links_.page(root) >= parts_.first_mask_page() && parts_.page_count() > 0)
     report_whole(IssueCode::kLinkTarget, "the header's link to the root leads to no page");
   check_counts();
   if (geometry_) geometry_->finish(complete_);

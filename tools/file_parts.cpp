@@ -7,6 +7,7 @@
 #include <bit>
 #include <cerrno>
 
+#include "query/page_decoding.h"
 #include "storage/file_check.h"
 #include "storage/file_error.h"
 #include "storage/file_hash.h"
@@ -112,13 +113,6 @@ Result<void> FileParts::read_at(std::uint64_t offset, std::span<std::byte> out) 
   return out.empty() ? Result<void>{} : file_.read_at(offset, out);
 }
 
-octree::BlockShape FileParts::shape() const {
-  octree::BlockShape shape;
-  shape.float64 = header_.model.vertex_kind == storage::VertexKind::kFloat64;
-  shape.wide_ids = header_.model.triangle_id_bytes == 8;
-  return shape;
-}
-
 /// A damaged table may say anything: nothing is claimed or read before this.
 const char* FileParts::fault_of(const storage::PageEntry& entry) const {
   if (entry.offset > actual_bytes_ || entry.stored_bytes > actual_bytes_ - entry.offset)
@@ -163,14 +157,7 @@ bool FileParts::cut(octree::RawStreams& streams) const {
 
 std::optional<Issue> FileParts::decode_page() {
   const storage::PageEntry& entry = entries_[page_];
-  octree::PageFacts facts;
-  facts.page_bytes = header_.page_bytes;
-  facts.page_count = page_count();
-  facts.shape = shape();
-  facts.page_number = page_;
-  facts.octcode = entry.octcode;
-  facts.ordinal = entry.ordinal;
-  const auto decoded = octree::decode_page(raw_, facts, frame_.span());
+  const auto decoded = query::decode_frame(header_, entry, page_, raw_, frame_.span());
   if (decoded) return {};
   return page_issue(IssueCode::kPageStructure, page_, entry.offset, decoded.error().text);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -7,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "octree/page_decoder.h"
 #include "octree/raw_streams.h"
 #include "planetree/error.h"
+#include "query/page_decoding.h"
 #include "storage/file_calls.h"
 #include "storage/file_handle.h"
 #include "storage/file_layout.h"
@@ -40,7 +41,11 @@ class FileParts {
   /// file ends before the table does.
   std::span<const storage::PageEntry> entries() const { return entries_; }
   std::uint32_t page_count() const { return static_cast<std::uint32_t>(entries_.size()); }
-  octree::BlockShape shape() const;
+  /// Pages before it are distance pages, the others the mask's.
+  std::uint32_t first_mask_page() const {
+    return std::min(header_.first_mask_page(), page_count());
+  }
+  octree::BlockShape shape() const { return query::block_shape(header_.model); }
 
   /// Reads a page's raw bytes and verifies them; nothing if all is well.
   std::optional<Issue> read_page(std::uint32_t page);
@@ -49,10 +54,12 @@ class FileParts {
 
   /// Of the page read last; good until the next.
   std::span<const std::byte> raw() const { return raw_; }
-  /// The same cut into streams; false if they are not what the head says.
+  /// The same, of a distance page, cut into streams; false if they are not what
+  /// the head says.
   bool cut(octree::RawStreams& streams) const;
-  /// Of the page decoded last; good until the next.
+  /// Of the page decoded last, if a distance page; good until the next.
   FrameView frame() const { return FrameView(frame_.data(), shape()); }
+  const std::byte* frame_bytes() const { return frame_.data(); }
 
  private:
   FileParts() = default;

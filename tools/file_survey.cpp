@@ -20,7 +20,7 @@ class Surveyor {
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
       PageRow row{page, parts_.entries()[page], {}};
-      look_at(row);
+      if (page < parts_.first_mask_page()) look_at(row);
       if (!visit(row)) break;
     }
     return std::move(survey_);

@@ -25,6 +25,7 @@ struct ModelInfo {
     std::uint64_t headers = 0;
     std::uint64_t page_table = 0;
     std::uint64_t distance_pages = 0;
+    std::uint64_t mask_pages = 0;
   } section_bytes;                   ///< adds up to file_bytes
   std::uint64_t content_id[2] = {};  ///< names the pages: equal for equal trees
 

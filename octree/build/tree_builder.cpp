@@ -12,6 +12,9 @@
 #include "octree/build/binary_tree.h"
 #include "octree/build/disc_fit.h"
 #include "octree/build/edge_balance.h"
+#include "octree/build/mask_encoder.h"
+#include "octree/build/mask_plan.h"
+#include "octree/build/mask_tree.h"
 #include "octree/build/mesh_reader.h"
 #include "octree/build/mesh_store.h"
 #include "octree/build/morton_order.h"
@@ -40,6 +43,7 @@ class TreeBuild {
     balance();
     order_triangles();
     if (const auto bounded = bound_nodes(); !bounded) return bounded.error();
+    if (const auto coloured = colour_cells(); !coloured) return coloured.error();
     return write_pages();
   }
 
@@ -48,8 +52,13 @@ class TreeBuild {
   void balance();
   void order_triangles();
   Result<void> bound_nodes();
+  Result<void> colour_cells();
   Result<BuildReport> write_pages();
-  Result<void> append_pages(storage::PageWriter& writer, const PageEncoder& encoder);
+  template <class Encoder, class Pages>
+  Result<void> append_pages(storage::PageWriter& writer, const Encoder& encoder, const Pages& pages,
+                            std::uint32_t written);
+  std::uint32_t distance_pages() const { return static_cast<std::uint32_t>(plan_.pages.size()); }
+  std::uint32_t mask_pages() const { return static_cast<std::uint32_t>(mask_plan_.pages.size()); }
   storage::ModelRecord describe() const;
 
   const std::filesystem::path& input_;
@@ -64,6 +73,8 @@ class TreeBuild {
   std::vector<MortonKey> keys_;
   WideTree tree_;
   PagePlan plan_;
+  MaskTree mask_;
+  MaskPlan mask_plan_;
 };
 
 Result<void> TreeBuild::read_model() {
@@ -117,39 +128,59 @@ Result<void> TreeBuild::bound_nodes() {
   return {};
 }
 
+// Only where winding numbers are constant off the surface.
+Result<void> TreeBuild::colour_cells() {
+  if (edges_.open_edges > 0) return {};
+  progress_.progress(BuildPhase::kColouring, 0, 1);
+  mask_ = build_mask(mesh_, keys_);
+  auto plan = plan_mask(mask_, options_.page_bytes);
+  if (!plan) return plan.error();
+  mask_plan_ = std::move(*plan);
+  progress_.progress(BuildPhase::kColouring, 1, 1);
+  return {};
+}
+
 Result<BuildReport> TreeBuild::write_pages() {
-  const auto page_count = static_cast<std::uint32_t>(plan_.pages.size());
-  auto writer = storage::PageWriter::create(output_, page_count, options_.replace);
+  auto writer =
+      storage::PageWriter::create(output_, distance_pages() + mask_pages(), options_.replace);
   if (!writer) return writer.error();
   const PageEncoder encoder(mesh_, keys_, tree_, plan_, shape_);
-  if (const auto appended = append_pages(*writer, encoder); !appended) return appended.error();
+  if (const auto appended = append_pages(*writer, encoder, plan_.pages, 0); !appended)
+    return appended.error();
+  writer->begin_mask();
+  const MaskEncoder masks(mask_, mask_plan_, distance_pages(), shape_.float64);
+  const auto appended = append_pages(*writer, masks, mask_plan_.pages, distance_pages());
+  if (!appended) return appended.error();
   const auto header = writer->finish(describe(), options_.page_bytes);
   if (!header) return header.error();
   return BuildReport{*header, mesh_.first_set_aside_text()};
 }
 
-Result<void> TreeBuild::append_pages(storage::PageWriter& writer, const PageEncoder& encoder) {
+template <class Encoder, class Pages>
+Result<void> TreeBuild::append_pages(storage::PageWriter& writer, const Encoder& encoder,
+                                     const Pages& pages, std::uint32_t written) {
   struct Encoded {
     std::uint32_t raw_bytes = 0;
     std::optional<storage::StoredPage> stored;
   };
-  const auto page_count = static_cast<std::uint32_t>(plan_.pages.size());
+  const auto page_count = static_cast<std::uint32_t>(pages.size());
+  const std::uint32_t all_pages = distance_pages() + mask_pages();
   std::vector<Encoded> batch(kBatchPages);
   for (std::uint32_t first = 0; first < page_count; first += kBatchPages) {
-    progress_.progress(BuildPhase::kWriting, first, page_count);
+    progress_.progress(BuildPhase::kWriting, written + first, all_pages);
     const std::uint32_t count = std::min(kBatchPages, page_count - first);
     tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
       const std::vector<std::byte> raw = encoder.encode(first + i);
       batch[i] = {static_cast<std::uint32_t>(raw.size()), storage::encode_page(raw)};
     });
     for (std::uint32_t i = 0; i < count; ++i) {
-      const PlannedPage& page = plan_.pages[first + i];
+      const auto& page = pages[first + i];
       const auto appended =
           writer.append(page.octcode, page.ordinal, batch[i].raw_bytes, *batch[i].stored);
       if (!appended) return appended;
     }
   }
-  progress_.progress(BuildPhase::kWriting, page_count, page_count);
+  progress_.progress(BuildPhase::kWriting, written + page_count, all_pages);
   return {};
 }
 
@@ -176,6 +207,9 @@ storage::ModelRecord TreeBuild::describe() const {
   model.triangle_id_bytes = shape_.wide_ids ? 8 : 4;
   model.height = tree_.nodes.empty() ? 0 : tree_.nodes[0].height;
   edges_.describe(mesh_.scale_exponent(), model);
+  model.mask_cell_count = mask_.entries.size();
+  model.mask_page_count = mask_pages();
+  model.mask_levels = static_cast<std::uint8_t>(mask_.levels);
   return model;
 }
 

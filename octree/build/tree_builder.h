@@ -11,7 +11,14 @@
 namespace planetree::octree {
 
 /// What a build is doing.
-enum class BuildPhase : std::uint8_t { kReading, kClosing, kOrdering, kBounding, kWriting };
+enum class BuildPhase : std::uint8_t {
+  kReading,
+  kClosing,
+  kOrdering,
+  kBounding,
+  kColouring,
+  kWriting
+};
 
 /// Told how far a build is, on the thread that called build_tree.
 class BuildProgress {

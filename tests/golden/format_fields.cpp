@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "octree/mask_streams.h"
 #include "octree/page_streams.h"
 #include "storage/file_layout.h"
 
@@ -86,6 +87,10 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, reserved)
       .PLANETREE_FIELD(ModelRecord, open_edge_count)
       .PLANETREE_FIELD(ModelRecord, open_edge)
+      .PLANETREE_FIELD(ModelRecord, mask_cell_count)
+      .PLANETREE_FIELD(ModelRecord, mask_page_count)
+      .PLANETREE_FIELD(ModelRecord, mask_levels)
+      .PLANETREE_FIELD(ModelRecord, mask_reserved)
       .take();
 }
 
@@ -132,13 +137,31 @@ FormatStruct page_head_fields() {
       .take();
 }
 
+FormatStruct mask_page_head_fields() {
+  using octree::MaskPageHead;
+  return FieldList<MaskPageHead>("Mask page")
+      .PLANETREE_FIELD(MaskPageHead, page_number)
+      .PLANETREE_FIELD(MaskPageHead, ordinal)
+      .PLANETREE_FIELD(MaskPageHead, octcode)
+      .PLANETREE_FIELD(MaskPageHead, record_count)
+      .PLANETREE_FIELD(MaskPageHead, root_count)
+      .PLANETREE_FIELD(MaskPageHead, node_count)
+      .PLANETREE_FIELD(MaskPageHead, page_link_count)
+      .PLANETREE_FIELD(MaskPageHead, plain_count)
+      .PLANETREE_FIELD(MaskPageHead, corners_count)
+      .PLANETREE_FIELD(MaskPageHead, special_count)
+      .PLANETREE_FIELD(MaskPageHead, plane_count)
+      .take();
+}
+
 #undef PLANETREE_FIELD
 
 }  // namespace
 
 const std::vector<FormatStruct>& format_structs() {
-  static const std::vector<FormatStruct> all = {header_fields(), model_fields(), open_edge_fields(),
-                                                entry_fields(), page_head_fields()};
+  static const std::vector<FormatStruct> all = {header_fields(),    model_fields(),
+                                                open_edge_fields(), entry_fields(),
+                                                page_head_fields(), mask_page_head_fields()};
   return all;
 }
 

@@ -39,9 +39,12 @@ const std::vector<Sample>& samples() {
       {"tetrahedron.ply", "tetrahedron.ptree", 4096},
       {"sheet.obj", "sheet.ptree", 4096},
       {"sphere.ply", "sphere.ptree", 4096},
+      {"boxes.obj", "boxes.ptree", 4096},
   };
   return all;
 }
+
+const Sample& sphere_sample() { return samples()[2]; }
 
 std::vector<std::byte> read_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);

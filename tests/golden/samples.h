@@ -22,6 +22,8 @@ struct Sample {
 };
 
 const std::vector<Sample>& samples();
+/// The one of a sphere: enough triangles for several pages of 4096 bytes.
+const Sample& sphere_sample();
 
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 

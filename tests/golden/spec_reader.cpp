@@ -4,19 +4,15 @@
 #include <xxhash.h>
 
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "tests/golden/spec_page.h"
+#include "tests/golden/spec_streams.h"
 
 namespace planetree::golden {
 namespace {
 
 using Bytes = std::span<const std::byte>;
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::runtime_error(what);
-}
 
 template <class T>
 T get(Bytes bytes, std::size_t offset) {
@@ -37,7 +33,7 @@ bool is_whole(Bytes header) {
 }
 
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 368);
+  const Bytes model = header.subspan(80, 384);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -54,6 +50,9 @@ SpecHeader read_header(Bytes header) {
   read.float64 = get<std::uint8_t>(model, 160) == 1;
   read.wide_ids = get<std::uint8_t>(model, 161) == 8;
   read.height = get<std::uint8_t>(model, 162);
+  read.mask_cells = get<std::uint64_t>(model, 368);
+  read.mask_pages = get<std::uint32_t>(model, 376);
+  read.mask_levels = get<std::uint8_t>(model, 380);
   return read;
 }
 
@@ -61,7 +60,7 @@ SpecHeader read_header(Bytes header) {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 2, "another version");
+  require(get<std::uint16_t>(header, 8) == 3, "another version");
   require(get<std::uint16_t>(header, 10) == 512, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
@@ -89,7 +88,7 @@ void SpecFile::check_table(Bytes header) const {
     require(get<std::uint64_t>(entry(k), 0) == end, "pages do not tile the file");
     end += get<std::uint32_t>(entry(k), 32);
     const std::pair key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
-    require(k == 0 || last_key < key, "order of keys");
+    require(k == 0 || k == header_.d() || last_key < key, "order of keys");
     last_key = key;
   }
   require(end == bytes_.size() - 512, "pages do not tile the file");

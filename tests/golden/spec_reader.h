@@ -26,6 +26,11 @@ struct SpecHeader {
   std::uint32_t root_link;
   bool float64, wide_ids;
   unsigned height;
+  std::uint64_t mask_cells;
+  std::uint32_t mask_pages;
+  unsigned mask_levels;
+  /// The first mask page.
+  std::uint32_t d() const { return page_count - mask_pages; }
 };
 
 struct SpecBox {

@@ -17,6 +17,7 @@
 
 #include "planetree/planetree.h"
 #include "tests/golden/samples.h"
+#include "tests/golden/spec_mask.h"
 #include "tests/golden/spec_tree.h"
 
 namespace planetree::golden {
@@ -119,13 +120,19 @@ TEST(SpecReaderFile, GoesByTheLastHeaderWhenTheFirstIsDamaged) {
   EXPECT_THROW(SpecFile{bytes}, std::runtime_error);
 }
 
+void read_all(const std::vector<std::byte>& bytes) {
+  const SpecFile file(bytes);
+  const SpecTree tree(file);
+  const SpecMask mask(file);
+}
+
 // Every byte is under some hash or check: the first header alone has a spare.
 TEST(SpecReaderFile, NoticesEveryDamagedByteButOfOneHeader) {
   const std::vector<std::byte> whole = read_file(samples().front().ptree_path());
   for (std::size_t at = 512; at + 512 < whole.size(); ++at) {
     std::vector<std::byte> bytes = whole;
     bytes[at] ^= std::byte{0x10};
-    EXPECT_THROW(SpecTree{SpecFile(bytes)}, std::runtime_error) << at;
+    EXPECT_THROW(read_all(bytes), std::runtime_error) << at;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -68,9 +69,9 @@ std::string read_source(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The list in octree/page_streams.h: "///   name   element", by order.
-std::vector<std::string> coded_streams() {
-  const std::string source = read_source("octree/page_streams.h");
+// The list in such a header: "///   name   element", by order.
+std::vector<std::string> coded_streams(const std::string& header) {
+  const std::string source = read_source(header);
   const std::regex line(R"(\n///   (\w+(?: \w+)*)  +\S)");
   std::vector<std::string> names;
   for (std::sregex_iterator match(source.begin(), source.end(), line), end; match != end; ++match)
@@ -78,19 +79,29 @@ std::vector<std::string> coded_streams() {
   return names;
 }
 
-SpecTable stream_table() { return spec_tables("Distance page").at(1); }
+SpecTable stream_table(const std::string& heading) { return spec_tables(heading).at(1); }
 
 TEST(SpecTables, StateTheStreamsInTheirOrder) {
-  EXPECT_EQ(coded_streams().size(), 17u);
-  EXPECT_EQ(stream_table().column("stream"), coded_streams());
+  const std::vector<std::string> distance = coded_streams("octree/page_streams.h");
+  const std::vector<std::string> mask = coded_streams("octree/mask_streams.h");
+  EXPECT_EQ(distance.size(), 17u);
+  EXPECT_EQ(mask.size(), 12u);
+  EXPECT_EQ(stream_table("Distance page").column("stream"), distance);
+  EXPECT_EQ(stream_table("Mask page").column("stream"), mask);
 }
 
-TEST(SpecTables, ShuffleWhatIsWiderThanAByte) {
-  const SpecTable table = stream_table();
+class SpecStreams : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, SpecStreams, testing::Values("Distance page", "Mask page"),
+                         [](const auto& each) {
+                           return std::string(each.param).substr(0, std::strlen(each.param) - 5);
+                         });
+
+TEST_P(SpecStreams, AreShuffledWhereWiderThanAByte) {
+  const SpecTable table = stream_table(GetParam());
   const std::vector<std::string> elements = table.column("element");
   const std::vector<std::string> shuffled = table.column("shuffled");
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const bool is_wide = elements[i] != "u8" && elements[i] != "bits";
+    const bool is_wide = elements[i] != "u8" && elements[i] != "i8" && elements[i] != "bits";
     EXPECT_EQ(shuffled[i], is_wide ? "yes" : "") << table.rows[i].front();
   }
 }

@@ -66,7 +66,7 @@ double disc_bound(const SpecDisc& disc, const SpecPoint& q) {
 }  // namespace
 
 SpecTree::SpecTree(const SpecFile& file) : header_(file.header()) {
-  for (std::uint32_t k = 0; k < header_.page_count; ++k) pages_.push_back(file.page(k));
+  for (std::uint32_t k = 0; k < header_.d(); ++k) pages_.push_back(file.page(k));
 }
 
 std::uint32_t SpecTree::page_of(std::uint32_t link) const {

@@ -1,0 +1,120 @@
+#include "octree/build/mask_encoder.h"
+
+#include <algorithm>
+
+#include "octree/build/stream_writer.h"
+#include "octree/mask_streams.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Collects the streams of one page.
+class Streams {
+ public:
+  Streams(std::uint32_t page_bytes, std::uint32_t page) : links_(page_bytes), page_(page) {}
+
+  void add_node(const MaskEntry& node, std::uint32_t family) {
+    const bool above = node.grey != 0 && links_.page(family) != page_;
+    add_kind(above ? MaskKind::kNodeAbove : MaskKind::kNode);
+    grey_.push_back(node.grey);
+    leaf_.push_back(node.leaf);
+    black_.push_back(node.black);
+    inverted_.push_back(node.inverted);
+    if (above) page_links_.push_back(family);
+  }
+
+  void add_corners(const MaskCorners& corners) {
+    std::uint8_t bits = 0;
+    bool plain = true;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      plain = plain && (corners[corner] == 0 || corners[corner] == 1);
+      bits |= static_cast<std::uint8_t>((corners[corner] & 1) << corner);
+    }
+    add_kind(plain ? MaskKind::kPlainCorners : MaskKind::kCorners);
+    if (plain)
+      plain_.push_back(bits);
+    else
+      corners_.insert(corners_.end(), corners.begin(), corners.end());
+  }
+
+  void add_special(const SpecialCell& special) {
+    add_kind(MaskKind::kSpecial);
+    plane_counts_.push_back(static_cast<std::uint8_t>(special.plane_count));
+    behind_.push_back(static_cast<std::int8_t>(special.behind));
+    beyond_.push_back(static_cast<std::int8_t>(special.beyond));
+    for (unsigned i = 0; i < special.plane_count; ++i)
+      for (const Point& corner : special.planes[i])
+        planes_.insert(planes_.end(), corner.begin(), corner.end());
+  }
+
+  void describe(MaskPageHead& head) const {
+    head.record_count = static_cast<std::uint16_t>(kinds_.size());
+    head.node_count = static_cast<std::uint16_t>(grey_.size());
+    head.page_link_count = static_cast<std::uint16_t>(page_links_.size());
+    head.plain_count = static_cast<std::uint16_t>(plain_.size());
+    head.corners_count = static_cast<std::uint16_t>(corners_.size() / 8);
+    head.special_count = static_cast<std::uint16_t>(plane_counts_.size());
+    head.plane_count = static_cast<std::uint16_t>(planes_.size() / 9);
+  }
+
+  void write(StreamWriter& writer, bool float64) const {
+    writer.shuffled(kinds_);
+    writer.shuffled(grey_);
+    writer.shuffled(leaf_);
+    writer.shuffled(black_);
+    writer.shuffled(inverted_);
+    writer.shuffled(page_links_);
+    writer.shuffled(plain_);
+    writer.shuffled(corners_);
+    writer.shuffled(plane_counts_);
+    writer.shuffled(behind_);
+    writer.shuffled(beyond_);
+    if (float64)
+      writer.shuffled(planes_);
+    else
+      writer.shuffled(std::vector<float>(planes_.begin(), planes_.end()));
+  }
+
+ private:
+  void add_kind(MaskKind kind) { kinds_.push_back(static_cast<std::uint8_t>(kind)); }
+
+  const MaskLinkFormat links_;
+  const std::uint32_t page_;
+  std::vector<std::uint8_t> kinds_, grey_, leaf_, black_, inverted_, plain_, plane_counts_;
+  std::vector<std::uint32_t> page_links_;
+  std::vector<std::int8_t> corners_, behind_, beyond_;
+  std::vector<double> planes_;
+};
+
+}  // namespace
+
+std::vector<std::byte> MaskEncoder::encode(std::uint32_t page) const {
+  const PlannedMaskPage& planned = plan_.pages[page];
+  Streams streams(plan_.page_bytes, page);
+  for (const std::uint32_t at : planned.entries) {
+    const MaskEntry& entry = mask_.entries[at];
+    switch (entry.kind) {
+      case MaskEntry::Kind::kNode:
+        streams.add_node(entry, plan_.families[at]);
+        break;
+      case MaskEntry::Kind::kCorners:
+        streams.add_corners(entry.corners);
+        break;
+      case MaskEntry::Kind::kSpecial:
+        streams.add_special(mask_.specials[entry.first]);
+        break;
+    }
+  }
+  MaskPageHead head{};
+  head.page_number = first_page_ + page;
+  head.octcode = planned.octcode;
+  head.ordinal = planned.ordinal;
+  head.root_count = static_cast<std::uint16_t>(planned.root_count);
+  streams.describe(head);
+  StreamWriter writer;
+  writer.plain(&head, sizeof head);
+  streams.write(writer, float64_);
+  return writer.take();
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "octree/octcode.h"
+#include "octree/triangle_distance.h"
+
+namespace planetree::octree {
+
+/// A cube of the octree that octcodes name, `at` in cells of its level.
+struct GridCell {
+  unsigned level = 0;  ///< 0 to kLevels
+  std::array<std::uint32_t, 3> at{};
+
+  /// Child `octant`: bit 0 is the upper half in x, bit 1 in y, bit 2 in z.
+  constexpr GridCell child(unsigned octant) const {
+    return {level + 1,
+            {2 * at[0] + (octant & 1), 2 * at[1] + (octant >> 1 & 1), 2 * at[2] + (octant >> 2)}};
+  }
+  constexpr std::uint64_t octcode() const {
+    const unsigned shift = kLevels - level;
+    return octcode_of_prefix(morton_code(at[0] << shift, at[1] << shift, at[2] << shift),
+                             3 * level);
+  }
+};
+
+/// Where the octree's cells are. Its root is the cube of side 2 at the least
+/// corner of the model's box; a cell is closed, from its lower to its upper
+/// sides as rounded here. Neighbours have the same side between them, so that
+/// cells leave no gap; rounding may make a cell far from the origin flat.
+class CellGrid {
+ public:
+  /// lower  least corner of the model's box, model frame, of magnitude below 2^55.
+  explicit CellGrid(const Point& lower) : lower_(lower) {}
+
+  /// The least corner of a cell; the greatest is that of the cell diagonal to it.
+  Point lower(const GridCell& cell) const { return corner(cell, 0); }
+  Point upper(const GridCell& cell) const { return corner(cell, 7); }
+  /// Corner `which`: bits as those of GridCell::child().
+  Point corner(const GridCell& cell, unsigned which) const {
+    Point result;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      result[axis] = side(axis, cell.level, cell.at[axis] + (which >> axis & 1));
+    return result;
+  }
+  /// The sides between a cell's children.
+  Point middle(const GridCell& cell) const { return corner(cell.child(7), 0); }
+
+ private:
+  // The product is exact; one rounding, so sides never change places.
+  double side(unsigned axis, unsigned level, std::uint32_t index) const {
+    constexpr double kFinestCell = 2.0 / (1 << kLevels);
+    return lower_[axis] +
+           kFinestCell * static_cast<double>(std::uint64_t{index} << (kLevels - level));
+  }
+
+  Point lower_;
+};
+
+}  // namespace planetree::octree

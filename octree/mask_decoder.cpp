@@ -1,0 +1,205 @@
+#include "octree/mask_decoder.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "octree/mask_frame.h"
+#include "octree/mask_streams.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Coordinates in the model frame are below 2^55.
+constexpr double kFarthestPlane = 0x1p60;
+
+class MaskDecoder {
+ public:
+  MaskDecoder(const PageFacts& facts, std::span<std::byte> frame)
+      : facts_(facts), links_(facts.page_bytes), frame_(frame.data()) {}
+
+  const char* decode(std::span<const std::byte> raw) {
+    if (const char* fault = streams_.cut(raw, facts_.shape.float64)) return fault;
+    if (head().page_number != facts_.page_number) return "it is another page's bytes";
+    if (head().octcode != facts_.octcode || head().ordinal != facts_.ordinal)
+      return "its key is not the page table's";
+    if (const char* fault = write_header()) return fault;
+    next_family_ = head().root_count;
+    for (std::size_t i = 0; i < head().record_count; ++i)
+      if (const char* fault = decode_record(i)) return fault;
+    return check_sums();
+  }
+
+ private:
+  const MaskPageHead& head() const { return streams_.head; }
+  const char* write_header();
+  const char* decode_record(std::size_t index);
+  const char* decode_node(MaskNode& node, bool above);
+  const char* link_family(MaskNode& node);
+  const char* link_above(MaskNode& node);
+  const char* decode_plain(MaskCorners& corners);
+  const char* decode_corners(MaskCorners& corners);
+  const char* decode_special(MaskSpecial& special);
+  const char* decode_plane();
+  const char* check_sums() const;
+
+  static bool is_leaf(std::uint8_t kind) { return kind > static_cast<int>(MaskKind::kNodeAbove); }
+
+  const PageFacts& facts_;
+  MaskLinkFormat links_;
+  std::byte* frame_;
+  MaskStreams streams_;
+  std::size_t first_record_slot_ = 0;
+  std::size_t first_plane_slot_ = 0;
+  std::size_t next_family_ = 0;
+  std::size_t next_node_ = 0;
+  std::size_t next_link_ = 0;
+  std::size_t next_plain_ = 0;
+  std::size_t next_corners_ = 0;
+  std::size_t next_special_ = 0;
+  std::size_t next_plane_ = 0;
+};
+
+const char* MaskDecoder::write_header() {
+  first_record_slot_ = mask_head_slots(facts_.page_bytes);
+  first_plane_slot_ = first_record_slot_ + head().record_count;
+  const std::size_t end = first_plane_slot_ + kPlaneSlots * head().plane_count;
+  if (end * kMaskSlotBytes > facts_.page_bytes) return "its records do not fit a page";
+  std::memset(frame_, 0, first_record_slot_ * kMaskSlotBytes);
+  MaskHeader header{};
+  header.page_number = head().page_number;
+  header.ordinal = head().ordinal;
+  header.octcode = head().octcode;
+  header.record_count = head().record_count;
+  header.root_count = head().root_count;
+  header.first_record_slot = static_cast<std::uint16_t>(first_record_slot_);
+  header.first_plane_slot = static_cast<std::uint16_t>(first_plane_slot_);
+  std::memcpy(frame_, &header, sizeof header);
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_record(std::size_t index) {
+  if (index >= next_family_) return "a record has no parent";
+  const std::size_t slot = first_record_slot_ + index;
+  std::byte* record = frame_ + slot * kMaskSlotBytes;
+  const auto kind = static_cast<MaskKind>(streams_.kinds[index]);
+  switch (kind) {
+    case MaskKind::kNode:
+    case MaskKind::kNodeAbove: {
+      auto* nodes = reinterpret_cast<std::uint64_t*>(frame_ + sizeof(MaskHeader));
+      nodes[slot / 64] |= std::uint64_t{1} << slot % 64;
+      return decode_node(*reinterpret_cast<MaskNode*>(record), kind == MaskKind::kNodeAbove);
+    }
+    case MaskKind::kPlainCorners:
+      return decode_plain(*reinterpret_cast<MaskCorners*>(record));
+    case MaskKind::kCorners:
+      return decode_corners(*reinterpret_cast<MaskCorners*>(record));
+    case MaskKind::kSpecial:
+      return decode_special(*reinterpret_cast<MaskSpecial*>(record));
+  }
+  return "a record is of unknown kind";
+}
+
+const char* MaskDecoder::decode_node(MaskNode& node, bool above) {
+  if (next_node_ == head().node_count) return "the counts of records do not add up";
+  const std::size_t at = next_node_++;
+  node = {0, streams_.grey[at], streams_.leaf[at], streams_.black[at], streams_.inverted[at]};
+  if ((node.leaf & ~node.grey) != 0 || (node.grey & node.black) != 0 ||
+      (node.grey & node.inverted) != 0 || (node.black & node.inverted) != 0)
+    return "an octant has two colours";
+  if (above) return link_above(node);
+  return node.grey == 0 ? nullptr : link_family(node);
+}
+
+const char* MaskDecoder::link_family(MaskNode& node) {
+  const std::size_t first = next_family_;
+  next_family_ += static_cast<unsigned>(std::popcount(node.grey));
+  if (next_family_ > head().record_count) return "its families do not add up";
+  std::size_t member = first;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((node.grey >> octant & 1) == 0) continue;
+    if (is_leaf(streams_.kinds[member++]) != ((node.leaf >> octant & 1) != 0))
+      return "a record is not of the kind its parent says";
+  }
+  node.family = links_.make(facts_.page_number - facts_.first_page,
+                            static_cast<std::uint32_t>(first_record_slot_ + first));
+  return nullptr;
+}
+
+const char* MaskDecoder::link_above(MaskNode& node) {
+  if (node.grey == 0 || next_link_ == head().page_link_count) return "its page links do not add up";
+  node.family = streams_.page_links[next_link_++];
+  const std::uint64_t page = links_.page(node.family);
+  if (page <= facts_.page_number - facts_.first_page || page >= facts_.page_count)
+    return "a link leads to a page that cannot be below it";
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_plain(MaskCorners& corners) {
+  if (next_plain_ == head().plain_count) return "the counts of records do not add up";
+  const std::uint8_t bits = streams_.plain_corners[next_plain_++];
+  for (unsigned corner = 0; corner < 8; ++corner)
+    corners[corner] = static_cast<std::int8_t>(bits >> corner & 1);
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_corners(MaskCorners& corners) {
+  if (next_corners_ == head().corners_count) return "the counts of records do not add up";
+  const std::size_t at = 8 * next_corners_++;
+  for (unsigned corner = 0; corner < 8; ++corner) corners[corner] = streams_.corners[at + corner];
+  const auto uncounted = std::count(corners.begin(), corners.end(), kUncounted);
+  return uncounted == 0 || uncounted == 8 ? nullptr : "a corner of a cell is not counted";
+}
+
+const char* MaskDecoder::decode_special(MaskSpecial& special) {
+  if (next_special_ == head().special_count) return "the counts of records do not add up";
+  const std::size_t at = next_special_++;
+  special.tag = kUncounted;
+  special.plane_count = streams_.plane_counts[at];
+  special.behind = streams_.behind[at];
+  special.beyond = streams_.beyond[at];
+  special.plane_slot = static_cast<std::uint32_t>(first_plane_slot_ + kPlaneSlots * next_plane_);
+  if (special.plane_count == 0 || special.plane_count > kMaxPlanes)
+    return "a special cell's planes are out of range";
+  if (special.behind == kUncounted || special.beyond == kUncounted ||
+      special.behind == special.beyond)
+    return "a special cell has no two sides";
+  for (unsigned i = 0; i < special.plane_count; ++i)
+    if (const char* fault = decode_plane()) return fault;
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_plane() {
+  if (next_plane_ == head().plane_count) return "its planes do not add up";
+  auto* plane = reinterpret_cast<double*>(frame_ + first_plane_slot_ * kMaskSlotBytes) +
+                kPlaneSlots * next_plane_;
+  for (std::size_t i = 0; i < kPlaneSlots; ++i) {
+    plane[i] = streams_.plane_coordinate(kPlaneSlots * next_plane_ + i);
+    if (!(std::fabs(plane[i]) < kFarthestPlane)) return "a plane is out of range";
+  }
+  ++next_plane_;
+  return nullptr;
+}
+
+const char* MaskDecoder::check_sums() const {
+  if (next_family_ != head().record_count) return "its families do not add up";
+  if (next_link_ != head().page_link_count) return "its page links do not add up";
+  if (next_plane_ != head().plane_count) return "its planes do not add up";
+  return nullptr;
+}
+
+}  // namespace
+
+Result<void> decode_mask_page(std::span<const std::byte> raw, const PageFacts& facts,
+                              std::span<std::byte> frame) noexcept {
+  assert(frame.size() == facts.page_bytes);
+  const char* fault = MaskDecoder(facts, frame).decode(raw);
+  if (!fault) return {};
+  return make_error(ErrorCode::kDamaged, facts.page_number, Error::kNowhere,
+                    "mask page %u is damaged: %s; build the file again", facts.page_number, fault);
+}
+
+}  // namespace planetree::octree

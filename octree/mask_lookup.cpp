@@ -1,0 +1,131 @@
+#include "octree/mask_lookup.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "octree/predicates.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Link to record, by way of its page.
+class MaskRecords {
+ public:
+  MaskRecords(const MaskFacts& mask, PageReader pages)
+      : links_(mask.page_bytes), first_page_(mask.first_page), pages_(pages) {}
+
+  /// The mask's root; null if its page cannot be had.
+  const std::byte* root(TreeWork& work) {
+    turn_to(0, work);
+    return frame_ ? slot(header().first_record_slot) : nullptr;
+  }
+  bool root_is_node() const { return is_node(header().first_record_slot); }
+
+  /// The record of a grey octant; null if its page cannot be had or does not
+  /// hold what the node says.
+  const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {
+    const auto below = static_cast<std::uint8_t>((1U << octant) - 1);
+    const std::uint32_t page = links_.page(node.family);
+    const std::uint32_t at =
+        links_.slot(node.family) +
+        static_cast<unsigned>(std::popcount(static_cast<std::uint8_t>(node.grey & below)));
+    const bool leaf = (node.leaf >> octant & 1) != 0;
+    turn_to(page, work);
+    if (!frame_ || at < header().first_record_slot ||
+        at >= std::uint32_t{header().first_record_slot} + header().record_count ||
+        is_node(at) == leaf)
+      return nullptr;
+    return slot(at);
+  }
+
+  const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
+
+ private:
+  const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
+  bool is_node(std::uint32_t slot) const {
+    const auto* nodes = reinterpret_cast<const std::uint64_t*>(frame_ + sizeof(MaskHeader));
+    return (nodes[slot / 64] >> slot % 64 & 1) != 0;
+  }
+  void turn_to(std::uint32_t page, TreeWork& work) {
+    if (frame_ && page == page_) return;
+    ++work.page_turns;
+    page_ = page;
+    frame_ = pages_.page(pages_.context, first_page_ + page);
+  }
+
+  const MaskLinkFormat links_;
+  const std::uint32_t first_page_;
+  const PageReader pages_;
+  std::uint32_t page_ = 0;
+  const std::byte* frame_ = nullptr;
+};
+
+/// Which side of a special cell's planes the point is on.
+void ask_planes(const MaskSpecial& special, const double* planes, const Point& point,
+                MaskFinding& finding) {
+  bool beyond = false, moved_beyond = false, on_plane = false;
+  for (unsigned i = 0; i < special.plane_count; ++i, planes += kPlaneSlots) {
+    const Triangle plane{Point(planes[0], planes[1], planes[2]),
+                         Point(planes[3], planes[4], planes[5]),
+                         Point(planes[6], planes[7], planes[8])};
+    const int side = orientation(plane[0], plane[1], plane[2], point);
+    beyond = beyond || side > 0;
+    on_plane = on_plane || side == 0;
+    moved_beyond = moved_beyond || (side != 0 ? side : moved_side(plane, point)) > 0;
+  }
+  finding.kind = MaskFinding::Kind::kPlanes;
+  finding.winding = moved_beyond ? special.beyond : special.behind;
+  finding.on_surface = on_plane && !beyond;
+}
+
+void read_leaf(const std::byte* record, const MaskRecords& records, const Point& point,
+               MaskFinding& finding) {
+  const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
+  if (is_special(corners)) {
+    const auto& special = *reinterpret_cast<const MaskSpecial*>(record);
+    const auto* planes = reinterpret_cast<const double*>(records.slot(special.plane_slot));
+    ask_planes(special, planes, point, finding);
+  } else if (corners[0] != kUncounted) {
+    finding.kind = MaskFinding::Kind::kCorners;
+    finding.corners = corners;
+  }
+}
+
+}  // namespace
+
+MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
+                    PageReader pages, TreeWork& work) noexcept {
+  MaskFinding finding;
+  if (mask.page_count == 0 || max_nodes == 0) return finding;
+  const CellGrid grid(mask.lower);
+  MaskRecords records(mask, pages);
+  const std::byte* record = records.root(work);
+  if (record && !records.root_is_node()) read_leaf(record, records, point, finding);
+  if (!record || !records.root_is_node()) return finding;
+  // A forged mask could be deeper than cells can be told apart.
+  for (std::uint64_t left = std::min<std::uint64_t>(max_nodes, kLevels); left > 0; --left) {
+    ++work.nodes;
+    const auto& node = *reinterpret_cast<const MaskNode*>(record);
+    const Point middle = grid.middle(finding.cell);
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      octant |= static_cast<unsigned>(point[axis] >= middle[axis]) << axis;
+    finding.cell = finding.cell.child(octant);
+    if ((node.grey >> octant & 1) == 0) {
+      finding.kind = MaskFinding::Kind::kColour;
+      finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
+      return finding;
+    }
+    const bool leaf = (node.leaf >> octant & 1) != 0;
+    record = records.child(node, octant, work);
+    if (!record) return finding;
+    if (leaf) {
+      read_leaf(record, records, point, finding);
+      return finding;
+    }
+  }
+  return finding;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,176 @@
+#include "tests/golden/spec_mask.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "tests/golden/spec_streams.h"
+
+namespace planetree::golden {
+namespace {
+
+struct Head {
+  std::uint32_t page_number, ordinal;
+  std::uint64_t octcode;
+  std::uint16_t records, roots, nodes, page_links, plain, corners, special, planes;
+};
+static_assert(sizeof(Head) == 32);
+
+class MaskPageReader {
+ public:
+  MaskPageReader(std::span<const std::byte> raw, std::uint32_t number, const SpecHeader& header)
+      : header_(header), number_(number), cutter_(raw) {
+    std::memcpy(&head_, cutter_.bytes(32).data(), 32);
+    require(head_.page_number == number, "another page");
+  }
+
+  SpecMaskPage read() {
+    cut();
+    const std::uint32_t slots = 8 + header_.page_bytes / 512 + head_.records + 9u * head_.planes;
+    require(slots <= header_.page_bytes / 8, "the records do not fit");
+    SpecMaskPage page{head_.octcode, head_.ordinal, head_.roots, {}};
+    next_family_ = head_.roots;
+    for (std::size_t i = 0; i < head_.records; ++i) {
+      require(i < next_family_, "a record without a parent");
+      page.records.push_back(read_record(kinds_[i]));
+    }
+    require(next_family_ == head_.records && node_ == head_.nodes && link_ == head_.page_links &&
+                plain_ == head_.plain && corners_ == head_.corners && special_ == head_.special &&
+                plane_ == head_.planes,
+            "records do not add up");
+    return page;
+  }
+
+ private:
+  void cut() {
+    kinds_ = cutter_.shuffled<std::uint8_t>(head_.records);
+    for (std::vector<std::uint8_t>& masks : masks_)
+      masks = cutter_.shuffled<std::uint8_t>(head_.nodes);
+    page_links_ = cutter_.shuffled<std::uint32_t>(head_.page_links);
+    corner_bits_ = cutter_.shuffled<std::uint8_t>(head_.plain);
+    corner_numbers_ = cutter_.shuffled<std::int8_t>(8u * head_.corners);
+    plane_counts_ = cutter_.shuffled<std::uint8_t>(head_.special);
+    behind_ = cutter_.shuffled<std::int8_t>(head_.special);
+    beyond_ = cutter_.shuffled<std::int8_t>(head_.special);
+    coordinates_ = cutter_.either<float, double>(header_.float64, 9u * head_.planes);
+    require(cutter_.empty(), "the page is too long");
+  }
+
+  SpecMaskRecord read_record(unsigned kind) {
+    SpecMaskRecord record;
+    record.kind = kind;
+    require(kind <= 4, "kind of a record");
+    if (kind < 2) read_node(record);
+    if (kind == 2) {
+      const unsigned bits = corner_bits_.at(plain_++);
+      for (unsigned i = 0; i < 8; ++i) record.corners[i] = static_cast<int>(bits >> i & 1);
+    }
+    if (kind == 3) {
+      for (unsigned i = 0; i < 8; ++i) record.corners[i] = corner_numbers_.at(8 * corners_ + i);
+      ++corners_;
+    }
+    if (kind == 4) read_special(record);
+    return record;
+  }
+
+  void read_node(SpecMaskRecord& record) {
+    record.grey = masks_[0].at(node_);
+    record.leaf = masks_[1].at(node_);
+    record.black = masks_[2].at(node_);
+    record.inverted = masks_[3].at(node_);
+    ++node_;
+    require((record.leaf & ~record.grey) == 0 && (record.grey & record.black) == 0 &&
+                ((record.grey | record.black) & record.inverted) == 0,
+            "colours");
+    if (record.kind == 1) {
+      require(record.grey != 0, "a family of nobody");
+      record.family = page_links_.at(link_++);
+      return;
+    }
+    const std::uint32_t slots = header_.page_bytes / 8;
+    const auto slot = static_cast<std::uint32_t>(8 + header_.page_bytes / 512 + next_family_);
+    record.family = (number_ - header_.d()) * slots + slot;
+    for (unsigned octant = 0; octant < 8; ++octant)
+      if ((record.grey >> octant & 1) != 0)
+        require((kinds_.at(next_family_++) >= 2) == ((record.leaf >> octant & 1) != 0), "leaves");
+  }
+
+  void read_special(SpecMaskRecord& record) {
+    record.behind = behind_.at(special_);
+    record.beyond = beyond_.at(special_);
+    require(record.behind != record.beyond, "sides of a special cell");
+    const unsigned count = plane_counts_.at(special_++);
+    require(count >= 1 && count <= 4, "planes of a special cell");
+    for (unsigned i = 0; i < count; ++i, ++plane_) {
+      SpecPlane plane{};
+      for (std::size_t k = 0; k < 9; ++k) plane[k / 3][k % 3] = coordinates_.at(9 * plane_ + k);
+      record.planes.push_back(plane);
+    }
+  }
+
+  const SpecHeader& header_;
+  std::uint32_t number_;
+  StreamCutter cutter_;
+  Head head_{};
+  std::vector<std::uint8_t> kinds_, corner_bits_, plane_counts_;
+  std::array<std::vector<std::uint8_t>, 4> masks_;
+  std::vector<std::uint32_t> page_links_;
+  std::vector<std::int8_t> corner_numbers_, behind_, beyond_;
+  std::vector<double> coordinates_;
+  std::size_t next_family_ = 0;
+  std::size_t node_ = 0, link_ = 0, plain_ = 0, corners_ = 0, special_ = 0, plane_ = 0;
+};
+
+}  // namespace
+
+SpecCell SpecCell::octant(unsigned number) const {
+  SpecCell cell{level + 1, {}};
+  for (unsigned axis = 0; axis < 3; ++axis) cell.at[axis] = 2 * at[axis] + (number >> axis & 1);
+  return cell;
+}
+
+SpecMaskPage decode_spec_mask_page(std::span<const std::byte> raw, std::uint32_t number,
+                                   const SpecHeader& header) {
+  return MaskPageReader(raw, number, header).read();
+}
+
+SpecMask::SpecMask(const SpecFile& file) : header_(file.header()) {
+  for (std::uint32_t k = header_.d(); k < header_.page_count; ++k)
+    pages_.push_back(decode_spec_mask_page(file.raw_page(k), k, header_));
+}
+
+std::pair<std::size_t, std::size_t> SpecMask::place_of(std::uint32_t link) const {
+  const std::uint32_t slots = header_.page_bytes / 8;
+  return {link / slots, link % slots - (8 + header_.page_bytes / 512)};
+}
+
+const SpecMaskRecord& SpecMask::octant(const SpecMaskRecord& node, unsigned number) const {
+  const auto [page, first] = place_of(node.family);
+  const unsigned before = node.grey & ((1U << number) - 1);
+  return pages_.at(page).records.at(first + static_cast<unsigned>(std::popcount(before)));
+}
+
+SpecPoint SpecMask::corner(const SpecCell& cell, unsigned number) const {
+  SpecPoint point{};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double lower = std::ldexp(header_.box_lower[axis], header_.scale_exponent);
+    const double i = cell.at[axis] + (number >> axis & 1);
+    point[axis] = lower + std::ldexp(i, 1 - static_cast<int>(cell.level));
+  }
+  return point;
+}
+
+void SpecMask::each_grey(
+    const std::function<void(const SpecCell&, const SpecMaskRecord&)>& look) const {
+  std::vector<std::pair<SpecCell, const SpecMaskRecord*>> left = {{SpecCell{}, &root()}};
+  while (!left.empty()) {
+    const auto [cell, record] = left.back();
+    left.pop_back();
+    look(cell, *record);
+    if (!record->is_node()) continue;
+    for (unsigned i = 0; i < 8; ++i)
+      if ((record->grey >> i & 1) != 0) left.emplace_back(cell.octant(i), &octant(*record, i));
+  }
+}
+
+}  // namespace planetree::golden

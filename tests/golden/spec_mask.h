@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tests/golden/spec_reader.h"
+
+namespace planetree::golden {
+
+/// "Mask", cells: of its level and there at x, y, z.
+struct SpecCell {
+  unsigned level = 0;
+  std::array<std::uint32_t, 3> at{};
+
+  SpecCell octant(unsigned number) const;
+};
+
+using SpecPlane = std::array<SpecPoint, 3>;
+
+/// A grey cell.
+struct SpecMaskRecord {
+  unsigned kind = 0;
+  unsigned grey = 0, leaf = 0, black = 0, inverted = 0;
+  std::uint32_t family = 0;  ///< link
+  std::array<int, 8> corners{};
+  int behind = 0, beyond = 0;
+  std::vector<SpecPlane> planes;
+
+  bool is_node() const { return kind < 2; }
+};
+
+struct SpecMaskPage {
+  std::uint64_t octcode;
+  std::uint32_t ordinal;
+  std::size_t root_count;
+  std::vector<SpecMaskRecord> records;
+};
+
+/// The raw bytes of page `number` -> its records ("Mask page").
+SpecMaskPage decode_spec_mask_page(std::span<const std::byte> raw, std::uint32_t number,
+                                   const SpecHeader& header);
+
+/// The mask of a file, all pages at once. Part of the independent reader: see
+/// spec_reader.h.
+class SpecMask {
+ public:
+  explicit SpecMask(const SpecFile& file);
+
+  const std::vector<SpecMaskPage>& pages() const { return pages_; }
+  const SpecMaskRecord& root() const { return pages_.at(0).records.at(0); }
+  /// A link as (page within the mask, record).
+  std::pair<std::size_t, std::size_t> place_of(std::uint32_t link) const;
+  /// The record of a grey octant.
+  const SpecMaskRecord& octant(const SpecMaskRecord& node, unsigned number) const;
+  /// Corner `number` of a cell, model frame.
+  SpecPoint corner(const SpecCell& cell, unsigned number) const;
+
+  /// Calls look(cell, record) for every grey cell.
+  void each_grey(const std::function<void(const SpecCell&, const SpecMaskRecord&)>& look) const;
+
+ private:
+  SpecHeader header_;
+  std::vector<SpecMaskPage> pages_;
+};
+
+}  // namespace planetree::golden

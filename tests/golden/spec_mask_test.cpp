@@ -1,0 +1,202 @@
+// "Mask" and "Mask page", held against the samples as the independent reader
+// decodes them, and against sums of solid angles.
+
+#include "tests/golden/spec_mask.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/golden/samples.h"
+#include "tests/golden/spec_tree.h"
+
+namespace planetree::golden {
+namespace {
+
+SpecPoint minus(const SpecPoint& a, const SpecPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double dot(const SpecPoint& a, const SpecPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double volume(const SpecPoint& a, const SpecPoint& b, const SpecPoint& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+constexpr std::string_view kOpenMesh = "sheet.obj";
+
+std::vector<Sample> watertight_samples() {
+  std::vector<Sample> found = samples();
+  std::erase_if(found, [](const Sample& sample) { return sample.mesh == kOpenMesh; });
+  return found;
+}
+
+class SpecMasks : public testing::TestWithParam<Sample> {
+ protected:
+  SpecMasks()
+      : file_(read_file(GetParam().ptree_path())),
+        mask_(file_),
+        tree_(file_),
+        triangles_(tree_.triangles(tree_.header().root_link)) {}
+
+  // Nothing where the point is so near the surface that rounding decides.
+  std::optional<int> winding(const SpecPoint& point) const {
+    double sum = 0;
+    for (const SpecTriangle& triangle : triangles_) {
+      const SpecPoint a = minus(triangle.corners[0], point), b = minus(triangle.corners[1], point),
+                      c = minus(triangle.corners[2], point);
+      const double al = std::sqrt(dot(a, a)), bl = std::sqrt(dot(b, b)), cl = std::sqrt(dot(c, c));
+      sum += 2 * std::atan2(volume(a, b, c),
+                            al * bl * cl + dot(a, b) * cl + dot(b, c) * al + dot(c, a) * bl);
+    }
+    const double number = sum / (4 * std::numbers::pi);
+    if (std::fabs(number - std::round(number)) > 1e-6 || tree_.nearest(point).distance < 1e-9)
+      return std::nullopt;
+    return static_cast<int>(std::round(number));
+  }
+
+  SpecPoint within(const SpecCell& cell, double x, double y, double z) const {
+    const SpecPoint lower = mask_.corner(cell, 0), upper = mask_.corner(cell, 7);
+    return {lower[0] + x * (upper[0] - lower[0]), lower[1] + y * (upper[1] - lower[1]),
+            lower[2] + z * (upper[2] - lower[2])};
+  }
+
+  SpecFile file_;
+  SpecMask mask_;
+  SpecTree tree_;
+  std::vector<SpecTriangle> triangles_;
+};
+
+std::string name_of(const testing::TestParamInfo<Sample>& info) {
+  return std::filesystem::path(info.param.mesh).stem();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpecMasks, testing::ValuesIn(watertight_samples()), name_of);
+
+TEST(SpecMaskSamples, AreOfEveryWatertightMesh) {
+  for (const Sample& sample : samples()) {
+    const SpecHeader header = SpecFile(read_file(sample.ptree_path())).header();
+    EXPECT_EQ(header.mask_pages > 0, sample.mesh != kOpenMesh) << sample.mesh;
+  }
+}
+
+TEST(SpecMaskSamples, HaveRecordsOfAllKinds) {
+  std::set<unsigned> kinds;
+  unsigned inverted = 0;
+  for (const Sample& sample : watertight_samples())
+    SpecMask(SpecFile(read_file(sample.ptree_path())))
+        .each_grey([&](const SpecCell&, const SpecMaskRecord& record) {
+          kinds.insert(record.kind);
+          inverted |= record.inverted;
+        });
+  EXPECT_EQ(kinds, (std::set<unsigned>{0, 1, 2, 3, 4}));
+  EXPECT_NE(inverted, 0u);
+}
+
+TEST_P(SpecMasks, RecordsAreOneMask) {
+  std::size_t records = 0, visited = 0;
+  unsigned levels = 0;
+  for (const SpecMaskPage& page : mask_.pages()) records += page.records.size();
+  std::set<const SpecMaskRecord*> seen;
+  mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    EXPECT_TRUE(seen.insert(&record).second) << "linked twice";
+    levels = std::max(levels, cell.level);
+    ++visited;
+  });
+  EXPECT_EQ(visited, records);
+  EXPECT_EQ(file_.header().mask_cells, records);
+  EXPECT_EQ(file_.header().mask_levels, levels);
+}
+
+// Bits from the coarsest: z, y, x of each level.
+std::uint64_t octcode(const SpecCell& cell) {
+  std::uint64_t morton = 0;
+  for (unsigned level = cell.level; level-- > 0;)
+    for (const unsigned axis : {2u, 1u, 0u}) morton = 2 * morton + (cell.at[axis] >> level & 1);
+  return std::uint64_t{cell.level} << 59 | morton << (3 * (19 - cell.level) + 2);
+}
+
+TEST_P(SpecMasks, PagesHaveOneParentAndTheKeysOfTheirFirstFamilies) {
+  std::map<std::size_t, std::size_t> parent_of;
+  std::map<std::size_t, std::uint64_t> key_of = {{0, 0}};
+  std::map<const SpecMaskRecord*, std::size_t> page_of;
+  for (std::size_t k = 0; k < mask_.pages().size(); ++k)
+    for (const SpecMaskRecord& record : mask_.pages()[k].records) page_of[&record] = k;
+  mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    if (record.kind != 1) return;
+    const auto [page, first] = mask_.place_of(record.family);
+    EXPECT_GT(page, page_of[&record]);
+    EXPECT_LT(first, mask_.pages().at(page).root_count);
+    EXPECT_EQ(parent_of.emplace(page, page_of[&record]).first->second, page_of[&record]);
+    const auto key = key_of.emplace(page, octcode(cell)).first;
+    key->second = std::min(key->second, octcode(cell));
+  });
+  EXPECT_EQ(parent_of.size(), mask_.pages().size() - 1);
+  for (std::size_t k = 0; k < mask_.pages().size(); ++k) {
+    EXPECT_EQ(mask_.pages()[k].octcode, key_of[k]);
+    EXPECT_EQ(mask_.pages()[k].ordinal, 0u);
+  }
+}
+
+TEST_P(SpecMasks, ColoursAreWindingNumbers) {
+  std::size_t told = 0;
+  mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    if (!record.is_node()) return;
+    for (unsigned i = 0; i < 8; ++i) {
+      if ((record.grey >> i & 1) != 0) continue;
+      const auto number = winding(within(cell.octant(i), 0.5, 0.5, 0.5));
+      ASSERT_TRUE(number);
+      EXPECT_EQ(*number > 0, (record.black >> i & 1) != 0);
+      EXPECT_EQ(*number < 0, (record.inverted >> i & 1) != 0);
+      ++told;
+    }
+  });
+  EXPECT_EQ(told == 0, triangles_.size() < 48);
+}
+
+TEST_P(SpecMasks, CornersAreWindingNumbers) {
+  std::size_t told = 0;
+  mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    if (record.kind != 2 && record.kind != 3) return;
+    for (unsigned i = 0; i < 8; ++i) {
+      const auto number = winding(mask_.corner(cell, i));
+      if (!number) continue;
+      EXPECT_EQ(record.corners[i], *number);
+      ++told;
+    }
+  });
+  EXPECT_GT(told, 0u);
+}
+
+// Signs by double: points so near a plane that it may be wrong are left out.
+TEST_P(SpecMasks, SpecialCellsAreTwoWindingNumbers) {
+  mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    if (record.kind != 4) return;
+    for (int i = 0; i < 27; ++i) {
+      const SpecPoint point =
+          within(cell, 0.03 + 0.45 * (i % 3), 0.05 + 0.44 * (i / 3 % 3), 0.02 + 0.47 * (i / 9));
+      const auto number = winding(point);
+      if (!number) continue;
+      bool beyond = false;
+      for (const SpecPlane& plane : record.planes)
+        beyond = beyond || volume(minus(plane[1], plane[0]), minus(plane[2], plane[0]),
+                                  minus(point, plane[0])) > 0;
+      EXPECT_EQ(*number, beyond ? record.beyond : record.behind);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace planetree::golden

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+/// Part of the independent reader: see spec_reader.h.
+namespace planetree::golden {
+
+inline void require(bool holds, const char* what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+/// Takes streams off the front of the raw bytes.
+class StreamCutter {
+ public:
+  explicit StreamCutter(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  std::span<const std::byte> bytes(std::size_t count) {
+    require(count <= rest_.size(), "the page is too short");
+    const auto taken = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return taken;
+  }
+  /// Element i has its byte k at k n + i.
+  template <class T>
+  std::vector<T> shuffled(std::size_t count) {
+    const auto stream = bytes(count * sizeof(T));
+    std::vector<T> values(count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < sizeof(T); ++k)
+        reinterpret_cast<std::byte*>(&values[i])[k] = stream[k * count + i];
+    return values;
+  }
+  template <class Narrow, class Wide>
+  std::vector<Wide> either(bool wide, std::size_t count) {
+    if (wide) return shuffled<Wide>(count);
+    const std::vector<Narrow> values = shuffled<Narrow>(count);
+    return {values.begin(), values.end()};
+  }
+  bool empty() const { return rest_.empty(); }
+
+ private:
+  std::span<const std::byte> rest_;
+};
+
+}  // namespace planetree::golden
