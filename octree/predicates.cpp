@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "octree/exact_predicates.h"
 #include "octree/strict_math.h"
@@ -19,6 +20,11 @@ double flushed(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest
 
 int sign_of(double value) { return value > 0 ? 1 : -1; }
 
+/// Not by ==, for which a thread may have been told to take subnormals for zero.
+bool same_bits(const Point& a, const Point& b) {
+  return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
+}
+
 }  // namespace
 
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
@@ -34,7 +40,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
       std::max({u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff(), w.cwiseAbs().maxCoeff()});
   if (std::fabs(volume) > kOrientationFilter * permanent + flushed(largest)) return sign_of(volume);
   // By far the most frequent of the rest: a vertex of the triangle itself.
-  if (d == a || d == b || d == c) return 0;
+  if (same_bits(d, a) || same_bits(d, b) || same_bits(d, c)) return 0;
   return exact_orientation(a, b, c, d);
 }
 

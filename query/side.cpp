@@ -1,52 +1,15 @@
 #include "query/side.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 #include "octree/cell_grid.h"
 #include "octree/crossings.h"
 #include "octree/mask_lookup.h"
 #include "octree/strict_math.h"
+#include "query/ways_out.h"
 
 namespace planetree::query {
 namespace {
 
 using octree::Point;
-
-/// The ways straight out of a box along the axes, the shortest first.
-class WaysOut {
- public:
-  WaysOut(const octree::TreeFacts& tree, const Point& from) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      add(from, axis, tree.box_lower[axis], -1);
-      add(from, axis, tree.box_upper[axis], 1);
-    }
-  }
-
-  struct Way {
-    double length = 0;
-    Point end = Point::Zero();  ///< strictly outside
-  };
-  const std::array<Way, 6>& all() const { return ways_; }
-
- private:
-  void add(const Point& from, Eigen::Index axis, double side, double direction) {
-    Way way{std::fabs(side - from[axis]), from};
-    // A side far from the origin may absorb the step of 1.
-    const double infinity = std::numeric_limits<double>::infinity();
-    const double beyond = std::nextafter(side, direction * infinity);
-    way.end[axis] = direction < 0 ? std::min(side - 1, beyond) : std::max(side + 1, beyond);
-    // Behind those that are as short.
-    std::size_t at = count_++;
-    for (; at > 0 && way.length < ways_[at - 1].length; --at) ways_[at] = ways_[at - 1];
-    ways_[at] = way;
-  }
-
-  std::size_t count_ = 0;
-  std::array<Way, 6> ways_;
-};
 
 bool outside_box(const octree::TreeFacts& tree, const Point& point) {
   return (point.array() < tree.box_lower.array()).any() ||

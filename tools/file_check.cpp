@@ -11,6 +11,7 @@
 
 #include "query/scale.h"
 #include "tools/geometry_check.h"
+#include "tools/mask_check.h"
 #include "tools/subtree_links.h"
 
 namespace planetree::tools {
@@ -58,6 +59,7 @@ class TreeCheck {
   void check_blocks();
   void settle_height(std::uint64_t parent, std::uint8_t child_height);
   void prove_height(const OpenNode& node);
+  void compare(const char* what, std::uint64_t said, std::uint64_t found);
   void check_counts();
 
   void report(IssueCode code, std::string message) {
@@ -102,6 +104,7 @@ CheckReport TreeCheck::run(const CheckProgress& progress) {
     report_whole(IssueCode::kLinkTarget, "the header's link to the root leads to no page");
   check_counts();
   if (geometry_) geometry_->finish(complete_);
+  check_mask(parts_, geometry_.has_value() && report_.issues.count() == 0, report_, progress);
   return std::move(report_);
 }
 
@@ -300,14 +303,15 @@ void TreeCheck::prove_height(const OpenNode& node) {
                                   node.height, node.highest_child)});
 }
 
+void TreeCheck::compare(const char* what, std::uint64_t said, std::uint64_t found) {
+  if (said != found)
+    report_whole(IssueCode::kCount,
+                 fmt::format("the header says {} {}, but the pages hold {}", said, what, found));
+}
+
 void TreeCheck::check_counts() {
   if (!complete_) return;
   const storage::ModelRecord& model = header_.model;
-  const auto compare = [this](const char* what, std::uint64_t said, std::uint64_t found) {
-    if (said != found)
-      report_whole(IssueCode::kCount,
-                   fmt::format("the header says {} {}, but the pages hold {}", said, what, found));
-  };
   compare("nodes", model.node_count, report_.nodes);
   compare("blocks", model.block_count, report_.blocks);
   compare("triangles", model.triangle_count, report_.triangles);

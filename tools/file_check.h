@@ -33,6 +33,7 @@ struct CheckReport {
   std::uint64_t nodes = 0;
   std::uint64_t blocks = 0;
   std::uint64_t triangles = 0;
+  std::uint64_t mask_cells = 0;
 };
 
 /// Told after each page.
@@ -42,9 +43,9 @@ using CheckProgress = std::function<void(std::uint32_t pages_done)>;
 /// does not stop at the first that is broken. What follows from an issue
 /// already told, such as subtrees below a page that is lost, is not told again.
 ///
-/// full    also every triangle and vertex
+/// full    also every triangle and vertex, and what the mask says of them
 /// memory  one page, the links to pages not yet come, and with `full` about
-///         2 bits for each triangle
+///         2 bits for each triangle and up to 256 MiB
 CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress = {});
 
 }  // namespace planetree::tools

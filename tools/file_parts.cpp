@@ -46,6 +46,7 @@ bool can_serve(const storage::FileHeader& header, std::uint64_t actual_bytes) {
 
 Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::FileCalls& calls) {
   FileParts parts;
+  parts.path_ = path;
   parts.file_ =
       storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
   struct stat status {};
@@ -153,6 +154,12 @@ std::optional<Issue> FileParts::read_page(std::uint32_t page) {
 
 bool FileParts::cut(octree::RawStreams& streams) const {
   return streams.cut(raw_, shape()) == nullptr;
+}
+
+std::optional<octree::MaskPageHead> FileParts::mask_head() const {
+  octree::MaskStreams streams;
+  if (page_ < first_mask_page() || streams.cut(raw_, shape().float64) != nullptr) return {};
+  return streams.head;
 }
 
 std::optional<Issue> FileParts::decode_page() {

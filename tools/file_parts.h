@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "octree/mask_streams.h"
 #include "octree/raw_streams.h"
 #include "planetree/error.h"
 #include "query/page_decoding.h"
@@ -34,6 +35,7 @@ class FileParts {
   /// Found at open: outside the pages.
   std::span<const Issue> issues() const { return issues_; }
   std::uint64_t actual_bytes() const { return actual_bytes_; }
+  const std::filesystem::path& path() const { return path_; }
 
   /// Null if neither header is whole, or if this program does not know its format.
   const storage::FileHeader* header() const { return has_header_ ? &header_ : nullptr; }
@@ -57,6 +59,8 @@ class FileParts {
   /// The same, of a distance page, cut into streams; false if they are not what
   /// the head says.
   bool cut(octree::RawStreams& streams) const;
+  /// The head of the mask page read last; nothing if that is not one.
+  std::optional<octree::MaskPageHead> mask_head() const;
   /// Of the page decoded last, if a distance page; good until the next.
   FrameView frame() const { return FrameView(frame_.data(), shape()); }
   const std::byte* frame_bytes() const { return frame_.data(); }
@@ -68,6 +72,7 @@ class FileParts {
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out) const;
   const char* fault_of(const storage::PageEntry& entry) const;
 
+  std::filesystem::path path_;
   storage::FileHandle file_;
   std::uint64_t actual_bytes_ = 0;
   bool has_header_ = false;

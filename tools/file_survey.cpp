@@ -1,10 +1,12 @@
 #include "tools/file_survey.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <utility>
 
+#include "tools/mask_walk.h"
 #include "tools/subtree_links.h"
 
 namespace planetree::tools {
@@ -12,15 +14,20 @@ namespace {
 
 class Surveyor {
  public:
-  explicit Surveyor(FileParts& parts) : parts_(parts), links_(parts.header()->page_bytes) {}
+  explicit Surveyor(FileParts& parts)
+      : parts_(parts),
+        links_(parts.header()->page_bytes),
+        mask_(
+            parts, [this](const GreyCell& grey) { count(grey); },
+            [this](Issue issue) { survey_.issues.add(std::move(issue)); }) {}
 
   FileSurvey run(const PageVisitor& visit) {
     for (const Issue& issue : parts_.issues()) survey_.issues.add(issue);
     const std::uint32_t root = parts_.header()->model.root_link;
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
-      PageRow row{page, parts_.entries()[page], {}};
-      if (page < parts_.first_mask_page()) look_at(row);
+      PageRow row{page, parts_.entries()[page], {}, {}};
+      look_at(row);
       if (!visit(row)) break;
     }
     return std::move(survey_);
@@ -30,13 +37,38 @@ class Surveyor {
   void look_at(PageRow& row) {
     std::optional<Issue> issue = parts_.read_page(row.number);
     if (!issue) issue = parts_.decode_page();
+    const bool mask = row.number >= parts_.first_mask_page();
     if (issue) {
       survey_.issues.add(*std::move(issue));
-      pending_.finish_page(row.number, [](const auto&, const auto&) {});
-      return;
+      if (mask) return mask_.lose(row.number);
+      return pending_.finish_page(row.number, [](const auto&, const auto&) {});
+    }
+    if (mask) {
+      row.mask = parts_.mask_head();
+      return mask_.add(row.number);
     }
     add_streams(row);
     add_levels(row.number);
+  }
+
+  MaskLevelRow& mask_level(std::size_t level) {
+    if (survey_.mask.size() <= level) survey_.mask.resize(level + 1);
+    return survey_.mask[level];
+  }
+
+  void count(const GreyCell& grey) {
+    MaskLevelRow& row = mask_level(grey.cell.level);
+    ++row.grey;
+    row.corners += grey.corners != nullptr;
+    row.special += grey.special != nullptr;
+    if (grey.node == nullptr) return;
+    const auto count_bits = [](unsigned mask) {
+      return static_cast<unsigned>(std::popcount(mask));
+    };
+    const unsigned inside = grey.node->black | grey.node->inverted;
+    MaskLevelRow& below = mask_level(grey.cell.level + 1);
+    below.black += count_bits(inside);
+    below.white += 8 - count_bits(inside | grey.node->grey);
   }
 
   void add_streams(PageRow& row) {
@@ -111,6 +143,7 @@ class Surveyor {
   octree::LinkFormat links_;
   FileSurvey survey_;
   SubtreeLinks<std::uint32_t> pending_;  // to the depth of what is linked to
+  MaskWalk mask_;
 };
 
 }  // namespace

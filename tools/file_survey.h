@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "octree/mask_streams.h"
 #include "octree/page_streams.h"
 #include "storage/file_layout.h"
 #include "tools/file_check.h"
@@ -22,11 +23,21 @@ struct LevelRow {
   std::uint64_t triangles = 0;  ///< in those blocks
 };
 
+/// All cells of one level of the mask.
+struct MaskLevelRow {
+  std::uint64_t white = 0;
+  std::uint64_t black = 0;  ///< of positive or negative winding number
+  std::uint64_t grey = 0;   ///< divided, with corners, and special ones together
+  std::uint64_t corners = 0;
+  std::uint64_t special = 0;
+};
+
 /// One page. What a page that cannot be read holds is not known.
 struct PageRow {
   std::uint32_t number = 0;
   storage::PageEntry entry{};
-  std::optional<octree::PageHead> head;
+  std::optional<octree::PageHead> head;      ///< of a distance page
+  std::optional<octree::MaskPageHead> mask;  ///< of a mask page
 };
 
 /// What is in a file, counted by walking its pages once.
@@ -34,6 +45,7 @@ struct FileSurvey {
   IssueList issues;
   std::vector<StreamRow> streams;    ///< sums over all pages; empty if none can be read
   std::vector<LevelRow> levels;      ///< by depth
+  std::vector<MaskLevelRow> mask;    ///< by level; empty without a mask
   std::uint64_t unplaced_pages = 0;  ///< that hang from what cannot be read, so not in `levels`
 };
 

@@ -94,7 +94,10 @@ int Inspection::show_all() {
   }
   Json json = {{"file", arguments_.file.string()}};
   json.update(summary_json(parts_, found));
-  if (arguments_.levels) json["by_level"] = levels_json(found);
+  if (arguments_.levels) {
+    json["by_level"] = levels_json(found);
+    json["mask_by_level"] = mask_levels_json(found);
+  }
   if (arguments_.pages) json["by_page"] = std::move(page_rows);
   json["issue_count"] = found.issues.count();
   json["issues"] = issues_json(found.issues);
@@ -105,9 +108,11 @@ int Inspection::show_all() {
 int Inspection::show_page(std::uint32_t page) {
   IssueList issues;
   for (const Issue& issue : parts_.issues()) issues.add(issue);
-  PageRow row{page, parts_.entries()[page], {}};
+  PageRow row{page, parts_.entries()[page], {}, {}};
   std::optional<Issue> issue = parts_.read_page(page);
-  if (octree::RawStreams streams; !issue && parts_.cut(streams)) row.head = streams.head;
+  const bool mask = page >= parts_.first_mask_page();
+  if (octree::RawStreams streams; !issue && !mask && parts_.cut(streams)) row.head = streams.head;
+  if (!issue) row.mask = parts_.mask_head();
   if (!issue) issue = parts_.decode_page();
   Json details = page_details(parts_, row, !issue);
   if (issue) issues.add(*issue);
@@ -125,7 +130,7 @@ int Inspection::show_nodes() {
   IssueList issues;
   for (const Issue& issue : parts_.issues()) issues.add(issue);
   Json pages = Json::array();
-  for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
+  for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
     const storage::PageEntry& entry = parts_.entries()[page];
     if (!arguments_.node->matches(entry.octcode)) continue;
     Json json = {{"page", page},

@@ -33,7 +33,10 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "VERTEX_OUTSIDE_PLANES",
                                                                   "MODEL_BOX",
                                                                   "SAMPLE",
-                                                                  "OPEN_EDGES"};
+                                                                  "OPEN_EDGES",
+                                                                  "MASK_CORNER",
+                                                                  "MASK_COLOUR",
+                                                                  "MASK_PLANES"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

@@ -38,8 +38,11 @@ enum class IssueCode : std::uint8_t {
   kModelBox,
   kSample,
   kOpenEdges,
+  kMaskCorner,
+  kMaskColour,
+  kMaskPlanes,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kOpenEdges) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kMaskPlanes) + 1;
 
 /// Such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

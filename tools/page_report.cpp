@@ -48,6 +48,20 @@ Json head_json(const octree::PageHead& head) {
           {"triangle_count", head.triangle_count}};
 }
 
+Json mask_head_json(const octree::MaskPageHead& head) {
+  return {{"page_number", head.page_number},
+          {"ordinal", head.ordinal},
+          {"octcode", fmt::format("0x{:016x}", head.octcode)},
+          {"record_count", head.record_count},
+          {"root_count", head.root_count},
+          {"node_count", head.node_count},
+          {"page_link_count", head.page_link_count},
+          {"plain_count", head.plain_count},
+          {"corners_count", head.corners_count},
+          {"special_count", head.special_count},
+          {"plane_count", head.plane_count}};
+}
+
 Json streams_json(const FileParts& parts) {
   Json rows = Json::array();
   octree::RawStreams streams;
@@ -110,6 +124,10 @@ std::string page_line(const PageRow& row) {
   const storage::PageEntry& entry = row.entry;
   const std::string key =
       fmt::format("{:>9} {:<24} {:>8}", row.number, cell_text(entry.octcode), entry.ordinal);
+  if (row.mask)
+    return fmt::format("{} {:>32} {:>9} {:>9}\n", key,
+                       fmt::format("mask of {} cells", row.mask->record_count), entry.raw_bytes,
+                       entry.stored_bytes);
   if (!row.head)
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key, "unreadable", entry.raw_bytes,
                        entry.stored_bytes);
@@ -120,8 +138,9 @@ std::string page_line(const PageRow& row) {
 }
 
 Json page_json(const PageRow& row) {
-  Json json = {{"page", row.number}, {"readable", row.head.has_value()}};
+  Json json = {{"page", row.number}, {"readable", row.head || row.mask}};
   json.update(entry_json(row.entry));
+  if (row.mask) json["mask_cells"] = row.mask->record_count;
   if (!row.head) return json;
   const octree::PageHead& head = *row.head;
   json["subtrees"] = head.root_node_count + head.root_block_count;
@@ -137,7 +156,8 @@ Json page_details(const FileParts& parts, const PageRow& row, bool decoded) {
     details["head"] = head_json(*row.head);
     details["streams"] = streams_json(parts);
   }
-  if (decoded) details["nodes"] = nodes_json(parts, false);
+  if (row.mask) details["head"] = mask_head_json(*row.mask);
+  if (row.head && decoded) details["nodes"] = nodes_json(parts, false);
   return details;
 }
 
@@ -145,6 +165,8 @@ std::string page_details_text(const Json& details) {
   std::string text = object_text("page table entry", details["entry"]);
   if (details.contains("head")) {
     text += object_text("page head", details["head"]);
+  }
+  if (details.contains("streams")) {
     text += fmt::format("{:<18} {:>9} {:>9} {:>9}\n", "streams", "offset", "elements", "bytes");
     for (const Json& row : details["streams"])
       text += fmt::format("  {:<16} {:>9} {:>9} {:>9}\n", row["stream"].get<std::string>(),

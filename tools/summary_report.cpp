@@ -18,15 +18,52 @@ struct Sections {
   std::uint64_t headers = 0;
   std::uint64_t page_table = 0;
   std::uint64_t distance_pages = 0;
+  std::uint64_t mask_pages = 0;
 };
 
-Sections sections_of(const storage::FileHeader& header) {
+Sections sections_of(const FileParts& parts) {
   Sections sections;
   sections.headers = 2 * storage::kHeaderBytes;
-  sections.page_table = header.page_count * sizeof(storage::PageEntry);
-  const std::uint64_t rest = sections.headers + sections.page_table;
-  sections.distance_pages = header.file_bytes - std::min(rest, header.file_bytes);
+  sections.page_table = parts.entries().size_bytes();
+  for (std::uint32_t page = 0; page < parts.page_count(); ++page)
+    (page < parts.first_mask_page() ? sections.distance_pages : sections.mask_pages) +=
+        parts.entries()[page].stored_bytes;
   return sections;
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+MaskLevelRow mask_sum(const FileSurvey& survey) {
+  MaskLevelRow sum;
+  for (const MaskLevelRow& row : survey.mask) {
+    sum.white += row.white;
+    sum.black += row.black;
+    sum.grey += row.grey;
+    sum.corners += row.corners;
+    sum.special += row.special;
+  }
+  return sum;
+}
+
+Json mask_row_json(const MaskLevelRow& row) {
+  return {{"white", row.white},
+          {"black", row.black},
+          {"grey", row.grey},
+          {"with_corners", row.corners},
+          {"special", row.special}};
+}
+
+std::string mask_text(const FileSurvey& survey, const Sections& sections, std::uint64_t triangles) {
+  if (survey.mask.empty()) return {};
+  const MaskLevelRow sum = mask_sum(survey);
+  return fmt::format(
+      "  mask        {} levels, {} white, {} black, {} grey cells, of those {} with corners and {} "
+      "special; {:.2f} bytes a triangle\n",
+      survey.mask.size() - 1, grouped_count(sum.white), grouped_count(sum.black),
+      grouped_count(sum.grey), grouped_count(sum.corners), grouped_count(sum.special),
+      share(sections.mask_pages, triangles));
 }
 
 std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
@@ -36,12 +73,8 @@ std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& su
   return bytes;
 }
 
-double share(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-Json bytes_json(const storage::FileHeader& header, const FileSurvey& survey) {
-  const Sections sections = sections_of(header);
+Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
+  const Sections sections = sections_of(parts);
   Json raw = Json::object();
   const auto groups = bytes_by_group(survey);
   for (std::size_t i = 0; i < kStreamGroupCount; ++i)
@@ -51,6 +84,7 @@ Json bytes_json(const storage::FileHeader& header, const FileSurvey& survey) {
   return {{"headers", sections.headers},
           {"page_table", sections.page_table},
           {"distance_pages", sections.distance_pages},
+          {"mask_pages", sections.mask_pages},
           {"within_pages", raw},
           {"within_pages_by_stream", streams}};
 }
@@ -103,6 +137,18 @@ std::string raw_text(const FileSurvey& survey) {
   return fmt::format("{} before compression: {}", short_bytes(sum), text);
 }
 
+std::string mask_levels_text(const FileSurvey& survey) {
+  std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "mask", "white",
+                                 "black", "grey", "with corners", "special");
+  for (std::size_t level = 0; level < survey.mask.size(); ++level) {
+    const MaskLevelRow& row = survey.mask[level];
+    text += fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", level,
+                        grouped_count(row.white), grouped_count(row.black), grouped_count(row.grey),
+                        grouped_count(row.corners), grouped_count(row.special));
+  }
+  return text;
+}
+
 }  // namespace
 
 Json summary_json(const FileParts& parts, const FileSurvey& survey) {
@@ -128,7 +174,9 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"bytes_per_triangle", share(header.file_bytes, model.triangle_count)},
                {"format_version", header.version},
                {"content_id", content_id_text(header.content_id)},
-               {"bytes", bytes_json(header, survey)}};
+               {"mask", mask_row_json(mask_sum(survey))},
+               {"special_configurations", mask_sum(survey).special},
+               {"bytes", bytes_json(parts, survey)}};
   if (model.first_set_aside != storage::kNoTriangle)
     json["first_set_aside"] = model.first_set_aside;
   return json;
@@ -140,7 +188,7 @@ std::string summary_text(const std::string& name, const FileParts& parts,
     return fmt::format("{}: {}\n", name, short_bytes(parts.actual_bytes()));
   const storage::FileHeader& header = *parts.header();
   const storage::ModelRecord& model = header.model;
-  const Sections sections = sections_of(header);
+  const Sections sections = sections_of(parts);
   std::string text = fmt::format(
       "{}: {} triangles, {} vertices of {}\n", name, grouped_count(model.triangle_count),
       grouped_count(model.vertex_count), parts.shape().float64 ? "float64" : "float32");
@@ -154,16 +202,26 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",
                   model.height, grouped_count(model.node_count), grouped_count(model.block_count),
                   share(model.triangle_count, model.block_count));
+  text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
-      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, pages "
-      "{}\n",
+      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, "
+      "mask pages {}\n",
       short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
       short_bytes(sections.headers), short_bytes(sections.page_table),
-      short_bytes(sections.distance_pages));
+      short_bytes(sections.distance_pages), short_bytes(sections.mask_pages));
   text += fmt::format("  pages       {} of {} in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));
   return text;
+}
+
+Json mask_levels_json(const FileSurvey& survey) {
+  Json rows = Json::array();
+  for (std::size_t level = 0; level < survey.mask.size(); ++level) {
+    rows.push_back({{"level", level}});
+    rows.back().update(mask_row_json(survey.mask[level]));
+  }
+  return rows;
 }
 
 Json levels_json(const FileSurvey& survey) {
@@ -190,6 +248,7 @@ std::string levels_text(const FileSurvey& survey) {
                         grouped_count(row.triangles), share(row.children, row.nodes),
                         share(row.triangles, row.blocks));
   }
+  if (!survey.mask.empty()) text += mask_levels_text(survey);
   if (survey.unplaced_pages > 0)
     text += fmt::format("{} pages hang from pages that cannot be read and are not counted\n",
                         grouped_count(survey.unplaced_pages));

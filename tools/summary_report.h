@@ -15,6 +15,7 @@ namespace planetree::tools {
                                        const FileSurvey& survey);
 
 [[nodiscard]] nlohmann::ordered_json levels_json(const FileSurvey& survey);
+[[nodiscard]] nlohmann::ordered_json mask_levels_json(const FileSurvey& survey);
 [[nodiscard]] std::string levels_text(const FileSurvey& survey);
 
 }  // namespace planetree::tools

@@ -122,4 +122,22 @@ std::optional<SpecialCell> special_cell(std::span<const Triangle> triangles,
   return planes.cell();
 }
 
+bool is_special_cell(const SpecialCell& claim, std::span<const Triangle> triangles,
+                     const std::array<Point, 8>& corners,
+                     const std::array<std::int64_t, 8>& winding) {
+  const auto lies_in_one = [&](const Triangle& triangle) {
+    bool in_one = false;
+    for (unsigned i = 0; i < claim.plane_count; ++i) {
+      const Reach reach = reach_of(claim.planes[i], triangle);
+      if (reach.beyond) return false;
+      in_one = in_one || !reach.behind;
+    }
+    return in_one;
+  };
+  SpecialCell settled = claim;
+  return std::all_of(triangles.begin(), triangles.end(), lies_in_one) &&
+         settle(settled, corners, winding) && settled.behind == claim.behind &&
+         settled.beyond == claim.beyond;
+}
+
 }  // namespace planetree::octree

@@ -42,4 +42,9 @@ std::optional<SpecialCell> special_cell(std::span<const Triangle> triangles,
                                         const std::array<Point, 8>& corners,
                                         const std::array<std::int64_t, 8>& winding);
 
+/// Whether a cell is this special cell: the same arguments, tests and reasons.
+bool is_special_cell(const SpecialCell& claim, std::span<const Triangle> triangles,
+                     const std::array<Point, 8>& corners,
+                     const std::array<std::int64_t, 8>& winding);
+
 }  // namespace planetree::octree

@@ -78,9 +78,9 @@ TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
                         ErrorCode::kUnsupported, "0x20");
   // Another version may have another header.
   FileImage image = good();
-  image.change_header([](FileHeader& h) { h.version = 3; });
+  image.change_header([](FileHeader& h) { h.version = 4; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported, "version 3");
+  expect_refused(image, ErrorCode::kUnsupported, "version 4");
 }
 
 TEST_F(PageFileRefusal, NotUnknownCompatibleFeatures) {
@@ -125,7 +125,8 @@ TEST_F(PageFileRefusal, HeaderFields) {
   expect_damaged([](FileHeader& h) { h.max_stored_bytes = ~std::uint64_t{0}; },
                  "largest stored page");
   expect_damaged([](FileHeader& h) { h.reserved[0] = 1; }, "reserved");
-  expect_damaged([](FileHeader& h) { h.reserved[55] = 1; }, "reserved");
+  expect_damaged([](FileHeader& h) { h.reserved[std::size(FileHeader{}.reserved) - 1] = 1; },
+                 "reserved");
   expect_damaged([](FileHeader& h) { ++h.max_raw_bytes; }, "no page is as large");
 }
 
@@ -150,6 +151,23 @@ TEST_F(PageFileRefusal, ModelFields) {
                          "triangle indices");
   }
   expect_model_refused([](ModelRecord& m) { m.height = 97; }, "height");
+  expect_model_refused([](ModelRecord& m) { m.mask_page_count = ~0u; }, "only pages of the mask");
+  expect_model_refused([](ModelRecord& m) { m.mask_cell_count = 1; }, "mask's size");
+  expect_model_refused([](ModelRecord& m) { m.mask_page_count = 1; }, "mask's size");
+  expect_model_refused([](ModelRecord& m) { m.mask_levels = 1; }, "mask's size");
+  expect_model_refused([](ModelRecord& m) { m.mask_reserved[2] = 1; }, "mask's reserved");
+  expect_model_refused(
+      [](ModelRecord& m) {
+        m.mask_page_count = m.mask_cell_count = 1;
+        m.mask_levels = 20;
+      },
+      "mask's size");
+  expect_model_refused(
+      [](ModelRecord& m) {
+        m.mask_page_count = m.mask_cell_count = 1;
+        m.open_edge_count = 1;
+      },
+      "not watertight");
   for (const int at : {0, 4}) {
     expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
   }

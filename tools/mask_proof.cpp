@@ -1,0 +1,169 @@
+#include "tools/mask_proof.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "octree/box_walk.h"
+#include "octree/build/cell_overlap.h"
+#include "octree/build/special_cell.h"
+#include "octree/crossings.h"
+#include "octree/strict_math.h"
+#include "query/pager.h"
+#include "query/ways_out.h"
+
+namespace planetree::tools {
+namespace {
+
+using octree::GridCell;
+using octree::Point;
+using octree::Triangle;
+
+constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
+constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
+
+std::string cell_name(const GridCell& cell) {
+  return fmt::format("{}/{}/{}/{}", cell.level, cell.at[0], cell.at[1], cell.at[2]);
+}
+
+/// One name for a corner of however many cells.
+std::uint64_t corner_key(const GridCell& cell, unsigned corner) {
+  std::uint64_t key = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const std::uint64_t index = cell.at[axis] + (corner >> axis & 1);
+    key = key << 20 | index << (octree::kLevels - cell.level);
+  }
+  return key;
+}
+
+octree::SpecialCell claim_of(const GreyCell& grey) {
+  octree::SpecialCell claim;
+  claim.plane_count = grey.special->plane_count;
+  claim.behind = grey.special->behind;
+  claim.beyond = grey.special->beyond;
+  const double* at = grey.planes;
+  for (unsigned i = 0; i < claim.plane_count; ++i)
+    for (Point& corner : claim.planes[i]) {
+      corner = {at[0], at[1], at[2]};
+      at += 3;
+    }
+  return claim;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MaskProof>> MaskProof::open(const std::filesystem::path& path,
+                                                   IssueList& issues) {
+  OpenOptions options;
+  options.memory_budget_bytes = kMemoryBytes;
+  options.max_probes = 1;
+  auto model = query::ModelState::open(path, options);
+  if (!model) return model.error();
+  auto reader = (*model)->claim_reader();
+  if (!reader) return reader.error();
+  return std::unique_ptr<MaskProof>(new MaskProof(std::move(*model), std::move(*reader), issues));
+}
+
+MaskProof::MaskProof(std::unique_ptr<query::ModelState> model, cache::Reader reader,
+                     IssueList& issues)
+    : model_(std::move(model)),
+      reader_(std::move(reader)),
+      issues_(issues),
+      grid_(model_->mask().lower) {}
+
+void MaskProof::look_at(const GreyCell& grey) {
+  if (grey.node != nullptr) check_octants(grey);
+  if (grey.corners != nullptr) check_corners(grey);
+  if (grey.special != nullptr) check_special(grey);
+}
+
+void MaskProof::check_octants(const GreyCell& grey) {
+  for (unsigned octant = 0; octant < 8; ++octant)
+    if ((grey.node->grey >> octant & 1) == 0)
+      check_colour(grey.page, grey.cell.child(octant),
+                   (grey.node->black >> octant & 1) - (grey.node->inverted >> octant & 1));
+}
+
+void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colour) {
+  constexpr std::array<const char*, 3> kNames = {"inverted", "white", "black"};
+  const char* name = kNames[static_cast<std::size_t>(colour + 1)];
+  if (!touching(cell).empty())
+    return report(IssueCode::kMaskColour, page,
+                  fmt::format("cell {} is {}, but triangles touch it", cell_name(cell), name));
+  const std::optional<std::int64_t> number = winding(cell, 0);
+  if (number && (*number > 0) - (*number < 0) != colour)
+    report(
+        IssueCode::kMaskColour, page,
+        fmt::format("cell {} is {}, but its winding number is {}", cell_name(cell), name, *number));
+}
+
+void MaskProof::check_corners(const GreyCell& grey) {
+  if ((*grey.corners)[0] == octree::kUncounted) return;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const int said = (*grey.corners)[corner];
+    const std::optional<std::int64_t> number = winding(grey.cell, corner);
+    if (number && *number != said)
+      report(IssueCode::kMaskCorner, grey.page,
+             fmt::format("the winding number at corner {} of cell {} is {}, not {}", corner,
+                         cell_name(grey.cell), *number, said));
+  }
+}
+
+void MaskProof::check_special(const GreyCell& grey) {
+  std::array<Point, 8> corners;
+  std::array<std::int64_t, 8> numbers{};
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    corners[corner] = grid_.corner(grey.cell, corner);
+    const std::optional<std::int64_t> number = winding(grey.cell, corner);
+    if (!number) return;
+    numbers[corner] = *number;
+  }
+  if (!octree::is_special_cell(claim_of(grey), touching(grey.cell), corners, numbers))
+    report(
+        IssueCode::kMaskPlanes, grey.page,
+        fmt::format("the planes of cell {} do not say what is inside of it", cell_name(grey.cell)));
+}
+
+std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned corner) {
+  const auto [place, added] = counted_.try_emplace(corner_key(cell, corner));
+  if (added) place->second = recount(grid_.corner(cell, corner));
+  return place->second;
+}
+
+std::optional<std::int64_t> MaskProof::recount(const Point& point) {
+  const octree::TreeFacts& tree = model_->tree();
+  if ((point.array() < tree.box_lower.array()).any() ||
+      (point.array() > tree.box_upper.array()).any())
+    return 0;
+  query::PageTurner turner(reader_);
+  octree::TreeWork work;
+  const query::WaysOut ways(tree, point);
+  for (const query::WaysOut::Way& way : ways.all()) {
+    const octree::Crossings crossings =
+        octree::count_crossings(tree, {point, way.end}, kAllNodes, turner.pages(), work);
+    if (crossings.complete) return crossings.difference;
+  }
+  return std::nullopt;
+}
+
+std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
+  const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
+  query::PageTurner turner(reader_);
+  octree::TreeWork work;
+  std::vector<Triangle> found;
+  octree::BoxWalk(model_->tree(), lower, upper, turner.pages(), work)
+      .run(kAllNodes, [&](const octree::BlockView& block) {
+        for (unsigned i = 0; i < block.triangle_count(); ++i)
+          if (const Triangle triangle = block.triangle(i);
+              octree::may_touch(triangle, lower, upper))
+            found.push_back(triangle);
+      });
+  return found;
+}
+
+void MaskProof::report(IssueCode code, std::uint32_t page, std::string message) {
+  issues_.add({code, page, Error::kNowhere, std::move(message)});
+}
+
+}  // namespace planetree::tools

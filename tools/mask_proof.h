@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "octree/cell_grid.h"
+#include "planetree/error.h"
+#include "query/model_state.h"
+#include "tools/file_check.h"
+#include "tools/mask_walk.h"
+
+namespace planetree::tools {
+
+/// Holds what a mask says against the triangles: winding numbers at corners and
+/// in cells of one colour by the way straight out of the model's box, so by
+/// other triangles than those they were found with; and that only grey cells
+/// are touched.
+///
+/// memory  256 MiB of pages at most, and the corners of one page
+class MaskProof {
+ public:
+  static Result<std::unique_ptr<MaskProof>> open(const std::filesystem::path& path,
+                                                 IssueList& issues);
+
+  void look_at(const GreyCell& grey);
+  /// Forgets the corners counted so far: neighbours are mostly in one page.
+  void end_page() { counted_.clear(); }
+
+ private:
+  MaskProof(std::unique_ptr<query::ModelState> model, cache::Reader reader, IssueList& issues);
+
+  void check_octants(const GreyCell& grey);
+  void check_colour(std::uint32_t page, const octree::GridCell& cell, int colour);
+  void check_corners(const GreyCell& grey);
+  void check_special(const GreyCell& grey);
+  /// Nothing if pages are missing.
+  std::optional<std::int64_t> winding(const octree::GridCell& cell, unsigned corner);
+  std::optional<std::int64_t> recount(const octree::Point& point);
+  std::vector<octree::Triangle> touching(const octree::GridCell& cell);
+  void report(IssueCode code, std::uint32_t page, std::string message);
+
+  std::unique_ptr<query::ModelState> model_;
+  cache::Reader reader_;
+  IssueList& issues_;
+  octree::CellGrid grid_;
+  std::unordered_map<std::uint64_t, std::optional<std::int64_t>> counted_;  ///< by corner
+};
+
+}  // namespace planetree::tools
