@@ -158,13 +158,13 @@ TEST_F(PageFileRefusal, ModelFields) {
   expect_model_refused([](ModelRecord& m) { m.mask_reserved[2] = 1; }, "mask's reserved");
   expect_model_refused(
       [](ModelRecord& m) {
-        m.mask_page_count = m.mask_cell_count = 1;
+        m.mask_cell_count = m.mask_page_count = 1;
         m.mask_levels = 20;
       },
       "mask's size");
   expect_model_refused(
       [](ModelRecord& m) {
-        m.mask_page_count = m.mask_cell_count = 1;
+        m.mask_cell_count = m.mask_page_count = 1;
         m.open_edge_count = 1;
       },
       "not watertight");
