@@ -20,12 +20,13 @@ bool outside_box(const octree::TreeFacts& tree, const Point& point) {
 class SideSearch {
  public:
   SideSearch(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-             octree::PageReader pages, octree::TreeWork& work)
+             octree::PageReader pages, octree::TreeWork& work, SideReason& reason)
       : model_(model),
         point_(point),
         max_nodes_(max_nodes),
         pages_(pages),
         work_(work),
+        reason_(reason),
         before_(work.nodes + work.blocks) {}
 
   Standing run() {
@@ -33,7 +34,10 @@ class SideSearch {
     // Usually the first way tells; another may do without a page that is lost.
     const WaysOut ways(model_.tree(), point_);
     for (const WaysOut::Way& way : ways.all())
-      if (go(way.end, 0)) return standing_;
+      if (go(way.end, 0)) {
+        reason_.rule = SideReason::Rule::kWayOut;
+        return standing_;
+      }
     return {Side::kUnknown, Status::kDegraded};
   }
 
@@ -47,8 +51,12 @@ class SideSearch {
     using Kind = octree::MaskFinding::Kind;
     const octree::MaskFinding found =
         octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+    reason_.in_mask = model_.mask().page_count > 0;
+    reason_.cell = found.cell;
     if (found.kind == Kind::kCorners) return go_to_corner(found);
     if (found.kind == Kind::kNothing) return false;
+    reason_.rule =
+        found.kind == Kind::kColour ? SideReason::Rule::kColour : SideReason::Rule::kPlanes;
     settle(found.winding, found.on_surface);
     return true;
   }
@@ -61,7 +69,9 @@ class SideSearch {
     for (unsigned axis = 0; axis < 3; ++axis)
       nearest |= static_cast<unsigned>(point_[axis] - lower[axis] > upper[axis] - point_[axis])
                  << axis;
-    return go(grid.corner(found.cell, nearest), found.corners[nearest]);
+    if (!go(grid.corner(found.cell, nearest), found.corners[nearest])) return false;
+    reason_.rule = SideReason::Rule::kCorner;
+    return true;
   }
 
   // To where the winding number is known. False if that way cannot be gone.
@@ -69,8 +79,12 @@ class SideSearch {
     if (nodes_left() == 0) return false;
     const octree::Crossings crossings =
         octree::count_crossings(model_.tree(), {point_, end}, nodes_left(), pages_, work_);
-    if (crossings.complete) settle(winding + crossings.difference, crossings.on_surface);
-    return crossings.complete;
+    if (!crossings.complete) return false;
+    reason_.end = end;
+    reason_.known = winding;
+    reason_.crossings = crossings.difference;
+    settle(winding + crossings.difference, crossings.on_surface);
+    return true;
   }
 
   void settle(std::int64_t winding, bool on_surface) {
@@ -83,6 +97,7 @@ class SideSearch {
   const std::uint64_t max_nodes_;
   const octree::PageReader pages_;
   octree::TreeWork& work_;
+  SideReason& reason_;
   const std::uint64_t before_;
   Standing standing_;
 };
@@ -90,10 +105,16 @@ class SideSearch {
 }  // namespace
 
 Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-                   octree::PageReader pages, octree::TreeWork& work) noexcept {
+                   octree::PageReader pages, octree::TreeWork& work, SideReason* reason) noexcept {
+  SideReason untold;
+  SideReason& why = reason != nullptr ? *reason : untold;
+  why = {};
   if (!model.info().watertight()) return {};
-  if (outside_box(model.tree(), point)) return {Side::kOutside};
-  return SideSearch(model, point, max_nodes, pages, work).run();
+  if (outside_box(model.tree(), point)) {
+    why.rule = SideReason::Rule::kOutsideBox;
+    return {Side::kOutside};
+  }
+  return SideSearch(model, point, max_nodes, pages, work, why).run();
 }
 
 }  // namespace planetree::query

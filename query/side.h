@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "octree/cell_grid.h"
 #include "octree/tree_view.h"
 #include "planetree/types.h"
 #include "query/model_state.h"
@@ -17,12 +18,32 @@ struct Standing {
   std::int64_t winding = 0;
 };
 
+/// How a side was found: for those who ask why.
+struct SideReason {
+  enum class Rule : std::uint8_t {
+    kNone,        ///< the side is not known
+    kOutsideBox,  ///< of the model
+    kColour,      ///< `cell` is white or black
+    kPlanes,      ///< `cell` is special
+    kCorner,      ///< `crossings` from a corner of `cell`, `end`, where `known` is known
+    kWayOut,      ///< `crossings` from `end`, outside of the model's box
+  };
+  Rule rule = Rule::kNone;
+  octree::GridCell cell;  ///< of the mask: the smallest that was reached
+  bool in_mask = false;   ///< whether there is one, so that `cell` says something
+  octree::Point end = octree::Point::Zero();
+  std::int64_t known = 0;      ///< winding number at `end`
+  std::int64_t crossings = 0;  ///< what it changes by from there to the point
+};
+
 /// Which side of a model's surface a point is on.
 ///
 /// point      model frame.
 /// max_nodes  most nodes and blocks to visit.
+/// reason     filled if not null.
 /// return     kUnknown of a model that is not watertight, and where degraded.
 Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
-                   octree::PageReader pages, octree::TreeWork& work) noexcept;
+                   octree::PageReader pages, octree::TreeWork& work,
+                   SideReason* reason = nullptr) noexcept;
 
 }  // namespace planetree::query

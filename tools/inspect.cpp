@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tools/explanation.h"
 #include "tools/file_parts.h"
 #include "tools/file_survey.h"
 #include "tools/open_model.h"
@@ -200,6 +201,19 @@ int show_slice(const InspectArguments& arguments, Console& console) {
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
 
+int show_why(const InspectArguments& arguments, Console& console) {
+  const auto explanation = explain(arguments.file, *arguments.why);
+  if (!explanation) return console.fail(arguments.file.string(), explanation.error());
+  console.print(arguments.json ? json_line(explanation_json(*explanation))
+                               : explanation_text(*explanation));
+  return console.finish(explanation->answer.status == Status::kDegraded ? kDataAtFault : kDone);
+}
+
+std::string why_complaint(const std::string& text) {
+  if (parse_point(text)) return {};
+  return fmt::format("'{}' is no point; give three numbers as X,Y,Z", text);
+}
+
 std::string node_complaint(const std::string& text) {
   if (OctcodeQuery::parse(text)) return {};
   return fmt::format("'{}' is no octcode; give 0x... or level:x:y:z", text);
@@ -214,6 +228,7 @@ std::string slice_complaint(const std::string& text) {
 
 int run_inspect(const InspectArguments& arguments, Console& console) {
   if (arguments.slice) return show_slice(arguments, console);
+  if (arguments.why) return show_why(arguments, console);
   const std::string file = arguments.file.string();
   auto parts = FileParts::open(arguments.file);
   if (!parts) return console.fail(file, parts.error());
@@ -254,6 +269,14 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
       [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
       "Instead a picture of the distance over a plane, such as z=1.5 (model units) or z=50% "
       "(of the box)");
+  const auto why = verb.text(
+      "--why", "X,Y,Z", why_complaint,
+      [&arguments](const std::string& text) { arguments.why = parse_point(text); },
+      "Instead one answer and how it came about: the mask's cell, the rule that told the side, "
+      "crossings, the nearest triangle, what was read (model units)");
+  verb.exclude(why, node);
+  verb.exclude(why, page);
+  verb.exclude(why, slice);
   verb.need(slice, image);
   verb.exclude(slice, node);
   verb.exclude(slice, page);

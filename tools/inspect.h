@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "planetree/types.h"
 #include "tools/file_text.h"
 #include "tools/slice_image.h"
 #include "tools/verb.h"
@@ -22,6 +23,7 @@ struct InspectArguments {
   std::optional<OctcodeQuery> node;
   std::optional<std::uint64_t> page;
   std::optional<SlicePlane> slice;
+  std::optional<Vec3> why;
   std::filesystem::path image;
   bool replace_image = false;
   bool json = false;
