@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -11,6 +12,9 @@
 #include "octree/tree_view.h"
 
 namespace planetree::octree {
+
+/// The children of a node whose boxes meet a box, one bit each.
+unsigned children_meeting(const Node& node, const FloatBox& box) noexcept;
 
 /// Visits every block whose box meets a box, in an order that depends on the
 /// tree alone. No allocation, no lock.
@@ -68,15 +72,9 @@ class BoxWalk {
   // A tree deeper than its header may say is forged.
   bool push_children(const Node& node) {
     if (size_ + kFanOut > links_.size()) return false;
-    for (unsigned child = 0; child < node.child_count; ++child)
-      if (meets(node, child)) push(node.link[child]);
-    return true;
-  }
-
-  bool meets(const Node& node, unsigned child) const {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (node.lower[axis][child] > box_.upper[axis] || node.upper[axis][child] < box_.lower[axis])
-        return false;
+    unsigned left = children_meeting(node, box_);
+    for (; left != 0; left &= left - 1)
+      push(node.link[static_cast<unsigned>(std::countr_zero(left))]);
     return true;
   }
 
