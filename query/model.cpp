@@ -43,6 +43,7 @@ octree::TreeFacts tree_facts(const storage::FileHeader& header, const Scale& sca
   tree.root_link = model.root_link;
   tree.shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
   tree.shape.wide_ids = model.triangle_id_bytes == 8;
+  tree.shape.moments = model.open_edge_count != 0;
   tree.record_count = model.node_count + model.block_count;
   tree.box_lower = scale.in(Vec3{model.box_lower[0], model.box_lower[1], model.box_lower[2]});
   tree.box_upper = scale.in(Vec3{model.box_upper[0], model.box_upper[1], model.box_upper[2]});

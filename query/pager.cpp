@@ -10,6 +10,7 @@ Pager::Pager(storage::PageFile file) : file_(std::move(file)) {
   const storage::ModelRecord& model = file_.header().model;
   shape_.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
   shape_.wide_ids = model.triangle_id_bytes == 8;
+  shape_.moments = model.open_edge_count != 0;
 }
 
 Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path,

@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "octree/crossings.h"
+#include "octree/nearest.h"
 #include "octree/strict_math.h"
+#include "octree/winding_number.h"
 
 namespace planetree::query {
 namespace {
@@ -51,11 +53,8 @@ bool outside_box(const octree::TreeFacts& tree, const Point& point) {
          (point.array() > tree.box_upper.array()).any();
 }
 
-}  // namespace
-
-Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-                   octree::PageReader pages, octree::TreeWork& work) noexcept {
-  if (!model.info().watertight()) return {};
+Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t max_nodes,
+                      octree::PageReader pages, octree::TreeWork& work) {
   if (outside_box(model.tree(), point)) return {Side::kOutside};
   // Usually the first way tells; another may do without a page that is lost.
   const WaysOut ways(model.tree(), point);
@@ -71,6 +70,36 @@ Standing find_side(const ModelState& model, const Point& point, std::uint64_t ma
             crossings.difference};
   }
   return {Side::kUnknown, Status::kDegraded};
+}
+
+/// The nearest whole number, however large.
+std::int64_t rounded(double value) {
+  constexpr double kMost = 0x1p62;
+  return static_cast<std::int64_t>(std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMost, kMost));
+}
+
+Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
+                           std::uint64_t max_nodes, octree::PageReader pages,
+                           octree::TreeWork& work) {
+  // From so far away all triangles together are less than a point.
+  if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
+  const octree::WindingNumber w =
+      octree::winding_number(tree, point, max_nodes, pages, work);
+  if (w.on_surface) {
+    const bool told = std::fabs(w.value) > w.error;
+    return {Side::kOnSurface, Status::kExact, told ? (w.value < 0 ? -1 : 1) : 0, false};
+  }
+  if (w.above_half()) return {Side::kInside, Status::kExact, rounded(w.value)};
+  if (w.below_half()) return {Side::kOutside, Status::kExact};
+  return {Side::kUnknown, w.complete ? Status::kExact : Status::kDegraded};
+}
+
+}  // namespace
+
+Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
+                   octree::PageReader pages, octree::TreeWork& work) noexcept {
+  return model.info().watertight() ? by_crossings(model, point, max_nodes, pages, work)
+                                   : by_winding_number(model.tree(), point, max_nodes, pages, work);
 }
 
 }  // namespace planetree::query

@@ -12,15 +12,19 @@ namespace planetree::query {
 struct Standing {
   Side side = Side::kUnknown;
   Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
-  /// Winding number of the point; of a step beside it on the surface.
+  /// Winding number of the point, to the nearest whole number where the side is
+  /// known. On the surface: of a step beside the point if `beside`, else 1 or -1
+  /// as the rest of the surface winds about it, 0 where that is too little to tell.
   std::int64_t winding = 0;
+  bool beside = true;
 };
 
 /// Which side of a model's surface a point is on.
 ///
 /// point      model frame.
 /// max_nodes  most nodes and blocks to visit.
-/// return     kUnknown of a model that is not watertight, and where degraded.
+/// return     kUnknown where degraded, and where the winding number of a model
+///            that is not watertight is one half to rounding.
 Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work) noexcept;
 

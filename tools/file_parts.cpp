@@ -116,6 +116,7 @@ octree::BlockShape FileParts::shape() const {
   octree::BlockShape shape;
   shape.float64 = header_.model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = header_.model.triangle_id_bytes == 8;
+  shape.moments = header_.model.open_edge_count != 0;
   return shape;
 }
 

@@ -25,10 +25,10 @@ class FrameView {
     return *reinterpret_cast<const octree::Node*>(at(node_slot(index)));
   }
   std::uint32_t node_slot(std::uint32_t index) const {
-    return header().first_node_slot + octree::kNodeSlots * index;
+    return header().first_node_slot + shape_.node_slots() * index;
   }
   std::uint32_t node_at_slot(std::uint32_t slot) const {
-    return (slot - header().first_node_slot) / octree::kNodeSlots;
+    return (slot - header().first_node_slot) / shape_.node_slots();
   }
 
   octree::BlockView block(std::uint32_t slot) const { return {at(slot), shape_}; }

@@ -16,7 +16,7 @@ class NodeEncoder {
   NodeEncoder(const PagePlan& plan, std::uint32_t page_number)
       : plan_(plan), links_(plan.page_bytes), page_number_(page_number) {}
 
-  void add(const WideNode& node, bool root) {
+  void add(const WideNode& node, bool root, const NodeMoments* moments) {
     if (root) {
       for (const float value : node.box.lower) root_boxes_.push_back(value);
       for (const float value : node.box.upper) root_boxes_.push_back(value);
@@ -28,6 +28,7 @@ class NodeEncoder {
       const WideChild& child = node.children[i];
       packed_.push_back(child.packed);
       kinds |= static_cast<unsigned>(kind_of(child)) << (2 * i);
+      if (moments != nullptr) moments_.push_back(moments->child(i));
     }
     kinds_.push_back(static_cast<std::uint16_t>(kinds));
   }
@@ -59,10 +60,23 @@ class NodeEncoder {
     writer.shuffled(normals);
     writer.shuffled(slabs);
     writer.shuffled(radii);
+    write_moments(writer);
     writer.shuffled(page_links_);
   }
 
  private:
+  void write_moments(StreamWriter& writer) const {
+    std::vector<float> vectors;
+    std::vector<ShortFloat> areas, spreads;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const Moments& moments : moments_) vectors.push_back(moments.vector[axis]);
+    for (const Moments& moments : moments_) areas.push_back(moments.area);
+    for (const Moments& moments : moments_) spreads.push_back(moments.spread);
+    writer.shuffled(vectors);
+    writer.shuffled(areas);
+    writer.shuffled(spreads);
+  }
+
   ChildKind kind_of(const WideChild& child) {
     const std::uint32_t link =
         child.block ? plan_.block_links[child.index] : plan_.node_links[child.index];
@@ -79,6 +93,7 @@ class NodeEncoder {
   std::vector<std::uint8_t> child_counts_, heights_;
   std::vector<std::uint16_t> kinds_;
   std::vector<PackedChild> packed_;
+  std::vector<Moments> moments_;
   std::vector<std::uint32_t> page_links_;
 };
 
@@ -101,7 +116,8 @@ std::vector<std::byte> PageEncoder::encode(std::uint32_t page_number) const {
   NodeEncoder nodes(plan_, page_number);
   BlockEncoder blocks(mesh_, keys_, shape_);
   for (std::size_t i = 0; i < page.nodes.size(); ++i)
-    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count);
+    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count,
+              shape_.moments ? &tree_.moments[page.nodes[i]] : nullptr);
   for (const std::uint32_t block : page.blocks) blocks.add(tree_.blocks[block]);
   PageHead head{};
   head.page_number = page_number;
