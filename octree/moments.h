@@ -1,16 +1,17 @@
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "octree/frame.h"
-#include "octree/triangle_distance.h"
 
 /// What a node of an open model knows of each child besides its bounds: enough
 /// to tell the child's share of a far point's winding number, and how wrong
 /// that may be (Barill et al. 2018, "Fast winding numbers for soups and
-/// clouds", of whose moments these are the first; the error bound is ours).
+/// clouds"; what is stored of the moments and how wrong they may be is ours).
 namespace planetree::octree {
 
 /// A float without its lower 16 bits: 8 bits of precision, positive.
@@ -34,36 +35,60 @@ constexpr ShortFloat pack_short_above(double value) {
                                                            : packed;
 }
 
-/// The moments of one child's triangles; model frame.
+/// The moments of one child's triangles as they are stored, about the centre of
+/// the child's decoded box; model frame. With x relative to that centre, n the
+/// normal of length 1 and integrals over the triangles:
 struct Moments {
-  float vector[3];    ///< sum of the halves of (b - a) x (c - a), to 2^-22 of `area`
-  ShortFloat area;    ///< at least the sum of their areas
-  ShortFloat spread;  ///< at least the integral of the distance from the box's centre over them
-};
-static_assert(sizeof(Moments) == 16);
+  std::array<std::int16_t, 3> vector{};  ///< integral of n, in vector_unit()
+  std::array<std::int8_t, 5> first{};    ///< of x n^T, made symmetric and free of trace: xx, yy,
+                                         ///< xy, yz, zx in first_unit()
+  ShortFloat area = 0;                   ///< at least the integral of 1
+  ShortFloat second = 0;                 ///< at least the integral of |x|^2
 
-/// Those of all children, field by field, as the serving layout has them
+  /// A vector is no longer than the area, and a first moment, by Cauchy and
+  /// Schwarz, no larger than the root of area times second moment.
+  double vector_unit() const { return wide(area) * (1.0 / kVectorSteps); }
+  double first_unit() const { return std::sqrt(wide(area) * wide(second)) * (1.0 / kFirstSteps); }
+  static double wide(ShortFloat packed) { return static_cast<double>(unpack_short(packed)); }
+
+  static constexpr int kVectorSteps = 32767;
+  static constexpr int kFirstSteps = 127;
+};
+
+/// How far a stored vector may be off, as a share of the area: half a step an
+/// axis and a little.
+inline constexpr double kVectorError = 0x1p-15;
+/// How far a stored first moment may be off as a matrix, by the root of the sum
+/// of its squares, in units: half a step each, a whole one for zz, and a little.
+inline constexpr double kFirstError = 1.75;
+
+/// The moments of all children, field by field, as the serving layout has them
 /// behind a node. Absent children have zeros.
 struct alignas(kSlotBytes) NodeMoments {
-  float vector[3][kFanOut];
+  std::int16_t vector[3][kFanOut];
   ShortFloat area[kFanOut];
-  ShortFloat spread[kFanOut];
+  ShortFloat second[kFanOut];
+  std::int8_t first[5][kFanOut];
+  std::uint8_t reserved[8];
 
   static const NodeMoments& of(const Node& node) {
     return *reinterpret_cast<const NodeMoments*>(&node + 1);
   }
   Moments child(std::size_t at) const {
-    return {{vector[0][at], vector[1][at], vector[2][at]}, area[at], spread[at]};
+    Moments moments;
+    for (std::size_t i = 0; i < 3; ++i) moments.vector[i] = vector[i][at];
+    for (std::size_t i = 0; i < 5; ++i) moments.first[i] = first[i][at];
+    moments.area = area[at];
+    moments.second = second[at];
+    return moments;
   }
   void set(std::size_t at, const Moments& moments) {
-    for (std::size_t axis = 0; axis < 3; ++axis) vector[axis][at] = moments.vector[axis];
+    for (std::size_t i = 0; i < 3; ++i) vector[i][at] = moments.vector[i];
+    for (std::size_t i = 0; i < 5; ++i) first[i][at] = moments.first[i];
     area[at] = moments.area;
-    spread[at] = moments.spread;
+    second[at] = moments.second;
   }
 };
 static_assert(sizeof(NodeMoments) == kMomentSlots * kSlotBytes);
-
-/// How much the vector may err, as a share of the area.
-inline constexpr double kVectorError = 0x1p-22;
 
 }  // namespace planetree::octree

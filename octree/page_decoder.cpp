@@ -182,17 +182,21 @@ const char* PageDecoder::decode_child(Node& parent, std::size_t child, const Flo
 }
 
 const char* PageDecoder::decode_moments(Node& parent, std::size_t child) {
+  constexpr const char* kOutOfRange = "a child's moments are out of range";
   const std::size_t count = streams_.head.child_count;
-  Moments moments{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    moments.vector[axis] = streams_.child_vectors[axis * count + next_child_];
-    if (!std::isfinite(moments.vector[axis])) return "a child's moments are out of range";
+  Moments moments;
+  for (std::size_t i = 0; i < 3; ++i) {
+    moments.vector[i] = streams_.child_vectors[i * count + next_child_];
+    if (moments.vector[i] < -Moments::kVectorSteps) return kOutOfRange;
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    moments.first[i] = streams_.child_firsts[i * count + next_child_];
+    if (moments.first[i] < -Moments::kFirstSteps) return kOutOfRange;
   }
   moments.area = streams_.child_areas[next_child_];
-  moments.spread = streams_.child_spreads[next_child_];
-  for (const ShortFloat value : {moments.area, moments.spread})
-    if (value < kLeastShortFloat || value > kGreatestShortFloat)
-      return "a child's moments are out of range";
+  moments.second = streams_.child_seconds[next_child_];
+  for (const ShortFloat value : {moments.area, moments.second})
+    if (value < kLeastShortFloat || value > kGreatestShortFloat) return kOutOfRange;
   reinterpret_cast<NodeMoments*>(&parent + 1)->set(child, moments);
   return nullptr;
 }

@@ -62,8 +62,9 @@ void take_nodes(Cutter& cutter, RawStreams& s, const BlockShape& shape) {
   cutter.take(s.child_radii, head.child_count);
   if (shape.moments) {
     cutter.take(s.child_vectors, 3 * std::size_t{head.child_count});
+    cutter.take(s.child_firsts, 5 * std::size_t{head.child_count});
     cutter.take(s.child_areas, head.child_count);
-    cutter.take(s.child_spreads, head.child_count);
+    cutter.take(s.child_seconds, head.child_count);
   }
   cutter.take(s.page_links, head.page_link_count);
 }

@@ -15,10 +15,12 @@ namespace {
 
 constexpr double kOverTwoPi = 0x1.45f306dc9c883p-3;  ///< 1 / (2 pi)
 
-/// With a, b, c the directions of the corners, tan(omega / 2) = height / width:
-/// height = a . (b x c), width = 1 + a . b + b . c + c . a. Half the solid
-/// angle is the angle of that vector, so that its end being off by `error`
-/// turns it by no more than asin(error / true length).
+/// With a, b, c the ways to the corners, tan(omega / 2) = height / width:
+///
+///     height = a . (b x c),   width = |a||b||c| + a . b |c| + b . c |a| + c . a |b|.
+///
+/// Half the solid angle is the angle of that vector, so that its end being off
+/// by `error` turns it by no more than asin(error / true length).
 struct HalfAngle {
   double width = 0;
   double height = 0;
@@ -28,38 +30,34 @@ struct HalfAngle {
   bool tells_angle() const { return error < 0x1p-24 * length; }
 };
 
-/// Directions in double are right to 8 roundings a component: one of the
-/// difference, one of the first quotient, five of the length, one of the last
-/// quotient. Each of three products of components loses 17 more, so that width
-/// errs by 72 roundings and height, whose six terms have magnitudes that sum to
-/// at most 1.16, by 35: their end by 80. 256 covers that also where every
+constexpr HalfAngle kUntold{0, 0, 1, 0};
+
+/// In units of |a||b||c|. A way's components are right to one rounding, its
+/// length to four; each of the four terms of width loses at most 12 with its
+/// factors and its sum, and height, whose six terms have magnitudes that sum to
+/// at most 1.16, loses 9: their end 50. 256 covers that also where every
 /// rounding is of a whole ulp.
 constexpr double kDoubleError = 256 * 0x1p-53;
 
-/// Shorter differences may lose bits to underflow.
-constexpr double kShort = 0x1p-900;
-
-bool make_direction(Point& way) {
-  const double largest = way.cwiseAbs().maxCoeff();
-  if (!(largest > kShort)) return false;
-  way /= largest;
-  way /= way.norm();
-  return true;
-}
-
-constexpr HalfAngle kUntold{0, 0, 1, 0};
+/// Ways of other lengths, squared, may have lost bits to underflow, or their
+/// products may overflow.
+constexpr double kShortest2 = 0x1p-320;
+constexpr double kLongest2 = 0x1p320;
 
 HalfAngle in_double(const Point& point, const Triangle& triangle) {
-  Point a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
-  if (!make_direction(a) || !make_direction(b) || !make_direction(c)) return kUntold;
+  const Point a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
+  const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
+  if (!(std::min({a2, b2, c2}) > kShortest2 && std::max({a2, b2, c2}) < kLongest2)) return kUntold;
+  const double a1 = std::sqrt(a2), b1 = std::sqrt(b2), c1 = std::sqrt(c2);
   HalfAngle half;
-  half.width = 1 + a.dot(b) + b.dot(c) + c.dot(a);
+  half.width = a1 * b1 * c1 + a.dot(b) * c1 + b.dot(c) * a1 + c.dot(a) * b1;
   half.height = a.dot(b.cross(c));
-  half.error = kDoubleError;
+  half.error = kDoubleError * (a1 * b1 * c1);
   half.length = std::sqrt(half.width * half.width + half.height * half.height);
   return half;
 }
 
+/// Of length 1.
 template <class Scalar>
 Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
   Vector3<Scalar> way;
@@ -70,8 +68,9 @@ Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
   return way;
 }
 
-/// The same in wider numbers. No corner is where the point is. What is returned
-/// is scaled to a length of about 1.
+/// The same in wider numbers, of directions: a product of three such components
+/// is right to 24 roundings. No corner is where the point is. What is returned is
+/// scaled to a length of about 1.
 template <class Scalar>
 HalfAngle in_wide(const Point& point, const Triangle& triangle) {
   const auto a = wide_direction<Scalar>(point, triangle[0]);

@@ -7,7 +7,7 @@
 
 #include "octree/block_view.h"
 #include "octree/certain_sum.h"
-#include "octree/dipole.h"
+#include "octree/multipole.h"
 #include "octree/solid_angle.h"
 #include "octree/strict_math.h"
 
@@ -16,11 +16,11 @@ namespace {
 
 /// A child that stands in the sum with its moments.
 struct Standin {
-  Dipoles::Share share;
+  Multipoles::Share share;
   std::uint32_t link;
   std::uint32_t order;  ///< of its coming
 
-  bool known() const { return share.error <= Dipoles::kMostError; }
+  bool known() const { return share.error <= Multipoles::kMostError; }
   /// The most uncertain first, of equals the last to come: so unknown ones are
   /// opened depth first.
   friend bool operator<(const Standin& a, const Standin& b) {
@@ -58,14 +58,14 @@ class Openings {
 class WindingSum {
  public:
   WindingSum(const TreeFacts& tree, const Point& point, PageReader pages, TreeWork& work)
-      : tree_(tree), point_(point), work_(work), dipoles_(point, tree.centre),
+      : tree_(tree), point_(point), work_(work), multipoles_(point, tree.centre),
         records_(tree, pages) {}
 
   WindingNumber run(std::uint64_t max_nodes) {
     // An honest tree cannot be visited longer than it is; a forged one could.
     std::uint64_t left = std::min(max_nodes, tree_.record_count);
-    stand_in({{0, Dipoles::kUnknown}, tree_.root_link, 0});
-    openings_.push({{0, Dipoles::kUnknown}, tree_.root_link, 0});
+    stand_in({{0, Multipoles::kUnknown}, tree_.root_link, 0});
+    openings_.push({{0, Multipoles::kUnknown}, tree_.root_link, 0});
     while (!openings_.empty() && !decided()) {
       const Standin standin = openings_.pop();
       // Where something unknown is lost, only the surface can still be found,
@@ -86,7 +86,7 @@ class WindingSum {
   WindingNumber sum() const {
     WindingNumber result;
     result.value = value_.value();
-    result.error = unknown_ > 0 ? Dipoles::kUnknown
+    result.error = unknown_ > 0 ? Multipoles::kUnknown
                                 : (error_.value() + error_.error() + value_.error()) * (1 + 0x1p-50);
     result.on_surface = on_surface_;
     return result;
@@ -136,8 +136,8 @@ class WindingSum {
 
   void open_node(const Node& node, bool deep) {
     ++work_.nodes;
-    std::array<Dipoles::Share, kFanOut> shares;
-    dipoles_.shares(node, shares);
+    std::array<Multipoles::Share, kFanOut> shares;
+    multipoles_.shares(node, shares);
     for (unsigned child = 0; child < node.child_count; ++child) {
       const Standin standin{shares[child], node.link[child], ++order_};
       stand_in(standin);
@@ -162,7 +162,7 @@ class WindingSum {
   const TreeFacts& tree_;
   const Point& point_;
   TreeWork& work_;
-  const Dipoles dipoles_;
+  const Multipoles multipoles_;
   RecordFinder records_;
   Openings openings_;
   CertainSum value_, error_;

@@ -34,8 +34,9 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
       row("child_radii", kNodes, s.child_radii)};
   if (shape.moments) {
     rows.push_back(row("child_vectors", kNodes, s.child_vectors));
+    rows.push_back(row("child_firsts", kNodes, s.child_firsts));
     rows.push_back(row("child_areas", kNodes, s.child_areas));
-    rows.push_back(row("child_spreads", kNodes, s.child_spreads));
+    rows.push_back(row("child_seconds", kNodes, s.child_seconds));
   }
   const std::vector<StreamRow> others = {
       row("page_links", kNodes, s.page_links),

@@ -13,22 +13,25 @@ namespace {
 
 /// Integrals over some triangles, x being relative to a point near them.
 struct Sums {
-  Point vector = Point::Zero();  ///< of the normal
-  double area = 0;               ///< of 1, rounded up
-  Point first = Point::Zero();   ///< of x
-  double second = 0;             ///< of x^2, rounded up
+  Point vector = Point::Zero();                      ///< of the normal n
+  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();   ///< of x n^T
+  double area = 0;                                   ///< of 1, rounded up
+  Point place = Point::Zero();                       ///< of x
+  double second = 0;                                 ///< of |x|^2, rounded up
 
   void add(const Sums& other) {
     vector += other.vector;
-    area += other.area;
     first += other.first;
+    area += other.area;
+    place += other.place;
     second += other.second;
   }
 
-  /// Makes x relative to `by` less.
+  /// Makes every x larger by `by`.
   void move(const Point& by) {
-    second += 2 * by.dot(first) + by.squaredNorm() * area;
-    first += area * by;
+    first += by * vector.transpose();
+    second += 2 * by.dot(place) + by.squaredNorm() * area;
+    place += area * by;
   }
 };
 
@@ -47,22 +50,39 @@ Sums of_triangle(const Triangle& triangle, const Point& from) {
   // A thin triangle's area may have cancelled, but not by more than this.
   sums.area = vector.norm() + 0x1p-48 * u.norm() * v.norm();
   const Point sum = a + b + c;
-  sums.first = sums.area / 3 * sum;
+  sums.first = sum / 3 * vector.transpose();
+  sums.place = sums.area / 3 * sum;
   sums.second = sums.area / 12 *
                 (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
   return sums;
 }
 
+/// Whole units next to a value, which is at most kMost of them but for rounding.
+template <class Integer>
+Integer steps(double value, double unit, int most) {
+  const double scaled = value / unit;
+  const double rounded = scaled < 0 ? scaled - 0.5 : scaled + 0.5;
+  return static_cast<Integer>(std::clamp(rounded, -1.0 * most, 1.0 * most));
+}
+
 /// What rounding may have cost is far below these shares: moving cancels no
 /// more than the square of the box's diagonal.
 Moments packed(const Sums& sums, double diagonal2) {
-  Moments moments{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    moments.vector[axis] = static_cast<float>(sums.vector[static_cast<Eigen::Index>(axis)]);
   const double area = sums.area * (1 + 0x1p-20);
   const double second = std::max(0.0, sums.second) * (1 + 0x1p-20) + 0x1p-40 * diagonal2 * area;
+  Moments moments;
   moments.area = pack_short_above(area);
-  moments.spread = pack_short_above(std::sqrt(area * second) * (1 + 0x1p-20));
+  moments.second = pack_short_above(second);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    moments.vector[axis] = steps<std::int16_t>(sums.vector[static_cast<Eigen::Index>(axis)],
+                                               moments.vector_unit(), Moments::kVectorSteps);
+  const Eigen::Matrix3d& f = sums.first;
+  const double third = f.trace() / 3;
+  const double parts[] = {f(0, 0) - third, f(1, 1) - third, (f(0, 1) + f(1, 0)) * 0.5,
+                          (f(1, 2) + f(2, 1)) * 0.5, (f(2, 0) + f(0, 2)) * 0.5};
+  for (std::size_t i = 0; i < 5; ++i)
+    moments.first[i] =
+        steps<std::int8_t>(parts[i], moments.first_unit(), Moments::kFirstSteps);
   return moments;
 }
 

@@ -12,9 +12,7 @@ namespace planetree::octree {
 /// The moments of every node's children, by node, rounded to what is stored.
 ///
 /// A child's sums are those of its triangles, or of its own children, in their
-/// order; so the result depends on the tree alone. The spread, which is not a
-/// sum, follows from one: by Cauchy and Schwarz the integral of a distance is at
-/// most the root of area times the integral of the distance squared.
+/// order; so the result depends on the tree alone.
 ///
 /// centre   of the model; boxes are relative to it.
 /// threads  those of the caller's task arena.

@@ -66,15 +66,19 @@ class NodeEncoder {
 
  private:
   void write_moments(StreamWriter& writer) const {
-    std::vector<float> vectors;
-    std::vector<ShortFloat> areas, spreads;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const Moments& moments : moments_) vectors.push_back(moments.vector[axis]);
+    std::vector<std::int16_t> vectors;
+    std::vector<std::int8_t> firsts;
+    std::vector<ShortFloat> areas, seconds;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const Moments& moments : moments_) vectors.push_back(moments.vector[i]);
+    for (std::size_t i = 0; i < 5; ++i)
+      for (const Moments& moments : moments_) firsts.push_back(moments.first[i]);
     for (const Moments& moments : moments_) areas.push_back(moments.area);
-    for (const Moments& moments : moments_) spreads.push_back(moments.spread);
+    for (const Moments& moments : moments_) seconds.push_back(moments.second);
     writer.shuffled(vectors);
+    writer.shuffled(firsts);
     writer.shuffled(areas);
-    writer.shuffled(spreads);
+    writer.shuffled(seconds);
   }
 
   ChildKind kind_of(const WideChild& child) {
