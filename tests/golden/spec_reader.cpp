@@ -52,6 +52,7 @@ SpecHeader read_header(Bytes header) {
   read.scale_exponent = get<std::int32_t>(model, 152);
   read.root_link = get<std::uint32_t>(model, 156);
   read.float64 = get<std::uint8_t>(model, 160) == 1;
+  read.open = get<std::uint64_t>(model, 168) != 0;
   read.wide_ids = get<std::uint8_t>(model, 161) == 8;
   read.height = get<std::uint8_t>(model, 162);
   return read;
@@ -61,7 +62,7 @@ SpecHeader read_header(Bytes header) {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 2, "another version");
+  require(get<std::uint16_t>(header, 8) == 3, "another version");
   require(get<std::uint16_t>(header, 10) == 512, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
