@@ -29,6 +29,7 @@ class PageWalk {
     facts_.page_count = file.page_count();
     facts_.shape.float64 = file.header().model.vertex_kind == storage::VertexKind::kFloat64;
     facts_.shape.wide_ids = file.header().model.triangle_id_bytes == 8;
+    facts_.shape.moments = file.header().model.open_edge_count != 0;
   }
 
   void advance() { facts_.page_number = (facts_.page_number + 1) % file_.page_count(); }

@@ -40,14 +40,17 @@ double arctangent(double t) {
 
 }  // namespace
 
-double angle_between(const Point& u, const Point& v) noexcept {
-  // Of about length 1, so that no product overflows or underflows.
-  const Point a = u / u.cwiseAbs().maxCoeff(), b = v / v.cwiseAbs().maxCoeff();
-  const double across = a.cross(b).norm(), along = a.dot(b);
+double angle_of(double along, double across) noexcept {
   const double ahead = std::fabs(along);
   const double acute =
       across <= ahead ? arctangent(across / ahead) : kHalfPi - arctangent(ahead / across);
   return along >= 0 ? acute : 2 * kHalfPi - acute;
+}
+
+double angle_between(const Point& u, const Point& v) noexcept {
+  // Of about length 1, so that no product overflows or underflows.
+  const Point a = u / u.cwiseAbs().maxCoeff(), b = v / v.cwiseAbs().maxCoeff();
+  return angle_of(a.dot(b), a.cross(b).norm());
 }
 
 }  // namespace planetree::octree

@@ -10,7 +10,8 @@
 ///
 ///   slot 0            FrameHeader
 ///   slot 1 ...        block starts, one bit a slot
-///   first node slot   nodes, 7 slots each, subtree roots first, then breadth first
+///   first node slot   nodes, 7 slots each, subtree roots first, then breadth first; 9 where
+///                     each is followed by its moments (octree/moments.h)
 ///   ...               blocks, in the order their parents name them
 ///
 /// A slot is 64 bytes, so that a link addresses a record in few bits and every
@@ -58,6 +59,7 @@ struct alignas(kSlotBytes) Node {
 static_assert(sizeof(Node) == 7 * kSlotBytes);
 static_assert(offsetof(Node, normal) == 4 * kSlotBytes);
 inline constexpr unsigned kNodeSlots = sizeof(Node) / kSlotBytes;
+inline constexpr unsigned kMomentSlots = 2;
 
 /// Head of a triangle block. Behind it, each array on a slot of its own:
 ///   float  local[3][stride]     float32 models: the exact vertices
@@ -75,10 +77,13 @@ struct alignas(kSlotBytes) BlockHeader {
 };
 static_assert(sizeof(BlockHeader) == kSlotBytes);
 
-/// How blocks of one file are laid out; a function of two header fields.
+/// How records of one file are laid out; a function of three header fields.
 struct BlockShape {
   bool float64 = false;
   bool wide_ids = false;
+  bool moments = false;  ///< nodes are followed by theirs: the surface is not watertight
+
+  constexpr unsigned node_slots() const { return kNodeSlots + (moments ? kMomentSlots : 0); }
 
   static constexpr unsigned stride(unsigned vertex_count) {
     return vertex_count <= 16 ? 16 : vertex_count <= 24 ? 24 : vertex_count <= 32 ? 32 : 48;

@@ -6,6 +6,7 @@
 
 #include "octree/block_decoder.h"
 #include "octree/child_bounds.h"
+#include "octree/moments.h"
 #include "octree/node_store.h"
 #include "octree/raw_streams.h"
 #include "octree/strict_math.h"
@@ -43,13 +44,17 @@ class PageDecoder {
   const char* decode_nodes();
   const char* decode_node(std::size_t index);
   const char* decode_child(Node& node, std::size_t child, const FloatBox& box, ChildKind kind);
+  const char* decode_moments(Node& node, std::size_t child);
   const char* link_to_node(Node& node, std::size_t child, const FloatBox& child_box);
   const char* link_to_block(Node& node, std::size_t child);
   const char* link_to_page(Node& node, std::size_t child);
   const char* decode_blocks();
 
   Node* node(std::size_t index) {
-    return reinterpret_cast<Node*>(frame_ + plan_.first_node_slot * kSlotBytes) + index;
+    return reinterpret_cast<Node*>(frame_ + node_slot(index) * kSlotBytes);
+  }
+  std::size_t node_slot(std::size_t index) const {
+    return plan_.first_node_slot + facts_.shape.node_slots() * index;
   }
 
   const PageFacts& facts_;
@@ -68,7 +73,7 @@ const char* PageDecoder::plan() {
   const PageHead& head = streams_.head;
   std::size_t slots = frame_head_slots(facts_.page_bytes);
   plan_.first_node_slot = static_cast<std::uint16_t>(slots);
-  slots += std::size_t{kNodeSlots} * head.node_count;
+  slots += std::size_t{facts_.shape.node_slots()} * head.node_count;
   const std::size_t first_block_slot = slots;
   for (std::size_t i = 0; i < head.block_count; ++i)
     slots += facts_.shape.slots(streams_.vertex_counts[i]);
@@ -132,6 +137,7 @@ const char* PageDecoder::decode_node(std::size_t index) {
   const std::uint8_t height = streams_.heights[index];
   if (height == 0 || height > kMaxHeight) return "a node's height is out of range";
   clear_node(target);
+  if (facts_.shape.moments) std::memset(static_cast<void*>(&target + 1), 0, sizeof(NodeMoments));
   target.child_count = static_cast<std::uint8_t>(count);
   target.height = height;
   target.gate = box.diagonal_squared() * (1.0f / 64.0f);
@@ -162,6 +168,8 @@ const char* PageDecoder::decode_child(Node& parent, std::size_t child, const Flo
   if (packed.slab_lower > packed.slab_upper) return "a child's planes are crossed";
   const FloatBox child_box = unpack_box(box, packed);
   store_child(parent, child, child_box, unpack_disc(child_box, packed));
+  if (facts_.shape.moments)
+    if (const char* fault = decode_moments(parent, child)) return fault;
   switch (kind) {
     case ChildKind::kNode:
       return link_to_node(parent, child, child_box);
@@ -173,10 +181,30 @@ const char* PageDecoder::decode_child(Node& parent, std::size_t child, const Flo
   return "a child is of unknown kind";
 }
 
+const char* PageDecoder::decode_moments(Node& parent, std::size_t child) {
+  constexpr const char* kOutOfRange = "a child's moments are out of range";
+  const std::size_t count = streams_.head.child_count;
+  Moments moments;
+  for (std::size_t i = 0; i < 3; ++i) {
+    moments.vector[i] = streams_.child_vectors[i * count + next_child_];
+    if (moments.vector[i] < -Moments::kVectorSteps) return kOutOfRange;
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    moments.first[i] = streams_.child_firsts[i * count + next_child_];
+    if (moments.first[i] < -Moments::kFirstSteps) return kOutOfRange;
+  }
+  moments.area = streams_.child_areas[next_child_];
+  moments.second = streams_.child_seconds[next_child_];
+  for (const ShortFloat value : {moments.area, moments.second})
+    if (value < kLeastShortFloat || value > kGreatestShortFloat) return kOutOfRange;
+  reinterpret_cast<NodeMoments*>(&parent + 1)->set(child, moments);
+  return nullptr;
+}
+
 const char* PageDecoder::link_to_node(Node& parent, std::size_t child, const FloatBox& child_box) {
   if (next_node_ >= streams_.head.node_count) return "its children do not add up";
   if (streams_.heights[next_node_] >= parent.height) return "a node is higher than its parent";
-  const std::size_t slot = plan_.first_node_slot + kNodeSlots * next_node_;
+  const std::size_t slot = node_slot(next_node_);
   parent.link[child] = links_.make(false, facts_.page_number, static_cast<std::uint32_t>(slot));
   stage_box(*node(next_node_), child_box);
   ++next_node_;

@@ -15,6 +15,10 @@
 ///   child normals    2 planes of i16: u, v
 ///   child slabs      2 planes of i16: lower, upper
 ///   child radii      u16
+///   child vectors    3 planes of i16: x, y, z               } of models that are
+///   child firsts     5 planes of i8: xx, yy, xy, yz, zx     } not watertight only
+///   child areas      u16, a ShortFloat                      } (octree/moments.h)
+///   child seconds    u16, a ShortFloat                      }
 ///   page links       u32 a child of kind kPage
 ///   triangle counts  u8 a block
 ///   vertex counts    u8 a block

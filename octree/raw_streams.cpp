@@ -20,7 +20,7 @@ const char* check_head(const PageHead& head) {
   return nullptr;
 }
 
-void take_nodes(StreamCutter& cutter, RawStreams& s) {
+void take_nodes(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
   const PageHead& head = s.head;
   cutter.take(s.root_boxes, 6 * std::size_t{head.root_node_count});
   cutter.take(s.child_counts, head.node_count);
@@ -30,6 +30,12 @@ void take_nodes(StreamCutter& cutter, RawStreams& s) {
   cutter.take(s.child_normals, 2 * std::size_t{head.child_count});
   cutter.take(s.child_slabs, 2 * std::size_t{head.child_count});
   cutter.take(s.child_radii, head.child_count);
+  if (shape.moments) {
+    cutter.take(s.child_vectors, 3 * std::size_t{head.child_count});
+    cutter.take(s.child_firsts, 5 * std::size_t{head.child_count});
+    cutter.take(s.child_areas, head.child_count);
+    cutter.take(s.child_seconds, head.child_count);
+  }
   cutter.take(s.page_links, head.page_link_count);
 }
 
@@ -75,7 +81,7 @@ const char* RawStreams::cut(std::span<const std::byte> raw, const BlockShape& sh
   std::memcpy(&head, raw.data(), sizeof head);
   if (const char* fault = check_head(head)) return fault;
   StreamCutter cutter(raw.subspan(sizeof head));
-  take_nodes(cutter, *this);
+  take_nodes(cutter, *this, shape);
   cutter.take(triangle_counts, head.block_count);
   cutter.take(vertex_counts, head.block_count);
   cutter.take(new_counts, head.block_count);

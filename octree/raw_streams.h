@@ -48,6 +48,9 @@ struct RawStreams {
   Shuffled<std::uint8_t> child_boxes;  ///< 6 planes of child_count
   Shuffled<std::int16_t> child_normals, child_slabs;
   Shuffled<std::uint16_t> child_radii;
+  Shuffled<std::int16_t> child_vectors;  ///< 3 planes of child_count, or none
+  Shuffled<std::int8_t> child_firsts;    ///< 5 planes
+  Shuffled<std::uint16_t> child_areas, child_seconds;
   Shuffled<std::uint32_t> page_links;
   Shuffled<std::uint8_t> triangle_counts, vertex_counts, new_counts;
   Shuffled<std::uint16_t> vertex_refs;

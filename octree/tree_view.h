@@ -41,7 +41,8 @@ struct TreeWork {
 /// changes.
 class RecordFinder {
  public:
-  RecordFinder(const TreeFacts& tree, PageReader pages) : links_(tree.page_bytes), pages_(pages) {}
+  RecordFinder(const TreeFacts& tree, PageReader pages)
+      : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
 
   /// The node or block that `link` leads to, good until the next call; null
   /// where its page cannot be had or holds no such record.
@@ -67,10 +68,11 @@ class RecordFinder {
     }
     if (slot < header.first_node_slot) return false;
     const std::uint32_t offset = slot - header.first_node_slot;
-    return offset % kNodeSlots == 0 && offset / kNodeSlots < header.node_count;
+    return offset % node_slots_ == 0 && offset / node_slots_ < header.node_count;
   }
 
   const LinkFormat links_;
+  const unsigned node_slots_;
   const PageReader pages_;
   std::uint32_t page_number_ = 0;
   const std::byte* frame_ = nullptr;

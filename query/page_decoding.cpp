@@ -9,6 +9,7 @@ octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept {
   octree::BlockShape shape;
   shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = model.triangle_id_bytes == 8;
+  shape.moments = model.open_edge_count != 0;
   return shape;
 }
 

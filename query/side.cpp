@@ -1,9 +1,14 @@
 #include "query/side.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "octree/cell_grid.h"
 #include "octree/crossings.h"
 #include "octree/mask_lookup.h"
+#include "octree/nearest.h"
 #include "octree/strict_math.h"
+#include "octree/winding_number.h"
 #include "query/ways_out.h"
 
 namespace planetree::query {
@@ -102,6 +107,39 @@ class SideSearch {
   Standing standing_;
 };
 
+Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t max_nodes,
+                      octree::PageReader pages, octree::TreeWork& work, SideReason& reason) {
+  if (outside_box(model.tree(), point)) {
+    reason.rule = SideReason::Rule::kOutsideBox;
+    return {Side::kOutside};
+  }
+  return SideSearch(model, point, max_nodes, pages, work, reason).run();
+}
+
+/// The nearest whole number, however large.
+std::int64_t rounded(double value) {
+  constexpr double kMost = 0x1p62;
+  return static_cast<std::int64_t>(std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMost, kMost));
+}
+
+Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
+                           std::uint64_t max_nodes, octree::PageReader pages,
+                           octree::TreeWork& work, SideReason& reason) {
+  reason.rule = SideReason::Rule::kWindingNumber;
+  // From so far away all triangles together are less than a point.
+  if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
+  const octree::WindingNumber w = octree::winding_number(tree, point, max_nodes, pages, work);
+  reason.value = w.value;
+  reason.error = w.error;
+  if (w.on_surface) {
+    const bool told = std::fabs(w.value) > w.error;
+    return {Side::kOnSurface, Status::kExact, told ? (w.value < 0 ? -1 : 1) : 0, false};
+  }
+  if (w.above_half()) return {Side::kInside, Status::kExact, rounded(w.value)};
+  if (w.below_half()) return {Side::kOutside, Status::kExact};
+  return {Side::kUnknown, w.complete ? Status::kExact : Status::kDegraded};
+}
+
 }  // namespace
 
 Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
@@ -109,12 +147,9 @@ Standing find_side(const ModelState& model, const Point& point, std::uint64_t ma
   SideReason untold;
   SideReason& why = reason != nullptr ? *reason : untold;
   why = {};
-  if (!model.info().watertight()) return {};
-  if (outside_box(model.tree(), point)) {
-    why.rule = SideReason::Rule::kOutsideBox;
-    return {Side::kOutside};
-  }
-  return SideSearch(model, point, max_nodes, pages, work, why).run();
+  return model.info().watertight()
+             ? by_crossings(model, point, max_nodes, pages, work, why)
+             : by_winding_number(model.tree(), point, max_nodes, pages, work, why);
 }
 
 }  // namespace planetree::query

@@ -13,20 +13,24 @@ namespace planetree::query {
 struct Standing {
   Side side = Side::kUnknown;
   Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
-  /// As much as 0 and of the sign of the winding number of the point, of a step
-  /// beside it on the surface.
+  /// Of watertight models as much as 0, and of the sign of, the winding number of
+  /// the point; else that to the nearest whole number where the side is known. On
+  /// the surface: of a step beside the point if `beside`, else 1 or -1 as the rest
+  /// of the surface winds about it, 0 where that is too little to tell.
   std::int64_t winding = 0;
+  bool beside = true;
 };
 
 /// How a side was found: for those who ask why.
 struct SideReason {
   enum class Rule : std::uint8_t {
-    kNone,        ///< the side is not known
-    kOutsideBox,  ///< of the model
-    kColour,      ///< `cell` is white or black
-    kPlanes,      ///< `cell` is special
-    kCorner,      ///< `crossings` from a corner of `cell`, `end`, where `known` is known
-    kWayOut,      ///< `crossings` from `end`, outside of the model's box
+    kNone,           ///< the side is not known
+    kOutsideBox,     ///< of the model
+    kColour,         ///< `cell` is white or black
+    kPlanes,         ///< `cell` is special
+    kCorner,         ///< `crossings` from a corner of `cell`, `end`, where `known` is known
+    kWayOut,         ///< `crossings` from `end`, outside of the model's box
+    kWindingNumber,  ///< of a model that is not watertight: `value`, right within `error`
   };
   Rule rule = Rule::kNone;
   octree::GridCell cell;  ///< of the mask: the smallest that was reached
@@ -34,6 +38,8 @@ struct SideReason {
   octree::Point end = octree::Point::Zero();
   std::int64_t known = 0;      ///< winding number at `end`
   std::int64_t crossings = 0;  ///< what it changes by from there to the point
+  double value = 0;
+  double error = 0;
 };
 
 /// Which side of a model's surface a point is on.
@@ -41,7 +47,8 @@ struct SideReason {
 /// point      model frame.
 /// max_nodes  most nodes and blocks to visit.
 /// reason     filled if not null.
-/// return     kUnknown of a model that is not watertight, and where degraded.
+/// return     kUnknown where degraded, and where the winding number of a model
+///            that is not watertight is one half to rounding.
 Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work,
                    SideReason* reason = nullptr) noexcept;

@@ -39,6 +39,8 @@ std::string_view rule_word(Rule rule) {
       return "corner";
     case Rule::kWayOut:
       return "way_out";
+    case Rule::kWindingNumber:
+      return "winding_number";
   }
   return "none";
 }
@@ -70,6 +72,11 @@ std::string because(const Explanation& explanation) {
       return cell + " is grey; " + crossings_text(explanation);
     case Rule::kWayOut:
       return crossings_text(explanation);
+    case Rule::kWindingNumber:
+      return fmt::format(
+          "the surface is not watertight, and its winding number about the point is {:.6g}, right "
+          "within {:.2g}",
+          explanation.reason.value, explanation.reason.error);
   }
   return {};
 }
@@ -147,6 +154,8 @@ Json explanation_json(const Explanation& explanation) {
     json["crossings"] = {{"from", vector_json(explanation.end)},
                          {"winding_there", reason.known},
                          {"change", reason.crossings}};
+  if (reason.rule == Rule::kWindingNumber)
+    json["winding_number"] = {{"value", reason.value}, {"error", reason.error}};
   json["distance"] = answer.distance;
   json["lower"] = answer.lower;
   json["upper"] = answer.upper;

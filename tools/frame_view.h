@@ -6,6 +6,7 @@
 #include "octree/block_view.h"
 #include "octree/child_bounds.h"
 #include "octree/frame.h"
+#include "octree/moments.h"
 
 namespace planetree::tools {
 
@@ -25,10 +26,15 @@ class FrameView {
     return *reinterpret_cast<const octree::Node*>(at(node_slot(index)));
   }
   std::uint32_t node_slot(std::uint32_t index) const {
-    return header().first_node_slot + octree::kNodeSlots * index;
+    return header().first_node_slot + shape_.node_slots() * index;
   }
   std::uint32_t node_at_slot(std::uint32_t slot) const {
-    return (slot - header().first_node_slot) / octree::kNodeSlots;
+    return (slot - header().first_node_slot) / shape_.node_slots();
+  }
+
+  /// Zeros in a file without moments.
+  octree::Moments moments(const octree::Node& node, unsigned child) const {
+    return shape_.moments ? octree::NodeMoments::of(node).child(child) : octree::Moments();
   }
 
   octree::BlockView block(std::uint32_t slot) const { return {at(slot), shape_}; }

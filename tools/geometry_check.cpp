@@ -7,6 +7,7 @@
 
 #include "octree/bounds.h"
 #include "query/scale.h"
+#include "tools/moment_check.h"
 
 namespace planetree::tools {
 namespace {
@@ -66,7 +67,16 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
     upper_ = upper_.cwiseMax(block.vertex(i));
   }
   for (unsigned i = 0; i < block.triangle_count(); ++i) edges_.add(block.triangle(i));
-  if (bounds != nullptr) check_vertices(block, page, *bounds);
+  if (bounds == nullptr) return;
+  check_vertices(block, page, *bounds);
+  if (model_.open_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
+    report(IssueCode::kMoments, page,
+           fmt::format("the moments of the block of triangle {} are not its own", block.id(0)));
+}
+
+void GeometryCheck::add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds) {
+  if (model_.open_edge_count != 0 && !moments_fit(bounds, node))
+    report(IssueCode::kMoments, page, "a node's moments are not the sums of its children's");
 }
 
 void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) {

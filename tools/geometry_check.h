@@ -7,6 +7,7 @@
 
 #include "octree/block_view.h"
 #include "octree/child_bounds.h"
+#include "octree/moments.h"
 #include "storage/file_layout.h"
 #include "tools/edge_check.h"
 #include "tools/file_check.h"
@@ -18,6 +19,7 @@ namespace planetree::tools {
 struct Bounds {
   octree::FloatBox box;
   octree::Disc disc;
+  octree::Moments moments;              ///< zeros where there are none
   std::shared_ptr<const Bounds> above;  ///< null below the root
 };
 
@@ -29,6 +31,9 @@ class GeometryCheck {
 
   /// bounds  of the block; null if it is the whole tree.
   void add(const octree::BlockView& block, std::uint32_t page, const Bounds* bounds);
+  /// A node whose own moments, stated above it, are to be held against those it
+  /// states of its children.
+  void add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds);
   /// complete  whether every block has been added.
   void finish(bool complete);
 

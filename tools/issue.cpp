@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "TRIANGLE_TWICE",
                                                                   "VERTEX_OUTSIDE_BOX",
                                                                   "VERTEX_OUTSIDE_PLANES",
+                                                                  "MOMENTS",
                                                                   "MODEL_BOX",
                                                                   "SAMPLE",
                                                                   "OPEN_EDGES",

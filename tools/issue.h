@@ -35,6 +35,7 @@ enum class IssueCode : std::uint8_t {
   kTriangleTwice,
   kVertexOutsideBox,
   kVertexOutsidePlanes,
+  kMoments,
   kModelBox,
   kSample,
   kOpenEdges,

@@ -22,16 +22,19 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
                                    const octree::BlockShape& shape) {
   using enum StreamGroup;
   const octree::RawStreams& s = streams;
-  return {
-      {"page_head", kHead, 1, sizeof(octree::PageHead)},
-      row("root_boxes", kNodes, s.root_boxes),
-      row("child_counts", kNodes, s.child_counts),
-      row("heights", kNodes, s.heights),
-      row("child_kinds", kNodes, s.child_kinds),
-      row("child_boxes", kNodes, s.child_boxes),
-      row("child_normals", kNodes, s.child_normals),
-      row("child_slabs", kNodes, s.child_slabs),
-      row("child_radii", kNodes, s.child_radii),
+  std::vector<StreamRow> rows = {
+      {"page_head", kHead, 1, sizeof(octree::PageHead)}, row("root_boxes", kNodes, s.root_boxes),
+      row("child_counts", kNodes, s.child_counts),       row("heights", kNodes, s.heights),
+      row("child_kinds", kNodes, s.child_kinds),         row("child_boxes", kNodes, s.child_boxes),
+      row("child_normals", kNodes, s.child_normals),     row("child_slabs", kNodes, s.child_slabs),
+      row("child_radii", kNodes, s.child_radii)};
+  if (shape.moments) {
+    rows.push_back(row("child_vectors", kNodes, s.child_vectors));
+    rows.push_back(row("child_firsts", kNodes, s.child_firsts));
+    rows.push_back(row("child_areas", kNodes, s.child_areas));
+    rows.push_back(row("child_seconds", kNodes, s.child_seconds));
+  }
+  const std::vector<StreamRow> others = {
       row("page_links", kNodes, s.page_links),
       row("triangle_counts", kBlocks, s.triangle_counts),
       row("vertex_counts", kBlocks, s.vertex_counts),
@@ -43,6 +46,8 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
       shape.wide_ids ? row("first_ids", kIds, s.first_ids64)
                      : row("first_ids", kIds, s.first_ids32),
       shape.wide_ids ? row("id_steps", kIds, s.id_steps64) : row("id_steps", kIds, s.id_steps32)};
+  rows.insert(rows.end(), others.begin(), others.end());
+  return rows;
 }
 
 }  // namespace planetree::tools

@@ -16,7 +16,7 @@ class NodeEncoder {
   NodeEncoder(const PagePlan& plan, std::uint32_t page_number)
       : plan_(plan), links_(plan.page_bytes), page_number_(page_number) {}
 
-  void add(const WideNode& node, bool root) {
+  void add(const WideNode& node, bool root, const NodeMoments* moments) {
     if (root) {
       for (const float value : node.box.lower) root_boxes_.push_back(value);
       for (const float value : node.box.upper) root_boxes_.push_back(value);
@@ -28,6 +28,7 @@ class NodeEncoder {
       const WideChild& child = node.children[i];
       packed_.push_back(child.packed);
       kinds |= static_cast<unsigned>(kind_of(child)) << (2 * i);
+      if (moments != nullptr) moments_.push_back(moments->child(i));
     }
     kinds_.push_back(static_cast<std::uint16_t>(kinds));
   }
@@ -59,10 +60,27 @@ class NodeEncoder {
     writer.shuffled(normals);
     writer.shuffled(slabs);
     writer.shuffled(radii);
+    write_moments(writer);
     writer.shuffled(page_links_);
   }
 
  private:
+  void write_moments(StreamWriter& writer) const {
+    std::vector<std::int16_t> vectors;
+    std::vector<std::int8_t> firsts;
+    std::vector<ShortFloat> areas, seconds;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const Moments& moments : moments_) vectors.push_back(moments.vector[i]);
+    for (std::size_t i = 0; i < 5; ++i)
+      for (const Moments& moments : moments_) firsts.push_back(moments.first[i]);
+    for (const Moments& moments : moments_) areas.push_back(moments.area);
+    for (const Moments& moments : moments_) seconds.push_back(moments.second);
+    writer.shuffled(vectors);
+    writer.shuffled(firsts);
+    writer.shuffled(areas);
+    writer.shuffled(seconds);
+  }
+
   ChildKind kind_of(const WideChild& child) {
     const std::uint32_t link =
         child.block ? plan_.block_links[child.index] : plan_.node_links[child.index];
@@ -79,6 +97,7 @@ class NodeEncoder {
   std::vector<std::uint8_t> child_counts_, heights_;
   std::vector<std::uint16_t> kinds_;
   std::vector<PackedChild> packed_;
+  std::vector<Moments> moments_;
   std::vector<std::uint32_t> page_links_;
 };
 
@@ -101,7 +120,8 @@ std::vector<std::byte> PageEncoder::encode(std::uint32_t page_number) const {
   NodeEncoder nodes(plan_, page_number);
   BlockEncoder blocks(mesh_, keys_, shape_);
   for (std::size_t i = 0; i < page.nodes.size(); ++i)
-    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count);
+    nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count,
+              shape_.moments ? &tree_.moments[page.nodes[i]] : nullptr);
   for (const std::uint32_t block : page.blocks) blocks.add(tree_.blocks[block]);
   PageHead head{};
   head.page_number = page_number;

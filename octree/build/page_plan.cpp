@@ -25,15 +25,15 @@ struct Draft {
 
 class PagePlanner {
  public:
-  PagePlanner(const WideTree& tree, const std::vector<MortonKey>& keys,
-              std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes)
+  PagePlanner(const WideTree& tree, const std::vector<MortonKey>& keys, const RecordSlots& slots,
+              std::uint32_t page_bytes)
       : tree_(tree),
         keys_(keys),
-        block_slots_(block_slots),
+        slots_(slots),
         links_(page_bytes),
         head_slots_(frame_head_slots(page_bytes)),
         capacity_(static_cast<std::uint32_t>(page_bytes / kSlotBytes) - head_slots_),
-        cut_(cut_treelets(tree, block_slots, bottom_slots(page_bytes), capacity_)) {
+        cut_(cut_treelets(tree, slots, bottom_slots(page_bytes), capacity_)) {
     plan_.page_bytes = page_bytes;
   }
 
@@ -69,7 +69,7 @@ class PagePlanner {
   }
 
   std::uint32_t treelet_slots(RecordRef root) const {
-    return root.block ? block_slots_[root.index] : node_slots_[root.index];
+    return root.block ? slots_.blocks[root.index] : node_slots_[root.index];
   }
 
   void put(Draft& draft, RecordRef root) {
@@ -192,17 +192,17 @@ class PagePlanner {
     std::uint32_t slot = head_slots_;
     for (const std::uint32_t node : page.nodes) {
       plan_.node_links[node] = links_.make(false, number, slot);
-      slot += kNodeSlots;
+      slot += slots_.node;
     }
     for (const std::uint32_t block : page.blocks) {
       plan_.block_links[block] = links_.make(true, number, slot);
-      slot += block_slots_[block];
+      slot += slots_.blocks[block];
     }
   }
 
   const WideTree& tree_;
   const std::vector<MortonKey>& keys_;
-  std::span<const std::uint8_t> block_slots_;
+  RecordSlots slots_;
   LinkFormat links_;
   std::uint32_t head_slots_;
   std::uint32_t capacity_;
@@ -216,8 +216,8 @@ class PagePlanner {
 }  // namespace
 
 Result<PagePlan> plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
-                            std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes) {
-  return PagePlanner(tree, keys, block_slots, page_bytes).plan();
+                            const RecordSlots& slots, std::uint32_t page_bytes) {
+  return PagePlanner(tree, keys, slots, page_bytes).plan();
 }
 
 }  // namespace planetree::octree

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "octree/build/morton_order.h"
+#include "octree/build/treelets.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
 #include "planetree/error.h"
@@ -36,10 +36,9 @@ struct PagePlan {
 /// reached. Subtrees that hang from one page share pages, in Morton order, and
 /// no others: so a page is read only after its one parent page.
 ///
-/// block_slots  frame slots of each block.
-/// errors       kBadArgument when links of 31 bits cannot tell so many pages
-///              apart: 2^21 of 64 KiB.
+/// errors  kBadArgument when links of 31 bits cannot tell so many pages apart:
+///         2^21 of 64 KiB.
 Result<PagePlan> plan_pages(const WideTree& tree, const std::vector<MortonKey>& keys,
-                            std::span<const std::uint8_t> block_slots, std::uint32_t page_bytes);
+                            const RecordSlots& slots, std::uint32_t page_bytes);
 
 }  // namespace planetree::octree

@@ -17,6 +17,7 @@
 #include "octree/build/mask_tree.h"
 #include "octree/build/mesh_reader.h"
 #include "octree/build/mesh_store.h"
+#include "octree/build/moment_sums.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/page_encoder.h"
 #include "octree/build/page_plan.h"
@@ -99,6 +100,7 @@ Result<void> TreeBuild::read_model() {
 void TreeBuild::balance() {
   progress_.progress(BuildPhase::kClosing, 0, 1);
   edges_ = balance_edges(mesh_);
+  shape_.moments = !edges_.closed();
   progress_.progress(BuildPhase::kClosing, 1, 1);
 }
 
@@ -115,13 +117,14 @@ void TreeBuild::order_triangles() {
 Result<void> TreeBuild::bound_nodes() {
   progress_.progress(BuildPhase::kBounding, 0, 2);
   fit_discs(mesh_, centre_, keys_, tree_);
+  if (shape_.moments) tree_.moments = sum_moments(mesh_, centre_, keys_, tree_);
   progress_.progress(BuildPhase::kBounding, 1, 2);
   std::vector<std::uint8_t> block_slots(tree_.blocks.size());
   tbb::parallel_for(std::size_t{0}, tree_.blocks.size(), [&](std::size_t i) {
     const unsigned vertices = count_block_vertices(mesh_, keys_, tree_.blocks[i]);
     block_slots[i] = static_cast<std::uint8_t>(shape_.slots(vertices));
   });
-  auto plan = plan_pages(tree_, keys_, block_slots, options_.page_bytes);
+  auto plan = plan_pages(tree_, keys_, {shape_.node_slots(), block_slots}, options_.page_bytes);
   if (!plan) return plan.error();
   plan_ = std::move(*plan);
   progress_.progress(BuildPhase::kBounding, 2, 2);

@@ -45,7 +45,7 @@ struct BuildReport {
 /// all. The bytes written depend on the mesh and page_bytes alone.
 ///
 /// memory  holds the model: about 70 bytes a triangle, 110 with float64
-///         coordinates.
+///         coordinates; 3 more of a model that is not watertight.
 /// errors  those of read_mesh and storage::PageWriter; kBadArgument for
 ///         page_bytes; kBadInput for a bad record under `strict`.
 /// source  bottom-up construction from candidate planes: "Out-of-core real-time

@@ -5,16 +5,15 @@ namespace {
 
 class TreeletCutter {
  public:
-  TreeletCutter(const WideTree& tree, std::span<const std::uint8_t> block_slots,
-                std::uint32_t bottom_slots)
+  TreeletCutter(const WideTree& tree, const RecordSlots& slots, std::uint32_t bottom_slots)
       : tree_(tree),
-        own_slots_(tree.nodes.size(), kNodeSlots),
+        slots_(slots),
+        own_slots_(tree.nodes.size(), slots.node),
         parent_(tree.nodes.size(), 0),
         left_(tree.nodes.size(), true) {
     cut.cut_nodes.resize(tree.nodes.size());
     cut.cut_blocks.resize(tree.blocks.size());
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)
-      place_blocks(i, block_slots, bottom_slots);
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) place_blocks(i, bottom_slots);
   }
 
   bool done() const { return !left_[0]; }
@@ -43,14 +42,13 @@ class TreeletCutter {
 
  private:
   // A node too large together with its blocks leaves them to themselves.
-  void place_blocks(std::uint32_t at, std::span<const std::uint8_t> block_slots,
-                    std::uint32_t bottom_slots) {
+  void place_blocks(std::uint32_t at, std::uint32_t bottom_slots) {
     const WideNode& node = tree_.nodes[at];
-    std::uint32_t together = kNodeSlots;
+    std::uint32_t together = slots_.node;
     for (unsigned i = 0; i < node.child_count; ++i) {
       const WideChild& child = node.children[i];
       if (child.block)
-        together += block_slots[child.index];
+        together += slots_.blocks[child.index];
       else
         parent_[child.index] = at;
     }
@@ -62,11 +60,12 @@ class TreeletCutter {
       const WideChild& child = node.children[i];
       if (!child.block) continue;
       cut.cut_blocks[child.index] = true;
-      cut.treelets.push_back({{true, child.index}, block_slots[child.index]});
+      cut.treelets.push_back({{true, child.index}, slots_.blocks[child.index]});
     }
   }
 
   const WideTree& tree_;
+  const RecordSlots& slots_;
   std::vector<std::uint32_t> own_slots_;  // of a node and the blocks kept with it
   std::vector<std::uint32_t> parent_;
   std::vector<bool> left_;  // not in any treelet yet
@@ -74,15 +73,15 @@ class TreeletCutter {
 
 }  // namespace
 
-TreeletCut cut_treelets(const WideTree& tree, std::span<const std::uint8_t> block_slots,
-                        std::uint32_t bottom_slots, std::uint32_t upper_slots) {
+TreeletCut cut_treelets(const WideTree& tree, const RecordSlots& slots, std::uint32_t bottom_slots,
+                        std::uint32_t upper_slots) {
   if (tree.nodes.empty()) {
     TreeletCut cut;
-    cut.treelets.push_back({{true, 0}, block_slots[0]});
+    cut.treelets.push_back({{true, 0}, slots.blocks[0]});
     cut.cut_blocks.push_back(true);
     return cut;
   }
-  TreeletCutter cutter(tree, block_slots, bottom_slots);
+  TreeletCutter cutter(tree, slots, bottom_slots);
   cutter.round(bottom_slots);
   while (!cutter.done()) cutter.round(upper_slots);
   return std::move(cutter.cut);

@@ -8,6 +8,12 @@
 
 namespace planetree::octree {
 
+/// Frame slots that records take.
+struct RecordSlots {
+  unsigned node = kNodeSlots;
+  std::span<const std::uint8_t> blocks;  ///< of each block
+};
+
 /// A record of a WideTree.
 struct RecordRef {
   bool block = false;
@@ -32,7 +38,7 @@ struct TreeletCut {
 /// `bottom_slots`, then, in what is left, every largest one of at most
 /// `upper_slots`, and again until the root's is cut. Blocks stay with a node of
 /// an upper treelet while they and it fit `bottom_slots`.
-TreeletCut cut_treelets(const WideTree& tree, std::span<const std::uint8_t> block_slots,
-                        std::uint32_t bottom_slots, std::uint32_t upper_slots);
+TreeletCut cut_treelets(const WideTree& tree, const RecordSlots& slots, std::uint32_t bottom_slots,
+                        std::uint32_t upper_slots);
 
 }  // namespace planetree::octree

@@ -7,6 +7,7 @@
 #include "octree/build/binary_tree.h"
 #include "octree/child_bounds.h"
 #include "octree/frame.h"
+#include "octree/moments.h"
 
 namespace planetree::octree {
 
@@ -42,6 +43,7 @@ struct WideBlock {
 struct WideTree {
   std::vector<WideNode> nodes;  ///< in preorder
   std::vector<WideBlock> blocks;
+  std::vector<NodeMoments> moments;  ///< by node; none of a watertight model
 };
 
 /// Collapses a binary tree: a node's children are the two halves, of which the

@@ -9,6 +9,7 @@
 #include "octree/nearest.h"
 #include "octree/page_decoder.h"
 #include "octree/page_streams.h"
+#include "octree/winding_number.h"
 
 /// Decodes any bytes as the pages of a small file and asks the tree they make.
 ///
@@ -26,6 +27,7 @@ constexpr std::uint8_t kFloat64 = 1;
 constexpr std::uint8_t kWideIds = 2;
 constexpr std::uint8_t kLargePages = 4;
 constexpr std::uint8_t kRootIsBlock = 8;
+constexpr std::uint8_t kMoments = 16;
 constexpr std::uint32_t kPageCount = 64;
 
 // Lengths are exact, so that the sanitizer sees one byte too far.
@@ -82,6 +84,13 @@ void check(const NearestAnswer& answer) {
   if (!(answer.lower < answer.upper) || answer.lower < 0) std::abort();
 }
 
+void ask_winding(const TreeFacts& tree, const Point& query, PageReader reader) {
+  TreeWork work;
+  const WindingNumber found = winding_number(tree, query, tree.record_count, reader, work);
+  if (!std::isfinite(found.value) || !(found.error >= 0)) std::abort();
+  if (work.nodes + work.blocks > tree.record_count) std::abort();
+}
+
 void ask(const TreeFacts& tree, Pages& pages) {
   const PageReader reader{&pages,
                           [](void* context, std::uint32_t page) noexcept -> const std::byte* {
@@ -99,6 +108,8 @@ void ask(const TreeFacts& tree, Pages& pages) {
       check(nearest(tree, query, limits, reader, work));
       if (work.nodes + work.blocks > tree.record_count) std::abort();
     }
+  if (LinkFormat::is_leaf(tree.root_link) || tree.shape.moments)
+    for (const Point& query : queries) ask_winding(tree, query, reader);
 }
 
 void decode_and_ask(std::uint8_t choices, std::span<const std::byte> first,
@@ -106,10 +117,10 @@ void decode_and_ask(std::uint8_t choices, std::span<const std::byte> first,
   PageFacts facts;
   facts.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
   facts.page_count = kPageCount;
-  facts.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0};
+  facts.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0, (choices & kMoments) != 0};
   Frame root(facts.page_bytes), other(facts.page_bytes);
   if (!decode(first, facts, root)) return;
-  facts.page_number = 1 + choices / 16;
+  facts.page_number = 1 + choices / 32;
   Pages pages{&root, decode(second, facts, other) ? &other : nullptr};
   TreeFacts tree;
   tree.page_bytes = facts.page_bytes;

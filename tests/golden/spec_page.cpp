@@ -48,6 +48,12 @@ class PageReader {
     normals_ = cutter_.shuffled<std::int16_t>(2u * head_.children);
     slabs_ = cutter_.shuffled<std::int16_t>(2u * head_.children);
     radii_ = cutter_.shuffled<std::uint16_t>(head_.children);
+    if (header_.open) {
+      vectors_ = cutter_.shuffled<std::int16_t>(3u * head_.children);
+      firsts_ = cutter_.shuffled<std::int8_t>(5u * head_.children);
+      areas_ = cutter_.shuffled<std::uint16_t>(head_.children);
+      seconds_ = cutter_.shuffled<std::uint16_t>(head_.children);
+    }
     page_links_ = cutter_.shuffled<std::uint32_t>(head_.page_links);
   }
 
@@ -78,7 +84,7 @@ class PageReader {
   void place_records() {
     const std::uint32_t slots = header_.page_bytes / 64;
     std::uint32_t slot = 1 + (header_.page_bytes + 32767) / 32768;
-    for (std::size_t i = 0; i < head_.nodes; ++i, slot += 7)
+    for (std::size_t i = 0; i < head_.nodes; ++i, slot += header_.open ? 9 : 7)
       node_links_.push_back(number_ * slots + slot);
     for (std::size_t j = 0; j < head_.blocks; ++j) {
       block_links_.push_back(0x80000000 | (number_ * slots + slot));
@@ -129,7 +135,32 @@ class PageReader {
     disc.slab_lower = static_cast<float>(slabs_[child]) * disc.unit;
     disc.slab_upper = static_cast<float>(slabs_[n + child]) * disc.unit;
     disc.radius = static_cast<float>(radii_[child]) * disc.unit;
+    if (header_.open) read.moments = read_moments(child);
     return read;
+  }
+
+  SpecMoments read_moments(std::size_t child) const {
+    const std::size_t n = head_.children;
+    SpecMoments read{};
+    for (const std::uint16_t bits : {areas_[child], seconds_[child]})
+      require(bits >= 0x0080 && bits <= 0x7f7f, "moments");
+    read.area = upper_half(areas_[child]);
+    read.second = upper_half(seconds_[child]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      read.vector[axis] = read.area / 32767 * vectors_[axis * n + child];
+    const auto step = [&](std::size_t k) -> double { return firsts_[k * n + child]; };
+    const double xx = step(0), yy = step(1), xy = step(2), yz = step(3), zx = step(4);
+    read.first = {{{xx, xy, zx}, {xy, yy, yz}, {zx, yz, -xx - yy}}};
+    for (SpecPoint& row : read.first)
+      for (double& part : row) part *= std::sqrt(read.area * read.second) / 127;
+    return read;
+  }
+
+  static double upper_half(std::uint16_t bits) {
+    const std::uint32_t whole = std::uint32_t{bits} << 16;
+    float value;
+    std::memcpy(&value, &whole, sizeof value);
+    return static_cast<double>(value);
   }
 
   SpecBlock read_block(std::size_t block) {
@@ -173,8 +204,9 @@ class PageReader {
   std::vector<float> root_boxes_;
   std::vector<std::uint8_t> child_counts_, heights_, boxes_;
   std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
-  std::vector<std::uint16_t> kinds_, radii_, vertex_refs_;
-  std::vector<std::int16_t> normals_, slabs_;
+  std::vector<std::uint16_t> kinds_, radii_, areas_, seconds_, vertex_refs_;
+  std::vector<std::int16_t> normals_, slabs_, vectors_;
+  std::vector<std::int8_t> firsts_;
   std::vector<std::uint32_t> page_links_, node_links_, block_links_;
   std::vector<std::span<const std::byte>> corners_;
   std::vector<double> vertices_;

@@ -48,6 +48,7 @@ SpecHeader read_header(Bytes header) {
   read.scale_exponent = get<std::int32_t>(model, 152);
   read.root_link = get<std::uint32_t>(model, 156);
   read.float64 = get<std::uint8_t>(model, 160) == 1;
+  read.open = get<std::uint64_t>(model, 168) != 0;
   read.wide_ids = get<std::uint8_t>(model, 161) == 8;
   read.height = get<std::uint8_t>(model, 162);
   read.mask_cells = get<std::uint64_t>(model, 368);

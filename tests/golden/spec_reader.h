@@ -25,6 +25,7 @@ struct SpecHeader {
   std::int32_t scale_exponent;
   std::uint32_t root_link;
   bool float64, wide_ids;
+  bool open;  ///< not watertight: nodes have moments
   unsigned height;
   std::uint64_t mask_cells;
   std::uint32_t mask_pages;
@@ -42,9 +43,17 @@ struct SpecDisc {
   float unit, slab_lower, slab_upper, radius;
 };
 
+/// "Moments": about the box's middle.
+struct SpecMoments {
+  double area, second;
+  SpecPoint vector;
+  std::array<SpecPoint, 3> first;
+};
+
 struct SpecChild {
   SpecBox box;
   SpecDisc disc;
+  SpecMoments moments;  ///< zeros where there are none
   std::uint32_t link;
 };
 

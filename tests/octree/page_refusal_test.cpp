@@ -139,6 +139,16 @@ std::vector<Spoiling> node_spoilings() {
          ASSERT_NE(at, p.child_counts.end());
          set_kind(p, static_cast<std::size_t>(at - p.child_counts.begin()), 7, 1);
        }},
+      {"a child's moments are out of range", From::kWhole,
+       [](P& p, F&) { p.child_vectors.back() = -32768; }},
+      {"a child's moments are out of range", From::kWhole,
+       [](P& p, F&) { p.child_firsts.back() = -128; }},
+      {"a child's moments are out of range", From::kWhole,
+       [](P& p, F&) { p.child_areas[1] = 0x7f80; }},
+      {"a child's moments are out of range", From::kWhole,
+       [](P& p, F&) { p.child_areas[1] = 0x8100; }},
+      {"a child's moments are out of range", From::kWhole,
+       [](P& p, F&) { p.child_seconds[0] = 0x007f; }},
       {"a child is of unknown kind", From::kWhole, [](P& p, F&) { set_kind(p, 0, 0, 3); }},
       {"its children do not add up", From::kWhole,
        [](P& p, F&) { p.head.root_block_count = p.head.block_count; }},
@@ -246,16 +256,16 @@ Soup holed_sphere(unsigned levels) {
 }
 
 TEST(PageRefusal, NamesWhatIsWrongAndThePage) {
-  const SampleTree whole = build_sample(holed_sphere(3), 262144);
-  const SampleTree upper = build_sample(holed_sphere(4), 4096);
+  const SampleTree whole = build_sample(holed_sphere(3), 262144, 0, true);
+  const SampleTree upper = build_sample(holed_sphere(4), 4096, 0, true);
   const SamplePages whole_pages(whole), upper_pages(upper);
   ASSERT_EQ(whole_pages.size(), 1u);
-  ASSERT_FALSE(RawPage::of(upper_pages.raw(0)).page_links.empty());
+  ASSERT_FALSE(RawPage::of(upper_pages.raw(0), upper.shape).page_links.empty());
   for (const Spoiling& spoiling : all_spoilings()) {
     SCOPED_TRACE(spoiling.sentence);
     const bool from_whole = spoiling.from == From::kWhole;
     PageFacts facts = page_facts(from_whole ? whole : upper, 0);
-    RawPage page = RawPage::of((from_whole ? whole_pages : upper_pages).raw(0));
+    RawPage page = RawPage::of((from_whole ? whole_pages : upper_pages).raw(0), facts.shape);
     SampleFrame frame(facts.page_bytes);
     ASSERT_TRUE(decode_page(page.bytes(), facts, frame.bytes()));
     spoiling.spoil(page, facts);

@@ -22,6 +22,9 @@ struct RawPage {
   std::vector<std::uint8_t> child_boxes;
   std::vector<std::int16_t> child_normals, child_slabs;
   std::vector<std::uint16_t> child_radii;
+  std::vector<std::int16_t> child_vectors;
+  std::vector<std::int8_t> child_firsts;
+  std::vector<std::uint16_t> child_areas, child_seconds;
   std::vector<std::uint32_t> page_links;
   std::vector<std::uint8_t> triangle_counts, vertex_counts, new_counts;
   std::vector<std::uint16_t> vertex_refs;
@@ -30,9 +33,9 @@ struct RawPage {
   std::vector<std::uint32_t> first_ids, id_steps;
 
   /// `raw` must be a page that can be cut.
-  static RawPage of(std::span<const std::byte> raw) {
+  static RawPage of(std::span<const std::byte> raw, const BlockShape& shape = {}) {
     RawStreams s;
-    if (s.cut(raw, BlockShape{}) != nullptr) return {};
+    if (s.cut(raw, shape) != nullptr) return {};
     return {s.head,
             list(s.root_boxes),
             list(s.child_counts),
@@ -42,6 +45,10 @@ struct RawPage {
             list(s.child_normals),
             list(s.child_slabs),
             list(s.child_radii),
+            list(s.child_vectors),
+            list(s.child_firsts),
+            list(s.child_areas),
+            list(s.child_seconds),
             list(s.page_links),
             list(s.triangle_counts),
             list(s.vertex_counts),
@@ -64,6 +71,10 @@ struct RawPage {
     writer.shuffled(child_normals);
     writer.shuffled(child_slabs);
     writer.shuffled(child_radii);
+    writer.shuffled(child_vectors);
+    writer.shuffled(child_firsts);
+    writer.shuffled(child_areas);
+    writer.shuffled(child_seconds);
     writer.shuffled(page_links);
     writer.shuffled(triangle_counts);
     writer.shuffled(vertex_counts);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "octree/build/disc_fit.h"
+#include "octree/build/moment_sums.h"
 #include "octree/build/page_encoder.h"
 
 namespace planetree::octree {
@@ -91,20 +92,25 @@ MeshStore store(const Soup& soup, std::uint64_t first_index) {
   return mesh;
 }
 
-SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index) {
+SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index,
+                        bool moments) {
   SampleTree sample;
   sample.mesh = store(soup, first_index);
   sample.centre = (sample.mesh.lower() + sample.mesh.upper()) * 0.5;
   sample.shape.float64 = sample.mesh.float64();
   sample.shape.wide_ids = first_index + soup.size() > 0xffffffff;
+  sample.shape.moments = moments;
   sample.keys = morton_order(sample.mesh);
   sample.binary = build_binary_tree(sample.mesh, sample.centre, sample.keys);
   sample.tree = collapse(sample.binary);
   fit_discs(sample.mesh, sample.centre, sample.keys, sample.tree);
+  if (moments)
+    sample.tree.moments = sum_moments(sample.mesh, sample.centre, sample.keys, sample.tree);
   for (const WideBlock& block : sample.tree.blocks)
     sample.block_slots.push_back(static_cast<std::uint8_t>(
         sample.shape.slots(count_block_vertices(sample.mesh, sample.keys, block))));
-  sample.plan = *plan_pages(sample.tree, sample.keys, sample.block_slots, page_bytes);
+  sample.plan = *plan_pages(sample.tree, sample.keys,
+                            {sample.shape.node_slots(), sample.block_slots}, page_bytes);
   return sample;
 }
 

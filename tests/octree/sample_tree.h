@@ -65,7 +65,7 @@ struct SampleTree {
 };
 
 SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes = 4096,
-                        std::uint64_t first_index = 0);
+                        std::uint64_t first_index = 0, bool moments = false);
 
 PageFacts page_facts(const SampleTree& sample, std::uint32_t page);
 TreeFacts tree_facts(const SampleTree& sample);
@@ -79,8 +79,9 @@ class SampleFrame {
   }
   const std::byte* data() const { return reinterpret_cast<const std::byte*>(slots_.data()); }
   const FrameHeader& header() const { return *reinterpret_cast<const FrameHeader*>(data()); }
-  const Node& node(std::size_t index) const {
-    return reinterpret_cast<const Node*>(data() + header().first_node_slot * kSlotBytes)[index];
+  const Node& node(std::size_t index, const BlockShape& shape = {}) const {
+    const std::size_t slot = header().first_node_slot + shape.node_slots() * index;
+    return *reinterpret_cast<const Node*>(data() + slot * kSlotBytes);
   }
 
  private:

@@ -14,8 +14,8 @@ namespace planetree::oracle {
 /// limits asked for allow it. A side that is told must be the exact one.
 ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask = {});
 
-/// Asks for the side alone; it must be the exact one where the model is
-/// watertight, and unknown elsewhere.
+/// Asks for the side alone; it must be the exact one. Where a model is not
+/// watertight and the winding number is one half, nearly, it may be any.
 void expect_side(BuiltModel& model, const Vec3& query);
 
 /// Every field has the same bits.

@@ -23,6 +23,7 @@
 #include "tests/oracle/cgal_side.h"
 #include "tests/oracle/paged_answers.h"
 #include "tests/oracle/random.h"
+#include "tests/oracle/winding.h"
 #include "tests/storage/temporary_directory.h"
 
 namespace planetree::oracle {
@@ -135,19 +136,24 @@ class MeshCheck {
     for (std::size_t i = 0; i < kTieChecks; ++i) judge_tie(i * (queries_.size() / kTieChecks));
   }
 
-  // Sides of a watertight mesh, on a path besides. What CGAL does not take for a
-  // closed mesh it cannot tell of.
+  // Sides, on a path besides: of a watertight mesh against CGAL, unless that does
+  // not take it for a closed mesh, and of any other against brute force.
   void run_sides() {
-    if (!info_.watertight()) return;
-    const CgalSide oracle(triangles_);
-    if (!oracle.usable()) return;
-    std::vector<Vec3> queries = make_path(info_, triangles_);
-    const std::vector<ClosestPoint> on_path = answers_of(tree_, kLargeBudgetBytes, queries);
-    for (std::size_t i = 0; i < queries.size(); ++i)
-      misses_.side += oracle.side(queries[i]) != on_path[i].side;
-    for (std::size_t i = 0; i < queries_.size(); ++i)
-      misses_.side += oracle.side(queries_[i]) != answers_[i].side;
-    sides_ = queries.size() + queries_.size();
+    const std::vector<Vec3> path = make_path(info_, triangles_);
+    const std::vector<ClosestPoint> on_path = answers_of(tree_, kLargeBudgetBytes, path);
+    if (info_.watertight()) {
+      const CgalSide oracle(triangles_);
+      if (!oracle.usable()) return;
+      for (std::size_t i = 0; i < path.size(); ++i)
+        misses_.side += oracle.side(path[i]) != on_path[i].side;
+      for (std::size_t i = 0; i < queries_.size(); ++i)
+        misses_.side += oracle.side(queries_[i]) != answers_[i].side;
+    } else {
+      for (std::size_t i = 0; i < path.size(); ++i) judge_open_side(path[i], on_path[i].side);
+      for (std::size_t i = 0; i < queries_.size(); ++i)
+        judge_open_side(queries_[i], answers_[i].side);
+    }
+    sides_ = path.size() + queries_.size();
   }
 
   // The same bits with hardly any memory, and no more memory than that.
@@ -188,6 +194,22 @@ class MeshCheck {
     misses_.interval +=
         !(answer.lower <= nearest && nearest <= answer.upper && answer.lower < answer.upper &&
           answer.distance <= answer.upper && answer.lower <= answer.distance);
+  }
+
+  // By every triangle, quickly, and with care where the answer differs. Nothing is
+  // asked of points whose winding number is within a thousandth of one half.
+  void judge_open_side(const Vec3& query, Side side) {
+    constexpr double kLeastDifference = 0.001;
+    const auto told = [](double w) { return std::fabs(std::fabs(w) - 0.5) > kLeastDifference; };
+    const auto of = [](double w) { return std::fabs(w) > 0.5 ? Side::kInside : Side::kOutside; };
+    const double quick = quick_winding(query, triangles_);
+    if (told(quick) && side == of(quick)) return;
+    const OpenWinding careful = open_winding(query, triangles_);
+    const auto value = static_cast<double>(careful.value);
+    if (careful.on_surface)
+      misses_.side += side != Side::kOnSurface;
+    else if (told(value))
+      misses_.side += side != of(value);
   }
 
   // Of the least index among triangles whose value has the same bits.

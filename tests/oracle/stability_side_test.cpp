@@ -164,20 +164,6 @@ TEST(StabilitySide, FarQueries) {
   EXPECT_EQ(model.probe().contains({0, kInfinity, 0}).status, Status::kBadQuery);
 }
 
-// A hole, a flipped patch: no side is told, and the file says why.
-TEST(StabilitySide, OpenModelsAreSaidToBeOpen) {
-  Soup hole = ball(2);
-  hole.pop_back();
-  BuiltModel open(hole);
-  EXPECT_EQ(open.model().info().open_edges, 3u);
-  expect_side(open, {0, 0, 0});
-  Soup flipped = ball(2);
-  std::swap(flipped[7][0], flipped[7][1]);
-  BuiltModel inconsistent(flipped);
-  EXPECT_EQ(inconsistent.model().info().open_edges, 3u);
-  expect_side(inconsistent, {0, 0, 0});
-}
-
 // PLANETREE_TEST_EFFORT in the environment multiplies the number of models.
 TEST(StabilitySide, NastyWatertightModels) {
   for (const NastyFamily& family : closed_families())

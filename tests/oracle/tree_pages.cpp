@@ -31,6 +31,7 @@ TreePages::TreePages(const std::filesystem::path& path) {
   model_ = header.model;
   shape_.float64 = model_.vertex_kind == storage::VertexKind::kFloat64;
   shape_.wide_ids = model_.triangle_id_bytes == 8;
+  shape_.moments = model_.open_edge_count != 0;
   links_ = octree::LinkFormat(header.page_bytes);
   std::vector<std::byte> stored(header.max_stored_bytes), raw(header.max_raw_bytes);
   for (std::uint32_t page = 0; page < header.page_count; ++page) {

@@ -1,7 +1,9 @@
 #include "tests/oracle/winding.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -77,7 +79,87 @@ Pass pass(const Vec3& query, const Vec3& direction, const Corners& t) {
   return height > 0 ? Pass::kForwards : Pass::kBackwards;
 }
 
+// Corners as directions from the query; false where there is none.
+template <class T>
+bool directions(const Vec3& query, const Corners& t, std::array<Triple<T>, 3>& found) {
+  using std::sqrt;
+  for (std::size_t k = 0; k < 3; ++k) {
+    found[k] = from_to<T>(query, t[k]);
+    const T length =
+        sqrt(T(found[k][0] * found[k][0] + found[k][1] * found[k][1] + found[k][2] * found[k][2]));
+    if (length == 0) return false;
+    for (T& component : found[k]) component /= length;
+  }
+  return true;
+}
+
+template <class T>
+T scalar(const Triple<T>& u, const Triple<T>& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+// 1 + a . b + b . c + c . a of three directions: with their volume, the tangent
+// of half the solid angle.
+template <class T>
+T width_of(const std::array<Triple<T>, 3>& d) {
+  return 1 + scalar(d[0], d[1]) + scalar(d[1], d[2]) + scalar(d[2], d[0]);
+}
+
+// Half a solid angle of known sign.
+long double exact_half_angle(const Vec3& query, const Corners& t, int sign) {
+  std::array<Triple<Wide>, 3> d;
+  directions(query, t, d);
+  const Wide width = width_of(d);
+  Wide height = abs(volume(d[0], d[1], d[2]));
+  const Wide larger = std::max(Wide(abs(width)), height);
+  return sign * std::atan2(static_cast<long double>(height / larger),
+                           static_cast<long double>(width / larger));
+}
+
 }  // namespace
+
+OpenWinding open_winding(const Vec3& query, std::span<const Corners> triangles) {
+  OpenWinding winding;
+  long double sum = 0;
+  for (const Corners& t : triangles) {
+    std::array<Triple<long double>, 3> d;
+    if (directions(query, t, d)) {
+      const long double width = width_of(d), height = volume(d[0], d[1], d[2]);
+      if (std::fabs(height) > 1e-17L && std::hypot(width, height) > 1e-3L) {
+        sum += std::atan2(height, width);
+        continue;
+      }
+    }
+    const int sign = volume_sign({query, t[0]}, {query, t[1]}, {query, t[2]});
+    if (sign != 0)
+      sum += exact_half_angle(query, t, sign);
+    else
+      winding.on_surface = winding.on_surface || exact_square(query, t).numerator == 0;
+  }
+  winding.value = sum / (2 * std::numbers::pi_v<long double>);
+  return winding;
+}
+
+double quick_winding(const Vec3& query, std::span<const Corners> triangles) {
+  // Half the solid angles are the angles of complex numbers, and their sum that
+  // of the product, but for the turns it has made.
+  std::complex<double> product = 1;
+  int turns = 0;
+  for (const Corners& t : triangles) {
+    const auto a = from_to<double>(query, t[0]), b = from_to<double>(query, t[1]),
+               c = from_to<double>(query, t[2]);
+    const double la = std::sqrt(scalar(a, a)), lb = std::sqrt(scalar(b, b)),
+                 lc = std::sqrt(scalar(c, c));
+    const double height = volume(a, b, c);
+    const double width = la * lb * lc + scalar(a, b) * lc + scalar(b, c) * la + scalar(c, a) * lb;
+    const std::complex<double> next(product.real() * width - product.imag() * height,
+                                    product.real() * height + product.imag() * width);
+    if (product.imag() >= 0 && height >= 0 && next.imag() < 0) ++turns;
+    if (product.imag() < 0 && height < 0 && next.imag() >= 0) --turns;
+    product = next / (std::fabs(next.real()) + std::fabs(next.imag()));
+  }
+  return std::arg(product) / (2 * std::numbers::pi) + turns;
+}
 
 long double solid_angle_winding(const Vec3& query, std::span<const Corners> triangles) {
   long double sum = 0;

@@ -15,6 +15,21 @@ namespace planetree::oracle {
 /// number of triangles, except within rounding of the surface.
 long double solid_angle_winding(const Vec3& query, std::span<const Corners> triangles);
 
+/// The winding number about a point of any triangles, to 1e-15 of their number
+/// wherever the point is.
+struct OpenWinding {
+  long double value = 0;    ///< triangles that the point is on left out
+  bool on_surface = false;  ///< it is on one
+};
+
+/// Solid angles in long double; where that is uncertain, their signs in
+/// fractions and their sizes in 512 bits.
+OpenWinding open_winding(const Vec3& query, std::span<const Corners> triangles);
+
+/// The same in double and without an arctangent for each triangle: for millions
+/// of them. Wrong by a whole number or a half within rounding of the surface.
+double quick_winding(const Vec3& query, std::span<const Corners> triangles);
+
 /// The side a point is on by the winding number of a watertight surface, found
 /// without any error by signed crossings of a ray: long double where that is
 /// certain, integers elsewhere. Never kUnknown.

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "planetree/probe.h"
 #include "tests/query/answer_bits.h"
@@ -140,14 +143,139 @@ TEST_F(Contains, GoesAroundAPageThatIsLost) {
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
 }
 
-TEST(ContainsOpen, IsUnknownWhereTheSurfaceIsNotWatertight) {
+/// A sphere with a hole about +z, wider than a page.
+class ContainsOpen : public testing::Test {
+ protected:
+  static octree::Soup bowl() {
+    octree::Soup soup;
+    for (const auto& triangle : octree::sphere(5))
+      if (triangle[0].z + triangle[1].z + triangle[2].z < 3 * 0.9) soup.push_back(triangle);
+    return soup;
+  }
+  /// The sum of solid angles over 4 pi; of points that are not near the surface.
+  static double winding(const octree::Soup& soup, const Vec3& query) {
+    const octree::Point q(query.x, query.y, query.z);
+    double sum = 0;
+    for (const auto& t : soup) {
+      const auto way = [&](const Vec3& p) {
+        return octree::Point(octree::Point(p.x, p.y, p.z) - q);
+      };
+      const octree::Point a = way(t[0]), b = way(t[1]), c = way(t[2]);
+      const double la = a.norm(), lb = b.norm(), lc = c.norm();
+      sum += std::atan2(a.dot(b.cross(c)),
+                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    }
+    return sum / (2 * std::numbers::pi);
+  }
+
+  ContainsOpen() : sample_(bowl()), queries_(random_queries(400, -1.3, 1.3)) {}
+
+  octree::Soup soup_ = bowl();
+  SampleModel sample_;
+  std::vector<Vec3> queries_;
+};
+
+TEST_F(ContainsOpen, TellsTheSideByTheWindingNumber) {
+  const Model model = sample_.open();
+  ASSERT_FALSE(model.info().watertight());
+  Probe probe = make_probe(model);
+  int inside = 0;
+  for (const Vec3& query : queries_) {
+    const double w = winding(soup_, query);
+    if (std::fabs(std::fabs(w) - 0.5) < 1e-9) continue;
+    const Containment found = probe.contains(query);
+    EXPECT_EQ(found.side, std::fabs(w) > 0.5 ? Side::kInside : Side::kOutside) << w;
+    EXPECT_EQ(found.status, Status::kExact);
+    inside += found.side == Side::kInside;
+  }
+  EXPECT_GT(inside, 30);
+  EXPECT_EQ(probe.contains(soup_[7][0]).side, Side::kOnSurface);
+  EXPECT_EQ(probe.contains({1e300, 0, 0}).side, Side::kOutside);
+  EXPECT_LT(probe.closest_point({0, 0, -0.5}).signed_distance(), 0);
+  EXPECT_GT(probe.closest_point({0, 0, 1.5}).signed_distance(), 0);
+}
+
+TEST_F(ContainsOpen, HasInBatchesAndWithHardlyAnyMemoryWhatItHasOneByOne) {
+  const Model model = sample_.open(), small = sample_.open(sample_.least_budget());
+  Probe probe = make_probe(model), of_small = make_probe(small);
+  std::vector<Containment> answers(queries_.size());
+  of_small.contains(queries_, answers);
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
+    const Containment alone = probe.contains(queries_[i]);
+    ASSERT_EQ(answers[i].side, alone.side) << i;
+    ASSERT_EQ(answers[i].status, alone.status) << i;
+  }
+}
+
+TEST_F(ContainsOpen, IsDegradedWhenTheWorkEnds) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  const Containment found = probe.contains({0.2, 0.3, -0.4}, {.max_nodes = 1});
+  EXPECT_EQ(found.side, Side::kUnknown);
+  EXPECT_EQ(found.status, Status::kDegraded);
+  EXPECT_EQ(model.stats().degraded_answers, 1u);
+  // Sooner or later it is told, and then for good.
+  Side side = Side::kUnknown;
+  for (std::uint32_t nodes = 2; nodes < 300; ++nodes) {
+    const Containment now = probe.contains({0.2, 0.3, -0.4}, {.max_nodes = nodes});
+    EXPECT_EQ(now.side == Side::kUnknown, now.status == Status::kDegraded);
+    if (side != Side::kUnknown) {
+      EXPECT_EQ(now.side, side);
+    }
+    side = now.side;
+  }
+  EXPECT_EQ(side, Side::kInside);
+}
+
+// What a lost page holds is known by its moments from afar.
+TEST_F(ContainsOpen, IsRightWhereALostPageCannotMatter) {
+  storage::FileImage image(storage::read_bytes(sample_.path()));
+  const storage::PageEntry entry = image.entry(sample_.page_count() - 1);
+  image.bytes()[entry.offset] ^= std::byte{1};
+  storage::write_bytes(sample_.path(), image.bytes());
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  int unknown = 0;
+  for (const Vec3& query : queries_) {
+    const double w = winding(soup_, query);
+    const Containment found = probe.contains(query);
+    unknown += found.side == Side::kUnknown;
+    EXPECT_EQ(found.side == Side::kUnknown, found.status == Status::kDegraded);
+    if (found.side == Side::kUnknown || std::fabs(std::fabs(w) - 0.5) < 1e-9) continue;
+    EXPECT_EQ(found.side, std::fabs(w) > 0.5 ? Side::kInside : Side::kOutside);
+  }
+  EXPECT_GT(unknown, 0);
+  EXPECT_LT(unknown, 100);
+}
+
+// Out of the solid, as for a watertight surface; and on the surface as the rest
+// of it winds.
+TEST_F(ContainsOpen, TurnsNormalsOutOfTheSolid) {
+  octree::Soup inside_out = soup_;
+  for (auto& triangle : inside_out) std::swap(triangle[1], triangle[2]);
+  const SampleModel turned(inside_out);
+  const Model model = sample_.open(), turned_model = turned.open();
+  Probe probes[] = {make_probe(model), make_probe(turned_model)};
+  const auto& [a, b, c] = soup_[100];
+  const Vec3 queries[] = {a, {a.x * 0.9, a.y * 0.9, a.z * 0.9}, {a.x * 1.1, a.y * 1.1, a.z * 1.1}};
+  for (Probe& probe : probes)
+    for (const Vec3& query : queries) {
+      const Vec3 normal = probe.closest_point(query).normal;
+      EXPECT_GT(normal.x * a.x + normal.y * a.y + normal.z * a.z, 0.9);
+    }
+}
+
+TEST_F(ContainsOpen, IsOutsideOnBothSidesOfASheet) {
   const SampleModel sample(octree::sheet(10));
   const Model model = sample.open();
-  EXPECT_FALSE(model.info().watertight());
   Probe probe = make_probe(model);
-  EXPECT_EQ(probe.contains({0.5, 0.5, 0.1}).side, Side::kUnknown);
-  EXPECT_EQ(probe.closest_point({0.5, 0.5, 0.1}).status, Status::kExact);
-  EXPECT_GT(probe.closest_point({0.5, 0.5, 0.3}).signed_distance(), 0);
+  for (const double z : {-0.3, 0.3}) {
+    const ClosestPoint answer = probe.closest_point({0.5, 0.5, z});
+    EXPECT_EQ(answer.side, Side::kOutside);
+    EXPECT_EQ(answer.status, Status::kExact);
+    EXPECT_GT(answer.signed_distance(), 0);
+    EXPECT_GT(answer.normal.z * z, 0);
+  }
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ void write(const octree::SampleTree& sample, const std::filesystem::path& path) 
 }  // namespace
 
 SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index)
-    : sample_(octree::build_sample(soup, page_bytes, first_index)) {
+    : sample_(octree::build_sample(soup, page_bytes, first_index,
+                                   !octree::balance_edges(octree::store(soup)).closed())) {
   write(sample_, path());
 }
 

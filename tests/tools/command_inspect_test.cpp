@@ -45,7 +45,7 @@ TEST_F(Command, InspectSaysWhatIsThere) {
 TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
   const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
   EXPECT_EQ(open["watertight"], false);
-  EXPECT_EQ(open["sign_rule"], "none");
+  EXPECT_EQ(open["sign_rule"], "winding");
   EXPECT_EQ(open["open_edges"], 4 * kSide);
   ASSERT_EQ(open["first_open_edges"].size(), 3u);
   EXPECT_EQ(open["first_open_edges"][0]["triangle"], 0);

@@ -186,7 +186,7 @@ TEST_F(Command, QueryAnswersWhatComesBeforeABadLine) {
 TEST_F(Command, QueryObeysItsLimits) {
   const Outcome far = run({"query", "tree.ptree", "--max-distance", "2"}, "4,4,9\n");
   EXPECT_EQ(lines_of(far.output).back(),
-            "4,4,9,inf,2,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance");
+            "4,4,9,inf,2,inf,outside,0,0,0,0,0,1,,face,beyond_max_distance");
   const Outcome coarse = run({"query", "tree.ptree", "--max-error", "100"}, "4,4,9\n");
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
 }
@@ -204,7 +204,7 @@ TEST_F(Command, QueryTellsTheSideAlone) {
   const Outcome whole = run({"query", "solid.ptree"}, "2,0.25,0.25\n");
   EXPECT_NE(lines_of(whole.output).back().find(",outside,"), std::string::npos);
   EXPECT_TRUE(run({"query", "tree.ptree", "--contains"}, "1,1,1\n")
-                  .output.ends_with("1,1,1,unknown,exact\n"));
+                  .output.ends_with("1,1,1,outside,exact\n"));
 }
 
 TEST_F(Command, QuerySumsUpOnStandardError) {

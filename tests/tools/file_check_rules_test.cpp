@@ -148,15 +148,38 @@ TEST_F(FileCheck, FindsASampleThatIsNone) {
 }
 
 TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
+  // Then the nodes would have no moments.
   EXPECT_EQ(codes_of_model([](auto& model) {
               model.open_edge_count = 0;
               for (auto& edge : model.open_edge) edge = {};
             }),
-            Codes{"OPEN_EDGES"});
+            Codes{"PAGE_STRUCTURE"});
   EXPECT_EQ(codes_of_model([](auto& model) { ++model.open_edge[2].along; }), Codes{"OPEN_EDGES"});
   EXPECT_EQ(codes_of_model(
                 [](auto& model) { std::swap(model.open_edge[1].from, model.open_edge[1].to); }),
             Codes{"OPEN_EDGES"});
+}
+
+TEST_F(FileCheck, FindsMomentsThatAreNot) {
+  const auto changed = [](std::string_view stream, auto by, std::uint32_t only_page) {
+    Forgery forgery;
+    forgery.page = [=](std::uint32_t page, RawPage& raw) {
+      if (page != only_page || raw.elements(stream) == 0) return;
+      using T = decltype(by);
+      raw.set(stream, 0, static_cast<T>(raw.get<T>(stream, 0) + by));
+    };
+    return forgery;
+  };
+  const Codes expected = {"MOMENTS"};
+  // Of blocks, and far above them.
+  for (const std::uint32_t page : {0u, 1u}) {
+    EXPECT_EQ(codes_of_forgery(changed("child_vectors", std::int16_t{9000}, page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_firsts", std::int8_t{40}, page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_areas", std::uint16_t(-0x0180), page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_seconds", std::uint16_t(-0x0480), page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_areas", std::uint16_t(-0x0180), page), false),
+              Codes{});
+  }
 }
 
 TEST_F(FileCheck, CountsWhatItDoesNotKeep) {
@@ -174,6 +197,19 @@ TEST(FileCheckOfShapes, AcceptsABlockThatIsTheWholeTree) {
   EXPECT_EQ(codes_of(report), Codes{});
   EXPECT_EQ(report.nodes, 0u);
   EXPECT_EQ(report.blocks, 1u);
+}
+
+TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
+  storage::TemporaryDirectory folder;
+  write_mesh(folder / "mesh.obj", 1);
+  build_sample(folder / "mesh.obj", folder / "tree.ptree");
+  Forgery forgery;
+  forgery.model = [](storage::ModelRecord& model) {
+    model.open_edge_count = 0;
+    for (auto& edge : model.open_edge) edge = {};
+  };
+  forge(folder / "tree.ptree", folder / "forged.ptree", forgery);
+  EXPECT_EQ(codes_of(check(storage::read_bytes(folder / "forged.ptree"))), Codes{"OPEN_EDGES"});
 }
 
 TEST(FileCheckOfShapes, AcceptsDoublesAndSetAsideRecords) {

@@ -114,6 +114,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   octree::BlockShape shape;
   shape.float64 = file->header().model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = file->header().model.triangle_id_bytes == 8;
+  shape.moments = file->header().model.open_edge_count != 0;
   std::vector<std::byte> scratch(file->header().max_stored_bytes);
   for (std::uint32_t page = 0; page < file->page_count(); ++page) {
     const storage::PageEntry& entry = file->entries()[page];

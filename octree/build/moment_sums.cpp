@@ -1,0 +1,161 @@
+#include "octree/build/moment_sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
+
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Integrals over some triangles, x being relative to a point near them.
+struct Sums {
+  Point vector = Point::Zero();                     ///< of the normal n
+  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();  ///< of x n^T
+  double area = 0;                                  ///< of 1, rounded up
+  Point place = Point::Zero();                      ///< of x
+  double second = 0;                                ///< of |x|^2, rounded up
+
+  void add(const Sums& other) {
+    vector += other.vector;
+    first += other.first;
+    area += other.area;
+    place += other.place;
+    second += other.second;
+  }
+
+  /// Makes every x larger by `by`.
+  void move(const Point& by) {
+    first += by * vector.transpose();
+    second += 2 * by.dot(place) + by.squaredNorm() * area;
+    place += area * by;
+  }
+};
+
+Point centre_of(const FloatBox& box) {
+  const std::array<float, 3> centre = box.centre();
+  return {static_cast<double>(centre[0]), static_cast<double>(centre[1]),
+          static_cast<double>(centre[2])};
+}
+
+Sums of_triangle(const Triangle& triangle, const Point& from) {
+  const Point a = triangle[0] - from, b = triangle[1] - from, c = triangle[2] - from;
+  const Point u = b - a, v = c - a;
+  const Point vector = 0.5 * u.cross(v);
+  Sums sums;
+  sums.vector = vector;
+  // A thin triangle's area may have cancelled, but not by more than this.
+  sums.area = vector.norm() + 0x1p-48 * u.norm() * v.norm();
+  const Point sum = a + b + c;
+  sums.first = sum / 3 * vector.transpose();
+  sums.place = sums.area / 3 * sum;
+  sums.second =
+      sums.area / 12 * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
+  return sums;
+}
+
+/// Whole units next to a value, which is at most kMost of them but for rounding.
+template <class Integer>
+Integer steps(double value, double unit, int most) {
+  const double scaled = value / unit;
+  const double rounded = scaled < 0 ? scaled - 0.5 : scaled + 0.5;
+  return static_cast<Integer>(std::clamp(rounded, -1.0 * most, 1.0 * most));
+}
+
+/// What rounding may have cost is far below these shares: moving cancels no
+/// more than the square of the box's diagonal.
+Moments packed(const Sums& sums, double diagonal2) {
+  const double area = sums.area * (1 + 0x1p-20);
+  const double second = std::max(0.0, sums.second) * (1 + 0x1p-20) + 0x1p-40 * diagonal2 * area;
+  Moments moments;
+  moments.area = pack_short_above(area);
+  moments.second = pack_short_above(second);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    moments.vector[axis] = steps<std::int16_t>(sums.vector[static_cast<Eigen::Index>(axis)],
+                                               moments.vector_unit(), Moments::kVectorSteps);
+  const Eigen::Matrix3d& f = sums.first;
+  const double third = f.trace() / 3;
+  const double parts[] = {f(0, 0) - third, f(1, 1) - third, (f(0, 1) + f(1, 0)) * 0.5,
+                          (f(1, 2) + f(2, 1)) * 0.5, (f(2, 0) + f(0, 2)) * 0.5};
+  for (std::size_t i = 0; i < 5; ++i)
+    moments.first[i] = steps<std::int8_t>(parts[i], moments.first_unit(), Moments::kFirstSteps);
+  return moments;
+}
+
+class MomentSummer {
+ public:
+  MomentSummer(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+               const WideTree& tree)
+      : mesh_(mesh),
+        centre_(centre),
+        keys_(keys),
+        tree_(tree),
+        node_sums_(tree.nodes.size()),
+        moments_(tree.nodes.size()) {}
+
+  std::vector<NodeMoments> run() {
+    for (const std::vector<std::uint32_t>& level : nodes_by_height())
+      tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) { sum_node(level[i]); });
+    return std::move(moments_);
+  }
+
+ private:
+  // Nodes of one height have none below them of the same.
+  std::vector<std::vector<std::uint32_t>> nodes_by_height() const {
+    std::vector<std::vector<std::uint32_t>> levels;
+    for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+      const std::size_t height = tree_.nodes[i].height;
+      if (levels.size() <= height) levels.resize(height + 1);
+      levels[height].push_back(i);
+    }
+    return levels;
+  }
+
+  void sum_node(std::uint32_t at) {
+    const WideNode& node = tree_.nodes[at];
+    const Point middle = centre_of(node.box);
+    moments_[at] = {};
+    for (unsigned i = 0; i < node.child_count; ++i) {
+      const WideChild& child = node.children[i];
+      Sums sums = child.block ? sum_block(child) : node_sums_[child.index];
+      moments_[at].set(i, packed(sums, static_cast<double>(child.box.diagonal_squared())));
+      sums.move(centre_of(child.box) - middle);
+      node_sums_[at].add(sums);
+    }
+  }
+
+  Sums sum_block(const WideChild& child) const {
+    const Point from = centre_of(child.box);
+    std::array<std::uint32_t, kMaxBlockTriangles> positions;
+    const auto end = std::transform(keys_.begin() + child.begin, keys_.begin() + child.end,
+                                    positions.begin(), [](MortonKey key) { return key.position; });
+    // As they are stored: keys within a block are in no order.
+    std::sort(positions.begin(), end);
+    Sums sums;
+    for (auto position = positions.begin(); position != end; ++position) {
+      Triangle triangle = mesh_.corners(*position);
+      for (Point& corner : triangle) corner -= centre_;
+      sums.add(of_triangle(triangle, from));
+    }
+    return sums;
+  }
+
+  const MeshStore& mesh_;
+  const Point& centre_;
+  const std::vector<MortonKey>& keys_;
+  const WideTree& tree_;
+  std::vector<Sums> node_sums_;  ///< of each node, about the centre of its box
+  std::vector<NodeMoments> moments_;
+};
+
+}  // namespace
+
+std::vector<NodeMoments> sum_moments(const MeshStore& mesh, const Point& centre,
+                                     const std::vector<MortonKey>& keys, const WideTree& tree) {
+  return MomentSummer(mesh, centre, keys, tree).run();
+}
+
+}  // namespace planetree::octree
