@@ -55,8 +55,7 @@ class Multipoles {
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
   Multipoles(const Point& query, const Point& centre)
-      : from_(query - centre),
-        moved_(kAbsoluteSlack + 0x1p-51 * from_.cwiseAbs().maxCoeff()) {}
+      : from_(query - centre), moved_(kAbsoluteSlack + 0x1p-51 * from_.cwiseAbs().maxCoeff()) {}
 
   /// The shares of a node's children.
   void shares(const Node& node, std::array<Share, kFanOut>& shares) const {
@@ -108,12 +107,13 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
   if (most < error) return {0, kUp * most};
   const Point u = way * over_way;
   const auto& [xx, yy, xy, yz, zx] = moments.first;
-  const double flux = u.x() * moments.vector[0] + u.y() * moments.vector[1] + u.z() * moments.vector[2];
+  const double flux =
+      u.x() * moments.vector[0] + u.y() * moments.vector[1] + u.z() * moments.vector[2];
   const double turn = u.x() * u.x() * xx + u.y() * u.y() * yy - u.z() * u.z() * (xx + yy) +
                       2 * (u.x() * u.y() * xy + u.y() * u.z() * yz + u.z() * u.x() * zx);
-  return {kOverFourPi * over_way * over_way *
-              (vector_unit * flux - 3 * first_unit * over_way * turn),
-          kUp * error};
+  return {
+      kOverFourPi * over_way * over_way * (vector_unit * flux - 3 * first_unit * over_way * turn),
+      kUp * error};
 }
 
 }  // namespace planetree::octree

@@ -105,7 +105,6 @@ WindingShare share_of(const HalfAngle& half, int side) {
   return share;
 }
 
-
 }  // namespace
 
 WindingShare winding_share(const Point& point, const Triangle& triangle) noexcept {

@@ -58,7 +58,10 @@ class Openings {
 class WindingSum {
  public:
   WindingSum(const TreeFacts& tree, const Point& point, PageReader pages, TreeWork& work)
-      : tree_(tree), point_(point), work_(work), multipoles_(point, tree.centre),
+      : tree_(tree),
+        point_(point),
+        work_(work),
+        multipoles_(point, tree.centre),
         records_(tree, pages) {}
 
   WindingNumber run(std::uint64_t max_nodes) {
@@ -86,8 +89,9 @@ class WindingSum {
   WindingNumber sum() const {
     WindingNumber result;
     result.value = value_.value();
-    result.error = unknown_ > 0 ? Multipoles::kUnknown
-                                : (error_.value() + error_.error() + value_.error()) * (1 + 0x1p-50);
+    result.error = unknown_ > 0
+                       ? Multipoles::kUnknown
+                       : (error_.value() + error_.error() + value_.error()) * (1 + 0x1p-50);
     result.on_surface = on_surface_;
     return result;
   }

@@ -9,7 +9,7 @@ namespace planetree::octree {
 /// A winding number and how far it may be off.
 struct WindingNumber {
   double value = 0;
-  double error = 0;         ///< the true one is within this of `value`; infinite if nothing is known
+  double error = 0;  ///< the true one is within this of `value`; infinite if nothing is known
   bool on_surface = false;  ///< the point is on a triangle; such have no part in `value`
   bool complete = true;     ///< false: pages missing or `max_nodes` spent before it was decided
 

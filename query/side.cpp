@@ -83,8 +83,7 @@ Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
                            octree::TreeWork& work) {
   // From so far away all triangles together are less than a point.
   if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
-  const octree::WindingNumber w =
-      octree::winding_number(tree, point, max_nodes, pages, work);
+  const octree::WindingNumber w = octree::winding_number(tree, point, max_nodes, pages, work);
   if (w.on_surface) {
     const bool told = std::fabs(w.value) > w.error;
     return {Side::kOnSurface, Status::kExact, told ? (w.value < 0 ? -1 : 1) : 0, false};

@@ -238,9 +238,9 @@ void TreeCheck::check_node(std::uint32_t index) {
       open.highest_child = std::max(open.highest_child, frame_->node(below).height);
     }
     if (!geometry_) continue;
-    auto bounds = std::make_shared<const Bounds>(
-        Bounds{child_box(node, child), child_disc(node, child), frame_->moments(node, child),
-               node_bounds_[index]});
+    auto bounds =
+        std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
+                                              frame_->moments(node, child), node_bounds_[index]});
     if (octree::LinkFormat::is_leaf(link))
       block_bounds_[links_.slot(link)] = std::move(bounds);
     else
@@ -257,9 +257,9 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
   const std::uint32_t link = node.link[child];
   const bool leaf = octree::LinkFormat::is_leaf(link);
   Promise promise;
-  promise.bounds = std::make_shared<const Bounds>(
-      Bounds{child_box(node, child), child_disc(node, child), frame_->moments(node, child),
-             node_bounds_[index]});
+  promise.bounds =
+      std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
+                                            frame_->moments(node, child), node_bounds_[index]});
   promise.parent = key_of(index);
   if (!leaf) ++open.children_left;
   if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(promise))) {

@@ -19,7 +19,7 @@ namespace planetree::tools {
 struct Bounds {
   octree::FloatBox box;
   octree::Disc disc;
-  octree::Moments moments;  ///< zeros where there are none
+  octree::Moments moments;              ///< zeros where there are none
   std::shared_ptr<const Bounds> above;  ///< null below the root
 };
 

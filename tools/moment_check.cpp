@@ -51,8 +51,7 @@ bool fits(const octree::Moments& stated, const Expected& expected) {
   if (area * (1 + kRoom) < expected.area) return false;
   if (second * (1 + kRoom) + moved * (extent + octree::kAbsoluteSlack) < expected.second)
     return false;
-  const double vector_error =
-      (octree::kVectorError + kRoom) * area + expected.vector_error;
+  const double vector_error = (octree::kVectorError + kRoom) * area + expected.vector_error;
   if (!((vector_of(stated) - expected.vector).norm() <= vector_error)) return false;
   const Matrix symmetric = (expected.first + expected.first.transpose()) / 2 -
                            expected.first.trace() / 3 * Matrix::Identity();
@@ -75,9 +74,9 @@ bool moments_fit(const Bounds& stated, const octree::BlockView& block, const Poi
     expected.vector += vector;
     expected.first += sum / 3 * vector.transpose();
     expected.area += area;
-    expected.second += area / 12 *
-                       (e[0].squaredNorm() + e[1].squaredNorm() + e[2].squaredNorm() +
-                        sum.squaredNorm());
+    expected.second +=
+        area / 12 *
+        (e[0].squaredNorm() + e[1].squaredNorm() + e[2].squaredNorm() + sum.squaredNorm());
   }
   return fits(stated.moments, expected);
 }

@@ -10,8 +10,7 @@ namespace planetree::tools {
 /// Whether the moments stated for a block are those of its triangles.
 ///
 /// centre  of the model.
-bool moments_fit(const Bounds& stated, const octree::BlockView& block,
-                 const octree::Point& centre);
+bool moments_fit(const Bounds& stated, const octree::BlockView& block, const octree::Point& centre);
 
 /// Whether the moments stated for a node can be those of what the node itself
 /// states of its children.

@@ -23,14 +23,10 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
   using enum StreamGroup;
   const octree::RawStreams& s = streams;
   std::vector<StreamRow> rows = {
-      {"page_head", kHead, 1, sizeof(octree::PageHead)},
-      row("root_boxes", kNodes, s.root_boxes),
-      row("child_counts", kNodes, s.child_counts),
-      row("heights", kNodes, s.heights),
-      row("child_kinds", kNodes, s.child_kinds),
-      row("child_boxes", kNodes, s.child_boxes),
-      row("child_normals", kNodes, s.child_normals),
-      row("child_slabs", kNodes, s.child_slabs),
+      {"page_head", kHead, 1, sizeof(octree::PageHead)}, row("root_boxes", kNodes, s.root_boxes),
+      row("child_counts", kNodes, s.child_counts),       row("heights", kNodes, s.heights),
+      row("child_kinds", kNodes, s.child_kinds),         row("child_boxes", kNodes, s.child_boxes),
+      row("child_normals", kNodes, s.child_normals),     row("child_slabs", kNodes, s.child_slabs),
       row("child_radii", kNodes, s.child_radii)};
   if (shape.moments) {
     rows.push_back(row("child_vectors", kNodes, s.child_vectors));

@@ -83,8 +83,9 @@ Json open_edges_json(const storage::ModelRecord& model) {
 
 std::string surface_text(const storage::ModelRecord& model) {
   if (model.open_edge_count == 0) return "  surface     watertight; sides by crossings, exactly\n";
-  std::string text = fmt::format("  surface     not watertight; sides by winding number: {} open edges\n",
-                                 grouped_count(model.open_edge_count));
+  std::string text =
+      fmt::format("  surface     not watertight; sides by winding number: {} open edges\n",
+                  grouped_count(model.open_edge_count));
   for (const storage::OpenEdge& edge : listed_open_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,

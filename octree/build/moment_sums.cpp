@@ -13,11 +13,11 @@ namespace {
 
 /// Integrals over some triangles, x being relative to a point near them.
 struct Sums {
-  Point vector = Point::Zero();                      ///< of the normal n
-  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();   ///< of x n^T
-  double area = 0;                                   ///< of 1, rounded up
-  Point place = Point::Zero();                       ///< of x
-  double second = 0;                                 ///< of |x|^2, rounded up
+  Point vector = Point::Zero();                     ///< of the normal n
+  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();  ///< of x n^T
+  double area = 0;                                  ///< of 1, rounded up
+  Point place = Point::Zero();                      ///< of x
+  double second = 0;                                ///< of |x|^2, rounded up
 
   void add(const Sums& other) {
     vector += other.vector;
@@ -52,8 +52,8 @@ Sums of_triangle(const Triangle& triangle, const Point& from) {
   const Point sum = a + b + c;
   sums.first = sum / 3 * vector.transpose();
   sums.place = sums.area / 3 * sum;
-  sums.second = sums.area / 12 *
-                (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
+  sums.second =
+      sums.area / 12 * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
   return sums;
 }
 
@@ -81,8 +81,7 @@ Moments packed(const Sums& sums, double diagonal2) {
   const double parts[] = {f(0, 0) - third, f(1, 1) - third, (f(0, 1) + f(1, 0)) * 0.5,
                           (f(1, 2) + f(2, 1)) * 0.5, (f(2, 0) + f(0, 2)) * 0.5};
   for (std::size_t i = 0; i < 5; ++i)
-    moments.first[i] =
-        steps<std::int8_t>(parts[i], moments.first_unit(), Moments::kFirstSteps);
+    moments.first[i] = steps<std::int8_t>(parts[i], moments.first_unit(), Moments::kFirstSteps);
   return moments;
 }
 
@@ -90,7 +89,11 @@ class MomentSummer {
  public:
   MomentSummer(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
                const WideTree& tree)
-      : mesh_(mesh), centre_(centre), keys_(keys), tree_(tree), node_sums_(tree.nodes.size()),
+      : mesh_(mesh),
+        centre_(centre),
+        keys_(keys),
+        tree_(tree),
+        node_sums_(tree.nodes.size()),
         moments_(tree.nodes.size()) {}
 
   std::vector<NodeMoments> run() {

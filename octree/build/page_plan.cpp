@@ -25,8 +25,8 @@ struct Draft {
 
 class PagePlanner {
  public:
-  PagePlanner(const WideTree& tree, const std::vector<MortonKey>& keys,
-              const RecordSlots& slots, std::uint32_t page_bytes)
+  PagePlanner(const WideTree& tree, const std::vector<MortonKey>& keys, const RecordSlots& slots,
+              std::uint32_t page_bytes)
       : tree_(tree),
         keys_(keys),
         slots_(slots),

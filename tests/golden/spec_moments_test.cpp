@@ -140,8 +140,7 @@ TEST(SpecMoments, AreThoseOfTheTriangles) {
     EXPECT_GE(stored.second, exact.second);
     EXPECT_LE(stored.second, exact.second * 1.01);
     EXPECT_LE(length(minus(stored.vector, exact.vector)), 0x1p-15 * stored.area);
-    EXPECT_LE(off(stored.first, exact.first),
-              1.75 * std::sqrt(stored.area * stored.second) / 127);
+    EXPECT_LE(off(stored.first, exact.first), 1.75 * std::sqrt(stored.area * stored.second) / 127);
   });
 }
 

@@ -117,9 +117,8 @@ TEST(Multipoles, TellNothingFromWithinTheBox) {
       *reinterpret_cast<const Node*>(pages.record(LinkFormat(65536), sample.plan.node_links[0]));
   std::array<Multipoles::Share, kFanOut> shares;
   Multipoles(sample.mesh.corners(0)[0], sample.centre).shares(root, shares);
-  EXPECT_TRUE(std::any_of(shares.begin(), shares.begin() + root.child_count, [](const auto& share) {
-    return share.error == Multipoles::kUnknown;
-  }));
+  EXPECT_TRUE(std::any_of(shares.begin(), shares.begin() + root.child_count,
+                          [](const auto& share) { return share.error == Multipoles::kUnknown; }));
 }
 
 // What is encoded comes back, whatever holds the page.
@@ -128,8 +127,8 @@ TEST(Moments, SurviveTheirPage) {
   SamplePages pages(sample);
   ASSERT_GT(pages.size(), 4u);
   for (std::size_t i = 0; i < sample.tree.nodes.size(); ++i) {
-    const Node& node = *reinterpret_cast<const Node*>(
-        pages.record(LinkFormat(4096), sample.plan.node_links[i]));
+    const Node& node =
+        *reinterpret_cast<const Node*>(pages.record(LinkFormat(4096), sample.plan.node_links[i]));
     EXPECT_EQ(std::memcmp(&NodeMoments::of(node), &sample.tree.moments[i], sizeof(NodeMoments)), 0);
   }
 }

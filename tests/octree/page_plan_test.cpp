@@ -74,7 +74,8 @@ TEST(Treelets, HoldEveryRecordOnceAndKeepTheirLimits) {
     const SampleTree sample = build_sample(c.soup);
     for (const auto& [bottom, upper] : {std::pair(32u, 62u), std::pair(64u, 256u),
                                         std::pair(32u, 32u), std::pair(1024u, 4000u)}) {
-      const TreeletCut cut = cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, bottom, upper);
+      const TreeletCut cut =
+          cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, bottom, upper);
       CutWalk walk(sample, cut);
       for (const Treelet& treelet : cut.treelets) {
         EXPECT_EQ(walk.slots(treelet.root), treelet.slots);
@@ -87,7 +88,8 @@ TEST(Treelets, HoldEveryRecordOnceAndKeepTheirLimits) {
 
 TEST(Treelets, AreOneWhereAllFits) {
   const SampleTree sample = build_sample(sphere(3));
-  const TreeletCut cut = cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, 100000, 100000);
+  const TreeletCut cut =
+      cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, 100000, 100000);
   ASSERT_EQ(cut.treelets.size(), 1u);
   EXPECT_EQ(cut.treelets[0].root.index, 0u);
 }

@@ -59,7 +59,8 @@ TEST(WindingShare, IsNoneOnTheTriangle) {
 
 TEST(WindingShare, IsNothingInThePlaneBesideTheTriangle) {
   const double ulp = std::numeric_limits<double>::denorm_min();
-  for (const Point& point : {Point(2, 0, 0), Point(-1, 0, 0), Point(0.5, -ulp, 0), Point(1, 1, 0)}) {
+  for (const Point& point :
+       {Point(2, 0, 0), Point(-1, 0, 0), Point(0.5, -ulp, 0), Point(1, 1, 0)}) {
     const WindingShare share = winding_share(point, kFace);
     EXPECT_FALSE(share.on_surface);
     EXPECT_EQ(share.value, 0);

@@ -14,7 +14,9 @@ namespace {
 class Winding {
  public:
   explicit Winding(const Soup& soup, std::uint32_t page_bytes = 4096)
-      : sample_(build_sample(soup, page_bytes, 0, true)), pages_(sample_), facts_(tree_facts(sample_)) {}
+      : sample_(build_sample(soup, page_bytes, 0, true)),
+        pages_(sample_),
+        facts_(tree_facts(sample_)) {}
 
   WindingNumber ask(const Point& point, std::uint64_t max_nodes = ~std::uint64_t{0}) {
     work = TreeWork();
@@ -87,7 +89,8 @@ TEST(WindingNumber, HoldsTheTruthAtAnyWork) {
       const WindingNumber found = winding.ask(point, nodes);
       expect_true(found, truth);
       EXPECT_LE(winding.work.nodes + winding.work.blocks, nodes);
-      EXPECT_EQ(found.complete, found.above_half() || found.below_half() || nodes == winding.records());
+      EXPECT_EQ(found.complete,
+                found.above_half() || found.below_half() || nodes == winding.records());
     }
     EXPECT_TRUE(winding.ask(point).complete);
   }
@@ -145,8 +148,9 @@ TEST(WindingNumber, GoesOnWithoutAPage) {
         winding.sample().tree.blocks[winding.sample().plan.pages[page].blocks.back()];
     const Triangle lost =
         winding.sample().mesh.corners(winding.sample().keys[block.begin].position);
-    const Point point = i % 2 == 0 ? random_point(noise, 1.2)
-                                   : Point((lost[0] + lost[1] + lost[2]) / 3 * noise.uniform(0.99, 1.01));
+    const Point point = i % 2 == 0
+                            ? random_point(noise, 1.2)
+                            : Point((lost[0] + lost[1] + lost[2]) / 3 * noise.uniform(0.99, 1.01));
     const WindingNumber found = winding.ask(point);
     expect_true(found, winding.truth(point));
     EXPECT_EQ(found.complete, found.above_half() || found.below_half());

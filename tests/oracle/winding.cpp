@@ -85,8 +85,8 @@ bool directions(const Vec3& query, const Corners& t, std::array<Triple<T>, 3>& f
   using std::sqrt;
   for (std::size_t k = 0; k < 3; ++k) {
     found[k] = from_to<T>(query, t[k]);
-    const T length = sqrt(T(found[k][0] * found[k][0] + found[k][1] * found[k][1] +
-                            found[k][2] * found[k][2]));
+    const T length =
+        sqrt(T(found[k][0] * found[k][0] + found[k][1] * found[k][1] + found[k][2] * found[k][2]));
     if (length == 0) return false;
     for (T& component : found[k]) component /= length;
   }

@@ -157,7 +157,9 @@ class ContainsOpen : public testing::Test {
     const octree::Point q(query.x, query.y, query.z);
     double sum = 0;
     for (const auto& t : soup) {
-      const auto way = [&](const Vec3& p) { return octree::Point(octree::Point(p.x, p.y, p.z) - q); };
+      const auto way = [&](const Vec3& p) {
+        return octree::Point(octree::Point(p.x, p.y, p.z) - q);
+      };
       const octree::Point a = way(t[0]), b = way(t[1]), c = way(t[2]);
       const double la = a.norm(), lb = b.norm(), lc = c.norm();
       sum += std::atan2(a.dot(b.cross(c)),
