@@ -34,7 +34,8 @@ int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side
 
 /// Whether the normal points into the solid: away from a query that is outside,
 /// to one that is inside. Where that cannot be told, the winding number says
-/// which way round the faces are.
+/// which way round the faces are; so it does on a surface that is not watertight,
+/// where a step aside may be outside on either side.
 bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
                    const Standing& standing, const Point& normal) {
   if (standing.side == Side::kUnknown) return false;

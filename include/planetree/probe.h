@@ -37,7 +37,9 @@ class Probe {
 
   /// Which side of the surface `query` is on: exactly, however near it is. (Only
   /// coordinates below 2^-1022 of the model's size are rounded.) Of the Ask,
-  /// `max_nodes` counts. Of a model that is not watertight the side is unknown.
+  /// `max_nodes` counts. Of a model that is not watertight, the side by its
+  /// winding number; unknown only where the work ends before that is certain to
+  /// be above or below 1/2, or where it is 1/2 to some 2^-45 a triangle.
   Containment contains(Vec3 query, const Ask& ask = {}) noexcept;
 
   /// One answer per query, the same bits as one by one, asked in an order that

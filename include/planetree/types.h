@@ -21,13 +21,15 @@ enum class Feature : std::uint8_t { kFace, kEdge, kVertex };
 ///
 /// With w the winding number of the surface about the point (the sum of its
 /// solid angles over 4 pi, a whole number where the surface is watertight), a
-/// point off the surface is inside where w is not 0. So overlapping, nested,
-/// doubled and inside-out solids count as what they enclose.
+/// point off the surface is inside where |w| > 1/2. So overlapping, nested,
+/// doubled and inside-out solids count as what they enclose, and holes are
+/// closed as smoothly as may be ("Robust inside-outside segmentation using
+/// generalized winding numbers", Jacobson et al. 2013).
 enum class Side : std::uint8_t {
   kInside,
   kOutside,
   kOnSurface,  ///< exactly on a triangle
-  kUnknown,    ///< not told: pages unreadable, work spent, or the surface is not watertight
+  kUnknown,    ///< not told: pages unreadable, work spent, or |w| is 1/2 to the last bits
 };
 
 /// How far an answer may be trusted.
@@ -70,8 +72,9 @@ struct ClosestPoint {
   Side side = Side::kUnknown;
   Vec3 point;  ///< on the surface
   /// Contact normal, of length 1: the angle-weighted pseudo-normal of the face,
-  /// edge or vertex that is nearest, turned to point out of the solid. As the
-  /// mesh is oriented where the side is unknown; (0, 0, 1) where there is none.
+  /// edge or vertex that is nearest, turned to point out of the solid. Of a sheet
+  /// that encloses nothing it points to the query. As the mesh is oriented where
+  /// the side is unknown; (0, 0, 1) where there is none.
   Vec3 normal{0, 0, 1};
   /// Counted in the input's order after fan-splitting polygons, triangles set
   /// aside included; kNoTriangle when none was reached. Among equally near
@@ -88,7 +91,7 @@ struct ClosestPoint {
 /// The side alone.
 struct Containment {
   Side side = Side::kUnknown;
-  Status status = Status::kBadQuery;  ///< kExact where the side is known
+  Status status = Status::kBadQuery;  ///< kDegraded where pages or work were missing to tell
 };
 
 }  // namespace planetree

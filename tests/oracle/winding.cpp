@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -105,15 +106,30 @@ T width_of(const std::array<Triple<T>, 3>& d) {
   return 1 + scalar(d[0], d[1]) + scalar(d[1], d[2]) + scalar(d[2], d[0]);
 }
 
-// Half a solid angle of known sign.
-long double exact_half_angle(const Vec3& query, const Corners& t, int sign) {
-  std::array<Triple<Wide>, 3> d;
+// Enough for a point that misses an edge by the least of doubles.
+using Widest = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<4608, boost::multiprecision::digit_base_2>,
+    boost::multiprecision::et_off>;
+
+// Half a solid angle of known sign; false where T has not the bits to tell.
+template <class T>
+bool half_angle(const Vec3& query, const Corners& t, int sign, long double& found) {
+  std::array<Triple<T>, 3> d;
   directions(query, t, d);
-  const Wide width = width_of(d);
-  Wide height = abs(volume(d[0], d[1], d[2]));
-  const Wide larger = std::max(Wide(abs(width)), height);
-  return sign * std::atan2(static_cast<long double>(height / larger),
-                           static_cast<long double>(width / larger));
+  const T width = width_of(d);
+  const T height = abs(volume(d[0], d[1], d[2]));
+  const T larger = std::max(T(abs(width)), height);
+  if (larger < ldexp(T(1), 100 - std::numeric_limits<T>::digits)) return false;
+  found = sign * std::atan2(static_cast<long double>(height / larger),
+                            static_cast<long double>(width / larger));
+  return true;
+}
+
+long double exact_half_angle(const Vec3& query, const Corners& t, int sign) {
+  long double found = 0;
+  if (!half_angle<Wide>(query, t, sign, found) && !half_angle<Widest>(query, t, sign, found))
+    std::abort();
+  return found;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct OpenWinding {
 };
 
 /// Solid angles in long double; where that is uncertain, their signs in
-/// fractions and their sizes in 512 bits.
+/// fractions and their sizes in as many bits as it takes.
 OpenWinding open_winding(const Vec3& query, std::span<const Corners> triangles);
 
 /// The same in double and without an arctangent for each triangle: for millions
