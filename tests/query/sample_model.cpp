@@ -7,6 +7,7 @@
 #include <string>
 
 #include "octree/build/edge_balance.h"
+#include "octree/build/mask_encoder.h"
 #include "storage/page_writer.h"
 
 namespace planetree::query {
@@ -42,28 +43,56 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
   return model;
 }
 
-void write(const octree::SampleTree& sample, const std::filesystem::path& path) {
+void append(storage::PageWriter& writer, std::uint64_t octcode, std::uint32_t ordinal,
+            const std::vector<std::byte>& raw) {
+  const auto appended = writer.append(octcode, ordinal, static_cast<std::uint32_t>(raw.size()),
+                                      storage::encode_page(raw));
+  if (!appended) give_up(appended.error());
+}
+
+void write(const octree::SampleTree& sample, bool masked, const std::filesystem::path& path) {
   const octree::SamplePages pages(sample);
   const auto page_count = static_cast<std::uint32_t>(pages.size());
-  auto writer = storage::PageWriter::create(path, page_count, false);
-  if (!writer) give_up(writer.error());
-  for (std::uint32_t page = 0; page < page_count; ++page) {
-    const octree::PlannedPage& planned = sample.plan.pages[page];
-    const auto appended = writer->append(planned.octcode, planned.ordinal,
-                                         static_cast<std::uint32_t>(pages.raw(page).size()),
-                                         storage::encode_page(pages.raw(page)));
-    if (!appended) give_up(appended.error());
+  octree::MaskTree mask;
+  octree::MaskPlan mask_plan;
+  if (masked) {
+    mask = octree::build_mask(sample.mesh, sample.keys);
+    mask_plan = *octree::plan_mask(mask, sample.plan.page_bytes);
   }
-  const auto header = writer->finish(describe(sample), sample.plan.page_bytes);
+  const auto mask_pages = static_cast<std::uint32_t>(mask_plan.pages.size());
+  auto writer = storage::PageWriter::create(path, page_count + mask_pages, false);
+  if (!writer) give_up(writer.error());
+  for (std::uint32_t page = 0; page < page_count; ++page)
+    append(*writer, sample.plan.pages[page].octcode, sample.plan.pages[page].ordinal,
+           pages.raw(page));
+  storage::ModelRecord model = describe(sample);
+  if (masked) {
+    writer->begin_mask();
+    const octree::MaskEncoder encoder(mask, mask_plan, page_count, sample.shape.float64);
+    for (std::uint32_t page = 0; page < mask_pages; ++page)
+      append(*writer, mask_plan.pages[page].octcode, 0, encoder.encode(page));
+    model.mask_cell_count = mask.entries.size();
+    model.mask_page_count = mask_pages;
+    model.mask_levels = static_cast<std::uint8_t>(mask.levels);
+  }
+  const auto header = writer->finish(model, sample.plan.page_bytes);
   if (!header) give_up(header.error());
 }
 
 }  // namespace
 
 SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index)
+    : SampleModel(soup, page_bytes, first_index, false) {}
+
+SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index,
+                         bool masked)
     : sample_(octree::build_sample(soup, page_bytes, first_index,
-                                   !octree::balance_edges(octree::store(soup)).closed())) {
-  write(sample_, path());
+                                   octree::balance_edges(octree::store(soup)).open_edges > 0)) {
+  write(sample_, masked, path());
+}
+
+SampleModel SampleModel::masked(const Soup& soup, std::uint32_t page_bytes) {
+  return {soup, page_bytes, 0, true};
 }
 
 std::uint64_t SampleModel::least_budget(unsigned max_probes) const {

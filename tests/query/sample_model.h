@@ -20,9 +20,12 @@ class SampleModel {
  public:
   explicit SampleModel(const Soup& soup, std::uint32_t page_bytes = 4096,
                        std::uint64_t first_index = 0);
+  /// With a mask, as builds have of what is watertight.
+  static SampleModel masked(const Soup& soup, std::uint32_t page_bytes = 4096);
 
   std::filesystem::path path() const { return folder_ / "model.ptree"; }
   const octree::SampleTree& sample() const { return sample_; }
+  /// Distance pages; those of a mask come behind them.
   std::uint32_t page_count() const { return static_cast<std::uint32_t>(sample_.plan.pages.size()); }
 
   /// Least budget the model opens with, as the error names it.
@@ -37,6 +40,7 @@ class SampleModel {
   bool interval_holds(const ClosestPoint& answer, const Vec3& query) const;
 
  private:
+  SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index, bool masked);
   struct Truth {
     double distance = 0;
     double error = 0;

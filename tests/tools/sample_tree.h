@@ -13,6 +13,7 @@
 #include "storage/page_codec.h"
 #include "storage/page_file.h"
 #include "storage/page_writer.h"
+#include "tests/octree/raw_mask_page.h"
 #include "tests/storage/file_image.h"
 #include "tools/stream_rows.h"
 
@@ -99,6 +100,9 @@ class RawPage {
 /// What forge() may change of a tree.
 struct Forgery {
   std::function<void(std::uint32_t page, RawPage&)> page = [](std::uint32_t, RawPage&) {};
+  /// A page of the mask, counted from its first.
+  std::function<void(std::uint32_t page, octree::RawMaskPage&)> mask = [](std::uint32_t,
+                                                                          octree::RawMaskPage&) {};
   std::function<void(storage::ModelRecord&)> model = [](storage::ModelRecord&) {};
   std::function<void(std::uint32_t page, storage::StoredPage&)> stored =
       [](std::uint32_t, storage::StoredPage&) {};
@@ -115,16 +119,28 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   shape.float64 = file->header().model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = file->header().model.triangle_id_bytes == 8;
   shape.moments = file->header().model.open_edge_count != 0;
+  const std::uint32_t first_mask_page = file->header().first_mask_page();
+  const auto changed = [&](std::uint32_t page, const std::vector<std::byte>& raw) {
+    if (page < first_mask_page) {
+      RawPage distance_page(raw, shape);
+      forgery.page(page, distance_page);
+      return distance_page.bytes();
+    }
+    auto mask_page = octree::RawMaskPage::of(raw, shape.float64);
+    forgery.mask(page - first_mask_page, mask_page);
+    return mask_page.bytes();
+  };
   std::vector<std::byte> scratch(file->header().max_stored_bytes);
   for (std::uint32_t page = 0; page < file->page_count(); ++page) {
     const storage::PageEntry& entry = file->entries()[page];
     std::vector<std::byte> raw(entry.raw_bytes);
     ASSERT_TRUE(file->read_page(page, scratch, raw));
-    RawPage changed(raw, shape);
-    forgery.page(page, changed);
-    storage::StoredPage stored = storage::encode_page(changed.bytes());
+    if (page == first_mask_page) writer->begin_mask();
+    const std::vector<std::byte> bytes = changed(page, raw);
+    storage::StoredPage stored = storage::encode_page(bytes);
     forgery.stored(page, stored);
-    ASSERT_TRUE(writer->append(entry.octcode, entry.ordinal, entry.raw_bytes, stored));
+    const auto raw_bytes = static_cast<std::uint32_t>(bytes.size());
+    ASSERT_TRUE(writer->append(entry.octcode, entry.ordinal, raw_bytes, stored));
   }
   storage::ModelRecord model = file->header().model;
   forgery.model(model);

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "octree/mask_decoder.h"
+#include "octree/mask_lookup.h"
+#include "octree/mask_streams.h"
+
+/// Decodes any bytes as the pages of a small mask and looks points up in it.
+///
+///   0  shape of planes and page size, see kFloat64 and kLargePages
+///   1  length of the first page, 2 bytes, lowest first
+///   3  the pages: the mask's first, and one that stands for every other
+///
+/// The number of a page and its key are made to fit what they are compared
+/// with: few inputs would get past that.
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint8_t kFloat64 = 1;
+constexpr std::uint8_t kLargePages = 4;
+constexpr std::uint32_t kFirstPage = 3;
+constexpr std::uint32_t kPageCount = 64;
+
+// Lengths are exact, so that the sanitizer sees one byte too far.
+class Frame {
+ public:
+  explicit Frame(std::uint32_t page_bytes)
+      : page_bytes_(page_bytes),
+        bytes_(static_cast<std::byte*>(std::aligned_alloc(kSlotBytes, page_bytes))) {
+    if (!bytes_) std::abort();
+    std::memset(bytes_, 0xa5, page_bytes);
+  }
+  ~Frame() { std::free(bytes_); }
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  std::span<std::byte> bytes() { return {bytes_, page_bytes_}; }
+
+ private:
+  std::uint32_t page_bytes_;
+  std::byte* bytes_;
+};
+
+struct Pages {
+  Frame* first;
+  Frame* other;  // null if it does not decode
+};
+
+bool decode(std::span<const std::byte> bytes, PageFacts facts, Frame& frame) {
+  std::vector<std::byte> raw(bytes.begin(), bytes.end());
+  MaskPageHead head{};
+  const std::size_t head_bytes = std::min(raw.size(), sizeof head);
+  std::copy_n(raw.begin(), head_bytes, reinterpret_cast<std::byte*>(&head));
+  head.page_number = facts.page_number;
+  std::copy_n(reinterpret_cast<const std::byte*>(&head), head_bytes, raw.begin());
+  facts.octcode = head.octcode;
+  facts.ordinal = head.ordinal;
+  return static_cast<bool>(decode_mask_page(raw, facts, frame.bytes()));
+}
+
+void check(const MaskFinding& found, const Point& point, const MaskFacts& mask) {
+  using Kind = MaskFinding::Kind;
+  const auto fits = [](int number) { return -128 < number && number < 128; };
+  if (!fits(found.winding) || found.cell.level > kLevels) std::abort();
+  if (found.kind == Kind::kColour && std::abs(found.winding) > 1) std::abort();
+  if (found.kind == Kind::kCorners &&
+      !std::all_of(found.corners.begin(), found.corners.end(), fits))
+    std::abort();
+  if (found.on_surface && found.kind != Kind::kPlanes) std::abort();
+  const CellGrid grid(mask.lower);
+  const Point upper = mask.lower + Point(2, 2, 2);
+  const bool in_root =
+      (point.array() >= mask.lower.array()).all() && (point.array() <= upper.array()).all();
+  if (in_root && ((point.array() < grid.lower(found.cell).array()).any() ||
+                  (point.array() > grid.upper(found.cell).array()).any()))
+    std::abort();
+}
+
+void look_up_points(const MaskFacts& mask, Pages& pages) {
+  const PageReader reader{&pages,
+                          [](void* context, std::uint32_t page) noexcept -> const std::byte* {
+                            const auto& both = *static_cast<Pages*>(context);
+                            if (page < kFirstPage) std::abort();
+                            Frame* frame = page == kFirstPage ? both.first : both.other;
+                            return frame ? frame->bytes().data() : nullptr;
+                          }};
+  std::vector<Point> points = {{-1, -1, -1}, {1, 1, 1}, {0, 0, 0}, {-3, 0, 1e9}, {1e90, 0, 0}};
+  std::uint32_t state = 1;
+  const auto step = [&state] {
+    state = state * 1664525 + 1013904223;
+    return (state >> 8) * 0x1p-23 - 1;
+  };
+  for (int i = 0; i < 60; ++i) points.emplace_back(step(), step(), step());
+  for (const Point& point : points)
+    for (const std::uint64_t max_nodes : {std::uint64_t{1000}, std::uint64_t{2}}) {
+      TreeWork work;
+      check(look_up(mask, point, max_nodes, reader, work), point, mask);
+      if (work.nodes > std::min<std::uint64_t>(max_nodes, kLevels)) std::abort();
+      if (work.page_turns > kLevels + 1) std::abort();
+    }
+}
+
+void decode_and_look_up(std::uint8_t choices, std::span<const std::byte> first,
+                        std::span<const std::byte> second) {
+  PageFacts facts;
+  facts.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
+  facts.first_page = kFirstPage;
+  facts.page_count = kPageCount;
+  facts.shape.float64 = (choices & kFloat64) != 0;
+  facts.page_number = kFirstPage;
+  Frame root(facts.page_bytes), other(facts.page_bytes);
+  if (!decode(first, facts, root)) return;
+  facts.page_number += 1 + choices / 16;
+  Pages pages{&root, decode(second, facts, other) ? &other : nullptr};
+  look_up_points({facts.page_bytes, kFirstPage, kPageCount, Point(-1, -1, -1)}, pages);
+}
+
+}  // namespace
+}  // namespace planetree::octree
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 3) return 0;
+  const std::span bytes(reinterpret_cast<const std::byte*>(data + 3), size - 3);
+  const std::size_t first_bytes = std::min<std::size_t>(data[1] | data[2] << 8, bytes.size());
+  planetree::octree::decode_and_look_up(data[0], bytes.first(first_bytes),
+                                        bytes.subspan(first_bytes));
+  return 0;
+}

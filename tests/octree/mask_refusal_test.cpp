@@ -1,0 +1,343 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "octree/mask_decoder.h"
+#include "tests/octree/raw_mask_page.h"
+#include "tests/octree/sample_mask.h"
+
+// Every sentence with which a mask page is refused, reached by one change to an
+// honest page; and pages of any bits at all.
+namespace planetree::octree {
+namespace {
+
+constexpr auto kNode = static_cast<std::uint8_t>(MaskKind::kNode);
+constexpr auto kNodeAbove = static_cast<std::uint8_t>(MaskKind::kNodeAbove);
+constexpr auto kPlain = static_cast<std::uint8_t>(MaskKind::kPlainCorners);
+constexpr auto kCorners = static_cast<std::uint8_t>(MaskKind::kCorners);
+constexpr auto kSpecial = static_cast<std::uint8_t>(MaskKind::kSpecial);
+
+// The first record of a kind.
+std::size_t record_of(const RawMaskPage& page, std::uint8_t kind) {
+  const auto at = std::ranges::find(page.kinds, kind);
+  EXPECT_NE(at, page.kinds.end()) << "no record of the sample suits";
+  return static_cast<std::size_t>(at - page.kinds.begin());
+}
+
+// The first node for which `holds`, counted among nodes.
+std::size_t find_node(const RawMaskPage& page,
+                      const std::function<bool(std::size_t, std::uint8_t)>& holds) {
+  std::size_t node = 0;
+  for (const std::uint8_t kind : page.kinds) {
+    if (kind > kNodeAbove) continue;
+    if (holds(node, kind)) return node;
+    ++node;
+  }
+  ADD_FAILURE() << "no node of the sample suits";
+  return 0;
+}
+
+std::size_t node_with_family(const RawMaskPage& page) {
+  return find_node(
+      page, [&](std::size_t i, std::uint8_t kind) { return kind == kNode && page.grey[i] != 0; });
+}
+
+void grow(std::uint16_t& count, int by) { count = static_cast<std::uint16_t>(count + by); }
+
+std::uint8_t lowest_bit(std::uint8_t bits) {
+  return static_cast<std::uint8_t>(bits & -unsigned{bits});
+}
+
+struct Spoiling {
+  const char* sentence;
+  std::function<void(RawMaskPage&, PageFacts&)> spoil;
+};
+
+using P = RawMaskPage;
+using F = PageFacts;
+
+std::vector<Spoiling> head_spoilings() {
+  return {
+      {"the page holds no record", [](P& p, F&) { p.head.record_count = 0; }},
+      {"the page holds no record", [](P& p, F&) { p.head.root_count = 0; }},
+      {"the count of roots does not fit",
+       [](P& p, F&) { p.head.root_count = static_cast<std::uint16_t>(p.head.record_count + 1); }},
+      {"the counts of records do not add up", [](P& p, F&) { grow(p.head.node_count, 1); }},
+      {"the counts of records do not add up", [](P& p, F&) { grow(p.head.plain_count, -1); }},
+      {"the counts of records do not add up", [](P& p, F&) { grow(p.head.corners_count, 1); }},
+      {"the counts of records do not add up", [](P& p, F&) { grow(p.head.special_count, -1); }},
+      {"the count of links does not fit",
+       [](P& p, F&) {
+         p.head.page_link_count = static_cast<std::uint16_t>(p.head.node_count + 1);
+       }},
+      {"the page is shorter than its counts say", [](P& p, F&) { p.planes.pop_back(); }},
+      {"the page is shorter than its counts say", [](P& p, F&) { p.planes.clear(); }},
+      {"the page is shorter than its counts say", [](P& p, F&) { p.head.plane_count = 0xffff; }},
+      {"the page is longer than its counts say", [](P& p, F&) { p.planes.push_back(0); }},
+      {"the page is longer than its counts say", [](P& p, F&) { grow(p.head.plane_count, -1); }},
+      {"it is another page's bytes", [](P& p, F&) { ++p.head.page_number; }},
+      {"it is another page's bytes", [](P&, F& f) { --f.page_number; }},
+      {"its key is not the page table's", [](P&, F& f) { f.octcode ^= 1; }},
+      {"its key is not the page table's", [](P& p, F&) { ++p.head.ordinal; }},
+      {"its records do not fit a page",
+       [](P& p, F&) {
+         p.head.plane_count = static_cast<std::uint16_t>(p.head.plane_count + 60);
+         p.planes.resize(p.planes.size() + 9u * 60);
+       }},
+  };
+}
+
+std::vector<Spoiling> node_spoilings() {
+  return {
+      {"a record has no parent",
+       [](P& p, F&) {
+         // Before any family there are the roots alone.
+         p.head.root_count = 1;
+         p.kinds[0] = kPlain;
+       }},
+      {"a record is of unknown kind", [](P& p, F&) { p.kinds[0] = 5; }},
+      {"a record is of unknown kind", [](P& p, F&) { p.kinds.back() = 0xff; }},
+      {"an octant has two colours",
+       [](P& p, F&) {
+         p.black[0] = static_cast<std::uint8_t>(p.black[0] | lowest_bit(p.grey[0]));
+       }},
+      {"an octant has two colours",
+       [](P& p, F&) {
+         p.inverted[0] = static_cast<std::uint8_t>(p.inverted[0] | lowest_bit(p.grey[0]));
+       }},
+      {"an octant has two colours",
+       [](P& p, F&) {
+         const std::size_t at =
+             find_node(p, [&](std::size_t i, std::uint8_t) { return p.black[i] != 0; });
+         p.inverted[at] = lowest_bit(p.black[at]);
+       }},
+      {"an octant has two colours",
+       [](P& p, F&) {
+         const std::size_t at =
+             find_node(p, [&](std::size_t i, std::uint8_t) { return p.grey[i] != 0xff; });
+         p.leaf[at] = static_cast<std::uint8_t>(~p.grey[at]);
+       }},
+      {"the counts of records do not add up", [](P& p, F&) { p.kinds.back() = kNode; }},
+      {"the counts of records do not add up",
+       [](P& p, F&) { p.kinds[record_of(p, kCorners)] = kPlain; }},
+      {"the counts of records do not add up",
+       [](P& p, F&) { p.kinds[record_of(p, kPlain)] = kCorners; }},
+      {"the counts of records do not add up",
+       [](P& p, F&) { p.kinds[record_of(p, kPlain)] = kSpecial; }},
+      {"its families do not add up", [](P& p, F&) { p.head.root_count = p.head.record_count; }},
+      {"its families do not add up", [](P& p, F&) { grow(p.head.root_count, 1); }},
+      {"its families do not add up",
+       [](P& p, F&) {
+         // The last family without its last member.
+         std::size_t last = 0;
+         find_node(p, [&, node = std::size_t{0}](std::size_t i, std::uint8_t kind) mutable {
+           if (kind == kNode && p.grey[i] != 0) last = i;
+           return ++node == p.grey.size();
+         });
+         const auto dropped = static_cast<std::uint8_t>(std::bit_floor(p.grey[last]));
+         p.grey[last] = static_cast<std::uint8_t>(p.grey[last] & ~dropped);
+         p.leaf[last] = static_cast<std::uint8_t>(p.leaf[last] & ~dropped);
+       }},
+      {"a record is not of the kind its parent says",
+       [](P& p, F&) {
+         const std::size_t at = node_with_family(p);
+         p.leaf[at] = static_cast<std::uint8_t>(p.leaf[at] ^ lowest_bit(p.grey[at]));
+       }},
+      {"its page links do not add up",
+       [](P& p, F&) {
+         const std::size_t at =
+             find_node(p, [](std::size_t, std::uint8_t kind) { return kind == kNodeAbove; });
+         p.grey[at] = p.leaf[at] = 0;
+       }},
+      {"its page links do not add up",
+       [](P& p, F&) {
+         p.kinds[record_of(p, kNode)] = kNodeAbove;
+         for (std::uint32_t& link : p.page_links) link = p.page_links[0];
+       }},
+      {"its page links do not add up",
+       [](P& p, F&) {
+         grow(p.head.page_link_count, 1);
+         p.page_links.push_back(p.page_links[0]);
+       }},
+      {"a link leads to a page that cannot be below it",
+       [](P& p, F& f) {
+         p.page_links[0] = MaskLinkFormat(f.page_bytes).make(f.page_number - f.first_page, 20);
+       }},
+      {"a link leads to a page that cannot be below it",
+       [](P& p, F& f) {
+         p.page_links.back() = MaskLinkFormat(f.page_bytes).make(f.page_count, 20);
+       }},
+      {"a link leads to a page that cannot be below it",
+       [](P& p, F&) { p.page_links[0] = 0xffffffff; }},
+  };
+}
+
+std::vector<Spoiling> leaf_spoilings() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Spoiling> all = {
+      {"a corner of a cell is not counted", [](P& p, F&) { p.corners[3] = kUncounted; }},
+      {"a corner of a cell is not counted",
+       [](P& p, F&) { std::fill_n(p.corners.begin(), 7, kUncounted); }},
+      {"a special cell's planes are out of range", [](P& p, F&) { p.plane_counts[0] = 0; }},
+      {"a special cell's planes are out of range", [](P& p, F&) { p.plane_counts.back() = 5; }},
+      {"a special cell's planes are out of range", [](P& p, F&) { p.plane_counts[0] = 0xff; }},
+      {"a special cell has no two sides", [](P& p, F&) { p.behind[0] = p.beyond[0]; }},
+      {"a special cell has no two sides", [](P& p, F&) { p.behind[0] = kUncounted; }},
+      {"a special cell has no two sides", [](P& p, F&) { p.beyond.back() = kUncounted; }},
+      {"its planes do not add up",
+       [](P& p, F&) {
+         grow(p.head.plane_count, 1);
+         p.planes.insert(p.planes.end(), 9, 0.0);
+       }},
+      {"its planes do not add up",
+       [](P& p, F&) {
+         grow(p.head.plane_count, -1);
+         p.planes.resize(p.planes.size() - 9);
+       }},
+  };
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 0x1p60, -0x1p60})
+    all.push_back({"a plane is out of range", [value](P& p, F&) { p.planes.back() = value; }});
+  return all;
+}
+
+std::vector<Spoiling> all_spoilings() {
+  std::vector<Spoiling> all = head_spoilings();
+  for (const auto& more : {node_spoilings(), leaf_spoilings()})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+class MaskRefusal : public testing::TestWithParam<bool> {
+ protected:
+  MaskRefusal() : pages_(random_mask(10), 4096, 5, GetParam()) {}
+
+  // Neither the mask's first page nor one without pages below.
+  std::uint32_t sample() const {
+    for (std::uint32_t page = 1; page < pages_.size(); ++page) {
+      const RawMaskPage raw = RawMaskPage::of(pages_.raw(page), GetParam());
+      const auto has = [&](std::uint8_t kind) { return std::ranges::count(raw.kinds, kind) > 0; };
+      if (raw.head.page_link_count > 1 && has(kPlain) && has(kCorners) && has(kSpecial))
+        return page;
+    }
+    ADD_FAILURE() << "no page of the sample suits";
+    return 0;
+  }
+
+  MaskPages pages_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Planes, MaskRefusal, testing::Bool());
+
+TEST_P(MaskRefusal, NamesWhatIsWrongAndThePage) {
+  const std::uint32_t page = sample();
+  for (const Spoiling& spoiling : all_spoilings()) {
+    SCOPED_TRACE(spoiling.sentence);
+    PageFacts facts = pages_.facts(page);
+    RawMaskPage raw = RawMaskPage::of(pages_.raw(page), GetParam());
+    SampleFrame frame(facts.page_bytes);
+    ASSERT_TRUE(decode_mask_page(raw.bytes(), facts, frame.bytes()));
+    spoiling.spoil(raw, facts);
+    frame = SampleFrame(facts.page_bytes);
+    const auto decoded = decode_mask_page(raw.bytes(), facts, frame.bytes());
+    ASSERT_FALSE(decoded);
+    EXPECT_EQ(decoded.error().code, ErrorCode::kDamaged);
+    EXPECT_EQ(decoded.error().page, facts.page_number);
+    EXPECT_EQ(std::string(decoded.error().text), "mask page " + std::to_string(facts.page_number) +
+                                                     " is damaged: " + spoiling.sentence +
+                                                     "; build the file again");
+  }
+}
+
+TEST(MaskRefusalTexts, AreAllReached) {
+  std::set<std::string> reached;
+  for (const Spoiling& spoiling : all_spoilings()) reached.insert(spoiling.sentence);
+  const std::regex sentence("(return|[:?=]) \"([^\"]+)\";");
+  std::size_t written = 0;
+  for (const char* name : {"mask_streams", "mask_decoder"}) {
+    std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/") + name + ".cpp");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator match(text.begin(), text.end(), sentence), end; match != end;
+         ++match) {
+      ++written;
+      EXPECT_TRUE(reached.contains((*match)[2])) << (*match)[2];
+    }
+  }
+  EXPECT_GE(written, reached.size());
+}
+
+TEST_P(MaskRefusal, TakesNoPageThatIsCutShort) {
+  const std::uint32_t page = sample();
+  const std::vector<std::byte>& raw = pages_.raw(page);
+  SampleFrame frame(4096);
+  for (std::size_t length = 0; length < raw.size(); ++length) {
+    // In bytes of its own, so that a sanitizer sees what is read beyond.
+    const std::vector<std::byte> cut(raw.begin(),
+                                     raw.begin() + static_cast<std::ptrdiff_t>(length));
+    ASSERT_FALSE(decode_mask_page(cut, pages_.facts(page), frame.bytes())) << length;
+  }
+}
+
+TEST_P(MaskRefusal, TakesNoPageOfNoise) {
+  const std::uint32_t page = sample();
+  Noise noise(6);
+  SampleFrame frame(4096);
+  for (int i = 0; i < 500; ++i) {
+    std::vector<std::byte> raw(noise.bits() % 3000);
+    for (std::byte& byte : raw) byte = static_cast<std::byte>(noise.bits());
+    EXPECT_FALSE(decode_mask_page(raw, pages_.facts(page), frame.bytes()));
+    // An honest head before it.
+    if (raw.size() < sizeof(MaskPageHead)) continue;
+    std::copy_n(pages_.raw(page).begin(), sizeof(MaskPageHead), raw.begin());
+    raw.resize(pages_.raw(page).size());
+    EXPECT_FALSE(decode_mask_page(raw, pages_.facts(page), frame.bytes()));
+  }
+}
+
+// What changed bits leave of a mask is refused or can be asked.
+TEST_P(MaskRefusal, SurvivesAnyBit) {
+  const MaskTree tree = random_mask(10);
+  Noise noise(7);
+  int refused = 0, taken = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const std::uint32_t page = i % 2 == 0 ? 0 : sample();
+    std::vector<std::byte> raw = pages_.raw(page);
+    for (unsigned k = 0; k <= noise.bits() % 3; ++k)
+      raw[noise.bits() % raw.size()] ^= std::byte{1} << noise.bits() % 8;
+    SampleFrame frame(4096);
+    if (!decode_mask_page(raw, pages_.facts(page), frame.bytes())) {
+      ++refused;
+      continue;
+    }
+    ++taken;
+    struct Changed {
+      PageReader others;
+      std::uint32_t number;
+      const std::byte* frame;
+    } changed{pages_.reader(), 5 + page, frame.data()};
+    const PageReader reader{
+        &changed, [](void* context, std::uint32_t number) noexcept -> const std::byte* {
+          const auto& pages = *static_cast<Changed*>(context);
+          return number == pages.number ? pages.frame
+                                        : pages.others.page(pages.others.context, number);
+        }};
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 p = noise.point(0, 2);
+      TreeWork work;
+      look_up(pages_.mask(Point::Zero()), {p.x, p.y, p.z}, 100, reader, work);
+      EXPECT_LE(work.nodes, kLevels);
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(taken, 100);
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "octree/build/stream_writer.h"
+#include "octree/mask_streams.h"
+
+namespace planetree::octree {
+
+/// The raw bytes of a mask page, taken apart so that a test can spoil one thing
+/// and put the rest together again. The head's counts stay as they are unless
+/// they are what is spoilt.
+struct RawMaskPage {
+  MaskPageHead head{};
+  std::vector<std::uint8_t> kinds, grey, leaf, black, inverted;
+  std::vector<std::uint32_t> page_links;
+  std::vector<std::uint8_t> plain_corners;
+  std::vector<std::int8_t> corners;
+  std::vector<std::uint8_t> plane_counts;
+  std::vector<std::int8_t> behind, beyond;
+  std::vector<double> planes;
+  bool float64 = false;
+
+  /// `raw` must be a page that can be cut.
+  static RawMaskPage of(std::span<const std::byte> raw, bool float64) {
+    MaskStreams s;
+    if (s.cut(raw, float64) != nullptr) return {};
+    RawMaskPage page{s.head,
+                     list(s.kinds),
+                     list(s.grey),
+                     list(s.leaf),
+                     list(s.black),
+                     list(s.inverted),
+                     list(s.page_links),
+                     list(s.plain_corners),
+                     list(s.corners),
+                     list(s.plane_counts),
+                     list(s.behind),
+                     list(s.beyond),
+                     {},
+                     float64};
+    for (std::size_t i = 0; i < std::size_t{9} * s.head.plane_count; ++i)
+      page.planes.push_back(s.plane_coordinate(i));
+    return page;
+  }
+
+  std::vector<std::byte> bytes() const {
+    StreamWriter writer;
+    writer.plain(&head, sizeof head);
+    writer.shuffled(kinds);
+    writer.shuffled(grey);
+    writer.shuffled(leaf);
+    writer.shuffled(black);
+    writer.shuffled(inverted);
+    writer.shuffled(page_links);
+    writer.shuffled(plain_corners);
+    writer.shuffled(corners);
+    writer.shuffled(plane_counts);
+    writer.shuffled(behind);
+    writer.shuffled(beyond);
+    if (float64)
+      writer.shuffled(planes);
+    else
+      writer.shuffled(std::vector<float>(planes.begin(), planes.end()));
+    return writer.take();
+  }
+
+ private:
+  template <class T>
+  static std::vector<T> list(const Shuffled<T>& stream) {
+    std::vector<T> values;
+    for (std::size_t i = 0; i < stream.size(); ++i) values.push_back(stream[i]);
+    return values;
+  }
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,272 @@
+#include "tests/octree/sample_mask.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "octree/build/mask_encoder.h"
+#include "octree/mask_decoder.h"
+#include "octree/predicates.h"
+#include "tests/octree/exact_overlap.h"
+
+namespace planetree::octree {
+namespace {
+
+// A square of `side`^2 pairs of triangles from `at`, along u and v.
+void add_square(const Vec3& at, const Vec3& u, const Vec3& v, unsigned side, Soup& soup) {
+  const auto place = [&](unsigned i, unsigned j) {
+    const double s = static_cast<double>(i) / side, t = static_cast<double>(j) / side;
+    return Vec3{at.x + s * u.x + t * v.x, at.y + s * u.y + t * v.y, at.z + s * u.z + t * v.z};
+  };
+  for (unsigned i = 0; i < side; ++i)
+    for (unsigned j = 0; j < side; ++j) {
+      soup.push_back({place(i, j), place(i + 1, j), place(i + 1, j + 1)});
+      soup.push_back({place(i, j), place(i + 1, j + 1), place(i, j + 1)});
+    }
+}
+
+/// Entries by chance, as build_mask() lays them out.
+class RandomMask {
+ public:
+  RandomMask(unsigned levels, std::uint64_t seed) : levels_(levels), noise_(seed) {}
+
+  MaskTree take() {
+    tree_.entries.resize(1);
+    grow(0, 0);
+    return std::move(tree_);
+  }
+
+ private:
+  std::int8_t number() { return static_cast<std::int8_t>(noise_.bits() % 255 - 127); }
+
+  void grow(std::uint32_t place, unsigned level) {
+    tree_.levels = std::max(tree_.levels, level);
+    MaskEntry entry;
+    const unsigned chance = noise_.bits() % 16;
+    if (level > 1 && (level == levels_ || chance < 9)) {
+      make_leaf(chance, entry);
+      tree_.entries[place] = entry;
+      return;
+    }
+    entry.grey = static_cast<std::uint8_t>(noise_.bits() | noise_.bits());
+    if (chance == 15 && level > 1) entry.grey = 0;
+    if (level < 2) entry.grey |= 0x81;
+    entry.black = static_cast<std::uint8_t>(noise_.bits() & ~unsigned{entry.grey});
+    entry.inverted =
+        static_cast<std::uint8_t>(noise_.bits() & ~unsigned{entry.grey} & ~unsigned{entry.black});
+    entry.first = static_cast<std::uint32_t>(tree_.entries.size());
+    tree_.entries.resize(entry.first + static_cast<unsigned>(std::popcount(entry.grey)));
+    std::uint32_t child = entry.first;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      if ((entry.grey >> octant & 1) == 0) continue;
+      grow(child, level + 1);
+      if (tree_.entries[child++].kind != MaskEntry::Kind::kNode)
+        entry.leaf |= static_cast<std::uint8_t>(1u << octant);
+    }
+    tree_.entries[place] = entry;
+  }
+
+  void make_leaf(unsigned chance, MaskEntry& entry) {
+    entry.kind = MaskEntry::Kind::kCorners;
+    for (std::int8_t& corner : entry.corners)
+      corner = chance < 5 ? static_cast<std::int8_t>(noise_.bits() % 2) : number();
+    if (chance == 5) entry.corners.fill(kUncounted);
+    if (chance < 7) return;
+    entry.kind = MaskEntry::Kind::kSpecial;
+    entry.first = static_cast<std::uint32_t>(tree_.specials.size());
+    SpecialCell special;
+    special.plane_count = 1 + noise_.bits() % kMaxPlanes;
+    special.behind = number();
+    special.beyond = special.behind == 127 ? -127 : special.behind + 1;
+    for (unsigned i = 0; i < special.plane_count; ++i)
+      for (Point& corner : special.planes[i]) {
+        const Vec3 at = noise_.point(0, 2);
+        corner = {at.x, at.y, at.z};
+      }
+    tree_.specials.push_back(special);
+  }
+
+  const unsigned levels_;
+  Noise noise_;
+  MaskTree tree_;
+};
+
+}  // namespace
+
+Soup box(const Vec3& l, const Vec3& u, unsigned side) {
+  const Vec3 x{u.x - l.x, 0, 0}, y{0, u.y - l.y, 0}, z{0, 0, u.z - l.z};
+  Soup soup;
+  add_square(l, y, x, side, soup);
+  add_square(l, x, z, side, soup);
+  add_square(l, z, y, side, soup);
+  add_square({l.x, l.y, u.z}, x, y, side, soup);
+  add_square({l.x, u.y, l.z}, z, x, side, soup);
+  add_square({u.x, l.y, l.z}, y, z, side, soup);
+  return soup;
+}
+
+Soup grains(std::size_t count, double edge, std::uint64_t seed) {
+  Noise noise(seed);
+  Soup soup;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 at = noise.point(0, 1);
+    std::array<Vec3, 4> p;
+    for (Vec3& corner : p) {
+      const Vec3 from = noise.point(0, edge);
+      corner = {at.x + from.x / 2, at.y + from.y / 2, at.z + from.z / 2};
+    }
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+      soup.push_back({p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)],
+                      p[static_cast<std::size_t>(c)]});
+  }
+  return soup;
+}
+
+Soup inside_out(Soup soup) {
+  for (auto& triangle : soup) std::swap(triangle[1], triangle[2]);
+  return soup;
+}
+
+Soup moved(Soup soup, const Vec3& by) {
+  for (auto& triangle : soup)
+    for (Vec3& p : triangle) p = {p.x + by.x, p.y + by.y, p.z + by.z};
+  return soup;
+}
+
+Soup scaled(Soup soup, double factor) {
+  for (auto& triangle : soup)
+    for (Vec3& p : triangle) p = {p.x * factor, p.y * factor, p.z * factor};
+  return soup;
+}
+
+Soup joined(std::initializer_list<Soup> soups) {
+  Soup all;
+  for (const Soup& soup : soups) all.insert(all.end(), soup.begin(), soup.end());
+  return all;
+}
+
+Soup copies(const Soup& soup, std::size_t count) {
+  Soup all;
+  for (std::size_t i = 0; i < count; ++i) all.insert(all.end(), soup.begin(), soup.end());
+  return all;
+}
+
+Surface::Surface(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
+  for (const auto& [a, b, c] : triangles_) {
+    Box box{};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::min({a[axis], b[axis], c[axis]});
+      box.upper[axis] = std::max({a[axis], b[axis], c[axis]});
+    }
+    top_ = boxes_.empty() ? box.upper[2] : std::max(top_, box.upper[2]);
+    boxes_.push_back(box);
+  }
+}
+
+Surface::Surface(const MeshStore& mesh)
+    : Surface([&] {
+        std::vector<Triangle> triangles;
+        for (std::uint32_t i = 0; i < mesh.size(); ++i) triangles.push_back(mesh.corners(i));
+        return triangles;
+      }()) {}
+
+std::int64_t Surface::winding(const Point& point) const {
+  const double x = point.x(), y = point.y(), z = point.z();
+  if (z > top_) return 0;
+  const Point outside(x, y, top_ + 1 + 0x1p-40 * std::fabs(top_));
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Box& box = boxes_[i];
+    if (box.lower[0] <= x && x <= box.upper[0] && box.lower[1] <= y && y <= box.upper[1])
+      sum += crossing({point, outside}, triangles_[i]);
+  }
+  return sum;
+}
+
+bool Surface::holds(const Point& point) const { return !touching(point, point).empty(); }
+
+std::vector<Triangle> Surface::touching(const Point& lower, const Point& upper) const {
+  std::vector<Triangle> found;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Box& box = boxes_[i];
+    bool near = true;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      near = near && box.lower[axis] <= upper[axis] && box.upper[axis] >= lower[axis];
+    if (near && exactly_touches(triangles_[i], lower, upper)) found.push_back(triangles_[i]);
+  }
+  return found;
+}
+
+void each_entry(const MaskTree& tree,
+                const std::function<void(const GridCell&, std::uint32_t)>& look) {
+  std::vector<std::pair<GridCell, std::uint32_t>> queue = {{GridCell{}, 0}};
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const auto [cell, at] = queue[i];
+    look(cell, at);
+    const MaskEntry& entry = tree.entries[at];
+    if (entry.kind != MaskEntry::Kind::kNode) continue;
+    std::uint32_t child = entry.first;
+    for (unsigned octant = 0; octant < 8; ++octant)
+      if ((entry.grey >> octant & 1) != 0) queue.emplace_back(cell.child(octant), child++);
+  }
+}
+
+MaskTree random_mask(unsigned levels, std::uint64_t seed) {
+  return RandomMask(levels, seed).take();
+}
+
+SampleMask::SampleMask(const Soup& soup)
+    : mesh(store(soup)),
+      surface(mesh),
+      tree(build_mask(mesh, morton_order(mesh))),
+      grid(mesh.lower()) {}
+
+MaskPages::MaskPages(const MaskTree& tree, std::uint32_t page_bytes, std::uint32_t first_page,
+                     bool float64)
+    : first_page_(first_page), float64_(float64), plan_(*plan_mask(tree, page_bytes)) {
+  withheld_.resize(plan_.pages.size());
+  const MaskEncoder encoder(tree, plan_, first_page, float64);
+  for (std::uint32_t page = 0; page < plan_.pages.size(); ++page) {
+    raw_.push_back(encoder.encode(page));
+    frames_.emplace_back(page_bytes);
+    const auto decoded = decode_mask_page(raw_[page], facts(page), frames_[page].bytes());
+    if (decoded) continue;
+    std::fprintf(stderr, "sample: %s\n", decoded.error().text);
+    std::abort();
+  }
+}
+
+PageFacts MaskPages::facts(std::uint32_t page) const {
+  PageFacts facts;
+  facts.page_bytes = plan_.page_bytes;
+  facts.first_page = first_page_;
+  facts.page_count = static_cast<std::uint32_t>(plan_.pages.size());
+  facts.shape.float64 = float64_;
+  facts.page_number = first_page_ + page;
+  facts.octcode = plan_.pages[page].octcode;
+  facts.ordinal = plan_.pages[page].ordinal;
+  return facts;
+}
+
+MaskFacts MaskPages::mask(const Point& lower) const {
+  return {plan_.page_bytes, first_page_, size(), lower};
+}
+
+std::vector<std::uint32_t> MaskPages::take_asked() { return std::exchange(asked_, {}); }
+
+const std::byte* MaskPages::page(std::uint32_t number) {
+  const std::uint32_t within = number - first_page_;
+  asked_.push_back(within);
+  return within >= size() || withheld_[within] ? nullptr : frames_[within].data();
+}
+
+PageReader MaskPages::reader() {
+  return {this, [](void* context, std::uint32_t number) noexcept {
+            return static_cast<MaskPages*>(context)->page(number);
+          }};
+}
+
+}  // namespace planetree::octree

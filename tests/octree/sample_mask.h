@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <vector>
+
+#include "octree/build/mask_plan.h"
+#include "octree/build/mask_tree.h"
+#include "octree/cell_grid.h"
+#include "octree/mask_lookup.h"
+#include "tests/octree/sample_tree.h"
+
+/// Closed surfaces, their masks, and the decoded pages of masks.
+namespace planetree::octree {
+
+/// The faces of a box, outward, each of 2 `side`^2 triangles.
+Soup box(const Vec3& lower, const Vec3& upper, unsigned side = 1);
+/// Tetrahedra of edges up to `edge` anywhere in the unit cube, either way round.
+Soup grains(std::size_t count, double edge, std::uint64_t seed = 1);
+Soup inside_out(Soup soup);
+Soup moved(Soup soup, const Vec3& by);
+Soup scaled(Soup soup, double factor);
+Soup joined(std::initializer_list<Soup> soups);
+Soup copies(const Soup& soup, std::size_t count);
+
+/// All triangles of a closed surface, looked at one by one.
+class Surface {
+ public:
+  explicit Surface(std::vector<Triangle> triangles);
+  explicit Surface(const MeshStore& mesh);
+
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// The winding number about a point moved by its infinitesimal step: counted
+  /// straight up, out of the box of all triangles.
+  std::int64_t winding(const Point& point) const;
+  bool holds(const Point& point) const;
+  /// The triangles that touch a closed box, without any error.
+  std::vector<Triangle> touching(const Point& lower, const Point& upper) const;
+
+ private:
+  struct Box {
+    double lower[3], upper[3];
+  };
+  std::vector<Triangle> triangles_;
+  std::vector<Box> boxes_;
+  double top_ = 0;
+};
+
+/// Calls look(cell, entry) for every entry below the root, parents first.
+void each_entry(const MaskTree& tree,
+                const std::function<void(const GridCell&, std::uint32_t entry)>& look);
+
+/// A mask of no model: entries of all kinds by chance.
+///
+/// levels  of the finest grey cell.
+MaskTree random_mask(unsigned levels, std::uint64_t seed = 1);
+
+/// The mask of a soup that is watertight.
+struct SampleMask {
+  explicit SampleMask(const Soup& soup);
+
+  MeshStore mesh;
+  Surface surface;
+  MaskTree tree;
+  CellGrid grid;
+};
+
+/// All pages of a mask, encoded and decoded again.
+class MaskPages {
+ public:
+  MaskPages(const MaskTree& tree, std::uint32_t page_bytes, std::uint32_t first_page = 0,
+            bool float64 = true);
+
+  const MaskPlan& plan() const { return plan_; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(frames_.size()); }
+  const std::vector<std::byte>& raw(std::uint32_t page) const { return raw_[page]; }
+  const SampleFrame& frame(std::uint32_t page) const { return frames_[page]; }
+  /// Of page `page` within the mask.
+  PageFacts facts(std::uint32_t page) const;
+  MaskFacts mask(const Point& lower) const;
+
+  void withhold(std::uint32_t page, bool withheld = true) { withheld_[page] = withheld; }
+  /// Pages asked for since the last call, by number within the mask.
+  std::vector<std::uint32_t> take_asked();
+  PageReader reader();
+
+ private:
+  const std::byte* page(std::uint32_t number);
+
+  std::uint32_t first_page_;
+  bool float64_;
+  MaskPlan plan_;
+  std::vector<std::vector<std::byte>> raw_;
+  std::vector<SampleFrame> frames_;
+  std::vector<bool> withheld_;
+  std::vector<std::uint32_t> asked_;
+};
+
+}  // namespace planetree::octree

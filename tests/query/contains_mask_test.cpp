@@ -1,0 +1,227 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "planetree/probe.h"
+#include "query/side.h"
+#include "tests/octree/sample_mask.h"
+#include "tests/query/sample_model.h"
+#include "tests/storage/file_image.h"
+
+// Sides of models with a mask: what it spares, and that nothing depends on it.
+namespace planetree::query {
+namespace {
+
+using storage::FileImage;
+
+/// Points anywhere in the box, on vertices, and on the sides of cells.
+std::vector<Vec3> points_about(const SampleModel& sample, std::size_t count) {
+  const octree::MeshStore& mesh = sample.sample().mesh;
+  const double unscale = std::ldexp(1.0, -mesh.scale_exponent());
+  octree::Noise noise(4);
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    octree::Point point;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double lower = mesh.lower()[axis], edge = mesh.upper()[axis] - lower;
+      double offset = noise.uniform(-0.01, 1.01) * edge;
+      if (i % 3 == 1) offset = std::floor(offset * 32) / 32;
+      point[axis] = lower + offset;
+    }
+    if (i % 3 == 2) point = mesh.corners(noise.bits() % mesh.size())[noise.bits() % 3];
+    points.push_back({point.x() * unscale, point.y() * unscale, point.z() * unscale});
+  }
+  return points;
+}
+
+/// A model that is open, asked below the Probe so that work can be counted.
+class CountedSides {
+ public:
+  explicit CountedSides(const SampleModel& sample)
+      : state_(open(sample)), reader_(*state_->claim_reader()) {}
+
+  Standing ask(const Vec3& query, octree::TreeWork& work) {
+    const octree::Point point = state_->scale().in(query);
+    PageTurner turner(reader_);
+    return find_side(*state_, point, ~std::uint64_t{0}, turner.pages(), work);
+  }
+  const octree::MaskFacts& mask() const { return state_->mask(); }
+
+ private:
+  static std::unique_ptr<ModelState> open(const SampleModel& sample) {
+    OpenOptions options;
+    options.memory_budget_bytes = std::uint64_t{64} << 20;
+    options.max_probes = 1;
+    auto state = ModelState::open(sample.path(), options);
+    if (!state) std::abort();
+    return *std::move(state);
+  }
+
+  std::unique_ptr<ModelState> state_;
+  cache::Reader reader_;
+};
+
+TEST(ContainsMask, AnswersMostFromOneCell) {
+  const Soup soup = octree::sphere(6);
+  const SampleModel with = SampleModel::masked(soup), without(soup);
+  CountedSides masked(with), bare(without);
+  ASSERT_GT(masked.mask().page_count, 1u);
+  ASSERT_EQ(bare.mask().page_count, 0u);
+  const FileImage image(storage::read_bytes(with.path()));
+  const unsigned levels = image.header().model.mask_levels;
+  int at_once = 0;
+  octree::TreeWork all, all_bare;
+  const std::vector<Vec3> queries = random_queries(2000, -1, 1);
+  for (const Vec3& query : queries) {
+    octree::TreeWork work;
+    const Standing found = masked.ask(query, work);
+    ASSERT_EQ(found.side, bare.ask(query, all_bare).side);
+    ASSERT_EQ(found.status, Status::kExact);
+    if (work.blocks == 0 && work.nodes <= levels) ++at_once;
+    all.blocks += work.blocks;
+  }
+  EXPECT_GT(at_once, 1500);
+  EXPECT_LT(4 * all.blocks, all_bare.blocks);
+}
+
+std::vector<Soup> nasty_soups() {
+  using namespace octree;
+  const Soup ball = sphere(3);
+  return {joined({ball, inside_out(scaled(sphere(2), 0.5)), copies(scaled(sphere(2), 0.25), 3)}),
+          joined({box({0, 0, 0}, {1, 1, 1}, 8), box({0.25, 0.25, 0.25}, {0.5, 0.75, 1}, 6),
+                  inside_out(box({0.5, 0.5, 0}, {1, 0.75, 0.25}, 6))}),
+          grains(300, 0.4),
+          joined({sheet(12), inside_out(sheet(12))}),
+          copies(sphere(2), 130),
+          copies(box({0, 0, 0}, {1, 0.9, 0.8}, 3), 130),
+          box({0, 0, 0}, {0.9, 0.8, 0.7}, 30)};
+}
+
+TEST(ContainsMask, SaysTheSidesThatAreSaidWithoutIt) {
+  for (const Soup& soup : nasty_soups()) {
+    const SampleModel with = SampleModel::masked(soup), without(soup);
+    CountedSides masked(with), bare(without);
+    ASSERT_GT(masked.mask().page_count, 0u);
+    for (const Vec3& query : points_about(with, 600)) {
+      octree::TreeWork work;
+      const Standing found = masked.ask(query, work), expected = bare.ask(query, work);
+      ASSERT_EQ(found.status, Status::kExact);
+      ASSERT_EQ(found.side, expected.side) << query.x << ' ' << query.y << ' ' << query.z;
+      // Of a cell of one colour only the sign is known.
+      ASSERT_EQ(found.winding > 0, expected.winding > 0);
+      ASSERT_EQ(found.winding < 0, expected.winding < 0);
+    }
+  }
+}
+
+class DamagedMask : public testing::Test {
+ protected:
+  DamagedMask() : sample_(SampleModel::masked(octree::sphere(5))) {
+    queries_ = points_about(sample_, 400);
+    answers_ = ask();
+    EXPECT_GT(mask_pages(), 2u);
+  }
+  std::uint32_t mask_pages() const {
+    return FileImage(storage::read_bytes(sample_.path())).header().model.mask_page_count;
+  }
+  std::vector<Containment> ask() {
+    const Model model = sample_.open();
+    Probe probe = make_probe(model);
+    std::vector<Containment> answers;
+    for (const Vec3& query : queries_) answers.push_back(probe.contains(query));
+    quarantined_ = model.stats().quarantined_pages;
+    return answers;
+  }
+  // As a failing disk would; a second time puts it right.
+  void damage(std::uint32_t mask_page) {
+    FileImage image(storage::read_bytes(sample_.path()));
+    const storage::PageEntry entry = image.entry(sample_.page_count() + mask_page);
+    image.bytes()[entry.offset + entry.stored_bytes / 2] ^= std::byte{0x10};
+    storage::write_bytes(sample_.path(), image.bytes());
+  }
+  void expect_same(const std::vector<Containment>& answers) const {
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      ASSERT_EQ(answers[i].side, answers_[i].side) << i;
+      ASSERT_EQ(answers[i].status, Status::kExact) << i;
+    }
+  }
+
+  SampleModel sample_;
+  std::vector<Vec3> queries_;
+  std::vector<Containment> answers_;
+  std::uint64_t quarantined_ = 0;
+};
+
+TEST_F(DamagedMask, ChangesNoAnswer) {
+  const std::uint32_t count = mask_pages();
+  EXPECT_EQ(quarantined_, 0u);
+  for (std::uint32_t page = 0; page < count; ++page) {
+    SCOPED_TRACE(page);
+    damage(page);
+    expect_same(ask());
+    EXPECT_EQ(quarantined_, 1u);
+    damage(page);
+  }
+  for (std::uint32_t page = 0; page < count; ++page) damage(page);
+  expect_same(ask());
+  EXPECT_EQ(quarantined_, 1u);
+}
+
+TEST_F(DamagedMask, IsNotReadForDistances) {
+  for (std::uint32_t page = 0; page < mask_pages(); ++page) damage(page);
+  const SampleModel without(octree::sphere(5));
+  const Model model = sample_.open(), bare = without.open();
+  Probe probe = make_probe(model), of_bare = make_probe(bare);
+  for (const Vec3& query : queries_) {
+    const Ask ask{.parts = kDistance};
+    ASSERT_EQ(probe.closest_point(query, ask).triangle, of_bare.closest_point(query, ask).triangle);
+  }
+  EXPECT_EQ(model.stats().quarantined_pages, 0u);
+  EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
+  probe.closest_point(queries_[0], {.parts = kSide});
+  EXPECT_EQ(model.stats().quarantined_pages, 1u);
+}
+
+// Few visits leave sides unknown, never wrong.
+TEST(ContainsMask, EndsItsWorkWhereItIsTold) {
+  const SampleModel sample = SampleModel::masked(octree::sphere(5));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  int known = 0, unknown = 0;
+  for (const Vec3& query : points_about(sample, 100)) {
+    const Side side = probe.contains(query).side;
+    bool told = false;
+    for (std::uint32_t most = 0; most < 40; ++most) {
+      const Containment found = probe.contains(query, {.max_nodes = most});
+      told = found.status == Status::kExact;
+      ASSERT_EQ(found.side, told ? side : Side::kUnknown);
+      ASSERT_TRUE(told || found.status == Status::kDegraded);
+      ++(told ? known : unknown);
+    }
+  }
+  EXPECT_GT(known, 1000);
+  EXPECT_GT(unknown, 300);
+}
+
+// Numbers of corners do not reach so far.
+TEST(ContainsMask, HoldsWherePartsCoincideManyTimes) {
+  const SampleModel sample = SampleModel::masked(octree::copies(octree::sphere(2), 130));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  for (const Vec3& query : random_queries(1500, -1, 1)) {
+    const double radius = std::hypot(query.x, query.y, query.z);
+    const Containment found = probe.contains(query);
+    ASSERT_EQ(found.status, Status::kExact);
+    if (radius > 1 + 1e-6) {
+      ASSERT_EQ(found.side, Side::kOutside);
+    }
+    if (radius < 0.85) {
+      ASSERT_EQ(found.side, Side::kInside);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace planetree::query
