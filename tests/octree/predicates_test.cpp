@@ -54,7 +54,10 @@ TEST(Predicates, OrientationIsExactOnAnUlpGrid) {
 TEST(Predicates, OrientationIsExactNearTheSmallestNumbers) {
   std::mt19937_64 random(43);
   std::uniform_int_distribution<int> exponent(-1074, -300), mantissa(-3, 3);
-  const auto tiny = [&] { return std::ldexp(mantissa(random), exponent(random)); };
+  const auto tiny = [&] {
+    const int digit = mantissa(random);
+    return std::ldexp(digit, exponent(random));
+  };
   for (int i = 0; i < 1000; ++i) {
     Point points[4];
     for (Point& point : points) point = {tiny(), tiny(), i % 2 == 0 ? tiny() : 1.0};

@@ -29,7 +29,7 @@ void expect_normals(const Soup& triangles, double size, int count) {
   for (int i = 0; i < count; ++i) {
     const Corners& t = triangles[random.below(triangles.size())];
     const Vec3 at = random.one_in(2) ? t[random.below(3)] : (t[0] + t[1]) * 0.5;
-    expect_sound(model, at + random.in_cube() * (size * random.magnitude(-30, 4)));
+    expect_sound(model, at + random.in_some_cube(-30, 4) * size);
   }
 }
 

@@ -143,7 +143,7 @@ TEST(StabilitySide, NearlyCoplanarOutside) {
   Random random(34);
   for (int i = 0; i < 300; ++i)
     expect_side(model, {random.between(-0.5, 1.5), random.between(-0.5, 1.5),
-                        random.either_sign() * random.magnitude(-60, -28)});
+                        random.signed_magnitude(-60, -28)});
 }
 
 TEST(StabilitySide, CentreOfASphere) {
