@@ -8,9 +8,7 @@
 #include <random>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include "tests/octree/odd_arithmetic.h"
 
 namespace planetree::octree {
 namespace {
@@ -75,24 +73,6 @@ TEST(Predicates, OrientationHoldsTheWidestSpan) {
   EXPECT_EQ(normal_sign(a, b, c, 1), -1);
   EXPECT_EQ(normal_sign(a, b, c, 2), 1);
 }
-
-// What the host thread may have asked of its processor.
-class OddArithmetic {
- public:
-  explicit OddArithmetic(int rounding) {
-    std::fegetenv(&before_);
-    std::fesetround(rounding);
-#if defined(__SSE2__)
-    _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
-#endif
-  }
-  ~OddArithmetic() { std::fesetenv(&before_); }
-  OddArithmetic(const OddArithmetic&) = delete;
-  OddArithmetic& operator=(const OddArithmetic&) = delete;
-
- private:
-  std::fenv_t before_;
-};
 
 TEST(Predicates, SignsDoNotDependOnTheModeOfTheThread) {
   std::mt19937_64 random(41);

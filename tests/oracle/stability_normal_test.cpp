@@ -110,6 +110,20 @@ TEST(StabilityNormal, SubdividedFlatFace) {
   expect_direction(left.ask({2, 2, 2}).normal, {1, 1, 1});
 }
 
+// From beyond where doubles can measure, normals turn as they do from near.
+TEST(StabilityNormal, FarQueriesOfAnInsideOutModel) {
+  const Soup solid = ball(2);
+  BuiltModel outward(solid), inward(inside_out(solid));
+  const Vec3 ways[] = {{1, 0.25, 0.125}, {-0.5, 1, 0.25}, {-0.25, -0.5, -1}};
+  for (const Vec3& way : ways)
+    for (const double far : {1e3, 1e80, 1e92, 1e200, 1e308}) {
+      const ClosestPoint left = outward.ask(way * far), right = inward.ask(way * far);
+      EXPECT_GT(dot(left.normal, way), 0) << far;
+      EXPECT_GT(dot(right.normal, way), 0) << far;
+      EXPECT_EQ(left.side, Side::kOutside);
+    }
+}
+
 // The sum is zero: the first face speaks.
 TEST(StabilityNormal, OppositeDuplicateFaces) {
   const Corners face{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#if defined(__x86_64__) || defined(__i386__)
+#include <xmmintrin.h>
+#else
+#include <cfenv>
+#endif
+
+namespace planetree::query {
+
+/// What a host thread told its processor to do with floating point, put aside:
+/// while this object lives, results are rounded to nearest, subnormal numbers
+/// are numbers and nothing traps. Without it a thread that rounds another way or
+/// flushes to zero, as audio and haptic threads do, would get other bits, and
+/// one that traps would die of an inexact result. Every way into the library
+/// that computes holds one.
+///
+/// cost     reads one register where the thread has asked for nothing.
+/// threads  of this thread alone; end it on the thread that made it.
+class HostArithmetic {
+ public:
+#if defined(__x86_64__) || defined(__i386__)
+  HostArithmetic() noexcept : before_(_mm_getcsr()) {
+    if ((before_ & ~kFlags) != kDefault) _mm_setcsr(kDefault);
+  }
+  ~HostArithmetic() {
+    if ((before_ & ~kFlags) != kDefault) _mm_setcsr(before_);
+  }
+#else
+  HostArithmetic() noexcept { std::fegetenv(&before_), std::fesetenv(FE_DFL_ENV); }
+  ~HostArithmetic() { std::fesetenv(&before_); }
+#endif
+  HostArithmetic(const HostArithmetic&) = delete;
+  HostArithmetic& operator=(const HostArithmetic&) = delete;
+
+ private:
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr std::uint32_t kFlags = 0x3f;      ///< what has happened so far
+  static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, and no more
+  std::uint32_t before_;
+#else
+  std::fenv_t before_;
+#endif
+};
+
+}  // namespace planetree::query
