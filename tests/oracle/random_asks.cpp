@@ -82,9 +82,19 @@ class Judge {
            intervals_.none_nearer(query, a.lower) && intervals_.reaches(query, a.triangle, a.upper);
   }
 
+  Side true_side(const Vec3& query) const {
+    const ModelInfo& info = model_.built.model().info();
+    const Vec3 lower = in_frame(info.box_lower), upper = in_frame(info.box_upper);
+    const Vec3 at = in_frame(query);
+    if (at.x < lower.x || at.y < lower.y || at.z < lower.z || at.x > upper.x || at.y > upper.y ||
+        at.z > upper.z)
+      return Side::kOutside;
+    return exact_side(at, in_frame_);
+  }
+
   void judge_side(const Vec3& query, const ClosestPoint& answer, AskTally& tally) {
     const Containment alone = model_.built.probe().contains(query);
-    const Side expected = watertight_ ? exact_side(in_frame(query), in_frame_) : Side::kUnknown;
+    const Side expected = watertight_ ? true_side(query) : Side::kUnknown;
     tally.sides += watertight_;
     tally.side += answer.side != expected || alone.side != expected;
   }
