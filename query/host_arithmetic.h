@@ -1,12 +1,7 @@
 #pragma once
 
-#include <cstdint>
-
-#if defined(__x86_64__) || defined(__i386__)
-#include <xmmintrin.h>
-#else
 #include <cfenv>
-#endif
+#include <cstdint>
 
 namespace planetree::query {
 
@@ -21,12 +16,12 @@ namespace planetree::query {
 /// threads  of this thread alone; end it on the thread that made it.
 class HostArithmetic {
  public:
-#if defined(__x86_64__) || defined(__i386__)
-  HostArithmetic() noexcept : before_(_mm_getcsr()) {
-    if ((before_ & ~kFlags) != kDefault) _mm_setcsr(kDefault);
+#if defined(__SSE2__)
+  HostArithmetic() noexcept : before_(__builtin_ia32_stmxcsr()) {
+    if ((before_ & ~kFlags) != kDefault) __builtin_ia32_ldmxcsr(kDefault);
   }
   ~HostArithmetic() {
-    if ((before_ & ~kFlags) != kDefault) _mm_setcsr(before_);
+    if ((before_ & ~kFlags) != kDefault) __builtin_ia32_ldmxcsr(before_);
   }
 #else
   HostArithmetic() noexcept { std::fegetenv(&before_), std::fesetenv(FE_DFL_ENV); }
@@ -36,7 +31,7 @@ class HostArithmetic {
   HostArithmetic& operator=(const HostArithmetic&) = delete;
 
  private:
-#if defined(__x86_64__) || defined(__i386__)
+#if defined(__SSE2__)
   static constexpr std::uint32_t kFlags = 0x3f;      ///< what has happened so far
   static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, and no more
   std::uint32_t before_;
