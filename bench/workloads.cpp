@@ -23,7 +23,8 @@ class QueryMaker {
 
   Vec3 near() {
     const double reach = 0.001 * box_.diagonal();
-    return surface_(uniform()).point + Vec3{sway(), sway(), sway()} * reach;
+    const Vec3 on = surface_(uniform()).point;
+    return on + Vec3{sway(), sway(), sway()} * reach;
   }
 
   std::vector<Vec3> path(std::size_t count, double step) {

@@ -22,6 +22,8 @@ constexpr double kTinySquare = 0x1p-930;
 // / sine: the cross product loses 5 units of 2^-53, its dot products 3 more
 // each, the inside test 2 * (4 + 5) across an edge; 64 covers their sum.
 constexpr double kErrorFactor = 64 * 0x1p-53;
+// A point inside a face has a share of every corner, though it may round to 0.
+constexpr double kLeastShare = 0x1p-54;
 // Squares below 2^-1022 underflow; distances below this are not resolved.
 constexpr double kAbsoluteError = 0x1p-500;
 
@@ -174,9 +176,9 @@ void place_on_face(const Evaluation& e, NearestOnTriangle& nearest) {
   const double v = e.face.v / e.face.whole;
   const double w = e.face.w / e.face.whole;
   nearest.point = apex + (v * first + w * second);
-  nearest.barycentric[e.order[e.apex]] = (1 - v) - w;
-  nearest.barycentric[e.order[kFirst[e.apex]]] = v;
-  nearest.barycentric[e.order[kSecond[e.apex]]] = w;
+  nearest.barycentric[e.order[e.apex]] = std::max((1 - v) - w, kLeastShare);
+  nearest.barycentric[e.order[kFirst[e.apex]]] = std::max(v, kLeastShare);
+  nearest.barycentric[e.order[kSecond[e.apex]]] = std::max(w, kLeastShare);
 }
 
 void place_on_edge(const Evaluation& e, NearestOnTriangle& nearest) {

@@ -26,7 +26,9 @@ struct TriangleValue {
 struct NearestOnTriangle {
   TriangleValue value;
   Point point = Point::Zero();
-  std::array<double, 3> barycentric{};  ///< in the order of `triangle`
+  /// In the order of `triangle`: above 0 for one corner at a vertex, two on an
+  /// edge, three inside the face.
+  std::array<double, 3> barycentric{};
   Feature feature = Feature::kFace;
 };
 

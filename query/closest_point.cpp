@@ -27,15 +27,25 @@ ClosestPoint without_distance(Status status) {
   return answer;
 }
 
-// Beyond octree::kFarthestQuery all triangles are equally far in double.
-octree::NearestAnswer farthest(const octree::TreeFacts& tree) {
+// Beyond octree::kFarthestQuery all triangles are equally far in double; `from`
+// there stands for a query in its direction that is farther.
+octree::NearestAnswer farthest(const octree::TreeFacts& tree, const octree::Point& from) {
   octree::NearestAnswer nearest;
   nearest.point = nearest.corners[0] = tree.sample;
   nearest.triangle = tree.sample_triangle;
+  nearest.distance = from.norm();
   nearest.barycentric = {1, 0, 0};
   nearest.feature = Feature::kVertex;
   nearest.status = Status::kExact;
   return nearest;
+}
+
+// The point itself, or one that far away in its direction; model frame.
+octree::Point within_reach(const Scale& scale, const Vec3& query) {
+  const octree::Point point = scale.in(query);
+  if (point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) return point;
+  const octree::Point from(query.x, query.y, query.z);
+  return from / from.cwiseAbs().maxCoeff() * octree::kFarthestQuery;
 }
 
 // In model units, where the frame's could overflow.
@@ -72,7 +82,8 @@ class Asking {
       : model_(probe.model()),
         query_(query),
         ask_(ask),
-        point_(model_.scale().in(query)),
+        far_(!(model_.scale().in(query).cwiseAbs().maxCoeff() <= octree::kFarthestQuery)),
+        point_(within_reach(model_.scale(), query)),
         turner_(probe.reader()) {}
 
   ClosestPoint run() {
@@ -97,15 +108,14 @@ class Asking {
   }
 
   void find_nearest() {
-    const bool far = !(point_.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
     octree::NearestLimits limits;
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
-    nearest_ = far ? farthest(model_.tree())
-                   : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_);
+    nearest_ = far_ ? farthest(model_.tree(), point_)
+                    : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_);
     answer_ = in_model_units(model_.scale(), nearest_);
-    if (far) measure_far(query_, ask_, answer_);
+    if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
   }
 
@@ -139,6 +149,7 @@ class Asking {
   const ModelState& model_;
   const Vec3& query_;
   const Ask& ask_;
+  const bool far_;
   const octree::Point point_;
   PageTurner turner_;
   octree::TreeWork work_;

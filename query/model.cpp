@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "octree/self_test.h"
+#include "query/host_arithmetic.h"
 #include "query/model_state.h"
 #include "query/page_decoding.h"
 #include "query/probe_state.h"
@@ -75,6 +77,11 @@ ModelState::ModelState(std::unique_ptr<Pager> pager)
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
                                                      const OpenOptions& options) {
+  if (const char* fault = octree::self_test())
+    return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
+                      "this build computes otherwise than it must: %s; compile without "
+                      "-ffast-math, -ffp-contract and -mfpmath=387",
+                      fault);
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
@@ -104,6 +111,7 @@ Stats ModelState::stats() const noexcept {
 }  // namespace query
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
+  const query::HostArithmetic host;
   auto state = query::ModelState::open(path, options);
   if (!state) return state.error();
   return Model(std::move(*state));

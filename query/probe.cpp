@@ -5,6 +5,7 @@
 
 #include "query/batch.h"
 #include "query/closest_point.h"
+#include "query/host_arithmetic.h"
 #include "query/probe_state.h"
 
 namespace planetree {
@@ -26,20 +27,24 @@ Probe& Probe::operator=(Probe&&) noexcept = default;
 Probe::~Probe() = default;
 
 ClosestPoint Probe::closest_point(Vec3 query, const Ask& ask) noexcept {
+  const query::HostArithmetic host;
   return query::closest_point(*state_, query, ask);
 }
 
 Containment Probe::contains(Vec3 query, const Ask& ask) noexcept {
+  const query::HostArithmetic host;
   return query::contains(*state_, query, ask);
 }
 
 void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,
                      const Ask& ask) noexcept {
+  const query::HostArithmetic host;
   query::contains(*state_, queries, answers, ask);
 }
 
 void Probe::closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                            const Ask& ask) noexcept {
+  const query::HostArithmetic host;
   query::closest_points(*state_, queries, answers, ask);
 }
 

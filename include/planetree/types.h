@@ -80,7 +80,9 @@ struct ClosestPoint {
   /// aside included; kNoTriangle when none was reached. Among equally near
   /// triangles the one of least index.
   std::uint64_t triangle = kNoTriangle;
-  Vec3 barycentric;  ///< of `point`, in the triangle's corner order; sums to 1
+  /// Of `point`, in the triangle's corner order; sums to 1. Above 0 for as many
+  /// corners as `feature` has.
+  Vec3 barycentric;
   Feature feature = Feature::kFace;
   Status status = Status::kBadQuery;
 

@@ -29,14 +29,13 @@ struct EdgeBalance {
   /// The first open edges by triangle, then corner.
   std::array<OpenEdge, kListed> first;
 
-  bool closed() const { return open_edges == 0; }
   /// Writes what is known into the model's record, in the input's units.
   void describe(int scale_exponent, storage::ModelRecord& model) const;
 };
 
 /// Balances the edges of a normalised mesh.
 ///
-/// memory  16 bytes a triangle.
+/// memory  24 bytes a triangle.
 /// threads those of the caller's task arena; the result does not depend on them.
 EdgeBalance balance_edges(const MeshStore& mesh);
 

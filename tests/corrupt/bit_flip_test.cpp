@@ -42,9 +42,9 @@ class Patient {
   int file_;
 };
 
-class BitFlip : public testing::Test {
+class StabilityBitFlip : public testing::Test {
  protected:
-  BitFlip()
+  StabilityBitFlip()
       : sample_(octree::sheet(10)),
         budget_(sample_.least_budget()),
         queries_(query::random_queries(3, -0.5, 1.5)) {
@@ -89,7 +89,7 @@ class BitFlip : public testing::Test {
   std::vector<ClosestPoint> exact_;
 };
 
-TEST_F(BitFlip, NeverGivesAWrongInterval) {
+TEST_F(StabilityBitFlip, NeverGivesAWrongInterval) {
   ASSERT_GE(sample_.page_count(), 3u);
   Patient patient(sample_.path());
   std::map<std::string, std::size_t> outcomes;

@@ -22,7 +22,7 @@ TEST(Angle, IsRightForDirectionsOfAllKinds) {
   std::uniform_int_distribution<int> exponent(-40, 40);
   for (int i = 0; i < 20000; ++i) {
     const auto direction = [&] {
-      const Point p(coordinate(random), coordinate(random), coordinate(random));
+      const Point p{coordinate(random), coordinate(random), coordinate(random)};
       return Point(p * std::ldexp(1.0, exponent(random)));
     };
     const Point u = direction(), v = direction();

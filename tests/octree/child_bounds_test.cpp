@@ -105,8 +105,8 @@ TEST(Disc, CountsOffsetsInStepsOfTheBox) {
 TEST(FloatRounding, EnclosesTheDouble) {
   Noise noise(3);
   for (int i = 0; i < 20000; ++i) {
-    const double value =
-        std::ldexp(noise.uniform(-1, 1), static_cast<int>(noise.bits() % 200) - 140);
+    const double share = noise.uniform(-1, 1);
+    const double value = std::ldexp(share, static_cast<int>(noise.bits() % 200) - 140);
     EXPECT_LE(double{float_below(value)}, value);
     EXPECT_GE(double{float_above(value)}, value);
     EXPECT_LE(float_above(value), std::nextafter(float_below(value), 1e38f));

@@ -27,10 +27,10 @@ Soup joined(Soup left, const Soup& right) {
 }
 
 TEST(EdgeBalance, OfClosedSurfacesIsEven) {
-  EXPECT_TRUE(balance(tetrahedron()).closed());
-  EXPECT_TRUE(balance(sphere(5)).closed());
-  EXPECT_TRUE(balance(joined(tetrahedron(), tetrahedron())).closed());
-  EXPECT_TRUE(balance(joined(tetrahedron(), sphere(2))).closed());
+  EXPECT_EQ(balance(tetrahedron()).open_edges, 0u);
+  EXPECT_EQ(balance(sphere(5)).open_edges, 0u);
+  EXPECT_EQ(balance(joined(tetrahedron(), tetrahedron())).open_edges, 0u);
+  EXPECT_EQ(balance(joined(tetrahedron(), sphere(2))).open_edges, 0u);
 }
 
 TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
@@ -38,7 +38,7 @@ TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
   const Vec3 p{0.25, 0.5, 0};
   soup.push_back({p, p, p});
   soup.push_back({p, p, {1, 1, 1}});  // there and back
-  EXPECT_TRUE(balance(soup).closed());
+  EXPECT_EQ(balance(soup).open_edges, 0u);
 }
 
 TEST(EdgeBalance, FindsTheEdgesOfAHole) {
@@ -73,6 +73,35 @@ TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
   EXPECT_LE(found.first[0].triangle, found.first[1].triangle);
   EXPECT_LE(found.first[1].triangle, found.first[2].triangle);
   EXPECT_EQ(found.first[0].triangle, 0u);
+}
+
+// Far more faces on an edge than one task looks at.
+TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
+  Soup soup = repeated(60000);
+  const EdgeBalance found = balance(soup);
+  EXPECT_EQ(found.open_edges, 3u);
+  for (const OpenEdge& edge : found.first) {
+    EXPECT_EQ(edge.triangle, 0u);
+    EXPECT_EQ(edge.along, 60000u);
+    EXPECT_EQ(edge.against, 0u);
+  }
+  for (std::size_t i = 0; i < soup.size(); i += 2) std::swap(soup[i][0], soup[i][1]);
+  EXPECT_EQ(balance(soup).open_edges, 0u);
+}
+
+// A model so small beside another that all its edges come into one cell, where
+// many share a hash.
+TEST(EdgeBalance, TellsEdgesOfOneHashApart) {
+  Soup soup = sphere(6);
+  for (auto& triangle : soup)
+    for (Vec3& corner : triangle)
+      corner = {corner.x * 0x1p-20, corner.y * 0x1p-20, corner.z * 0x1p-20};
+  soup = joined(soup, tetrahedron());
+  EXPECT_EQ(balance(soup).open_edges, 0u);
+  for (const std::size_t triangle : {30000, 20000, 700, 10000}) soup[triangle][0] = soup[0][0];
+  const EdgeBalance found = balance(soup);
+  EXPECT_EQ(found.open_edges, 16u);
+  for (const OpenEdge& edge : found.first) EXPECT_LE(edge.triangle, 701u);
 }
 
 TEST(EdgeBalance, DoesNotDependOnThreads) {

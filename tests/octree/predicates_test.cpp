@@ -8,9 +8,7 @@
 #include <random>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include "tests/octree/odd_arithmetic.h"
 
 namespace planetree::octree {
 namespace {
@@ -54,7 +52,10 @@ TEST(Predicates, OrientationIsExactOnAnUlpGrid) {
 TEST(Predicates, OrientationIsExactNearTheSmallestNumbers) {
   std::mt19937_64 random(43);
   std::uniform_int_distribution<int> exponent(-1074, -300), mantissa(-3, 3);
-  const auto tiny = [&] { return std::ldexp(mantissa(random), exponent(random)); };
+  const auto tiny = [&] {
+    const int digit = mantissa(random);
+    return std::ldexp(digit, exponent(random));
+  };
   for (int i = 0; i < 1000; ++i) {
     Point points[4];
     for (Point& point : points) point = {tiny(), tiny(), i % 2 == 0 ? tiny() : 1.0};
@@ -72,24 +73,6 @@ TEST(Predicates, OrientationHoldsTheWidestSpan) {
   EXPECT_EQ(normal_sign(a, b, c, 1), -1);
   EXPECT_EQ(normal_sign(a, b, c, 2), 1);
 }
-
-// What the host thread may have asked of its processor.
-class OddArithmetic {
- public:
-  explicit OddArithmetic(int rounding) {
-    std::fegetenv(&before_);
-    std::fesetround(rounding);
-#if defined(__SSE2__)
-    _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
-#endif
-  }
-  ~OddArithmetic() { std::fesetenv(&before_); }
-  OddArithmetic(const OddArithmetic&) = delete;
-  OddArithmetic& operator=(const OddArithmetic&) = delete;
-
- private:
-  std::fenv_t before_;
-};
 
 TEST(Predicates, SignsDoNotDependOnTheModeOfTheThread) {
   std::mt19937_64 random(41);

@@ -7,6 +7,7 @@
 #include "octree/build/disc_fit.h"
 #include "octree/build/moment_sums.h"
 #include "octree/build/page_encoder.h"
+#include "tests/octree/divided_octahedron.h"
 
 namespace planetree::octree {
 namespace {
@@ -26,30 +27,9 @@ Vec3 on_sphere(const Vec3& a, const Vec3& b) {
   return to_float({sum.x / length, sum.y / length, sum.z / length});
 }
 
-void divide(const std::array<Vec3, 3>& face, unsigned levels, Soup& soup) {
-  if (levels == 0) {
-    soup.push_back(face);
-    return;
-  }
-  const auto& [a, b, c] = face;
-  const Vec3 ab = on_sphere(a, b), bc = on_sphere(b, c), ca = on_sphere(c, a);
-  divide({a, ab, ca}, levels - 1, soup);
-  divide({ab, b, bc}, levels - 1, soup);
-  divide({ca, bc, c}, levels - 1, soup);
-  divide({ab, bc, ca}, levels - 1, soup);
-}
-
 }  // namespace
 
-Soup sphere(unsigned levels) {
-  Soup soup;
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    const double x = octant & 1 ? -1 : 1, y = octant & 2 ? -1 : 1, z = octant & 4 ? -1 : 1;
-    const Vec3 a{x, 0, 0}, b{0, y, 0}, c{0, 0, z};
-    divide(x * y * z > 0 ? std::array{a, b, c} : std::array{a, c, b}, levels, soup);
-  }
-  return soup;
-}
+Soup sphere(unsigned levels) { return DividedOctahedron(levels, on_sphere).faces(); }
 
 Soup sheet(unsigned side) {
   const auto at = [side](unsigned i, unsigned j) {

@@ -95,7 +95,11 @@ double largest_coordinate(const Corners& triangle) {
 void expect_on_triangle(const Corners& t, const Vec3& query, const ClosestPoint& answer) {
   const Vec3& b = answer.barycentric;
   EXPECT_NEAR(b.x + b.y + b.z, 1, 4e-16);
-  EXPECT_GE(std::min({b.x, b.y, b.z}), -4e-16);
+  EXPECT_GE(std::min({b.x, b.y, b.z}), 0);
+  const int corners = (b.x > 0) + (b.y > 0) + (b.z > 0);
+  EXPECT_EQ(corners, answer.feature == Feature::kFace   ? 3
+                     : answer.feature == Feature::kEdge ? 2
+                                                        : 1);
   const Wide rounding = Wide(largest_coordinate(t)) * Wide(0x1p-48) + Wide(0x1p-1070);
   const Wide u(b.x), v(b.y), w(b.z);
   const Vec3 at{static_cast<double>(u * Wide(t[0].x) + v * Wide(t[1].x) + w * Wide(t[2].x)),

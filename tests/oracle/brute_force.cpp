@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "tests/oracle/whole_number.h"
+
 namespace planetree::oracle {
 namespace {
-
-using Integer = boost::multiprecision::cpp_int;
 
 template <class Scalar>
 struct Vector {
@@ -89,33 +89,8 @@ Fraction<Scalar> to_triangle(const Vector<Scalar>& p, const std::array<Vector<Sc
 
 Vector<long double> extended(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-// The exponent e of the last bit of a double: value = integer * 2^e.
-int last_exponent(double value) {
-  if (value == 0) return std::numeric_limits<int>::max();
-  int exponent = 0;
-  std::frexp(value, &exponent);
-  return std::max(exponent - 53, -1074);
-}
-
-int last_exponent(const Vec3& p) {
-  return std::min({last_exponent(p.x), last_exponent(p.y), last_exponent(p.z)});
-}
-
-// value / 2^exponent, which is whole.
-Integer whole(double value, int exponent) {
-  if (value == 0) return 0;
-  int top = 0;
-  const double fraction = std::frexp(value, &top);
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  const int shift = top - 53 - exponent;
-  const Integer integer = mantissa;
-  if (shift >= 0) return integer << static_cast<unsigned>(shift);
-  return mantissa < 0 ? Integer(-(Integer(-integer) >> static_cast<unsigned>(-shift)))
-                      : Integer(integer >> static_cast<unsigned>(-shift));
-}
-
 Vector<Integer> whole(const Vec3& p, int exponent) {
-  return {whole(p.x, exponent), whole(p.y, exponent), whole(p.z, exponent)};
+  return {oracle::whole(p.x, exponent), oracle::whole(p.y, exponent), oracle::whole(p.z, exponent)};
 }
 
 Wide power_of_two(int exponent) { return ldexp(Wide(1), exponent); }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tests/octree/divided_octahedron.h"
+
 namespace planetree::oracle {
 namespace {
 
@@ -45,12 +47,13 @@ Soup lattice_boxes(Random& random) {
 Soup slivers(Random& random) {
   const Vec3 along = random.in_cube();
   return tetrahedra(30, [&] {
-    return along * random.either_sign() + random.in_cube() * random.magnitude(-40, -10);
+    const Vec3 at = along * random.either_sign();
+    return at + random.in_some_cube(-40, -10);
   });
 }
 
 Soup scales(Random& random) {
-  return tetrahedra(30, [&] { return random.in_cube() * random.magnitude(-30, 0); });
+  return tetrahedra(30, [&] { return random.in_some_cube(-30, 0); });
 }
 
 Soup nested_balls(Random& random) {
@@ -59,7 +62,7 @@ Soup nested_balls(Random& random) {
 }
 
 Soup rotated_ball(Random& random) {
-  const double angle = random.between(0, 6.28), c = std::cos(angle), s = std::sin(angle);
+  const auto [c, s] = on_circle(random.unit());
   Soup soup = ball(2);
   for (Corners& triangle : soup)
     for (Vec3& p : triangle) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z + 0.1 * p.x};
@@ -71,21 +74,9 @@ Soup far_away(Random& random) {
   return moved(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
 }
 
-void divide(const Corners& face, unsigned levels, Soup& soup) {
-  if (levels == 0) {
-    soup.push_back(face);
-    return;
-  }
-  const auto middle = [](const Vec3& a, const Vec3& b) {
-    const Vec3 sum = a + b;
-    return sum * (1 / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z));
-  };
-  const auto& [a, b, c] = face;
-  const Vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-  divide({a, ab, ca}, levels - 1, soup);
-  divide({ab, b, bc}, levels - 1, soup);
-  divide({ca, bc, c}, levels - 1, soup);
-  divide({ab, bc, ca}, levels - 1, soup);
+Vec3 on_sphere(const Vec3& a, const Vec3& b) {
+  const Vec3 sum = a + b;
+  return sum * (1 / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z));
 }
 
 constexpr NastyFamily kFamilies[] = {
@@ -129,17 +120,7 @@ Soup box(const Vec3& lower, const Vec3& upper) {
   return soup;
 }
 
-Soup ball(unsigned levels) {
-  Soup soup;
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    const double x = octant & 1 ? -1 : 1, y = octant & 2 ? -1 : 1, z = octant & 4 ? -1 : 1;
-    const Corners face{Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
-    Soup part;
-    divide(face, levels, part);
-    soup = soup + (x * y * z > 0 ? part : inside_out(part));
-  }
-  return soup;
-}
+Soup ball(unsigned levels) { return octree::DividedOctahedron(levels, on_sphere).faces(); }
 
 std::span<const NastyFamily> closed_families() { return kFamilies; }
 

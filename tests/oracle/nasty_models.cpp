@@ -47,13 +47,17 @@ Soup soup(Random& random) {
 }
 
 Soup needles(Random& random) {
-  return repeat(1 + random.below(100), random,
-                [](Random& r) { return slender(r, r.magnitude(-60, -5), r.one_in(2) ? 0 : 1); });
+  return repeat(1 + random.below(100), random, [](Random& r) {
+    const double height = r.magnitude(-60, -5);
+    return slender(r, height, r.one_in(2) ? 0 : 1);
+  });
 }
 
 Soup caps(Random& random) {
-  return repeat(1 + random.below(100), random,
-                [](Random& r) { return slender(r, r.magnitude(-60, -3), r.between(0.1, 0.9)); });
+  return repeat(1 + random.below(100), random, [](Random& r) {
+    const double height = r.magnitude(-60, -3);
+    return slender(r, height, r.between(0.1, 0.9));
+  });
 }
 
 // Angles about where the engine changes its way of computing: sines of 2^-4,
@@ -61,7 +65,8 @@ Soup caps(Random& random) {
 Soup thresholds(Random& random) {
   return repeat(1 + random.below(100), random, [](Random& r) {
     constexpr double kSines[] = {0x1p-4, 0x1p-5, 0x1p-50};
-    const double sine = kSines[r.below(3)] * (1 + r.either_sign() * r.magnitude(-40, -3));
+    const double about = kSines[r.below(3)];
+    const double sine = about * (1 + r.signed_magnitude(-40, -3));
     const double place = r.one_in(3) ? r.magnitude(-20, 0) : 0.5;
     return slender(r, sine * place, place);
   });
@@ -72,9 +77,8 @@ Soup fan(Random& random) {
   const Axes axes = random_axes(random);
   const double rise = random.one_in(2) ? 0 : random.magnitude(-30, 1);
   const auto rim = [&](std::size_t i) {
-    const double angle =
-        6.283185307179586 * static_cast<double>(i % count) / static_cast<double>(count);
-    return axes.x * std::cos(angle) + axes.y * std::sin(angle);
+    const auto [x, y] = on_circle(static_cast<double>(i % count) / static_cast<double>(count));
+    return axes.x * x + axes.y * y;
   };
   Soup triangles;
   for (std::size_t i = 0; i < count; ++i) triangles.push_back({axes.z * rise, rim(i), rim(i + 1)});
@@ -91,7 +95,7 @@ Soup layers(Random& random) {
     Corners triangle = few[random.below(std::min<std::size_t>(few.size(), 7))];
     if (random.one_in(2)) std::swap(triangle[random.below(3)], triangle[0]);
     if (random.one_in(3)) {
-      const Vec3 shift = random.in_cube() * random.magnitude(-56, -40);
+      const Vec3 shift = random.in_some_cube(-56, -40);
       for (Vec3& corner : triangle) corner = corner + shift;
     }
     triangles.push_back(triangle);
@@ -101,7 +105,7 @@ Soup layers(Random& random) {
 
 Soup degenerates(Random& random) {
   return repeat(2 + random.below(200), random, [](Random& r) {
-    const Vec3 a = r.in_cube(), b = a + r.in_cube() * r.magnitude(-50, 0);
+    const Vec3 a = r.in_cube(), b = a + r.in_some_cube(-50, 0);
     const double third[] = {0, 0.5, 1, 2, 0.25};
     switch (r.below(4)) {
       case 0:
@@ -123,7 +127,8 @@ Soup mixed_scales(Random& random) {
   const double least = random.one_in(2) ? -60 : random.between(-250, -20);
   for (std::size_t i = 5 + random.below(200); i > 0; --i) {
     const double size = random.magnitude(least, 0);
-    const Vec3 at = place + random.in_cube() * (random.one_in(3) ? 0 : size);
+    const Vec3 aside = random.in_cube() * size;
+    const Vec3 at = random.one_in(3) ? place : place + aside;
     triangles.push_back({at, at + random.in_cube() * size, at + random.in_cube() * size});
   }
   return triangles;
@@ -149,7 +154,8 @@ Soup grid(Random& random) {
 // Small things far from the origin, where few bits are left.
 Soup map_coordinates(Random& random) {
   const double distance = random.magnitude(5, 45);
-  return moved(soup(random), random.in_cube() * distance);
+  const Soup near = soup(random);
+  return moved(near, random.in_cube() * distance);
 }
 
 // Bits fall off by doubling the angle to the point where all meet.
@@ -195,6 +201,21 @@ Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z
 Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Vec3 operator*(const Vec3& a, double factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
 
+std::array<double, 2> on_circle(double turn) {
+  const double quarters = 4 * turn, whole = std::floor(quarters), t = quarters - whole;
+  const double x = (1 - t * t) / (1 + t * t), y = 2 * t / (1 + t * t);
+  switch (static_cast<int>(whole) & 3) {
+    case 0:
+      return {x, y};
+    case 1:
+      return {-y, x};
+    case 2:
+      return {-x, -y};
+    default:
+      return {y, -x};
+  }
+}
+
 Soup scaled(Soup triangles, double factor) {
   for (Corners& triangle : triangles)
     for (Vec3& corner : triangle) corner = corner * factor;
@@ -229,13 +250,15 @@ Vec3 nasty_query(Random& random, std::span<const Corners> triangles, double size
     case 2:
       return (triangle[0] + triangle[1]) * 0.5;
     case 3:
-      return corner + random.in_cube() * (size * random.magnitude(0, 50));
+      return corner + random.in_some_cube(0, 50) * size;
     case 4:
       return corner + random.in_cube() * size;
     case 5:
       return point_on(random, triangle);
-    default:
-      return point_on(random, triangle) + random.in_cube() * (size * random.magnitude(-60, 0));
+    default: {
+      const Vec3 on = point_on(random, triangle);
+      return on + random.in_some_cube(-60, 0) * size;
+    }
   }
 }
 

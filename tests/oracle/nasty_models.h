@@ -26,6 +26,10 @@ Vec3 operator+(const Vec3& a, const Vec3& b);
 Vec3 operator-(const Vec3& a, const Vec3& b);
 Vec3 operator*(const Vec3& a, double factor);
 
+/// A point of the unit circle, all around from turn 0 to 1, not quite evenly: by
+/// arithmetic alone, because sines may differ from machine to machine.
+std::array<double, 2> on_circle(double turn);
+
 /// Every corner times `factor`.
 Soup scaled(Soup triangles, double factor);
 /// Every corner plus `offset`.

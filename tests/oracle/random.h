@@ -9,7 +9,9 @@
 
 namespace planetree::oracle {
 
-/// Numbers that are the same everywhere (SplitMix64).
+/// Numbers that are the same everywhere (SplitMix64), as long as no two are asked
+/// for in one expression: compilers differ in what they evaluate first. Braces
+/// are evaluated in order.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -25,10 +27,27 @@ class Random {
   double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
   double either_sign() { return between(-1, 1); }
-  /// Of any order of magnitude between 2^low and 2^high.
-  double magnitude(double low, double high) { return std::exp2(between(low, high)); }
+  /// Of any order of magnitude between 2^low and 2^high; a power of two by
+  /// arithmetic alone, with straight lines between the whole ones.
+  double magnitude(double low, double high) {
+    const double exponent = between(low, high), whole = std::floor(exponent);
+    return std::ldexp(1 + (exponent - whole), static_cast<int>(whole));
+  }
+  double signed_magnitude(double low, double high) {
+    const double sign = either_sign();
+    return sign * magnitude(low, high);
+  }
   bool one_in(std::size_t count) { return below(count) == 0; }
-  Vec3 in_cube() { return {either_sign(), either_sign(), either_sign()}; }
+  Vec3 in_cube() {
+    const double x = either_sign(), y = either_sign(), z = either_sign();
+    return {x, y, z};
+  }
+  /// In a cube of any order of magnitude.
+  Vec3 in_some_cube(double low, double high) {
+    const Vec3 at = in_cube();
+    const double size = magnitude(low, high);
+    return {at.x * size, at.y * size, at.z * size};
+  }
 
  private:
   std::uint64_t state_;

@@ -25,7 +25,8 @@ struct NastyModel {
 // Scales so far out that squares of coordinates overflow or underflow.
 double nasty_scale(Random& random) {
   constexpr double kExponents[] = {0, 0, -996, 500, -300, 37};
-  return std::ldexp(random.between(1, 2), static_cast<int>(kExponents[random.below(6)]));
+  const double fraction = random.between(1, 2);
+  return std::ldexp(fraction, static_cast<int>(kExponents[random.below(6)]));
 }
 
 NastyModel nasty_model(Random& random, const NastyFamily& family) {

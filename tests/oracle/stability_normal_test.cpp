@@ -29,7 +29,7 @@ void expect_normals(const Soup& triangles, double size, int count) {
   for (int i = 0; i < count; ++i) {
     const Corners& t = triangles[random.below(triangles.size())];
     const Vec3 at = random.one_in(2) ? t[random.below(3)] : (t[0] + t[1]) * 0.5;
-    expect_sound(model, at + random.in_cube() * (size * random.magnitude(-30, 4)));
+    expect_sound(model, at + random.in_some_cube(-30, 4) * size);
   }
 }
 
@@ -108,6 +108,20 @@ TEST(StabilityNormal, SubdividedFlatFace) {
     expect_direction(left.ask(query).normal, found);
   }
   expect_direction(left.ask({2, 2, 2}).normal, {1, 1, 1});
+}
+
+// From beyond where doubles can measure, normals turn as they do from near.
+TEST(StabilityNormal, FarQueriesOfAnInsideOutModel) {
+  const Soup solid = ball(2);
+  BuiltModel outward(solid), inward(inside_out(solid));
+  const Vec3 ways[] = {{1, 0.25, 0.125}, {-0.5, 1, 0.25}, {-0.25, -0.5, -1}};
+  for (const Vec3& way : ways)
+    for (const double far : {1e3, 1e80, 1e92, 1e200, 1e308}) {
+      const ClosestPoint left = outward.ask(way * far), right = inward.ask(way * far);
+      EXPECT_GT(dot(left.normal, way), 0) << far;
+      EXPECT_GT(dot(right.normal, way), 0) << far;
+      EXPECT_EQ(left.side, Side::kOutside);
+    }
 }
 
 // The sum is zero: the first face speaks.

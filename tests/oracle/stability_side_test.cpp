@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -136,6 +137,27 @@ TEST(StabilitySide, UlpGridAboutAFace) {
   EXPECT_GT(on, 10);
 }
 
+// A model and lattice of the smallest number there is.
+TEST(StabilitySide, NearTheSmallestNumbers) {
+  const double unit = 0x1p-1074;
+  const auto at = [unit](int x, int y, int z) { return Vec3{x * unit, y * unit, z * unit}; };
+  BuiltModel model(tetrahedron(at(0, 0, 0), at(0, 4, 0), at(4, 0, 0), at(0, 0, 4)));
+  ASSERT_TRUE(model.model().info().watertight());
+  int inside = 0;
+  for (int x = -1; x <= 5; ++x)
+    for (int y = -1; y <= 5; ++y)
+      for (int z = -1; z <= 5; ++z) {
+        const int least = std::min({x, y, z}), sum = x + y + z;
+        const Side expected = least < 0 || sum > 4     ? Side::kOutside
+                              : least == 0 || sum == 4 ? Side::kOnSurface
+                                                       : Side::kInside;
+        EXPECT_EQ(side_of(model, at(x, y, z)), expected) << x << ' ' << y << ' ' << z;
+        EXPECT_EQ(expect_sound(model, at(x, y, z)).side, expected);
+        inside += expected == Side::kInside;
+      }
+  EXPECT_EQ(inside, 1);
+}
+
 // Outside, and all but in the plane of a face.
 TEST(StabilitySide, NearlyCoplanarOutside) {
   const Soup solid = tetrahedron({0, 0, 0}, {0, 1, 1e-9}, {1, 0, 1e-9}, {0.2, 0.2, 1});
@@ -143,7 +165,7 @@ TEST(StabilitySide, NearlyCoplanarOutside) {
   Random random(34);
   for (int i = 0; i < 300; ++i)
     expect_side(model, {random.between(-0.5, 1.5), random.between(-0.5, 1.5),
-                        random.either_sign() * random.magnitude(-60, -28)});
+                        random.signed_magnitude(-60, -28)});
 }
 
 TEST(StabilitySide, CentreOfASphere) {

@@ -44,8 +44,10 @@ Case random_case(Random& random, const NastyFamily& family) {
 }
 
 Case beside(Random& random, Case at) {
-  for (std::size_t changes = 1 + random.below(2); changes > 0; --changes)
-    at[random.below(12)] *= 1 + random.either_sign() * random.magnitude(-52, -20);
+  for (std::size_t changes = 1 + random.below(2); changes > 0; --changes) {
+    double& changed = at[random.below(12)];
+    changed *= 1 + random.signed_magnitude(-52, -20);
+  }
   return at;
 }
 

@@ -9,11 +9,10 @@
 #include <numbers>
 
 #include "tests/oracle/random.h"
+#include "tests/oracle/whole_number.h"
 
 namespace planetree::oracle {
 namespace {
-
-using Rational = boost::multiprecision::cpp_rational;
 
 template <class T>
 using Triple = std::array<T, 3>;
@@ -51,8 +50,17 @@ int volume_sign(const Difference& u, const Difference& v, const Difference& w) {
   const long double error = 16 * 0x1p-64L * magnitude(a, b, c);
   if (std::fabs(found) > error && std::isfinite(error) && error > 0x1p-16000L)
     return found > 0 ? 1 : -1;
-  const auto exact = [](const Difference& d) { return from_to<Rational>(d.from, d.to); };
-  return volume(exact(u), exact(v), exact(w)).sign();
+  int exponent = std::numeric_limits<int>::max();
+  for (const Difference* d : {&u, &v, &w})
+    exponent = std::min({exponent, last_exponent(d->from), last_exponent(d->to)});
+  const auto exact = [exponent](const Difference& d) {
+    const auto along = [exponent](double from, double to) {
+      return Integer(whole(to, exponent) - whole(from, exponent));
+    };
+    return Triple<Integer>{along(d.from.x, d.to.x), along(d.from.y, d.to.y),
+                           along(d.from.z, d.to.z)};
+  };
+  return volume<Integer>(exact(u), exact(v), exact(w)).sign();
 }
 
 enum class Pass { kMisses, kBackwards, kForwards, kOnIt, kUnclear };

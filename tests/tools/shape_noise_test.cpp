@@ -9,14 +9,14 @@
 namespace planetree::tools {
 namespace {
 
-constexpr std::uint64_t kSeed = 7;
+constexpr std::uint64_t kNoiseSeed = 7;
 
 TEST(FractalNoise, IsContinuousAndBounded) {
-  const FractalNoise noise(kSeed, 1.5);
+  const FractalNoise noise(kNoiseSeed, 1.5);
   double least = 0, greatest = 0;
   for (std::uint64_t sample = 0; sample < 5000; ++sample) {
     const auto coordinate = [&](std::uint64_t axis) {
-      return 2 * random_unit(kSeed, 3 * sample + axis) - 1;
+      return 2 * random_unit(kNoiseSeed, 3 * sample + axis) - 1;
     };
     const Vec3 p = {coordinate(0), coordinate(1), coordinate(2)};
     const double here = noise.at(p);
@@ -34,7 +34,7 @@ TEST(FractalNoise, IsContinuousAndBounded) {
 TEST(RandomUnit, FillsTheIntervalEvenly) {
   std::array<int, 16> bins{};
   for (std::uint64_t counter = 0; counter < 16'000; ++counter) {
-    const double value = random_unit(kSeed, counter);
+    const double value = random_unit(kNoiseSeed, counter);
     ASSERT_TRUE(value >= 0 && value < 1);
     ++bins[static_cast<std::size_t>(value * 16)];
   }

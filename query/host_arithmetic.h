@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cfenv>
+#include <cstdint>
+
+namespace planetree::query {
+
+/// What a host thread told its processor to do with floating point, put aside:
+/// while this object lives, results are rounded to nearest, subnormal numbers
+/// are numbers and nothing traps. Without it a thread that rounds another way or
+/// flushes to zero, as audio and haptic threads do, would get other bits, and
+/// one that traps would die of an inexact result. Every way into the library
+/// that computes holds one.
+///
+/// cost     reads one register where the thread has asked for nothing.
+/// threads  of this thread alone; end it on the thread that made it.
+class HostArithmetic {
+ public:
+#if defined(__SSE2__)
+  HostArithmetic() noexcept : before_(__builtin_ia32_stmxcsr()) {
+    if ((before_ & ~kFlags) != kDefault) __builtin_ia32_ldmxcsr(kDefault);
+  }
+  ~HostArithmetic() {
+    if ((before_ & ~kFlags) != kDefault) __builtin_ia32_ldmxcsr(before_);
+  }
+#else
+  HostArithmetic() noexcept { std::fegetenv(&before_), std::fesetenv(FE_DFL_ENV); }
+  ~HostArithmetic() { std::fesetenv(&before_); }
+#endif
+  HostArithmetic(const HostArithmetic&) = delete;
+  HostArithmetic& operator=(const HostArithmetic&) = delete;
+
+ private:
+#if defined(__SSE2__)
+  static constexpr std::uint32_t kFlags = 0x3f;      ///< what has happened so far
+  static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, and no more
+  std::uint32_t before_;
+#else
+  std::fenv_t before_;
+#endif
+};
+
+}  // namespace planetree::query
