@@ -100,7 +100,7 @@ Result<void> TreeBuild::read_model() {
 void TreeBuild::balance() {
   progress_.progress(BuildPhase::kClosing, 0, 1);
   edges_ = balance_edges(mesh_);
-  shape_.moments = !edges_.closed();
+  shape_.moments = edges_.open_edges > 0;
   progress_.progress(BuildPhase::kClosing, 1, 1);
 }
 
