@@ -59,7 +59,8 @@ TEST_F(FileCheck, TellsWhatKindOfFileItIs) {
             Codes{"NOT_PLANETREE"});
   EXPECT_EQ(codes_of(check(Bytes{})), Codes{"NOT_PLANETREE"});
   auto newer = image();
-  newer.change_header([](storage::FileHeader& header) { header.version = 3; });
+  newer.change_header(
+      [](storage::FileHeader& header) { header.version = storage::kFormatVersion + 1; });
   newer.seal_header();
   EXPECT_EQ(codes_of(check(newer.bytes())), Codes{"FORMAT_UNSUPPORTED"});
   auto featured = image();
