@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "octree/bounds.h"
 #include "octree/moments.h"
+#include "octree/vector3.h"
 #include "tools/frame_view.h"
 
 namespace planetree::tools {
@@ -68,7 +67,9 @@ bool moments_fit(const Bounds& stated, const octree::BlockView& block, const Poi
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     octree::Triangle e = block.triangle(i);
     for (Point& corner : e) corner = (corner - centre) - middle;
-    const Point vector = 0.5 * (e[1] - e[0]).cross(e[2] - e[0]);
+    const auto twice = octree::cross(octree::difference<double>(e[1], e[0]),
+                                     octree::difference<double>(e[2], e[0]));
+    const Point vector = 0.5 * Point(twice[0], twice[1], twice[2]);
     const Point sum = e[0] + e[1] + e[2];
     const double area = vector.norm();
     expected.vector += vector;

@@ -78,7 +78,7 @@ TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
                         ErrorCode::kUnsupported, "0x20");
   // Another version may have another header.
   FileImage image = good();
-  image.change_header([](FileHeader& h) { h.version = 4; });
+  image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
   expect_refused(image, ErrorCode::kUnsupported, "version 4");
 }
