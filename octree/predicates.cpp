@@ -24,6 +24,15 @@ int sign_of(double value) { return value > 0 ? 1 : -1; }
 bool same_bits(const Point& a, const Point& b) {
   return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
 }
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Whether the points lie in one plane across an axis, as faces of boxes do.
+bool in_axis_plane(const Point& a, const Point& b, const Point& c, const Point& d) {
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if (same_bits(a[axis], b[axis]) && same_bits(a[axis], c[axis]) && same_bits(a[axis], d[axis]))
+      return true;
+  return false;
+}
 
 }  // namespace
 
@@ -41,6 +50,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
   if (std::fabs(volume) > kOrientationFilter * permanent + flushed(largest)) return sign_of(volume);
   // By far the most frequent of the rest: a vertex of the triangle itself.
   if (same_bits(d, a) || same_bits(d, b) || same_bits(d, c)) return 0;
+  if (in_axis_plane(a, b, c, d)) return 0;
   return exact_orientation(a, b, c, d);
 }
 
@@ -52,6 +62,9 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   const double largest = std::max((b - a).cwiseAbs().maxCoeff(), (c - a).cwiseAbs().maxCoeff());
   if (std::fabs(area) > kNormalFilter * (std::fabs(left) + std::fabs(right)) + flushed(largest))
     return sign_of(area);
+  if ((same_bits(b[i], a[i]) || same_bits(c[j], a[j])) &&
+      (same_bits(b[j], a[j]) || same_bits(c[i], a[i])))
+    return 0;
   return exact_normal_sign(a, b, c, axis);
 }
 

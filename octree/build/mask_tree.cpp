@@ -41,13 +41,15 @@ struct GreyCell {
 
 using Octants = std::array<GreyCell, 8>;
 
-/// As crossing(), but most triangles are told apart by their boxes.
+/// As crossing(), but most triangles are told apart by their boxes. Steps lead
+/// up along every axis, so that a triangle no higher than the segment is below
+/// it: such are those in the sides of cells, which take long to tell otherwise.
 std::int64_t crossing_if_near(const MovedSegment& segment, const Triangle& triangle) {
   const auto& [a, b, c] = triangle;
   const Point least = segment.from.cwiseMin(segment.to);
   const Point greatest = segment.from.cwiseMax(segment.to);
   const bool near = (a.cwiseMin(b).cwiseMin(c).array() <= greatest.array()).all() &&
-                    (a.cwiseMax(b).cwiseMax(c).array() >= least.array()).all();
+                    (a.cwiseMax(b).cwiseMax(c).array() > least.array()).all();
   return near ? crossing(segment, triangle) : 0;
 }
 

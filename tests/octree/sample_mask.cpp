@@ -154,6 +154,15 @@ Soup copies(const Soup& soup, std::size_t count) {
   return all;
 }
 
+Soup shells(std::size_t count) {
+  Soup all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Soup one = scaled(sphere(2), 1 - 0.002 * static_cast<double>(i));
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return all;
+}
+
 Surface::Surface(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   for (const auto& [a, b, c] : triangles_) {
     Box box{};

@@ -23,6 +23,8 @@ Soup moved(Soup soup, const Vec3& by);
 Soup scaled(Soup soup, double factor);
 Soup joined(std::initializer_list<Soup> soups);
 Soup copies(const Soup& soup, std::size_t count);
+/// `count` spheres, each a little smaller than the one before: radius 1 to 1 - 0.002 `count`.
+Soup shells(std::size_t count);
 
 /// All triangles of a closed surface, looked at one by one.
 class Surface {
