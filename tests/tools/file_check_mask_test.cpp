@@ -69,8 +69,9 @@ class FileCheckOfMasks : public testing::Test {
     return codes;
   }
   // Found with --full, and not looked for without.
-  void expect_found(const char* code, const std::function<bool(const RawMaskPage&)>& fits,
-                    const Change& change) {
+  template <class Find>
+  void expect_found(const char* code, const Find& find, const Change& change) {
+    const auto fits = [&](const RawMaskPage& page) { return static_cast<bool>(find(page)); };
     EXPECT_EQ(codes_of_change(boxes(), fits, change), Codes{code});
     EXPECT_EQ(codes_of_change(boxes(), fits, change, false), Codes{});
   }
