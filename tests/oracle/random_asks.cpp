@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <cstdio>
 #include <span>
 
@@ -94,9 +95,18 @@ class Judge {
 
   void judge_side(const Vec3& query, const ClosestPoint& answer, AskTally& tally) {
     const Containment alone = model_.built.probe().contains(query);
-    const Side expected = watertight_ ? true_side(query) : Side::kUnknown;
-    tally.sides += watertight_;
-    tally.side += answer.side != expected || alone.side != expected;
+    const std::optional<Side> expected = watertight_ ? true_side(query) : open_side(query);
+    tally.sides += expected.has_value();
+    tally.side += alone.side != answer.side || (expected && answer.side != *expected);
+  }
+
+  // Nothing where the winding number is too near one half to tell.
+  std::optional<Side> open_side(const Vec3& query) const {
+    const OpenWinding winding = open_winding(in_frame(query), in_frame_);
+    if (winding.on_surface) return Side::kOnSurface;
+    const long double size = std::fabs(winding.value);
+    if (std::fabs(size - 0.5L) < 1e-3L) return std::nullopt;
+    return size > 0.5L ? Side::kInside : Side::kOutside;
   }
 
   void judge_normal(const Vec3& query, const ClosestPoint& a, AskTally& tally) const {
@@ -113,6 +123,7 @@ class Judge {
       ++tally.normals;
     }
     tally.normal += !good;
+    if (!good && getenv("PN")) fprintf(stderr,"NORMAL %s wt %d feature %d\n", words(query,a).c_str(), int(watertight_), int(a.feature));
   }
 
   std::string words(const Vec3& query, const ClosestPoint& a) const {
