@@ -15,16 +15,26 @@
 namespace planetree::octree {
 namespace {
 
-// A square of `side`^2 pairs of triangles from `at`, along u and v.
-void add_square(const Vec3& at, const Vec3& u, const Vec3& v, unsigned side, Soup& soup) {
-  const auto place = [&](unsigned i, unsigned j) {
-    const double s = static_cast<double>(i) / side, t = static_cast<double>(j) / side;
-    return Vec3{at.x + s * u.x + t * v.x, at.y + s * u.y + t * v.y, at.z + s * u.z + t * v.z};
+// Part `i` of `side` of the way, the same number wherever it is asked for.
+double part(double from, double to, unsigned i, unsigned side) {
+  return i == side ? to : from + (to - from) * i / side;
+}
+
+// The face of a box across `axis`, its normal upward along it.
+void add_face(const Vec3& l, const Vec3& u, unsigned axis, double at, unsigned side, Soup& soup) {
+  const double lower[] = {l.x, l.y, l.z}, upper[] = {u.x, u.y, u.z};
+  const unsigned j = (axis + 1) % 3, k = (axis + 2) % 3;
+  const auto place = [&](unsigned m, unsigned n) {
+    double p[3];
+    p[axis] = at;
+    p[j] = part(lower[j], upper[j], m, side);
+    p[k] = part(lower[k], upper[k], n, side);
+    return Vec3{p[0], p[1], p[2]};
   };
-  for (unsigned i = 0; i < side; ++i)
-    for (unsigned j = 0; j < side; ++j) {
-      soup.push_back({place(i, j), place(i + 1, j), place(i + 1, j + 1)});
-      soup.push_back({place(i, j), place(i + 1, j + 1), place(i, j + 1)});
+  for (unsigned m = 0; m < side; ++m)
+    for (unsigned n = 0; n < side; ++n) {
+      soup.push_back({place(m, n), place(m + 1, n), place(m + 1, n + 1)});
+      soup.push_back({place(m, n), place(m + 1, n + 1), place(m, n + 1)});
     }
 }
 
@@ -97,15 +107,13 @@ class RandomMask {
 }  // namespace
 
 Soup box(const Vec3& l, const Vec3& u, unsigned side) {
-  const Vec3 x{u.x - l.x, 0, 0}, y{0, u.y - l.y, 0}, z{0, 0, u.z - l.z};
-  Soup soup;
-  add_square(l, y, x, side, soup);
-  add_square(l, x, z, side, soup);
-  add_square(l, z, y, side, soup);
-  add_square({l.x, l.y, u.z}, x, y, side, soup);
-  add_square({l.x, u.y, l.z}, z, x, side, soup);
-  add_square({u.x, l.y, l.z}, y, z, side, soup);
-  return soup;
+  Soup low, high;
+  const double lower[] = {l.x, l.y, l.z}, upper[] = {u.x, u.y, u.z};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    add_face(l, u, axis, lower[axis], side, low);
+    add_face(l, u, axis, upper[axis], side, high);
+  }
+  return joined({inside_out(low), high});
 }
 
 Soup grains(std::size_t count, double edge, std::uint64_t seed) {

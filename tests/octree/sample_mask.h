@@ -99,4 +99,18 @@ class MaskPages {
   std::vector<std::uint32_t> asked_;
 };
 
+/// What a frame of a mask page holds.
+inline const MaskHeader& header_of(const SampleFrame& frame) {
+  return *reinterpret_cast<const MaskHeader*>(frame.data());
+}
+
+inline const std::byte* slot_of(const SampleFrame& frame, std::uint32_t slot) {
+  return frame.data() + slot * kMaskSlotBytes;
+}
+
+inline bool is_node(const SampleFrame& frame, std::uint32_t slot) {
+  const auto* bits = reinterpret_cast<const std::uint64_t*>(frame.data() + sizeof(MaskHeader));
+  return (bits[slot / 64] >> slot % 64 & 1) != 0;
+}
+
 }  // namespace planetree::octree

@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "octree/mask_decoder.h"
+#include "octree/mask_lookup.h"
+#include "octree/mask_streams.h"
+#include "tests/octree/sample_mask.h"
+
+// Mask pages of any bits at all: refused, or harmless.
+namespace planetree::octree {
+namespace {
+
+class MaskDamage : public testing::TestWithParam<bool> {
+ protected:
+  MaskDamage() : pages_(random_mask(10), 4096, 5, GetParam()) {}
+
+  MaskPages pages_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Planes, MaskDamage, testing::Bool());
+
+TEST_P(MaskDamage, TakesNoPageThatIsCutShort) {
+  const std::uint32_t page = 1;
+  const std::vector<std::byte>& raw = pages_.raw(page);
+  SampleFrame frame(4096);
+  for (std::size_t length = 0; length < raw.size(); ++length) {
+    // In bytes of its own, so that a sanitizer sees what is read beyond.
+    const std::vector<std::byte> cut(raw.begin(),
+                                     raw.begin() + static_cast<std::ptrdiff_t>(length));
+    ASSERT_FALSE(decode_mask_page(cut, pages_.facts(page), frame.bytes())) << length;
+  }
+}
+
+TEST_P(MaskDamage, TakesNoPageOfNoise) {
+  const std::uint32_t page = 1;
+  Noise noise(6);
+  SampleFrame frame(4096);
+  for (int i = 0; i < 500; ++i) {
+    std::vector<std::byte> raw(noise.bits() % 3000);
+    for (std::byte& byte : raw) byte = static_cast<std::byte>(noise.bits());
+    EXPECT_FALSE(decode_mask_page(raw, pages_.facts(page), frame.bytes()));
+    // An honest head before it.
+    if (raw.size() < sizeof(MaskPageHead)) continue;
+    std::copy_n(pages_.raw(page).begin(), sizeof(MaskPageHead), raw.begin());
+    raw.resize(pages_.raw(page).size());
+    EXPECT_FALSE(decode_mask_page(raw, pages_.facts(page), frame.bytes()));
+  }
+}
+
+// What changed bits leave of a mask is refused or can be asked.
+TEST_P(MaskDamage, SurvivesAnyBit) {
+  Noise noise(7);
+  int refused = 0, taken = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const std::uint32_t page = i % 2 == 0 ? 0 : 1;
+    std::vector<std::byte> raw = pages_.raw(page);
+    for (unsigned k = 0; k <= noise.bits() % 3; ++k)
+      raw[noise.bits() % raw.size()] ^= std::byte{1} << noise.bits() % 8;
+    SampleFrame frame(4096);
+    if (!decode_mask_page(raw, pages_.facts(page), frame.bytes())) {
+      ++refused;
+      continue;
+    }
+    ++taken;
+    struct Changed {
+      PageReader others;
+      std::uint32_t number;
+      const std::byte* frame;
+    } changed{pages_.reader(), 5 + page, frame.data()};
+    const PageReader reader{
+        &changed, [](void* context, std::uint32_t number) noexcept -> const std::byte* {
+          const auto& pages = *static_cast<Changed*>(context);
+          return number == pages.number ? pages.frame
+                                        : pages.others.page(pages.others.context, number);
+        }};
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 p = noise.point(0, 2);
+      TreeWork work;
+      look_up(pages_.mask(Point::Zero()), {p.x, p.y, p.z}, 100, reader, work);
+      EXPECT_LE(work.nodes, kLevels);
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(taken, 100);
+}
+
+}  // namespace
+}  // namespace planetree::octree
