@@ -21,10 +21,10 @@ namespace {
 
 /// Cells that fewer touch are not divided further.
 constexpr std::size_t kFewTriangles = 48;
-/// Nor are those whose triangles would be listed so many times over in their
-/// octants: they are larger than the cell, and smaller cells would not tell them
-/// apart.
-constexpr std::size_t kMostCopies = 3;
+/// Nor are those whose triangles have been listed so many times over, in octants
+/// of octants, since their number last halved: they are larger than the cell or
+/// coincide, and smaller cells would not tell them apart.
+constexpr double kMostCopies = 3;
 /// A special cell pays for its planes by so many triangles each.
 constexpr std::size_t kTrianglesPerPlane = 12;
 constexpr std::size_t kMostSpecialTriangles = 4096;
@@ -37,6 +37,8 @@ struct GreyCell {
   GridCell cell;
   std::vector<std::uint32_t> triangles;  ///< positions; all that may touch it
   std::int64_t winding = 0;              ///< at its least corner
+  std::size_t halved = 0;                ///< triangles when their number last halved
+  double copies = 1;                     ///< of each triangle since
 };
 
 using Octants = std::array<GreyCell, 8>;
@@ -73,6 +75,7 @@ class MaskBuild {
     outside.x() = std::min(corner.x() - 1, std::nextafter(corner.x(), -kInfinity));
     root.winding = count_crossings_of({corner, outside}, root.triangles);
     MaskTree tree;
+    root.halved = root.triangles.size();
     tree.entries.resize(1);
     grow(std::move(root), tree, 0);
     return tree;
@@ -95,15 +98,27 @@ class MaskBuild {
     if (count <= kFewTriangles || grey.cell.level == kLevels)
       return make_corners(grey, tree, place);
     Octants octants = divide(grey);
-    std::size_t copies = 0;
-    for (const GreyCell& octant : octants) copies += octant.triangles.size();
-    if (copies > kMostCopies * count) return make_corners(grey, tree, place);
+    if (!worthwhile(grey, octants)) return make_corners(grey, tree, place);
     grey.triangles = {};
     make_node(octants, tree, place);
     if (count >= kParallelTriangles)
       grow_apart(octants, tree, place);
     else
       grow_in_place(octants, tree, place);
+  }
+
+  // Whether octants tell triangles apart; if so, hands on by how much.
+  static bool worthwhile(const GreyCell& grey, Octants& octants) {
+    std::size_t listed = 0;
+    for (const GreyCell& octant : octants) listed += octant.triangles.size();
+    const double copies =
+        grey.copies * static_cast<double>(listed) / static_cast<double>(grey.triangles.size());
+    for (GreyCell& octant : octants) {
+      const bool halved = octant.triangles.size() <= grey.halved / 2;
+      octant.halved = halved ? octant.triangles.size() : grey.halved;
+      octant.copies = halved ? 1 : copies;
+    }
+    return copies <= kMostCopies;
   }
 
   Octants divide(const GreyCell& grey) const {

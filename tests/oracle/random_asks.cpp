@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <cstdio>
+#include <optional>
 #include <span>
 
 #include "tests/oracle/closed_models.h"
@@ -123,7 +123,9 @@ class Judge {
       ++tally.normals;
     }
     tally.normal += !good;
-    if (!good && getenv("PN")) fprintf(stderr,"NORMAL %s wt %d feature %d\n", words(query,a).c_str(), int(watertight_), int(a.feature));
+    if (!good && getenv("PN"))
+      fprintf(stderr, "NORMAL %s wt %d feature %d\n", words(query, a).c_str(), int(watertight_),
+              int(a.feature));
   }
 
   std::string words(const Vec3& query, const ClosestPoint& a) const {
