@@ -114,7 +114,9 @@ class Judge {
     const Vec3 way = query - a.point;
     // Not the length, which may overflow.
     const double reach = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
-    if ((a.side == Side::kInside || a.side == Side::kOutside) && std::isfinite(reach) &&
+    // What has no area has no normal.
+    const bool told = a.normal.x != 0 || a.normal.y != 0 || a.normal.z != 1;
+    if (told && (a.side == Side::kInside || a.side == Side::kOutside) && std::isfinite(reach) &&
         a.triangle < model_.built.triangles().size() &&
         reach > 1e-9 * largest_coordinate(model_.built.triangles()[a.triangle])) {
       const Vec3 direction{way.x / reach, way.y / reach, way.z / reach};
@@ -123,9 +125,6 @@ class Judge {
       ++tally.normals;
     }
     tally.normal += !good;
-    if (!good && getenv("PN"))
-      fprintf(stderr, "NORMAL %s wt %d feature %d\n", words(query, a).c_str(), int(watertight_),
-              int(a.feature));
   }
 
   std::string words(const Vec3& query, const ClosestPoint& a) const {

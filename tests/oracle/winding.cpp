@@ -149,7 +149,8 @@ OpenWinding open_winding(const Vec3& query, std::span<const Corners> triangles) 
     std::array<Triple<long double>, 3> d;
     if (directions(query, t, d)) {
       const long double width = width_of(d), height = volume(d[0], d[1], d[2]);
-      if (std::fabs(height) > 1e-17L && std::hypot(width, height) > 1e-3L) {
+      // Of a triangle far aside the angle is small, and so is its error.
+      if (width > 1e-3L || (std::fabs(height) > 1e-17L && std::hypot(width, height) > 1e-3L)) {
         sum += std::atan2(height, width);
         continue;
       }
