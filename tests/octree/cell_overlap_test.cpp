@@ -262,7 +262,7 @@ double gap_along(const Point& axis, const Pair& pair) {
 TEST(CellOverlap, TellsApartAlongEachOfThirteenAxes) {
   std::array<int, 13> told{};
   Noise noise(3);
-  for (int i = 0; i < 12000; ++i) {
+  for (int i = 0; i < 40000; ++i) {
     const Pair pair = random_pair(noise);
     const auto axes = axes_of(pair.triangle);
     unsigned separating = 0, last = 0;

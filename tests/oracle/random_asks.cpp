@@ -102,7 +102,9 @@ class Judge {
 
   // Nothing where the winding number is too near one half to tell.
   std::optional<Side> open_side(const Vec3& query) const {
-    const OpenWinding winding = open_winding(in_frame(query), in_frame_);
+    const Vec3 at = in_frame(query);
+    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) return Side::kOutside;
+    const OpenWinding winding = open_winding(at, in_frame_);
     if (winding.on_surface) return Side::kOnSurface;
     const long double size = std::fabs(winding.value);
     if (std::fabs(size - 0.5L) < 1e-3L) return std::nullopt;
