@@ -77,7 +77,7 @@ TEST(Why, RefusesWhatIsNoPoint) {
     EXPECT_FALSE(parse_point(text)) << text;
     EXPECT_EQ(run({"inspect", kBoxes, "--why", text}).status, 2) << text;
   }
-  EXPECT_EQ(run({"inspect", "nowhere.ptree", "--why", "1,2,3"}).status, 1);
+  EXPECT_EQ(run({"inspect", "nowhere.ptree", "--why", "1,2,3"}).status, 2);
 }
 
 TEST(Why, InspectCountsColoursByLevel) {
