@@ -37,6 +37,12 @@ struct MaskHeader {
 };
 static_assert(sizeof(MaskHeader) == 64);
 
+/// Whether the record in a slot of a frame is a node.
+inline bool is_mask_node(const std::byte* frame, std::uint32_t slot) {
+  const auto* nodes = reinterpret_cast<const std::uint64_t*>(frame + sizeof(MaskHeader));
+  return (nodes[slot / 64] >> slot % 64 & 1) != 0;
+}
+
 /// An octant of which all four bits are 0 is white.
 struct MaskNode {
   std::uint32_t family;   ///< link to the first grey child; 0 if there is none

@@ -20,7 +20,7 @@ class MaskRecords {
     turn_to(0, work);
     return frame_ ? slot(header().first_record_slot) : nullptr;
   }
-  bool root_is_node() const { return is_node(header().first_record_slot); }
+  bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
 
   /// The record of a grey octant; null if its page cannot be had or does not
   /// hold what the node says.
@@ -34,7 +34,7 @@ class MaskRecords {
     turn_to(page, work);
     if (!frame_ || at < header().first_record_slot ||
         at >= std::uint32_t{header().first_record_slot} + header().record_count ||
-        is_node(at) == leaf)
+        is_mask_node(frame_, at) == leaf)
       return nullptr;
     return slot(at);
   }
@@ -43,10 +43,6 @@ class MaskRecords {
 
  private:
   const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
-  bool is_node(std::uint32_t slot) const {
-    const auto* nodes = reinterpret_cast<const std::uint64_t*>(frame_ + sizeof(MaskHeader));
-    return (nodes[slot / 64] >> slot % 64 & 1) != 0;
-  }
   void turn_to(std::uint32_t page, TreeWork& work) {
     if (frame_ && page == page_) return;
     ++work.page_turns;
@@ -65,10 +61,8 @@ class MaskRecords {
 void ask_planes(const MaskSpecial& special, const double* planes, const Point& point,
                 MaskFinding& finding) {
   bool beyond = false, moved_beyond = false, on_plane = false;
-  for (unsigned i = 0; i < special.plane_count; ++i, planes += kPlaneSlots) {
-    const Triangle plane{Point(planes[0], planes[1], planes[2]),
-                         Point(planes[3], planes[4], planes[5]),
-                         Point(planes[6], planes[7], planes[8])};
+  for (unsigned i = 0; i < special.plane_count; ++i) {
+    const Triangle plane = mask_plane(planes, i);
     const int side = orientation(plane[0], plane[1], plane[2], point);
     beyond = beyond || side > 0;
     on_plane = on_plane || side == 0;

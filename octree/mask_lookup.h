@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "octree/cell_grid.h"
@@ -15,6 +16,12 @@ struct MaskFacts {
   std::uint32_t page_count = 0;  ///< 0: the model has no mask
   Point lower = Point::Zero();   ///< least corner of the model's box, model frame
 };
+
+/// One of the planes that lie side by side behind a page's records.
+inline Triangle mask_plane(const double* planes, unsigned index) {
+  const double* at = planes + std::size_t{kPlaneSlots} * index;
+  return {Point(at[0], at[1], at[2]), Point(at[3], at[4], at[5]), Point(at[6], at[7], at[8])};
+}
 
 /// What the mask knows of a point.
 struct MaskFinding {

@@ -125,18 +125,8 @@ class Asking {
     if (standing_.status == Status::kDegraded) degrade();
   }
 
-  /// The query; from beyond octree::kFarthestQuery, where it may be infinite in
-  /// the frame, a point on the way there.
-  octree::Point near_point() const {
-    if (point_.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) return point_;
-    const double largest =
-        std::max({std::fabs(query_.x), std::fabs(query_.y), std::fabs(query_.z)});
-    return octree::Point(query_.x / largest, query_.y / largest, query_.z / largest) *
-           octree::kFarthestQuery;
-  }
-
   void find_normal() {
-    const ContactNormal contact = contact_normal(model_.tree(), near_point(), nearest_, standing_,
+    const ContactNormal contact = contact_normal(model_.tree(), point_, nearest_, standing_,
                                                  nodes_left(), turner_.pages(), work_);
     answer_.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
     if (!contact.complete) degrade();

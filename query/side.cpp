@@ -16,11 +16,6 @@ namespace {
 
 using octree::Point;
 
-bool outside_box(const octree::TreeFacts& tree, const Point& point) {
-  return (point.array() < tree.box_lower.array()).any() ||
-         (point.array() > tree.box_upper.array()).any();
-}
-
 /// One search for the side of a point, and what it may still spend.
 class SideSearch {
  public:

@@ -10,6 +10,12 @@
 
 namespace planetree::query {
 
+/// Whether a point, model frame, is strictly outside of a model's box.
+inline bool outside_box(const octree::TreeFacts& tree, const octree::Point& point) {
+  return (point.array() < tree.box_lower.array()).any() ||
+         (point.array() > tree.box_upper.array()).any();
+}
+
 /// The ways straight out of a model's box along the axes, the shortest first.
 class WaysOut {
  public:

@@ -9,6 +9,7 @@
 #include "octree/build/cell_overlap.h"
 #include "octree/build/special_cell.h"
 #include "octree/crossings.h"
+#include "octree/mask_lookup.h"
 #include "octree/strict_math.h"
 #include "query/pager.h"
 #include "query/ways_out.h"
@@ -42,12 +43,8 @@ octree::SpecialCell claim_of(const GreyCell& grey) {
   claim.plane_count = grey.special->plane_count;
   claim.behind = grey.special->behind;
   claim.beyond = grey.special->beyond;
-  const double* at = grey.planes;
   for (unsigned i = 0; i < claim.plane_count; ++i)
-    for (Point& corner : claim.planes[i]) {
-      corner = {at[0], at[1], at[2]};
-      at += 3;
-    }
+    claim.planes[i] = octree::mask_plane(grey.planes, i);
   return claim;
 }
 
@@ -133,9 +130,7 @@ std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned co
 
 std::optional<std::int64_t> MaskProof::recount(const Point& point) {
   const octree::TreeFacts& tree = model_->tree();
-  if ((point.array() < tree.box_lower.array()).any() ||
-      (point.array() > tree.box_upper.array()).any())
-    return 0;
+  if (query::outside_box(tree, point)) return 0;
   query::PageTurner turner(reader_);
   octree::TreeWork work;
   const query::WaysOut ways(tree, point);

@@ -24,10 +24,7 @@ class MaskWalk::Page {
   std::uint32_t first_slot() const { return header().first_record_slot; }
   std::uint32_t end_slot() const { return first_slot() + header().record_count; }
   const std::byte* slot(std::uint32_t at) const { return frame_ + at * octree::kMaskSlotBytes; }
-  bool is_node(std::uint32_t at) const {
-    const auto* bits = reinterpret_cast<const std::uint64_t*>(frame_ + sizeof(octree::MaskHeader));
-    return (bits[at / 64] >> at % 64 & 1) != 0;
-  }
+  bool is_node(std::uint32_t at) const { return octree::is_mask_node(frame_, at); }
   /// The cell of the record in a slot, once known.
   std::optional<GridCell>& cell(std::uint32_t at) { return cells_[at - first_slot()]; }
 
