@@ -9,6 +9,7 @@
 #include "octree/mask_decoder.h"
 #include "octree/mask_lookup.h"
 #include "octree/mask_streams.h"
+#include "tests/fuzz/fuzz_frame.h"
 
 /// Decodes any bytes as the pages of a small mask and looks points up in it.
 ///
@@ -25,26 +26,6 @@ constexpr std::uint8_t kFloat64 = 1;
 constexpr std::uint8_t kLargePages = 4;
 constexpr std::uint32_t kFirstPage = 3;
 constexpr std::uint32_t kPageCount = 64;
-
-// Lengths are exact, so that the sanitizer sees one byte too far.
-class Frame {
- public:
-  explicit Frame(std::uint32_t page_bytes)
-      : page_bytes_(page_bytes),
-        bytes_(static_cast<std::byte*>(std::aligned_alloc(kSlotBytes, page_bytes))) {
-    if (!bytes_) std::abort();
-    std::memset(bytes_, 0xa5, page_bytes);
-  }
-  ~Frame() { std::free(bytes_); }
-  Frame(const Frame&) = delete;
-  Frame& operator=(const Frame&) = delete;
-
-  std::span<std::byte> bytes() { return {bytes_, page_bytes_}; }
-
- private:
-  std::uint32_t page_bytes_;
-  std::byte* bytes_;
-};
 
 struct Pages {
   Frame* first;

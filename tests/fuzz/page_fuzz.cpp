@@ -10,6 +10,7 @@
 #include "octree/page_decoder.h"
 #include "octree/page_streams.h"
 #include "octree/winding_number.h"
+#include "tests/fuzz/fuzz_frame.h"
 
 /// Decodes any bytes as the pages of a small file and asks the tree they make.
 ///
@@ -29,27 +30,6 @@ constexpr std::uint8_t kLargePages = 4;
 constexpr std::uint8_t kRootIsBlock = 8;
 constexpr std::uint8_t kMoments = 16;
 constexpr std::uint32_t kPageCount = 64;
-
-// Lengths are exact, so that the sanitizer sees one byte too far.
-class Frame {
- public:
-  explicit Frame(std::uint32_t page_bytes)
-      : page_bytes_(page_bytes),
-        bytes_(static_cast<std::byte*>(std::aligned_alloc(kSlotBytes, page_bytes))) {
-    if (!bytes_) std::abort();
-    std::memset(bytes_, 0xa5, page_bytes);
-  }
-  ~Frame() { std::free(bytes_); }
-  Frame(const Frame&) = delete;
-  Frame& operator=(const Frame&) = delete;
-
-  std::span<std::byte> bytes() { return {bytes_, page_bytes_}; }
-  const FrameHeader& header() const { return *reinterpret_cast<const FrameHeader*>(bytes_); }
-
- private:
-  std::uint32_t page_bytes_;
-  std::byte* bytes_;
-};
 
 struct Pages {
   Frame* root;

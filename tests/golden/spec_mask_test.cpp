@@ -18,21 +18,13 @@
 
 #include "tests/golden/samples.h"
 #include "tests/golden/spec_tree.h"
+#include "tests/golden/spec_vector.h"
 
 namespace planetree::golden {
 namespace {
 
-SpecPoint minus(const SpecPoint& a, const SpecPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const SpecPoint& a, const SpecPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double volume(const SpecPoint& a, const SpecPoint& b, const SpecPoint& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
+  return dot(a, cross(b, c));
 }
 
 constexpr std::string_view kOpenMesh = "sheet.obj";
@@ -55,8 +47,8 @@ class SpecMasks : public testing::TestWithParam<Sample> {
   std::optional<int> winding(const SpecPoint& point) const {
     double sum = 0;
     for (const SpecTriangle& triangle : triangles_) {
-      const SpecPoint a = minus(triangle.corners[0], point), b = minus(triangle.corners[1], point),
-                      c = minus(triangle.corners[2], point);
+      const SpecPoint a = triangle.corners[0] - point, b = triangle.corners[1] - point,
+                      c = triangle.corners[2] - point;
       const double al = std::sqrt(dot(a, a)), bl = std::sqrt(dot(b, b)), cl = std::sqrt(dot(c, c));
       sum += 2 * std::atan2(volume(a, b, c),
                             al * bl * cl + dot(a, b) * cl + dot(b, c) * al + dot(c, a) * bl);
@@ -191,8 +183,7 @@ TEST_P(SpecMasks, SpecialCellsAreTwoWindingNumbers) {
       if (!number) continue;
       bool beyond = false;
       for (const SpecPlane& plane : record.planes)
-        beyond = beyond || volume(minus(plane[1], plane[0]), minus(plane[2], plane[0]),
-                                  minus(point, plane[0])) > 0;
+        beyond = beyond || volume(plane[1] - plane[0], plane[2] - plane[0], point - plane[0]) > 0;
       EXPECT_EQ(*number, beyond ? record.beyond : record.behind);
     }
   });

@@ -7,20 +7,10 @@
 #include <queue>
 #include <utility>
 
+#include "tests/golden/spec_vector.h"
+
 namespace planetree::golden {
 namespace {
-
-SpecPoint operator-(const SpecPoint& a, const SpecPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-SpecPoint cross(const SpecPoint& a, const SpecPoint& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const SpecPoint& a, const SpecPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 double distance_to_segment(const SpecPoint& p, const SpecPoint& a, const SpecPoint& b) {
   const SpecPoint ab = b - a, ap = p - a;

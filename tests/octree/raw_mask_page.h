@@ -7,6 +7,7 @@
 
 #include "octree/build/stream_writer.h"
 #include "octree/mask_streams.h"
+#include "tests/octree/stream_list.h"
 
 namespace planetree::octree {
 
@@ -66,14 +67,6 @@ struct RawMaskPage {
     else
       writer.shuffled(std::vector<float>(planes.begin(), planes.end()));
     return writer.take();
-  }
-
- private:
-  template <class T>
-  static std::vector<T> list(const Shuffled<T>& stream) {
-    std::vector<T> values;
-    for (std::size_t i = 0; i < stream.size(); ++i) values.push_back(stream[i]);
-    return values;
   }
 };
 

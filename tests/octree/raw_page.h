@@ -8,6 +8,7 @@
 #include "octree/build/stream_writer.h"
 #include "octree/page_streams.h"
 #include "octree/raw_streams.h"
+#include "tests/octree/stream_list.h"
 
 namespace planetree::octree {
 
@@ -85,14 +86,6 @@ struct RawPage {
     writer.shuffled(first_ids);
     writer.shuffled(id_steps);
     return writer.take();
-  }
-
- private:
-  template <class T>
-  static std::vector<T> list(const Shuffled<T>& stream) {
-    std::vector<T> values;
-    for (std::size_t i = 0; i < stream.size(); ++i) values.push_back(stream[i]);
-    return values;
   }
 };
 
