@@ -1,15 +1,17 @@
 #include "bench/embree_peer.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <unordered_map>
 
 #include <embree3/rtcore.h>
 
 namespace planetree::bench {
 namespace {
+
+// What a ray brings along.
+struct HitCount : RTCIntersectContext {
+  unsigned hits = 0;
+};
 
 struct Float3 {
   float x, y, z;
@@ -42,13 +44,11 @@ Float3 nearest_on_triangle(Float3 p, Float3 a, Float3 b, Float3 c) {
   return a + vb * scale * ab + vc * scale * ac;
 }
 
-struct VertexHash {
-  std::size_t operator()(const std::array<float, 3>& v) const {
-    std::size_t hash = 0;
-    for (const float value : v) hash = hash * 1000003 ^ std::hash<float>()(value);
-    return hash;
-  }
-};
+// Counts a hit and lets the ray go on.
+void count_hit(const RTCFilterFunctionNArguments* arguments) {
+  arguments->valid[0] = 0;
+  ++static_cast<HitCount*>(arguments->context)->hits;
+}
 
 bool count_bytes(void* total, std::ptrdiff_t bytes, bool) {
   *static_cast<std::int64_t*>(total) += bytes;
@@ -58,61 +58,60 @@ bool count_bytes(void* total, std::ptrdiff_t bytes, bool) {
 }  // namespace
 
 struct EmbreePeer::Scene {
-  RTCDevice device = nullptr;
+  explicit Scene(const PeerMesh& mesh);
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  Float3 corner(unsigned triangle, unsigned k) const {
+    const float* const at = &positions[3 * std::size_t{corners[3 * std::size_t{triangle} + k]}];
+    return {at[0], at[1], at[2]};
+  }
+
+  std::vector<float> positions;
+  std::vector<std::uint32_t> corners;
+  RTCDevice device = rtcNewDevice("threads=1");
   RTCScene scene = nullptr;
-  std::vector<Float3> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::int64_t bytes = 0;
+  std::int64_t bytes = 0;  // that Embree says it holds
 };
 
-EmbreePeer::EmbreePeer(const std::vector<float>& corners) : scene_(std::make_unique<Scene>()) {
-  std::unordered_map<std::array<float, 3>, std::uint32_t, VertexHash> index;
-  index.reserve(corners.size() / 12);
-  for (std::size_t i = 0; i < corners.size(); i += 9) {
-    std::array<std::uint32_t, 3> triangle;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::array<float, 3> v{corners[i + 3 * k], corners[i + 3 * k + 1],
-                                   corners[i + 3 * k + 2]};
-      const auto next = static_cast<std::uint32_t>(scene_->vertices.size());
-      const auto [at, is_new] = index.try_emplace(v, next);
-      if (is_new) scene_->vertices.push_back({v[0], v[1], v[2]});
-      triangle[k] = at->second;
-    }
-    scene_->triangles.push_back(triangle);
-  }
-  scene_->vertices.push_back({0, 0, 0});  // Embree reads 16 bytes a vertex
-  scene_->device = rtcNewDevice("threads=1");
-  rtcSetDeviceMemoryMonitorFunction(scene_->device, count_bytes, &scene_->bytes);
-  scene_->scene = rtcNewScene(scene_->device);
-  rtcSetSceneBuildQuality(scene_->scene, RTC_BUILD_QUALITY_MEDIUM);
-  RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+EmbreePeer::Scene::Scene(const PeerMesh& mesh) : positions(mesh.positions), corners(mesh.corners) {
+  const std::size_t vertices = positions.size() / 3;
+  positions.push_back(0);  // Embree reads 16 bytes a vertex
+  rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
+  scene = rtcNewScene(device);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                             scene_->vertices.data(), 0, sizeof(Float3),
-                             scene_->vertices.size() - 1);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             scene_->triangles.data(), 0, 12, scene_->triangles.size());
+                             positions.data(), 0, 12, vertices);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(),
+                             0, 12, mesh.triangles());
+  rtcSetGeometryIntersectFilterFunction(geometry, count_hit);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_->scene, geometry);
+  rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene_->scene);
+  rtcCommitScene(scene);
 }
 
-EmbreePeer::~EmbreePeer() {
-  rtcReleaseScene(scene_->scene);
-  rtcReleaseDevice(scene_->device);
+EmbreePeer::Scene::~Scene() {
+  rtcReleaseScene(scene);
+  rtcReleaseDevice(device);
 }
 
-double EmbreePeer::distance(const Vec3& query) const {
+EmbreePeer::EmbreePeer(const PeerMesh& mesh) : scene_(std::make_unique<Scene>(mesh)) {}
+EmbreePeer::~EmbreePeer() = default;
+
+double EmbreePeer::distance(const Vec3& query) {
   RTCPointQuery point{static_cast<float>(query.x), static_cast<float>(query.y),
                       static_cast<float>(query.z), 0, std::numeric_limits<float>::infinity()};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
     const auto& scene = *static_cast<const Scene*>(arguments->userPtr);
-    const auto& triangle = scene.triangles[arguments->primID];
+    const unsigned triangle = arguments->primID;
     const Float3 p{arguments->query->x, arguments->query->y, arguments->query->z};
     const Float3 nearest = nearest_on_triangle(
-        p, scene.vertices[triangle[0]], scene.vertices[triangle[1]], scene.vertices[triangle[2]]);
+        p, scene.corner(triangle, 0), scene.corner(triangle, 1), scene.corner(triangle, 2));
     const Float3 off = p - nearest;
     const float distance = std::sqrt(dot(off, off));
     if (!(distance < arguments->query->radius)) return false;
@@ -123,9 +122,21 @@ double EmbreePeer::distance(const Vec3& query) const {
   return point.radius;
 }
 
-std::uint64_t EmbreePeer::bytes() const {
-  return static_cast<std::uint64_t>(scene_->bytes) + scene_->vertices.size() * sizeof(Float3) +
-         scene_->triangles.size() * 12;
+std::uint64_t EmbreePeer::mapped_bytes() const { return static_cast<std::uint64_t>(scene_->bytes); }
+
+bool EmbreePeer::inside(const Vec3& query) {
+  HitCount context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit ray{};
+  ray.ray.org_x = static_cast<float>(query.x);
+  ray.ray.org_y = static_cast<float>(query.y);
+  ray.ray.org_z = static_cast<float>(query.z);
+  ray.ray.dir_z = 1;
+  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_->scene, &context, &ray);
+  return context.hits % 2 == 1;
 }
 
 }  // namespace planetree::bench

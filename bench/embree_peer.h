@@ -1,23 +1,19 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <vector>
-
-#include "planetree/types.h"
+#include "bench/peer.h"
 
 namespace planetree::bench {
 
-/// Embree 3's point queries over a mesh held in memory: the peer.
-class EmbreePeer {
+/// Embree 3: its point query for distances, the parity of all hits of a ray for sides.
+class EmbreePeer final : public Peer {
  public:
-  /// Nine coordinates a triangle.
-  explicit EmbreePeer(const std::vector<float>& corners);
-  ~EmbreePeer();
+  explicit EmbreePeer(const PeerMesh& mesh);
+  ~EmbreePeer() override;
 
-  double distance(const Vec3& query) const;
-  /// Memory Embree says it holds, the shared vertices and indices included.
-  std::uint64_t bytes() const;
+  [[nodiscard]] std::string name() const override { return "Embree"; }
+  double distance(const Vec3& query) override;
+  bool inside(const Vec3& query) override;
+  [[nodiscard]] std::uint64_t mapped_bytes() const override;
 
  private:
   struct Scene;

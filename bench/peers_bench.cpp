@@ -1,38 +1,29 @@
-// Times per ask beside Embree 3 on one mesh, both warm, on one pinned core.
-// usage: peers_bench MESH MODEL.ptree [QUERIES] [ROUNDS]
+// Times per ask beside the peers on one mesh, all warm, on one pinned core.
 
 #include <sched.h>
 
 #include <cmath>
-#include <cstdlib>
+#include <fstream>
 #include <iostream>
-#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "bench/embree_peer.h"
+#include "bench/peer.h"
 #include "bench/rounds.h"
 #include "bench/workloads.h"
-#include "octree/build/mesh_reader.h"
 #include "planetree/planetree.h"
 
 namespace planetree::bench {
 namespace {
 
-class CornerList final : public octree::TriangleSink {
- public:
-  Result<void> triangle(std::uint64_t, const std::array<Vec3, 3>& corners) override {
-    for (const Vec3& corner : corners)
-      for (const double value : {corner.x, corner.y, corner.z})
-        values.push_back(static_cast<float>(value));
-    return {};
-  }
-  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) override {}
-  void progress(std::uint64_t, std::uint64_t) override {}
-
-  std::vector<float> values;
+struct Options {
+  std::string mesh, model, json;
+  std::vector<std::string> peers{"embree", "cgal"};
+  std::vector<std::string> workloads;  // all when empty
+  std::size_t asks = 20000, rounds = 5;
 };
 
 // The last core: the first takes the system's interrupts.
@@ -48,66 +39,128 @@ void pin_to_last_core() {
   sched_setaffinity(0, sizeof chosen, &chosen);
 }
 
+// One thing that is asked, of planetree or of a peer, and what it is asked for.
+struct Asked {
+  std::string who, what;  // "distance", "side", "all parts"
+  Contender ask;
+};
+
+std::vector<Asked> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers, bool watertight) {
+  std::vector<Asked> all;
+  all.push_back({"planetree", "distance", [&](const Vec3& query) {
+                   return probe.closest_point(query, {.parts = kDistance}).distance;
+                 }});
+  all.push_back({"planetree", "all parts",
+                 [&](const Vec3& query) { return probe.closest_point(query).distance; }});
+  all.push_back({"planetree", "side", [&](const Vec3& query) {
+                   return probe.contains(query).side != Side::kOutside ? 1.0 : 0.0;
+                 }});
+  for (BuiltPeer& built : peers) {
+    Peer& peer = *built.peer;
+    all.push_back({peer.name(), "distance", [&](const Vec3& q) { return peer.distance(q); }});
+    if (peer.tells_sides() && watertight)
+      all.push_back(
+          {peer.name(), "side", [&](const Vec3& q) { return peer.inside(q) ? 1.0 : 0.0; }});
+  }
+  return all;
+}
+
+class Comparison {
+ public:
+  Comparison(const Options& options, Probe& probe, const ModelInfo& info,
+             std::vector<BuiltPeer>& peers)
+      : options_(options),
+        info_(info),
+        asked_(contenders_of(probe, peers, info.watertight())),
+        surface_([&](const Vec3& query) { return probe.closest_point(query); }) {}
+
+  nlohmann::json run(Workload workload) {
+    const std::vector<Vec3> queries =
+        make_queries(workload, {info_.box_lower, info_.box_upper}, surface_, options_.asks, 1);
+    std::vector<Contender> contenders;
+    for (const Asked& asked : asked_) contenders.push_back(asked.ask);
+    const std::vector<Timing> timings = take_turns(contenders, queries, options_.rounds);
+    nlohmann::json rows = nlohmann::json::array();
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+      // Peers are held against planetree's way to the same thing.
+      const std::size_t ours = asked_[i].what == "side" ? 2 : 0;
+      const Latency latency = latency_of(asked_[i].ask, queries);
+      rows.push_back({{"workload", name_of(workload)},
+                      {"asked", asked_[i].what},
+                      {"of", asked_[i].who},
+                      {"ns", timings[i].median_ns},
+                      {"times_ours", timings[i].median_ns / timings[ours].median_ns},
+                      {"sum_differs", std::fabs(timings[i].checksum - timings[ours].checksum)},
+                      {"p999_ns", latency.p999_ns},
+                      {"max_ns", latency.max_ns}});
+      print(rows.back());
+    }
+    return rows;
+  }
+
+ private:
+  static void print(const nlohmann::json& row) {
+    fmt::print("{:<10}{:<11}{:<10}{:>10.0f}{:>8.2f}{:>11.2g}{:>10.0f}{:>10.0f}\n",
+               row["workload"].get<std::string>(), row["asked"].get<std::string>(),
+               row["of"].get<std::string>(), row["ns"].get<double>(),
+               row["times_ours"].get<double>(), row["sum_differs"].get<double>(),
+               row["p999_ns"].get<double>(), row["max_ns"].get<double>());
+  }
+
+  const Options& options_;
+  const ModelInfo& info_;
+  std::vector<Asked> asked_;
+  SurfaceOf surface_;
+};
+
+nlohmann::json describe(const Model& model, const std::vector<BuiltPeer>& peers) {
+  const auto triangles = static_cast<double>(model.info().triangles);
+  nlohmann::json report{{"triangles", model.info().triangles},
+                        {"file_bytes", model.info().file_bytes}};
+  report["bytes_per_triangle"]["planetree"] =
+      static_cast<double>(model.stats().arena_bytes) / triangles;
+  fmt::print("{} triangles\n{:<10}{:>6.1f} bytes a triangle\n", model.info().triangles, "planetree",
+             report["bytes_per_triangle"]["planetree"].get<double>());
+  for (const BuiltPeer& built : peers) {
+    const double bytes = static_cast<double>(built.bytes) / triangles;
+    report["bytes_per_triangle"][built.peer->name()] = bytes;
+    report["build_s"][built.peer->name()] = built.build_s;
+    fmt::print("{:<10}{:>6.1f} bytes a triangle, built in {:.1f} s\n", built.peer->name(), bytes,
+               built.build_s);
+  }
+  return report;
+}
+
+bool chosen(const Options& options, Workload workload) {
+  const auto& names = options.workloads;
+  return names.empty() || std::find(names.begin(), names.end(), name_of(workload)) != names.end();
+}
+
 int fail(const Error& error) {
   std::cerr << "peers_bench: " << error.text << '\n';
   return 1;
 }
 
-int run(const char* mesh, const char* file, std::size_t count, std::size_t rounds) {
-  CornerList corners;
-  if (const auto read = octree::read_mesh(mesh, corners); !read) return fail(read.error());
-  OpenOptions options;
-  options.memory_budget_bytes = std::uint64_t{64} << 30;
-  auto model = Model::open(file, options);
+int run(const Options& options) {
+  const auto mesh = read_peer_mesh(options.mesh.c_str());
+  if (!mesh) return fail(mesh.error());
+  auto peers = build_peers(options.peers, *mesh);
+  if (!peers) return fail(peers.error());
+  const auto model = Model::open(options.model, {.memory_budget_bytes = std::uint64_t{64} << 30});
   if (!model) return fail(model.error());
   auto probe = Probe::create(*model);
   if (!probe) return fail(probe.error());
   pin_to_last_core();
-  const EmbreePeer embree(corners.values);
-  const ModelInfo& info = model->info();
-  const double triangles = static_cast<double>(info.triangles);
 
-  const Ask distance_alone{.parts = kDistance};
-  const SurfaceOf surface = [&](const Vec3& query) {
-    return probe->closest_point(query, distance_alone);
-  };
-  const std::vector<AskDistance> contenders = {
-      [&](const Vec3& query) { return probe->closest_point(query, distance_alone).distance; },
-      [&](const Vec3& query) { return embree.distance(query); },
-      [&](const Vec3& query) { return probe->closest_point(query).distance; },
-      [&](const Vec3& query) { return probe->contains(query).side == Side::kInside ? 1.0 : 0.0; }};
-  nlohmann::json report;
-  report["triangles"] = info.triangles;
-  report["bytes_per_triangle"] = {
-      {"planetree", static_cast<double>(model->stats().arena_bytes) / triangles},
-      {"embree", static_cast<double>(embree.bytes()) / triangles}};
-  fmt::print("{} triangles; {:.1f} bytes a triangle in memory, Embree {:.1f}\n", info.triangles,
-             report["bytes_per_triangle"]["planetree"].get<double>(),
-             report["bytes_per_triangle"]["embree"].get<double>());
-  fmt::print("{:<10}{:>14}{:>14}{:>10}{:>16}{:>16}{:>14}\n", "workload", "planetree ns",
-             "Embree ns", "times", "sums differ by", "all parts ns", "side ns");
-  for (const Workload workload :
-       {Workload::kUniform, Workload::kNear, Workload::kPath, Workload::kContact}) {
-    const Box box{info.box_lower, info.box_upper};
-    const std::vector<Vec3> queries = make_queries(workload, box, surface, count, 1);
-    const std::vector<Timing> timings = take_turns(contenders, queries, rounds);
-    const double ratio = timings[1].median_ns / timings[0].median_ns;
-    const double differ = std::fabs(timings[1].checksum - timings[0].checksum) /
-                          static_cast<double>(count) / box.diagonal();
-    fmt::print("{:<10}{:>14.0f}{:>14.0f}{:>10.2f}{:>16.1e}{:>16.0f}{:>14.0f}\n", name_of(workload),
-               timings[0].median_ns, timings[1].median_ns, ratio, differ, timings[2].median_ns,
-               timings[3].median_ns);
-    report["workloads"][name_of(workload)] = {{"planetree_ns", timings[0].median_ns},
-                                              {"embree_ns", timings[1].median_ns},
-                                              {"times_faster", ratio},
-                                              {"all_parts_ns", timings[2].median_ns},
-                                              {"side_ns", timings[3].median_ns}};
-  }
-  if (const char* path = std::getenv("PLANETREE_BENCH_JSON"))
-    if (FILE* out = std::fopen(path, "w")) {
-      fmt::print(out, "{}\n", report.dump(2));
-      std::fclose(out);
-    }
+  nlohmann::json report = describe(*model, *peers);
+  report["rows"] = nlohmann::json::array();
+  fmt::print("{:<10}{:<11}{:<10}{:>10}{:>8}{:>11}{:>10}{:>10}\n", "points", "asked", "of", "ns",
+             "times", "sums off", "p99.9", "max");
+  Comparison comparison(options, *probe, model->info(), *peers);
+  for (const Workload workload : kWorkloads)
+    if (chosen(options, workload))
+      for (nlohmann::json& row : comparison.run(workload)) report["rows"].push_back(std::move(row));
+  if (!options.json.empty()) std::ofstream(options.json) << report.dump(2) << '\n';
   return 0;
 }
 
@@ -115,11 +168,19 @@ int run(const char* mesh, const char* file, std::size_t count, std::size_t round
 }  // namespace planetree::bench
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::cerr << "usage: peers_bench MESH MODEL.ptree [QUERIES] [ROUNDS]\n";
-    return 2;
-  }
-  const std::size_t count = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 20000;
-  const std::size_t rounds = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 5;
-  return planetree::bench::run(argv[1], argv[2], count, rounds);
+  planetree::bench::Options options;
+  CLI::App app{"Times per ask of planetree and of peers that hold the mesh in memory"};
+  app.add_option("mesh", options.mesh, "Mesh that the peers load")->required();
+  app.add_option("model", options.model, "Its tree, by planetree build")->required();
+  app.add_option("--peers", options.peers, "embree, cgal, fcl")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--workloads", options.workloads, "uniform, near, path, contact, teleport, medial")
+      ->delimiter(',');
+  app.add_option("--asks", options.asks, "Points a workload")->capture_default_str();
+  app.add_option("--rounds", options.rounds, "Rounds in turn; their median counts")
+      ->capture_default_str();
+  app.add_option("--json", options.json, "File for all figures");
+  CLI11_PARSE(app, argc, argv);
+  return planetree::bench::run(options);
 }

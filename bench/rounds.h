@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <ctime>
 #include <functional>
@@ -8,17 +9,23 @@
 
 #include "planetree/types.h"
 
-/// Two programs taking turns on the same queries, so that whatever else the
-/// machine does falls on both.
+/// Contenders that take turns on the same queries, so that whatever else the
+/// machine does falls on all of them.
 namespace planetree::bench {
 
-/// Nanoseconds per ask of each contender, median over rounds.
+/// Nanoseconds per ask of a contender, median over rounds.
 struct Timing {
   double median_ns = 0;
-  double checksum = 0;  ///< sum of distances of the last round
+  double checksum = 0;  ///< sum of answers of the last round
 };
 
-/// Processor time of this process: both contenders are one thread that never
+/// Of single asks of one more round, by the wall clock.
+struct Latency {
+  double p999_ns = 0;
+  double max_ns = 0;
+};
+
+/// Processor time of this process: contenders are one thread that never
 /// waits, and others on the machine do not count.
 inline double processor_ns() {
   timespec time{};
@@ -26,9 +33,10 @@ inline double processor_ns() {
   return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
 }
 
-using AskDistance = std::function<double(const Vec3&)>;
+/// Asks one thing of one point, and makes a number of the answer.
+using Contender = std::function<double(const Vec3&)>;
 
-inline double time_once(const AskDistance& ask, const std::vector<Vec3>& queries, double& sum) {
+inline double time_once(const Contender& ask, const std::vector<Vec3>& queries, double& sum) {
   sum = 0;
   const double start = processor_ns();
   for (const Vec3& query : queries) sum += ask(query);
@@ -36,7 +44,7 @@ inline double time_once(const AskDistance& ask, const std::vector<Vec3>& queries
 }
 
 /// Runs every contender once to warm up, then `rounds` times in turn.
-inline std::vector<Timing> take_turns(const std::vector<AskDistance>& contenders,
+inline std::vector<Timing> take_turns(const std::vector<Contender>& contenders,
                                       const std::vector<Vec3>& queries, std::size_t rounds) {
   std::vector<std::vector<double>> times(contenders.size());
   std::vector<Timing> timings(contenders.size());
@@ -51,6 +59,22 @@ inline std::vector<Timing> take_turns(const std::vector<AskDistance>& contenders
     timings[i].median_ns = times[i][rounds / 2];
   }
   return timings;
+}
+
+inline Latency latency_of(const Contender& ask, const std::vector<Vec3>& queries) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<double> times;
+  times.reserve(queries.size());
+  double sum = 0;
+  for (const Vec3& query : queries) {
+    const auto start = Clock::now();
+    sum += ask(query);
+    times.push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count());
+  }
+  volatile double kept = sum;
+  static_cast<void>(kept);
+  std::sort(times.begin(), times.end());
+  return {.p999_ns = times[times.size() - 1 - times.size() / 1000], .max_ns = times.back()};
 }
 
 }  // namespace planetree::bench

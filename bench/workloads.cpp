@@ -1,5 +1,6 @@
 #include "bench/workloads.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -44,6 +45,27 @@ class QueryMaker {
     return points;
   }
 
+  std::vector<Vec3> jumps(std::size_t count, std::size_t length, double step) {
+    std::vector<Vec3> points;
+    while (points.size() < count) {
+      const std::vector<Vec3> piece = path(std::min(length, count - points.size()), step);
+      points.insert(points.end(), piece.begin(), piece.end());
+    }
+    return points;
+  }
+
+  // Inwards from a surface point for as long as it stays the nearest.
+  Vec3 medial() {
+    const ClosestPoint from = surface_(uniform());
+    double near = 0, far = box_.diagonal();
+    for (int i = 0; i < 40; ++i) {
+      const double middle = (near + far) / 2;
+      const double distance = surface_(from.point - from.normal * middle).distance;
+      (distance < middle * (1 - 1e-9) ? far : near) = middle;
+    }
+    return from.point - from.normal * near;
+  }
+
  private:
   double around() { return std::uniform_real_distribution<double>(-0.1, 1.1)(random_); }
   double sway() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
@@ -67,6 +89,10 @@ std::string name_of(Workload workload) {
       return "path";
     case Workload::kContact:
       return "contact";
+    case Workload::kTeleport:
+      return "teleport";
+    case Workload::kMedial:
+      return "medial";
   }
   return "";
 }
@@ -74,10 +100,21 @@ std::string name_of(Workload workload) {
 std::vector<Vec3> make_queries(Workload workload, const Box& box, const SurfaceOf& surface,
                                std::size_t count, std::uint64_t seed) {
   QueryMaker maker(box, surface, seed);
-  if (workload == Workload::kPath) return maker.path(count, 0.0005);
-  if (workload == Workload::kContact) return maker.path(count, 0.00005);
+  switch (workload) {
+    case Workload::kPath:
+      return maker.path(count, 0.0005);
+    case Workload::kContact:
+      return maker.path(count, 0.00005);
+    case Workload::kTeleport:
+      return maker.jumps(count, 50, 0.00005);
+    default:
+      break;
+  }
   std::vector<Vec3> queries(count);
-  for (Vec3& query : queries) query = workload == Workload::kNear ? maker.near() : maker.uniform();
+  for (Vec3& query : queries)
+    query = workload == Workload::kNear     ? maker.near()
+            : workload == Workload::kMedial ? maker.medial()
+                                            : maker.uniform();
   return queries;
 }
 

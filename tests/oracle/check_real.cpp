@@ -1,8 +1,8 @@
 // Holds the answers on real meshes against CGAL and brute force.
 // usage: check_real FOLDER [FOLDER] [NAME...]
-// NAME is a mesh of kMeshes, without .ply; default: all. A mesh is looked for
-// in the folders, then in planetree-data in the temporary folder. Exit status 1
-// if any answer is wrong or a mesh is missing.
+// NAME is a mesh without .ply; default: those of kMeshes and every other in the
+// folders. A mesh is looked for in the folders, then in planetree-data in the
+// temporary folder. Exit status 1 if any answer is wrong or a mesh is missing.
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -250,6 +251,16 @@ fs::path find_mesh(const std::vector<fs::path>& folders, std::string_view name) 
   return {};
 }
 
+// The real meshes, whether they are there or not, and all others that are.
+std::vector<std::string> all_names(const std::vector<fs::path>& folders) {
+  std::set<std::string> names(std::begin(kMeshes), std::end(kMeshes));
+  for (const fs::path& folder : folders)
+    if (fs::is_directory(folder))
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".ply") names.insert(entry.path().stem());
+  return {names.begin(), names.end()};
+}
+
 bool check_mesh(const std::vector<fs::path>& folders, std::string_view name) {
   const fs::path path = find_mesh(folders, name);
   if (path.empty()) {
@@ -266,7 +277,7 @@ bool check_mesh(const std::vector<fs::path>& folders, std::string_view name) {
 
 int run(int count, char** arguments) {
   std::vector<fs::path> folders;
-  std::vector<std::string_view> names;
+  std::vector<std::string> names;
   for (int i = 1; i < count; ++i) {
     if (fs::is_directory(arguments[i]))
       folders.emplace_back(arguments[i]);
@@ -278,12 +289,12 @@ int run(int count, char** arguments) {
     return 2;
   }
   folders.push_back(fs::temp_directory_path() / "planetree-data");
-  if (names.empty()) names.assign(std::begin(kMeshes), std::end(kMeshes));
+  if (names.empty()) names = all_names(folders);
   std::printf("%-28s %9s %6s %8s %6s | misses: %s\n", "mesh", "triangles", "thin", "queries",
               "sides",
               "status distance interval triangle ties sides paging; error/allowed, MiB at 32 MiB");
   bool good = true;
-  for (const std::string_view name : names) good &= check_mesh(folders, name);
+  for (const std::string& name : names) good &= check_mesh(folders, name);
   std::printf(good ? "all answers are right\n" : "some answers are wrong\n");
   return good ? 0 : 1;
 }

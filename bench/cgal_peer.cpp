@@ -1,0 +1,70 @@
+#include "bench/cgal_peer.h"
+
+#include <cmath>
+#include <optional>
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+
+namespace planetree::bench {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
+using AabbTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+Mesh surface_of(const PeerMesh& mesh) {
+  Mesh surface;
+  const auto point = [&](std::uint32_t vertex) {
+    const float* const position = &mesh.positions[3 * std::size_t{vertex}];
+    return Point(position[0], position[1], position[2]);
+  };
+  for (std::uint32_t i = 0; i < mesh.positions.size() / 3; ++i) surface.add_vertex(point(i));
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+    const std::uint32_t a = mesh.corners[i], b = mesh.corners[i + 1], c = mesh.corners[i + 2];
+    const auto face =
+        surface.add_face(Mesh::Vertex_index(a), Mesh::Vertex_index(b), Mesh::Vertex_index(c));
+    // One that a manifold has no room for stands alone.
+    if (face == Mesh::null_face())
+      surface.add_face(surface.add_vertex(point(a)), surface.add_vertex(point(b)),
+                       surface.add_vertex(point(c)));
+  }
+  return surface;
+}
+
+}  // namespace
+
+class CgalPeer::Tree {
+ public:
+  explicit Tree(const PeerMesh& mesh) : surface_(surface_of(mesh)) {
+    tree_.insert(faces(surface_).first, faces(surface_).second, surface_);
+    tree_.build();
+    tree_.accelerate_distance_queries();
+    side_.emplace(tree_);
+  }
+
+  double distance(const Point& query) const { return std::sqrt(tree_.squared_distance(query)); }
+  bool inside(const Point& query) const { return (*side_)(query) != CGAL::ON_UNBOUNDED_SIDE; }
+
+ private:
+  Mesh surface_;
+  AabbTree tree_;
+  std::optional<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side_;  // of a built tree
+};
+
+CgalPeer::CgalPeer(const PeerMesh& mesh) : tree_(std::make_unique<Tree>(mesh)) {}
+CgalPeer::~CgalPeer() = default;
+
+double CgalPeer::distance(const Vec3& query) {
+  return tree_->distance(Point(query.x, query.y, query.z));
+}
+
+bool CgalPeer::inside(const Vec3& query) { return tree_->inside(Point(query.x, query.y, query.z)); }
+
+}  // namespace planetree::bench
