@@ -47,6 +47,13 @@ class Reader {
     return frames_ + frame * stride_bytes_;
   }
 
+  /// As find(), for a glance: counts and marks nothing.
+  const std::byte* peek(std::uint32_t page) const noexcept {
+    assert(inside());
+    const std::uint32_t frame = map_.find(page);
+    return frame == kNoFrame ? nullptr : frames_ + frame * stride_bytes_;
+  }
+
   /// Inside a section: ends it, makes the page resident, begins another and
   /// returns the page's frame; nullptr if the page is unreadable. All pointers
   /// found before are invalid.

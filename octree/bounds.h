@@ -86,6 +86,12 @@ inline constexpr double kFilterSlack = 0x1p-13;
 /// Blocks smaller than this have squares that float cannot hold.
 inline constexpr float kLeastFilterExtent = 0x1p-40f;
 
+/// A triangle of this filter value is at most so far away.
+inline double filter_upper(float squared, float block_extent) {
+  const double value = std::sqrt(static_cast<double>(squared));
+  return (value + kFilterSlack * static_cast<double>(block_extent)) * (1 + 2 * kFilterSlack);
+}
+
 /// Filter values above this belong to triangles farther than `distance`.
 inline float filter_threshold(const FloatQuery& query, double distance, float block_extent) {
   if (!query.usable || block_extent < kLeastFilterExtent)

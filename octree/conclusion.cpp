@@ -50,7 +50,8 @@ bool may_matter(float bound, const BestTriangle& best) {
   return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
 }
 
-NearestAnswer place(const NearestOnTriangle& nearest, const BestTriangle& best) {
+NearestAnswer place(const BestTriangle& best) {
+  const NearestOnTriangle& nearest = best.nearest();
   NearestAnswer answer;
   answer.distance = std::sqrt(nearest.value.squared);
   answer.lower = down(best.lower());
@@ -70,20 +71,21 @@ NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestL
                        const BestTriangle& best, const FloatQuery& wide, float pruned,
                        float unread) noexcept {
   const bool spent = may_matter(unread, best);
-  const double from_box = distance_to_box(tree, query);
+  const auto bound_of = [&](float squared) {
+    return std::max(distance_to_box(tree, query), certified(wide, squared));
+  };
   if (!best.found() && !spent) return beyond(limits);
   if (!best.found())
-    return nothing_read(tree, query,
-                        std::min(limits.max_distance, std::max(from_box, certified(wide, unread))));
-  NearestAnswer answer = place(nearest_on_triangle(query, best.corners()), best);
+    return nothing_read(tree, query, std::min(limits.max_distance, bound_of(unread)));
+  NearestAnswer answer = place(best);
   if (may_matter(pruned, best)) {
-    answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, pruned)));
+    answer.lower = std::min(answer.lower, bound_of(pruned));
     answer.status = Status::kWithinError;
   }
   // Only now: what max_error left out may be nearer than what was found.
   if (answer.lower > limits.max_distance && !spent) return beyond(limits);
   if (spent) {
-    answer.lower = std::min(answer.lower, std::max(from_box, certified(wide, unread)));
+    answer.lower = std::min(answer.lower, bound_of(unread));
     answer.status = Status::kDegraded;
   }
   return answer;

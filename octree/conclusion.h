@@ -1,6 +1,6 @@
 #pragma once
 
-#include "octree/descent.h"
+#include "octree/best_triangle.h"
 #include "octree/nearest.h"
 
 namespace planetree::octree {

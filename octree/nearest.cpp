@@ -9,10 +9,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "octree/best_triangle.h"
 #include "octree/block_view.h"
 #include "octree/bounds.h"
+#include "octree/candidates.h"
 #include "octree/conclusion.h"
-#include "octree/descent.h"
+#include "octree/frontier.h"
 #include "octree/strict_math.h"
 #include "octree/wide_kernels-inl.h"
 
@@ -32,21 +34,22 @@ class Descent {
         limits_(limits),
         work_(work),
         records_(tree, pages),
-        best_(query, wide_, limits) {}
+        best_(query_, wide_, limits_) {}
 
   void run() {
     // An honest tree cannot be visited longer than it is; a forged one could.
     const std::uint64_t most = std::min<std::uint64_t>(limits_.max_nodes, tree_.record_count);
-    FrontierEntry entry(0.0f, tree_.root_link);
+    FrontierEntry entry{.bound = 0, .link = tree_.root_link};
     std::uint64_t visits = 0;
     do {
       if (visits == most) {
-        unread_ = std::min(unread_, entry.bound());
-      } else {
-        ++visits;
-        visit(entry);
+        unread_ = std::min(unread_, entry.bound);
+        continue;
       }
+      ++visits;
+      visit(entry);
     } while (frontier_.pop(best_.threshold(), entry, pruned_));
+    settle();
   }
 
   const BestTriangle& best() const { return best_; }
@@ -58,68 +61,74 @@ class Descent {
 
  private:
   HWY_INLINE void visit(FrontierEntry entry) {
-    const std::byte* record = records_.find(entry.link(), work_);
+    const std::byte* record = records_.find(entry.link, work_);
     if (!record) {
-      unread_ = std::min(unread_, entry.bound());
-    } else if (LinkFormat::is_leaf(entry.link())) {
+      unread_ = std::min(unread_, entry.bound);
+    } else if (LinkFormat::is_leaf(entry.link)) {
       ++work_.blocks;
-      visit_block(BlockView(record, tree_.shape));
+      visit_block(entry, BlockView(record, tree_.shape));
     } else {
       ++work_.nodes;
-      visit_node(*reinterpret_cast<const Node*>(record), entry.bound());
+      visit_node(entry, *reinterpret_cast<const Node*>(record));
     }
   }
 
-  HWY_INLINE void visit_node(const Node& node, float own_bound) {
+  HWY_INLINE void visit_node(FrontierEntry entry, const Node& node) {
     if (!frontier_.has_room()) {
-      unread_ = std::min(unread_, own_bound);
+      unread_ = std::min(unread_, entry.bound);
       return;
     }
-    HWY_ALIGN float bounds[kFanOut];
-    unsigned near = node_bounds(node, wide_, own_bound > node.gate, best_.threshold(), bounds);
-    near &= (1u << node.child_count) - 1;
-    if (limits_.max_error > 0) note_pruned(node, near, bounds);
-    frontier_.open_group();
-    for (; near != 0; near &= near - 1) {
-      const auto child = static_cast<unsigned>(std::countr_zero(near));
-      frontier_.push(FrontierEntry(bounds[child], node.link[child]));
+    FrontierGroup& group = frontier_.next();
+    const unsigned near =
+        sorted_children(node, wide_, entry.bound > node.gate, best_.threshold(), group);
+    if (near < node.child_count) pruned_ = std::min(pruned_, group.entry(near).bound);
+    if (near > 1) records_.prefetch(group.link[1]);
+    frontier_.push(near);
+  }
+
+  HWY_INLINE void visit_block(FrontierEntry entry, const BlockView& block) {
+    const BlockHeader& header = block.header();
+    // Too small for float, or too far away.
+    if (!wide_.usable || header.extent < kLeastFilterExtent) {
+      for (unsigned i = 0; i < header.triangle_count; ++i) offer(block, i);
+      return;
     }
-  }
-
-  void note_pruned(const Node& node, unsigned near, const float* bounds) {
-    for (unsigned child = 0; child < node.child_count; ++child)
-      if ((near >> child & 1) == 0) pruned_ = std::min(pruned_, bounds[child]);
-  }
-
-  HWY_INLINE void visit_block(const BlockView& block) {
-    HWY_ALIGN float squared[kMaxBlockTriangles];
     const Point first = block.vertex(0);
     const float local[3] = {static_cast<float>(query_.x() - first.x()),
                             static_cast<float>(query_.y() - first.y()),
                             static_cast<float>(query_.z() - first.z())};
-    float limit = limit_for(block);
-    unsigned near = block_filter(block.header(), local, limit, squared);
-    near &= (1u << block.triangle_count()) - 1;
-    if (near == 0) return;
-    // The most promising triangle first: it usually rules the others out.
-    auto choice = static_cast<unsigned>(std::countr_zero(near));
-    for (unsigned rest = near & (near - 1); rest != 0; rest &= rest - 1) {
-      const auto at = static_cast<unsigned>(std::countr_zero(rest));
-      if (squared[at] < squared[choice]) choice = at;
-    }
-    offer(block, choice);
-    near &= ~(1u << choice);
-    limit = limit_for(block);
-    for (; near != 0; near &= near - 1) {
-      const auto at = static_cast<unsigned>(std::countr_zero(near));
-      if (squared[at] > limit) continue;
-      offer(block, at);
-      limit = limit_for(block);
+    BlockFilter filter;
+    filter_block(header, local, filter_threshold(wide_, best_.reach(), header.extent), filter);
+    if (filter.near == 0) return;
+    best_.promise(filter_upper(filter.least_upper, header.extent));
+    const float limit = filter_threshold(wide_, best_.reach(), header.extent);
+    for (unsigned near = filter.near; near != 0; near &= near - 1) {
+      const auto index = static_cast<unsigned>(std::countr_zero(near));
+      if (filter.squared[index] > limit) continue;
+      if (candidates_.full()) make_room();
+      candidates_.add({entry, index, header.extent, filter.squared[index]});
     }
   }
 
-  float limit_for(const BlockView& block) const {
-    return filter_threshold(wide_, best_.reach(), block.header().extent);
+  void make_room() {
+    candidates_.keep_if([&](const Candidate& candidate) { return may_be_best(candidate); });
+    if (candidates_.full()) settle();
+  }
+
+  bool may_be_best(const Candidate& candidate) const {
+    return candidate.squared <= filter_threshold(wide_, best_.reach(), candidate.extent);
+  }
+
+  // Evaluates what may be best, the most promising first: it usually rules the others out.
+  void settle() {
+    while (!candidates_.empty()) {
+      const Candidate candidate = candidates_.take_least();
+      if (!may_be_best(candidate)) continue;
+      if (const std::byte* record = records_.find(candidate.block.link, work_))
+        offer(BlockView(record, tree_.shape), candidate.index);
+      else
+        unread_ = std::min(unread_, candidate.block.bound);
+    }
   }
 
   void offer(const BlockView& block, unsigned index) {
@@ -134,6 +143,7 @@ class Descent {
   TreeWork& work_;
   RecordFinder records_;
   BestTriangle best_;
+  Candidates candidates_;
   Frontier frontier_;
   float pruned_ = std::numeric_limits<float>::infinity();
   float unread_ = std::numeric_limits<float>::infinity();

@@ -14,6 +14,8 @@ namespace planetree::octree {
 struct PageReader {
   void* context = nullptr;
   const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
+  /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
+  const std::byte* (*peek)(const void* context, std::uint32_t number) noexcept = nullptr;
 };
 
 /// What a descent must know of a tree; lengths are in the model frame.
@@ -57,7 +59,21 @@ class RecordFinder {
     return frame_ && leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
   }
 
+  /// Asks for the record's first lines, as far as it is in memory. No answer depends on it.
+  void prefetch(std::uint32_t link) const {
+    const std::uint32_t page = links_.page(link);
+    const std::byte* frame = page == page_number_ ? frame_
+                             : pages_.peek        ? pages_.peek(pages_.context, page)
+                                                  : nullptr;
+    if (!frame) return;
+    const std::byte* record = frame + links_.slot(link) * kSlotBytes;
+    for (std::size_t line = 0; line < kPrefetched; ++line)
+      __builtin_prefetch(record + line * kSlotBytes);
+  }
+
  private:
+  static constexpr std::size_t kPrefetched = 4;
+
   // Links within a page were checked when it was decoded; links between pages
   // could not be before both were here.
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
@@ -68,7 +84,10 @@ class RecordFinder {
     }
     if (slot < header.first_node_slot) return false;
     const std::uint32_t offset = slot - header.first_node_slot;
-    return offset % node_slots_ == 0 && offset / node_slots_ < header.node_count;
+    // By constants: a division would take as long as the node's bounds.
+    const bool aligned = node_slots_ == kNodeSlots ? offset % kNodeSlots == 0
+                                                   : offset % (kNodeSlots + kMomentSlots) == 0;
+    return aligned && offset < header.node_count * node_slots_;
   }
 
   const LinkFormat links_;

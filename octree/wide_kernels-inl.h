@@ -9,18 +9,25 @@
 #define PLANETREE_OCTREE_WIDE_KERNELS_INL_H_
 #endif
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include <hwy/highway.h>
 
 #include "octree/bounds.h"
-#include "octree/frame.h"
+#include "octree/frontier.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// Whether one register holds eight floats, and has operations across all of them.
+#undef PLANETREE_EIGHT_LANES
+#define PLANETREE_EIGHT_LANES (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 
 using FloatTag = hn::CappedTag<float, kFanOut>;
 using IntTag = hn::RebindToSigned<FloatTag>;
@@ -58,42 +65,98 @@ HWY_INLINE unsigned bits_not_above(Floats values, float limit) {
   return bits[0];
 }
 
-// Squared lower bounds of a node's children, see octree/bounds.h; returns a bit
-// for each that is not above the threshold.
-HWY_INLINE unsigned node_bounds(const Node& node, const FloatQuery& query, bool discs,
-                                float threshold, float* HWY_RESTRICT bounds) {
+// Squared lower bounds of a node's children from `i` on, see octree/bounds.h.
+HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std::size_t i) {
   const FloatTag d;
-  unsigned near = 0;
+  const Wide3 lower{hn::Load(d, node.lower[0] + i), hn::Load(d, node.lower[1] + i),
+                    hn::Load(d, node.lower[2] + i)};
+  const Wide3 upper{hn::Load(d, node.upper[0] + i), hn::Load(d, node.upper[1] + i),
+                    hn::Load(d, node.upper[2] + i)};
+  const Wide3 gap{outside(lower.x, upper.x, p.x), outside(lower.y, upper.y, p.y),
+                  outside(lower.z, upper.z, p.z)};
+  const Floats bound = dot(gap, gap);
+  if (!discs) return bound;
+  const Floats half = hn::Set(d, 0.5f);
+  const Floats zero = hn::Zero(d);
+  const Wide3 centre{hn::Mul(hn::Add(lower.x, upper.x), half),
+                     hn::Mul(hn::Add(lower.y, upper.y), half),
+                     hn::Mul(hn::Add(lower.z, upper.z), half)};
+  const Wide3 normal{hn::Load(d, node.normal[0] + i), hn::Load(d, node.normal[1] + i),
+                     hn::Load(d, node.normal[2] + i)};
+  const Wide3 from = sub(p, centre);
+  const Floats height = dot(normal, from);
+  const Floats off =
+      outside(hn::Load(d, node.slab_lower + i), hn::Load(d, node.slab_upper + i), height);
+  const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
+  const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
+  const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
+  return hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
+}
+
+// Bits of a bound that name the child instead.
+inline constexpr std::int32_t kChildBits = kFanOut - 1;
+inline constexpr std::int32_t kNoChild = std::numeric_limits<std::int32_t>::max();
+
+// A child's bound and its number, in an order that all targets agree on.
+HWY_INLINE Ints child_keys(const Node& node, const Wide3& p, bool discs, std::size_t i) {
+  const IntTag d;
+  const Ints bits = hn::BitCast(d, child_bounds(node, p, discs, i));
+  return hn::Or(hn::AndNot(hn::Set(d, kChildBits), bits),
+                hn::Iota(d, static_cast<std::int32_t>(i)));
+}
+
+#if PLANETREE_EIGHT_LANES
+// Sorts eight integers within a register, by a bitonic network.
+HWY_INLINE Ints sort_lanes(Ints v) {
+  const IntTag d;
+  const hn::Repartition<std::int64_t, IntTag> pairs;
+  const auto odd_even_pairs = [&](Ints odd, Ints even) {
+    return hn::BitCast(d, hn::OddEven(hn::BitCast(pairs, odd), hn::BitCast(pairs, even)));
+  };
+  const auto next_to = [&](Ints at) {
+    const Ints other = hn::Reverse2(d, at);
+    return hn::OddEven(hn::Max(at, other), hn::Min(at, other));
+  };
+  v = next_to(v);
+  Ints other = hn::Reverse4(d, v);
+  v = next_to(odd_even_pairs(hn::Max(v, other), hn::Min(v, other)));
+  other = hn::Reverse8(d, v);
+  v = hn::ConcatUpperLower(d, hn::Max(v, other), hn::Min(v, other));
+  other = hn::Shuffle1032(v);
+  return next_to(odd_even_pairs(hn::Max(v, other), hn::Min(v, other)));
+}
+#endif
+
+// Writes a node's children, nearest first, and returns how many of them have bounds
+// that are not above the threshold. Bounds lose their kChildBits.
+HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, bool discs,
+                                    float threshold, FrontierGroup& group) {
+  const FloatTag d;
+  const IntTag di;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const Wide3 lower{hn::Load(d, node.lower[0] + i), hn::Load(d, node.lower[1] + i),
-                      hn::Load(d, node.lower[2] + i)};
-    const Wide3 upper{hn::Load(d, node.upper[0] + i), hn::Load(d, node.upper[1] + i),
-                      hn::Load(d, node.upper[2] + i)};
-    const Wide3 gap{outside(lower.x, upper.x, p.x), outside(lower.y, upper.y, p.y),
-                    outside(lower.z, upper.z, p.z)};
-    Floats bound = dot(gap, gap);
-    if (discs) {
-      const Floats half = hn::Set(d, 0.5f);
-      const Floats zero = hn::Zero(d);
-      const Wide3 centre{hn::Mul(hn::Add(lower.x, upper.x), half),
-                         hn::Mul(hn::Add(lower.y, upper.y), half),
-                         hn::Mul(hn::Add(lower.z, upper.z), half)};
-      const Wide3 normal{hn::Load(d, node.normal[0] + i), hn::Load(d, node.normal[1] + i),
-                         hn::Load(d, node.normal[2] + i)};
-      const Wide3 from = sub(p, centre);
-      const Floats height = dot(normal, from);
-      const Floats off =
-          outside(hn::Load(d, node.slab_lower + i), hn::Load(d, node.slab_upper + i), height);
-      const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
-      const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
-      const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
-      bound = hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
-    }
-    hn::Store(bound, d, bounds + i);
-    near |= bits_not_above(bound, threshold) << i;
+  const std::int32_t most = std::bit_cast<std::int32_t>(threshold) | kChildBits;
+#if PLANETREE_EIGHT_LANES
+  const hn::RebindToUnsigned<IntTag> du;
+  const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
+  const Ints keys =
+      sort_lanes(hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoChild)));
+  const auto child = hn::IndicesFromVec(du, hn::And(keys, hn::Set(di, kChildBits)));
+  hn::Store(hn::AndNot(hn::Set(di, kChildBits), keys), di, group.bound_bits);
+  hn::Store(hn::TableLookupLanes(hn::Load(du, node.link), child), du, group.link);
+  return static_cast<unsigned>(hn::CountTrue(di, hn::Not(hn::Gt(keys, hn::Set(di, most)))));
+#else
+  HWY_ALIGN std::int32_t keys[kFanOut];
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
+    hn::Store(child_keys(node, p, discs, i), di, keys + i);
+  std::sort(keys, keys + node.child_count);
+  unsigned count = 0;
+  for (unsigned i = 0; i < node.child_count; ++i) {
+    group.bound_bits[i] = keys[i] & ~kChildBits;
+    group.link[i] = node.link[keys[i] & kChildBits];
+    count += keys[i] <= most ? 1 : 0;
   }
-  return near;
+  return count;
+#endif
 }
 
 // Squared distance to the segment from `a` along `edge`, seen from the query.
@@ -108,9 +171,14 @@ HWY_INLINE Floats segment_squared(const Wide3& a, const Wide3& edge, Floats alon
   return dot(at, at);
 }
 
-// Squared distances of triangles given by vectors from the query to corners,
-// right within kFilterSlack; 0 where float cannot tell.
-HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& c) {
+// Squared distances of triangles as float sees them.
+struct TriangleBounds {
+  Floats lower;  // right within kFilterSlack or less; 0 where float cannot tell
+  Floats upper;  // right within kFilterSlack or more
+};
+
+// Of triangles given by vectors from the query to corners.
+HWY_INLINE TriangleBounds triangle_bounds(const Wide3& a, const Wide3& b, const Wide3& c) {
   const FloatTag d;
   const Floats zero = hn::Zero(d);
   const Wide3 ab = sub(b, a), ac = sub(c, a), bc = sub(c, b);
@@ -129,7 +197,7 @@ HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& 
       hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
   const Floats height = dot(normal, a);
   const Floats face = hn::Div(hn::Mul(height, height), normal2);
-  Floats squared = hn::IfThenElse(inside, hn::Min(face, edges), edges);
+  const Floats squared = hn::IfThenElse(inside, hn::Min(face, edges), edges);
 
   // A face too flat for float lies within its own height of its edges.
   const auto round = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, 0x1p-8f), hn::Mul(ab2, ac2))),
@@ -141,9 +209,9 @@ HWY_INLINE Floats triangle_squared(const Wide3& a, const Wide3& b, const Wide3& 
     const Floats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
     const auto told = hn::Gt(longest2, hn::Set(d, 0x1p-90f));
     const Floats flat2 = hn::IfThenElseZero(told, hn::Mul(flat, flat));
-    squared = hn::IfThenElse(round, squared, flat2);
+    return {hn::IfThenElse(round, squared, flat2), hn::IfThenElse(round, squared, edges)};
   }
-  return squared;
+  return {squared, squared};
 }
 
 // All of a block's vertices, seen from the query.
@@ -166,7 +234,7 @@ class VertexRows {
     const FloatTag d;
     const IntTag di;
     const Ints index = hn::PromoteTo(di, hn::LoadU(hn::Rebind<std::uint8_t, IntTag>(), corners));
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+#if PLANETREE_EIGHT_LANES
     // A gather costs more than looking each vector of a row up in registers.
     const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
     const auto look_up = [&](unsigned axis, unsigned i) {
@@ -191,22 +259,30 @@ class VertexRows {
   [[maybe_unused]] unsigned stride_;  // a gather does without
 };
 
-// Filter values of a block's lanes; returns a bit for each that is not above
-// the limit. `query` is relative to vertex 0. Lanes past the last triangle
-// repeat it.
-inline HWY_NOINLINE unsigned block_filter(const BlockHeader& block, const float (&query)[3],
-                                          float limit, float* HWY_RESTRICT squared) {
+// What float says of a block's triangles.
+struct BlockFilter {
+  HWY_ALIGN float squared[kMaxBlockTriangles];  // see TriangleBounds::lower
+  unsigned near;                                // a bit for each that is not above the limit
+  float least_upper;                            // of TriangleBounds::upper
+};
+
+// `query` is relative to vertex 0. Lanes past the last triangle repeat it.
+HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], float limit,
+                             BlockFilter& filter) {
   const FloatTag d;
   const VertexRows vertices(reinterpret_cast<const float*>(&block + 1), block.stride, query);
+  Floats least = hn::Set(d, std::numeric_limits<float>::infinity());
   unsigned near = 0;
   for (std::size_t i = 0; i < block.triangle_count; i += hn::Lanes(d)) {
-    const Floats values =
-        triangle_squared(vertices.at(block.corner[0] + i), vertices.at(block.corner[1] + i),
-                         vertices.at(block.corner[2] + i));
-    hn::Store(values, d, squared + i);
-    near |= bits_not_above(values, limit) << i;
+    const TriangleBounds bounds =
+        triangle_bounds(vertices.at(block.corner[0] + i), vertices.at(block.corner[1] + i),
+                        vertices.at(block.corner[2] + i));
+    hn::Store(bounds.lower, d, filter.squared + i);
+    least = hn::Min(least, bounds.upper);
+    near |= bits_not_above(bounds.lower, limit) << i;
   }
-  return near;
+  filter.near = near & ((1u << block.triangle_count) - 1);
+  filter.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -63,8 +63,12 @@ class PageTurner {
   }
 
   octree::PageReader pages() noexcept {
-    return {this, [](void* context, std::uint32_t number) noexcept {
+    return {this,
+            [](void* context, std::uint32_t number) noexcept {
               return static_cast<PageTurner*>(context)->page(number);
+            },
+            [](const void* context, std::uint32_t number) noexcept {
+              return static_cast<const PageTurner*>(context)->reader_.peek(number);
             }};
   }
 
