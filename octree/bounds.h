@@ -33,8 +33,10 @@ inline constexpr double kPlaneSlack = 16 * 0x1p-24;  ///< of the box diagonal
 inline constexpr double kBoundFactor = 1 + 32 * 0x1p-24;
 
 /// Besides: doubles relative to the centre are rounded to 2^-53 of the model's
-/// side, and plane offsets of boxes smaller than 2^-63 underflow.
-inline constexpr double kAbsoluteSlack = 0x1p-50;
+/// side, plane offsets of boxes smaller than 2^-63 underflow, and a triangle's value may
+/// err by 2^-40 (octree/triangle_distance.cpp): none that is as near to within that is
+/// pruned, whatever order children are visited in.
+inline constexpr double kAbsoluteSlack = 0x1p-38;
 
 /// A query rounded for the wide kernels.
 struct FloatQuery {

@@ -35,7 +35,8 @@ class Candidates {
   /// Takes out the one of least filter value.
   Candidate take_least() {
     std::size_t least = 0;
-    for (std::size_t i = 1; i < size_; ++i) least = list_[i].squared < list_[least].squared ? i : least;
+    for (std::size_t i = 1; i < size_; ++i)
+      least = list_[i].squared < list_[least].squared ? i : least;
     const Candidate taken = list_[least];
     list_[least] = list_[--size_];
     return taken;

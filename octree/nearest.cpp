@@ -16,6 +16,7 @@
 #include "octree/conclusion.h"
 #include "octree/frontier.h"
 #include "octree/strict_math.h"
+#include "octree/vicinity.h"
 #include "octree/wide_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -36,20 +37,13 @@ class Descent {
         records_(tree, pages),
         best_(query_, wide_, limits_) {}
 
-  void run() {
-    // An honest tree cannot be visited longer than it is; a forged one could.
-    const std::uint64_t most = std::min<std::uint64_t>(limits_.max_nodes, tree_.record_count);
-    FrontierEntry entry{.bound = 0, .link = tree_.root_link};
-    std::uint64_t visits = 0;
-    do {
-      if (visits == most) {
-        unread_ = std::min(unread_, entry.bound);
-        continue;
-      }
-      ++visits;
-      visit(entry);
-    } while (frontier_.pop(best_.threshold(), entry, pruned_));
-    settle();
+  void run_from_root() {
+    visit({.bound = 0, .link = tree_.root_link}, 0);
+    run();
+  }
+  void run_from(const Node& front) {
+    visit_node({.bound = 0, .link = 0}, front);
+    run();
   }
 
   const BestTriangle& best() const { return best_; }
@@ -60,7 +54,19 @@ class Descent {
   float unread() const { return unread_; }
 
  private:
-  HWY_INLINE void visit(FrontierEntry entry) {
+  void run() {
+    std::uint64_t visits = 1;
+    FrontierEntry entry;
+    while (frontier_.pop(best_.threshold(), entry, pruned_)) visit(entry, visits++);
+    settle();
+  }
+
+  HWY_INLINE void visit(FrontierEntry entry, std::uint64_t visits) {
+    // An honest tree cannot be visited longer than it is; a forged one could.
+    if (visits >= limits_.max_nodes || visits >= tree_.record_count) {
+      unread_ = std::min(unread_, entry.bound);
+      return;
+    }
     const std::byte* record = records_.find(entry.link, work_);
     if (!record) {
       unread_ = std::min(unread_, entry.bound);
@@ -83,6 +89,7 @@ class Descent {
         sorted_children(node, wide_, entry.bound > node.gate, best_.threshold(), group);
     if (near < node.child_count) pruned_ = std::min(pruned_, group.entry(near).bound);
     if (near > 1) records_.prefetch(group.link[1]);
+    if (near > 2) records_.prefetch(group.link[2]);
     frontier_.push(near);
   }
 
@@ -102,9 +109,8 @@ class Descent {
     if (filter.near == 0) return;
     best_.promise(filter_upper(filter.least_upper, header.extent));
     const float limit = filter_threshold(wide_, best_.reach(), header.extent);
-    for (unsigned near = filter.near; near != 0; near &= near - 1) {
+    for (unsigned near = filter.near & near_triangles(filter, limit); near != 0; near &= near - 1) {
       const auto index = static_cast<unsigned>(std::countr_zero(near));
-      if (filter.squared[index] > limit) continue;
       if (candidates_.full()) make_room();
       candidates_.add({entry, index, header.extent, filter.squared[index]});
     }
@@ -149,12 +155,123 @@ class Descent {
   float unread_ = std::numeric_limits<float>::infinity();
 };
 
+// Fills the front of a ball: from the root down, the largest subtree first, as long as
+// there is room for its children.
+class VicinitySearch {
+ public:
+  VicinitySearch(const TreeFacts& tree, const Point& query, double radius, PageReader pages,
+                 TreeWork& work, Node& front)
+      : wide_(FloatQuery::from(query.x() - tree.centre.x(), query.y() - tree.centre.y(),
+                               query.z() - tree.centre.z())),
+        threshold_(prune_threshold(wide_, radius)),
+        records_(tree, pages),
+        work_(work),
+        front_(front) {}
+
+  // False where there is nothing to keep.
+  bool run(std::uint32_t root_link) {
+    front_.child_count = 0;
+    front_.gate = std::numeric_limits<float>::infinity();
+    if (LinkFormat::is_leaf(root_link) || !open(root_link, 0)) return false;
+    for (unsigned at; (at = largest()) < front_.child_count;)
+      if (!open(front_.link[at], at)) closed_ |= 1u << at;
+    return front_.child_count > 0;
+  }
+
+ private:
+  // The largest subtree that may still be opened.
+  unsigned largest() const {
+    unsigned best = kFanOut;
+    for (unsigned at = 0; at < front_.child_count; ++at) {
+      if ((closed_ >> at & 1) != 0 || LinkFormat::is_leaf(front_.link[at])) continue;
+      if (best == kFanOut || size_[at] > size_[best]) best = at;
+    }
+    return best;
+  }
+
+  // Puts a node's near children in its place. False, and nothing changed, where there is no
+  // room for them or the page is lost.
+  bool open(std::uint32_t link, unsigned place) {
+    const std::byte* record = records_.find(link, work_);
+    if (!record) return false;
+    ++work_.nodes;
+    const Node& node = *reinterpret_cast<const Node*>(record);
+    unsigned near = near_children(node, wide_, threshold_);
+    const unsigned others = front_.child_count - (front_.child_count > 0 ? 1u : 0u);
+    if (others + static_cast<unsigned>(std::popcount(near)) > kFanOut) return false;
+    if (near == 0) return remove(place);
+    for (bool first = true; near != 0; near &= near - 1, first = false) {
+      const bool here = first && front_.child_count > 0;
+      put(node, static_cast<unsigned>(std::countr_zero(near)), here ? place : front_.child_count++);
+    }
+    return true;
+  }
+
+  bool remove(unsigned place) {
+    const unsigned last = --front_.child_count;
+    closed_ = (closed_ & ~(1u << place)) | (closed_ >> last & 1) << place;
+    closed_ &= ~(1u << last);
+    put(front_, last, place);
+    return true;
+  }
+
+  void put(const Node& from, unsigned child, unsigned place) {
+    float diagonal2 = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      front_.lower[axis][place] = from.lower[axis][child];
+      front_.upper[axis][place] = from.upper[axis][child];
+      const float side = from.upper[axis][child] - from.lower[axis][child];
+      diagonal2 += side * side;
+    }
+    front_.link[place] = from.link[child];
+    size_[place] = diagonal2;
+  }
+
+  const FloatQuery wide_;
+  const float threshold_;
+  RecordFinder records_;
+  TreeWork& work_;
+  Node& front_;
+  float size_[kFanOut];
+  unsigned closed_ = 0;
+};
+
+void renew(Vicinity& vicinity, const TreeFacts& tree, const Point& query, double distance,
+           PageReader pages, TreeWork& work) {
+  const double diagonal = (tree.box_upper - tree.box_lower).norm();
+  const double radius = vicinity.wanted_radius(query, distance, diagonal);
+  if (!(radius > 0)) return;
+  Node& front = vicinity.begin(query, radius);
+  if (!VicinitySearch(tree, query, radius, pages, work, front).run(tree.root_link))
+    vicinity.forget();
+}
+
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
-                                const NearestLimits& limits, PageReader pages, TreeWork& work) {
+                                const NearestLimits& limits, PageReader pages, TreeWork& work,
+                                Vicinity* vicinity) {
+  const auto answer_of = [&](Descent& descent) {
+    return conclude(tree, query, limits, descent.best(), descent.wide(), descent.pruned(),
+                    descent.unread());
+  };
+  if (vicinity && vicinity->holds(query)) {
+    Descent descent(tree, query, limits, pages, work);
+    descent.run_from(vicinity->front());
+    const NearestAnswer answer = answer_of(descent);
+    if (answer.status == Status::kExact) {
+      vicinity->note(query, answer.distance);
+      return answer;
+    }
+    // Lost pages, or nothing so near as asked: told from the root, as ever.
+    vicinity->forget();
+  }
   Descent descent(tree, query, limits, pages, work);
-  descent.run();
-  return conclude(tree, query, limits, descent.best(), descent.wide(), descent.pruned(),
-                  descent.unread());
+  descent.run_from_root();
+  const NearestAnswer answer = answer_of(descent);
+  if (vicinity && answer.status == Status::kExact) {
+    renew(*vicinity, tree, query, answer.distance, pages, work);
+    vicinity->note(query, answer.distance);
+  }
+  return answer;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -167,9 +284,13 @@ namespace planetree::octree {
 HWY_EXPORT(nearest_on_target);
 
 NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      PageReader pages, TreeWork& work) noexcept {
+                      PageReader pages, TreeWork& work, Vicinity* vicinity) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
-  return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work);
+  // Limited work and errors depend on the way that is taken.
+  const bool unlimited =
+      limits.max_error == 0 && limits.max_nodes == std::numeric_limits<std::uint32_t>::max();
+  return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
+                                                 unlimited ? vicinity : nullptr);
 }
 
 }  // namespace planetree::octree

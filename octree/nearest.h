@@ -6,6 +6,7 @@
 
 #include "octree/tree_view.h"
 #include "octree/triangle_distance.h"
+#include "octree/vicinity.h"
 #include "planetree/types.h"
 
 namespace planetree::octree {
@@ -48,6 +49,6 @@ struct NearestAnswer {
 /// threads any; no allocation, no lock, no exception of its own.
 /// source  descent and float filter are ours; bounds in octree/bounds.h.
 NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      PageReader pages, TreeWork& work) noexcept;
+                      PageReader pages, TreeWork& work, Vicinity* vicinity = nullptr) noexcept;
 
 }  // namespace planetree::octree

@@ -132,10 +132,8 @@ struct Evaluation {
 
   Evaluation(const Point& query, const Triangle& triangle);
   int nearest_edge() const {
-    int best = 0;
-    for (int k = 1; k < 3; ++k)
-      if (edges[k].squared < edges[best].squared) best = k;
-    return best;
+    const int first = edges[1].squared < edges[0].squared ? 1 : 0;
+    return edges[2].squared < edges[first].squared ? 2 : first;
   }
   TriangleValue value() const {
     return {on_face() ? face.squared : edges[nearest_edge()].squared,
@@ -151,6 +149,7 @@ Evaluation::Evaluation(const Point& query, const Triangle& triangle)
     : order(lexicographic_order(triangle)) {
   std::array<Point, 3> to;
   std::array<double, 3> to2;
+#pragma GCC unroll 3
   for (int k = 0; k < 3; ++k) {
     corner[k] = triangle[order[k]];
     to[k] = corner[k] - query;
@@ -158,6 +157,7 @@ Evaluation::Evaluation(const Point& query, const Triangle& triangle)
   }
   corner2_max = std::max({to2[0], to2[1], to2[2]});
   double longest2 = -1;
+#pragma GCC unroll 3
   for (int k = 0; k < 3; ++k) {
     const Point edge = corner[kSecond[k]] - corner[kFirst[k]];
     const double edge2 = edge.squaredNorm();

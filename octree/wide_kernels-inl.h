@@ -159,6 +159,16 @@ HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, b
 #endif
 }
 
+// A bit for each child whose box is not above the threshold.
+HWY_INLINE unsigned near_children(const Node& node, const FloatQuery& query, float threshold) {
+  const FloatTag d;
+  const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
+  unsigned near = 0;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
+    near |= bits_not_above(child_bounds(node, p, false, i), threshold) << i;
+  return near & ((1u << node.child_count) - 1);
+}
+
 // Squared distance to the segment from `a` along `edge`, seen from the query.
 HWY_INLINE Floats segment_squared(const Wide3& a, const Wide3& edge, Floats along, Floats edge2) {
   const FloatTag d;
@@ -196,7 +206,8 @@ HWY_INLINE TriangleBounds triangle_bounds(const Wide3& a, const Wide3& b, const 
   const auto inside =
       hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
   const Floats height = dot(normal, a);
-  const Floats face = hn::Div(hn::Mul(height, height), normal2);
+  // Not the square first: above short edges it underflows.
+  const Floats face = hn::Mul(hn::Div(height, normal2), height);
   const Floats squared = hn::IfThenElse(inside, hn::Min(face, edges), edges);
 
   // A face too flat for float lies within its own height of its edges.
@@ -283,6 +294,15 @@ HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], 
   }
   filter.near = near & ((1u << block.triangle_count) - 1);
   filter.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+// Those that a lower limit leaves; of lanes that `filter.near` leaves out, anything.
+HWY_INLINE unsigned near_triangles(const BlockFilter& filter, float limit) {
+  const FloatTag d;
+  unsigned near = 0;
+  for (std::size_t i = 0; i < kMaxBlockTriangles; i += hn::Lanes(d))
+    near |= bits_not_above(hn::Load(d, filter.squared + i), limit) << i;
+  return near;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -80,6 +80,7 @@ class Asking {
  public:
   Asking(ProbeState& probe, const Vec3& query, const Ask& ask)
       : model_(probe.model()),
+        vicinity_(probe.vicinity()),
         query_(query),
         ask_(ask),
         far_(!(model_.scale().in(query).cwiseAbs().maxCoeff() <= octree::kFarthestQuery)),
@@ -112,8 +113,9 @@ class Asking {
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
-    nearest_ = far_ ? farthest(model_.tree(), point_)
-                    : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_);
+    nearest_ =
+        far_ ? farthest(model_.tree(), point_)
+             : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_, &vicinity_);
     answer_ = in_model_units(model_.scale(), nearest_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
@@ -137,6 +139,7 @@ class Asking {
   }
 
   const ModelState& model_;
+  octree::Vicinity& vicinity_;
   const Vec3& query_;
   const Ask& ask_;
   const bool far_;

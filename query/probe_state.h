@@ -18,6 +18,8 @@ class ProbeState {
   const ModelState& model() const noexcept { return model_; }
   cache::Reader& reader() noexcept { return reader_; }
 
+  octree::Vicinity& vicinity() noexcept { return vicinity_; }
+
   /// Queries of a batch that are put in order together.
   static constexpr std::size_t kBatchQueries = 1024;
   struct BatchEntry {
@@ -29,6 +31,7 @@ class ProbeState {
  private:
   const ModelState& model_;
   cache::Reader reader_;
+  octree::Vicinity vicinity_;
   std::array<BatchEntry, kBatchQueries> batch_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "octree/wide_kernels-inl.h"
@@ -39,7 +40,7 @@ void expect_encloses(const Node& node, unsigned child, const Point& from_centre,
 }
 
 void expect_enclosing_nodes(const TreePages& pages) {
-  const double slack = octree::kAbsoluteSlack;
+  constexpr double slack = 0x1p-50;
   pages.each_node([&](const Node& node) {
     for (unsigned child = 0; child < node.child_count; ++child)
       for (const Triangle& triangle : pages.triangles(node.link[child]))
@@ -52,16 +53,18 @@ void expect_enclosing_nodes(const TreePages& pages) {
 void expect_bounds_below(const Node& node, unsigned child, const Soup& below,
                          const TreePages& pages, const Point& query) {
   const FloatQuery wide = float_query(pages, query);
-  alignas(64) float bounds[octree::kFanOut];
   const auto distance = static_cast<double>(extended_distance(plain(query), below));
   const float threshold = octree::prune_threshold(wide, distance);
   for (const bool discs : {false, true}) {
-    const unsigned near = octree::HWY_NAMESPACE::node_bounds(node, wide, discs, threshold, bounds);
-    EXPECT_TRUE((near >> child & 1) != 0)
-        << (discs ? "disc" : "box") << " bound " << std::sqrt(bounds[child]) << " distance "
-        << distance << " slack " << wide.slack;
+    octree::FrontierGroup group;
+    const unsigned near =
+        octree::HWY_NAMESPACE::sorted_children(node, wide, discs, threshold, group);
+    const auto* const at = std::find(group.link, group.link + near, node.link[child]);
+    ASSERT_NE(at, group.link + near)
+        << (discs ? "disc" : "box") << " distance " << distance << " slack " << wide.slack;
     if (wide.usable) {
-      EXPECT_LE(octree::certified(wide, bounds[child]), distance * (1 + 1e-15) + 0x1p-500);
+      const float bound = group.entry(static_cast<unsigned>(at - group.link)).bound;
+      EXPECT_LE(octree::certified(wide, bound), distance * (1 + 1e-15) + 0x1p-500);
     }
   }
 }
@@ -135,21 +138,27 @@ TEST(NodeBounds, HoldInBoxesOfFewUlps) {
   }
 }
 
-// The float filter lets every triangle pass that is no farther than the limit.
+// The float filter lets every triangle pass that is no farther than the limit, and promises
+// none nearer than there is.
 void expect_filter_passes(const octree::BlockView& block, const TreePages& pages,
                           const Point& query) {
   const FloatQuery wide = float_query(pages, query);
   const Point from = query - block.vertex(0);
   const float local[3] = {static_cast<float>(from.x()), static_cast<float>(from.y()),
                           static_cast<float>(from.z())};
-  alignas(64) float squared[octree::kMaxBlockTriangles] = {};
+  octree::HWY_NAMESPACE::BlockFilter filter;
+  double nearest = std::numeric_limits<double>::infinity();
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     const double reach = std::sqrt(octree::triangle_value(query, block.triangle(i)).squared);
     const float limit = octree::filter_threshold(wide, reach, block.header().extent);
-    const unsigned near =
-        octree::HWY_NAMESPACE::block_filter(block.header(), local, limit, squared);
-    EXPECT_TRUE((near >> i & 1) != 0) << "value " << std::sqrt(squared[i]) << " distance " << reach
-                                      << " extent " << block.header().extent;
+    octree::HWY_NAMESPACE::filter_block(block.header(), local, limit, filter);
+    EXPECT_TRUE((filter.near >> i & 1) != 0)
+        << "value " << std::sqrt(filter.squared[i]) << " distance " << reach << " extent "
+        << block.header().extent;
+    nearest = std::min(nearest, reach);
+  }
+  if (wide.usable && block.header().extent >= octree::kLeastFilterExtent) {
+    EXPECT_GE(octree::filter_upper(filter.least_upper, block.header().extent), nearest);
   }
 }
 

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "octree/frame.h"
+#include "octree/triangle_distance.h"
+
+namespace planetree::octree {
+
+/// The few subtrees that reach into a ball, kept from one query for the next ones: those
+/// near it start there and not at the root.
+///
+/// A query's nearest triangle is no farther than the last one was and the way between the
+/// two. Where the ball holds all that is so near, nothing outside it can matter, so that
+/// answers are the same bits as from the root. Plain memory: links, no pointers into
+/// frames. One thread.
+class Vicinity {
+ public:
+  /// Whether all triangles that may be nearest to `query`, or as near to the last bits, are
+  /// in front().
+  bool holds(const Point& query) const {
+    if (!(radius_ > 0)) return false;
+    const double nearest = last_distance_ + (query - last_).norm();
+    return (nearest + (query - centre_).norm() + kSlack) * (1 + kSlack) < radius_;
+  }
+
+  /// The subtrees, as if they were the children of one node.
+  const Node& front() const { return front_; }
+
+  /// The radius about `query`, which is `distance` away from the surface, that is worth a new
+  /// ball; 0 if `query` is so far from the last one that more such queries would leave it.
+  /// `diagonal` is that of the model.
+  double wanted_radius(const Point& query, double distance, double diagonal) const {
+    const double step = (query - last_).norm();
+    if (!(step <= diagonal * kLongestStep)) return 0;
+    return distance + kSteps * std::max(step, distance * kLeastStep);
+  }
+
+  /// Begins a ball; front() is to be filled with what reaches into it.
+  Node& begin(const Point& centre, double radius) {
+    centre_ = centre;
+    radius_ = radius;
+    return front_;
+  }
+
+  /// An exact answer.
+  void note(const Point& query, double distance) {
+    last_ = query;
+    last_distance_ = distance;
+  }
+
+  void forget() { radius_ = 0; }
+
+ private:
+  static constexpr double kSlack = 0x1p-24;       ///< far above what bounds and sums may err
+  static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
+  static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
+  static constexpr double kSteps = 12;            ///< that a ball is to last
+
+  Point centre_ = Point::Zero();
+  Point last_ = Point::Constant(std::numeric_limits<double>::infinity());
+  double radius_ = 0;
+  double last_distance_ = 0;
+  Node front_{};
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,114 @@
+// Asks that start where the last ones were: the same answers, for less work.
+
+#include "octree/vicinity.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "octree/nearest.h"
+#include "tests/octree/sample_tree.h"
+
+namespace planetree::octree {
+namespace {
+
+// Every number of an answer, as bits.
+std::vector<std::uint64_t> bits_of(const NearestAnswer& answer) {
+  std::vector<std::uint64_t> bits{answer.triangle, static_cast<std::uint64_t>(answer.feature),
+                                  static_cast<std::uint64_t>(answer.status)};
+  const auto add = [&](double value) { bits.push_back(std::bit_cast<std::uint64_t>(value)); };
+  for (const double value : {answer.distance, answer.lower, answer.upper}) add(value);
+  for (const double value : answer.point) add(value);
+  for (const double value : answer.barycentric) add(value);
+  return bits;
+}
+
+// Short steps this way and that, with a leap now and then.
+std::vector<Point> wander(std::size_t count, double step, std::size_t leap_every) {
+  Noise noise(3);
+  std::vector<Point> path;
+  Point at(0.45, 0.2, 0.1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 by = noise.point(-step, step);
+    at += Point(by.x, by.y, by.z);
+    if (i % leap_every == leap_every - 1) {
+      const Vec3 to = noise.point(-1.2, 1.2);
+      at = Point(to.x, to.y, to.z);
+    }
+    path.push_back(at);
+  }
+  return path;
+}
+
+struct Path {
+  explicit Path(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
+
+  // Every answer of the path has the bits of one that knows nothing of the path.
+  void expect_same_answers(const std::vector<Point>& path, const NearestLimits& limits = {}) {
+    Vicinity vicinity;
+    for (const Point& query : path) {
+      const NearestAnswer alone =
+          nearest(tree_facts(sample), query, limits, pages.reader(), work_alone);
+      const NearestAnswer along =
+          nearest(tree_facts(sample), query, limits, pages.reader(), work_along, &vicinity);
+      EXPECT_EQ(bits_of(along), bits_of(alone)) << query.transpose();
+    }
+  }
+
+  SampleTree sample;
+  SamplePages pages;
+  TreeWork work_alone, work_along;
+};
+
+TEST(Vicinity, ChangesNoAnswer) {
+  const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(5)},
+                                                {"a triangle many times", repeated(500)},
+                                                {"long triangles", scattered(400, 1.0)},
+                                                {"small triangles", scattered(4000, 1e-2)},
+                                                {"one triangle", repeated(1)}};
+  for (const auto& [name, soup] : soups)
+    for (const double step : {0.0, 1e-12, 1e-5, 1e-3, 0.02, 0.3}) {
+      SCOPED_TRACE(std::string(name) + ", steps of " + std::to_string(step));
+      Path(soup).expect_same_answers(wander(200, step, 50));
+    }
+}
+
+TEST(Vicinity, ChangesNoAnswerWithinLimits) {
+  NearestLimits near, rough, brief;
+  near.max_distance = 0.05;
+  rough.max_error = 0.01;
+  brief.max_nodes = 7;
+  for (const NearestLimits& limits : {near, rough, brief})
+    Path(sphere(5)).expect_same_answers(wander(300, 1e-3, 100), limits);
+}
+
+TEST(Vicinity, ChangesNoAnswerWherePagesAreLost) {
+  Path path(sphere(5));
+  ASSERT_GT(path.pages.size(), 8u);
+  for (std::uint32_t page = 1; page < path.pages.size(); page += 3) path.pages.withhold(page);
+  path.expect_same_answers(wander(300, 1e-3, 30));
+}
+
+TEST(Vicinity, SparesMostNodesOfAPath) {
+  Path path(sphere(6));
+  path.expect_same_answers(wander(500, 1e-4, 500));
+  EXPECT_LT(path.work_along.nodes, path.work_alone.nodes / 2);
+  EXPECT_LE(path.work_along.blocks, path.work_alone.blocks);
+}
+
+TEST(Vicinity, CostsLittleWhereThereIsNoPath) {
+  Path path(sphere(6));
+  path.expect_same_answers(wander(500, 1e-4, 1));
+  EXPECT_LT(path.work_along.nodes, path.work_alone.nodes + path.work_alone.nodes / 20);
+}
+
+TEST(Vicinity, HoldsNothingBeforeTheFirstAnswer) {
+  const Vicinity vicinity;
+  EXPECT_FALSE(vicinity.holds(Point(0, 0, 0)));
+  EXPECT_EQ(vicinity.wanted_radius(Point(0, 0, 0), 1, 2), 0);
+}
+
+}  // namespace
+}  // namespace planetree::octree
