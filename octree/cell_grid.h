@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -17,6 +18,11 @@ struct GridCell {
   constexpr GridCell child(unsigned octant) const {
     return {level + 1,
             {2 * at[0] + (octant & 1), 2 * at[1] + (octant >> 1 & 1), 2 * at[2] + (octant >> 2)}};
+  }
+  /// The cell of a level above, or this one, that this one is in.
+  constexpr GridCell ancestor(unsigned of_level) const {
+    const unsigned shift = level - of_level;
+    return {of_level, {at[0] >> shift, at[1] >> shift, at[2] >> shift}};
   }
   constexpr std::uint64_t octcode() const {
     const unsigned shift = kLevels - level;
@@ -47,7 +53,30 @@ class CellGrid {
   /// The sides between a cell's children.
   Point middle(const GridCell& cell) const { return corner(cell.child(7), 0); }
 
+  /// The last of the finest cells that do not begin beyond a point of the root: that which
+  /// is reached by taking, from the root down, the upper half wherever the point is not
+  /// below the side between the halves.
+  GridCell finest(const Point& point) const {
+    GridCell cell{.level = kLevels};
+    for (unsigned axis = 0; axis < 3; ++axis) cell.at[axis] = finest(axis, point[axis]);
+    return cell;
+  }
+
  private:
+  std::uint32_t finest(unsigned axis, double at) const {
+    constexpr std::uint32_t kLast = (1 << kLevels) - 1;
+    constexpr double kCells = 1 << (kLevels - 1);  // in a unit
+    const double place = std::clamp((at - lower_[axis]) * kCells, 0.0, double{kLast});
+    const auto guess = static_cast<std::uint32_t>(place);
+    const auto begins = [&](std::uint32_t index) { return side(axis, kLevels, index) <= at; };
+    if (begins(guess) && (guess == kLast || !begins(guess + 1))) return guess;
+    // Rounding made the guess another cell than that which the sides, rounded too, tell.
+    std::uint32_t index = 0;
+    for (std::uint32_t half = 1 << (kLevels - 1); half > 0; half /= 2)
+      if (begins(index + half)) index += half;
+    return index;
+  }
+
   // The product is exact; one rounding, so sides never change places.
   double side(unsigned axis, unsigned level, std::uint32_t index) const {
     constexpr double kFinestCell = 2.0 / (1 << kLevels);

@@ -56,6 +56,14 @@ static_assert(sizeof(MaskNode) == kMaskSlotBytes);
 /// Winding numbers do not fit in a byte, or some corner is not known.
 inline constexpr std::int8_t kUncounted = -128;
 
+/// How many octants a set has. The processors we build for may lack an instruction for it,
+/// and a lookup asks at every node.
+constexpr unsigned count_octants(unsigned set) {
+  set -= set >> 1 & 0x55;
+  set = (set & 0x33) + (set >> 2 & 0x33);
+  return (set + (set >> 4)) & 0xf;
+}
+
 /// A grey cell that is not divided: the winding numbers at its corners, each
 /// moved by the infinitesimal step of predicates.h. All are kUncounted or none.
 using MaskCorners = std::array<std::int8_t, 8>;

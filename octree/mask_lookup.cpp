@@ -1,8 +1,8 @@
 #include "octree/mask_lookup.h"
 
 #include <algorithm>
-#include <bit>
 
+#include "octree/octcode.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
 
@@ -25,11 +25,9 @@ class MaskRecords {
   /// The record of a grey octant; null if its page cannot be had or does not
   /// hold what the node says.
   const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {
-    const auto below = static_cast<std::uint8_t>((1U << octant) - 1);
+    const unsigned below = (1U << octant) - 1;
     const std::uint32_t page = links_.page(node.family);
-    const std::uint32_t at =
-        links_.slot(node.family) +
-        static_cast<unsigned>(std::popcount(static_cast<std::uint8_t>(node.grey & below)));
+    const std::uint32_t at = links_.slot(node.family) + count_octants(node.grey & below);
     const bool leaf = (node.leaf >> octant & 1) != 0;
     turn_to(page, work);
     if (!frame_ || at < header().first_record_slot ||
@@ -92,33 +90,32 @@ MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max
                     PageReader pages, TreeWork& work) noexcept {
   MaskFinding finding;
   if (mask.page_count == 0 || max_nodes == 0) return finding;
-  const CellGrid grid(mask.lower);
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
   if (record && !records.root_is_node()) read_leaf(record, records, point, finding);
   if (!record || !records.root_is_node()) return finding;
+  const GridCell finest = CellGrid(mask.lower).finest(point);
+  const std::uint64_t octants = morton_code(finest.at[0], finest.at[1], finest.at[2]);
   // A forged mask could be deeper than cells can be told apart.
-  for (std::uint64_t left = std::min<std::uint64_t>(max_nodes, kLevels); left > 0; --left) {
+  const auto most = static_cast<unsigned>(std::min<std::uint64_t>(max_nodes, kLevels));
+  unsigned level = 0;
+  while (level < most) {
     ++work.nodes;
     const auto& node = *reinterpret_cast<const MaskNode*>(record);
-    const Point middle = grid.middle(finding.cell);
-    unsigned octant = 0;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      octant |= static_cast<unsigned>(point[axis] >= middle[axis]) << axis;
-    finding.cell = finding.cell.child(octant);
+    const auto octant = static_cast<unsigned>(octants >> 3 * (kLevels - ++level) & 7);
     if ((node.grey >> octant & 1) == 0) {
       finding.kind = MaskFinding::Kind::kColour;
       finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
-      return finding;
+      break;
     }
-    const bool leaf = (node.leaf >> octant & 1) != 0;
     record = records.child(node, octant, work);
-    if (!record) return finding;
-    if (leaf) {
+    if (!record) break;
+    if ((node.leaf >> octant & 1) != 0) {
       read_leaf(record, records, point, finding);
-      return finding;
+      break;
     }
   }
+  finding.cell = finest.ancestor(level);
   return finding;
 }
 

@@ -96,12 +96,6 @@ class Asking {
     return answer_;
   }
 
-  Containment contain() {
-    find_side();
-    if (standing_.status == Status::kDegraded) model_.count_degraded();
-    return {standing_.side, standing_.status};
-  }
-
  private:
   std::uint64_t nodes_left() const {
     const std::uint64_t spent = work_.nodes + work_.blocks;
@@ -160,7 +154,13 @@ ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask)
 
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return {};
-  return Asking(probe, query, ask).contain();
+  const ModelState& model = probe.model();
+  PageTurner turner(probe.reader());
+  octree::TreeWork work;
+  const Standing standing =
+      find_side(model, within_reach(model.scale(), query), ask.max_nodes, turner.pages(), work);
+  if (standing.status == Status::kDegraded) model.count_degraded();
+  return {standing.side, standing.status};
 }
 
 }  // namespace planetree::query

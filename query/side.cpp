@@ -20,7 +20,7 @@ using octree::Point;
 class SideSearch {
  public:
   SideSearch(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-             octree::PageReader pages, octree::TreeWork& work, SideReason& reason)
+             octree::PageReader pages, octree::TreeWork& work, SideReason* reason)
       : model_(model),
         point_(point),
         max_nodes_(max_nodes),
@@ -34,10 +34,7 @@ class SideSearch {
     // Usually the first way tells; another may do without a page that is lost.
     const WaysOut ways(model_.tree(), point_);
     for (const WaysOut::Way& way : ways.all())
-      if (go(way.end, 0)) {
-        reason_.rule = SideReason::Rule::kWayOut;
-        return standing_;
-      }
+      if (go(way.end, 0, SideReason::Rule::kWayOut)) return standing_;
     return {Side::kUnknown, Status::kDegraded};
   }
 
@@ -51,12 +48,15 @@ class SideSearch {
     using Kind = octree::MaskFinding::Kind;
     const octree::MaskFinding found =
         octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
-    reason_.in_mask = model_.mask().page_count > 0;
-    reason_.cell = found.cell;
+    if (reason_) {
+      reason_->in_mask = model_.mask().page_count > 0;
+      reason_->cell = found.cell;
+    }
     if (found.kind == Kind::kCorners) return go_to_corner(found);
     if (found.kind == Kind::kNothing) return false;
-    reason_.rule =
-        found.kind == Kind::kColour ? SideReason::Rule::kColour : SideReason::Rule::kPlanes;
+    if (reason_)
+      reason_->rule =
+          found.kind == Kind::kColour ? SideReason::Rule::kColour : SideReason::Rule::kPlanes;
     settle(found.winding, found.on_surface);
     return true;
   }
@@ -69,20 +69,21 @@ class SideSearch {
     for (unsigned axis = 0; axis < 3; ++axis)
       nearest |= static_cast<unsigned>(point_[axis] - lower[axis] > upper[axis] - point_[axis])
                  << axis;
-    if (!go(grid.corner(found.cell, nearest), found.corners[nearest])) return false;
-    reason_.rule = SideReason::Rule::kCorner;
-    return true;
+    return go(grid.corner(found.cell, nearest), found.corners[nearest], SideReason::Rule::kCorner);
   }
 
   // To where the winding number is known. False if that way cannot be gone.
-  bool go(const Point& end, std::int64_t winding) {
+  bool go(const Point& end, std::int64_t winding, SideReason::Rule rule) {
     if (nodes_left() == 0) return false;
     const octree::Crossings crossings =
         octree::count_crossings(model_.tree(), {point_, end}, nodes_left(), pages_, work_);
     if (!crossings.complete) return false;
-    reason_.end = end;
-    reason_.known = winding;
-    reason_.crossings = crossings.difference;
+    if (reason_) {
+      reason_->rule = rule;
+      reason_->end = end;
+      reason_->known = winding;
+      reason_->crossings = crossings.difference;
+    }
     settle(winding + crossings.difference, crossings.on_surface);
     return true;
   }
@@ -97,15 +98,15 @@ class SideSearch {
   const std::uint64_t max_nodes_;
   const octree::PageReader pages_;
   octree::TreeWork& work_;
-  SideReason& reason_;
+  SideReason* const reason_;  // null where nobody asks why
   const std::uint64_t before_;
   Standing standing_;
 };
 
 Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-                      octree::PageReader pages, octree::TreeWork& work, SideReason& reason) {
+                      octree::PageReader pages, octree::TreeWork& work, SideReason* reason) {
   if (outside_box(model.tree(), point)) {
-    reason.rule = SideReason::Rule::kOutsideBox;
+    if (reason) reason->rule = SideReason::Rule::kOutsideBox;
     return {Side::kOutside};
   }
   return SideSearch(model, point, max_nodes, pages, work, reason).run();
@@ -119,13 +120,15 @@ std::int64_t rounded(double value) {
 
 Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
                            std::uint64_t max_nodes, octree::PageReader pages,
-                           octree::TreeWork& work, SideReason& reason) {
-  reason.rule = SideReason::Rule::kWindingNumber;
+                           octree::TreeWork& work, SideReason* reason) {
+  if (reason) reason->rule = SideReason::Rule::kWindingNumber;
   // From so far away all triangles together are less than a point.
   if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
   const octree::WindingNumber w = octree::winding_number(tree, point, max_nodes, pages, work);
-  reason.value = w.value;
-  reason.error = w.error;
+  if (reason) {
+    reason->value = w.value;
+    reason->error = w.error;
+  }
   if (w.on_surface) {
     const bool told = std::fabs(w.value) > w.error;
     return {Side::kOnSurface, Status::kExact, told ? (w.value < 0 ? -1 : 1) : 0, false};
@@ -139,12 +142,10 @@ Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
 
 Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work, SideReason* reason) noexcept {
-  SideReason untold;
-  SideReason& why = reason != nullptr ? *reason : untold;
-  why = {};
+  if (reason) *reason = {};
   return model.info().watertight()
-             ? by_crossings(model, point, max_nodes, pages, work, why)
-             : by_winding_number(model.tree(), point, max_nodes, pages, work, why);
+             ? by_crossings(model, point, max_nodes, pages, work, reason)
+             : by_winding_number(model.tree(), point, max_nodes, pages, work, reason);
 }
 
 }  // namespace planetree::query

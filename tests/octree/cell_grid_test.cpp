@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -130,6 +131,48 @@ TEST(CellGrid, HasFlatCellsWhereRoundingLeavesNoRoom) {
   EXPECT_EQ(grid.lower(cell).x(), grid.upper(cell).x());
   EXPECT_LT(grid.lower(cell).y(), grid.upper(cell).y());
   EXPECT_EQ(grid.lower(cell).z(), grid.upper(cell).z());
+}
+
+// The cell that halving after halving leads to.
+GridCell halved(const CellGrid& grid, const Point& point) {
+  GridCell cell;
+  while (cell.level < kLevels) {
+    const Point middle = grid.middle(cell);
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      octant |= static_cast<unsigned>(point[axis] >= middle[axis]) << axis;
+    cell = cell.child(octant);
+  }
+  return cell;
+}
+
+TEST(CellGrid, FindsTheCellThatHalvingLeadsTo) {
+  Noise noise(7);
+  for (const Point& lower : least_corners()) {
+    const CellGrid grid(lower);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 in = noise.point(0, 2);
+      Point point = lower + Point(in.x, in.y, in.z);
+      // On sides too, and as little beside them as can be.
+      if (i % 3 == 1) point = grid.lower(any_cell(noise, 1 + noise.bits() % kLevels));
+      if (i % 3 == 2) point = grid.upper(any_cell(noise, 1 + noise.bits() % kLevels));
+      if (i % 2 == 1)
+        for (double& at : point) at = std::max(std::nextafter(at, -1e300), lower.minCoeff());
+      point = point.cwiseMax(lower);
+      EXPECT_EQ(grid.finest(point).at, halved(grid, point).at);
+    }
+  }
+}
+
+TEST(CellGrid, NamesTheCellsThatACellIsIn) {
+  Noise noise(8);
+  GridCell cell;
+  std::vector<GridCell> above{cell};
+  while (cell.level < kLevels) above.push_back(cell = cell.child(noise.bits() % 8));
+  for (const GridCell& expected : above) {
+    EXPECT_EQ(cell.ancestor(expected.level).level, expected.level);
+    EXPECT_EQ(cell.ancestor(expected.level).at, expected.at);
+  }
 }
 
 TEST(CellGrid, HasTheOctcodesOfItsCells) {
