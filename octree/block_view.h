@@ -27,6 +27,9 @@ class BlockView {
     return {local[index], local[stride + index], local[2 * stride + index]};
   }
 
+  /// The exact vertices, header().stride of each coordinate; null where they are no floats.
+  const float* float_vertices() const { return shape_.float64 ? nullptr : at<float>(kSlotBytes); }
+
   Triangle triangle(unsigned index) const {
     return {vertex(header_.corner[0][index]), vertex(header_.corner[1][index]),
             vertex(header_.corner[2][index])};

@@ -73,8 +73,11 @@ class BoxWalk {
   bool push_children(const Node& node) {
     if (size_ + kFanOut > links_.size()) return false;
     unsigned left = children_meeting(node, box_);
-    for (; left != 0; left &= left - 1)
-      push(node.link[static_cast<unsigned>(std::countr_zero(left))]);
+    for (; left != 0; left &= left - 1) {
+      const std::uint32_t link = node.link[static_cast<unsigned>(std::countr_zero(left))];
+      records_.prefetch(link);
+      push(link);
+    }
     return true;
   }
 

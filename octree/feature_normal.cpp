@@ -7,6 +7,7 @@
 
 #include "octree/angle.h"
 #include "octree/box_walk.h"
+#include "octree/outcodes.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
 #include "octree/vector3.h"
@@ -102,7 +103,9 @@ FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest
   Fan fan(*ends[0], nearest.feature == Feature::kEdge ? ends[1] : nullptr);
   BoxWalk walk(tree, *ends[0], *ends[0], pages, work);
   found.complete = walk.run(max_nodes, [&](const BlockView& block) {
-    for (unsigned i = 0; i < block.triangle_count(); ++i) fan.add(block.triangle(i), block.id(i));
+    const Outcodes outcodes(block, *ends[0], *ends[0]);
+    for (unsigned i = 0; i < block.triangle_count(); ++i)
+      if (outcodes.has_corner_within(i)) fan.add(block.triangle(i), block.id(i));
   });
   found.normal = fan.normal();
   return found;
