@@ -79,11 +79,21 @@ inline double certified(const FloatQuery& query, float bound_squared) {
   return std::max(0.0, std::sqrt(static_cast<double>(bound_squared)) / kBoundFactor - query.slack);
 }
 
-/// How much the float triangle filter may err, as a share of (distance + block
-/// extent): its worst part, the inside test of a face whose angle at corner 0
-/// has a sine of 1/16, costs 3 * 12 * 16 u times the farthest corner, which is
-/// at most distance + 2 extents away.
-inline constexpr double kFilterSlack = 0x1p-13;
+/// How the float triangle filter errs, with A the largest vector from the query to a corner
+/// or along a side, and u = 2^-24. Every product of two such vectors, as it enters, is right
+/// within 5u times their lengths.
+///
+///   edges  a2 - t (2 along - t edge2), of which any t in [0, 1] is a point of the edge: 40u A^2
+///   face   a2 - (v to_b + w to_c) / |ab x ac|^2. v and w err by 23u |a| |ab| |ac|^2 and the
+///          like, the divisor by 23u |ab|^2 |ac|^2: 70u |a|^2 / sine^2 of the angle at a
+///
+/// Both are paid by more than that, lane by lane; faces of a smaller sine are told by their
+/// edges. The corners themselves and the query are rounded relative to the block: by less
+/// than kFilterSlack times (distance + block extent).
+inline constexpr float kEdgeError = 64 * kUlp;
+inline constexpr float kFaceError = 128 * kUlp;
+inline constexpr float kFlatSine2 = 0x1p-6f;
+inline constexpr double kFilterSlack = 0x1p-19;
 
 /// Blocks smaller than this have squares that float cannot hold.
 inline constexpr float kLeastFilterExtent = 0x1p-40f;
@@ -91,7 +101,7 @@ inline constexpr float kLeastFilterExtent = 0x1p-40f;
 /// A triangle of this filter value is at most so far away.
 inline double filter_upper(float squared, float block_extent) {
   const double value = std::sqrt(static_cast<double>(squared));
-  return (value + kFilterSlack * static_cast<double>(block_extent)) * (1 + 2 * kFilterSlack);
+  return value + 2 * kFilterSlack * (value + static_cast<double>(block_extent));
 }
 
 /// Filter values above this belong to triangles farther than `distance`.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "octree/frontier.h"
 
@@ -20,7 +21,6 @@ struct Candidate {
 class Candidates {
  public:
   bool full() const { return size_ == kMost; }
-  bool empty() const { return size_ == 0; }
   void add(const Candidate& candidate) { list_[size_++] = candidate; }
 
   /// Drops those for which `still` is false.
@@ -32,14 +32,15 @@ class Candidates {
     size_ = kept;
   }
 
-  /// Takes out the one of least filter value.
-  Candidate take_least() {
+  /// Calls judge(candidate) for all, the one of least filter value first, and forgets them.
+  template <class Judge>
+  void settle(Judge judge) {
     std::size_t least = 0;
     for (std::size_t i = 1; i < size_; ++i)
       least = list_[i].squared < list_[least].squared ? i : least;
-    const Candidate taken = list_[least];
-    list_[least] = list_[--size_];
-    return taken;
+    if (size_ > 0) std::swap(list_[0], list_[least]);
+    for (std::size_t i = 0; i < size_; ++i) judge(list_[i]);
+    size_ = 0;
   }
 
  private:

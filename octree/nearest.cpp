@@ -127,14 +127,13 @@ class Descent {
 
   // Evaluates what may be best, the most promising first: it usually rules the others out.
   void settle() {
-    while (!candidates_.empty()) {
-      const Candidate candidate = candidates_.take_least();
-      if (!may_be_best(candidate)) continue;
+    candidates_.settle([&](const Candidate& candidate) {
+      if (!may_be_best(candidate)) return;
       if (const std::byte* record = records_.find(candidate.block.link, work_))
         offer(BlockView(record, tree_.shape), candidate.index);
       else
         unread_ = std::min(unread_, candidate.block.bound);
-    }
+    });
   }
 
   void offer(const BlockView& block, unsigned index) {

@@ -46,12 +46,6 @@ HWY_INLINE Floats dot(const Wide3& a, const Wide3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-HWY_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
 HWY_INLINE Floats outside(Floats lower, Floats upper, Floats at) {
   const Floats zero = hn::Zero(FloatTag());
   return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
@@ -169,60 +163,73 @@ HWY_INLINE unsigned near_children(const Node& node, const FloatQuery& query, flo
   return near & ((1u << node.child_count) - 1);
 }
 
-// Squared distance to the segment from `a` along `edge`, seen from the query.
-HWY_INLINE Floats segment_squared(const Wide3& a, const Wide3& edge, Floats along, Floats edge2) {
+// Squared distance to the segment from a point `p2` away, squared, from the query, along
+// an edge; `along` is the edge times the vector to the query. The products of a triangle's
+// sides do for all of it: what cancels is paid for by kEdgeError.
+HWY_INLINE Floats segment_squared(Floats p2, Floats along, Floats edge2) {
   const FloatTag d;
   const Floats least = hn::Set(d, 0x1p-126f);
-  const Floats zero = hn::Zero(d);
   const Floats one = hn::Set(d, 1.0f);
-  const Floats t = hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), zero), one);
-  const Wide3 at{hn::Add(a.x, hn::Mul(t, edge.x)), hn::Add(a.y, hn::Mul(t, edge.y)),
-                 hn::Add(a.z, hn::Mul(t, edge.z))};
-  return dot(at, at);
+  const Floats t = hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
+  return hn::Sub(p2, hn::Mul(t, hn::Sub(hn::Add(along, along), hn::Mul(t, edge2))));
 }
 
-// Squared distances of triangles as float sees them.
+// Squared distances of triangles as float sees them: on either side of the true one, but
+// for the rounding of the corners, which is kFilterSlack's.
 struct TriangleBounds {
-  Floats lower;  // right within kFilterSlack or less; 0 where float cannot tell
-  Floats upper;  // right within kFilterSlack or more
+  Floats lower;  // 0 where float cannot tell
+  Floats upper;
 };
+
+// Of a face too flat for float: it lies within its own height of its edges.
+HWY_INLINE Floats flat_lower(Floats edges, Floats whole, Floats sides, Floats longest2) {
+  const FloatTag d;
+  const Floats zero = hn::Zero(d);
+  const Floats doubt = hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
+  const Floats rise = hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
+  const Floats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
+  return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
+}
 
 // Of triangles given by vectors from the query to corners.
 HWY_INLINE TriangleBounds triangle_bounds(const Wide3& a, const Wide3& b, const Wide3& c) {
   const FloatTag d;
   const Floats zero = hn::Zero(d);
-  const Wide3 ab = sub(b, a), ac = sub(c, a), bc = sub(c, b);
-  const Floats ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
-  const Floats a_ab = hn::Neg(dot(a, ab)), a_ac = hn::Neg(dot(a, ac));
+  const Wide3 ab = sub(b, a), ac = sub(c, a);
+  const Floats a2 = dot(a, a), ab2 = dot(ab, ab), ac2 = dot(ac, ac), ab_ac = dot(ab, ac);
+  const Floats to_b = hn::Neg(dot(a, ab)), to_c = hn::Neg(dot(a, ac));
+  // The third side and its start, from the products of the others.
+  const Floats b2 = hn::Sub(hn::Add(a2, ab2), hn::Add(to_b, to_b));
+  const Floats bc2 = hn::Sub(hn::Add(ab2, ac2), hn::Add(ab_ac, ab_ac));
+  const Floats b_to_c = hn::Sub(hn::Add(to_c, ab2), hn::Add(to_b, ab_ac));
   const Floats edges =
-      hn::Min(hn::Min(segment_squared(a, ab, a_ab, ab2), segment_squared(a, ac, a_ac, ac2)),
-              segment_squared(b, bc, hn::Neg(dot(b, bc)), bc2));
-  const Wide3 normal = cross(ab, ac);
-  const Floats normal2 = dot(normal, normal);
-  const Floats ab_ac = dot(ab, ac);
-  const Floats v = hn::Sub(hn::Mul(ac2, a_ab), hn::Mul(ab_ac, a_ac));
-  const Floats w = hn::Sub(hn::Mul(ab2, a_ac), hn::Mul(ab_ac, a_ab));
-  const Floats whole = hn::Sub(hn::Mul(ab2, ac2), hn::Mul(ab_ac, ab_ac));
+      hn::Min(hn::Min(segment_squared(a2, to_b, ab2), segment_squared(a2, to_c, ac2)),
+              segment_squared(b2, b_to_c, bc2));
+  const Floats edge_error = hn::Mul(hn::Add(a2, hn::Add(ab2, ac2)), hn::Set(d, kEdgeError));
+
+  const Floats sides = hn::Mul(ab2, ac2);
+  const Floats whole = hn::Sub(sides, hn::Mul(ab_ac, ab_ac));
+  const Floats v = hn::Sub(hn::Mul(ac2, to_b), hn::Mul(ab_ac, to_c));
+  const Floats w = hn::Sub(hn::Mul(ab2, to_c), hn::Mul(ab_ac, to_b));
   const auto inside =
       hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
-  const Floats height = dot(normal, a);
-  // Not the square first: above short edges it underflows.
-  const Floats face = hn::Mul(hn::Div(height, normal2), height);
-  const Floats squared = hn::IfThenElse(inside, hn::Min(face, edges), edges);
+  const Floats inverse = hn::Div(hn::Set(d, 1.0f), whole);
+  // Shares of b and c first: products of three short sides underflow.
+  const Floats face =
+      hn::Sub(a2, hn::Add(hn::Mul(hn::Mul(v, inverse), to_b), hn::Mul(hn::Mul(w, inverse), to_c)));
+  const Floats face_error = hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
 
-  // A face too flat for float lies within its own height of its edges.
-  const auto round = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, 0x1p-8f), hn::Mul(ab2, ac2))),
-                             hn::Ge(normal2, hn::Set(d, 0x1p-100f)));
-  if (!hn::AllTrue(d, round)) {
-    const Floats longest2 = hn::Max(hn::Max(ab2, ac2), bc2);
-    const Floats span = hn::Max(hn::Max(hn::Abs(normal.x), hn::Abs(normal.y)), hn::Abs(normal.z));
-    const Floats rise = hn::Div(hn::Mul(span, hn::Set(d, 1.75f)), hn::Sqrt(longest2));
-    const Floats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
-    const auto told = hn::Gt(longest2, hn::Set(d, 0x1p-90f));
-    const Floats flat2 = hn::IfThenElseZero(told, hn::Mul(flat, flat));
-    return {hn::IfThenElse(round, squared, flat2), hn::IfThenElse(round, squared, edges)};
-  }
-  return {squared, squared};
+  const Floats squared = hn::IfThenElse(inside, face, edges);
+  const Floats error = hn::IfThenElse(inside, face_error, edge_error);
+  const Floats lower = hn::Max(hn::Sub(squared, error), zero);
+  const Floats upper = hn::Add(squared, error);
+  const auto round = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFlatSine2), sides)),
+                             hn::Ge(whole, hn::Set(d, 0x1p-100f)));
+  if (hn::AllTrue(d, round)) return {lower, upper};
+  const Floats least = hn::Max(hn::Sub(edges, edge_error), zero);
+  const Floats flat = flat_lower(least, whole, sides, hn::Max(hn::Max(ab2, ac2), bc2));
+  return {hn::IfThenElse(round, lower, flat),
+          hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
 }
 
 // All of a block's vertices, seen from the query.
