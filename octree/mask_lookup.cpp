@@ -67,7 +67,7 @@ void ask_planes(const MaskSpecial& special, const double* planes, const Point& p
     moved_beyond = moved_beyond || (side != 0 ? side : moved_side(plane, point)) > 0;
   }
   finding.kind = MaskFinding::Kind::kPlanes;
-  finding.winding = moved_beyond ? special.beyond : special.behind;
+  finding.winding = moved_beyond ? int{special.beyond} : int{special.behind};
   finding.on_surface = on_plane && !beyond;
 }
 

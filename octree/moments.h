@@ -25,8 +25,8 @@ constexpr float unpack_short(ShortFloat packed) {
 
 /// The least short float that is not below `value`, which is at least 0.
 constexpr ShortFloat pack_short_above(double value) {
-  constexpr auto greatest = static_cast<double>(unpack_short(kGreatestShortFloat));
-  if (!(value < greatest)) return kGreatestShortFloat;
+  constexpr auto kGreatest = static_cast<double>(unpack_short(kGreatestShortFloat));
+  if (!(value < kGreatest)) return kGreatestShortFloat;
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   auto packed = static_cast<ShortFloat>(bits >> 16);
   if (packed < kLeastShortFloat) packed = kLeastShortFloat;

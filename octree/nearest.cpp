@@ -255,7 +255,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   if (vicinity && vicinity->holds(query)) {
     Descent descent(tree, query, limits, pages, work);
     descent.run_from(vicinity->front());
-    const NearestAnswer answer = answer_of(descent);
+    NearestAnswer answer = answer_of(descent);
     if (answer.status == Status::kExact) {
       vicinity->note(query, answer.distance);
       return answer;
@@ -265,7 +265,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   }
   Descent descent(tree, query, limits, pages, work);
   descent.run_from_root();
-  const NearestAnswer answer = answer_of(descent);
+  NearestAnswer answer = answer_of(descent);
   if (vicinity && answer.status == Status::kExact) {
     renew(*vicinity, tree, query, answer.distance, pages, work);
     vicinity->note(query, answer.distance);

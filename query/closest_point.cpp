@@ -42,7 +42,7 @@ octree::NearestAnswer farthest(const octree::TreeFacts& tree, const octree::Poin
 
 // The point itself, or one that far away in its direction; model frame.
 octree::Point within_reach(const Scale& scale, const Vec3& query) {
-  const octree::Point point = scale.in(query);
+  octree::Point point = scale.in(query);
   if (point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) return point;
   const octree::Point from(query.x, query.y, query.z);
   return from / from.cwiseAbs().maxCoeff() * octree::kFarthestQuery;
