@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "octree/page_decoder.h"
+#include "query/page_decoding.h"
 #include "storage/page_file.h"
 
 namespace planetree::bench {
@@ -24,34 +24,25 @@ class PageWalk {
       : file_(file),
         stored_(file.header().max_stored_bytes),
         raw_(file.header().max_raw_bytes),
-        frame_(file.header().page_bytes / sizeof(FrameSlot)) {
-    facts_.page_bytes = file.header().page_bytes;
-    facts_.page_count = file.page_count();
-    facts_.shape.float64 = file.header().model.vertex_kind == storage::VertexKind::kFloat64;
-    facts_.shape.wide_ids = file.header().model.triangle_id_bytes == 8;
-    facts_.shape.moments = file.header().model.open_edge_count != 0;
-  }
+        frame_(file.header().page_bytes / sizeof(FrameSlot)) {}
 
-  void advance() { facts_.page_number = (facts_.page_number + 1) % file_.page_count(); }
+  void advance() { page_ = (page_ + 1) % file_.page_count(); }
 
-  bool read() {
-    return bool(file_.read_page(facts_.page_number, stored_, {raw_.data(), entry().raw_bytes}));
-  }
+  bool read() { return bool(file_.read_page(page_, stored_, {raw_.data(), entry().raw_bytes})); }
 
   bool decode() {
-    facts_.octcode = entry().octcode;
-    facts_.ordinal = entry().ordinal;
-    const std::span<std::byte> frame = std::as_writable_bytes(std::span(frame_));
-    return bool(octree::decode_page({raw_.data(), entry().raw_bytes}, facts_, frame));
+    return bool(query::decode_frame(file_.header(), entry(), page_,
+                                    {raw_.data(), entry().raw_bytes},
+                                    std::as_writable_bytes(std::span(frame_))));
   }
 
  private:
-  const storage::PageEntry& entry() const { return file_.entries()[facts_.page_number]; }
+  const storage::PageEntry& entry() const { return file_.entries()[page_]; }
 
   const storage::PageFile& file_;
   std::vector<std::byte> stored_, raw_;
   std::vector<FrameSlot> frame_;
-  octree::PageFacts facts_;
+  std::uint32_t page_ = 0;
 };
 
 void read_pages(benchmark::State& state, const storage::PageFile& file) {
