@@ -13,15 +13,16 @@ namespace planetree::octree {
 /// The best triangle of a descent so far and what may be pruned because of it.
 class BestTriangle {
  public:
-  BestTriangle(const Point& query, const FloatQuery& wide, const NearestLimits& limits)
-      : query_(query), wide_(wide), limits_(limits) {
+  BestTriangle(const FloatQuery& wide, const NearestLimits& limits)
+      : wide_(wide), limits_(limits) {
     refresh();
   }
 
   bool found() const { return triangle_ != kNoTriangle; }
   std::uint64_t triangle() const { return triangle_; }
   const Triangle& corners() const { return corners_; }
-  const NearestOnTriangle& nearest() const { return nearest_; }
+  /// Its nearest point.
+  NearestOnTriangle nearest() const { return place(corners_, finding_); }
 
   /// Nothing farther than this is of interest.
   double reach() const { return reach_; }
@@ -42,18 +43,19 @@ class BestTriangle {
     refresh();
   }
 
-  /// Evaluates a triangle; keeps it if (value, index) is less.
-  void offer(const Triangle& corners, std::uint64_t index) {
-    const NearestOnTriangle nearest = nearest_on_triangle(query_, corners);
-    const double squared = nearest.value.squared;
+  /// Keeps a triangle that was evaluated if (value, index) is less; `corners()` gives its
+  /// corners.
+  template <class Corners>
+  void offer(const TriangleFinding& finding, std::uint64_t index, Corners corners) {
+    const double squared = finding.value.squared;
     const double distance = std::sqrt(squared);
-    lower_ = std::min(lower_, distance - nearest.value.error);
-    const double best = nearest_.value.squared;
+    lower_ = std::min(lower_, distance - finding.value.error);
+    const double best = finding_.value.squared;
     if (found() && (squared > best || (squared == best && index >= triangle_))) return;
     if (distance > farthest_) return;
-    nearest_ = nearest;
+    finding_ = finding;
     triangle_ = index;
-    corners_ = corners;
+    corners_ = corners();
     if (distance >= reach_) return;
     reach_ = distance;
     bounded_ = true;
@@ -72,7 +74,6 @@ class BestTriangle {
       threshold_ = std::min(threshold_, prune_threshold(wide_, std::max(0.0, reach_ - wanted)));
   }
 
-  const Point& query_;
   const FloatQuery& wide_;
   const NearestLimits& limits_;
   // max_distance and what a value near it may err: no corner is farther away
@@ -82,7 +83,7 @@ class BestTriangle {
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
-  NearestOnTriangle nearest_;
+  TriangleFinding finding_;
   double reach_ = farthest_;
   bool bounded_ = false;  // reach_ is that of a triangle
   float threshold_ = 0;

@@ -2,51 +2,63 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
-#include "octree/frontier.h"
+#include "octree/triangle_rows.h"
 
 namespace planetree::octree {
 
-/// A triangle that float cannot rule out: to be evaluated in double once nothing
-/// nearer is likely to be found.
-struct Candidate {
-  FrontierEntry block;
-  std::uint32_t index;  ///< within the block
-  float extent;         ///< of the block
-  float squared;        ///< filter value, see octree/bounds.h
-};
-
-/// A short list of them.
+/// A short list of triangles that float cannot rule out: to be evaluated in double once
+/// nothing nearer is likely to be found. Corners are copied: their page may be gone by then.
 class Candidates {
  public:
-  bool full() const { return size_ == kMost; }
-  void add(const Candidate& candidate) { list_[size_++] = candidate; }
+  static constexpr std::size_t kMost = 32;
 
-  /// Drops those for which `still` is false.
+  std::size_t size() const { return size_; }
+  bool full() const { return size_ == kMost; }
+
+  /// `squared` is the filter's value (octree/bounds.h), `extent` that of the block.
+  void add(const Triangle& corners, std::uint64_t id, float extent, float squared) {
+    rows_.set(size_, corners);
+    id_[size_] = id;
+    extent_[size_] = extent;
+    squared_[size_++] = squared;
+  }
+
+  /// Drops those for which `still(squared, extent)` is false.
   template <class Still>
   void keep_if(Still still) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < size_; ++i)
-      if (still(list_[i])) list_[kept++] = list_[i];
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (!still(squared_[i], extent_[i])) continue;
+      if (kept < i) copy(i, kept);
+      ++kept;
+    }
     size_ = kept;
   }
 
-  /// Calls judge(candidate) for all, the one of least filter value first, and forgets them.
-  template <class Judge>
-  void settle(Judge judge) {
-    std::size_t least = 0;
-    for (std::size_t i = 1; i < size_; ++i)
-      least = list_[i].squared < list_[least].squared ? i : least;
-    if (size_ > 0) std::swap(list_[0], list_[least]);
-    for (std::size_t i = 0; i < size_; ++i) judge(list_[i]);
-    size_ = 0;
+  /// Makes the list a multiple of kTrianglesAtOnce long, for kernels: repeats the last.
+  void pad() {
+    for (std::size_t i = size_; i % kTrianglesAtOnce != 0; ++i) rows_.copy(size_ - 1, i);
   }
 
+  void clear() { size_ = 0; }
+
+  const TriangleRows<kMost>& rows() const { return rows_; }
+  std::uint64_t id(std::size_t at) const { return id_[at]; }
+
  private:
-  static constexpr std::size_t kMost = 32;
+  void copy(std::size_t from, std::size_t to) {
+    rows_.copy(from, to);
+    id_[to] = id_[from];
+    extent_[to] = extent_[from];
+    squared_[to] = squared_[from];
+  }
+
   std::size_t size_ = 0;
-  Candidate list_[kMost];
+  TriangleRows<kMost> rows_;
+  std::uint64_t id_[kMost];
+  float extent_[kMost];
+  float squared_[kMost];
 };
 
 }  // namespace planetree::octree

@@ -50,8 +50,8 @@ bool may_matter(float bound, const BestTriangle& best) {
   return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
 }
 
-NearestAnswer place(const BestTriangle& best) {
-  const NearestOnTriangle& nearest = best.nearest();
+NearestAnswer answer_of(const BestTriangle& best) {
+  const NearestOnTriangle nearest = best.nearest();
   NearestAnswer answer;
   answer.distance = std::sqrt(nearest.value.squared);
   answer.lower = down(best.lower());
@@ -77,7 +77,7 @@ NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestL
   if (!best.found() && !spent) return beyond(limits);
   if (!best.found())
     return nothing_read(tree, query, std::min(limits.max_distance, bound_of(unread)));
-  NearestAnswer answer = place(best);
+  NearestAnswer answer = answer_of(best);
   if (may_matter(pruned, best)) {
     answer.lower = std::min(answer.lower, bound_of(pruned));
     answer.status = Status::kWithinError;

@@ -16,6 +16,7 @@
 #include "octree/conclusion.h"
 #include "octree/frontier.h"
 #include "octree/strict_math.h"
+#include "octree/triangle_kernels-inl.h"
 #include "octree/vicinity.h"
 #include "octree/wide_kernels-inl.h"
 
@@ -35,7 +36,7 @@ class Descent {
         limits_(limits),
         work_(work),
         records_(tree, pages),
-        best_(query_, wide_, limits_) {}
+        best_(wide_, limits_) {}
 
   void run_from_root() {
     visit({.bound = 0, .link = tree_.root_link}, 0);
@@ -72,7 +73,7 @@ class Descent {
       unread_ = std::min(unread_, entry.bound);
     } else if (LinkFormat::is_leaf(entry.link)) {
       ++work_.blocks;
-      visit_block(entry, BlockView(record, tree_.shape));
+      visit_block(BlockView(record, tree_.shape));
     } else {
       ++work_.nodes;
       visit_node(entry, *reinterpret_cast<const Node*>(record));
@@ -93,11 +94,11 @@ class Descent {
     frontier_.push(near);
   }
 
-  HWY_INLINE void visit_block(FrontierEntry entry, const BlockView& block) {
+  HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
     // Too small for float, or too far away.
     if (!wide_.usable || header.extent < kLeastFilterExtent) {
-      for (unsigned i = 0; i < header.triangle_count; ++i) offer(block, i);
+      for (unsigned i = 0; i < header.triangle_count; ++i) note(block, i, 0);
       return;
     }
     const Point first = block.vertex(0);
@@ -111,34 +112,43 @@ class Descent {
     const float limit = filter_threshold(wide_, best_.reach(), header.extent);
     for (unsigned near = filter.near & near_triangles(filter, limit); near != 0; near &= near - 1) {
       const auto index = static_cast<unsigned>(std::countr_zero(near));
-      if (candidates_.full()) make_room();
-      candidates_.add({entry, index, header.extent, filter.squared[index]});
+      note(block, index, filter.squared[index]);
     }
   }
 
-  void make_room() {
-    candidates_.keep_if([&](const Candidate& candidate) { return may_be_best(candidate); });
-    if (candidates_.full()) settle();
+  void note(const BlockView& block, unsigned index, float squared) {
+    if (candidates_.full()) {
+      keep_possible();
+      if (candidates_.full()) settle();
+    }
+    candidates_.add(block.triangle(index), block.id(index), block.header().extent, squared);
   }
 
-  bool may_be_best(const Candidate& candidate) const {
-    return candidate.squared <= filter_threshold(wide_, best_.reach(), candidate.extent);
-  }
-
-  // Evaluates what may be best, the most promising first: it usually rules the others out.
-  void settle() {
-    candidates_.settle([&](const Candidate& candidate) {
-      if (!may_be_best(candidate)) return;
-      if (const std::byte* record = records_.find(candidate.block.link, work_))
-        offer(BlockView(record, tree_.shape), candidate.index);
-      else
-        unread_ = std::min(unread_, candidate.block.bound);
+  void keep_possible() {
+    candidates_.keep_if([&](float squared, float extent) {
+      return squared <= filter_threshold(wide_, best_.reach(), extent);
     });
   }
 
-  void offer(const BlockView& block, unsigned index) {
-    ++work_.triangles;
-    best_.offer(block.triangle(index), block.id(index));
+  // Evaluates what may be best.
+  void settle() {
+    keep_possible();
+    candidates_.pad();
+    const auto& rows = candidates_.rows();
+    for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
+      TriangleFindings findings;
+      unsigned flat = evaluate_triangles(rows.at[0][0] + i, Candidates::kMost, query_, findings);
+      const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
+      for (flat &= (1u << count) - 1; flat != 0; flat &= flat - 1) {
+        const auto lane = static_cast<unsigned>(std::countr_zero(flat));
+        refine_flat(query_, rows.triangle(i + lane), findings, lane);
+      }
+      for (std::size_t lane = 0; lane < count; ++lane)
+        best_.offer(findings.of(lane), candidates_.id(i + lane),
+                    [&] { return rows.triangle(i + lane); });
+    }
+    work_.triangles += candidates_.size();
+    candidates_.clear();
   }
 
   const TreeFacts& tree_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -32,7 +33,54 @@ struct NearestOnTriangle {
   Feature feature = Feature::kFace;
 };
 
-/// The value of `triangle` for `query`, in the model frame.
+/// How many triangles are evaluated at once.
+inline constexpr std::size_t kTrianglesAtOnce = 4;
+
+/// Below this squared sine of its largest angle a face is evaluated with 113 bits: double
+/// would lose more than 5.
+inline constexpr double kFlatFaceSine2 = 0x1p-10;
+/// A squared normal below this has lost bits to underflow.
+inline constexpr double kTinySquare = 0x1p-930;
+/// Rounding of a value, as a multiple of (greatest corner distance) / sine: the cross product
+/// loses 5 units of 2^-53, its dot products 3 more each, the inside test 2 * (4 + 5) across
+/// an edge; 64 covers their sum.
+inline constexpr double kValueErrorFactor = 64 * 0x1p-53;
+/// Squares below 2^-1022 underflow; distances below this are not resolved.
+inline constexpr double kAbsoluteValueError = 0x1p-500;
+/// What is known of one triangle before any point is made of it. Corners are numbered in
+/// lexicographic order; side k is opposite to corner k.
+struct TriangleFinding {
+  TriangleValue value;
+  double number = 0;  ///< of the apex, or of the nearest side
+  /// The nearest point is apex + first (its next corner - apex) + second (the last - apex),
+  /// or, where `second` is kOnSide, at the share `first` of the side.
+  double first = 0;
+  double second = 0;
+
+  static constexpr double kOnSide = -1;
+};
+
+/// Findings of triangles that were evaluated side by side.
+struct TriangleFindings {
+  alignas(32) double squared[kTrianglesAtOnce];
+  alignas(32) double error[kTrianglesAtOnce];
+  alignas(32) double number[kTrianglesAtOnce];
+  alignas(32) double first[kTrianglesAtOnce];
+  alignas(32) double second[kTrianglesAtOnce];
+
+  TriangleFinding of(std::size_t lane) const {
+    return {{squared[lane], error[lane]}, number[lane], first[lane], second[lane]};
+  }
+};
+
+/// Looks again, with 113 bits, at the face of a triangle that double found too flat.
+void refine_flat(const Point& query, const Triangle& triangle, TriangleFindings& findings,
+                 std::size_t lane) noexcept;
+
+/// The nearest point that is told of.
+NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding) noexcept;
+
+/// The nearest point of `triangle` to `query`, in the model frame.
 ///
 /// The value depends on the set of corners, not their order; where the nearest
 /// point lies on an edge or a vertex, it depends on that edge or vertex alone,
@@ -43,9 +91,11 @@ struct NearestOnTriangle {
 /// falls inside, the plane distance about the corner of the largest angle.
 /// Where that angle is so flat that double would lose more than 5 bits, the
 /// plane part is evaluated with 113 bits.
-TriangleValue triangle_value(const Point& query, const Triangle& triangle) noexcept;
-
-/// The same value with all that is known of it.
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept;
+
+/// Its value alone.
+inline TriangleValue triangle_value(const Point& query, const Triangle& triangle) noexcept {
+  return nearest_on_triangle(query, triangle).value;
+}
 
 }  // namespace planetree::octree

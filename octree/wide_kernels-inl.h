@@ -142,7 +142,8 @@ HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, b
   HWY_ALIGN std::int32_t keys[kFanOut];
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
     hn::Store(child_keys(node, p, discs, i), di, keys + i);
-  std::sort(keys, keys + node.child_count);
+  // The compiler cannot know that there are no more.
+  std::sort(keys, keys + std::min<std::size_t>(node.child_count, kFanOut));
   unsigned count = 0;
   for (unsigned i = 0; i < node.child_count; ++i) {
     group.bound_bits[i] = keys[i] & ~kChildBits;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/triangle_distance.h"
+
+namespace planetree::octree {
+
+/// Triangles side by side, for kernels that look at several at once. Plain memory; entries
+/// that were never set hold anything.
+template <std::size_t kMost>
+struct TriangleRows {
+  static_assert(kMost % kTrianglesAtOnce == 0);
+
+  alignas(kTrianglesAtOnce * sizeof(double)) double at[3][3][kMost];  ///< corner, axis, triangle
+
+  Triangle triangle(std::size_t i) const {
+    Triangle corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = {at[k][0][i], at[k][1][i], at[k][2][i]};
+    return corners;
+  }
+
+  void set(std::size_t i, const Triangle& corners) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        at[k][axis][i] = corners[k][axis];
+  }
+
+  void copy(std::size_t from, std::size_t to) {
+    for (auto& corner : at)
+      for (auto& row : corner) row[to] = row[from];
+  }
+};
+
+}  // namespace planetree::octree
