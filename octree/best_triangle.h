@@ -13,8 +13,7 @@ namespace planetree::octree {
 /// The best triangle of a descent so far and what may be pruned because of it.
 class BestTriangle {
  public:
-  BestTriangle(const FloatQuery& wide, const NearestLimits& limits)
-      : wide_(wide), limits_(limits) {
+  BestTriangle(const FloatQuery& wide, const NearestLimits& limits) : wide_(wide), limits_(limits) {
     refresh();
   }
 

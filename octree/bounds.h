@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/triangle_distance.h"
+
 /// Lower bounds on the distance to what a child box and its bounding planes
 /// enclose, in float, and how far to trust them.
 ///
@@ -44,7 +46,10 @@ struct FloatQuery {
   double slack = 0;     ///< what rounding may have moved it by
   bool usable = false;  ///< false: too far for float squares, nothing may be pruned
 
-  /// `x`, `y`, `z` are relative to the model's centre.
+  /// A query as the wide kernels see it: relative to the model's centre.
+  static FloatQuery from(const Point& query, const Point& centre) {
+    return from(query.x() - centre.x(), query.y() - centre.y(), query.z() - centre.z());
+  }
   static FloatQuery from(double x, double y, double z) {
     const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
     FloatQuery query;

@@ -9,12 +9,10 @@
 #include "octree/block_view.h"
 #include "octree/bounds.h"
 #include "octree/child_bounds.h"
+#include "octree/child_tests.h"
 #include "octree/tree_view.h"
 
 namespace planetree::octree {
-
-/// The children of a node whose boxes meet a box, one bit each.
-unsigned children_meeting(const Node& node, const FloatBox& box) noexcept;
 
 /// Visits every block whose box meets a box, in an order that depends on the
 /// tree alone. No allocation, no lock.

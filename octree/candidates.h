@@ -18,7 +18,11 @@ class Candidates {
 
   /// `squared` is the filter's value (octree/bounds.h), `extent` that of the block.
   void add(const Triangle& corners, std::uint64_t id, float extent, float squared) {
-    rows_.set(size_, corners);
+    // The first of a group stands in all its lanes, so that kernels need no mask.
+    if (size_ % kTrianglesAtOnce == 0)
+      rows_.fill(size_, corners);
+    else
+      rows_.set(size_, corners);
     id_[size_] = id;
     extent_[size_] = extent;
     squared_[size_++] = squared;
@@ -36,13 +40,9 @@ class Candidates {
     size_ = kept;
   }
 
-  /// Makes the list a multiple of kTrianglesAtOnce long, for kernels: repeats the last.
-  void pad() {
-    for (std::size_t i = size_; i % kTrianglesAtOnce != 0; ++i) rows_.copy(size_ - 1, i);
-  }
-
   void clear() { size_ = 0; }
 
+  /// Up to the next multiple of kTrianglesAtOnce there are triangles, of no meaning.
   const TriangleRows<kMost>& rows() const { return rows_; }
   std::uint64_t id(std::size_t at) const { return id_[at]; }
 

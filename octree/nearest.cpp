@@ -15,14 +15,23 @@
 #include "octree/candidates.h"
 #include "octree/conclusion.h"
 #include "octree/frontier.h"
+#include "octree/node_kernels-inl.h"
 #include "octree/strict_math.h"
+#include "octree/triangle_filter-inl.h"
 #include "octree/triangle_kernels-inl.h"
 #include "octree/vicinity.h"
-#include "octree/wide_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
+
+// The way from a point to the query, in float.
+struct FloatOffset {
+  FloatOffset(const Point& query, const Point& from)
+      : at{static_cast<float>(query.x() - from.x()), static_cast<float>(query.y() - from.y()),
+           static_cast<float>(query.z() - from.z())} {}
+  const float at[3];
+};
 
 // One descent; the parts that touch nodes and blocks are compiled per target.
 class Descent {
@@ -31,8 +40,7 @@ class Descent {
           TreeWork& work)
       : tree_(tree),
         query_(query),
-        wide_(FloatQuery::from(query.x() - tree.centre.x(), query.y() - tree.centre.y(),
-                               query.z() - tree.centre.z())),
+        wide_(FloatQuery::from(query, tree.centre)),
         limits_(limits),
         work_(work),
         records_(tree, pages),
@@ -42,9 +50,15 @@ class Descent {
     visit({.bound = 0, .link = tree_.root_link}, 0);
     run();
   }
-  void run_from(const Node& front) {
-    visit_node({.bound = 0, .link = 0}, front);
-    run();
+  // From what a ball holds.
+  void run_from(const Vicinity& vicinity) {
+    if (wide_.usable && vicinity.nearby().complete()) {
+      visit_nearby(vicinity.nearby());
+      settle();
+    } else {
+      visit_node({.bound = 0, .link = 0}, vicinity.front());
+      run();
+    }
   }
 
   const BestTriangle& best() const { return best_; }
@@ -96,32 +110,51 @@ class Descent {
 
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
+    const auto note_one = [&](unsigned i, float squared) {
+      note(block.triangle(i), block.id(i), header.extent, squared);
+    };
     // Too small for float, or too far away.
     if (!wide_.usable || header.extent < kLeastFilterExtent) {
-      for (unsigned i = 0; i < header.triangle_count; ++i) note(block, i, 0);
+      for (unsigned i = 0; i < header.triangle_count; ++i) note_one(i, 0);
       return;
     }
-    const Point first = block.vertex(0);
-    const float local[3] = {static_cast<float>(query_.x() - first.x()),
-                            static_cast<float>(query_.y() - first.y()),
-                            static_cast<float>(query_.z() - first.z())};
-    BlockFilter filter;
-    filter_block(header, local, filter_threshold(wide_, best_.reach(), header.extent), filter);
-    if (filter.near == 0) return;
-    best_.promise(filter_upper(filter.least_upper, header.extent));
-    const float limit = filter_threshold(wide_, best_.reach(), header.extent);
-    for (unsigned near = filter.near & near_triangles(filter, limit); near != 0; near &= near - 1) {
+    const FloatOffset from(query_, block.vertex(0));
+    filter(header.triangle_count, header.extent, note_one,
+           [&](float limit, auto& filtered) { filter_block(header, from.at, limit, filtered); });
+  }
+
+  HWY_INLINE void visit_nearby(const NearbyTriangles& list) {
+    const auto note_one = [&](unsigned i, float squared) {
+      note(list.triangle(i), list.id(i), list.extent(), squared);
+    };
+    const FloatOffset from(query_, list.centre());
+    filter(list.size(), list.extent(), note_one, [&](float limit, auto& filtered) {
+      filter_triangles(ListedTriangles(list, from.at), list.size(), limit, filtered);
+    });
+  }
+
+  // Notes those of some triangles that float cannot rule out. run_filter(limit, filtered)
+  // looks at them.
+  template <class Note, class RunFilter>
+  HWY_INLINE void filter(std::size_t count, float extent, const Note& note_one,
+                         const RunFilter& run_filter) {
+    FilteredTriangles filtered;
+    run_filter(filter_threshold(wide_, best_.reach(), extent), filtered);
+    if (filtered.near == 0) return;
+    best_.promise(filter_upper(filtered.least_upper, extent));
+    const float limit = filter_threshold(wide_, best_.reach(), extent);
+    for (unsigned near = near_triangles(filtered, count, limit); near != 0; near &= near - 1) {
       const auto index = static_cast<unsigned>(std::countr_zero(near));
-      note(block, index, filter.squared[index]);
+      note_one(index, filtered.squared[index]);
     }
   }
 
-  void note(const BlockView& block, unsigned index, float squared) {
+  void note(const Triangle& corners, std::uint64_t id, float extent, float squared) {
     if (candidates_.full()) {
       keep_possible();
       if (candidates_.full()) settle();
     }
-    candidates_.add(block.triangle(index), block.id(index), block.header().extent, squared);
+    candidates_.add(corners, id, extent, squared);
   }
 
   void keep_possible() {
@@ -133,7 +166,6 @@ class Descent {
   // Evaluates what may be best.
   void settle() {
     keep_possible();
-    candidates_.pad();
     const auto& rows = candidates_.rows();
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
       TriangleFindings findings;
@@ -164,97 +196,6 @@ class Descent {
   float unread_ = std::numeric_limits<float>::infinity();
 };
 
-// Fills the front of a ball: from the root down, the largest subtree first, as long as
-// there is room for its children.
-class VicinitySearch {
- public:
-  VicinitySearch(const TreeFacts& tree, const Point& query, double radius, PageReader pages,
-                 TreeWork& work, Node& front)
-      : wide_(FloatQuery::from(query.x() - tree.centre.x(), query.y() - tree.centre.y(),
-                               query.z() - tree.centre.z())),
-        threshold_(prune_threshold(wide_, radius)),
-        records_(tree, pages),
-        work_(work),
-        front_(front) {}
-
-  // False where there is nothing to keep.
-  bool run(std::uint32_t root_link) {
-    front_.child_count = 0;
-    front_.gate = std::numeric_limits<float>::infinity();
-    if (LinkFormat::is_leaf(root_link) || !open(root_link, 0)) return false;
-    for (unsigned at; (at = largest()) < front_.child_count;)
-      if (!open(front_.link[at], at)) closed_ |= 1u << at;
-    return front_.child_count > 0;
-  }
-
- private:
-  // The largest subtree that may still be opened.
-  unsigned largest() const {
-    unsigned best = kFanOut;
-    for (unsigned at = 0; at < front_.child_count; ++at) {
-      if ((closed_ >> at & 1) != 0 || LinkFormat::is_leaf(front_.link[at])) continue;
-      if (best == kFanOut || size_[at] > size_[best]) best = at;
-    }
-    return best;
-  }
-
-  // Puts a node's near children in its place. False, and nothing changed, where there is no
-  // room for them or the page is lost.
-  bool open(std::uint32_t link, unsigned place) {
-    const std::byte* record = records_.find(link, work_);
-    if (!record) return false;
-    ++work_.nodes;
-    const Node& node = *reinterpret_cast<const Node*>(record);
-    unsigned near = near_children(node, wide_, threshold_);
-    const unsigned others = front_.child_count - (front_.child_count > 0 ? 1u : 0u);
-    if (others + static_cast<unsigned>(std::popcount(near)) > kFanOut) return false;
-    if (near == 0) return remove(place);
-    for (bool first = true; near != 0; near &= near - 1, first = false) {
-      const bool here = first && front_.child_count > 0;
-      put(node, static_cast<unsigned>(std::countr_zero(near)), here ? place : front_.child_count++);
-    }
-    return true;
-  }
-
-  bool remove(unsigned place) {
-    const unsigned last = --front_.child_count;
-    closed_ = (closed_ & ~(1u << place)) | (closed_ >> last & 1) << place;
-    closed_ &= ~(1u << last);
-    put(front_, last, place);
-    return true;
-  }
-
-  void put(const Node& from, unsigned child, unsigned place) {
-    float diagonal2 = 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      front_.lower[axis][place] = from.lower[axis][child];
-      front_.upper[axis][place] = from.upper[axis][child];
-      const float side = from.upper[axis][child] - from.lower[axis][child];
-      diagonal2 += side * side;
-    }
-    front_.link[place] = from.link[child];
-    size_[place] = diagonal2;
-  }
-
-  const FloatQuery wide_;
-  const float threshold_;
-  RecordFinder records_;
-  TreeWork& work_;
-  Node& front_;
-  float size_[kFanOut];
-  unsigned closed_ = 0;
-};
-
-void renew(Vicinity& vicinity, const TreeFacts& tree, const Point& query, double distance,
-           PageReader pages, TreeWork& work) {
-  const double diagonal = (tree.box_upper - tree.box_lower).norm();
-  const double radius = vicinity.wanted_radius(query, distance, diagonal);
-  if (!(radius > 0)) return;
-  Node& front = vicinity.begin(query, radius);
-  if (!VicinitySearch(tree, query, radius, pages, work, front).run(tree.root_link))
-    vicinity.forget();
-}
-
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
                                 const NearestLimits& limits, PageReader pages, TreeWork& work,
                                 Vicinity* vicinity) {
@@ -264,7 +205,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   };
   if (vicinity && vicinity->holds(query)) {
     Descent descent(tree, query, limits, pages, work);
-    descent.run_from(vicinity->front());
+    descent.run_from(*vicinity);
     NearestAnswer answer = answer_of(descent);
     if (answer.status == Status::kExact) {
       vicinity->note(query, answer.distance);
@@ -277,7 +218,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   descent.run_from_root();
   NearestAnswer answer = answer_of(descent);
   if (vicinity && answer.status == Status::kExact) {
-    renew(*vicinity, tree, query, answer.distance, pages, work);
+    vicinity->renew(tree, query, answer.distance, pages, work);
     vicinity->note(query, answer.distance);
   }
   return answer;

@@ -15,7 +15,7 @@ struct PageReader {
   void* context = nullptr;
   const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
   /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
-  const std::byte* (*peek)(const void* context, std::uint32_t number) noexcept = nullptr;
+  const std::byte* (*peek)(void* context, std::uint32_t number) noexcept = nullptr;
 };
 
 /// What a descent must know of a tree; lengths are in the model frame.
@@ -67,6 +67,7 @@ class RecordFinder {
                                                   : nullptr;
     if (!frame) return;
     const std::byte* record = frame + links_.slot(link) * kSlotBytes;
+#pragma GCC unroll 4
     for (std::size_t line = 0; line < kPrefetched; ++line)
       __builtin_prefetch(record + line * kSlotBytes);
   }

@@ -144,9 +144,9 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
 
   const Doubles farthest = hn::Max(hn::Max(far0, far1), far2);
   const Doubles inverse_sine2 = hn::IfThenElse(round, hn::Div(sides2, normal2), hn::Set(d, 1.0));
-  const Doubles error = hn::Add(
-      hn::Mul(hn::Set(d, kValueErrorFactor), hn::Sqrt(hn::Mul(farthest, inverse_sine2))),
-      hn::Set(d, kAbsoluteValueError));
+  const Doubles error =
+      hn::Add(hn::Mul(hn::Set(d, kValueErrorFactor), hn::Sqrt(hn::Mul(farthest, inverse_sine2))),
+              hn::Set(d, kAbsoluteValueError));
   hn::Store(hn::IfThenElse(on_face, face, nearest.squared), d, findings.squared + lane);
   hn::Store(error, d, findings.error + lane);
   hn::Store(hn::IfThenElse(on_face, apex, side), d, findings.number + lane);

@@ -24,8 +24,15 @@ struct TriangleRows {
 
   void set(std::size_t i, const Triangle& corners) {
     for (std::size_t k = 0; k < 3; ++k)
+      for (Eigen::Index axis = 0; axis < 3; ++axis) at[k][axis][i] = corners[k][axis];
+  }
+
+  /// Sets `i` and all others that are evaluated with it; `i` is the first of these.
+  void fill(std::size_t i, const Triangle& corners) {
+    for (std::size_t k = 0; k < 3; ++k)
       for (Eigen::Index axis = 0; axis < 3; ++axis)
-        at[k][axis][i] = corners[k][axis];
+        for (std::size_t lane = 0; lane < kTrianglesAtOnce; ++lane)
+          at[k][axis][i + lane] = corners[k][axis];
   }
 
   void copy(std::size_t from, std::size_t to) {

@@ -4,17 +4,19 @@
 #include <limits>
 
 #include "octree/frame.h"
+#include "octree/nearby_triangles.h"
+#include "octree/tree_view.h"
 #include "octree/triangle_distance.h"
 
 namespace planetree::octree {
 
-/// The few subtrees that reach into a ball, kept from one query for the next ones: those
-/// near it start there and not at the root.
+/// The few subtrees that reach into a ball, and the triangles that do where they are few as
+/// well, kept from one query for the next ones: those near it start there and not at the root.
 ///
 /// A query's nearest triangle is no farther than the last one was and the way between the
 /// two. Where the ball holds all that is so near, nothing outside it can matter, so that
-/// answers are the same bits as from the root. Plain memory: links, no pointers into
-/// frames. One thread.
+/// answers are the same bits as from the root. Plain memory: links and copies, no pointers
+/// into frames. One thread.
 class Vicinity {
  public:
   /// Whether all triangles that may be nearest to `query`, or as near to the last bits, are
@@ -37,12 +39,13 @@ class Vicinity {
     return distance + kSteps * std::max(step, distance * kLeastStep);
   }
 
-  /// Begins a ball; front() is to be filled with what reaches into it.
-  Node& begin(const Point& centre, double radius) {
-    centre_ = centre;
-    radius_ = radius;
-    return front_;
-  }
+  /// The triangles, if they are few.
+  const NearbyTriangles& nearby() const { return nearby_; }
+
+  /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to
+  /// be worth its while. `distance` is the answer to it.
+  void renew(const TreeFacts& tree, const Point& query, double distance, PageReader pages,
+             TreeWork& work) noexcept;
 
   /// An exact answer.
   void note(const Point& query, double distance) {
@@ -53,16 +56,22 @@ class Vicinity {
   void forget() { radius_ = 0; }
 
  private:
+  void fill(const TreeFacts& tree, PageReader pages, TreeWork& work);
+
   static constexpr double kSlack = 0x1p-24;       ///< far above what bounds and sums may err
   static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
   static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
-  static constexpr double kSteps = 12;            ///< that a ball is to last
+  static constexpr double kSteps = 16;            ///< that a ball is to last
+  /// Balls of more than this share of one that held too many triangles are not searched.
+  static constexpr double kLessCrowded = 0.75;
 
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());
   double radius_ = 0;
   double last_distance_ = 0;
+  double crowded_radius_ = std::numeric_limits<double>::infinity();
   Node front_{};
+  NearbyTriangles nearby_;
 };
 
 }  // namespace planetree::octree

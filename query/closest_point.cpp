@@ -40,10 +40,14 @@ octree::NearestAnswer farthest(const octree::TreeFacts& tree, const octree::Poin
   return nearest;
 }
 
-// The point itself, or one that far away in its direction; model frame.
-octree::Point within_reach(const Scale& scale, const Vec3& query) {
-  octree::Point point = scale.in(query);
-  if (point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) return point;
+bool is_far(const octree::Point& point) {
+  return !(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
+}
+
+// The point itself, or one that far away in its direction. `placed` is the query in the
+// model frame.
+octree::Point within_reach(const octree::Point& placed, const Vec3& query) {
+  if (!is_far(placed)) return placed;
   const octree::Point from(query.x, query.y, query.z);
   return from / from.cwiseAbs().maxCoeff() * octree::kFarthestQuery;
 }
@@ -66,7 +70,8 @@ ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nea
   ClosestPoint answer;
   answer.distance = scale.out(nearest.distance);
   answer.lower = std::min(scale.out_below(nearest.lower), std::numeric_limits<double>::max());
-  answer.upper = std::max(scale.out_above(nearest.upper), std::nextafter(answer.lower, kInfinity));
+  answer.upper = scale.out_above(nearest.upper);
+  if (!(answer.upper > answer.lower)) answer.upper = std::nextafter(answer.lower, kInfinity);
   answer.point = scale.out(nearest.point);
   answer.triangle = nearest.triangle;
   answer.barycentric = {nearest.barycentric[0], nearest.barycentric[1], nearest.barycentric[2]};
@@ -83,8 +88,9 @@ class Asking {
         vicinity_(probe.vicinity()),
         query_(query),
         ask_(ask),
-        far_(!(model_.scale().in(query).cwiseAbs().maxCoeff() <= octree::kFarthestQuery)),
-        point_(within_reach(model_.scale(), query)),
+        placed_(model_.scale().in(query)),
+        far_(is_far(placed_)),
+        point_(within_reach(placed_, query)),
         turner_(probe.reader()) {}
 
   ClosestPoint run() {
@@ -136,6 +142,7 @@ class Asking {
   octree::Vicinity& vicinity_;
   const Vec3& query_;
   const Ask& ask_;
+  const octree::Point placed_;
   const bool far_;
   const octree::Point point_;
   PageTurner turner_;
@@ -157,8 +164,8 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   const ModelState& model = probe.model();
   PageTurner turner(probe.reader());
   octree::TreeWork work;
-  const Standing standing =
-      find_side(model, within_reach(model.scale(), query), ask.max_nodes, turner.pages(), work);
+  const Standing standing = find_side(model, within_reach(model.scale().in(query), query),
+                                      ask.max_nodes, turner.pages(), work);
   if (standing.status == Status::kDegraded) model.count_degraded();
   return {standing.side, standing.status};
 }

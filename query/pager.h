@@ -43,23 +43,29 @@ class Pager {
   std::unique_ptr<cache::PageCache> cache_;
 };
 
-/// One probe's way to pages during one ask: a section of the cache, ended with
-/// this object.
+/// One probe's way to pages during one ask: a section of the cache, begun where a page is
+/// first looked for, for that is an exchange with memory, and ended with this object.
 class PageTurner {
  public:
-  explicit PageTurner(cache::Reader& reader) noexcept : reader_(reader) { reader_.enter(); }
-  ~PageTurner() { reader_.leave(); }
+  explicit PageTurner(cache::Reader& reader) noexcept : reader_(reader) {}
+  ~PageTurner() {
+    if (reader_.inside()) reader_.leave();
+  }
   PageTurner(const PageTurner&) = delete;
   PageTurner& operator=(const PageTurner&) = delete;
 
   /// The page's frame, good until the next call; null if it is unreadable.
   const std::byte* page(std::uint32_t number) noexcept {
-    if (++turns_ % kTurnsPerSection == 0) {
-      reader_.leave();
-      reader_.enter();
-    }
+    if (++turns_ % kTurnsPerSection == 0) reader_.leave();
+    begin();
     if (const std::byte* frame = reader_.find(number)) return frame;
     return reader_.fetch(number);
+  }
+
+  /// Where page() would find it, or null.
+  const std::byte* peek(std::uint32_t number) noexcept {
+    begin();
+    return reader_.peek(number);
   }
 
   octree::PageReader pages() noexcept {
@@ -67,12 +73,16 @@ class PageTurner {
             [](void* context, std::uint32_t number) noexcept {
               return static_cast<PageTurner*>(context)->page(number);
             },
-            [](const void* context, std::uint32_t number) noexcept {
-              return static_cast<const PageTurner*>(context)->reader_.peek(number);
+            [](void* context, std::uint32_t number) noexcept {
+              return static_cast<PageTurner*>(context)->peek(number);
             }};
   }
 
  private:
+  void begin() noexcept {
+    if (!reader_.inside()) reader_.enter();
+  }
+
   // Evicted frames are reused only after sections that may see them end.
   static constexpr std::uint32_t kTurnsPerSection = 256;
   cache::Reader& reader_;

@@ -65,6 +65,7 @@ struct Path {
 TEST(Vicinity, ChangesNoAnswer) {
   const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(5)},
                                                 {"a triangle many times", repeated(500)},
+                                                {"a few too many to keep", repeated(40)},
                                                 {"long triangles", scattered(400, 1.0)},
                                                 {"small triangles", scattered(4000, 1e-2)},
                                                 {"one triangle", repeated(1)}};
@@ -98,6 +99,20 @@ TEST(Vicinity, SparesMostNodesOfAPath) {
   EXPECT_LE(path.work_along.blocks, path.work_alone.blocks);
 }
 
+TEST(Vicinity, LooksAtNoPageWhereTrianglesAreFew) {
+  const SampleTree sample = build_sample(sphere(6));
+  SamplePages pages(sample);
+  Vicinity vicinity;
+  TreeWork work;
+  for (int i = 0; i < 12; ++i) {
+    const std::uint64_t turns = work.page_turns;
+    nearest(tree_facts(sample), Point(0.35, 0.355 + i * 1e-6, 0.1), {}, pages.reader(), work,
+            &vicinity);
+    if (i < 2) continue;
+    EXPECT_EQ(work.page_turns, turns) << i;
+  }
+}
+
 TEST(Vicinity, CostsLittleWhereThereIsNoPath) {
   Path path(sphere(6));
   path.expect_same_answers(wander(500, 1e-4, 1));
@@ -105,7 +120,7 @@ TEST(Vicinity, CostsLittleWhereThereIsNoPath) {
 }
 
 TEST(Vicinity, HoldsNothingBeforeTheFirstAnswer) {
-  const Vicinity vicinity;
+  const Vicinity vicinity{};
   EXPECT_FALSE(vicinity.holds(Point(0, 0, 0)));
   EXPECT_EQ(vicinity.wanted_radius(Point(0, 0, 0), 1, 2), 0);
 }

@@ -8,8 +8,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
-#include "octree/wide_kernels-inl.h"
+#include "octree/nearby_triangles.h"
+#include "octree/node_kernels-inl.h"
+#include "octree/triangle_filter-inl.h"
 #include "tests/oracle/nasty_models.h"
 #include "tests/oracle/random.h"
 #include "tests/oracle/tree_pages.h"
@@ -26,8 +29,7 @@ Vec3 plain(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Corners plain(const Triangle& t) { return {plain(t[0]), plain(t[1]), plain(t[2])}; }
 
 FloatQuery float_query(const TreePages& pages, const Point& query) {
-  const Point from = query - pages.centre();
-  return FloatQuery::from(from.x(), from.y(), from.z());
+  return FloatQuery::from(query, pages.centre());
 }
 
 // A child's box and disc hold every corner below it. Stored numbers are taken
@@ -138,28 +140,59 @@ TEST(NodeBounds, HoldInBoxesOfFewUlps) {
   }
 }
 
+namespace on_target = octree::HWY_NAMESPACE;
+
 // The float filter lets every triangle pass that is no farther than the limit, and promises
-// none nearer than there is.
-void expect_filter_passes(const octree::BlockView& block, const TreePages& pages,
-                          const Point& query) {
-  const FloatQuery wide = float_query(pages, query);
-  const Point from = query - block.vertex(0);
+// none nearer than there is. filter(local query, limit, filtered) runs it; the query is
+// relative to `origin`.
+template <class Filter>
+void expect_filter_passes(const std::vector<Triangle>& triangles, const FloatQuery& wide,
+                          const Point& query, const Point& origin, float extent,
+                          const Filter& filter) {
+  const Point from = query - origin;
   const float local[3] = {static_cast<float>(from.x()), static_cast<float>(from.y()),
                           static_cast<float>(from.z())};
-  octree::HWY_NAMESPACE::BlockFilter filter;
+  on_target::FilteredTriangles filtered;
   double nearest = std::numeric_limits<double>::infinity();
-  for (unsigned i = 0; i < block.triangle_count(); ++i) {
-    const double reach = std::sqrt(octree::triangle_value(query, block.triangle(i)).squared);
-    const float limit = octree::filter_threshold(wide, reach, block.header().extent);
-    octree::HWY_NAMESPACE::filter_block(block.header(), local, limit, filter);
-    EXPECT_TRUE((filter.near >> i & 1) != 0)
-        << "value " << std::sqrt(filter.squared[i]) << " distance " << reach << " extent "
-        << block.header().extent;
+  for (unsigned i = 0; i < triangles.size(); ++i) {
+    const double reach = std::sqrt(octree::triangle_value(query, triangles[i]).squared);
+    filter(local, octree::filter_threshold(wide, reach, extent), filtered);
+    EXPECT_TRUE((filtered.near >> i & 1) != 0) << "value " << std::sqrt(filtered.squared[i])
+                                               << " distance " << reach << " extent " << extent;
     nearest = std::min(nearest, reach);
   }
-  if (wide.usable && block.header().extent >= octree::kLeastFilterExtent) {
-    EXPECT_GE(octree::filter_upper(filter.least_upper, block.header().extent), nearest);
+  if (wide.usable && extent >= octree::kLeastFilterExtent) {
+    EXPECT_GE(octree::filter_upper(filtered.least_upper, extent), nearest);
   }
+}
+
+void expect_block_passes(const octree::BlockView& block, const FloatQuery& wide,
+                         const Point& query) {
+  std::vector<Triangle> triangles;
+  for (unsigned i = 0; i < block.triangle_count(); ++i) triangles.push_back(block.triangle(i));
+  expect_filter_passes(triangles, wide, query, block.vertex(0), block.header().extent,
+                       [&](const auto& local, float limit, auto& filtered) {
+                         on_target::filter_block(block.header(), local, limit, filtered);
+                       });
+}
+
+// The same triangles as a list about some point.
+void expect_list_passes(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
+                        const Point& centre) {
+  octree::NearbyTriangles list;
+  list.begin(centre);
+  std::vector<Triangle> triangles;
+  for (unsigned i = 0; i < block.triangle_count(); ++i) {
+    triangles.push_back(block.triangle(i));
+    ASSERT_TRUE(list.add(triangles.back(), block.id(i)));
+  }
+  list.finish();
+  if (!list.complete()) return;
+  expect_filter_passes(triangles, wide, query, centre, list.extent(),
+                       [&](const auto& local, float limit, auto& filtered) {
+                         on_target::filter_triangles(on_target::ListedTriangles(list, local),
+                                                     list.size(), limit, filtered);
+                       });
 }
 
 TEST(TriangleFilter, NeverRejectsTheNearest) {
@@ -173,8 +206,12 @@ TEST(TriangleFilter, NeverRejectsTheNearest) {
         const octree::BlockView block = pages.block(link);
         const Soup soup = below(pages, link);
         for (int k = 0; k < 40; ++k) {
-          const Vec3 q = nasty_query(random, soup, 1);
-          expect_filter_passes(block, pages, Point(q.x, q.y, q.z));
+          const Vec3 q = nasty_query(random, soup, 1), c = nasty_query(random, soup, 1);
+          const Point query(q.x, q.y, q.z), centre(c.x, c.y, c.z);
+          const FloatQuery wide = float_query(pages, query);
+          expect_block_passes(block, wide, query);
+          if (wide.usable && float_query(pages, centre).usable)
+            expect_list_passes(block, wide, query, centre);
         }
       };
       if (octree::LinkFormat::is_leaf(pages.model().root_link)) check(pages.model().root_link);

@@ -1,0 +1,124 @@
+// A node's children seen from a query: how far they are at least, and in which order.
+
+#if defined(PLANETREE_OCTREE_NODE_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_NODE_KERNELS_INL_H_
+#undef PLANETREE_OCTREE_NODE_KERNELS_INL_H_
+#else
+#define PLANETREE_OCTREE_NODE_KERNELS_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "octree/bounds.h"
+#include "octree/frontier.h"
+#include "octree/wide_floats-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Squared lower bounds of a node's children from `i` on, see octree/bounds.h.
+HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std::size_t i) {
+  const FloatTag d;
+  const Wide3 lower{hn::Load(d, node.lower[0] + i), hn::Load(d, node.lower[1] + i),
+                    hn::Load(d, node.lower[2] + i)};
+  const Wide3 upper{hn::Load(d, node.upper[0] + i), hn::Load(d, node.upper[1] + i),
+                    hn::Load(d, node.upper[2] + i)};
+  const Wide3 gap{outside(lower.x, upper.x, p.x), outside(lower.y, upper.y, p.y),
+                  outside(lower.z, upper.z, p.z)};
+  const Floats bound = dot(gap, gap);
+  if (!discs) return bound;
+  const Floats half = hn::Set(d, 0.5f);
+  const Floats zero = hn::Zero(d);
+  const Wide3 centre{hn::Mul(hn::Add(lower.x, upper.x), half),
+                     hn::Mul(hn::Add(lower.y, upper.y), half),
+                     hn::Mul(hn::Add(lower.z, upper.z), half)};
+  const Wide3 normal{hn::Load(d, node.normal[0] + i), hn::Load(d, node.normal[1] + i),
+                     hn::Load(d, node.normal[2] + i)};
+  const Wide3 from = sub(p, centre);
+  const Floats height = dot(normal, from);
+  const Floats off =
+      outside(hn::Load(d, node.slab_lower + i), hn::Load(d, node.slab_upper + i), height);
+  const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
+  const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
+  const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
+  return hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
+}
+
+// Bits of a bound that name the child instead.
+inline constexpr std::int32_t kChildBits = kFanOut - 1;
+inline constexpr std::int32_t kNoChild = std::numeric_limits<std::int32_t>::max();
+
+// A child's bound and its number, in an order that all targets agree on.
+HWY_INLINE Ints child_keys(const Node& node, const Wide3& p, bool discs, std::size_t i) {
+  const IntTag d;
+  const Ints bits = hn::BitCast(d, child_bounds(node, p, discs, i));
+  return hn::Or(hn::AndNot(hn::Set(d, kChildBits), bits),
+                hn::Iota(d, static_cast<std::int32_t>(i)));
+}
+
+#if PLANETREE_EIGHT_LANES
+// Sorts eight integers within a register, by a bitonic network.
+HWY_INLINE Ints sort_lanes(Ints v) {
+  const IntTag d;
+  const hn::Repartition<std::int64_t, IntTag> pairs;
+  const auto odd_even_pairs = [&](Ints odd, Ints even) {
+    return hn::BitCast(d, hn::OddEven(hn::BitCast(pairs, odd), hn::BitCast(pairs, even)));
+  };
+  const auto next_to = [&](Ints at) {
+    const Ints other = hn::Reverse2(d, at);
+    return hn::OddEven(hn::Max(at, other), hn::Min(at, other));
+  };
+  v = next_to(v);
+  Ints other = hn::Reverse4(d, v);
+  v = next_to(odd_even_pairs(hn::Max(v, other), hn::Min(v, other)));
+  other = hn::Reverse8(d, v);
+  v = hn::ConcatUpperLower(d, hn::Max(v, other), hn::Min(v, other));
+  other = hn::Shuffle1032(v);
+  return next_to(odd_even_pairs(hn::Max(v, other), hn::Min(v, other)));
+}
+#endif
+
+// Writes a node's children, nearest first, and returns how many of them have bounds
+// that are not above the threshold. Bounds lose their kChildBits.
+HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, bool discs,
+                                    float threshold, FrontierGroup& group) {
+  const FloatTag d;
+  const IntTag di;
+  const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
+  const std::int32_t most = std::bit_cast<std::int32_t>(threshold) | kChildBits;
+#if PLANETREE_EIGHT_LANES
+  const hn::RebindToUnsigned<IntTag> du;
+  const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
+  const Ints keys =
+      sort_lanes(hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoChild)));
+  const auto child = hn::IndicesFromVec(du, hn::And(keys, hn::Set(di, kChildBits)));
+  hn::Store(hn::AndNot(hn::Set(di, kChildBits), keys), di, group.bound_bits);
+  hn::Store(hn::TableLookupLanes(hn::Load(du, node.link), child), du, group.link);
+  return static_cast<unsigned>(hn::CountTrue(di, hn::Not(hn::Gt(keys, hn::Set(di, most)))));
+#else
+  HWY_ALIGN std::int32_t keys[kFanOut];
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
+    hn::Store(child_keys(node, p, discs, i), di, keys + i);
+  // The compiler cannot know that there are no more.
+  std::sort(keys, keys + std::min<std::size_t>(node.child_count, kFanOut));
+  unsigned count = 0;
+  for (unsigned i = 0; i < node.child_count; ++i) {
+    group.bound_bits[i] = keys[i] & ~kChildBits;
+    group.link[i] = node.link[keys[i] & kChildBits];
+    count += keys[i] <= most ? 1 : 0;
+  }
+  return count;
+#endif
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,194 @@
+#include "octree/vicinity.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "octree/block_view.h"
+#include "octree/bounds.h"
+#include "octree/child_tests.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+// The subtrees that reach into a ball: from the root down, the largest first, as long as
+// there is room for its children.
+class FrontSearch {
+ public:
+  FrontSearch(const TreeFacts& tree, const Point& centre, double radius, PageReader pages,
+              TreeWork& work, Node& front)
+      : query_(FloatQuery::from(centre, tree.centre)),
+        threshold_(prune_threshold(query_, radius)),
+        records_(tree, pages),
+        work_(work),
+        front_(front) {}
+
+  // False where there is nothing to keep.
+  bool run(std::uint32_t root_link) {
+    front_.child_count = 0;
+    front_.gate = std::numeric_limits<float>::infinity();
+    if (LinkFormat::is_leaf(root_link) || !open(root_link, 0)) return false;
+    for (unsigned at; (at = largest()) < front_.child_count;)
+      if (!open(front_.link[at], at)) closed_ |= 1u << at;
+    return front_.child_count > 0;
+  }
+
+ private:
+  // The largest subtree that may still be opened.
+  unsigned largest() const {
+    unsigned best = kFanOut;
+    for (unsigned at = 0; at < front_.child_count; ++at) {
+      if ((closed_ >> at & 1) != 0 || LinkFormat::is_leaf(front_.link[at])) continue;
+      if (best == kFanOut || size_[at] > size_[best]) best = at;
+    }
+    return best;
+  }
+
+  // Puts a node's near children in its place. False, and nothing changed, where there is no
+  // room for them or the page is lost.
+  bool open(std::uint32_t link, unsigned place) {
+    const std::byte* record = records_.find(link, work_);
+    if (!record) return false;
+    ++work_.nodes;
+    const Node& node = *reinterpret_cast<const Node*>(record);
+    unsigned near = children_within(node, query_, threshold_);
+    const unsigned others = front_.child_count - (front_.child_count > 0 ? 1u : 0u);
+    if (others + static_cast<unsigned>(std::popcount(near)) > kFanOut) return false;
+    if (near == 0) return remove(place);
+    for (bool first = true; near != 0; near &= near - 1, first = false) {
+      const bool here = first && front_.child_count > 0;
+      put(node, static_cast<unsigned>(std::countr_zero(near)), here ? place : front_.child_count++);
+    }
+    return true;
+  }
+
+  bool remove(unsigned place) {
+    const unsigned last = --front_.child_count;
+    closed_ = (closed_ & ~(1u << place)) | (closed_ >> last & 1) << place;
+    closed_ &= ~(1u << last);
+    put(front_, last, place);
+    return true;
+  }
+
+  void put(const Node& from, unsigned child, unsigned place) {
+    float diagonal2 = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      front_.lower[axis][place] = from.lower[axis][child];
+      front_.upper[axis][place] = from.upper[axis][child];
+      const float side = from.upper[axis][child] - from.lower[axis][child];
+      diagonal2 += side * side;
+    }
+    front_.link[place] = from.link[child];
+    size_[place] = diagonal2;
+  }
+
+  const FloatQuery query_;
+  const float threshold_;
+  RecordFinder records_;
+  TreeWork& work_;
+  Node& front_;
+  float size_[kFanOut];
+  unsigned closed_ = 0;
+};
+
+// Whether a triangle's box comes near enough for the triangle to matter.
+bool reaches(const Triangle& corners, const Point& centre, double radius) {
+  const Point lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Point upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  return (lower - centre).cwiseMax(centre - upper).cwiseMax(0.0).squaredNorm() <=
+         radius * radius * (1 + 0x1p-40);
+}
+
+// The triangles below a front that reach into the ball.
+class TriangleSearch {
+ public:
+  TriangleSearch(const TreeFacts& tree, const Point& centre, double radius, PageReader pages,
+                 TreeWork& work)
+      : tree_(tree),
+        centre_(centre),
+        radius_(radius),
+        query_(FloatQuery::from(centre, tree.centre)),
+        threshold_(prune_threshold(query_, radius)),
+        records_(tree, pages),
+        work_(work) {}
+
+  // False where they are too many, or a page is lost.
+  bool run(const Node& front, NearbyTriangles& found) {
+    found.begin(centre_);
+    push_children(front);
+    while (size_ > 0) {
+      const std::uint32_t link = links_[--size_];
+      const std::byte* record = records_.find(link, work_);
+      if (!record) return false;
+      const bool fits = LinkFormat::is_leaf(link)
+                            ? add_block(BlockView(record, tree_.shape), found)
+                            : add_node(*reinterpret_cast<const Node*>(record));
+      if (!fits) return false;
+    }
+    found.finish();
+    return found.complete();
+  }
+
+ private:
+  bool add_node(const Node& node) {
+    ++work_.nodes;
+    if (size_ + kFanOut > links_.size()) return false;
+    push_children(node);
+    return true;
+  }
+
+  void push_children(const Node& node) {
+    for (unsigned near = children_within(node, query_, threshold_); near != 0; near &= near - 1)
+      links_[size_++] = node.link[static_cast<unsigned>(std::countr_zero(near))];
+  }
+
+  bool add_block(const BlockView& block, NearbyTriangles& found) {
+    if (++blocks_ > kMostBlocks) return false;
+    ++work_.blocks;
+    for (unsigned i = 0; i < block.triangle_count(); ++i) {
+      const Triangle corners = block.triangle(i);
+      if (reaches(corners, centre_, radius_) && !found.add(corners, block.id(i))) return false;
+    }
+    return true;
+  }
+
+  // More than these do not keep to so few triangles.
+  static constexpr unsigned kMostBlocks = 8;
+
+  const TreeFacts& tree_;
+  const Point& centre_;
+  const double radius_;
+  const FloatQuery query_;
+  const float threshold_;
+  RecordFinder records_;
+  TreeWork& work_;
+  unsigned blocks_ = 0;
+  std::size_t size_ = 0;
+  std::array<std::uint32_t, 4 * kFanOut> links_;
+};
+
+}  // namespace
+
+void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance, PageReader pages,
+                     TreeWork& work) noexcept {
+  const double diagonal = (tree.box_upper - tree.box_lower).norm();
+  const double radius = wanted_radius(query, distance, diagonal);
+  if (!(radius > 0)) return;
+  centre_ = query;
+  radius_ = radius;
+  fill(tree, pages, work);
+}
+
+void Vicinity::fill(const TreeFacts& tree, PageReader pages, TreeWork& work) {
+  nearby_.begin(centre_);
+  if (!FrontSearch(tree, centre_, radius_, pages, work, front_).run(tree.root_link)) {
+    forget();
+    return;
+  }
+  if (radius_ > crowded_radius_ * kLessCrowded) return;
+  const bool few = TriangleSearch(tree, centre_, radius_, pages, work).run(front_, nearby_);
+  crowded_radius_ = few ? std::numeric_limits<double>::infinity() : radius_;
+}
+
+}  // namespace planetree::octree

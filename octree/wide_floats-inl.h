@@ -1,0 +1,61 @@
+// Eight floats and points of them, compiled once for each instruction set that Highway knows
+// at hand. Multiplications and additions are never fused and lanes never mixed, so that every
+// set computes the same bits.
+
+#if defined(PLANETREE_OCTREE_WIDE_FLOATS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
+#undef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
+#else
+#define PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
+#endif
+
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#include "octree/frame.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Whether one register holds eight floats, and has operations across all of them.
+#undef PLANETREE_EIGHT_LANES
+#define PLANETREE_EIGHT_LANES (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
+
+using FloatTag = hn::CappedTag<float, kFanOut>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+
+struct Wide3 {
+  Floats x, y, z;
+};
+
+HWY_INLINE Wide3 sub(const Wide3& a, const Wide3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+HWY_INLINE Floats dot(const Wide3& a, const Wide3& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+HWY_INLINE Floats outside(Floats lower, Floats upper, Floats at) {
+  const Floats zero = hn::Zero(FloatTag());
+  return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
+}
+
+// A bit for each lane that is not above the limit, or not a number.
+HWY_INLINE unsigned bits_not_above(Floats values, float limit) {
+  const FloatTag d;
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::Not(hn::Gt(values, hn::Set(d, limit))), bits);
+  return bits[0];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif
