@@ -1,6 +1,7 @@
 #include "octree/feature_normal.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -101,11 +102,13 @@ FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest
   for (std::size_t corner = 0; corner < 3; ++corner)
     if (nearest.barycentric[corner] > 0) ends[count++] = &nearest.corners[corner];
   Fan fan(*ends[0], nearest.feature == Feature::kEdge ? ends[1] : nullptr);
+  const Outcodes outcodes(*ends[0], *ends[0]);
   BoxWalk walk(tree, *ends[0], *ends[0], pages, work);
   found.complete = walk.run(max_nodes, [&](const BlockView& block) {
-    const Outcodes outcodes(block, *ends[0], *ends[0]);
-    for (unsigned i = 0; i < block.triangle_count(); ++i)
-      if (outcodes.has_corner_within(i)) fan.add(block.triangle(i), block.id(i));
+    for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(around));
+      fan.add(block.triangle(i), block.id(i));
+    }
   });
   found.normal = fan.normal();
   return found;

@@ -3,22 +3,22 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "octree/outcodes.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
 
 #include <cmath>
 #include <limits>
 
+#include "octree/wide_floats-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 // Of vertices that float holds exactly, whole vectors of them.
 void float_codes(const float* HWY_RESTRICT vertices, unsigned stride, const float (&lower)[3],
                  const float (&upper)[3], std::uint8_t* HWY_RESTRICT codes) {
-  const hn::CappedTag<float, 8> d;
-  const hn::RebindToSigned<decltype(d)> di;
-  const hn::Rebind<std::uint8_t, decltype(d)> bytes;
+  const FloatTag d;
+  const IntTag di;
+  const hn::Rebind<std::uint8_t, FloatTag> bytes;
   for (std::size_t i = 0; i < stride; i += hn::Lanes(d)) {
     auto code = hn::Zero(di);
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -32,6 +32,66 @@ void float_codes(const float* HWY_RESTRICT vertices, unsigned stride, const floa
   }
 }
 
+// What triangles have of their corners' codes.
+struct CornerCodes {
+  unsigned shared;  // a bit for each that has a bit in all three
+  unsigned none;    // a bit for each that has a corner without any
+};
+
+#if PLANETREE_EIGHT_LANES
+CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes) {
+  const hn::FixedTag<std::uint8_t, kMaxBlockTriangles> d;
+  const auto zero = hn::Zero(d);
+  auto shared = hn::Set(d, 0xff);
+  auto some_clear = hn::FirstN(d, 0);
+  for (const auto& corner : block.corner) {
+    const auto index = hn::LoadU(d, corner);
+    auto found = zero;
+    // Bytes from 128 on look nothing up.
+    for (unsigned i = 0; i < block.stride; i += kMaxBlockTriangles) {
+      const auto here = hn::SaturatedAdd(hn::Sub(index, hn::Set(d, static_cast<std::uint8_t>(i))),
+                                         hn::Set(d, 0x80 - kMaxBlockTriangles));
+      found = hn::Or(found, hn::TableLookupBytesOr0(hn::LoadU(d, codes + i), here));
+    }
+    shared = hn::And(shared, found);
+    some_clear = hn::Or(some_clear, hn::Eq(found, zero));
+  }
+  const auto bits = [&](auto mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    return bytes[0] | unsigned{bytes[1]} << 8;
+  };
+  return {bits(hn::Not(hn::Eq(shared, zero))), bits(some_clear)};
+}
+#else
+CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes) {
+  CornerCodes found{};
+  for (unsigned i = 0; i < block.triangle_count; ++i) {
+    const std::uint8_t a = codes[block.corner[0][i]], b = codes[block.corner[1][i]],
+                       c = codes[block.corner[2][i]];
+    found.shared |= static_cast<unsigned>((a & b & c) != 0) << i;
+    found.none |= static_cast<unsigned>(a == 0 || b == 0 || c == 0) << i;
+  }
+  return found;
+}
+#endif
+
+CornerCodes float_corner_codes(const BlockHeader& block, const float* vertices,
+                               const float (&lower)[3], const float (&upper)[3]) {
+  HWY_ALIGN std::uint8_t codes[kMaxBlockVertices];
+  float_codes(vertices, block.stride, lower, upper, codes);
+  return corner_codes(block, codes);
+}
+
+unsigned shared_on_target(const BlockHeader& block, const float* vertices, const float (&lower)[3],
+                          const float (&upper)[3]) {
+  return float_corner_codes(block, vertices, lower, upper).shared;
+}
+unsigned none_on_target(const BlockHeader& block, const float* vertices, const float (&lower)[3],
+                        const float (&upper)[3]) {
+  return float_corner_codes(block, vertices, lower, upper).none;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace planetree::octree
 HWY_AFTER_NAMESPACE();
@@ -40,7 +100,8 @@ HWY_AFTER_NAMESPACE();
 namespace planetree::octree {
 namespace {
 
-HWY_EXPORT(float_codes);
+HWY_EXPORT(shared_on_target);
+HWY_EXPORT(none_on_target);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -54,24 +115,51 @@ float not_below(double value) {
   return rounded < value ? std::nextafter(rounded, kInfinity) : rounded;
 }
 
+unsigned all_of(const BlockView& block) { return (1U << block.triangle_count()) - 1; }
+
+// Of triangles whose vertices are doubles.
+unsigned apart(const Triangle& triangle, const Point& lower, const Point& upper) {
+  const auto& [a, b, c] = triangle;
+  return ((a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any() ||
+          (a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any())
+             ? 1
+             : 0;
+}
+unsigned has_corner_within(const Triangle& triangle, const Point& lower, const Point& upper) {
+  for (const Point& corner : triangle)
+    if ((corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all())
+      return 1;
+  return 0;
+}
+
 }  // namespace
 
-Outcodes::Outcodes(const BlockView& block, const Point& lower, const Point& upper) noexcept
-    : corner_(block.header().corner) {
-  if (const float* vertices = block.float_vertices()) {
-    const float low[3] = {not_above(lower.x()), not_above(lower.y()), not_above(lower.z())};
-    const float high[3] = {not_below(upper.x()), not_below(upper.y()), not_below(upper.z())};
-    HWY_DYNAMIC_DISPATCH(float_codes)(vertices, block.header().stride, low, high, code_.data());
-    return;
-  }
-  for (unsigned i = 0; i < block.header().vertex_count; ++i) {
-    const Point vertex = block.vertex(i);
-    unsigned code = 0;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      code |= static_cast<unsigned>(vertex[axis] < lower[axis]) << (2 * axis) |
-              static_cast<unsigned>(vertex[axis] > upper[axis]) << (2 * axis + 1);
-    code_[i] = static_cast<std::uint8_t>(code);
-  }
+Outcodes::Outcodes(const Point& lower, const Point& upper) noexcept
+    : lower_(lower),
+      upper_(upper),
+      float_lower_{not_above(lower.x()), not_above(lower.y()), not_above(lower.z())},
+      float_upper_{not_below(upper.x()), not_below(upper.y()), not_below(upper.z())} {}
+
+unsigned Outcodes::meeting(const BlockView& block) const noexcept {
+  unsigned found = 0;
+  if (const float* vertices = block.float_vertices())
+    found = ~HWY_DYNAMIC_DISPATCH(shared_on_target)(block.header(), vertices, float_lower_,
+                                                    float_upper_);
+  else
+    for (unsigned i = 0; i < block.triangle_count(); ++i)
+      found |= (apart(block.triangle(i), lower_, upper_) ^ 1) << i;
+  return found & all_of(block);
+}
+
+unsigned Outcodes::with_corner_within(const BlockView& block) const noexcept {
+  unsigned found = 0;
+  if (const float* vertices = block.float_vertices())
+    found =
+        HWY_DYNAMIC_DISPATCH(none_on_target)(block.header(), vertices, float_lower_, float_upper_);
+  else
+    for (unsigned i = 0; i < block.triangle_count(); ++i)
+      found |= has_corner_within(block.triangle(i), lower_, upper_) << i;
+  return found & all_of(block);
 }
 
 }  // namespace planetree::octree

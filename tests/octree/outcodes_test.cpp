@@ -37,10 +37,12 @@ void expect_true_codes(const Soup& soup) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 at = noise.point(-0.6, 0.6), size = noise.point(0, 0.3);
       const Point lower(at.x, at.y, at.z), upper = lower + Point(size.x, size.y, size.z);
-      const Outcodes codes(block, lower, upper);
-      for (unsigned triangle = 0; triangle < block.triangle_count(); ++triangle) {
-        EXPECT_EQ(codes.apart(triangle), boxes_apart(block.triangle(triangle), lower, upper));
-        apart += codes.apart(triangle) ? 1 : 0;
+      const unsigned meeting = Outcodes(lower, upper).meeting(block);
+      EXPECT_EQ(meeting >> block.triangle_count(), 0u);
+      for (unsigned k = 0; k < block.triangle_count(); ++k) {
+        const bool expected = boxes_apart(block.triangle(k), lower, upper);
+        EXPECT_EQ((meeting >> k & 1) == 0, expected);
+        apart += expected ? 1 : 0;
       }
     }
   });
@@ -57,10 +59,11 @@ TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
   for (const Soup& soup : {sphere(4), scattered(500, 0.05)})
     each_block(soup, [&](const BlockView& block) {
       const Point vertex = block.vertex(block.header().corner[1][0]);
-      const Outcodes at(block, vertex, vertex);
+      const unsigned within = Outcodes(vertex, vertex).with_corner_within(block);
+      EXPECT_EQ(within >> block.triangle_count(), 0u);
       for (unsigned i = 0; i < block.triangle_count(); ++i) {
         const Triangle triangle = block.triangle(i);
-        EXPECT_EQ(at.has_corner_within(i),
+        EXPECT_EQ((within >> i & 1) != 0,
                   std::find(triangle.begin(), triangle.end(), vertex) != triangle.end());
       }
     });
@@ -72,7 +75,9 @@ TEST(Outcodes, LeaveNothingOutThatIsInTheBox) {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       const Point vertex = block.triangle(i)[0];
       const Point nudge = Point::Constant(1e-12);
-      EXPECT_TRUE(Outcodes(block, vertex - nudge, vertex + nudge).has_corner_within(i));
+      const Outcodes about(vertex - nudge, vertex + nudge);
+      EXPECT_NE(about.with_corner_within(block) >> i & 1, 0u);
+      EXPECT_NE(about.meeting(block) >> i & 1, 0u);
     }
   });
 }
