@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Geometry>
 
@@ -36,42 +37,76 @@ Point thin_normal(const Triangle& triangle) {
   return shorter / shorter.norm();
 }
 
-/// Sums the faces around an edge or a vertex.
+/// Sums the faces around an edge or a vertex, by their index as long as they are few, so that
+/// it does not matter in which order they are found.
 class Fan {
  public:
   Fan(const Point& vertex, const Point* other) : vertex_(vertex), other_(other) {}
 
   void add(const Triangle& triangle, std::uint64_t index) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (unsigned corner = 0; corner < 3; ++corner) {
       if (triangle[corner] != vertex_) continue;
       const Point& next = triangle[(corner + 1) % 3];
       const Point& last = triangle[(corner + 2) % 3];
       if (other_ && next != *other_ && last != *other_) continue;
       const auto normal = face_normal(triangle);
       if (!normal) continue;
+      if (count_ == kSorted) sum_up();
       const double weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
-      sum_ += weight * *normal;
-      weights_ += weight;
-      if (index < first_index_) {
-        first_index_ = index;
-        first_ = *normal;
-      }
+      faces_[count_++] = {index, corner, weight, *normal};
     }
   }
 
-  Point normal() const {
+  Point normal() {
+    std::sort(faces_, faces_ + count_, [](const Face& a, const Face& b) {
+      return a.index != b.index ? a.index < b.index : a.corner < b.corner;
+    });
+    sum_up();
     const double length = sum_.norm();
     return length > kNoSum * weights_ ? Point(sum_ / length) : first_;
   }
 
  private:
+  struct Face {
+    std::uint64_t index;
+    unsigned corner;
+    double weight;
+    Point normal;
+  };
+
+  void sum_up() {
+    for (const Face& face : std::span(faces_, count_)) {
+      sum_ += face.weight * face.normal;
+      weights_ += face.weight;
+      if (face.index >= first_index_) continue;
+      first_index_ = face.index;
+      first_ = face.normal;
+    }
+    count_ = 0;
+  }
+
+  static constexpr std::size_t kSorted = NearbyTriangles::kMost;
+
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
+  std::size_t count_ = 0;
+  Face faces_[kSorted];
   Point sum_ = Point::Zero();
   double weights_ = 0;
   Point first_ = Point::Zero();
   std::uint64_t first_index_ = kNoTriangle;
 };
+
+bool walk_to(const Point& vertex, Fan& fan, const TreeFacts& tree, std::uint64_t max_nodes,
+             PageReader pages, TreeWork& work) {
+  const Outcodes outcodes(vertex, vertex);
+  return BoxWalk(tree, vertex, vertex, pages, work).run(max_nodes, [&](const BlockView& block) {
+    for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(around));
+      fan.add(block.triangle(i), block.id(i));
+    }
+  });
+}
 
 }  // namespace
 
@@ -90,7 +125,8 @@ std::optional<Point> face_normal(const Triangle& triangle) noexcept {
 }
 
 FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest,
-                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+                             const Vicinity* vicinity, std::uint64_t max_nodes, PageReader pages,
+                             TreeWork& work) noexcept {
   FeatureNormal found;
   if (nearest.feature == Feature::kFace) {
     found.normal = face_normal(nearest.corners).value_or(Point::Zero());
@@ -101,15 +137,14 @@ FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest
   std::size_t count = 0;
   for (std::size_t corner = 0; corner < 3; ++corner)
     if (nearest.barycentric[corner] > 0) ends[count++] = &nearest.corners[corner];
-  Fan fan(*ends[0], nearest.feature == Feature::kEdge ? ends[1] : nullptr);
-  const Outcodes outcodes(*ends[0], *ends[0]);
-  BoxWalk walk(tree, *ends[0], *ends[0], pages, work);
-  found.complete = walk.run(max_nodes, [&](const BlockView& block) {
-    for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(around));
-      fan.add(block.triangle(i), block.id(i));
-    }
-  });
+  const Point& vertex = *ends[0];
+  Fan fan(vertex, nearest.feature == Feature::kEdge ? ends[1] : nullptr);
+  if (const NearbyTriangles* nearby = vicinity ? vicinity->all_at(vertex) : nullptr) {
+    for (std::size_t i = 0; i < nearby->size(); ++i)
+      if (nearby->has_corner(i, vertex)) fan.add(nearby->triangle(i), nearby->id(i));
+  } else {
+    found.complete = walk_to(vertex, fan, tree, max_nodes, pages, work);
+  }
   found.normal = fan.normal();
   return found;
 }

@@ -27,11 +27,13 @@ struct FeatureNormal {
 /// sum is zero, to rounding, it is that of the first face that has an area.
 ///
 /// nearest    an answer that names a triangle.
+/// vicinity   of that answer; where it has all faces there no page is looked at. May be null.
 /// max_nodes  most nodes and blocks to visit.
 /// threads    any; no allocation, no lock, no exception of its own.
 /// source     Baerentzen & Aanaes 2005, "Signed distance computation using the
 ///            angle weighted pseudonormal".
 FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest,
-                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+                             const Vicinity* vicinity, std::uint64_t max_nodes, PageReader pages,
+                             TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

@@ -56,6 +56,13 @@ class NearbyTriangles {
   const float* row(std::size_t corner, std::size_t axis) const { return row_[corner][axis]; }
 
   Triangle triangle(std::size_t i) const { return exact_.triangle(i); }
+  bool has_corner(std::size_t i, const Point& point) const {
+    bool found = false;
+    for (const auto& corner : exact_.at)
+      found = found ||
+              (corner[0][i] == point.x() && corner[1][i] == point.y() && corner[2][i] == point.z());
+    return found;
+  }
   std::uint64_t id(std::size_t i) const { return id_[i]; }
 
  private:

@@ -42,6 +42,12 @@ class Vicinity {
   /// The triangles, if they are few.
   const NearbyTriangles& nearby() const { return nearby_; }
 
+  /// The triangles, if all that touch a point are among them; else null.
+  const NearbyTriangles* all_at(const Point& point) const {
+    const bool within = (point - centre_).norm() * (1 + kSlack) < radius_;
+    return within && nearby_.complete() ? &nearby_ : nullptr;
+  }
+
   /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to
   /// be worth its while. `distance` is the answer to it.
   void renew(const TreeFacts& tree, const Point& query, double distance, PageReader pages,

@@ -80,12 +80,27 @@ ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nea
   return answer;
 }
 
+// Limited work depends on the way that is taken, so that such asks take the one from the root.
+bool unlimited(const Ask& ask) {
+  return ask.max_nodes == std::numeric_limits<std::uint32_t>::max();
+}
+
+// `clear`: no surface is nearer to the point.
+Standing side_of(ProbeState& probe, const octree::Point& point, double clear, const Ask& ask,
+                 PageTurner& turner, octree::TreeWork& work) {
+  if (unlimited(ask))
+    return find_side(probe.model(), point, clear, probe.side_memory(), turner.pages(), work);
+  const std::uint64_t spent = work.nodes + work.blocks;
+  return find_side(probe.model(), point, spent < ask.max_nodes ? ask.max_nodes - spent : 0,
+                   turner.pages(), work);
+}
+
 // The parts of one ask, in the order in which they need each other.
 class Asking {
  public:
   Asking(ProbeState& probe, const Vec3& query, const Ask& ask)
-      : model_(probe.model()),
-        vicinity_(probe.vicinity()),
+      : probe_(probe),
+        model_(probe.model()),
         query_(query),
         ask_(ask),
         placed_(model_.scale().in(query)),
@@ -113,22 +128,23 @@ class Asking {
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
-    nearest_ =
-        far_ ? farthest(model_.tree(), point_)
-             : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_, &vicinity_);
+    nearest_ = far_ ? farthest(model_.tree(), point_)
+                    : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
+                                      &probe_.vicinity());
     answer_ = in_model_units(model_.scale(), nearest_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
   }
 
   void find_side() {
-    standing_ = query::find_side(model_, point_, nodes_left(), turner_.pages(), work_);
+    standing_ = side_of(probe_, point_, nearest_.lower, ask_, turner_, work_);
     answer_.side = standing_.side;
     if (standing_.status == Status::kDegraded) degrade();
   }
 
   void find_normal() {
     const ContactNormal contact = contact_normal(model_.tree(), point_, nearest_, standing_,
+                                                 unlimited(ask_) ? &probe_.vicinity() : nullptr,
                                                  nodes_left(), turner_.pages(), work_);
     answer_.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
     if (!contact.complete) degrade();
@@ -138,8 +154,8 @@ class Asking {
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
 
+  ProbeState& probe_;
   const ModelState& model_;
-  octree::Vicinity& vicinity_;
   const Vec3& query_;
   const Ask& ask_;
   const octree::Point placed_;
@@ -164,8 +180,8 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   const ModelState& model = probe.model();
   PageTurner turner(probe.reader());
   octree::TreeWork work;
-  const Standing standing = find_side(model, within_reach(model.scale().in(query), query),
-                                      ask.max_nodes, turner.pages(), work);
+  const octree::Point point = within_reach(model.scale().in(query), query);
+  const Standing standing = side_of(probe, point, 0, ask, turner, work);
   if (standing.status == Status::kDegraded) model.count_degraded();
   return {standing.side, standing.status};
 }

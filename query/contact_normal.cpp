@@ -49,9 +49,10 @@ bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
 
 ContactNormal contact_normal(const octree::TreeFacts& tree, const Point& query,
                              const octree::NearestAnswer& nearest, const Standing& standing,
-                             std::uint64_t max_nodes, octree::PageReader pages,
-                             octree::TreeWork& work) noexcept {
-  const octree::FeatureNormal found = octree::feature_normal(tree, nearest, max_nodes, pages, work);
+                             const octree::Vicinity* vicinity, std::uint64_t max_nodes,
+                             octree::PageReader pages, octree::TreeWork& work) noexcept {
+  const octree::FeatureNormal found =
+      octree::feature_normal(tree, nearest, vicinity, max_nodes, pages, work);
   ContactNormal contact;
   contact.complete = found.complete;
   if (found.normal.squaredNorm() > 0)

@@ -16,9 +16,10 @@ struct ContactNormal {
 /// where the side is unknown.
 ///
 /// query, nearest  model frame; `nearest` names a triangle.
+/// vicinity        of `nearest`; may be null.
 ContactNormal contact_normal(const octree::TreeFacts& tree, const octree::Point& query,
                              const octree::NearestAnswer& nearest, const Standing& standing,
-                             std::uint64_t max_nodes, octree::PageReader pages,
-                             octree::TreeWork& work) noexcept;
+                             const octree::Vicinity* vicinity, std::uint64_t max_nodes,
+                             octree::PageReader pages, octree::TreeWork& work) noexcept;
 
 }  // namespace planetree::query

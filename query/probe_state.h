@@ -6,6 +6,7 @@
 
 #include "cache/reader.h"
 #include "query/model_state.h"
+#include "query/side_memory.h"
 
 namespace planetree::query {
 
@@ -19,6 +20,7 @@ class ProbeState {
   cache::Reader& reader() noexcept { return reader_; }
 
   octree::Vicinity& vicinity() noexcept { return vicinity_; }
+  SideMemory& side_memory() noexcept { return side_memory_; }
 
   /// Queries of a batch that are put in order together.
   static constexpr std::size_t kBatchQueries = 1024;
@@ -32,6 +34,7 @@ class ProbeState {
   const ModelState& model_;
   cache::Reader reader_;
   octree::Vicinity vicinity_;
+  SideMemory side_memory_;
   std::array<BatchEntry, kBatchQueries> batch_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "octree/cell_grid.h"
 #include "octree/crossings.h"
@@ -20,13 +21,15 @@ using octree::Point;
 class SideSearch {
  public:
   SideSearch(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-             octree::PageReader pages, octree::TreeWork& work, SideReason* reason)
+             octree::PageReader pages, octree::TreeWork& work, SideReason* reason,
+             SideMemory* memory)
       : model_(model),
         point_(point),
         max_nodes_(max_nodes),
         pages_(pages),
         work_(work),
         reason_(reason),
+        memory_(memory),
         before_(work.nodes + work.blocks) {}
 
   Standing run() {
@@ -38,6 +41,9 @@ class SideSearch {
     return {Side::kUnknown, Status::kDegraded};
   }
 
+  // Whether the winding number itself is known, not its sign alone.
+  bool counted() const { return counted_; }
+
  private:
   std::uint64_t nodes_left() const {
     const std::uint64_t spent = work_.nodes + work_.blocks - before_;
@@ -46,8 +52,7 @@ class SideSearch {
 
   bool ask_mask() {
     using Kind = octree::MaskFinding::Kind;
-    const octree::MaskFinding found =
-        octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+    const octree::MaskFinding& found = cell();
     if (reason_) {
       reason_->in_mask = model_.mask().page_count > 0;
       reason_->cell = found.cell;
@@ -57,11 +62,24 @@ class SideSearch {
     if (reason_)
       reason_->rule =
           found.kind == Kind::kColour ? SideReason::Rule::kColour : SideReason::Rule::kPlanes;
+    counted_ = found.kind == Kind::kPlanes || found.winding == 0;
     settle(found.winding, found.on_surface);
     return true;
   }
 
-  // The nearest corner, for few triangles are between.
+  const octree::MaskFinding& cell() {
+    if (memory_)
+      if (const octree::MaskFinding* last = memory_->cell_with(point_)) return *last;
+    found_ = octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+    // What a special cell knows is of this point alone.
+    const bool of_all = found_.kind == octree::MaskFinding::Kind::kColour ||
+                        found_.kind == octree::MaskFinding::Kind::kCorners;
+    if (memory_ && of_all && memory_->is_near(point_, model_.tree()))
+      memory_->note_cell(model_.mask(), found_);
+    return found_;
+  }
+
+  // The nearest corner, or the last point if that is nearer: few triangles are between.
   bool go_to_corner(const octree::MaskFinding& found) {
     const octree::CellGrid grid(model_.mask().lower);
     const Point lower = grid.lower(found.cell), upper = grid.upper(found.cell);
@@ -69,7 +87,12 @@ class SideSearch {
     for (unsigned axis = 0; axis < 3; ++axis)
       nearest |= static_cast<unsigned>(point_[axis] - lower[axis] > upper[axis] - point_[axis])
                  << axis;
-    return go(grid.corner(found.cell, nearest), found.corners[nearest], SideReason::Rule::kCorner);
+    const Point corner = grid.corner(found.cell, nearest);
+    if (memory_ && memory_->counted() &&
+        (memory_->point() - point_).squaredNorm() < (corner - point_).squaredNorm() &&
+        go(memory_->point(), memory_->standing().winding, SideReason::Rule::kCorner))
+      return true;
+    return go(corner, found.corners[nearest], SideReason::Rule::kCorner);
   }
 
   // To where the winding number is known. False if that way cannot be gone.
@@ -84,6 +107,7 @@ class SideSearch {
       reason_->known = winding;
       reason_->crossings = crossings.difference;
     }
+    counted_ = true;
     settle(winding + crossings.difference, crossings.on_surface);
     return true;
   }
@@ -99,8 +123,11 @@ class SideSearch {
   const octree::PageReader pages_;
   octree::TreeWork& work_;
   SideReason* const reason_;  // null where nobody asks why
+  SideMemory* const memory_;  // null where nothing is remembered
   const std::uint64_t before_;
+  octree::MaskFinding found_;
   Standing standing_;
+  bool counted_ = false;
 };
 
 Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t max_nodes,
@@ -109,7 +136,7 @@ Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t
     if (reason) reason->rule = SideReason::Rule::kOutsideBox;
     return {Side::kOutside};
   }
-  return SideSearch(model, point, max_nodes, pages, work, reason).run();
+  return SideSearch(model, point, max_nodes, pages, work, reason, nullptr).run();
 }
 
 /// The nearest whole number, however large.
@@ -146,6 +173,21 @@ Standing find_side(const ModelState& model, const Point& point, std::uint64_t ma
   return model.info().watertight()
              ? by_crossings(model, point, max_nodes, pages, work, reason)
              : by_winding_number(model.tree(), point, max_nodes, pages, work, reason);
+}
+
+Standing find_side(const ModelState& model, const Point& point, double clear, SideMemory& memory,
+                   octree::PageReader pages, octree::TreeWork& work) noexcept {
+  constexpr auto kNoLimit = std::numeric_limits<std::uint64_t>::max();
+  if (!model.info().watertight() || outside_box(model.tree(), point))
+    return find_side(model, point, kNoLimit, pages, work);
+  if (memory.same_side(point, clear)) {
+    memory.note(point, memory.standing(), memory.counted(), clear);
+    return memory.standing();
+  }
+  SideSearch search(model, point, kNoLimit, pages, work, nullptr, &memory);
+  const Standing standing = search.run();
+  if (standing.status == Status::kExact) memory.note(point, standing, search.counted(), clear);
+  return standing;
 }
 
 }  // namespace planetree::query

@@ -6,20 +6,10 @@
 #include "octree/tree_view.h"
 #include "planetree/types.h"
 #include "query/model_state.h"
+#include "query/side_memory.h"
+#include "query/standing.h"
 
 namespace planetree::query {
-
-/// Where a point stands with respect to a model's surface.
-struct Standing {
-  Side side = Side::kUnknown;
-  Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
-  /// Of watertight models as much as 0, and of the sign of, the winding number of
-  /// the point; else that to the nearest whole number where the side is known. On
-  /// the surface: of a step beside the point if `beside`, else 1 or -1 as the rest
-  /// of the surface winds about it, 0 where that is too little to tell.
-  std::int64_t winding = 0;
-  bool beside = true;
-};
 
 /// How a side was found: for those who ask why.
 struct SideReason {
@@ -52,5 +42,10 @@ struct SideReason {
 Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work,
                    SideReason* reason = nullptr) noexcept;
+
+/// The same, with no limit of work, by way of what `memory` knows if that is nearer, and
+/// remembered there. No surface is nearer to the point than `clear`, which may be 0.
+Standing find_side(const ModelState& model, const octree::Point& point, double clear,
+                   SideMemory& memory, octree::PageReader pages, octree::TreeWork& work) noexcept;
 
 }  // namespace planetree::query

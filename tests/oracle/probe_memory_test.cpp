@@ -1,0 +1,85 @@
+// What a probe remembers of its last asks changes no answer to the next one.
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/oracle/built_model.h"
+#include "tests/oracle/closed_models.h"
+#include "tests/oracle/nasty_models.h"
+#include "tests/oracle/random.h"
+#include "tests/query/answer_bits.h"
+
+namespace planetree::oracle {
+namespace {
+
+constexpr BuildChoices kTwoProbes{4096, std::uint64_t{8} << 20, 2};
+constexpr std::size_t kStretches = 12;  // of a path, each from another place
+constexpr std::size_t kStretchSteps = 25;
+
+// From nasty places on, in steps of every length; now and then none at all.
+std::vector<Vec3> nasty_path(Random& random, const Soup& triangles) {
+  std::vector<Vec3> path;
+  for (std::size_t stretch = 0; stretch < kStretches; ++stretch) {
+    Vec3 at = nasty_query(random, triangles, 1);
+    const double step = random.magnitude(-50, 0);
+    for (std::size_t i = 0; i < kStretchSteps; ++i) {
+      path.push_back(at);
+      if (!random.one_in(8)) at = at + random.in_cube() * step;
+    }
+  }
+  return path;
+}
+
+Probe new_probe(const Model& model) {
+  auto probe = Probe::create(model);
+  if (!probe) std::abort();
+  return *std::move(probe);
+}
+
+// Asks for this and that along a path, of one probe all the time and each time of a new one.
+void expect_same_as_new(const Soup& soup, Random& random) {
+  BuiltModel built(soup, kTwoProbes);
+  for (const Vec3& query : nasty_path(random, soup)) {
+    Probe fresh = new_probe(built.model());
+    if (random.one_in(3)) {
+      const Containment expected = fresh.contains(query), found = built.probe().contains(query);
+      ASSERT_EQ(found.side, expected.side);
+      ASSERT_EQ(found.status, expected.status);
+      continue;
+    }
+    constexpr std::uint32_t kParts[] = {kDistance, kSide, kDistance | kSide, kAllParts};
+    Ask ask;
+    ask.parts = kParts[random.below(4)];
+    if (random.one_in(6)) ask.max_distance = random.magnitude(-10, 1);
+    if (random.one_in(6)) ask.max_error = random.magnitude(-20, -1);
+    if (random.one_in(6)) ask.max_nodes = static_cast<std::uint32_t>(random.below(40));
+    ASSERT_EQ(bits_of(built.probe().closest_point(query, ask)),
+              bits_of(fresh.closest_point(query, ask)))
+        << query.x << ' ' << query.y << ' ' << query.z << " parts " << ask.parts;
+  }
+}
+
+void expect_same_for_all(std::span<const NastyFamily> families, std::uint64_t seed) {
+  for (const NastyFamily& family : families) {
+    SCOPED_TRACE(std::string(family.name));
+    Random random(seed);
+    const auto models = static_cast<int>(4 * test_effort());
+    for (int i = 0; i < models && !testing::Test::HasFatalFailure(); ++i)
+      expect_same_as_new(family.make(random), random);
+  }
+}
+
+TEST(ProbeMemory, ChangesNoAnswerOfNastyModels) { expect_same_for_all(nasty_families(), 12); }
+
+TEST(ProbeMemory, ChangesNoAnswerOfClosedModels) { expect_same_for_all(closed_families(), 13); }
+
+TEST(ProbeMemory, ChangesNoAnswerOfABall) {
+  Random random(14);
+  for (const unsigned levels : {3u, 5u}) expect_same_as_new(ball(levels), random);
+}
+
+}  // namespace
+}  // namespace planetree::oracle
