@@ -139,7 +139,7 @@ FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest
     if (nearest.barycentric[corner] > 0) ends[count++] = &nearest.corners[corner];
   const Point& vertex = *ends[0];
   Fan fan(vertex, nearest.feature == Feature::kEdge ? ends[1] : nullptr);
-  if (const NearbyTriangles* nearby = vicinity ? vicinity->all_at(vertex) : nullptr) {
+  if (const NearbyTriangles* nearby = vicinity ? vicinity->all_at(nearest.point) : nullptr) {
     for (std::size_t i = 0; i < nearby->size(); ++i)
       if (nearby->has_corner(i, vertex)) fan.add(nearby->triangle(i), nearby->id(i));
   } else {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,22 @@ namespace {
 constexpr BuildChoices kTwoProbes{4096, std::uint64_t{8} << 20, 2};
 constexpr std::size_t kStretches = 12;  // of a path, each from another place
 constexpr std::size_t kStretchSteps = 25;
+
+// Along a surface, near it and through it, and with it along the sides of mask cells.
+std::vector<Vec3> surface_path(Random& random, const Soup& triangles) {
+  std::vector<Vec3> path;
+  for (std::size_t stretch = 0; stretch < 8 * kStretches; ++stretch) {
+    const double step = random.magnitude(-10, -3);
+    const double lattice = random.one_in(2) ? 0x1p-6 : 0x1p-30;
+    Vec3 at = point_on(random, triangles[random.below(triangles.size())]);
+    for (std::size_t i = 0; i < kStretchSteps; ++i) {
+      at = at + random.in_cube() * step;
+      path.push_back({std::round(at.x / lattice) * lattice, std::round(at.y / lattice) * lattice,
+                      std::round(at.z / lattice) * lattice});
+    }
+  }
+  return path;
+}
 
 // From nasty places on, in steps of every length; now and then none at all.
 std::vector<Vec3> nasty_path(Random& random, const Soup& triangles) {
@@ -40,9 +57,9 @@ Probe new_probe(const Model& model) {
 }
 
 // Asks for this and that along a path, of one probe all the time and each time of a new one.
-void expect_same_as_new(const Soup& soup, Random& random) {
+void expect_same_as_new(const Soup& soup, const std::vector<Vec3>& path, Random& random) {
   BuiltModel built(soup, kTwoProbes);
-  for (const Vec3& query : nasty_path(random, soup)) {
+  for (const Vec3& query : path) {
     Probe fresh = new_probe(built.model());
     if (random.one_in(3)) {
       const Containment expected = fresh.contains(query), found = built.probe().contains(query);
@@ -67,8 +84,10 @@ void expect_same_for_all(std::span<const NastyFamily> families, std::uint64_t se
     SCOPED_TRACE(std::string(family.name));
     Random random(seed);
     const auto models = static_cast<int>(4 * test_effort());
-    for (int i = 0; i < models && !testing::Test::HasFatalFailure(); ++i)
-      expect_same_as_new(family.make(random), random);
+    for (int i = 0; i < models && !testing::Test::HasFatalFailure(); ++i) {
+      const Soup soup = family.make(random);
+      expect_same_as_new(soup, nasty_path(random, soup), random);
+    }
   }
 }
 
@@ -76,9 +95,14 @@ TEST(ProbeMemory, ChangesNoAnswerOfNastyModels) { expect_same_for_all(nasty_fami
 
 TEST(ProbeMemory, ChangesNoAnswerOfClosedModels) { expect_same_for_all(closed_families(), 13); }
 
-TEST(ProbeMemory, ChangesNoAnswerOfABall) {
+// Winding numbers of 2 and of 0 within, and more triangles than are kept at once.
+TEST(ProbeMemory, ChangesNoAnswerAlongASurface) {
   Random random(14);
-  for (const unsigned levels : {3u, 5u}) expect_same_as_new(ball(levels), random);
+  const Soup twice = ball(5) + moved(scaled(ball(5), 0.75), {0.5, 0.25, 0});
+  const Soup hollow = ball(5) + inside_out(scaled(ball(4), 0.5));
+  const Soup nested = ball(4) + scaled(ball(5), 0.75);
+  for (const Soup& soup : {twice, hollow, nested, ball(3)})
+    expect_same_as_new(soup, surface_path(random, soup), random);
 }
 
 }  // namespace
