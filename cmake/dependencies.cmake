@@ -7,4 +7,5 @@ pkg_check_modules(libxxhash REQUIRED IMPORTED_TARGET libxxhash)
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(hwy REQUIRED CONFIG)
+find_package(TBB REQUIRED)
 find_package(Boost REQUIRED)  # headers only: Multiprecision, for exact predicates

@@ -1,6 +1,5 @@
 # The installed library: the layers in one archive, or in one shared object with
-# BUILD_SHARED_LIBS. Trees are built by the command, so octree/build, and with
-# it oneTBB, stays outside.
+# BUILD_SHARED_LIBS. Trees are built by the command, so octree/build stays outside.
 
 # tests/layering fails when a header of include/planetree is not named here.
 set(planetree_headers
@@ -24,7 +23,7 @@ list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree
 target_sources(planetree PUBLIC FILE_SET HEADERS
   BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${planetree_headers})
 target_link_libraries(planetree PRIVATE
-  PkgConfig::liblz4 PkgConfig::libxxhash hwy::hwy Threads::Threads)
+  PkgConfig::liblz4 PkgConfig::libxxhash hwy::hwy TBB::tbb Threads::Threads)
 target_compile_features(planetree PUBLIC cxx_std_20)
 # Before 1.0 a minor version may change the interface.
 set_target_properties(planetree PROPERTIES

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "octree/octcode.h"
+#include "query/batch_crew.h"
 #include "query/closest_point.h"
 
 namespace planetree::query {
@@ -24,25 +25,43 @@ std::uint64_t place(const ModelState& model, const Vec3& query) {
   return octree::morton_code(coordinate(from.x()), coordinate(from.y()), coordinate(from.z()));
 }
 
+// As many queries as are put in order together, and where their answers go.
+template <class Answer>
+struct Window {
+  const BatchOrder& order;
+  std::span<const Vec3> queries;
+  std::span<Answer> answers;
+  const Ask& ask;
+  Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept;
+
+  void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
+    for (std::size_t i = first; i < end; ++i) {
+      const std::size_t at = order.query(i);
+      answers[at] = answer(probe, queries[at], ask);
+    }
+  }
+  static void run_piece(const void* window, ProbeState& probe, std::size_t first,
+                        std::size_t end) noexcept {
+    static_cast<const Window*>(window)->run(probe, first, end);
+  }
+};
+
 // Asks every query, in an order that turns pages seldom.
 template <class Answer>
 void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
                   const Ask& ask,
                   Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept) noexcept {
   assert(queries.size() == answers.size());
-  auto& batch = probe.batch();
-  for (std::size_t first = 0; first < queries.size(); first += batch.size()) {
-    const std::size_t count = std::min(batch.size(), queries.size() - first);
-    for (std::size_t i = 0; i < count; ++i)
-      batch[i] = {place(probe.model(), queries[first + i]), static_cast<std::uint32_t>(i)};
-    std::sort(batch.begin(), batch.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const auto& a, const auto& b) {
-                return a.code < b.code || (a.code == b.code && a.index < b.index);
-              });
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t at = first + batch[i].index;
-      answers[at] = answer(probe, queries[at], ask);
-    }
+  BatchCrew* const crew = probe.model().crew();
+  BatchOrder& order = *probe.batch_order();
+  while (!queries.empty()) {
+    const std::size_t count = std::min(queries.size(), BatchOrder::kMost);
+    order.sort(count, [&](std::size_t i) { return place(probe.model(), queries[i]); });
+    const Window<Answer> window{order, queries.first(count), answers.first(count), ask, answer};
+    if (!crew || !crew->run(&window, count, &Window<Answer>::run_piece))
+      window.run(probe, 0, count);
+    queries = queries.subspan(count);
+    answers = answers.subspan(count);
   }
 }
 

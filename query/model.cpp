@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "octree/self_test.h"
+#include "query/batch_crew.h"
 #include "query/host_arithmetic.h"
 #include "query/model_state.h"
 #include "query/page_decoding.h"
@@ -67,6 +68,8 @@ octree::MaskFacts mask_facts(const storage::FileHeader& header, const octree::Tr
 
 }  // namespace
 
+ModelState::~ModelState() = default;
+
 ModelState::ModelState(std::unique_ptr<Pager> pager)
     : pager_(std::move(pager)),
       info_(describe(pager_->file())),
@@ -82,13 +85,24 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                       "this build computes otherwise than it must: %s; compile without "
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
+  if (options.batch_threads == 0 || options.batch_threads > OpenOptions::kMostBatchThreads)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "%u batch threads make no sense; give 1 to %u", options.batch_threads,
+                      OpenOptions::kMostBatchThreads);
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
-  limits.probe_bytes = sizeof(ProbeState);
+  limits.probe_bytes = ProbeState::bytes();
+  limits.batch_probes = options.batch_threads > 1 ? options.batch_threads : 0;
+  limits.batch_probe_bytes = sizeof(ProbeState);
   auto pager = Pager::open(path, limits);
   if (!pager) return pager.error();
-  return std::unique_ptr<ModelState>(new ModelState(std::move(*pager)));
+  std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
+  if (limits.batch_probes == 0) return state;
+  auto crew = BatchCrew::claim(*state, limits.batch_probes);
+  if (!crew) return crew.error();
+  state->crew_ = std::move(*crew);
+  return state;
 }
 
 Stats ModelState::stats() const noexcept {

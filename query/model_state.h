@@ -15,9 +15,13 @@
 
 namespace planetree::query {
 
+class BatchCrew;
+
 /// What stands behind a Model.
 class ModelState {
  public:
+  ~ModelState();
+
   static Result<std::unique_ptr<ModelState>> open(const std::filesystem::path& path,
                                                   const OpenOptions& options);
 
@@ -27,6 +31,8 @@ class ModelState {
   const octree::MaskFacts& mask() const noexcept { return mask_; }
   const Scale& scale() const noexcept { return scale_; }
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
+  /// Null where batches are answered by the caller's thread alone.
+  BatchCrew* crew() const noexcept { return crew_.get(); }
   /// Any thread.
   void count_degraded() const noexcept { degraded_.fetch_add(1, std::memory_order_relaxed); }
 
@@ -39,6 +45,7 @@ class ModelState {
   octree::MaskFacts mask_;
   Scale scale_;
   mutable std::atomic<std::uint64_t> degraded_{0};
+  std::unique_ptr<BatchCrew> crew_;  // last: its probes are the model's
 };
 
 }  // namespace planetree::query

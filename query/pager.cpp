@@ -35,9 +35,10 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
   cache_limits.frame_bytes = header.page_bytes;
-  cache_limits.max_readers = limits.max_probes;
+  cache_limits.max_readers = limits.max_probes + limits.batch_probes;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
-                                limits.probe_bytes * limits.max_probes;
+                                limits.probe_bytes * limits.max_probes +
+                                limits.batch_probe_bytes * limits.batch_probes;
   const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
     return static_cast<Pager*>(context)->fill(page, frame);
   };

@@ -21,6 +21,8 @@ class Pager {
     std::uint64_t budget_bytes = 0;
     std::uint64_t probe_bytes = 0;  ///< what each probe claims for itself
     unsigned max_probes = 0;
+    std::uint64_t batch_probe_bytes = 0;  ///< the same of those that answer batches together
+    unsigned batch_probes = 0;
   };
 
   /// Opens the file, claims the memory, loads and pins the root page.

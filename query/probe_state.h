@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
+#include <memory>
 #include <utility>
 
 #include "cache/reader.h"
+#include "query/batch_order.h"
 #include "query/model_state.h"
 #include "query/side_memory.h"
 
@@ -13,8 +14,9 @@ namespace planetree::query {
 /// What stands behind a Probe.
 class ProbeState {
  public:
-  ProbeState(const ModelState& model, cache::Reader reader) noexcept
-      : model_(model), reader_(std::move(reader)) {}
+  ProbeState(const ModelState& model, cache::Reader reader,
+             std::unique_ptr<BatchOrder> batch_order = nullptr) noexcept
+      : model_(model), reader_(std::move(reader)), batch_order_(std::move(batch_order)) {}
 
   const ModelState& model() const noexcept { return model_; }
   cache::Reader& reader() noexcept { return reader_; }
@@ -22,20 +24,18 @@ class ProbeState {
   octree::Vicinity& vicinity() noexcept { return vicinity_; }
   SideMemory& side_memory() noexcept { return side_memory_; }
 
-  /// Queries of a batch that are put in order together.
-  static constexpr std::size_t kBatchQueries = 1024;
-  struct BatchEntry {
-    std::uint64_t code;   ///< Morton code of the query
-    std::uint32_t index;  ///< in the caller's spans
-  };
-  std::array<BatchEntry, kBatchQueries>& batch() noexcept { return batch_; }
+  /// For batches; null in the probes of a BatchCrew.
+  BatchOrder* batch_order() noexcept { return batch_order_.get(); }
+
+  /// What a probe claims, its BatchOrder included.
+  static constexpr std::size_t bytes() { return sizeof(ProbeState) + sizeof(BatchOrder); }
 
  private:
   const ModelState& model_;
   cache::Reader reader_;
   octree::Vicinity vicinity_;
   SideMemory side_memory_;
-  std::array<BatchEntry, kBatchQueries> batch_;
+  std::unique_ptr<BatchOrder> batch_order_;
 };
 
 }  // namespace planetree::query

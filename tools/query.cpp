@@ -121,7 +121,8 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments, console); !checked)
     return console.fail("standard output", checked.error());
   const std::string file = arguments.file.string();
-  const auto model = open_model(arguments.file, arguments.memory_bytes, console);
+  const auto model = open_model(arguments.file, arguments.memory_bytes, console,
+                                static_cast<unsigned>(arguments.threads));
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
@@ -161,6 +162,10 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
                     "inf");
   verb.default_text(verb.bytes("--memory", options->memory_bytes, "Most memory for the model"),
                     "256M");
+  verb.default_text(verb.count("--threads", options->threads, OpenOptions::kMostBatchThreads,
+                               "Threads to answer with; 0 means one for each processor. No "
+                               "answer depends on it"),
+                    "0");
   verb.default_text(
       verb.word(
           "--format", {"csv", "jsonl", "f64"},

@@ -21,6 +21,7 @@ struct QueryArguments {
   Ask ask;
   bool contains = false;  ///< ask for the side alone
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
+  std::uint64_t threads = 0;  ///< 0: one for each processor
   AnswerFormat format = AnswerFormat::kCsv;
   bool json = false;
   bool quiet = false;

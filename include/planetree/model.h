@@ -20,6 +20,12 @@ struct OpenOptions {
   std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
   /// Most probes at one time.
   unsigned max_probes = 16;
+  /// Threads that answer a batch together (Probe::closest_points over spans), the caller's
+  /// among them; 1 to kMostBatchThreads. Probes for them are claimed at open. One batch at a
+  /// time has them: others meanwhile go on in their callers' threads.
+  unsigned batch_threads = 1;
+
+  static constexpr unsigned kMostBatchThreads = 256;
 };
 
 /// An opened .ptree file: immutable, shared by any number of threads, each

@@ -43,7 +43,9 @@ class Probe {
   Containment contains(Vec3 query, const Ask& ask = {}) noexcept;
 
   /// One answer per query, the same bits as one by one, asked in an order that
-  /// turns pages seldom. The spans are equally long and do not overlap.
+  /// turns pages seldom, by OpenOptions::batch_threads threads. The spans are
+  /// equally long and do not overlap. More than one thread are oneTBB's, which
+  /// may allocate.
   void closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                       const Ask& ask = {}) noexcept;
   void contains(std::span<const Vec3> queries, std::span<Containment> answers,

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <limits>
+#include <thread>
 
 #include "planetree/probe.h"
+#include "query/batch_order.h"
+#include "tests/octree/odd_arithmetic.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 
@@ -12,17 +16,19 @@ namespace {
 
 class Batch : public testing::Test {
  protected:
+  static constexpr std::size_t kWindow = BatchOrder::kMost;
+
   // More than the probe puts in order at once, some of them odd.
-  Batch() : sample_(octree::sphere(4)), queries_(random_queries(2600, -1.5, 1.5)) {
+  Batch() : sample_(octree::sphere(4)), queries_(random_queries(kWindow + 900, -1.5, 1.5)) {
     queries_[3] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
-    queries_[1023] = {1e300, -1e300, 0};
-    queries_[1024] = {0, std::numeric_limits<double>::infinity(), 0};
+    queries_[kWindow - 1] = {1e300, -1e300, 0};
+    queries_[kWindow] = {0, std::numeric_limits<double>::infinity(), 0};
     queries_[2000] = queries_[17];
     queries_[2001] = {1e20, 1, 1};
   }
 
-  void expect_as_one_by_one(const Ask& ask) {
-    const Model model = sample_.open();
+  void expect_as_one_by_one(const Ask& ask, unsigned threads = 1) {
+    const Model model = sample_.open_for_batches(threads);
     Probe probe = make_probe(model);
     std::vector<ClosestPoint> answers(queries_.size());
     probe.closest_points(queries_, answers, ask);
@@ -35,6 +41,47 @@ class Batch : public testing::Test {
 };
 
 TEST_F(Batch, HasTheBitsOfOneByOne) { expect_as_one_by_one({}); }
+
+TEST_F(Batch, HasThemWithAnyNumberOfThreads) {
+  for (const unsigned threads : {2u, 3u, 16u}) expect_as_one_by_one({}, threads);
+}
+
+TEST_F(Batch, TellsSidesWithSeveralThreadsToo) {
+  const Model model = sample_.open_for_batches(2);
+  Probe probe = make_probe(model);
+  std::vector<Containment> answers(queries_.size());
+  probe.contains(queries_, answers);
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
+    ASSERT_EQ(answers[i].side, probe.contains(queries_[i]).side) << i;
+    ASSERT_EQ(answers[i].status, probe.contains(queries_[i]).status) << i;
+  }
+}
+
+// Whoever comes while the crew is at work answers alone.
+TEST_F(Batch, MayBeAskedByManyAtOnce) {
+  const Model model = sample_.open_for_batches(2, 4);
+  std::vector<std::vector<ClosestPoint>> answers(4, std::vector<ClosestPoint>(queries_.size()));
+  std::vector<std::thread> askers;
+  for (auto& own : answers)
+    askers.emplace_back([&] { make_probe(model).closest_points(queries_, own); });
+  for (std::thread& asker : askers) asker.join();
+  for (std::size_t i = 0; i < queries_.size(); ++i)
+    for (const auto& own : answers) ASSERT_EQ(bits_of(own[i]), bits_of(answers[0][i])) << i;
+}
+
+// Rounding up and flushing, the caller's way, is not the crew's.
+TEST_F(Batch, ComputesAsEverInThreadsOfOddArithmetic) {
+  const Model model = sample_.open_for_batches(2);
+  Probe probe = make_probe(model);
+  std::vector<ClosestPoint> plain(queries_.size()), odd(queries_.size());
+  probe.closest_points(queries_, plain);
+  {
+    const OddArithmetic arithmetic(FE_UPWARD);
+    probe.closest_points(queries_, odd);
+  }
+  for (std::size_t i = 0; i < queries_.size(); ++i)
+    ASSERT_EQ(bits_of(odd[i]), bits_of(plain[i])) << i;
+}
 
 TEST_F(Batch, HasThemUnderLimitsToo) {
   expect_as_one_by_one({.max_error = 0.1, .max_distance = 0.5, .max_nodes = 12});
@@ -56,7 +103,8 @@ TEST_F(Batch, MayBeOfAnySize) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   probe.closest_points({}, {});
-  for (const std::size_t size : {1u, 2u, 1023u, 1024u, 1025u}) {
+  for (const std::size_t size :
+       {std::size_t{1}, std::size_t{2}, kWindow - 1, kWindow, kWindow + 1}) {
     std::vector<ClosestPoint> answers(size);
     probe.closest_points(std::span(queries_).first(size), answers);
     EXPECT_EQ(bits_of(answers[size - 1]), bits_of(probe.closest_point(queries_[size - 1])));

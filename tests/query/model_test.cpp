@@ -71,6 +71,30 @@ TEST(Model, NamesTheLeastBudgetThatWillDo) {
   }
 }
 
+TEST(Model, RefusesBatchThreadsThatMakeNoSense) {
+  const SampleModel sample(repeated(1));
+  for (const unsigned threads : {0u, OpenOptions::kMostBatchThreads + 1, ~0u}) {
+    OpenOptions options;
+    options.batch_threads = threads;
+    const auto model = Model::open(sample.path(), options);
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);
+  }
+}
+
+// What the crew needs is within the budget.
+TEST(Model, CountsBatchThreadsIntoTheBudget) {
+  const SampleModel sample(sphere(5));
+  OpenOptions options;
+  options.max_probes = 1;
+  options.memory_budget_bytes = sample.least_budget(1);
+  ASSERT_TRUE(Model::open(sample.path(), options));
+  options.batch_threads = 8;
+  const auto refused = Model::open(sample.path(), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kNoMemory);
+}
+
 TEST(Model, RefusesProbesThatMakeNoSense) {
   const SampleModel sample(repeated(1));
   for (const unsigned probes : {0u, 1025u, ~0u}) {

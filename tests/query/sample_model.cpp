@@ -117,6 +117,15 @@ Model SampleModel::open(std::uint64_t budget_bytes, unsigned max_probes) const {
   return *std::move(model);
 }
 
+Model SampleModel::open_for_batches(unsigned batch_threads, unsigned max_probes) const {
+  OpenOptions options;
+  options.batch_threads = batch_threads;
+  options.max_probes = max_probes;
+  auto model = Model::open(path(), options);
+  if (!model) give_up(model.error());
+  return *std::move(model);
+}
+
 SampleModel::Truth SampleModel::truth(const Vec3& query) const {
   const double scale = std::ldexp(1.0, sample_.mesh.scale_exponent());
   const octree::Point point(query.x * scale, query.y * scale, query.z * scale);

@@ -32,6 +32,9 @@ class SampleModel {
   std::uint64_t least_budget(unsigned max_probes = 1) const;
   Model open(std::uint64_t budget_bytes = std::uint64_t{64} << 20, unsigned max_probes = 1) const;
 
+  /// Batches are answered by several threads.
+  Model open_for_batches(unsigned batch_threads, unsigned max_probes = 1) const;
+
   /// The distance to every triangle, the least of them; model units, with the
   /// arithmetic of the library.
   double distance(const Vec3& query) const;

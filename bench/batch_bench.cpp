@@ -1,0 +1,117 @@
+// What a batch saves: points put in order, and several threads.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "bench/workloads.h"
+#include "planetree/planetree.h"
+
+namespace planetree::bench {
+namespace {
+
+struct Arguments {
+  std::string model;
+  std::size_t points = 1'000'000;
+  std::size_t rounds = 3;
+  unsigned threads = 2;
+};
+
+using Answers = std::vector<ClosestPoint>;
+
+// One way of asking, and its nanoseconds a point by the clock on the wall, for threads count.
+struct Way {
+  std::string name;
+  std::function<void(Answers&)> ask;
+  Answers answers;
+  std::vector<double> times{};
+
+  void run() {
+    const auto start = std::chrono::steady_clock::now();
+    ask(answers);
+    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+    times.push_back(time.count() / static_cast<double>(answers.size()));
+  }
+  double median() {
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+  }
+};
+
+bool same_answer(const ClosestPoint& a, const ClosestPoint& b) {
+  const auto bits = [](const double& value) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &value, sizeof word);
+    return word;
+  };
+  return bits(a.distance) == bits(b.distance) && bits(a.lower) == bits(b.lower) &&
+         bits(a.upper) == bits(b.upper) && a.triangle == b.triangle && a.status == b.status;
+}
+
+int run(const Arguments& arguments) {
+  OpenOptions options{.memory_budget_bytes = std::uint64_t{64} << 30};
+  const auto alone = Model::open(arguments.model, options);
+  options.batch_threads = arguments.threads;
+  const auto crew = alone ? Model::open(arguments.model, options) : alone.error();
+  if (!crew) return std::cerr << "batch_bench: " << crew.error().text << '\n', 1;
+  auto probe = Probe::create(*alone), crew_probe = Probe::create(*crew);
+  if (!probe || !crew_probe) return std::cerr << "batch_bench: no probe\n", 1;
+
+  const ModelInfo& info = alone->info();
+  fmt::print("{} triangles, batches of {} points\n{:<10}{:<24}{:>10}{:>8}{:>12}\n", info.triangles,
+             arguments.points, "points", "", "ns", "times", "other bits");
+  constexpr Ask kDistanceAlone{.parts = kDistance};
+  for (const Workload workload : {Workload::kUniform, Workload::kNear}) {
+    const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
+    const std::vector<Vec3> points =
+        make_queries(workload, {info.box_lower, info.box_upper}, surface, arguments.points, 1);
+    const Answers room(points.size());
+    std::vector<Way> ways{
+        {"one by one",
+         [&](Answers& answers) {
+           for (std::size_t i = 0; i < points.size(); ++i)
+             answers[i] = probe->closest_point(points[i], kDistanceAlone);
+         },
+         room},
+        {"a batch",
+         [&](Answers& answers) { probe->closest_points(points, answers, kDistanceAlone); }, room},
+        {fmt::format("a batch, {} threads", arguments.threads),
+         [&](Answers& answers) { crew_probe->closest_points(points, answers, kDistanceAlone); },
+         room}};
+    for (Way& way : ways) way.run();  // to warm up
+    for (Way& way : ways) way.times.clear();
+    for (std::size_t round = 0; round < arguments.rounds; ++round)
+      for (Way& way : ways) way.run();
+    for (Way& way : ways) {
+      std::size_t other = 0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        other += same_answer(way.answers[i], ways[0].answers[i]) ? 0 : 1;
+      fmt::print("{:<10}{:<24}{:>10.0f}{:>8.2f}{:>12}\n", name_of(workload), way.name, way.median(),
+                 ways[0].median() / way.median(), other);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace planetree::bench
+
+int main(int argc, char** argv) {
+  planetree::bench::Arguments arguments;
+  CLI::App app("Batches of points against asks one by one");
+  app.add_option("model", arguments.model, "File that planetree build wrote")->required();
+  app.add_option("--points", arguments.points, "Points a batch")->capture_default_str();
+  app.add_option("--rounds", arguments.rounds, "Rounds in turn; their median counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--threads", arguments.threads, "Threads of the last way")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  return planetree::bench::run(arguments);
+}
