@@ -1,4 +1,4 @@
-#include "bench/cgal_peer.h"
+#include "bench/peer_kinds.h"
 
 #include <cmath>
 #include <optional>
@@ -38,19 +38,22 @@ Mesh surface_of(const PeerMesh& mesh) {
   return surface;
 }
 
-}  // namespace
-
-class CgalPeer::Tree {
+class CgalPeer final : public Peer {
  public:
-  explicit Tree(const PeerMesh& mesh) : surface_(surface_of(mesh)) {
+  explicit CgalPeer(const PeerMesh& mesh) : surface_(surface_of(mesh)) {
     tree_.insert(faces(surface_).first, faces(surface_).second, surface_);
     tree_.build();
     tree_.accelerate_distance_queries();
     side_.emplace(tree_);
   }
 
-  double distance(const Point& query) const { return std::sqrt(tree_.squared_distance(query)); }
-  bool inside(const Point& query) const { return (*side_)(query) != CGAL::ON_UNBOUNDED_SIDE; }
+  [[nodiscard]] std::string name() const override { return "CGAL"; }
+  double distance(const Vec3& query) override {
+    return std::sqrt(tree_.squared_distance(Point(query.x, query.y, query.z)));
+  }
+  bool inside(const Vec3& query) override {
+    return (*side_)(Point(query.x, query.y, query.z)) != CGAL::ON_UNBOUNDED_SIDE;
+  }
 
  private:
   Mesh surface_;
@@ -58,13 +61,10 @@ class CgalPeer::Tree {
   std::optional<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side_;  // of a built tree
 };
 
-CgalPeer::CgalPeer(const PeerMesh& mesh) : tree_(std::make_unique<Tree>(mesh)) {}
-CgalPeer::~CgalPeer() = default;
+}  // namespace
 
-double CgalPeer::distance(const Vec3& query) {
-  return tree_->distance(Point(query.x, query.y, query.z));
+std::unique_ptr<Peer> make_cgal_peer(const PeerMesh& mesh) {
+  return std::make_unique<CgalPeer>(mesh);
 }
-
-bool CgalPeer::inside(const Vec3& query) { return tree_->inside(Point(query.x, query.y, query.z)); }
 
 }  // namespace planetree::bench

@@ -1,4 +1,4 @@
-#include "bench/embree_peer.h"
+#include "bench/peer_kinds.h"
 
 #include <cmath>
 #include <limits>
@@ -55,51 +55,51 @@ bool count_bytes(void* total, std::ptrdiff_t bytes, bool) {
   return true;
 }
 
-}  // namespace
+class EmbreePeer final : public Peer {
+ public:
+  explicit EmbreePeer(const PeerMesh& mesh);
+  ~EmbreePeer() override {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
 
-struct EmbreePeer::Scene {
-  explicit Scene(const PeerMesh& mesh);
-  ~Scene();
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
+  [[nodiscard]] std::string name() const override { return "Embree"; }
+  double distance(const Vec3& query) override;
+  bool inside(const Vec3& query) override;
+  [[nodiscard]] std::uint64_t mapped_bytes() const override {
+    return static_cast<std::uint64_t>(bytes_);
+  }
 
+ private:
   Float3 corner(unsigned triangle, unsigned k) const {
-    const float* const at = &positions[3 * std::size_t{corners[3 * std::size_t{triangle} + k]}];
+    const float* const at = &positions_[3 * std::size_t{corners_[3 * std::size_t{triangle} + k]}];
     return {at[0], at[1], at[2]};
   }
 
-  std::vector<float> positions;
-  std::vector<std::uint32_t> corners;
-  RTCDevice device = rtcNewDevice("threads=1");
-  RTCScene scene = nullptr;
-  std::int64_t bytes = 0;  // that Embree says it holds
+  std::vector<float> positions_;
+  std::vector<std::uint32_t> corners_;
+  RTCDevice device_ = rtcNewDevice("threads=1");
+  RTCScene scene_ = nullptr;
+  std::int64_t bytes_ = 0;  // that Embree says it holds
 };
 
-EmbreePeer::Scene::Scene(const PeerMesh& mesh) : positions(mesh.positions), corners(mesh.corners) {
-  const std::size_t vertices = positions.size() / 3;
-  positions.push_back(0);  // Embree reads 16 bytes a vertex
-  rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
-  scene = rtcNewScene(device);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+EmbreePeer::EmbreePeer(const PeerMesh& mesh) : positions_(mesh.positions), corners_(mesh.corners) {
+  const std::size_t vertices = positions_.size() / 3;
+  positions_.push_back(0);  // Embree reads 16 bytes a vertex
+  rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
+  scene_ = rtcNewScene(device_);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                             positions.data(), 0, 12, vertices);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners.data(),
+                             positions_.data(), 0, 12, vertices);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners_.data(),
                              0, 12, mesh.triangles());
   rtcSetGeometryIntersectFilterFunction(geometry, count_hit);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
+  rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
+  rtcCommitScene(scene_);
 }
-
-EmbreePeer::Scene::~Scene() {
-  rtcReleaseScene(scene);
-  rtcReleaseDevice(device);
-}
-
-EmbreePeer::EmbreePeer(const PeerMesh& mesh) : scene_(std::make_unique<Scene>(mesh)) {}
-EmbreePeer::~EmbreePeer() = default;
 
 double EmbreePeer::distance(const Vec3& query) {
   RTCPointQuery point{static_cast<float>(query.x), static_cast<float>(query.y),
@@ -107,22 +107,20 @@ double EmbreePeer::distance(const Vec3& query) {
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
-    const auto& scene = *static_cast<const Scene*>(arguments->userPtr);
+    const auto& peer = *static_cast<const EmbreePeer*>(arguments->userPtr);
     const unsigned triangle = arguments->primID;
     const Float3 p{arguments->query->x, arguments->query->y, arguments->query->z};
-    const Float3 nearest = nearest_on_triangle(
-        p, scene.corner(triangle, 0), scene.corner(triangle, 1), scene.corner(triangle, 2));
+    const Float3 nearest = nearest_on_triangle(p, peer.corner(triangle, 0),
+                                               peer.corner(triangle, 1), peer.corner(triangle, 2));
     const Float3 off = p - nearest;
     const float distance = std::sqrt(dot(off, off));
     if (!(distance < arguments->query->radius)) return false;
     arguments->query->radius = distance;
     return true;
   };
-  rtcPointQuery(scene_->scene, &point, &context, visit, scene_.get());
+  rtcPointQuery(scene_, &point, &context, visit, this);
   return point.radius;
 }
-
-std::uint64_t EmbreePeer::mapped_bytes() const { return static_cast<std::uint64_t>(scene_->bytes); }
 
 bool EmbreePeer::inside(const Vec3& query) {
   HitCount context;
@@ -135,8 +133,14 @@ bool EmbreePeer::inside(const Vec3& query) {
   ray.ray.tfar = std::numeric_limits<float>::infinity();
   ray.ray.mask = ~0U;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_->scene, &context, &ray);
+  rtcIntersect1(scene_, &context, &ray);
   return context.hits % 2 == 1;
+}
+
+}  // namespace
+
+std::unique_ptr<Peer> make_embree_peer(const PeerMesh& mesh) {
+  return std::make_unique<EmbreePeer>(mesh);
 }
 
 }  // namespace planetree::bench

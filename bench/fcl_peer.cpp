@@ -1,4 +1,4 @@
-#include "bench/fcl_peer.h"
+#include "bench/peer_kinds.h"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -22,29 +22,29 @@ std::shared_ptr<Hierarchy> hierarchy_of(const PeerMesh& mesh) {
   return hierarchy;
 }
 
-}  // namespace
-
-class FclPeer::Scene {
+class FclPeer final : public Peer {
  public:
-  explicit Scene(const PeerMesh& mesh)
+  explicit FclPeer(const PeerMesh& mesh)
       : mesh_(hierarchy_of(mesh)), point_(std::make_shared<fcl::Sphered>(0.0)) {}
 
-  double distance(const Vec3& query) {
+  [[nodiscard]] std::string name() const override { return "FCL"; }
+  double distance(const Vec3& query) override {
     point_.setTranslation({query.x, query.y, query.z});
     fcl::DistanceResultd result;
     fcl::distance(&mesh_, &point_, fcl::DistanceRequestd(), result);
     return result.min_distance;
   }
+  [[nodiscard]] bool tells_sides() const override { return false; }
+  bool inside(const Vec3&) override { return false; }
 
  private:
   fcl::CollisionObjectd mesh_, point_;
 };
 
-FclPeer::FclPeer(const PeerMesh& mesh) : scene_(std::make_unique<Scene>(mesh)) {}
-FclPeer::~FclPeer() = default;
+}  // namespace
 
-double FclPeer::distance(const Vec3& query) { return scene_->distance(query); }
-
-bool FclPeer::inside(const Vec3&) { return false; }
+std::unique_ptr<Peer> make_fcl_peer(const PeerMesh& mesh) {
+  return std::make_unique<FclPeer>(mesh);
+}
 
 }  // namespace planetree::bench

@@ -6,9 +6,7 @@
 #include <chrono>
 #include <unordered_map>
 
-#include "bench/cgal_peer.h"
-#include "bench/embree_peer.h"
-#include "bench/fcl_peer.h"
+#include "bench/peer_kinds.h"
 #include "octree/build/mesh_reader.h"
 
 namespace planetree::bench {
@@ -52,9 +50,9 @@ std::uint64_t heap_bytes() {
 }
 
 std::unique_ptr<Peer> make_peer(const std::string& name, const PeerMesh& mesh) {
-  if (name == "embree") return std::make_unique<EmbreePeer>(mesh);
-  if (name == "cgal") return std::make_unique<CgalPeer>(mesh);
-  if (name == "fcl") return std::make_unique<FclPeer>(mesh);
+  if (name == "embree") return make_embree_peer(mesh);
+  if (name == "cgal") return make_cgal_peer(mesh);
+  if (name == "fcl") return make_fcl_peer(mesh);
   return nullptr;
 }
 
