@@ -14,39 +14,73 @@ struct Opening {
   unsigned count = 0;
 };
 
-// The child to open next; kFanOut if all are leaves.
-unsigned largest_inner(const std::vector<BinaryNode>& binary, const Opening& opening) {
-  unsigned best = kFanOut;
-  for (unsigned i = 0; i < opening.count; ++i) {
-    const BinaryNode& node = binary[opening.child[i]];
-    if (node.leaf()) continue;
-    if (best == kFanOut) {
-      best = i;
-      continue;
-    }
-    const BinaryNode& other = binary[opening.child[best]];
-    const float area = half_area(node.box), other_area = half_area(other.box);
-    if (area > other_area || (area == other_area && node.count() > other.count())) best = i;
+// Which binary nodes become wide ones: those whose surfaces add up to least, for a query
+// visits a node about as often as its surface is large. By dynamic programming over the
+// number of children a subtree may give to the wide node above it, as compressed wide trees
+// for rays are (Ylitie, Karras & Laine 2017, "Efficient incoherent ray traversal on GPUs
+// through compressed wide BVHs", section 4.2); blocks stay as they are.
+class Openings {
+ public:
+  explicit Openings(const std::vector<BinaryNode>& binary)
+      : binary_(binary), least_(binary.size()) {
+    // Children come after their parents.
+    for (auto at = static_cast<std::uint32_t>(binary.size()); at-- > 0;) weigh(at);
   }
-  return best;
-}
 
-Opening open_children(const std::vector<BinaryNode>& binary, const BinaryNode& node) {
-  Opening opening;
-  opening.child[0] = node.left;
-  opening.child[1] = node.right;
-  opening.count = 2;
-  while (opening.count < kFanOut) {
-    const unsigned at = largest_inner(binary, opening);
-    if (at == kFanOut) break;
-    const BinaryNode& opened = binary[opening.child[at]];
-    for (unsigned i = opening.count; i > at + 1; --i) opening.child[i] = opening.child[i - 1];
-    opening.child[at] = opened.left;
-    opening.child[at + 1] = opened.right;
-    ++opening.count;
+  // The children of a wide node, in order.
+  Opening of(std::uint32_t at) const {
+    Opening opening;
+    open(at, kFanOut, opening);
+    return opening;
   }
-  return opening;
-}
+
+ private:
+  static constexpr unsigned kMostShare = kFanOut - 1;
+
+  // Of a subtree that may give up to `share` children.
+  float least(std::uint32_t at, unsigned share) const { return least_[at][share - 1]; }
+
+  // The first of the best shares for the left half; the rest is for the right one.
+  unsigned best_share(const BinaryNode& node, unsigned share) const {
+    const auto surface = [&](unsigned left) {
+      return least(node.left, left) + least(node.right, share - left);
+    };
+    unsigned best = 1;
+    for (unsigned left = 2; left < share; ++left)
+      if (surface(left) < surface(best)) best = left;
+    return best;
+  }
+  float divided(const BinaryNode& node, unsigned share) const {
+    const unsigned left = best_share(node, share);
+    return least(node.left, left) + least(node.right, share - left);
+  }
+
+  void weigh(std::uint32_t at) {
+    const BinaryNode& node = binary_[at];
+    if (node.leaf()) return;  // a block costs the same wherever it hangs
+    least_[at][0] = half_area(node.box) + divided(node, kFanOut);
+    for (unsigned share = 2; share <= kMostShare; ++share)
+      least_[at][share - 1] = std::min(least_[at][0], divided(node, share));
+  }
+
+  // Appends what a subtree gives: itself, or what its halves give.
+  void give(std::uint32_t at, unsigned share, Opening& opening) const {
+    const bool whole = binary_[at].leaf() || share == 1 || least(at, share) == least(at, 1);
+    if (whole)
+      opening.child[opening.count++] = at;
+    else
+      open(at, share, opening);
+  }
+  void open(std::uint32_t at, unsigned share, Opening& opening) const {
+    const BinaryNode& node = binary_[at];
+    const unsigned left = best_share(node, share);
+    give(node.left, left, opening);
+    give(node.right, share - left, opening);
+  }
+
+  const std::vector<BinaryNode>& binary_;
+  std::vector<std::array<float, kMostShare>> least_;  // of surface, by share
+};
 
 // The least steps from a side of the parent that decode to a box around the
 // true one.
@@ -74,13 +108,14 @@ void pack_box(const FloatBox& parent, WideChild& child) {
 
 class Collapser {
  public:
-  Collapser(const std::vector<BinaryNode>& binary, WideTree& tree) : binary_(binary), tree_(tree) {}
+  Collapser(const std::vector<BinaryNode>& binary, WideTree& tree)
+      : binary_(binary), openings_(binary), tree_(tree) {}
 
   // Appends the wide node for binary node `from`, whose decoded box is `box`.
   std::uint32_t add_node(std::uint32_t from, const FloatBox& box) {
     const auto at = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
-    const Opening opening = open_children(binary_, binary_[from]);
+    const Opening opening = openings_.of(from);
     tree_.nodes[at].box = box;
     tree_.nodes[at].child_count = static_cast<std::uint8_t>(opening.count);
     unsigned height = 0;
@@ -115,6 +150,7 @@ class Collapser {
   }
 
   const std::vector<BinaryNode>& binary_;
+  const Openings openings_;
   WideTree& tree_;
 };
 

@@ -46,8 +46,8 @@ struct WideTree {
   std::vector<NodeMoments> moments;  ///< by node; none of a watertight model
 };
 
-/// Collapses a binary tree: a node's children are the two halves, of which the
-/// one of largest surface is opened until there are eight.
+/// Collapses a binary tree so that the surfaces of the nodes that stay add up to least: a
+/// node then has about six of eight children. The blocks are the leaves as they are.
 WideTree collapse(const std::vector<BinaryNode>& binary);
 
 }  // namespace planetree::octree
