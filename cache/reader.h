@@ -44,14 +44,14 @@ class Reader {
     }
     slot_->count_hit();
     ClockPolicy::mark(scores_[frame]);
-    return frames_ + frame * stride_bytes_;
+    return at(frame);
   }
 
   /// As find(), for a glance: counts and marks nothing.
   const std::byte* peek(std::uint32_t page) const noexcept {
     assert(inside());
     const std::uint32_t frame = map_.find(page);
-    return frame == kNoFrame ? nullptr : frames_ + frame * stride_bytes_;
+    return frame == kNoFrame ? nullptr : at(frame);
   }
 
   /// Inside a section: ends it, makes the page resident, begins another and
@@ -71,6 +71,9 @@ class Reader {
   friend class PageCache;
   Reader(PageCache& cache, ReaderSlot& slot) noexcept;
   void give_back() noexcept;
+  const std::byte* at(std::uint32_t frame) const noexcept {
+    return frames_ + frame * stride_bytes_;
+  }
 
   // Copies of what find() needs, so that it does not touch the cache object,
   // whose lines the writer keeps changing.

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
+
+#include "octree/double_parts.h"
 
 namespace planetree::octree {
 namespace {
@@ -18,21 +19,6 @@ using Whole = mp::number<mp::cpp_int_backend<4160, 4160, mp::signed_magnitude, m
                          mp::et_off>;
 using Vector = std::array<Whole, 3>;
 
-/// A finite double is mantissa * 2^(exponent - 1074). Taken from its bits: a
-/// thread may have been told to take subnormal numbers for zero.
-struct Parts {
-  std::int64_t mantissa;
-  int exponent;
-};
-
-Parts parts_of(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const int biased = static_cast<int>(bits >> 52 & 0x7ff);
-  auto mantissa = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << 52) - 1));
-  if (biased != 0) mantissa |= std::int64_t{1} << 52;
-  return {(bits >> 63) != 0 ? -mantissa : mantissa, std::max(biased, 1) - 1};
-}
-
 /// Numbers that are multiples of one power of two, as small as it can be chosen.
 class CommonUnit {
  public:
@@ -40,7 +26,7 @@ class CommonUnit {
   explicit CommonUnit(const std::array<const Point*, kCount>& points) {
     for (const Point* point : points)
       for (const double value : *point)
-        if (const Parts parts = parts_of(value); parts.mantissa != 0)
+        if (const DoubleParts parts(value); parts.mantissa != 0)
           exponent_ = std::min(exponent_, parts.exponent);
   }
 
@@ -52,7 +38,7 @@ class CommonUnit {
 
  private:
   Whole whole(double value) const {
-    const Parts parts = parts_of(value);
+    const DoubleParts parts(value);
     Whole result = parts.mantissa;
     if (parts.mantissa != 0) result <<= static_cast<unsigned>(parts.exponent - exponent_);
     return result;

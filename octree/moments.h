@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "octree/child_bounds.h"
 #include "octree/frame.h"
+#include "octree/triangle_distance.h"
 
 /// What a node of an open model knows of each child besides its bounds: enough
 /// to tell the child's share of a far point's winding number, and how wrong
@@ -33,6 +35,13 @@ constexpr ShortFloat pack_short_above(double value) {
   // The next in size is the next in bits.
   return static_cast<double>(unpack_short(packed)) < value ? static_cast<ShortFloat>(packed + 1)
                                                            : packed;
+}
+
+/// What the moments of a child with that box are about.
+inline Point centre_of(const FloatBox& box) {
+  const std::array<float, 3> centre = box.centre();
+  return {static_cast<double>(centre[0]), static_cast<double>(centre[1]),
+          static_cast<double>(centre[2])};
 }
 
 /// The moments of one child's triangles as they are stored, about the centre of

@@ -18,7 +18,6 @@
 #include "octree/node_kernels-inl.h"
 #include "octree/strict_math.h"
 #include "octree/triangle_filter-inl.h"
-#include "octree/triangle_kernels-inl.h"
 #include "octree/vicinity.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -169,12 +168,8 @@ class Descent {
     const auto& rows = candidates_.rows();
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
       TriangleFindings findings;
-      unsigned flat = evaluate_triangles(rows.at[0][0] + i, Candidates::kMost, query_, findings);
       const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
-      for (flat &= (1u << count) - 1; flat != 0; flat &= flat - 1) {
-        const auto lane = static_cast<unsigned>(std::countr_zero(flat));
-        refine_flat(query_, rows.triangle(i + lane), findings, lane);
-      }
+      evaluate(query_, rows.view(i), count, findings);
       for (std::size_t lane = 0; lane < count; ++lane)
         best_.offer(findings.of(lane), candidates_.id(i + lane),
                     [&] { return rows.triangle(i + lane); });

@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "octree/strict_math.h"
@@ -16,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-unsigned evaluate_rows(const TriangleRows<kTrianglesAtOnce>& rows, const Point& query,
-                       TriangleFindings& findings) {
-  return evaluate_triangles(rows.at[0][0], kTrianglesAtOnce, query, findings);
+unsigned evaluate_on_target(const TriangleView& triangles, const Point& query,
+                            TriangleFindings& findings) {
+  return evaluate_triangles(triangles.at, triangles.stride, query, findings);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -29,7 +30,7 @@ HWY_AFTER_NAMESPACE();
 namespace planetree::octree {
 namespace {
 
-HWY_EXPORT(evaluate_rows);
+HWY_EXPORT(evaluate_on_target);
 
 // Below this squared sine the face is its edges, to 2^-50 of their length.
 constexpr double kDegenerateSine2 = 0x1p-100;
@@ -72,10 +73,9 @@ std::size_t apex_of(const std::array<Point, 3>& corner) {
   return apex;
 }
 
-}  // namespace
-
+// Looks again, with 113 bits, at the face of a triangle that double found too flat.
 void refine_flat(const Point& query, const Triangle& triangle, TriangleFindings& findings,
-                 std::size_t lane) noexcept {
+                 std::size_t lane) {
   const auto order = lexicographic_order(triangle);
   const std::array<Point, 3> corner{triangle[order[0]], triangle[order[1]], triangle[order[2]]};
   const std::size_t apex = apex_of(corner);
@@ -95,6 +95,17 @@ void refine_flat(const Point& query, const Triangle& triangle, TriangleFindings&
   findings.number[lane] = static_cast<double>(apex);
   findings.first[lane] = static_cast<double>(v / normal2);
   findings.second[lane] = static_cast<double>(w / normal2);
+}
+
+}  // namespace
+
+void evaluate(const Point& query, const TriangleView& triangles, std::size_t count,
+              TriangleFindings& findings) noexcept {
+  unsigned flat = HWY_DYNAMIC_DISPATCH(evaluate_on_target)(triangles, query, findings);
+  for (flat &= (1U << count) - 1; flat != 0; flat &= flat - 1) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(flat));
+    refine_flat(query, triangles.triangle(lane), findings, lane);
+  }
 }
 
 NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding) noexcept {
@@ -124,10 +135,9 @@ NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding
 
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
   TriangleRows<kTrianglesAtOnce> rows;
-  for (std::size_t lane = 0; lane < kTrianglesAtOnce; ++lane) rows.set(lane, triangle);
+  rows.fill(0, triangle);
   TriangleFindings findings;
-  if (HWY_DYNAMIC_DISPATCH(evaluate_rows)(rows, query, findings) != 0)
-    refine_flat(query, triangle, findings, 0);
+  evaluate(query, rows.view(0), 1, findings);
   return place(triangle, findings.of(0));
 }
 

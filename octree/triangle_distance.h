@@ -73,10 +73,6 @@ struct TriangleFindings {
   }
 };
 
-/// Looks again, with 113 bits, at the face of a triangle that double found too flat.
-void refine_flat(const Point& query, const Triangle& triangle, TriangleFindings& findings,
-                 std::size_t lane) noexcept;
-
 /// The nearest point that is told of.
 NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding) noexcept;
 

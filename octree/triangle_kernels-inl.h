@@ -159,7 +159,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
 }
 
 // Evaluates kTrianglesAtOnce triangles of TriangleRows, from the one that `rows` points to.
-// A bit for each whose face is too flat for double: refine_flat() is to be told of it.
+// A bit for each whose face is too flat for double: evaluate() looks at it again.
 HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::size_t stride,
                                        const Point& query, TriangleFindings& findings) {
   const DoubleTag d;

@@ -8,6 +8,20 @@
 
 namespace planetree::octree {
 
+/// kTrianglesAtOnce triangles of some rows: coordinates are `stride` apart, by corner and axis.
+struct TriangleView {
+  const double* at;
+  std::size_t stride;
+
+  Triangle triangle(std::size_t i) const {
+    Triangle corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        corners[k][static_cast<Eigen::Index>(axis)] = at[(3 * k + axis) * stride + i];
+    return corners;
+  }
+};
+
 /// Triangles side by side, for kernels that look at several at once. Plain memory; entries
 /// that were never set hold anything.
 template <std::size_t kMost>
@@ -16,11 +30,9 @@ struct TriangleRows {
 
   alignas(kTrianglesAtOnce * sizeof(double)) double at[3][3][kMost];  ///< corner, axis, triangle
 
-  Triangle triangle(std::size_t i) const {
-    Triangle corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = {at[k][0][i], at[k][1][i], at[k][2][i]};
-    return corners;
-  }
+  Triangle triangle(std::size_t i) const { return view(0).triangle(i); }
+  /// Those from `first` on, a multiple of kTrianglesAtOnce.
+  TriangleView view(std::size_t first) const { return {at[0][0] + first, kMost}; }
 
   void set(std::size_t i, const Triangle& corners) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -40,5 +52,10 @@ struct TriangleRows {
       for (auto& row : corner) row[to] = row[from];
   }
 };
+
+/// Evaluates kTrianglesAtOnce triangles, of which the first `count` have a meaning; see
+/// nearest_on_triangle().
+void evaluate(const Point& query, const TriangleView& triangles, std::size_t count,
+              TriangleFindings& findings) noexcept;
 
 }  // namespace planetree::octree

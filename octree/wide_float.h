@@ -1,11 +1,11 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#include "octree/double_parts.h"
 #include "octree/vector3.h"
 
 /// Numbers wider than Quad, and doubles made wide bit by bit.
@@ -21,16 +21,11 @@ using Widest = boost::multiprecision::number<
 template <class Scalar>
 inline constexpr int kBits = std::numeric_limits<Scalar>::digits;
 
-/// `value`, which is finite, without any error. Taken from its bits: a thread
-/// may have been told to take subnormal numbers for zero.
+/// `value`, which is finite, without any error.
 template <class Scalar>
 Scalar wide(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const int biased = static_cast<int>(bits >> 52 & 0x7ff);
-  auto mantissa = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << 52) - 1));
-  if (biased != 0) mantissa |= std::int64_t{1} << 52;
-  const Scalar magnitude = ldexp(Scalar(mantissa), (biased == 0 ? 1 : biased) - 1075);
-  return (bits >> 63) != 0 ? Scalar(-magnitude) : magnitude;
+  const DoubleParts parts(value);
+  return ldexp(Scalar(parts.mantissa), parts.exponent - 1074);
 }
 
 }  // namespace planetree::octree

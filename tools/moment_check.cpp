@@ -22,12 +22,6 @@ struct Expected {
   double vector_error = 0, first_error = 0;
 };
 
-Point centre_of(const octree::FloatBox& box) {
-  const auto centre = box.centre();
-  return {static_cast<double>(centre[0]), static_cast<double>(centre[1]),
-          static_cast<double>(centre[2])};
-}
-
 Point vector_of(const octree::Moments& moments) {
   return Point(moments.vector[0], moments.vector[1], moments.vector[2]) * moments.vector_unit();
 }
@@ -62,7 +56,7 @@ bool fits(const octree::Moments& stated, const Expected& expected) {
 }  // namespace
 
 bool moments_fit(const Bounds& stated, const octree::BlockView& block, const Point& centre) {
-  const Point middle = centre_of(stated.box);
+  const Point middle = octree::centre_of(stated.box);
   Expected expected;
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     octree::Triangle e = block.triangle(i);
@@ -85,11 +79,11 @@ bool moments_fit(const Bounds& stated, const octree::BlockView& block, const Poi
 bool moments_fit(const Bounds& stated, const octree::Node& node) {
   // Stored areas and second moments may be a 128th too large, and a little.
   constexpr double kKept = 1 - 1.01 / 128;
-  const Point middle = centre_of(stated.box);
+  const Point middle = octree::centre_of(stated.box);
   Expected expected;
   for (unsigned i = 0; i < node.child_count; ++i) {
     const octree::Moments moments = octree::NodeMoments::of(node).child(i);
-    const Point by = centre_of(child_box(node, i)) - middle;
+    const Point by = octree::centre_of(child_box(node, i)) - middle;
     const Point vector = vector_of(moments);
     const double area = octree::Moments::wide(moments.area);
     const double second = octree::Moments::wide(moments.second);

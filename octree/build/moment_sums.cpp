@@ -35,12 +35,6 @@ struct Sums {
   }
 };
 
-Point centre_of(const FloatBox& box) {
-  const std::array<float, 3> centre = box.centre();
-  return {static_cast<double>(centre[0]), static_cast<double>(centre[1]),
-          static_cast<double>(centre[2])};
-}
-
 Sums of_triangle(const Triangle& triangle, const Point& from) {
   const Point a = triangle[0] - from, b = triangle[1] - from, c = triangle[2] - from;
   const Point u = b - a, v = c - a;

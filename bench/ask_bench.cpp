@@ -1,0 +1,72 @@
+// One kind of ask again and again, for counting its instructions under callgrind: that shows
+// a slowdown without a clock. Points are made and asked once before counting begins.
+
+#include <fmt/format.h>
+#include <valgrind/callgrind.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "bench/workloads.h"
+#include "planetree/planetree.h"
+
+namespace planetree::bench {
+namespace {
+
+struct Arguments {
+  std::string model;
+  std::string workload = "uniform";
+  std::string part = "distance";
+  std::size_t asks = 2000;
+};
+
+double ask_all(Probe& probe, const std::vector<Vec3>& points, const std::string& part) {
+  double sum = 0;
+  for (const Vec3& point : points)
+    if (part == "side")
+      sum += probe.contains(point).side == Side::kInside ? 1 : 0;
+    else
+      sum += probe.closest_point(point, {.parts = part == "all" ? kAllParts : kDistance}).distance;
+  return sum;
+}
+
+int run(const Arguments& arguments) {
+  const auto model = Model::open(arguments.model, {.memory_budget_bytes = std::uint64_t{16} << 30});
+  if (!model) return std::cerr << "ask_bench: " << model.error().text << '\n', 1;
+  auto probe = Probe::create(*model);
+  if (!probe) return std::cerr << "ask_bench: " << probe.error().text << '\n', 1;
+  const Box box{model->info().box_lower, model->info().box_upper};
+  const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
+  for (const Workload workload : kWorkloads) {
+    if (name_of(workload) != arguments.workload) continue;
+    const auto points = make_queries(workload, box, surface, arguments.asks, 1);
+    ask_all(*probe, points, arguments.part);
+    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_ZERO_STATS;
+    const double sum = ask_all(*probe, points, arguments.part);
+    CALLGRIND_STOP_INSTRUMENTATION;
+    fmt::print("{:.17g}\n", sum);
+    return 0;
+  }
+  std::cerr << "ask_bench: there are no points called '" << arguments.workload << "'\n";
+  return 2;
+}
+
+}  // namespace
+}  // namespace planetree::bench
+
+int main(int argc, char** argv) {
+  planetree::bench::Arguments arguments;
+  CLI::App app("One kind of ask again and again, to be run by ./dev counts");
+  app.add_option("model", arguments.model, "File that planetree build wrote")->required();
+  app.add_option("--workload", arguments.workload, "uniform, near, path, contact, teleport, medial")
+      ->capture_default_str();
+  app.add_option("--part", arguments.part, "distance, side or all")
+      ->check(CLI::IsMember({"distance", "side", "all"}))
+      ->capture_default_str();
+  app.add_option("--asks", arguments.asks, "How many")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  return planetree::bench::run(arguments);
+}
