@@ -12,7 +12,7 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
 unsigned meeting_on_target(const Node& node, const FloatBox& box) {
-  const hn::CappedTag<float, kFanOut> lanes;
+  const FloatTag lanes;
   unsigned found = 0;
   for (std::size_t first = 0; first < kFanOut; first += hn::Lanes(lanes)) {
     auto apart = hn::FirstN(lanes, 0);
@@ -22,9 +22,7 @@ unsigned meeting_on_target(const Node& node, const FloatBox& box) {
       apart = hn::Or(apart, hn::Gt(lower, hn::Set(lanes, box.upper[axis])));
       apart = hn::Or(apart, hn::Lt(upper, hn::Set(lanes, box.lower[axis])));
     }
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(lanes, apart, bits);
-    found |= (~unsigned{bits[0]} & ((1U << hn::Lanes(lanes)) - 1)) << first;
+    found |= mask_bits(lanes, hn::Not(apart)) << first;
   }
   return found & ((1U << node.child_count) - 1);
 }

@@ -81,12 +81,7 @@ HWY_INLINE CrossedTriangles cross_vector(const TriangleRows<kTrianglesAtOnce>& r
   const auto forward = hn::And(through, hn::And(start.positive, end.negative));
   const auto backward = hn::And(through, hn::And(start.negative, end.positive));
   const auto told = hn::Or(hn::Or(same_side, beside), hn::Or(forward, backward));
-  const auto bits = [&](DoubleMask mask) {
-    std::uint8_t byte[8] = {};
-    hn::StoreMaskBits(d, mask, byte);
-    return static_cast<unsigned>(byte[0]);
-  };
-  return {bits(forward), bits(backward), bits(hn::Not(told))};
+  return {mask_bits(d, forward), mask_bits(d, backward), mask_bits(d, hn::Not(told))};
 }
 
 HWY_INLINE CrossedTriangles cross_triangles(const TriangleRows<kTrianglesAtOnce>& rows,

@@ -9,6 +9,19 @@
 
 #include "octree/wide_floats-inl.h"
 
+#ifndef PLANETREE_OCTREE_CORNER_CODES_
+#define PLANETREE_OCTREE_CORNER_CODES_  // once for all targets
+namespace planetree::octree {
+
+// What triangles have of their corners' codes.
+struct CornerCodes {
+  unsigned shared;  // a bit for each that has a bit in all three
+  unsigned none;    // a bit for each that has a corner without any
+};
+
+}  // namespace planetree::octree
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
@@ -32,12 +45,6 @@ void float_codes(const float* HWY_RESTRICT vertices, unsigned stride, const floa
   }
 }
 
-// What triangles have of their corners' codes.
-struct CornerCodes {
-  unsigned shared;  // a bit for each that has a bit in all three
-  unsigned none;    // a bit for each that has a corner without any
-};
-
 #if PLANETREE_EIGHT_LANES
 CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes) {
   const hn::FixedTag<std::uint8_t, kMaxBlockTriangles> d;
@@ -56,12 +63,7 @@ CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTR
     shared = hn::And(shared, found);
     some_clear = hn::Or(some_clear, hn::Eq(found, zero));
   }
-  const auto bits = [&](auto mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    return bytes[0] | unsigned{bytes[1]} << 8;
-  };
-  return {bits(hn::Not(hn::Eq(shared, zero))), bits(some_clear)};
+  return {mask_bits(d, hn::Not(hn::Eq(shared, zero))), mask_bits(d, some_clear)};
 }
 #else
 CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes) {
@@ -83,15 +85,6 @@ CornerCodes float_corner_codes(const BlockHeader& block, const float* vertices,
   return corner_codes(block, codes);
 }
 
-unsigned shared_on_target(const BlockHeader& block, const float* vertices, const float (&lower)[3],
-                          const float (&upper)[3]) {
-  return float_corner_codes(block, vertices, lower, upper).shared;
-}
-unsigned none_on_target(const BlockHeader& block, const float* vertices, const float (&lower)[3],
-                        const float (&upper)[3]) {
-  return float_corner_codes(block, vertices, lower, upper).none;
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace planetree::octree
 HWY_AFTER_NAMESPACE();
@@ -100,8 +93,7 @@ HWY_AFTER_NAMESPACE();
 namespace planetree::octree {
 namespace {
 
-HWY_EXPORT(shared_on_target);
-HWY_EXPORT(none_on_target);
+HWY_EXPORT(float_corner_codes);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -143,8 +135,9 @@ Outcodes::Outcodes(const Point& lower, const Point& upper) noexcept
 unsigned Outcodes::meeting(const BlockView& block) const noexcept {
   unsigned found = 0;
   if (const float* vertices = block.float_vertices())
-    found = ~HWY_DYNAMIC_DISPATCH(shared_on_target)(block.header(), vertices, float_lower_,
-                                                    float_upper_);
+    found = ~HWY_DYNAMIC_DISPATCH(float_corner_codes)(block.header(), vertices, float_lower_,
+                                                      float_upper_)
+                 .shared;
   else
     for (unsigned i = 0; i < block.triangle_count(); ++i)
       found |= (apart(block.triangle(i), lower_, upper_) ^ 1) << i;
@@ -154,8 +147,9 @@ unsigned Outcodes::meeting(const BlockView& block) const noexcept {
 unsigned Outcodes::with_corner_within(const BlockView& block) const noexcept {
   unsigned found = 0;
   if (const float* vertices = block.float_vertices())
-    found =
-        HWY_DYNAMIC_DISPATCH(none_on_target)(block.header(), vertices, float_lower_, float_upper_);
+    found = HWY_DYNAMIC_DISPATCH(float_corner_codes)(block.header(), vertices, float_lower_,
+                                                     float_upper_)
+                .none;
   else
     for (unsigned i = 0; i < block.triangle_count(); ++i)
       found |= has_corner_within(block.triangle(i), lower_, upper_) << i;

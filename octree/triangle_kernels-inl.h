@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "octree/triangle_distance.h"
+#include "octree/wide_floats-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
@@ -153,9 +154,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
   hn::Store(hn::IfThenElse(on_face, hn::Div(v, normal2), nearest.t), d, findings.first + lane);
   hn::Store(hn::IfThenElse(on_face, hn::Div(w, normal2), hn::Set(d, TriangleFinding::kOnSide)), d,
             findings.second + lane);
-  std::uint8_t flat[8] = {};
-  hn::StoreMaskBits(d, hn::Not(round), flat);
-  return flat[0];
+  return mask_bits(d, hn::Not(round));
 }
 
 // Evaluates kTrianglesAtOnce triangles of TriangleRows, from the one that `rows` points to.

@@ -1,6 +1,6 @@
-// Eight floats and points of them, compiled once for each instruction set that Highway knows
-// at hand. Multiplications and additions are never fused and lanes never mixed, so that every
-// set computes the same bits.
+// Eight floats, points of them, and the bits of masks, compiled once for each instruction set that
+// Highway knows at hand. Multiplications and additions are never fused and lanes never mixed, so
+// that every set computes the same bits.
 
 #if defined(PLANETREE_OCTREE_WIDE_FLOATS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
@@ -46,12 +46,18 @@ HWY_INLINE Floats outside(Floats lower, Floats upper, Floats at) {
   return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
 }
 
+// A bit for each lane, of 16 at most.
+template <class Tag, class Mask>
+HWY_INLINE unsigned mask_bits(Tag d, Mask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0] | unsigned{bytes[1]} << 8;
+}
+
 // A bit for each lane that is not above the limit, or not a number.
 HWY_INLINE unsigned bits_not_above(Floats values, float limit) {
   const FloatTag d;
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::Not(hn::Gt(values, hn::Set(d, limit))), bits);
-  return bits[0];
+  return mask_bits(d, hn::Not(hn::Gt(values, hn::Set(d, limit))));
 }
 
 }  // namespace HWY_NAMESPACE

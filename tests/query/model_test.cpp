@@ -71,14 +71,18 @@ TEST(Model, NamesTheLeastBudgetThatWillDo) {
   }
 }
 
+void expect_bad_argument(const SampleModel& sample, const OpenOptions& options) {
+  const auto model = Model::open(sample.path(), options);
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);
+}
+
 TEST(Model, RefusesBatchThreadsThatMakeNoSense) {
   const SampleModel sample(repeated(1));
   for (const unsigned threads : {0u, OpenOptions::kMostBatchThreads + 1, ~0u}) {
     OpenOptions options;
     options.batch_threads = threads;
-    const auto model = Model::open(sample.path(), options);
-    ASSERT_FALSE(model);
-    EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);
+    expect_bad_argument(sample, options);
   }
 }
 
@@ -100,9 +104,7 @@ TEST(Model, RefusesProbesThatMakeNoSense) {
   for (const unsigned probes : {0u, 1025u, ~0u}) {
     OpenOptions options;
     options.max_probes = probes;
-    const auto model = Model::open(sample.path(), options);
-    ASSERT_FALSE(model);
-    EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);
+    expect_bad_argument(sample, options);
   }
 }
 

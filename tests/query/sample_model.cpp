@@ -112,6 +112,10 @@ Model SampleModel::open(std::uint64_t budget_bytes, unsigned max_probes) const {
   OpenOptions options;
   options.memory_budget_bytes = budget_bytes;
   options.max_probes = max_probes;
+  return open(options);
+}
+
+Model SampleModel::open(const OpenOptions& options) const {
   auto model = Model::open(path(), options);
   if (!model) give_up(model.error());
   return *std::move(model);
@@ -121,9 +125,7 @@ Model SampleModel::open_for_batches(unsigned batch_threads, unsigned max_probes)
   OpenOptions options;
   options.batch_threads = batch_threads;
   options.max_probes = max_probes;
-  auto model = Model::open(path(), options);
-  if (!model) give_up(model.error());
-  return *std::move(model);
+  return open(options);
 }
 
 SampleModel::Truth SampleModel::truth(const Vec3& query) const {

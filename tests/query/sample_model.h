@@ -43,6 +43,7 @@ class SampleModel {
   bool interval_holds(const ClosestPoint& answer, const Vec3& query) const;
 
  private:
+  Model open(const OpenOptions& options) const;
   SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index, bool masked);
   struct Truth {
     double distance = 0;
