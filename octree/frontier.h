@@ -27,32 +27,43 @@ struct alignas(kSlotBytes) FrontierGroup {
   }
 };
 
-/// Children still to visit: a group for each node on the way down, the last on top.
-/// Depth bounds their number.
+/// Children still to visit: a group for each visited node that has some. Taken nearest
+/// first, as few are visited as can be; taken from the last group, they lie close together.
 class Frontier {
  public:
+  enum class Order { kNearest, kLast };
+  /// From more groups only the last is taken, so that depth bounds how many are added.
+  static constexpr std::size_t kMostToOrder = 16;
+
   bool has_room() const { return size_ < kMaxGroups; }
 
   /// Where the next group is to be written; push() then counts it in.
   FrontierGroup& next() { return groups_[size_]; }
   /// The group has `count` entries.
   void push(unsigned count) {
-    if (count != 0) cursors_[size_++] = {0, static_cast<std::uint8_t>(count)};
+    if (count == 0) return;
+    cursors_[size_] = {0, static_cast<std::uint8_t>(count)};
+    set_key(size_, groups_[size_].bound_bits[0]);
+    ++size_;
   }
 
-  /// Takes the nearest child of the last group. Groups with none within
-  /// `threshold` are dropped; `dropped` becomes the least bound of such, if
-  /// less. False when nothing is left.
-  bool pop(float threshold, FrontierEntry& entry, float& dropped) {
+  /// Takes a child within `threshold`. `dropped` becomes the least bound of those that are
+  /// not, if less. False when nothing is left.
+  bool pop(Order order, float threshold, FrontierEntry& entry, float& dropped) {
     while (size_ > 0) {
-      Cursor& cursor = cursors_[size_ - 1];
-      entry = groups_[size_ - 1].entry(cursor.next);
+      const bool nearest = order == Order::kNearest && size_ <= kMostToOrder;
+      const std::size_t at = nearest ? nearest_group() : size_ - 1;
+      Cursor& cursor = cursors_[at];
+      entry = groups_[at].entry(cursor.next);
       if (entry.bound <= threshold) {
-        if (++cursor.next == cursor.end) --size_;
+        if (++cursor.next == cursor.end)
+          remove(at);
+        else
+          set_key(at, groups_[at].bound_bits[cursor.next]);
         return true;
       }
       dropped = std::min(dropped, entry.bound);
-      --size_;
+      size_ = nearest ? 0 : size_ - 1;
     }
     return false;
   }
@@ -61,8 +72,26 @@ class Frontier {
   struct Cursor {
     std::uint8_t next, end;  // of the group's entries
   };
-  static constexpr std::size_t kMaxGroups = kMaxHeight + 1;
+  static constexpr std::size_t kMaxGroups = kMostToOrder + kMaxHeight + 1;
+
+  // A group's least bound, and its place, so that the last of equals comes first.
+  void set_key(std::size_t at, std::int32_t bound_bits) {
+    keys_[at] = std::uint64_t{static_cast<std::uint32_t>(bound_bits)} << 32 | (kMaxGroups - at);
+  }
+  std::size_t nearest_group() const {
+    std::uint64_t least = keys_[0];
+    for (std::size_t i = 1; i < size_; ++i) least = std::min(least, keys_[i]);
+    return kMaxGroups - static_cast<std::uint32_t>(least);
+  }
+  void remove(std::size_t at) {
+    if (at == --size_) return;
+    groups_[at] = groups_[size_];
+    cursors_[at] = cursors_[size_];
+    set_key(at, groups_[at].bound_bits[cursors_[at].next]);
+  }
+
   std::size_t size_ = 0;
+  std::uint64_t keys_[kMaxGroups];
   Cursor cursors_[kMaxGroups];
   FrontierGroup groups_[kMaxGroups];
 };

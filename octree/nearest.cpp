@@ -68,10 +68,12 @@ class Descent {
   float unread() const { return unread_; }
 
  private:
+  static constexpr unsigned kPrefetched = 3;  // children, nearest first
+
   void run() {
     std::uint64_t visits = 1;
     FrontierEntry entry;
-    while (frontier_.pop(best_.threshold(), entry, pruned_)) visit(entry, visits++);
+    while (frontier_.pop(order_, best_.threshold(), entry, pruned_)) visit(entry, visits++);
     settle();
   }
 
@@ -99,11 +101,14 @@ class Descent {
       return;
     }
     FrontierGroup& group = frontier_.next();
-    const unsigned near =
-        sorted_children(node, wide_, entry.bound > node.gate, best_.threshold(), group);
+    // Far away, bounds say little of where the nearest triangle is.
+    const bool far = entry.bound > node.gate;
+    order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
+    const unsigned near = sorted_children(node, wide_, far, best_.threshold(), group);
     if (near < node.child_count) pruned_ = std::min(pruned_, group.entry(near).bound);
-    if (near > 1) records_.prefetch(group.link[1]);
-    if (near > 2) records_.prefetch(group.link[2]);
+    // The last lines of a node are looked at from afar alone.
+    for (unsigned i = 0; i < std::min(near, kPrefetched); ++i)
+      far ? records_.prefetch<kNodeSlots>(group.link[i]) : records_.prefetch(group.link[i]);
     frontier_.push(near);
   }
 
@@ -187,6 +192,7 @@ class Descent {
   BestTriangle best_;
   Candidates candidates_;
   Frontier frontier_;
+  Frontier::Order order_ = Frontier::Order::kLast;
   float pruned_ = std::numeric_limits<float>::infinity();
   float unread_ = std::numeric_limits<float>::infinity();
 };

@@ -59,7 +59,9 @@ class RecordFinder {
     return frame_ && leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
   }
 
-  /// Asks for the record's first lines, as far as it is in memory. No answer depends on it.
+  /// Asks for the record's first cache lines, as far as it is in memory. No answer depends
+  /// on it.
+  template <std::size_t kLines = 4>
   void prefetch(std::uint32_t link) const {
     const std::uint32_t page = links_.page(link);
     const std::byte* frame = page == page_number_ ? frame_
@@ -67,14 +69,12 @@ class RecordFinder {
                                                   : nullptr;
     if (!frame) return;
     const std::byte* record = frame + links_.slot(link) * kSlotBytes;
-#pragma GCC unroll 4
-    for (std::size_t line = 0; line < kPrefetched; ++line)
+#pragma GCC unroll 8
+    for (std::size_t line = 0; line < kLines; ++line)
       __builtin_prefetch(record + line * kSlotBytes);
   }
 
  private:
-  static constexpr std::size_t kPrefetched = 4;
-
   // Links within a page were checked when it was decoded; links between pages
   // could not be before both were here.
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
