@@ -30,13 +30,18 @@ class BoxWalk {
   /// than `max_nodes` nodes and blocks to visit: some blocks were not.
   template <class Visit>
   bool run(std::uint64_t max_nodes, const Visit& visit) {
+    return run(max_nodes, visit, children_meeting);
+  }
+  /// The same with another children_meeting(), of those that kernels may have inlined.
+  template <class Visit, class Meeting>
+  bool run(std::uint64_t max_nodes, const Visit& visit, const Meeting& meeting) {
     // An honest tree cannot be visited longer than it is; a forged one could.
     std::uint64_t left = std::min(max_nodes, tree_.record_count);
     bool complete = true;
-    for (push(tree_.root_link); size_ > 0; --left) {
+    for (push(tree_.root_link, RecordFinder::kNoPage); size_ > 0; --left) {
       if (left == 0) return false;
-      const std::uint32_t link = links_[--size_];
-      const std::byte* record = records_.find(link, work_);
+      const auto [link, from] = links_[--size_];
+      const std::byte* record = records_.find(link, work_, from);
       if (!record) {
         complete = false;
       } else if (LinkFormat::is_leaf(link)) {
@@ -44,7 +49,7 @@ class BoxWalk {
         visit(BlockView(record, tree_.shape));
       } else {
         ++work_.nodes;
-        complete = push_children(*reinterpret_cast<const Node*>(record)) && complete;
+        complete = push_children(*reinterpret_cast<const Node*>(record), meeting) && complete;
       }
     }
     return complete;
@@ -65,16 +70,21 @@ class BoxWalk {
     return box;
   }
 
-  void push(std::uint32_t link) { links_[size_++] = link; }
+  struct Link {
+    std::uint32_t to;
+    std::uint32_t from;  // a page
+  };
+  void push(std::uint32_t to, std::uint32_t from) { links_[size_++] = {to, from}; }
 
   // A tree deeper than its header may say is forged.
-  bool push_children(const Node& node) {
+  template <class Meeting>
+  bool push_children(const Node& node, const Meeting& meeting) {
     if (size_ + kFanOut > links_.size()) return false;
-    unsigned left = children_meeting(node, box_);
+    unsigned left = meeting(node, box_);
     for (; left != 0; left &= left - 1) {
       const std::uint32_t link = node.link[static_cast<unsigned>(std::countr_zero(left))];
       records_.prefetch(link);
-      push(link);
+      push(link, records_.page());
     }
     return true;
   }
@@ -84,7 +94,7 @@ class BoxWalk {
   TreeWork& work_;
   RecordFinder records_;
   std::size_t size_ = 0;
-  std::array<std::uint32_t, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
+  std::array<Link, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
 };
 
 }  // namespace planetree::octree

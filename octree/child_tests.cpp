@@ -12,19 +12,7 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
 unsigned meeting_on_target(const Node& node, const FloatBox& box) {
-  const FloatTag lanes;
-  unsigned found = 0;
-  for (std::size_t first = 0; first < kFanOut; first += hn::Lanes(lanes)) {
-    auto apart = hn::FirstN(lanes, 0);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto lower = hn::Load(lanes, node.lower[axis] + first);
-      const auto upper = hn::Load(lanes, node.upper[axis] + first);
-      apart = hn::Or(apart, hn::Gt(lower, hn::Set(lanes, box.upper[axis])));
-      apart = hn::Or(apart, hn::Lt(upper, hn::Set(lanes, box.lower[axis])));
-    }
-    found |= mask_bits(lanes, hn::Not(apart)) << first;
-  }
-  return found & ((1U << node.child_count) - 1);
+  return meeting_children(node, box);
 }
 
 unsigned within_on_target(const Node& node, const FloatQuery& query, float threshold) {

@@ -8,6 +8,7 @@
 
 #include "octree/box_walk.h"
 #include "octree/crossing_kernels-inl.h"
+#include "octree/node_kernels-inl.h"
 #include "octree/outcodes.h"
 #include "octree/strict_math.h"
 #include "octree/triangle_rows.h"
@@ -61,12 +62,15 @@ Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
   const Outcodes outcodes(lower, upper);
   CrossingSum crossings(segment);
   BoxWalk walk(tree, lower, upper, pages, work);
-  const bool complete = walk.run(max_nodes, [&](const BlockView& block) {
+  const auto visit = [&](const BlockView& block) {
     for (unsigned near = outcodes.meeting(block); near != 0; near &= near - 1) {
       crossings.add(block.triangle(static_cast<unsigned>(std::countr_zero(near))));
       ++work.triangles;
     }
-  });
+  };
+  const bool complete = walk.run(max_nodes, visit,
+                                 [](const Node& node, const FloatBox& box)
+                                     HWY_ATTR { return meeting_children(node, box); });
   Crossings found = crossings.sum();
   found.complete = complete;
   return found;

@@ -10,10 +10,12 @@
 
 namespace planetree::octree {
 
-/// A child to visit: a squared lower bound on its distance, and its link.
+/// A child to visit: a squared lower bound on its distance, its link, and the page of the
+/// node that has it.
 struct FrontierEntry {
   float bound;
   std::uint32_t link;
+  std::uint32_t from;
 };
 
 /// The children of one node that are worth a visit, nearest first; one cache line.
@@ -22,9 +24,7 @@ struct alignas(kSlotBytes) FrontierGroup {
   std::int32_t bound_bits[kFanOut];
   std::uint32_t link[kFanOut];
 
-  FrontierEntry entry(unsigned at) const {
-    return {std::bit_cast<float>(bound_bits[at]), link[at]};
-  }
+  float bound(unsigned at) const { return std::bit_cast<float>(bound_bits[at]); }
 };
 
 /// Children still to visit: a group for each visited node that has some. Taken nearest
@@ -39,10 +39,10 @@ class Frontier {
 
   /// Where the next group is to be written; push() then counts it in.
   FrontierGroup& next() { return groups_[size_]; }
-  /// The group has `count` entries.
-  void push(unsigned count) {
+  /// The group has `count` entries, of a node in page `from`.
+  void push(unsigned count, std::uint32_t from) {
     if (count == 0) return;
-    cursors_[size_] = {0, static_cast<std::uint8_t>(count)};
+    cursors_[size_] = {from, 0, static_cast<std::uint8_t>(count)};
     set_key(size_, groups_[size_].bound_bits[0]);
     ++size_;
   }
@@ -54,12 +54,13 @@ class Frontier {
       const bool nearest = order == Order::kNearest && size_ <= kMostToOrder;
       const std::size_t at = nearest ? nearest_group() : size_ - 1;
       Cursor& cursor = cursors_[at];
-      entry = groups_[at].entry(cursor.next);
+      const FrontierGroup& group = groups_[at];
+      entry = {group.bound(cursor.next), group.link[cursor.next], cursor.from};
       if (entry.bound <= threshold) {
         if (++cursor.next == cursor.end)
           remove(at);
         else
-          set_key(at, groups_[at].bound_bits[cursor.next]);
+          set_key(at, group.bound_bits[cursor.next]);
         return true;
       }
       dropped = std::min(dropped, entry.bound);
@@ -70,6 +71,7 @@ class Frontier {
 
  private:
   struct Cursor {
+    std::uint32_t from;
     std::uint8_t next, end;  // of the group's entries
   };
   static constexpr std::size_t kMaxGroups = kMostToOrder + kMaxHeight + 1;

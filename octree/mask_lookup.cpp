@@ -2,58 +2,13 @@
 
 #include <algorithm>
 
+#include "octree/mask_records.h"
 #include "octree/octcode.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
 namespace {
-
-/// Link to record, by way of its page.
-class MaskRecords {
- public:
-  MaskRecords(const MaskFacts& mask, PageReader pages)
-      : links_(mask.page_bytes), first_page_(mask.first_page), pages_(pages) {}
-
-  /// The mask's root; null if its page cannot be had.
-  const std::byte* root(TreeWork& work) {
-    turn_to(0, work);
-    return frame_ ? slot(header().first_record_slot) : nullptr;
-  }
-  bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
-
-  /// The record of a grey octant; null if its page cannot be had or does not
-  /// hold what the node says.
-  const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {
-    const unsigned below = (1U << octant) - 1;
-    const std::uint32_t page = links_.page(node.family);
-    const std::uint32_t at = links_.slot(node.family) + count_octants(node.grey & below);
-    const bool leaf = (node.leaf >> octant & 1) != 0;
-    turn_to(page, work);
-    if (!frame_ || at < header().first_record_slot ||
-        at >= std::uint32_t{header().first_record_slot} + header().record_count ||
-        is_mask_node(frame_, at) == leaf)
-      return nullptr;
-    return slot(at);
-  }
-
-  const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
-
- private:
-  const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
-  void turn_to(std::uint32_t page, TreeWork& work) {
-    if (frame_ && page == page_) return;
-    ++work.page_turns;
-    page_ = page;
-    frame_ = pages_.page(pages_.context, first_page_ + page);
-  }
-
-  const MaskLinkFormat links_;
-  const std::uint32_t first_page_;
-  const PageReader pages_;
-  std::uint32_t page_ = 0;
-  const std::byte* frame_ = nullptr;
-};
 
 /// Which side of a special cell's planes the point is on.
 void ask_planes(const MaskSpecial& special, const double* planes, const Point& point,

@@ -46,7 +46,7 @@ class Descent {
         best_(wide_, limits_) {}
 
   void run_from_root() {
-    visit({.bound = 0, .link = tree_.root_link}, 0);
+    visit({.bound = 0, .link = tree_.root_link, .from = RecordFinder::kNoPage}, 0);
     run();
   }
   // From what a ball holds.
@@ -55,7 +55,7 @@ class Descent {
       visit_nearby(vicinity.nearby());
       settle();
     } else {
-      visit_node({.bound = 0, .link = 0}, vicinity.front());
+      visit_node({.bound = 0, .link = 0, .from = 0}, vicinity.front(), RecordFinder::kNoPage);
       run();
     }
   }
@@ -83,7 +83,7 @@ class Descent {
       unread_ = std::min(unread_, entry.bound);
       return;
     }
-    const std::byte* record = records_.find(entry.link, work_);
+    const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
       unread_ = std::min(unread_, entry.bound);
     } else if (LinkFormat::is_leaf(entry.link)) {
@@ -91,11 +91,11 @@ class Descent {
       visit_block(BlockView(record, tree_.shape));
     } else {
       ++work_.nodes;
-      visit_node(entry, *reinterpret_cast<const Node*>(record));
+      visit_node(entry, *reinterpret_cast<const Node*>(record), records_.page());
     }
   }
 
-  HWY_INLINE void visit_node(FrontierEntry entry, const Node& node) {
+  HWY_INLINE void visit_node(FrontierEntry entry, const Node& node, std::uint32_t page) {
     if (!frontier_.has_room()) {
       unread_ = std::min(unread_, entry.bound);
       return;
@@ -105,11 +105,11 @@ class Descent {
     const bool far = entry.bound > node.gate;
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
     const unsigned near = sorted_children(node, wide_, far, best_.threshold(), group);
-    if (near < node.child_count) pruned_ = std::min(pruned_, group.entry(near).bound);
+    if (near < node.child_count) pruned_ = std::min(pruned_, group.bound(near));
     // The last lines of a node are looked at from afar alone.
     for (unsigned i = 0; i < std::min(near, kPrefetched); ++i)
       far ? records_.prefetch<kNodeSlots>(group.link[i]) : records_.prefetch(group.link[i]);
-    frontier_.push(near);
+    frontier_.push(near, page);
   }
 
   HWY_INLINE void visit_block(const BlockView& block) {

@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "octree/bounds.h"
+#include "octree/child_bounds.h"
 #include "octree/frontier.h"
 #include "octree/wide_floats-inl.h"
 
@@ -48,6 +49,24 @@ HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std
   const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
   const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
   return hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
+}
+
+// A bit for each of a node's children whose box meets a box.
+HWY_INLINE unsigned meeting_children(const Node& node, const FloatBox& box) {
+  const FloatTag d;
+  unsigned found = 0;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    auto apart = hn::FirstN(d, 0);
+#pragma GCC unroll 3
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto lower = hn::Load(d, node.lower[axis] + i);
+      const auto upper = hn::Load(d, node.upper[axis] + i);
+      apart = hn::Or(apart, hn::Gt(lower, hn::Set(d, box.upper[axis])));
+      apart = hn::Or(apart, hn::Lt(upper, hn::Set(d, box.lower[axis])));
+    }
+    found |= mask_bits(d, hn::Not(apart)) << i;
+  }
+  return found & ((1U << node.child_count) - 1);
 }
 
 // Bits of a bound that name the child instead.

@@ -46,9 +46,13 @@ class RecordFinder {
   RecordFinder(const TreeFacts& tree, PageReader pages)
       : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
 
+  /// No page has this number.
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+
   /// The node or block that `link` leads to, good until the next call; null
-  /// where its page cannot be had or holds no such record.
-  const std::byte* find(std::uint32_t link, TreeWork& work) {
+  /// where its page cannot be had or holds no such record. `from` is the page of the node
+  /// that has the link, as page() said then.
+  const std::byte* find(std::uint32_t link, TreeWork& work, std::uint32_t from = kNoPage) {
     const std::uint32_t page = links_.page(link);
     const std::uint32_t slot = links_.slot(link);
     if (page != page_number_ || !frame_) {
@@ -56,8 +60,13 @@ class RecordFinder {
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
     }
-    return frame_ && leads_to_record(link, slot) ? frame_ + slot * kSlotBytes : nullptr;
+    // Links within a page were checked when it was decoded; links between pages could not
+    // be before both were here.
+    if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
+    return frame_ + slot * kSlotBytes;
   }
+  /// The page of the last record.
+  std::uint32_t page() const { return page_number_; }
 
   /// Asks for the record's first cache lines, as far as it is in memory. No answer depends
   /// on it.
@@ -75,8 +84,6 @@ class RecordFinder {
   }
 
  private:
-  // Links within a page were checked when it was decoded; links between pages
-  // could not be before both were here.
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
     if (LinkFormat::is_leaf(link)) {

@@ -7,6 +7,7 @@
 #include "octree/strict_math.h"
 #include "query/contact_normal.h"
 #include "query/side.h"
+#include "query/ways_out.h"
 
 namespace planetree::query {
 namespace {
@@ -178,9 +179,14 @@ ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask)
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return {};
   const ModelState& model = probe.model();
+  const octree::Point placed = model.scale().in(query);
+  if (model.info().watertight() && outside_box(model.tree(), placed))
+    return {Side::kOutside, Status::kExact};
+  if (const int winding = model.colours().winding(placed); winding != octree::ColourMap::kUnknown)
+    return {winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
   PageTurner turner(probe.reader());
   octree::TreeWork work;
-  const octree::Point point = within_reach(model.scale().in(query), query);
+  const octree::Point point = within_reach(placed, query);
   const Standing standing = side_of(probe, point, 0, ask, turner, work);
   if (standing.status == Status::kDegraded) model.count_degraded();
   return {standing.side, standing.status};

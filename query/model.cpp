@@ -78,6 +78,15 @@ ModelState::ModelState(std::unique_ptr<Pager> pager)
   mask_ = mask_facts(pager_->file().header(), tree_);
 }
 
+Result<void> ModelState::fill_colours() {
+  auto reader = claim_reader();
+  if (!reader) return reader.error();
+  PageTurner turner(*reader);
+  if (colours_.fill(mask_, tree_, info_.triangles, turner.pages())) return {};
+  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                    "no memory for the map of the mask's colours; free some and try again");
+}
+
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
                                                      const OpenOptions& options) {
   if (const char* fault = octree::self_test())
@@ -98,6 +107,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   auto pager = Pager::open(path, limits);
   if (!pager) return pager.error();
   std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
+  if (const auto filled = state->fill_colours(); !filled) return filled.error();
   if (limits.batch_probes == 0) return state;
   auto crew = BatchCrew::claim(*state, limits.batch_probes);
   if (!crew) return crew.error();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "octree/colour_map.h"
 #include "octree/mask_lookup.h"
 #include "octree/nearest.h"
 #include "planetree/error.h"
@@ -29,6 +30,7 @@ class ModelState {
   Stats stats() const noexcept;
   const octree::TreeFacts& tree() const noexcept { return tree_; }
   const octree::MaskFacts& mask() const noexcept { return mask_; }
+  const octree::ColourMap& colours() const noexcept { return colours_; }
   const Scale& scale() const noexcept { return scale_; }
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   /// Null where batches are answered by the caller's thread alone.
@@ -38,11 +40,13 @@ class ModelState {
 
  private:
   explicit ModelState(std::unique_ptr<Pager> pager);
+  Result<void> fill_colours();
 
   std::unique_ptr<Pager> pager_;
   ModelInfo info_;
   octree::TreeFacts tree_;
   octree::MaskFacts mask_;
+  octree::ColourMap colours_;
   Scale scale_;
   mutable std::atomic<std::uint64_t> degraded_{0};
   std::unique_ptr<BatchCrew> crew_;  // last: its probes are the model's

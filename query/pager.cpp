@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "octree/colour_map.h"
 #include "query/page_decoding.h"
 
 namespace planetree::query {
@@ -37,6 +38,7 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.frame_bytes = header.page_bytes;
   cache_limits.max_readers = limits.max_probes + limits.batch_probes;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
+                                octree::ColourMap::bytes(header.model.triangle_count) +
                                 limits.probe_bytes * limits.max_probes +
                                 limits.batch_probe_bytes * limits.batch_probes;
   const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {

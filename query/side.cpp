@@ -180,6 +180,11 @@ Standing find_side(const ModelState& model, const Point& point, double clear, Si
   constexpr auto kNoLimit = std::numeric_limits<std::uint64_t>::max();
   if (!model.info().watertight() || outside_box(model.tree(), point))
     return find_side(model, point, kNoLimit, pages, work);
+  if (const int winding = model.colours().winding(point); winding != octree::ColourMap::kUnknown) {
+    const Standing standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
+    memory.note(point, standing, winding == 0, clear);
+    return standing;
+  }
   if (memory.same_side(point, clear)) {
     memory.note(point, memory.standing(), memory.counted(), clear);
     return memory.standing();

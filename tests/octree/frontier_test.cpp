@@ -17,7 +17,7 @@ void push(Frontier& frontier, std::uint32_t group, const std::vector<float>& bou
     frontier.next().bound_bits[i] = std::bit_cast<std::int32_t>(bounds[i]);
     frontier.next().link[i] = group * kFanOut + static_cast<std::uint32_t>(i);
   }
-  frontier.push(static_cast<unsigned>(bounds.size()));
+  frontier.push(static_cast<unsigned>(bounds.size()), group);
 }
 
 std::vector<float> drain(Frontier& frontier, Order order, float threshold, float& dropped) {
@@ -46,6 +46,7 @@ TEST(FrontierTest, OfEqualsTheLastPushedComesFirst) {
   for (std::uint32_t group = 3; group-- > 0;) {
     ASSERT_TRUE(frontier.pop(Order::kNearest, 1, entry, dropped));
     EXPECT_EQ(entry.link, group * kFanOut);
+    EXPECT_EQ(entry.from, group);
   }
 }
 

@@ -65,7 +65,7 @@ void expect_bounds_below(const Node& node, unsigned child, const Soup& below,
     ASSERT_NE(at, group.link + near)
         << (discs ? "disc" : "box") << " distance " << distance << " slack " << wide.slack;
     if (wide.usable) {
-      const float bound = group.entry(static_cast<unsigned>(at - group.link)).bound;
+      const float bound = group.bound(static_cast<unsigned>(at - group.link));
       EXPECT_LE(octree::certified(wide, bound), distance * (1 + 1e-15) + 0x1p-500);
     }
   }

@@ -172,15 +172,16 @@ TEST_F(DamagedMask, IsNotReadForDistances) {
   for (std::uint32_t page = 0; page < mask_pages(); ++page) damage(page);
   const SampleModel without(octree::sphere(5));
   const Model model = sample_.open(), bare = without.open();
+  // Its first page is looked for once, for ColourMap.
+  EXPECT_EQ(model.stats().quarantined_pages, 1u);
+  EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
   Probe probe = make_probe(model), of_bare = make_probe(bare);
   for (const Vec3& query : queries_) {
     const Ask ask{.parts = kDistance};
     ASSERT_EQ(probe.closest_point(query, ask).triangle, of_bare.closest_point(query, ask).triangle);
   }
-  EXPECT_EQ(model.stats().quarantined_pages, 0u);
-  EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
-  probe.closest_point(queries_[0], {.parts = kSide});
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
+  EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
 }
 
 // Few visits leave sides unknown, never wrong.
