@@ -14,35 +14,12 @@ namespace {
 
 constexpr std::uint32_t kMaxTightTriangles = 1 << 16;
 // Of larger subtrees about this many faces stand for the normal.
-constexpr std::uint32_t kNormalCandidates = 512;
+constexpr std::uint32_t kNormalFaces = 512;
 
 // Twice the area times the unit normal.
 Point area_vector(const Triangle& triangle) {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
 }
-
-// The face normal next to the mean, among every `stride`-th face.
-class NormalChoice {
- public:
-  explicit NormalChoice(const Point& mean) : mean_(mean) {}
-
-  void offer(const Point& vector) {
-    const double length = vector.norm();
-    if (!(length > 0)) return;
-    const double along = vector.dot(mean_) / length;
-    if (found_ && !(along > best_)) return;
-    found_ = true;
-    best_ = along;
-    normal_ = vector / length;
-  }
-  Point normal() const { return found_ ? normal_ : Point(0, 0, 1); }
-
- private:
-  Point mean_;
-  Point normal_ = Point::Zero();
-  double best_ = 0;
-  bool found_ = false;
-};
 
 // How far points reach along a decoded normal and away from it.
 class DiscExtent {
@@ -90,7 +67,7 @@ class DiscFitter {
 
   void fit(WideChild& child) {
     PackedChild& packed = child.packed;
-    const Point normal = choose_normal(child);
+    const Point normal = mean_normal(child);
     packed.normal = pack_normal(normal.x(), normal.y(), normal.z());
     DiscExtent extent(child.box, unpack_normal(packed.normal));
     if (child.count() <= kMaxTightTriangles)
@@ -102,15 +79,14 @@ class DiscFitter {
   }
 
  private:
-  Point choose_normal(const WideChild& child) const {
-    const std::uint32_t stride = 1 + child.count() / kNormalCandidates;
-    Point mean = Point::Zero();
+  // That of the area-weighted mean; any, where faces cancel out.
+  Point mean_normal(const WideChild& child) const {
+    const std::uint32_t stride = 1 + child.count() / kNormalFaces;
+    Point sum = Point::Zero();
     for (std::uint32_t i = child.begin; i < child.end; i += stride)
-      mean += area_vector(mesh_.corners(keys_[i].position));
-    NormalChoice choice(mean);
-    for (std::uint32_t i = child.begin; i < child.end; i += stride)
-      choice.offer(area_vector(mesh_.corners(keys_[i].position)));
-    return choice.normal();
+      sum += area_vector(mesh_.corners(keys_[i].position));
+    const double length = sum.norm();
+    return length > 0 ? Point(sum / length) : Point(0, 0, 1);
   }
 
   void add_boxes(const WideNode& node, DiscExtent& extent) const {

@@ -8,15 +8,14 @@
 
 namespace planetree::octree {
 
-/// Gives every child of every node its bounding planes: a slab parallel to one
-/// of its faces and the slab's tangential extent, rounded outward to what is
+/// Gives every child of every node its bounding planes: a slab across the surface's
+/// area-weighted mean normal and the slab's tangential extent, rounded outward to what is
 /// stored.
 ///
-/// The normal is the face normal next to the surface's area-weighted mean, so
-/// planes are parallel to faces ("Out-of-core real-time haptic interaction on
-/// very large models", section 3); choosing by the mean is ours. Subtrees of
-/// up to 2^16 triangles are enclosed vertex by vertex, larger ones by the
-/// boxes two levels below them.
+/// "Out-of-core real-time haptic interaction on very large models", section 3, takes planes
+/// parallel to faces; the mean's hold rough surfaces tighter (bench/README.md). Subtrees of
+/// up to 2^16 triangles are enclosed vertex by vertex, larger ones by the boxes two levels
+/// below them.
 ///
 /// centre  of the model; boxes are relative to it.
 /// Uses the calling thread's TBB arena; the result depends on the input alone.
