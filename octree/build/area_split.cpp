@@ -12,16 +12,16 @@
 namespace planetree::octree {
 namespace {
 
-using Order = std::array<std::uint8_t, kMaxAreaSplit>;
+using Order = std::array<std::uint16_t, kMaxAreaSplit>;
 
 float centre2(const SplitItem& item, std::size_t axis) {
   return item.box.lower[axis] + item.box.upper[axis];
 }
 
 void sort_by_axis(std::span<const SplitItem> items, std::size_t axis, Order& order) {
-  for (std::size_t i = 0; i < items.size(); ++i) order[i] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < items.size(); ++i) order[i] = static_cast<std::uint16_t>(i);
   std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(items.size()),
-            [&](std::uint8_t a, std::uint8_t b) {
+            [&](std::uint16_t a, std::uint16_t b) {
               const float left = centre2(items[a], axis);
               const float right = centre2(items[b], axis);
               return left < right ||
@@ -37,6 +37,12 @@ float blocks_for(std::size_t triangles) {
 struct Split {
   float cost = std::numeric_limits<float>::infinity();
   std::uint32_t left_count = 0;
+
+  // How far from halves.
+  std::uint32_t skew(std::size_t count) const {
+    const auto all = static_cast<std::uint32_t>(count);
+    return std::max(2 * left_count, all) - std::min(2 * left_count, all);
+  }
 };
 
 Split best_on_axis(std::span<const SplitItem> items, const Order& order) {
@@ -52,7 +58,12 @@ Split best_on_axis(std::span<const SplitItem> items, const Order& order) {
     extend(box, items[order[i - 1]].box);
     const float cost =
         half_area(box) * blocks_for(i) + right_area[i] * blocks_for(items.size() - i);
-    if (cost < best.cost) best = {cost, static_cast<std::uint32_t>(i)};
+    const Split split{cost, static_cast<std::uint32_t>(i)};
+    // Coincident triangles all cost the same: peeled off block by block they would make a
+    // chain.
+    if (cost < best.cost || (cost == best.cost && best.left_count != 0 &&
+                             split.skew(items.size()) < best.skew(items.size())))
+      best = split;
   }
   return best;
 }

@@ -22,8 +22,8 @@ struct BinaryNode {
 };
 
 /// Splits the triangles in two again and again until at most 16 are left: by
-/// the bits of their Morton codes down to 128, from there by least surface
-/// area. Reorders `keys` within those last 128.
+/// the bits of their Morton codes down to 512, from there by least surface
+/// area. Reorders `keys` within those last 512.
 ///
 /// centre  of the model; boxes are relative to it.
 /// return  node 0 is the root; children come after their parent.

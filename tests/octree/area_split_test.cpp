@@ -69,6 +69,13 @@ TEST(AreaSplit, OrdersEqualBoxesByPosition) {
   EXPECT_TRUE(std::ranges::is_sorted(positions(items)));
 }
 
+TEST(AreaSplit, HalvesCoincidentBoxesInWholeBlocks) {
+  for (const std::size_t count : {32u, 64u, 512u}) {
+    std::vector<SplitItem> items = boxes_around(std::vector<Vec3>(count, Vec3{0.5, 0.5, 0.5}));
+    EXPECT_EQ(split_by_area(items), count / 2);
+  }
+}
+
 TEST(AreaSplit, HalvesWhatHasNoBestCost) {
   for (const std::size_t count : {17u, 33u, 100u, 128u}) {
     std::vector<SplitItem> items = boxes_around(std::vector<Vec3>(count));
