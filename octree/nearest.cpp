@@ -106,9 +106,14 @@ class Descent {
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
     const unsigned near = sorted_children(node, wide_, far, best_.threshold(), group);
     if (near < node.child_count) pruned_ = std::min(pruned_, group.bound(near));
-    // The last lines of a node are looked at from afar alone.
-    for (unsigned i = 0; i < std::min(near, kPrefetched); ++i)
-      far ? records_.prefetch<kNodeSlots>(group.link[i]) : records_.prefetch(group.link[i]);
+    // The nearest child is visited at once, unless from afar another is nearer; the last
+    // lines of a node are looked at from afar alone.
+    if (far) {
+      for (unsigned i = 0; i < std::min(near, kPrefetched); ++i)
+        records_.prefetch<kNodeSlots>(group.link[i]);
+    } else {
+      for (unsigned i = 1; i < std::min(near, kPrefetched); ++i) records_.prefetch(group.link[i]);
+    }
     frontier_.push(near, page);
   }
 

@@ -36,8 +36,8 @@ struct NearestAnswer {
   Status status = Status::kBadQuery;
 };
 
-/// Nearest surface point to `query`, by depth-first descent, nearest child
-/// first.
+/// Nearest surface point to `query`, by a descent that takes the nearest child first: of the
+/// last node near the surface, of all nodes far from it.
 ///
 /// query   model frame, no coordinate beyond kFarthestQuery.
 /// return  the triangle of least (value, index), value being that of
