@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -47,8 +48,8 @@ class ColourMap {
   class Painter;
 
   static constexpr std::uint64_t most_cells(std::uint64_t triangles) {
-    constexpr std::uint64_t kFewest = 64, kMost = std::uint64_t{1} << 18;
-    return triangles < kFewest ? kFewest : triangles > kMost ? kMost : triangles / 4 * 4;
+    constexpr std::uint64_t kFewestCells = 64, kMostCells = std::uint64_t{1} << 18;
+    return std::clamp(triangles / 4 * 4, kFewestCells, kMostCells);
   }
   // As CellGrid's.
   double side(unsigned axis, std::uint32_t index) const {
