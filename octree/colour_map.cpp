@@ -58,7 +58,10 @@ class ColourMap::Painter {
 
 bool ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles,
                      PageReader pages) noexcept {
-  if (mask.page_count == 0) return true;
+  // A forged header may tell of a box that does not fit the root.
+  const Point size = tree.box_upper - mask.lower;
+  const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
+  if (mask.page_count == 0 || !fits) return true;
   colours_.reset(new (std::nothrow) std::uint8_t[bytes(triangles)]);
   if (!colours_) return false;
   std::memset(colours_.get(), 0xff, bytes(triangles));
@@ -70,8 +73,7 @@ bool ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t
     std::array<std::uint32_t, 3> count{};
     double cells = 1;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      count[axis] =
-          static_cast<std::uint32_t>((tree.box_upper[axis] - lower_[axis]) * per_unit) + 1;
+      count[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1;
       cells *= count[axis];
     }
     if (cells > static_cast<double>(most_cells(triangles))) break;

@@ -63,9 +63,10 @@ MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max
       finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
       break;
     }
+    const bool leaf = (node.leaf >> octant & 1) != 0;  // the node goes with its page
     record = records.child(node, octant, work);
     if (!record) break;
-    if ((node.leaf >> octant & 1) != 0) {
+    if (leaf) {
       read_leaf(record, records, point, finding);
       break;
     }

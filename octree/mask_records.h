@@ -33,8 +33,9 @@ class MaskRecords {
     const std::uint32_t at = links_.slot(node.family) + count_octants(node.grey & below);
     // Links within a page were checked when it was decoded.
     if (page != page_) {
+      const bool leaf = (node.leaf >> octant & 1) != 0;  // the node goes with its page
       turn_to(page, work);
-      if (!frame_ || !holds(at, (node.leaf >> octant & 1) != 0)) return nullptr;
+      if (!frame_ || !holds(at, leaf)) return nullptr;
     }
     return slot(at);
   }

@@ -8,6 +8,13 @@
 #include "query/page_decoding.h"
 
 namespace planetree::query {
+namespace {
+
+std::uint64_t colour_bytes(const storage::ModelRecord& model) {
+  return model.mask_page_count > 0 ? octree::ColourMap::bytes(model.triangle_count) : 0;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path,
                                            const Limits& limits) {
@@ -37,10 +44,9 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.page_count = header.page_count;
   cache_limits.frame_bytes = header.page_bytes;
   cache_limits.max_readers = limits.max_probes + limits.batch_probes;
-  cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
-                                octree::ColourMap::bytes(header.model.triangle_count) +
-                                limits.probe_bytes * limits.max_probes +
-                                limits.batch_probe_bytes * limits.batch_probes;
+  cache_limits.reserved_bytes =
+      file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) + colour_bytes(header.model) +
+      limits.probe_bytes * limits.max_probes + limits.batch_probe_bytes * limits.batch_probes;
   const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
     return static_cast<Pager*>(context)->fill(page, frame);
   };

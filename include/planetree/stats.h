@@ -45,7 +45,7 @@ struct Stats {
   std::uint64_t degraded_answers = 0;
   std::uint64_t frames = 0;          ///< most pages in memory at once
   std::uint64_t arena_bytes = 0;     ///< memory of those
-  std::uint64_t table_bytes = 0;     ///< page table, page map, reader slots, scratch
+  std::uint64_t table_bytes = 0;     ///< page table, page map, reader slots, colour map, scratch
   std::uint64_t budget_bytes = 0;    ///< as asked; arena and tables stay within it
   bool header_copy_damaged = false;  ///< one of the file's two headers; copy the file anew
 };

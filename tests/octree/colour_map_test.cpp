@@ -112,6 +112,17 @@ TEST_F(ColourMapTest, KnowsNothingOutsideOfItsCells) {
   EXPECT_EQ(ColourMap().winding(lower_ + size_ / 2), ColourMap::kUnknown);
 }
 
+TEST_F(ColourMapTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
+  MaskPages pages(random_mask(10), 4096, 3);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double side : {2.1, -0.1, 8589934591.0, 1e300, kInfinity, kInfinity - kInfinity}) {
+    ColourMap map;
+    EXPECT_TRUE(map.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), kMany, pages.reader()));
+    EXPECT_EQ(map.winding(lower_ + size_ / 2), ColourMap::kUnknown) << side;
+  }
+  EXPECT_TRUE(pages.take_asked().empty());
+}
+
 TEST_F(ColourMapTest, TakesNoMoreThanItsMemory) {
   EXPECT_EQ(ColourMap::bytes(1), 16u);
   EXPECT_EQ(ColourMap::bytes(4003), 1000u);
