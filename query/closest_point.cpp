@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "octree/strict_math.h"
 #include "query/contact_normal.h"
 #include "query/side.h"
-#include "query/ways_out.h"
 
 namespace planetree::query {
 namespace {
@@ -138,7 +138,8 @@ class Asking {
   }
 
   void find_side() {
-    standing_ = side_of(probe_, point_, nearest_.lower, ask_, turner_, work_);
+    const auto known = unlimited(ask_) ? side_at_once(model_, point_) : std::nullopt;
+    standing_ = known ? *known : side_of(probe_, point_, nearest_.lower, ask_, turner_, work_);
     answer_.side = standing_.side;
     if (standing_.status == Status::kDegraded) degrade();
   }
@@ -180,10 +181,7 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   if (!makes_sense(query, ask)) return {};
   const ModelState& model = probe.model();
   const octree::Point placed = model.scale().in(query);
-  if (model.info().watertight() && outside_box(model.tree(), placed))
-    return {Side::kOutside, Status::kExact};
-  if (const int winding = model.colours().winding(placed); winding != octree::ColourMap::kUnknown)
-    return {winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+  if (const auto known = side_at_once(model, placed)) return {known->side, known->status};
   PageTurner turner(probe.reader());
   octree::TreeWork work;
   const octree::Point point = within_reach(placed, query);

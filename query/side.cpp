@@ -175,16 +175,19 @@ Standing find_side(const ModelState& model, const Point& point, std::uint64_t ma
              : by_winding_number(model.tree(), point, max_nodes, pages, work, reason);
 }
 
+std::optional<Standing> side_at_once(const ModelState& model, const Point& point) noexcept {
+  if (!model.info().watertight()) return {};
+  if (outside_box(model.tree(), point)) return Standing{Side::kOutside};
+  const int winding = model.colours().winding(point);
+  if (winding == octree::ColourMap::kUnknown) return {};
+  return Standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
+}
+
 Standing find_side(const ModelState& model, const Point& point, double clear, SideMemory& memory,
                    octree::PageReader pages, octree::TreeWork& work) noexcept {
   constexpr auto kNoLimit = std::numeric_limits<std::uint64_t>::max();
   if (!model.info().watertight() || outside_box(model.tree(), point))
     return find_side(model, point, kNoLimit, pages, work);
-  if (const int winding = model.colours().winding(point); winding != octree::ColourMap::kUnknown) {
-    const Standing standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
-    memory.note(point, standing, winding == 0, clear);
-    return standing;
-  }
   if (memory.same_side(point, clear)) {
     memory.note(point, memory.standing(), memory.counted(), clear);
     return memory.standing();

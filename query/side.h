@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "octree/cell_grid.h"
 #include "octree/tree_view.h"
@@ -42,6 +43,10 @@ struct SideReason {
 Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work,
                    SideReason* reason = nullptr) noexcept;
+
+/// The same where one look tells: outside of a watertight model's box, or in one of
+/// octree::ColourMap's white or black cells. The point may be any.
+std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point) noexcept;
 
 /// The same, with no limit of work, by way of what `memory` knows if that is nearer, and
 /// remembered there. No surface is nearer to the point than `clear`, which may be 0.

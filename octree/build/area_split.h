@@ -10,7 +10,7 @@ namespace planetree::octree {
 
 inline constexpr std::uint32_t kMaxAreaSplit = 512;
 
-/// A triangle about to be split off: its key, its box and its box centre.
+/// A triangle about to be split off: its key and its box.
 struct SplitItem {
   MortonKey key;
   FloatBox box;
