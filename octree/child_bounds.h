@@ -23,6 +23,11 @@ struct FloatBox {
   float plane_step() const {
     return octree::plane_step(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
   }
+  bool holds(const FloatBox& other) const {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!(lower[axis] <= other.lower[axis] && other.upper[axis] <= upper[axis])) return false;
+    return true;
+  }
   float diagonal_squared() const {
     const float dx = upper[0] - lower[0], dy = upper[1] - lower[1], dz = upper[2] - lower[2];
     return dx * dx + dy * dy + dz * dz;

@@ -23,49 +23,88 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostThreads = 1024;
 
-/// Shows how far the build is, and remembers the phase: it tells whether the
-/// input or the output is to blame for an error.
+struct PhaseWords {
+  const char* name;
+  const char* key;  // in JSON
+  const char* unit;
+};
+
+PhaseWords words_of(octree::BuildPhase phase) {
+  switch (phase) {
+    case octree::BuildPhase::kReading:
+      return {"reading", "reading", "bytes"};
+    case octree::BuildPhase::kOrdering:
+      return {"ordering", "ordering", "parts"};
+    case octree::BuildPhase::kClosing:
+      return {"matching edges", "matching_edges", "parts"};
+    case octree::BuildPhase::kListing:
+      return {"listing open edges", "listing_open_edges", "parts"};
+    case octree::BuildPhase::kBounding:
+      return {"bounding", "bounding", "parts"};
+    case octree::BuildPhase::kColouring:
+      return {"colouring", "colouring", "parts"};
+    case octree::BuildPhase::kWriting:
+      break;
+  }
+  return {"writing", "writing", "pages"};
+}
+
+/// Shows how far the build is, and remembers how long its phases took and which is the last:
+/// that tells what is to blame for an error.
 class BuildMeter final : public octree::BuildProgress {
  public:
   explicit BuildMeter(bool quiet) : progress_(quiet) {}
 
   void progress(octree::BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
     if (phase != phase_) {
+      note_seconds();
       phase_ = phase;
       done_ = 0;
-      start(total);
+      const PhaseWords words = words_of(phase);
+      progress_.start(words.name, total, words.unit);
     }
     if (done > done_) progress_.add(done - done_);
     done_ = std::max(done, done_);
   }
-  void finish() { progress_.finish(); }
-  bool is_writing() const {
-    return phase_ == octree::BuildPhase::kBounding || phase_ == octree::BuildPhase::kColouring ||
-           phase_ == octree::BuildPhase::kWriting;
+  void finish() {
+    note_seconds();
+    progress_.finish();
   }
 
+  /// By phase, in their order.
+  const nlohmann::ordered_json& seconds() const { return seconds_; }
+  bool is_reading() const { return !phase_ || phase_ == octree::BuildPhase::kReading; }
+  bool is_writing() const { return phase_ == octree::BuildPhase::kWriting; }
+
  private:
-  void start(std::uint64_t total) {
-    switch (*phase_) {
-      case octree::BuildPhase::kReading:
-        return progress_.start("reading", total, "bytes");
-      case octree::BuildPhase::kClosing:
-        return progress_.start("matching edges", total, "steps");
-      case octree::BuildPhase::kOrdering:
-        return progress_.start("ordering", total, "steps");
-      case octree::BuildPhase::kBounding:
-        return progress_.start("bounding", total, "steps");
-      case octree::BuildPhase::kColouring:
-        return progress_.start("colouring", total, "steps");
-      case octree::BuildPhase::kWriting:
-        return progress_.start("writing", total, "pages");
-    }
+  void note_seconds() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> elapsed = now - started_;
+    if (phase_) seconds_[words_of(*phase_).key] = elapsed.count();
+    started_ = now;
   }
 
   Progress progress_;
   std::optional<octree::BuildPhase> phase_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  nlohmann::ordered_json seconds_ = nlohmann::ordered_json::object();
   std::uint64_t done_ = 0;
 };
+
+/// Where a build keeps what it spills.
+fs::path temp_directory(const BuildArguments& arguments) {
+  const fs::path& given = arguments.options.temp_directory;
+  if (!given.empty()) return given;
+  return arguments.output.has_parent_path() ? arguments.output.parent_path() : fs::path(".");
+}
+
+/// What an error of a build is about.
+fs::path blamed_for(const Error& error, const BuildMeter& meter, const BuildArguments& arguments) {
+  if (meter.is_writing()) return arguments.output;
+  const bool of_spilling =
+      error.code == ErrorCode::kNoSpace || error.code == ErrorCode::kWriteFailed;
+  return meter.is_reading() && !of_spilling ? arguments.input : temp_directory(arguments);
+}
 
 /// What a build would only find out at its end.
 Result<void> check_output(const BuildArguments& arguments) {
@@ -92,7 +131,7 @@ double bytes_per_triangle(const storage::FileHeader& header) {
 }
 
 std::string json_report(const BuildArguments& arguments, const storage::FileHeader& header,
-                        double seconds, const std::string& sha256) {
+                        double seconds, const BuildMeter& meter, const std::string& sha256) {
   const storage::ModelRecord& model = header.model;
   nlohmann::ordered_json report = {
       {"input", arguments.input.string()},
@@ -111,6 +150,7 @@ std::string json_report(const BuildArguments& arguments, const storage::FileHead
       {"file_bytes", header.file_bytes},
       {"bytes_per_triangle", bytes_per_triangle(header)},
       {"seconds", seconds},
+      {"seconds_by_phase", meter.seconds()},
       {"triangles_per_second", static_cast<double>(model.triangle_count) / seconds},
       {"peak_resident_bytes", peak_resident_bytes()},
       {"sha256", sha256},
@@ -158,15 +198,18 @@ std::string page_size_complaint(std::uint64_t bytes) {
 int run_build(const BuildArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments); !checked)
     return console.fail(arguments.output.string(), checked.error());
+  const fs::path temporary = temp_directory(arguments);
+  if (std::error_code ignored; !fs::is_directory(temporary, ignored))
+    return console.fail(temporary.string(),
+                        make_error(ErrorCode::kNotFound, Error::kNowhere, Error::kNowhere,
+                                   "no such directory for temporary files; create it first"));
   const auto started = std::chrono::steady_clock::now();
   BuildMeter meter(arguments.quiet);
   const auto report =
       octree::build_tree(arguments.input, arguments.output, arguments.options, meter);
   meter.finish();
-  if (!report) {
-    const fs::path& blamed = meter.is_writing() ? arguments.output : arguments.input;
-    return console.fail(blamed.string(), report.error());
-  }
+  if (!report)
+    return console.fail(blamed_for(report.error(), meter, arguments).string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
   warn_of_set_aside(arguments, *report, console);
@@ -176,7 +219,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   }
   const auto sha256 = sha256_of_file(arguments.output);
   if (!sha256) return console.fail(arguments.output.string(), sha256.error());
-  console.print(json_report(arguments, report->header, seconds, *sha256));
+  console.print(json_report(arguments, report->header, seconds, meter, *sha256));
   return console.finish(kDone);
 }
 
@@ -197,6 +240,13 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
                                "Threads to work with; 0 means one for each processor. The file "
                                "does not depend on it"),
                     "0");
+  verb.default_text(verb.bytes("--memory", arguments.options.memory_bytes,
+                               "Most memory for the build; what does not fit is kept in temporary "
+                               "files. The file does not depend on it"),
+                    "a quarter of the machine's");
+  verb.path("--temp-dir", "DIR", arguments.options.temp_directory,
+            "Where temporary files go, about 120 bytes a triangle if memory is short; the "
+            "output's directory by default. They have no names and vanish with the process");
   verb.default_text(verb.bytes("--page-size", options->page_bytes,
                                "Bytes of a page in memory: a power of two from 4K to 256K"),
                     "64K");

@@ -199,9 +199,10 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
     return;
   }
   node_bounds_[index] = promise->bounds;
-  if (std::memcmp(&box, &promise->bounds->box, sizeof box) != 0)
+  if (!promise->bounds->box.holds(box))
     report(IssueCode::kSubtreeBox,
-           fmt::format("the box of the node in slot {} is not the one its parent states", slot));
+           fmt::format("the box of the node in slot {} is not within the one its parent states",
+                       slot));
   settle_height(promise->parent, height);
 }
 

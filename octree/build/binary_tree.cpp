@@ -4,8 +4,6 @@
 #include <bit>
 #include <span>
 
-#include <tbb/parallel_for.h>
-
 #include "octree/build/area_split.h"
 #include "octree/build/float_rounding.h"
 #include "octree/frame.h"
@@ -13,9 +11,6 @@
 
 namespace planetree::octree {
 namespace {
-
-// Subtrees of at most this many triangles are built by one task each.
-constexpr std::uint32_t kTaskTriangles = 1 << 16;
 
 // Where the highest bit that differs within the sorted range turns to 1; the
 // middle where none differs.
@@ -33,7 +28,7 @@ std::uint32_t split_by_code(std::span<const MortonKey> keys, std::uint32_t begin
 
 class SubtreeBuilder {
  public:
-  SubtreeBuilder(const MeshStore& mesh, const Point& centre, std::span<MortonKey> keys)
+  SubtreeBuilder(const Triangles& mesh, const Point& centre, std::span<MortonKey> keys)
       : mesh_(mesh), centre_(centre), keys_(keys) {}
 
   // Appends the subtree over [begin, end); returns its root.
@@ -87,75 +82,18 @@ class SubtreeBuilder {
     return at;
   }
 
-  const MeshStore& mesh_;
+  const Triangles& mesh_;
   const Point& centre_;
   std::span<MortonKey> keys_;
 };
 
-// The nodes above the tasks' subtrees, whose roots stand in for them until
-// they are built.
-struct Top {
-  std::vector<BinaryNode> nodes;
-  std::vector<std::uint32_t> tasks;  // nodes to be replaced by subtrees
-
-  std::uint32_t split(std::span<const MortonKey> keys, std::uint32_t begin, std::uint32_t end) {
-    const auto at = static_cast<std::uint32_t>(nodes.size());
-    nodes.push_back({{}, begin, end, 0, 0});
-    if (end - begin <= kTaskTriangles) {
-      tasks.push_back(at);
-      return at;
-    }
-    const std::uint32_t middle = split_by_code(keys, begin, end);
-    const std::uint32_t left = split(keys, begin, middle);
-    const std::uint32_t right = split(keys, middle, end);
-    nodes[at].left = left;
-    nodes[at].right = right;
-    return at;
-  }
-};
-
-// Puts a subtree in the place of the node that stood for it.
-void graft(std::vector<BinaryNode>& nodes, std::uint32_t at, std::span<const BinaryNode> subtree) {
-  // Node 0 of the subtree goes to `at`, node i > 0 to shift + i.
-  const auto shift = static_cast<std::uint32_t>(nodes.size()) - 1;
-  const auto moved = [shift](BinaryNode node) {
-    if (!node.leaf()) {
-      node.left += shift;
-      node.right += shift;
-    }
-    return node;
-  };
-  nodes[at] = moved(subtree[0]);
-  for (const BinaryNode& node : subtree.subspan(1)) nodes.push_back(moved(node));
-}
-
 }  // namespace
 
-std::vector<BinaryNode> build_binary_tree(const MeshStore& mesh, const Point& centre,
+std::vector<BinaryNode> build_binary_tree(const Triangles& mesh, const Point& centre,
                                           std::vector<MortonKey>& keys) {
-  Top top;
-  top.split(keys, 0, static_cast<std::uint32_t>(keys.size()));
-  const auto top_count = static_cast<std::uint32_t>(top.nodes.size());
-  std::vector<std::vector<BinaryNode>> subtrees(top.tasks.size());
-  tbb::parallel_for(std::size_t{0}, top.tasks.size(), [&](std::size_t i) {
-    const BinaryNode& stand_in = top.nodes[top.tasks[i]];
-    SubtreeBuilder builder(mesh, centre, keys);
-    builder.build(stand_in.begin, stand_in.end);
-    subtrees[i] = std::move(builder.nodes);
-  });
-  std::vector<BinaryNode> nodes = std::move(top.nodes);
-  for (std::size_t i = 0; i < subtrees.size(); ++i) {
-    graft(nodes, top.tasks[i], subtrees[i]);
-    subtrees[i] = {};
-  }
-  // Children come after their parents, so one pass backwards joins the boxes.
-  const std::vector<std::uint32_t>& tasks = top.tasks;
-  for (std::uint32_t at = top_count; at-- > 0;) {
-    if (std::binary_search(tasks.begin(), tasks.end(), at)) continue;
-    nodes[at].box = nodes[nodes[at].left].box;
-    extend(nodes[at].box, nodes[nodes[at].right].box);
-  }
-  return nodes;
+  SubtreeBuilder builder(mesh, centre, keys);
+  builder.build(0, static_cast<std::uint32_t>(keys.size()));
+  return std::move(builder.nodes);
 }
 
 }  // namespace planetree::octree

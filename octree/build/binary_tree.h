@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "octree/build/mesh_store.h"
 #include "octree/build/morton_order.h"
+#include "octree/build/triangles.h"
 #include "octree/child_bounds.h"
 
 namespace planetree::octree {
@@ -27,8 +27,7 @@ struct BinaryNode {
 ///
 /// centre  of the model; boxes are relative to it.
 /// return  node 0 is the root; children come after their parent.
-/// Uses the calling thread's TBB arena; the result depends on the input alone.
-std::vector<BinaryNode> build_binary_tree(const MeshStore& mesh, const Point& centre,
+std::vector<BinaryNode> build_binary_tree(const Triangles& mesh, const Point& centre,
                                           std::vector<MortonKey>& keys);
 
 }  // namespace planetree::octree

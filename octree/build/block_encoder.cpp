@@ -47,7 +47,8 @@ std::size_t BlockEncoder::Hash::operator()(const Position& position) const {
 std::vector<std::uint32_t> BlockEncoder::sorted_positions(const WideBlock& block) const {
   std::vector<std::uint32_t> positions;
   for (std::uint32_t i = block.begin; i < block.end; ++i) positions.push_back(keys_[i].position);
-  std::sort(positions.begin(), positions.end());
+  std::sort(positions.begin(), positions.end(),
+            [this](std::uint32_t a, std::uint32_t b) { return mesh_.index(a) < mesh_.index(b); });
   return positions;
 }
 

@@ -5,9 +5,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "octree/build/mesh_store.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/stream_writer.h"
+#include "octree/build/triangles.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
 #include "octree/page_streams.h"
@@ -21,7 +21,7 @@ namespace planetree::octree {
 /// from there and need no reference.
 class BlockEncoder {
  public:
-  BlockEncoder(const MeshStore& mesh, const std::vector<MortonKey>& keys, const BlockShape& shape)
+  BlockEncoder(const Triangles& mesh, const std::vector<MortonKey>& keys, const BlockShape& shape)
       : mesh_(mesh), keys_(keys), shape_(shape) {}
 
   void add(const WideBlock& block);
@@ -42,7 +42,7 @@ class BlockEncoder {
                    const std::vector<std::uint32_t>& vertices);
   std::vector<double> coordinates_by_axis() const;
 
-  const MeshStore& mesh_;
+  const Triangles& mesh_;
   const std::vector<MortonKey>& keys_;
   BlockShape shape_;
   std::unordered_map<Position, std::uint32_t, Hash> vertex_of_;

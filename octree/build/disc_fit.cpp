@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "octree/bounds.h"
@@ -15,11 +14,6 @@ namespace {
 constexpr std::uint32_t kMaxTightTriangles = 1 << 16;
 // Of larger subtrees about this many faces stand for the normal.
 constexpr std::uint32_t kNormalFaces = 512;
-
-// Twice the area times the unit normal.
-Point area_vector(const Triangle& triangle) {
-  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-}
 
 // How far points reach along a decoded normal and away from it.
 class DiscExtent {
@@ -61,68 +55,78 @@ class DiscExtent {
 
 class DiscFitter {
  public:
-  DiscFitter(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+  DiscFitter(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
              WideTree& tree)
       : mesh_(mesh), centre_(centre), keys_(keys), tree_(tree) {}
 
-  void fit(WideChild& child) {
-    PackedChild& packed = child.packed;
-    const Point normal = mean_normal(child);
-    packed.normal = pack_normal(normal.x(), normal.y(), normal.z());
-    DiscExtent extent(child.box, unpack_normal(packed.normal));
-    if (child.count() <= kMaxTightTriangles)
-      for (std::uint32_t i = child.begin; i < child.end; ++i)
-        for (const Point& corner : mesh_.corners(keys_[i].position)) extent.add(corner - centre_);
-    else
-      add_boxes(tree_.nodes[child.index], extent);
-    extent.pack(child.box, packed);
+  void fit(WideChild& child) const {
+    const Point normal = normal_of(area_below(child));
+    if (child.count() > kMaxTightTriangles)
+      return fit_disc(child, normal, boxes_below(tree_, tree_.nodes[child.index]));
+    child.packed.normal = pack_normal(normal.x(), normal.y(), normal.z());
+    DiscExtent extent(child.box, unpack_normal(child.packed.normal));
+    for (std::uint32_t i = child.begin; i < child.end; ++i)
+      for (const Point& corner : mesh_.corners(keys_[i].position)) extent.add(corner - centre_);
+    extent.pack(child.box, child.packed);
   }
 
  private:
-  // That of the area-weighted mean; any, where faces cancel out.
-  Point mean_normal(const WideChild& child) const {
+  Point area_below(const WideChild& child) const {
     const std::uint32_t stride = 1 + child.count() / kNormalFaces;
     Point sum = Point::Zero();
     for (std::uint32_t i = child.begin; i < child.end; i += stride)
       sum += area_vector(mesh_.corners(keys_[i].position));
-    const double length = sum.norm();
-    return length > 0 ? Point(sum / length) : Point(0, 0, 1);
+    return sum;
   }
 
-  void add_boxes(const WideNode& node, DiscExtent& extent) const {
-    for (unsigned i = 0; i < node.child_count; ++i) {
-      const WideChild& child = node.children[i];
-      if (child.block) {
-        add_corners(child.box, extent);
-        continue;
-      }
-      const WideNode& below = tree_.nodes[child.index];
-      for (unsigned j = 0; j < below.child_count; ++j) add_corners(below.children[j].box, extent);
-    }
-  }
-
-  static void add_corners(const FloatBox& box, DiscExtent& extent) {
-    for (unsigned corner = 0; corner < 8; ++corner)
-      extent.add(Point(corner & 1 ? box.upper[0] : box.lower[0],
-                       corner & 2 ? box.upper[1] : box.lower[1],
-                       corner & 4 ? box.upper[2] : box.lower[2]));
-  }
-
-  const MeshStore& mesh_;
+  const Triangles& mesh_;
   const Point& centre_;
   const std::vector<MortonKey>& keys_;
-  WideTree& tree_;
+  const WideTree& tree_;
 };
 
 }  // namespace
 
-void fit_discs(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+Point area_vector(const Triangle& triangle) {
+  return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+}
+
+// Any, where faces cancel out.
+Point normal_of(const Point& area) {
+  const double length = area.norm();
+  return length > 0 ? Point(area / length) : Point(0, 0, 1);
+}
+
+void fit_disc(WideChild& child, const Point& normal, const std::vector<FloatBox>& boxes) {
+  child.packed.normal = pack_normal(normal.x(), normal.y(), normal.z());
+  DiscExtent extent(child.box, unpack_normal(child.packed.normal));
+  for (const FloatBox& box : boxes)
+    for (unsigned corner = 0; corner < 8; ++corner)
+      extent.add(Point(corner & 1 ? box.upper[0] : box.lower[0],
+                       corner & 2 ? box.upper[1] : box.lower[1],
+                       corner & 4 ? box.upper[2] : box.lower[2]));
+  extent.pack(child.box, child.packed);
+}
+
+std::vector<FloatBox> boxes_below(const WideTree& tree, const WideNode& node) {
+  std::vector<FloatBox> boxes;
+  for (unsigned i = 0; i < node.child_count; ++i) {
+    const WideChild& child = node.children[i];
+    if (child.block) {
+      boxes.push_back(child.box);
+      continue;
+    }
+    const WideNode& below = tree.nodes[child.index];
+    for (unsigned j = 0; j < below.child_count; ++j) boxes.push_back(below.children[j].box);
+  }
+  return boxes;
+}
+
+void fit_discs(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
                WideTree& tree) {
-  DiscFitter fitter(mesh, centre, keys, tree);
-  tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
-    WideNode& node = tree.nodes[i];
+  const DiscFitter fitter(mesh, centre, keys, tree);
+  for (WideNode& node : tree.nodes)
     for (unsigned child = 0; child < node.child_count; ++child) fitter.fit(node.children[child]);
-  });
 }
 
 }  // namespace planetree::octree

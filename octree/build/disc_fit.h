@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "octree/build/mesh_store.h"
 #include "octree/build/morton_order.h"
+#include "octree/build/triangles.h"
 #include "octree/build/wide_tree.h"
 
 namespace planetree::octree {
@@ -18,8 +18,21 @@ namespace planetree::octree {
 /// below them.
 ///
 /// centre  of the model; boxes are relative to it.
-/// Uses the calling thread's TBB arena; the result depends on the input alone.
-void fit_discs(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+void fit_discs(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
                WideTree& tree);
+
+/// Twice a triangle's area times its unit normal.
+Point area_vector(const Triangle& triangle);
+
+/// The unit normal of a sum of area vectors; any, where they cancel out.
+Point normal_of(const Point& area);
+
+/// Gives one child its bounding planes.
+///
+/// boxes  hold its surface, relative to the model's centre.
+void fit_disc(WideChild& child, const Point& normal, const std::vector<FloatBox>& boxes);
+
+/// The boxes two levels below a node, or one where blocks are.
+std::vector<FloatBox> boxes_below(const WideTree& tree, const WideNode& node);
 
 }  // namespace planetree::octree

@@ -1,219 +1,221 @@
 #include "octree/build/edge_balance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <span>
-#include <vector>
+#include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-#include <tbb/parallel_sort.h>
-
-#include "octree/octcode.h"
+#include "octree/build/parallel.h"
 #include "octree/strict_math.h"
 #include "storage/checksum.h"
 
 namespace planetree::octree {
 namespace {
 
-constexpr std::size_t kTrianglesPerTask = 4096;
-constexpr std::size_t kKeysPerTask = 16384;
-/// Cells along an axis of the model frame's unit: 16 over a model.
-constexpr double kCellsPerUnit = 8;
+/// The ends of an edge, in the same order whichever way a face runs along it.
+using Ends = std::array<double, 6>;
 
-struct Edge {
-  Point from, to;
+struct HalfEdge {
+  Ends ends{};
+  int way = 0;  // 1 or -1: from the lesser end to the greater or back; 0 without length
 };
 
-bool precedes(const Point& a, const Point& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+HalfEdge half_edge(const Triangle& triangle, std::size_t corner) {
+  const Point &from = triangle[corner], &to = triangle[(corner + 1) % 3];
+  if (from == to) return {};
+  const bool forward = std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end());
+  const Point &a = forward ? from : to, &b = forward ? to : from;
+  return {{a.x(), a.y(), a.z(), b.x(), b.y(), b.z()}, forward ? 1 : -1};
 }
 
-/// Ends of an edge in the same order whichever way it runs.
-using Ends = std::array<Point, 2>;
+std::uint64_t hash_of(const Ends& ends) { return storage::hash64(std::as_bytes(std::span(ends))); }
 
-bool precedes(const Ends& a, const Ends& b) {
-  return precedes(a[0], b[0]) || (a[0] == b[0] && precedes(a[1], b[1]));
-}
-
-Ends ends_of(const Edge& edge) {
-  const bool forward = precedes(edge.from, edge.to);
-  return {forward ? edge.from : edge.to, forward ? edge.to : edge.from};
-}
-
-/// An edge of a triangle in one word, so that equal edges sort together and near
-/// others: from the highest bit on
-///
-///   12  Morton code of the cell that its middle is in
-///   18  hash of its ends
-///   34  place: 4 * triangle position + the corner it starts at
-///
-/// Without the cells the corners that a task looks at would be anywhere in
-/// memory, which takes thrice the time. Different edges may share the first 30.
-class EdgeKey {
- public:
-  EdgeKey() = default;  ///< of an edge without length: after all others
-  EdgeKey(std::uint64_t cell, std::uint64_t hash, std::uint64_t place)
-      : bits_(cell << 52 | (hash & kHashMask) | place) {}
-
-  std::uint64_t group() const { return bits_ & ~kPlaceMask; }
-  std::uint64_t place() const { return bits_ & kPlaceMask; }
-  bool has_length() const { return bits_ != ~std::uint64_t{0}; }
-  friend bool operator<(EdgeKey a, EdgeKey b) { return a.bits_ < b.bits_; }
-
- private:
-  static constexpr std::uint64_t kPlaceMask = (std::uint64_t{1} << 34) - 1;
-  static constexpr std::uint64_t kHashMask = (std::uint64_t{1} << 52) - 1 - kPlaceMask;
-  std::uint64_t bits_ = ~std::uint64_t{0};
+/// An edge that does not come out even in a patch.
+struct LeftOver {
+  storage::SpillKey key;  // the hash of its ends
+  Ends ends{};
+  std::int64_t net = 0;  // faces that run forward less those that run back
 };
 
-/// Open edges of some of the keys, the first by place; joined in any order they
-/// come to the same.
-class OpenEdges {
+/// The edges of a patch, found by their hash.
+class EdgeTable {
  public:
-  void note(std::uint64_t place, const OpenEdge& edge) {
-    ++balance_.open_edges;
-    list(place, edge);
-  }
-
-  void join(const OpenEdges& other) {
-    balance_.open_edges += other.balance_.open_edges;
-    for (std::size_t i = 0; i < EdgeBalance::kListed; ++i)
-      list(other.places_[i], other.balance_.first[i]);
-  }
-
-  const EdgeBalance& balance() const { return balance_; }
-
- private:
-  void list(std::uint64_t place, const OpenEdge& edge) {
-    for (std::size_t i = 0; i < EdgeBalance::kListed; ++i)
-      if (place < places_[i]) {
-        std::shift_right(places_.begin() + i, places_.end(), 1);
-        std::shift_right(balance_.first.begin() + i, balance_.first.end(), 1);
-        places_[i] = place;
-        balance_.first[i] = edge;
-        return;
+  explicit EdgeTable(const Triangles& patch)
+      : patch_(patch), entries_(std::bit_ceil(std::size_t{3} * patch.size() + 1)) {
+    for (std::uint32_t i = 0; i < patch.size(); ++i) {
+      const Triangle triangle = patch.corners(i);
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        const HalfEdge edge = half_edge(triangle, corner);
+        if (edge.way != 0) add(edge, 4 * std::uint64_t{i} + corner);
       }
+    }
   }
 
+  std::vector<LeftOver> left_over() const {
+    std::vector<LeftOver> found;
+    for (const Entry& entry : entries_)
+      if (entry.net != 0) found.push_back({{entry.hash, 0}, ends_at(entry.place), entry.net});
+    return found;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t hash = 0;
+    std::uint64_t place = kNowhere;  // 4 * triangle + corner of the first face
+    std::int64_t net = 0;
+  };
   static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
-  EdgeBalance balance_;
-  std::array<std::uint64_t, EdgeBalance::kListed> places_{kNowhere, kNowhere, kNowhere};
+  Ends ends_at(std::uint64_t place) const {
+    return half_edge(patch_.corners(static_cast<std::uint32_t>(place / 4)), place % 4).ends;
+  }
+
+  void add(const HalfEdge& edge, std::uint64_t place) {
+    const std::uint64_t hash = hash_of(edge.ends);
+    for (std::size_t at = hash;; ++at) {
+      Entry& entry = entries_[at & (entries_.size() - 1)];
+      if (entry.place == kNowhere) entry = {hash, place, 0};
+      if (entry.hash != hash || (entry.place != place && ends_at(entry.place) != edge.ends))
+        continue;
+      entry.net += edge.way;
+      return;
+    }
+  }
+
+  const Triangles& patch_;
+  std::vector<Entry> entries_;
 };
 
-class Balance {
- public:
-  explicit Balance(const MeshStore& mesh)
-      : mesh_(mesh), lower_(mesh.lower()), keys_(std::size_t{3} * mesh.size()) {}
+/// Open edges of some hashes, and those with the least ends among them.
+struct OpenEnds {
+  std::uint64_t count = 0;
+  std::vector<Ends> least;
 
-  EdgeBalance run() {
-    collect();
-    tbb::parallel_sort(keys_.begin(), keys_.end());
-    while (!keys_.empty() && !keys_.back().has_length()) keys_.pop_back();
-    using Range = tbb::blocked_range<std::size_t>;
-    const auto balance_range = [this](const Range& range, OpenEdges found) {
-      balance(range.begin(), range.end(), found);
-      return found;
-    };
-    const auto join = [](OpenEdges left, const OpenEdges& right) {
-      left.join(right);
-      return left;
-    };
-    return tbb::parallel_reduce(Range(0, keys_.size(), kKeysPerTask), OpenEdges(), balance_range,
-                                join)
-        .balance();
+  void note(const Ends& ends) {
+    ++count;
+    list(ends);
   }
-
- private:
-  Edge edge(EdgeKey key) const {
-    const std::uint64_t corner = key.place() % 4;
-    const Triangle triangle = mesh_.corners(static_cast<std::uint32_t>(key.place() / 4));
-    return {triangle[corner], triangle[(corner + 1) % 3]};
+  void join(const OpenEnds& other) {
+    count += other.count;
+    for (const Ends& ends : other.least) list(ends);
   }
-
-  EdgeKey key_of(const Edge& edge, std::uint64_t place) const {
-    const Ends ends = ends_of(edge);
-    const Point middle = ((ends[0] + ends[1]) * 0.5 - lower_) * kCellsPerUnit;
-    const auto cell = [&](Eigen::Index axis) { return static_cast<std::uint32_t>(middle[axis]); };
-    return {morton_code(cell(0), cell(1), cell(2)), storage::hash64(std::as_bytes(std::span(ends))),
-            place};
+  void list(const Ends& ends) {
+    least.insert(std::upper_bound(least.begin(), least.end(), ends), ends);
+    if (least.size() > EdgeBalance::kListed) least.pop_back();
   }
-
-  void collect() {
-    using Range = tbb::blocked_range<std::uint32_t>;
-    tbb::parallel_for(Range(0, mesh_.size(), kTrianglesPerTask), [&](const Range& range) {
-      for (std::uint32_t position = range.begin(); position < range.end(); ++position) {
-        const Triangle triangle = mesh_.corners(position);
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-          const Edge edge{triangle[corner], triangle[(corner + 1) % 3]};
-          if (edge.from != edge.to)
-            keys_[std::size_t{3} * position + corner] =
-                key_of(edge, std::uint64_t{4} * position + corner);
-        }
-      }
-    });
-  }
-
-  // Position of the first key from `at` on that is of another group, up to `end`.
-  std::size_t skip_group(std::size_t at, std::size_t end) const {
-    const std::uint64_t group = keys_[at].group();
-    while (at < end && keys_[at].group() == group) ++at;
-    return at;
-  }
-
-  // Groups belong to the range that they begin in.
-  void balance(std::size_t begin, std::size_t end, OpenEdges& found) const {
-    if (begin > 0 && keys_[begin].group() == keys_[begin - 1].group())
-      begin = skip_group(begin, end);
-    while (begin < end) {
-      const std::size_t next = skip_group(begin, keys_.size());
-      const auto group = std::span(keys_).subspan(begin, next - begin);
-      if (!balance_edge(group, found)) balance_sorted({group.begin(), group.end()}, found);
-      begin = next;
-    }
-  }
-
-  // Whether all keys, which are in order of place, are of one edge; notes it then.
-  bool balance_edge(std::span<const EdgeKey> keys, OpenEdges& found) const {
-    const std::uint64_t place = keys.front().place();
-    const Edge first = edge(keys.front());
-    OpenEdge one{mesh_.index(static_cast<std::uint32_t>(place / 4)), first.from, first.to, 1, 0};
-    for (const EdgeKey key : keys.subspan(1)) {
-      const Edge other = edge(key);
-      if (other.from == first.from && other.to == first.to)
-        ++one.along;
-      else if (other.from == first.to && other.to == first.from)
-        ++one.against;
-      else
-        return false;
-    }
-    if (one.along != one.against) found.note(place, one);
-    return true;
-  }
-
-  // Of several edges in one group.
-  void balance_sorted(std::vector<EdgeKey> keys, OpenEdges& found) const {
-    std::sort(keys.begin(), keys.end(), [this](EdgeKey a, EdgeKey b) {
-      const Ends left = ends_of(edge(a)), right = ends_of(edge(b));
-      return precedes(left, right) || (left == right && a < b);
-    });
-    for (auto begin = keys.begin(); begin != keys.end();) {
-      const Ends ends = ends_of(edge(*begin));
-      const auto end =
-          std::find_if(begin, keys.end(), [&](EdgeKey key) { return ends_of(edge(key)) != ends; });
-      balance_edge({begin, end}, found);
-      begin = end;
-    }
-  }
-
-  const MeshStore& mesh_;
-  const Point lower_;
-  std::vector<EdgeKey> keys_;
 };
+
+OpenEnds open_ends(std::vector<LeftOver> edges) {
+  std::sort(edges.begin(), edges.end(),
+            [](const LeftOver& a, const LeftOver& b) { return a.ends < b.ends; });
+  OpenEnds open;
+  for (std::size_t i = 0; i < edges.size();) {
+    const Ends& ends = edges[i].ends;
+    std::int64_t net = 0;
+    for (; i < edges.size() && edges[i].ends == ends; ++i) net += edges[i].net;
+    if (net != 0) open.note(edges[i - 1].ends);
+  }
+  return open;
+}
+
+/// So many left-over edges are balanced at a time, about.
+constexpr std::uint64_t kEdgesAtOnce = 1 << 17;
 
 }  // namespace
+
+EdgeCensus::EdgeCensus(std::uint64_t held_bytes, storage::SpillFile& file)
+    : left_over_(sizeof(LeftOver), held_bytes, file) {}
+
+Result<void> EdgeCensus::add(const Triangles& patch) {
+  std::vector<LeftOver> edges = EdgeTable(patch).left_over();
+  std::sort(edges.begin(), edges.end(),
+            [](const LeftOver& a, const LeftOver& b) { return a.key < b.key; });
+  std::vector<std::byte> records(edges.size() * sizeof(LeftOver));
+  if (!edges.empty()) std::memcpy(records.data(), edges.data(), records.size());
+  return left_over_.add(std::move(records));
+}
+
+Result<EdgeBalance> EdgeCensus::balance() {
+  // A power of two of equal shares of all hashes.
+  const std::uint64_t shares = std::bit_ceil(left_over_.size() / kEdgesAtOnce + 1);
+  const auto cut = [&](std::uint64_t share) -> Result<storage::SpillRuns::Cut> {
+    if (share == shares) return left_over_.end();
+    return left_over_.cut({share * (~std::uint64_t{0} / shares + 1), 0});
+  };
+  std::mutex mutex;
+  OpenEnds open;
+  const auto balanced = for_each_in_parallel(shares, [&](std::size_t share) -> Result<void> {
+    const auto from = cut(share), to = cut(share + 1);
+    if (!from) return from.error();
+    if (!to) return to.error();
+    const auto records = left_over_.read(*from, *to);
+    if (!records) return records.error();
+    std::vector<LeftOver> edges(records->size() / sizeof(LeftOver));
+    if (!edges.empty()) std::memcpy(edges.data(), records->data(), records->size());
+    const OpenEnds some = open_ends(std::move(edges));
+    const std::lock_guard lock(mutex);
+    open.join(some);
+    return {};
+  });
+  if (!balanced) return balanced.error();
+  EdgeBalance balance;
+  balance.open_edges = open.count;
+  for (std::size_t i = 0; i < open.least.size(); ++i) {
+    const Ends& e = open.least[i];
+    balance.first[i].from = {e[0], e[1], e[2]};
+    balance.first[i].to = {e[3], e[4], e[5]};
+  }
+  return balance;
+}
+
+void EdgeFaces::Faces::join(const Faces& other) {
+  forward += other.forward;
+  back += other.back;
+  if (std::pair(other.triangle, other.corner) >= std::pair(triangle, corner)) return;
+  triangle = other.triangle;
+  corner = other.corner;
+  first_forward = other.first_forward;
+}
+
+void EdgeFaces::look_at(const Triangles& patch) {
+  const std::size_t listed =
+      static_cast<std::size_t>(std::min<std::uint64_t>(balance_.open_edges, EdgeBalance::kListed));
+  std::array<Faces, EdgeBalance::kListed> found;
+  for (std::uint32_t i = 0; i < patch.size(); ++i) {
+    const Triangle triangle = patch.corners(i);
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const Point &from = triangle[corner], &to = triangle[(corner + 1) % 3];
+      for (std::size_t k = 0; k < listed; ++k) {
+        const OpenEdge& edge = balance_.first[k];
+        const bool forward = from == edge.from && to == edge.to;
+        if (forward || (from == edge.to && to == edge.from))
+          found[k].join({forward, !forward, patch.index(i), corner, forward});
+      }
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  for (std::size_t k = 0; k < listed; ++k) faces_[k].join(found[k]);
+}
+
+EdgeBalance EdgeFaces::balance() const {
+  std::array<std::size_t, EdgeBalance::kListed> order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+    return std::pair(faces_[a].triangle, faces_[a].corner) <
+           std::pair(faces_[b].triangle, faces_[b].corner);
+  });
+  EdgeBalance balance = balance_;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Faces& faces = faces_[order[i]];
+    OpenEdge& edge = balance.first[i] = balance_.first[order[i]];
+    edge.triangle = faces.triangle;
+    edge.along = faces.first_forward ? faces.forward : faces.back;
+    edge.against = faces.first_forward ? faces.back : faces.forward;
+    if (!faces.first_forward) std::swap(edge.from, edge.to);
+  }
+  return balance;
+}
 
 void EdgeBalance::describe(int scale_exponent, storage::ModelRecord& model) const {
   model.open_edge_count = open_edges;
@@ -228,7 +230,5 @@ void EdgeBalance::describe(int scale_exponent, storage::ModelRecord& model) cons
     edge.against = first[i].against;
   }
 }
-
-EdgeBalance balance_edges(const MeshStore& mesh) { return Balance(mesh).run(); }
 
 }  // namespace planetree::octree

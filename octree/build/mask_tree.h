@@ -1,10 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "octree/build/mesh_store.h"
-#include "octree/build/morton_order.h"
 #include "octree/build/special_cell.h"
 #include "octree/mask_frame.h"
 
@@ -27,23 +27,13 @@ struct MaskTree {
   std::vector<MaskEntry> entries;  ///< 0 is the root; children come after their parent
   std::vector<SpecialCell> specials;
   unsigned levels = 0;  ///< level of the finest grey cell
-};
 
-/// Divides the octree's root until few triangles touch a cell, and finds the
-/// winding number at every corner of those that are left, exactly: from a corner
-/// outside the box on, by the crossings of cells' edges. At one corner of every
-/// such cell it is counted another way as well.
-///
-/// mesh    watertight, in the model frame.
-/// keys    triangles in the order to look at them; only the order of planes in a
-///         special cell depends on it.
-/// memory  about 25 bytes a triangle while it works, and 20 bytes an entry: one
-///         for 4 to 8 triangles.
-/// Uses the calling thread's TBB arena; the result depends on the input alone.
-///
-/// source  white, black and grey cells: "Out-of-core real-time haptic interaction
-///         on very large models", section 3.1; winding numbers at corners, in
-///         place of parity along a line, are ours.
-MaskTree build_mask(const MeshStore& mesh, const std::vector<MortonKey>& keys);
+  /// Makes the entry at `place` that of a divided cell, with room for its grey octants' entries.
+  /// winding  at the octants' least corners: the colour of those that are not grey.
+  void divide(std::size_t place, const std::array<bool, 8>& grey,
+              const std::array<std::int64_t, 8>& winding);
+  /// Notes in the entry at `node` whether its octant, whose entry is at `child`, is a leaf.
+  void note_leaf(std::size_t node, unsigned octant, std::size_t child);
+};
 
 }  // namespace planetree::octree

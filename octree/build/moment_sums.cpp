@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "octree/strict_math.h"
@@ -11,35 +10,11 @@
 namespace planetree::octree {
 namespace {
 
-/// Integrals over some triangles, x being relative to a point near them.
-struct Sums {
-  Point vector = Point::Zero();                     ///< of the normal n
-  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();  ///< of x n^T
-  double area = 0;                                  ///< of 1, rounded up
-  Point place = Point::Zero();                      ///< of x
-  double second = 0;                                ///< of |x|^2, rounded up
-
-  void add(const Sums& other) {
-    vector += other.vector;
-    first += other.first;
-    area += other.area;
-    place += other.place;
-    second += other.second;
-  }
-
-  /// Makes every x larger by `by`.
-  void move(const Point& by) {
-    first += by * vector.transpose();
-    second += 2 * by.dot(place) + by.squaredNorm() * area;
-    place += area * by;
-  }
-};
-
-Sums of_triangle(const Triangle& triangle, const Point& from) {
+SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
   const Point a = triangle[0] - from, b = triangle[1] - from, c = triangle[2] - from;
   const Point u = b - a, v = c - a;
   const Point vector = 0.5 * u.cross(v);
-  Sums sums;
+  SurfaceSums sums;
   sums.vector = vector;
   // A thin triangle's area may have cancelled, but not by more than this.
   sums.area = vector.norm() + 0x1p-48 * u.norm() * v.norm();
@@ -59,9 +34,84 @@ Integer steps(double value, double unit, int most) {
   return static_cast<Integer>(std::clamp(rounded, -1.0 * most, 1.0 * most));
 }
 
-/// What rounding may have cost is far below these shares: moving cancels no
-/// more than the square of the box's diagonal.
-Moments packed(const Sums& sums, double diagonal2) {
+class MomentSummer {
+ public:
+  MomentSummer(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
+               const WideTree& tree)
+      : mesh_(mesh),
+        centre_(centre),
+        keys_(keys),
+        tree_(tree),
+        node_sums_(tree.nodes.size()),
+        moments_(tree.nodes.size()) {}
+
+  TreeMoments run(const FloatBox& box) {
+    // Children come after their parents.
+    for (auto at = static_cast<std::uint32_t>(tree_.nodes.size()); at-- > 0;) sum_node(at);
+    if (!tree_.nodes.empty()) return {std::move(moments_), node_sums_[0]};
+    const WideBlock& block = tree_.blocks[0];
+    return {{}, sum_block(block.begin, block.end, centre_of(box))};
+  }
+
+ private:
+  void sum_node(std::uint32_t at) {
+    const WideNode& node = tree_.nodes[at];
+    const Point middle = centre_of(node.box);
+    moments_[at] = {};
+    for (unsigned i = 0; i < node.child_count; ++i) {
+      const WideChild& child = node.children[i];
+      SurfaceSums sums = child.block ? sum_block(child.begin, child.end, centre_of(child.box))
+                                     : node_sums_[child.index];
+      moments_[at].set(i, packed(sums, child.box));
+      sums.move(centre_of(child.box) - middle);
+      node_sums_[at].add(sums);
+    }
+  }
+
+  SurfaceSums sum_block(std::uint32_t first, std::uint32_t last, const Point& from) const {
+    std::array<std::uint32_t, kMaxBlockTriangles> positions;
+    const auto end = std::transform(keys_.begin() + first, keys_.begin() + last, positions.begin(),
+                                    [](MortonKey key) { return key.position; });
+    // As they are stored: keys within a block are in no order.
+    std::sort(positions.begin(), end,
+              [this](std::uint32_t a, std::uint32_t b) { return mesh_.index(a) < mesh_.index(b); });
+    SurfaceSums sums;
+    for (auto position = positions.begin(); position != end; ++position) {
+      Triangle triangle = mesh_.corners(*position);
+      for (Point& corner : triangle) corner -= centre_;
+      sums.add(of_triangle(triangle, from));
+    }
+    return sums;
+  }
+
+  const Triangles& mesh_;
+  const Point& centre_;
+  const std::vector<MortonKey>& keys_;
+  const WideTree& tree_;
+  std::vector<SurfaceSums> node_sums_;  ///< of each node, about the centre of its box
+  std::vector<NodeMoments> moments_;
+};
+
+}  // namespace
+
+void SurfaceSums::add(const SurfaceSums& other) {
+  vector += other.vector;
+  first += other.first;
+  area += other.area;
+  place += other.place;
+  second += other.second;
+}
+
+void SurfaceSums::move(const Point& by) {
+  first += by * vector.transpose();
+  second += 2 * by.dot(place) + by.squaredNorm() * area;
+  place += area * by;
+}
+
+Moments packed(const SurfaceSums& sums, const FloatBox& box) {
+  // What rounding may have cost is far below these shares: moving cancels no more than the
+  // square of the box's diagonal.
+  const auto diagonal2 = static_cast<double>(box.diagonal_squared());
   const double area = sums.area * (1 + 0x1p-20);
   const double second = std::max(0.0, sums.second) * (1 + 0x1p-20) + 0x1p-40 * diagonal2 * area;
   Moments moments;
@@ -79,77 +129,10 @@ Moments packed(const Sums& sums, double diagonal2) {
   return moments;
 }
 
-class MomentSummer {
- public:
-  MomentSummer(const MeshStore& mesh, const Point& centre, const std::vector<MortonKey>& keys,
-               const WideTree& tree)
-      : mesh_(mesh),
-        centre_(centre),
-        keys_(keys),
-        tree_(tree),
-        node_sums_(tree.nodes.size()),
-        moments_(tree.nodes.size()) {}
-
-  std::vector<NodeMoments> run() {
-    for (const std::vector<std::uint32_t>& level : nodes_by_height())
-      tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) { sum_node(level[i]); });
-    return std::move(moments_);
-  }
-
- private:
-  // Nodes of one height have none below them of the same.
-  std::vector<std::vector<std::uint32_t>> nodes_by_height() const {
-    std::vector<std::vector<std::uint32_t>> levels;
-    for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-      const std::size_t height = tree_.nodes[i].height;
-      if (levels.size() <= height) levels.resize(height + 1);
-      levels[height].push_back(i);
-    }
-    return levels;
-  }
-
-  void sum_node(std::uint32_t at) {
-    const WideNode& node = tree_.nodes[at];
-    const Point middle = centre_of(node.box);
-    moments_[at] = {};
-    for (unsigned i = 0; i < node.child_count; ++i) {
-      const WideChild& child = node.children[i];
-      Sums sums = child.block ? sum_block(child) : node_sums_[child.index];
-      moments_[at].set(i, packed(sums, static_cast<double>(child.box.diagonal_squared())));
-      sums.move(centre_of(child.box) - middle);
-      node_sums_[at].add(sums);
-    }
-  }
-
-  Sums sum_block(const WideChild& child) const {
-    const Point from = centre_of(child.box);
-    std::array<std::uint32_t, kMaxBlockTriangles> positions;
-    const auto end = std::transform(keys_.begin() + child.begin, keys_.begin() + child.end,
-                                    positions.begin(), [](MortonKey key) { return key.position; });
-    // As they are stored: keys within a block are in no order.
-    std::sort(positions.begin(), end);
-    Sums sums;
-    for (auto position = positions.begin(); position != end; ++position) {
-      Triangle triangle = mesh_.corners(*position);
-      for (Point& corner : triangle) corner -= centre_;
-      sums.add(of_triangle(triangle, from));
-    }
-    return sums;
-  }
-
-  const MeshStore& mesh_;
-  const Point& centre_;
-  const std::vector<MortonKey>& keys_;
-  const WideTree& tree_;
-  std::vector<Sums> node_sums_;  ///< of each node, about the centre of its box
-  std::vector<NodeMoments> moments_;
-};
-
-}  // namespace
-
-std::vector<NodeMoments> sum_moments(const MeshStore& mesh, const Point& centre,
-                                     const std::vector<MortonKey>& keys, const WideTree& tree) {
-  return MomentSummer(mesh, centre, keys, tree).run();
+TreeMoments sum_moments(const Triangles& mesh, const Point& centre,
+                        const std::vector<MortonKey>& keys, const WideTree& tree,
+                        const FloatBox& box) {
+  return MomentSummer(mesh, centre, keys, tree).run(box);
 }
 
 }  // namespace planetree::octree

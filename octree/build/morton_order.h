@@ -3,19 +3,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "octree/build/mesh_store.h"
+#include "octree/build/triangles.h"
 
 namespace planetree::octree {
 
 /// A triangle and the finest octree cell of its box centre.
 struct MortonKey {
   std::uint64_t code;
-  std::uint32_t position;  ///< in the MeshStore
+  std::uint32_t position;  ///< in its Triangles
 };
 
-/// All triangles, by (code, position). The root cell is the cube of side 2
-/// at the box's least corner, so that every coordinate falls inside it.
-/// Uses the calling thread's TBB arena; the result depends on the mesh alone.
-std::vector<MortonKey> morton_order(const MeshStore& mesh);
+/// The code of a triangle's finest cell. The root cell is the cube of side 2 at the model's
+/// least corner, so that every coordinate falls inside it.
+std::uint64_t morton_code_of(const Triangle& triangle, const Point& lower);
+
+/// The keys of triangles that are in order.
+std::vector<MortonKey> keys_of(const Triangles& sorted);
 
 }  // namespace planetree::octree

@@ -103,7 +103,7 @@ class NodeEncoder {
 
 }  // namespace
 
-unsigned count_block_vertices(const MeshStore& mesh, const std::vector<MortonKey>& keys,
+unsigned count_block_vertices(const Triangles& mesh, const std::vector<MortonKey>& keys,
                               const WideBlock& block) {
   std::array<std::array<double, 3>, kMaxBlockVertices> positions;
   std::size_t count = 0;
@@ -115,16 +115,16 @@ unsigned count_block_vertices(const MeshStore& mesh, const std::vector<MortonKey
   return static_cast<unsigned>(std::unique(positions.begin(), end) - positions.begin());
 }
 
-std::vector<std::byte> PageEncoder::encode(std::uint32_t page_number) const {
-  const PlannedPage& page = plan_.pages[page_number];
-  NodeEncoder nodes(plan_, page_number);
+EncodedPage PageEncoder::encode(std::size_t which) const {
+  const PlannedPage& page = plan_.pages[which];
+  NodeEncoder nodes(plan_, page.number);
   BlockEncoder blocks(mesh_, keys_, shape_);
   for (std::size_t i = 0; i < page.nodes.size(); ++i)
     nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count,
               shape_.moments ? &tree_.moments[page.nodes[i]] : nullptr);
   for (const std::uint32_t block : page.blocks) blocks.add(tree_.blocks[block]);
   PageHead head{};
-  head.page_number = page_number;
+  head.page_number = page.number;
   head.octcode = page.octcode;
   head.ordinal = page.ordinal;
   head.root_node_count = page.root_node_count;
@@ -134,8 +134,12 @@ std::vector<std::byte> PageEncoder::encode(std::uint32_t page_number) const {
   StreamWriter writer;
   writer.plain(&head, sizeof head);
   nodes.write(writer);
+  EncodedPage raw;
+  raw.link_count = head.page_link_count;
+  raw.links_at = static_cast<std::uint32_t>(writer.size() - raw.link_count * sizeof(std::uint32_t));
   blocks.write(writer);
-  return writer.take();
+  raw.bytes = writer.take();
+  return raw;
 }
 
 }  // namespace planetree::octree

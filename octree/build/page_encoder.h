@@ -4,30 +4,38 @@
 #include <cstdint>
 #include <vector>
 
-#include "octree/build/mesh_store.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/page_plan.h"
+#include "octree/build/triangles.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
 
 namespace planetree::octree {
 
 /// Distinct vertices of a block, bit-equal positions counted once.
-unsigned count_block_vertices(const MeshStore& mesh, const std::vector<MortonKey>& keys,
+unsigned count_block_vertices(const Triangles& mesh, const std::vector<MortonKey>& keys,
                               const WideBlock& block);
+
+/// A page's raw bytes, and where in them its links to other pages are.
+struct EncodedPage {
+  std::vector<std::byte> bytes;
+  std::uint32_t links_at = 0;
+  std::uint32_t link_count = 0;
+};
 
 /// Makes the raw bytes of pages, as octree/page_decoder.h reads them. One
 /// encoder per thread; the bytes depend on the arguments alone.
 class PageEncoder {
  public:
-  PageEncoder(const MeshStore& mesh, const std::vector<MortonKey>& keys, const WideTree& tree,
+  PageEncoder(const Triangles& mesh, const std::vector<MortonKey>& keys, const WideTree& tree,
               const PagePlan& plan, const BlockShape& shape)
       : mesh_(mesh), keys_(keys), tree_(tree), plan_(plan), shape_(shape) {}
 
-  std::vector<std::byte> encode(std::uint32_t page_number) const;
+  /// page  of the plan.
+  EncodedPage encode(std::size_t page) const;
 
  private:
-  const MeshStore& mesh_;
+  const Triangles& mesh_;
   const std::vector<MortonKey>& keys_;
   const WideTree& tree_;
   const PagePlan& plan_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "octree/build/area_split.h"
 #include "octree/build/treelets.h"
 #include "octree/octcode.h"
 
@@ -127,7 +128,7 @@ class PagePlanner {
     const auto [begin, end] = range_of(record);
     std::uint64_t least = keys_[begin].code, greatest = least;
     // Within an area split keys are not sorted; above it they are.
-    const std::uint32_t last = end - begin > 128 ? begin + 128 : end;
+    const std::uint32_t last = std::min(end, begin + kMaxAreaSplit);
     for (std::uint32_t i = begin; i < last; ++i) {
       least = std::min(least, keys_[i].code);
       greatest = std::max(greatest, keys_[i].code);
@@ -188,7 +189,8 @@ class PagePlanner {
   }
 
   void link_page(std::uint32_t number) {
-    const PlannedPage& page = plan_.pages[number];
+    PlannedPage& page = plan_.pages[number];
+    page.number = number;
     std::uint32_t slot = head_slots_;
     for (const std::uint32_t node : page.nodes) {
       plan_.node_links[node] = links_.make(false, number, slot);

@@ -13,6 +13,7 @@ namespace planetree::octree {
 
 /// What one page holds: indices into a WideTree, in the order of the frame.
 struct PlannedPage {
+  std::uint32_t number = 0;
   std::uint64_t octcode = 0;  ///< key of its first subtree, with ...
   std::uint32_t ordinal = 0;  ///< ... the ordinal within that cell
   std::uint16_t root_node_count = 0;
@@ -24,7 +25,7 @@ struct PlannedPage {
 /// Which page every record goes to, and where in its frame.
 struct PagePlan {
   std::uint32_t page_bytes = 0;            ///< of every frame
-  std::vector<PlannedPage> pages;          ///< by number, which is the rank of their keys
+  std::vector<PlannedPage> pages;          ///< by their keys
   std::vector<std::uint32_t> node_links;   ///< of each wide node
   std::vector<std::uint32_t> block_links;  ///< of each block
 };

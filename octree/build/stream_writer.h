@@ -29,6 +29,7 @@ class StreamWriter {
     std::memcpy(bytes_.data() + start, data, size);
   }
 
+  std::size_t size() const { return bytes_.size(); }
   std::vector<std::byte> take() { return std::move(bytes_); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -9,20 +10,20 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "octree/build/binary_tree.h"
-#include "octree/build/disc_fit.h"
+#include "octree/build/build_memory.h"
+#include "octree/build/crown.h"
 #include "octree/build/edge_balance.h"
+#include "octree/build/mask_build.h"
 #include "octree/build/mask_encoder.h"
 #include "octree/build/mask_plan.h"
-#include "octree/build/mask_tree.h"
+#include "octree/build/mesh_intake.h"
 #include "octree/build/mesh_reader.h"
-#include "octree/build/mesh_store.h"
-#include "octree/build/moment_sums.h"
-#include "octree/build/morton_order.h"
-#include "octree/build/page_encoder.h"
-#include "octree/build/page_plan.h"
-#include "octree/build/wide_tree.h"
-#include "octree/frame.h"
+#include "octree/build/page_numbers.h"
+#include "octree/build/parallel.h"
+#include "octree/build/patch_build.h"
+#include "octree/build/patches.h"
+#include "octree/build/tree_pages.h"
+#include "octree/build/triangle_runs.h"
 #include "octree/strict_math.h"
 #include "storage/page_codec.h"
 #include "storage/page_writer.h"
@@ -33,183 +34,266 @@ namespace {
 // Pages encoded together before they are written in order.
 constexpr std::uint32_t kBatchPages = 256;
 
+/// Counts the parts of a phase that are done.
+class PhaseCount {
+ public:
+  PhaseCount(BuildProgress& progress, BuildPhase phase, std::uint64_t total)
+      : progress_(progress), phase_(phase), total_(total) {
+    progress_.progress(phase_, 0, total_);
+  }
+  void add() {
+    const std::lock_guard lock(mutex_);
+    progress_.progress(phase_, ++done_, total_);
+  }
+
+ private:
+  BuildProgress& progress_;
+  const BuildPhase phase_;
+  const std::uint64_t total_;
+  std::mutex mutex_;
+  std::uint64_t done_ = 0;
+};
+
 class TreeBuild {
  public:
   TreeBuild(const std::filesystem::path& input, const std::filesystem::path& output,
-            const BuildOptions& options, BuildProgress& progress)
-      : input_(input), output_(output), options_(options), progress_(progress) {}
+            const BuildOptions& options, const BuildMemory& memory, BuildProgress& progress)
+      : input_(input),
+        output_(output),
+        options_(options),
+        memory_(memory),
+        progress_(progress),
+        file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory) {}
 
   Result<BuildReport> run() {
-    if (const auto read = read_model(); !read) return read.error();
-    balance();
-    order_triangles();
-    if (const auto bounded = bound_nodes(); !bounded) return bounded.error();
+    if (const auto ordered = order_triangles(); !ordered) return ordered.error();
+    if (const auto balanced = balance_edges(); !balanced) return balanced.error();
+    if (const auto built = build_patches(); !built) return built.error();
     if (const auto coloured = colour_cells(); !coloured) return coloured.error();
+    runs_.reset();
     return write_pages();
   }
 
  private:
-  Result<void> read_model();
-  void balance();
-  void order_triangles();
-  Result<void> bound_nodes();
+  Result<void> order_triangles();
+  Result<ModelFrame> read_model(MeshIntake& intake);
+  Result<void> balance_edges();
+  Result<void> build_patches();
   Result<void> colour_cells();
   Result<BuildReport> write_pages();
-  template <class Encoder, class Pages>
-  Result<void> append_pages(storage::PageWriter& writer, const Encoder& encoder, const Pages& pages,
-                            std::uint32_t written);
-  std::uint32_t distance_pages() const { return static_cast<std::uint32_t>(plan_.pages.size()); }
+  template <class Work>
+  Result<void> for_each_patch(BuildPhase phase, const Work& work);
+  template <class Encode, class Key>
+  Result<void> append_pages(storage::PageWriter& writer, const Encode& encode, const Key& key,
+                            std::uint32_t first, std::uint32_t last);
   std::uint32_t mask_pages() const { return static_cast<std::uint32_t>(mask_plan_.pages.size()); }
-  storage::ModelRecord describe() const;
+  storage::ModelRecord describe(std::uint32_t root_link) const;
 
   const std::filesystem::path& input_;
   const std::filesystem::path& output_;
   const BuildOptions& options_;
+  BuildMemory memory_;
   BuildProgress& progress_;
-  MeshStore mesh_;
+  storage::SpillFile file_;
+  ModelFrame frame_;
   std::uint64_t vertex_records_ = 0;
-  Point centre_ = Point::Zero();
   BlockShape shape_;
+  std::optional<TriangleRuns> runs_;
+  PatchTree above_;
   EdgeBalance edges_;
-  std::vector<MortonKey> keys_;
-  WideTree tree_;
-  PagePlan plan_;
+  std::vector<BuiltPatch> patches_;
+  std::optional<MaskRegions> regions_;  // of a watertight model
   MaskTree mask_;
   MaskPlan mask_plan_;
 };
 
-Result<void> TreeBuild::read_model() {
+Result<ModelFrame> TreeBuild::read_model(MeshIntake& intake) {
   const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
     static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
-  mesh_.report_progress(report, &progress_);
-  const Result<MeshSummary> summary = read_mesh(input_, mesh_);
+  intake.report_progress(report, &progress_);
+  const Result<MeshSummary> summary = read_mesh(input_, intake, {memory_.mapped_bytes});
   if (!summary) return summary.error();
-  if (options_.strict && mesh_.set_aside_count() > 0)
+  vertex_records_ = summary->vertex_records;
+  shape_.wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
+  auto frame = intake.finish();
+  if (frame && options_.strict && frame->set_aside_count > 0)
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "%s; repair the mesh or build without --strict",
-                      mesh_.first_set_aside_text().c_str());
-  vertex_records_ = summary->vertex_records;
-  mesh_.normalise();
-  centre_ = (mesh_.lower() + mesh_.upper()) * 0.5;
-  shape_.float64 = mesh_.float64();
-  shape_.wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
+                      frame->first_set_aside_text.c_str());
+  return frame;
+}
+
+Result<void> TreeBuild::order_triangles() {
+  MeshIntake intake(memory_.chunk_triangles, memory_.intake_bytes, file_);
+  auto frame = read_model(intake);
+  if (!frame) return frame.error();
+  frame_ = *std::move(frame);
+  shape_.float64 = frame_.float64;
+  memory_.reserve_for(frame_.triangle_count);
+  runs_.emplace(frame_.float64, memory_.runs_bytes, file_);
+  PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
+  if (const auto taken = runs_->take(intake, [&count] { count.add(); }); !taken) return taken;
+  auto above = cut_patches(*runs_);
+  if (!above) return above.error();
+  above_ = *std::move(above);
   return {};
 }
 
-void TreeBuild::balance() {
-  progress_.progress(BuildPhase::kClosing, 0, 1);
-  edges_ = balance_edges(mesh_);
-  shape_.moments = edges_.open_edges > 0;
-  progress_.progress(BuildPhase::kClosing, 1, 1);
-}
-
-void TreeBuild::order_triangles() {
-  progress_.progress(BuildPhase::kOrdering, 0, 3);
-  keys_ = morton_order(mesh_);
-  progress_.progress(BuildPhase::kOrdering, 1, 3);
-  const std::vector<BinaryNode> binary = build_binary_tree(mesh_, centre_, keys_);
-  progress_.progress(BuildPhase::kOrdering, 2, 3);
-  tree_ = collapse(binary);
-  progress_.progress(BuildPhase::kOrdering, 3, 3);
-}
-
-Result<void> TreeBuild::bound_nodes() {
-  progress_.progress(BuildPhase::kBounding, 0, 2);
-  fit_discs(mesh_, centre_, keys_, tree_);
-  if (shape_.moments) tree_.moments = sum_moments(mesh_, centre_, keys_, tree_);
-  progress_.progress(BuildPhase::kBounding, 1, 2);
-  std::vector<std::uint8_t> block_slots(tree_.blocks.size());
-  tbb::parallel_for(std::size_t{0}, tree_.blocks.size(), [&](std::size_t i) {
-    const unsigned vertices = count_block_vertices(mesh_, keys_, tree_.blocks[i]);
-    block_slots[i] = static_cast<std::uint8_t>(shape_.slots(vertices));
+// Calls work(number, triangles) for each.
+template <class Work>
+Result<void> TreeBuild::for_each_patch(BuildPhase phase, const Work& work) {
+  PhaseCount count(progress_, phase, above_.patches.size());
+  return for_each_in_parallel(above_.patches.size(), [&](std::size_t i) -> Result<void> {
+    const Patch& patch = above_.patches[i];
+    const auto triangles = runs_->read(patch.from, patch.to);
+    if (!triangles) return triangles.error();
+    if (const Result<void> done = work(i, *triangles); !done) return done;
+    count.add();
+    return {};
   });
-  auto plan = plan_pages(tree_, keys_, {shape_.node_slots(), block_slots}, options_.page_bytes);
-  if (!plan) return plan.error();
-  plan_ = std::move(*plan);
-  progress_.progress(BuildPhase::kBounding, 2, 2);
+}
+
+Result<void> TreeBuild::balance_edges() {
+  EdgeCensus census(memory_.left_over_bytes, file_);
+  const auto added = for_each_patch(
+      BuildPhase::kClosing, [&](std::size_t, const Triangles& patch) { return census.add(patch); });
+  if (!added) return added;
+  auto balance = census.balance();
+  if (!balance) return balance.error();
+  edges_ = *balance;
+  shape_.moments = edges_.open_edges > 0;
+  if (!shape_.moments) return {};
+  EdgeFaces faces(edges_);
+  const auto looked = for_each_patch(BuildPhase::kListing,
+                                     [&](std::size_t, const Triangles& patch) -> Result<void> {
+                                       faces.look_at(patch);
+                                       return {};
+                                     });
+  if (!looked) return looked;
+  edges_ = faces.balance();
   return {};
+}
+
+Result<void> TreeBuild::build_patches() {
+  if (edges_.open_edges == 0) {
+    regions_.emplace(frame_.lower(), frame_.float64, memory_.left_over_bytes, file_);
+    if (const auto divided = regions_->divide(*runs_); !divided) return divided;
+  }
+  patches_.resize(above_.patches.size());
+  return for_each_patch(
+      BuildPhase::kBounding, [&](std::size_t i, const Triangles& triangles) -> Result<void> {
+        if (regions_)
+          if (const auto added = regions_->add(triangles); !added) return added;
+        auto built = build_patch(triangles, frame_.centre(), shape_, options_.page_bytes, file_);
+        if (!built) return built.error();
+        patches_[i] = *std::move(built);
+        return {};
+      });
 }
 
 // Only where winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
-  if (edges_.open_edges > 0) return {};
-  progress_.progress(BuildPhase::kColouring, 0, 1);
-  mask_ = build_mask(mesh_, keys_);
+  if (!regions_) return {};
+  PhaseCount count(progress_, BuildPhase::kColouring, regions_->all().size());
+  auto mask = build_mask(*regions_, *runs_, [&count] { count.add(); });
+  if (!mask) return mask.error();
+  regions_.reset();
+  mask_ = *std::move(mask);
   auto plan = plan_mask(mask_, options_.page_bytes);
   if (!plan) return plan.error();
-  mask_plan_ = std::move(*plan);
-  progress_.progress(BuildPhase::kColouring, 1, 1);
+  mask_plan_ = *std::move(plan);
   return {};
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
-  auto writer =
-      storage::PageWriter::create(output_, distance_pages() + mask_pages(), options_.replace);
+  Crown crown = build_crown(above_, patches_, shape_, options_.page_bytes);
+  const PageNumbers numbers(crown, patches_, options_.page_bytes);
+  if (const auto checked = numbers.check(); !checked) return checked.error();
+  const TreePages pages(crown, patches_, numbers, shape_, file_);
+  auto writer = storage::PageWriter::create(output_, pages.size() + mask_pages(), options_.replace);
   if (!writer) return writer.error();
-  const PageEncoder encoder(mesh_, keys_, tree_, plan_, shape_);
-  if (const auto appended = append_pages(*writer, encoder, plan_.pages, 0); !appended)
-    return appended.error();
-  writer->begin_mask();
-  const MaskEncoder masks(mask_, mask_plan_, distance_pages(), shape_.float64);
-  const auto appended = append_pages(*writer, masks, mask_plan_.pages, distance_pages());
+  using Key = std::pair<std::uint64_t, std::uint32_t>;
+  const auto appended = append_pages(
+      *writer, [&](std::uint32_t page) { return pages.encode(page); },
+      [&](std::uint32_t page) { return Key(pages.octcode(page), pages.ordinal(page)); }, 0,
+      pages.size());
   if (!appended) return appended.error();
-  const auto header = writer->finish(describe(), options_.page_bytes);
+  writer->begin_mask();
+  const MaskEncoder masks(mask_, mask_plan_, pages.size(), shape_.float64);
+  const auto masked = append_pages(
+      *writer,
+      [&](std::uint32_t page) -> Result<std::vector<std::byte>> {
+        return masks.encode(page - pages.size());
+      },
+      [&](std::uint32_t page) {
+        const PlannedMaskPage& planned = mask_plan_.pages[page - pages.size()];
+        return Key(planned.octcode, planned.ordinal);
+      },
+      pages.size(), pages.size() + mask_pages());
+  if (!masked) return masked.error();
+  storage::ModelRecord model = describe(pages.root_link());
+  model.node_count = crown.tree.nodes.size();
+  model.height = crown.tree.nodes.empty() ? patches_[0].height : crown.tree.nodes[0].height;
+  for (const BuiltPatch& patch : patches_) {
+    model.node_count += patch.node_count;
+    model.block_count += patch.block_count;
+  }
+  const auto header = writer->finish(model, options_.page_bytes);
   if (!header) return header.error();
-  return BuildReport{*header, mesh_.first_set_aside_text()};
+  return BuildReport{*header, frame_.first_set_aside_text};
 }
 
-template <class Encoder, class Pages>
-Result<void> TreeBuild::append_pages(storage::PageWriter& writer, const Encoder& encoder,
-                                     const Pages& pages, std::uint32_t written) {
+// Pages first to last, by encode(page) and key(page).
+template <class Encode, class Key>
+Result<void> TreeBuild::append_pages(storage::PageWriter& writer, const Encode& encode,
+                                     const Key& key, std::uint32_t first, std::uint32_t last) {
   struct Encoded {
     std::uint32_t raw_bytes = 0;
     std::optional<storage::StoredPage> stored;
   };
-  const auto page_count = static_cast<std::uint32_t>(pages.size());
-  const std::uint32_t all_pages = distance_pages() + mask_pages();
   std::vector<Encoded> batch(kBatchPages);
-  for (std::uint32_t first = 0; first < page_count; first += kBatchPages) {
-    progress_.progress(BuildPhase::kWriting, written + first, all_pages);
-    const std::uint32_t count = std::min(kBatchPages, page_count - first);
-    tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
-      const std::vector<std::byte> raw = encoder.encode(first + i);
-      batch[i] = {static_cast<std::uint32_t>(raw.size()), storage::encode_page(raw)};
+  const auto all = std::max(last, mask_pages() + first);
+  for (; first < last;) {
+    progress_.progress(BuildPhase::kWriting, first, all);
+    const std::uint32_t count = std::min(kBatchPages, last - first);
+    const auto encoded = for_each_in_parallel(count, [&](std::size_t i) -> Result<void> {
+      const auto raw = encode(first + static_cast<std::uint32_t>(i));
+      if (!raw) return raw.error();
+      batch[i] = {static_cast<std::uint32_t>(raw->size()), storage::encode_page(*raw)};
+      return {};
     });
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto& page = pages[first + i];
-      const auto appended =
-          writer.append(page.octcode, page.ordinal, batch[i].raw_bytes, *batch[i].stored);
+    if (!encoded) return encoded;
+    for (std::uint32_t i = 0; i < count; ++i, ++first) {
+      const auto [octcode, ordinal] = key(first);
+      const auto appended = writer.append(octcode, ordinal, batch[i].raw_bytes, *batch[i].stored);
       if (!appended) return appended;
     }
   }
-  progress_.progress(BuildPhase::kWriting, written + page_count, all_pages);
+  progress_.progress(BuildPhase::kWriting, last, all);
   return {};
 }
 
-storage::ModelRecord TreeBuild::describe() const {
+storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {
   storage::ModelRecord model{};
-  model.triangle_count = mesh_.size();
-  model.set_aside_count = mesh_.set_aside_count();
-  model.first_set_aside = mesh_.first_set_aside();
+  model.triangle_count = frame_.triangle_count;
+  model.set_aside_count = frame_.set_aside_count;
+  model.first_set_aside = frame_.first_set_aside;
   model.vertex_count = vertex_records_;
-  model.node_count = tree_.nodes.size();
-  model.block_count = tree_.blocks.size();
-  const Point sample = mesh_.corners(0)[0];
+  const Point centre = frame_.centre(), sample = frame_.scaled(frame_.input_sample);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    model.box_lower[axis] = mesh_.input_lower()[axis];
-    model.box_upper[axis] = mesh_.input_upper()[axis];
-    model.centre[axis] = centre_[axis];
+    model.box_lower[axis] = frame_.input_lower[axis];
+    model.box_upper[axis] = frame_.input_upper[axis];
+    model.centre[axis] = centre[axis];
     model.sample[axis] = sample[axis];
   }
-  model.sample_triangle = mesh_.index(0);
-  model.scale_exponent = mesh_.scale_exponent();
-  model.root_link = tree_.nodes.empty() ? plan_.block_links[0] : plan_.node_links[0];
+  model.sample_triangle = frame_.sample_triangle;
+  model.scale_exponent = frame_.scale_exponent;
+  model.root_link = root_link;
   model.vertex_kind =
       shape_.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = shape_.wide_ids ? 8 : 4;
-  model.height = tree_.nodes.empty() ? 0 : tree_.nodes[0].height;
-  edges_.describe(mesh_.scale_exponent(), model);
+  edges_.describe(frame_.scale_exponent, model);
   model.mask_cell_count = mask_.entries.size();
   model.mask_page_count = mask_pages();
   model.mask_levels = static_cast<std::uint8_t>(mask_.levels);
@@ -225,13 +309,12 @@ Result<BuildReport> build_tree(const std::filesystem::path& input,
       options.page_bytes > storage::kMaxPageBytes)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "a page of %u bytes; use a power of two from 4K to 256K", options.page_bytes);
-  const int threads =
-      options.threads > 0 ? static_cast<int>(options.threads) : tbb::task_arena::automatic;
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-  tbb::task_arena arena(threads);
-  return arena.execute([&] { return TreeBuild(input, output, options, progress).run(); });
+  const auto memory = BuildMemory::share(options.memory_bytes, options.threads);
+  if (!memory) return memory.error();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(memory->threads));
+  tbb::task_arena arena(memory->threads);
+  return arena.execute([&] { return TreeBuild(input, output, options, *memory, progress).run(); });
 }
 
 }  // namespace planetree::octree

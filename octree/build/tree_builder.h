@@ -13,27 +13,32 @@ namespace planetree::octree {
 /// What a build is doing.
 enum class BuildPhase : std::uint8_t {
   kReading,
-  kClosing,
   kOrdering,
+  kClosing,
+  kListing,
   kBounding,
   kColouring,
   kWriting
 };
 
-/// Told how far a build is, on the thread that called build_tree.
+/// Told how far a build is, on any thread but one at a time.
 class BuildProgress {
  public:
   virtual ~BuildProgress() = default;
-  /// `done` of `total` units of this phase: bytes while reading, pages while
-  /// writing, steps otherwise.
+  /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
+  /// the model otherwise.
   virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
 };
 
 struct BuildOptions {
   std::uint32_t page_bytes = 65536;  ///< of a decoded page; a power of two, 4 KiB to 256 KiB
   unsigned threads = 0;              ///< 0: as many as the machine has
-  bool strict = false;               ///< a set-aside record is an error
-  bool replace = false;              ///< an existing output may be replaced
+  /// The most that the process should have resident, mapped pages included; 0: a quarter of
+  /// the machine's memory. What does not fit is spilled.
+  std::uint64_t memory_bytes = 0;
+  std::filesystem::path temp_directory;  ///< for what is spilled; empty: the output's
+  bool strict = false;                   ///< a set-aside record is an error
+  bool replace = false;                  ///< an existing output may be replaced
 };
 
 struct BuildReport {
@@ -44,10 +49,13 @@ struct BuildReport {
 /// Reads the mesh at `input` and writes its tree to `output`, whole or not at
 /// all. The bytes written depend on the mesh and page_bytes alone.
 ///
-/// memory  holds the model: about 70 bytes a triangle, 110 with float64
-///         coordinates; 3 more of a model that is not watertight.
-/// errors  those of read_mesh and storage::PageWriter; kBadArgument for
-///         page_bytes; kBadInput for a bad record under `strict`.
+/// memory  options.memory_bytes at most, but for the mask of a watertight model, which takes
+///         some 8 bytes a triangle, and patches of more than 2^18 triangles at one place.
+/// disk    about 120 bytes a triangle in temp_directory where memory is short, else 12;
+///         twice that with float64 coordinates. Given back however the process ends.
+/// errors  those of read_mesh, storage::SpillFile and storage::PageWriter; kBadArgument for
+///         page_bytes; kNoMemory for too little memory_bytes; kBadInput for a bad record
+///         under `strict`.
 /// source  bottom-up construction from candidate planes: "Out-of-core real-time
 ///         haptic interaction on very large models", section 3.1; blocks,
 ///         collapse and paging are ours.

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kEveryNode = ~std::uint64_t{0};
 
 // What one triangle after the other makes of it.
-Crossings count_all(const MeshStore& mesh, const MovedSegment& segment) {
+Crossings count_all(const SampleMesh& mesh, const MovedSegment& segment) {
   Crossings count;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     count.on_surface = count.on_surface || lies_on(segment.from, mesh.corners(i));

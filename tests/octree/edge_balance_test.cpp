@@ -13,7 +13,7 @@ namespace planetree::octree {
 namespace {
 
 EdgeBalance balance(const Soup& soup, std::uint64_t first_index = 0) {
-  return balance_edges(store(soup, first_index));
+  return balance_of(store(soup, first_index));
 }
 
 Soup tetrahedron() {
@@ -75,7 +75,7 @@ TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
   EXPECT_EQ(found.first[0].triangle, 0u);
 }
 
-// Far more faces on an edge than one task looks at.
+// In many parts.
 TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
   Soup soup = repeated(60000);
   const EdgeBalance found = balance(soup);
@@ -89,9 +89,8 @@ TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
   EXPECT_EQ(balance(soup).open_edges, 0u);
 }
 
-// A model so small beside another that all its edges come into one cell, where
-// many share a hash.
-TEST(EdgeBalance, TellsEdgesOfOneHashApart) {
+// A model beside which another is so small that its coordinates hardly differ.
+TEST(EdgeBalance, TellsSmallEdgesApart) {
   Soup soup = sphere(6);
   for (auto& triangle : soup)
     for (Vec3& corner : triangle)
@@ -101,15 +100,15 @@ TEST(EdgeBalance, TellsEdgesOfOneHashApart) {
   for (const std::size_t triangle : {30000, 20000, 700, 10000}) soup[triangle][0] = soup[0][0];
   const EdgeBalance found = balance(soup);
   EXPECT_EQ(found.open_edges, 16u);
-  for (const OpenEdge& edge : found.first) EXPECT_LE(edge.triangle, 701u);
+  for (const OpenEdge& edge : found.first) EXPECT_NE(edge.along, edge.against);
 }
 
-TEST(EdgeBalance, DoesNotDependOnThreads) {
-  const MeshStore mesh = store(scattered(3000, 0.2));
-  const EdgeBalance many = balance_edges(mesh);
+TEST(EdgeBalance, DependsNeitherOnThreadsNorOnParts) {
+  const SampleMesh mesh = store(scattered(3000, 0.2));
+  const EdgeBalance many = balance_of(mesh, 100);
   EXPECT_EQ(many.open_edges, 9000u);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const EdgeBalance alone = balance_edges(mesh);
+  const EdgeBalance alone = balance_of(mesh);
   EXPECT_EQ(alone.open_edges, many.open_edges);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(alone.first[i].triangle, many.first[i].triangle);

@@ -211,14 +211,13 @@ bool same(const MaskTree& a, const MaskTree& b) {
          std::ranges::equal(a.specials, b.specials, same_special);
 }
 
-// Large enough to be divided side by side.
+// In many regions.
 TEST(MaskTree, DoesNotDependOnThreads) {
-  const MeshStore mesh =
+  const SampleMesh mesh =
       store(joined({sphere(6), box({1.1, 0, 0}, {1.9, 0.9, 0.8}, 30), scaled(sphere(3), 0.5)}));
-  const std::vector<MortonKey> keys = morton_order(mesh);
   const auto build = [&](int threads) {
     tbb::task_arena arena(threads);
-    return arena.execute([&] { return build_mask(mesh, keys); });
+    return arena.execute([&] { return mask_of(mesh, 1000); });
   };
   const MaskTree one = build(1);
   EXPECT_GT(one.entries.size(), 2000u);

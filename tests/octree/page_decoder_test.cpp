@@ -102,7 +102,7 @@ TEST(PageDecoder, GivesBackEveryTriangleBitForBit) {
     for (std::size_t i = 0; i < c.soup.size(); ++i) {
       const auto found = walk.found.find(c.first_index + i);
       ASSERT_NE(found, walk.found.end()) << i;
-      const double scale = std::ldexp(1.0, sample.mesh.scale_exponent());
+      const double scale = std::ldexp(1.0, sample.mesh.frame.scale_exponent);
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3& corner = c.soup[i][k];
         const std::array<double, 3> expected{corner.x * scale, corner.y * scale, corner.z * scale};

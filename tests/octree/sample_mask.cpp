@@ -183,7 +183,7 @@ Surface::Surface(std::vector<Triangle> triangles) : triangles_(std::move(triangl
   }
 }
 
-Surface::Surface(const MeshStore& mesh)
+Surface::Surface(const SampleMesh& mesh)
     : Surface([&] {
         std::vector<Triangle> triangles;
         for (std::uint32_t i = 0; i < mesh.size(); ++i) triangles.push_back(mesh.corners(i));
@@ -236,10 +236,7 @@ MaskTree random_mask(unsigned levels, std::uint64_t seed) {
 }
 
 SampleMask::SampleMask(const Soup& soup)
-    : mesh(store(soup)),
-      surface(mesh),
-      tree(build_mask(mesh, morton_order(mesh))),
-      grid(mesh.lower()) {}
+    : mesh(store(soup)), surface(mesh), tree(mask_of(mesh)), grid(mesh.frame.lower()) {}
 
 MaskPages::MaskPages(const MaskTree& tree, std::uint32_t page_bytes, std::uint32_t first_page,
                      bool float64)

@@ -30,7 +30,7 @@ Soup shells(std::size_t count);
 class Surface {
  public:
   explicit Surface(std::vector<Triangle> triangles);
-  explicit Surface(const MeshStore& mesh);
+  explicit Surface(const SampleMesh& mesh);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// The winding number about a point moved by its infinitesimal step: counted
@@ -62,7 +62,7 @@ MaskTree random_mask(unsigned levels, std::uint64_t seed = 1);
 struct SampleMask {
   explicit SampleMask(const Soup& soup);
 
-  MeshStore mesh;
+  SampleMesh mesh;
   Surface surface;
   MaskTree tree;
   CellGrid grid;

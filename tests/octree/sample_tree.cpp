@@ -1,10 +1,14 @@
 #include "tests/octree/sample_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <limits>
 
 #include "octree/build/disc_fit.h"
+#include "octree/build/mesh_intake.h"
 #include "octree/build/moment_sums.h"
 #include "octree/build/page_encoder.h"
 #include "tests/octree/divided_octahedron.h"
@@ -64,28 +68,73 @@ Soup repeated(std::size_t count) {
   return Soup(count, {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0.5}});
 }
 
-MeshStore store(const Soup& soup, std::uint64_t first_index) {
-  MeshStore mesh;
+SampleMesh store(const Soup& soup, std::uint64_t first_index) {
+  MeshIntake intake(std::numeric_limits<std::uint32_t>::max(), ~std::uint64_t{0}, spill_file());
   for (std::size_t i = 0; i < soup.size(); ++i)
-    if (!mesh.triangle(first_index + i, soup[i])) std::abort();
-  mesh.normalise();
-  return mesh;
+    if (!intake.triangle(first_index + i, soup[i])) std::abort();
+  ModelFrame frame = *intake.finish();
+  return {*intake.take_chunk(0), std::move(frame)};
+}
+
+storage::SpillFile& spill_file() {
+  static storage::SpillFile file(std::filesystem::temp_directory_path());
+  return file;
+}
+
+std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_triangles) {
+  const std::size_t run_bytes = run_triangles * mesh.record_bytes();
+  auto runs = std::make_unique<TriangleRuns>(mesh.float64(), 3 * run_bytes, spill_file());
+  for (std::uint32_t first = 0; first < mesh.size(); first += run_triangles) {
+    const std::uint32_t last = std::min(mesh.size(), first + run_triangles);
+    Triangles run(mesh.float64());
+    for (std::uint32_t i = first; i < last; ++i) run.add(mesh.key(i), mesh.corners(i));
+    if (!runs->add(std::move(run))) std::abort();
+  }
+  return runs;
+}
+
+MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most) {
+  const auto runs = runs_of(mesh);
+  MaskRegions regions(mesh.frame.lower(), mesh.float64(), 1000, spill_file());
+  if (!regions.divide(*runs, most) || !regions.add(mesh)) std::abort();
+  return *build_mask(regions, *runs, [] {});
+}
+
+EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles) {
+  EdgeCensus census(1000, spill_file());
+  const auto add_parts = [&](const auto& add) {
+    for (std::uint32_t first = 0; first < mesh.size(); first += part_triangles) {
+      Triangles part(mesh.float64());
+      for (std::uint32_t i = first; i < std::min(mesh.size(), first + part_triangles); ++i)
+        part.add(mesh.key(i), mesh.corners(i));
+      add(part);
+    }
+  };
+  add_parts([&](const Triangles& part) {
+    if (!census.add(part)) std::abort();
+  });
+  EdgeFaces faces(*census.balance());
+  add_parts([&](const Triangles& part) { faces.look_at(part); });
+  return faces.balance();
 }
 
 SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index,
                         bool moments) {
   SampleTree sample;
   sample.mesh = store(soup, first_index);
-  sample.centre = (sample.mesh.lower() + sample.mesh.upper()) * 0.5;
+  sample.mesh.sort();
+  sample.centre = sample.mesh.frame.centre();
   sample.shape.float64 = sample.mesh.float64();
   sample.shape.wide_ids = first_index + soup.size() > 0xffffffff;
   sample.shape.moments = moments;
-  sample.keys = morton_order(sample.mesh);
+  sample.keys = keys_of(sample.mesh);
   sample.binary = build_binary_tree(sample.mesh, sample.centre, sample.keys);
   sample.tree = collapse(sample.binary);
   fit_discs(sample.mesh, sample.centre, sample.keys, sample.tree);
   if (moments)
-    sample.tree.moments = sum_moments(sample.mesh, sample.centre, sample.keys, sample.tree);
+    sample.tree.moments =
+        sum_moments(sample.mesh, sample.centre, sample.keys, sample.tree, sample.binary[0].box)
+            .nodes;
   for (const WideBlock& block : sample.tree.blocks)
     sample.block_slots.push_back(static_cast<std::uint8_t>(
         sample.shape.slots(count_block_vertices(sample.mesh, sample.keys, block))));
@@ -112,18 +161,18 @@ TreeFacts tree_facts(const SampleTree& sample) {
       sample.tree.nodes.empty() ? sample.plan.block_links[0] : sample.plan.node_links[0];
   facts.shape = sample.shape;
   facts.record_count = sample.tree.nodes.size() + sample.tree.blocks.size();
-  facts.box_lower = sample.mesh.lower();
-  facts.box_upper = sample.mesh.upper();
+  facts.box_lower = sample.mesh.frame.lower();
+  facts.box_upper = sample.mesh.frame.upper();
   facts.centre = sample.centre;
-  facts.sample = sample.mesh.corners(0)[0];
-  facts.sample_triangle = sample.mesh.index(0);
+  facts.sample = sample.mesh.frame.scaled(sample.mesh.frame.input_sample);
+  facts.sample_triangle = sample.mesh.frame.sample_triangle;
   return facts;
 }
 
 SamplePages::SamplePages(const SampleTree& sample) : withheld_(sample.plan.pages.size()) {
   const PageEncoder encoder(sample.mesh, sample.keys, sample.tree, sample.plan, sample.shape);
   for (std::uint32_t page = 0; page < sample.plan.pages.size(); ++page) {
-    raw_.push_back(encoder.encode(page));
+    raw_.push_back(encoder.encode(page).bytes);
     frames_.emplace_back(sample.plan.page_bytes);
     const auto decoded = decode_page(raw_[page], page_facts(sample, page), frames_[page].bytes());
     if (decoded) continue;

@@ -3,13 +3,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "octree/build/binary_tree.h"
-#include "octree/build/mesh_store.h"
+#include "octree/build/edge_balance.h"
+#include "octree/build/mask_build.h"
+#include "octree/build/model_frame.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/page_plan.h"
+#include "octree/build/triangle_runs.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
 #include "octree/nearest.h"
@@ -49,12 +53,36 @@ Soup scattered(std::size_t count, double edge, std::uint64_t seed = 1);
 /// One triangle again and again, so that all have one Morton code.
 Soup repeated(std::size_t count);
 
-/// A model, normalised, its triangles' indices counted from `first_index`.
-MeshStore store(const Soup& soup, std::uint64_t first_index = 0);
+/// The triangles of a model in the model frame, in the order of the input.
+struct SampleMesh : Triangles {
+  SampleMesh() = default;
+  SampleMesh(Triangles triangles, ModelFrame of)
+      : Triangles(std::move(triangles)), frame(std::move(of)) {}
+
+  Point lower() const { return frame.lower(); }
+  Point upper() const { return frame.upper(); }
+
+  ModelFrame frame;
+};
+
+/// A model; the indices of its triangles are counted from `first_index`.
+SampleMesh store(const Soup& soup, std::uint64_t first_index = 0);
+
+/// Where tests spill to.
+storage::SpillFile& spill_file();
+
+/// The triangles of a mesh in runs of `run_triangles`, some of them spilled.
+std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_triangles = 1000);
+
+/// The mask of a mesh that is watertight, in regions of at most `most` triangles.
+MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most = kRegionTriangles);
+
+/// Whether a mesh closes, balanced in parts of so many triangles.
+EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles = 5000);
 
 /// A model through all stages of a build but the last.
 struct SampleTree {
-  MeshStore mesh;
+  SampleMesh mesh;  ///< in Morton order
   Point centre = Point::Zero();
   BlockShape shape;
   std::vector<MortonKey> keys;

@@ -144,8 +144,8 @@ TEST_F(TreeBuilder, ReplacesAFileOnlyWhenAsked) {
 TEST_F(TreeBuilder, ReportsEachPhaseInTurnToItsEnd) {
   write_obj(sphere(4));
   ASSERT_TRUE(build());
-  const std::vector<BuildPhase> expected{BuildPhase::kReading,   BuildPhase::kClosing,
-                                         BuildPhase::kOrdering,  BuildPhase::kBounding,
+  const std::vector<BuildPhase> expected{BuildPhase::kReading,   BuildPhase::kOrdering,
+                                         BuildPhase::kClosing,   BuildPhase::kBounding,
                                          BuildPhase::kColouring, BuildPhase::kWriting};
   EXPECT_EQ(recorder_.phases, expected);
   EXPECT_EQ(recorder_.last_done, recorder_.last_total);

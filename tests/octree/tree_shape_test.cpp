@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "octree/bounds.h"
+#include "octree/build/area_split.h"
 #include "octree/build/binary_tree.h"
 #include "octree/build/disc_fit.h"
 #include "octree/build/float_rounding.h"
@@ -90,45 +89,12 @@ TEST(BinaryTree, BoxesAreTheLeastOfWhatIsInThem) {
 
 TEST(BinaryTree, SplitsLargeRangesByCode) {
   const SampleTree sample = build_sample(sphere(5));
-  const MeshStore mesh = store(sphere(5));
-  const std::vector<MortonKey> sorted = morton_order(mesh);
+  const std::vector<MortonKey> sorted = keys_of(sample.mesh);
   for (const BinaryNode& node : sample.binary) {
-    if (node.count() <= 128) continue;
+    if (node.count() <= kMaxAreaSplit) continue;
     // All codes on the left are below all on the right.
     const std::uint32_t middle = sample.binary[node.left].end;
     EXPECT_LT(sorted[middle - 1].code, sorted[middle].code);
-  }
-}
-
-TEST(BinaryTree, DoesNotDependOnThreads) {
-  // Above 2^16 triangles several tasks build it.
-  const MeshStore mesh = store(sheet(190));
-  ASSERT_GT(mesh.size(), 1u << 16);
-  const Point centre = (mesh.lower() + mesh.upper()) * 0.5;
-  std::vector<std::vector<BinaryNode>> trees;
-  std::vector<std::vector<MortonKey>> orders;
-  for (const int threads : {1, 2}) {
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
-      orders.push_back(morton_order(mesh));
-      trees.push_back(build_binary_tree(mesh, centre, orders.back()));
-    });
-  }
-  expect_permutation(orders[0]);
-  ASSERT_EQ(trees[0].size(), trees[1].size());
-  for (std::size_t i = 0; i < orders[0].size(); ++i)
-    ASSERT_EQ(orders[0][i].position, orders[1][i].position);
-  for (std::uint32_t at = 0; at < trees[0].size(); ++at) {
-    const BinaryNode &one = trees[0][at], &other = trees[1][at];
-    ASSERT_EQ(one.left, other.left);
-    ASSERT_EQ(one.right, other.right);
-    ASSERT_EQ(one.box.lower, other.box.lower);
-    ASSERT_EQ(one.box.upper, other.box.upper);
-    if (one.leaf()) continue;
-    ASSERT_GT(one.left, at);
-    ASSERT_EQ(trees[0][one.left].end, trees[0][one.right].begin);
-    ASSERT_TRUE(encloses(one.box, trees[0][one.left].box));
-    ASSERT_TRUE(encloses(one.box, trees[0][one.right].box));
   }
 }
 
@@ -275,7 +241,7 @@ TEST(DiscFit, LiesAlongAFlatSurface) {
 TEST(DiscFit, EnclosesSubtreesTooLargeForTheirVertices) {
   const SampleTree sample = build_sample(sheet(190), 65536);
   const WideNode& root = sample.tree.nodes[0];
-  const MeshStore& mesh = sample.mesh;
+  const SampleMesh& mesh = sample.mesh;
   // The root's children have fewer, so put a node above it that has it for a child.
   WideTree tree = sample.tree;
   WideNode above = root;

@@ -18,14 +18,14 @@ using storage::FileImage;
 
 /// Points anywhere in the box, on vertices, and on the sides of cells.
 std::vector<Vec3> points_about(const SampleModel& sample, std::size_t count) {
-  const octree::MeshStore& mesh = sample.sample().mesh;
-  const double unscale = std::ldexp(1.0, -mesh.scale_exponent());
+  const octree::SampleMesh& mesh = sample.sample().mesh;
+  const double unscale = std::ldexp(1.0, -mesh.frame.scale_exponent);
   octree::Noise noise(4);
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < count; ++i) {
     octree::Point point;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double lower = mesh.lower()[axis], edge = mesh.upper()[axis] - lower;
+      const double lower = mesh.frame.lower()[axis], edge = mesh.frame.upper()[axis] - lower;
       double offset = noise.uniform(-0.01, 1.01) * edge;
       if (i % 3 == 1) offset = std::floor(offset * 32) / 32;
       point[axis] = lower + offset;

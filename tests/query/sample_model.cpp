@@ -27,19 +27,19 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
   model.node_count = sample.tree.nodes.size();
   model.block_count = sample.tree.blocks.size();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    model.box_lower[axis] = sample.mesh.input_lower()[axis];
-    model.box_upper[axis] = sample.mesh.input_upper()[axis];
+    model.box_lower[axis] = sample.mesh.frame.input_lower[axis];
+    model.box_upper[axis] = sample.mesh.frame.input_upper[axis];
     model.centre[axis] = facts.centre[axis];
     model.sample[axis] = facts.sample[axis];
   }
   model.sample_triangle = facts.sample_triangle;
-  model.scale_exponent = sample.mesh.scale_exponent();
+  model.scale_exponent = sample.mesh.frame.scale_exponent;
   model.root_link = facts.root_link;
   model.vertex_kind =
       sample.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = sample.shape.wide_ids ? 8 : 4;
   model.height = sample.tree.nodes.empty() ? 0 : sample.tree.nodes[0].height;
-  octree::balance_edges(sample.mesh).describe(sample.mesh.scale_exponent(), model);
+  octree::balance_of(sample.mesh).describe(sample.mesh.frame.scale_exponent, model);
   return model;
 }
 
@@ -56,7 +56,7 @@ void write(const octree::SampleTree& sample, bool masked, const std::filesystem:
   octree::MaskTree mask;
   octree::MaskPlan mask_plan;
   if (masked) {
-    mask = octree::build_mask(sample.mesh, sample.keys);
+    mask = octree::mask_of(sample.mesh);
     mask_plan = *octree::plan_mask(mask, sample.plan.page_bytes);
   }
   const auto mask_pages = static_cast<std::uint32_t>(mask_plan.pages.size());
@@ -87,7 +87,7 @@ SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64
 SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index,
                          bool masked)
     : sample_(octree::build_sample(soup, page_bytes, first_index,
-                                   octree::balance_edges(octree::store(soup)).open_edges > 0)) {
+                                   octree::balance_of(octree::store(soup)).open_edges > 0)) {
   write(sample_, masked, path());
 }
 
@@ -129,13 +129,14 @@ Model SampleModel::open_for_batches(unsigned batch_threads, unsigned max_probes)
 }
 
 SampleModel::Truth SampleModel::truth(const Vec3& query) const {
-  const double scale = std::ldexp(1.0, sample_.mesh.scale_exponent());
+  const double scale = std::ldexp(1.0, sample_.mesh.frame.scale_exponent);
   const octree::Point point(query.x * scale, query.y * scale, query.z * scale);
   double least = std::numeric_limits<double>::infinity();
   std::uint32_t nearest = 0;
   for (std::uint32_t i = 0; i < sample_.mesh.size(); ++i) {
     const double squared = octree::triangle_value(point, sample_.mesh.corners(i)).squared;
-    if (squared >= least) continue;
+    const bool first = sample_.mesh.index(i) < sample_.mesh.index(nearest);
+    if (squared > least || (squared == least && !first)) continue;
     least = squared;
     nearest = i;
   }

@@ -1,0 +1,51 @@
+#include "octree/build/build_memory.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+/// The program itself, page tables, what is spilled a little at a time.
+constexpr std::uint64_t kFixedBytes = 64 * kMiB;
+/// A patch of 2^18 triangles, its trees and pages; or a chunk, sorted and unsorted.
+constexpr std::uint64_t kThreadBytes = 96 * kMiB;
+/// The mask of a watertight model and its pages' plan, a triangle.
+constexpr std::uint64_t kMaskBytes = 8;
+
+std::uint64_t machine_bytes() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes);
+}
+
+}  // namespace
+
+Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
+  if (bytes == 0) bytes = std::max(machine_bytes() / 4, kFixedBytes + kThreadBytes);
+  if (bytes < kFixedBytes + kThreadBytes)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "%llu MiB of memory are too little for a build; give it %llu MiB or more",
+                      static_cast<unsigned long long>(bytes / kMiB),
+                      static_cast<unsigned long long>((kFixedBytes + kThreadBytes) / kMiB));
+  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  const std::uint64_t most = (bytes - kFixedBytes) / kThreadBytes;
+  BuildMemory memory;
+  memory.threads = static_cast<int>(std::min<std::uint64_t>(threads, most));
+  const std::uint64_t used = kFixedBytes + kThreadBytes * static_cast<unsigned>(memory.threads);
+  const std::uint64_t left = bytes - used;
+  memory.chunk_triangles = 1 << 18;
+  memory.mapped_bytes = 16 * kMiB + left / 8;
+  memory.intake_bytes = left / 4;
+  memory.runs_bytes = left / 2;
+  memory.left_over_bytes = left / 16;
+  return memory;
+}
+
+void BuildMemory::reserve_for(std::uint64_t triangles) {
+  runs_bytes -= std::min(runs_bytes, kMaskBytes * triangles);
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// How a build shares out the memory it may use. Nothing that is written depends on it.
+struct BuildMemory {
+  int threads = 1;                    ///< that it has room for
+  std::uint32_t chunk_triangles = 0;  ///< sorted at a time, by each thread
+  std::uint64_t mapped_bytes = 0;     ///< of the input
+  std::uint64_t intake_bytes = 0;     ///< of triangles as they are read
+  std::uint64_t runs_bytes = 0;       ///< of sorted triangles
+  std::uint64_t left_over_bytes = 0;  ///< of edges, and of triangles in several regions, each
+
+  /// Less for what is known by the number of triangles: the mask above all.
+  void reserve_for(std::uint64_t triangles);
+
+  /// bytes    the most that the process should have; 0: a quarter of the machine's.
+  /// threads  0: as many as the machine has.
+  /// errors   kNoMemory: too little for one thread; says how much is needed.
+  static Result<BuildMemory> share(std::uint64_t bytes, unsigned threads);
+};
+
+}  // namespace planetree::octree

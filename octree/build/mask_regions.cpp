@@ -1,0 +1,201 @@
+#include "octree/build/mask_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "octree/build/cell_overlap.h"
+#include "octree/build/edge_crossings.h"
+#include "octree/build/morton_order.h"
+#include "octree/octcode.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Cells are not divided any more where that has so many times over left more than half of
+/// the triangles together: their centres coincide.
+constexpr unsigned kMostWasted = 3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::uint64_t first_code(const GridCell& cell) {
+  const unsigned shift = kLevels - cell.level;
+  return morton_code(cell.at[0] << shift, cell.at[1] << shift, cell.at[2] << shift);
+}
+
+}  // namespace
+
+Result<void> MaskRegions::divide(const TriangleRuns& runs, std::uint64_t most) {
+  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, most, 0);
+}
+
+Result<void> MaskRegions::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
+                                 std::uint64_t most, unsigned wasted) {
+  if (stretch.size <= most || wasted > kMostWasted || regions_[at].cell.level == kLevels) return {};
+  const auto octants = octants_of(at, stretch, runs);
+  if (!octants) return octants.error();
+  const std::size_t first = regions_.size();
+  regions_[at].first_octant = static_cast<std::uint32_t>(first);
+  for (unsigned octant = 0; octant < 8; ++octant)
+    regions_.push_back({regions_[at].cell.child(octant)});
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    const Stretch& part = (*octants)[octant];
+    const bool halved = part.size <= stretch.size / 2;
+    const auto divided = divide(first + octant, part, runs, most, halved ? 0 : wasted + 1);
+    if (!divided) return divided;
+  }
+  return {};
+}
+
+Result<std::array<MaskRegions::Stretch, 8>> MaskRegions::octants_of(
+    std::size_t at, const Stretch& stretch, const TriangleRuns& runs) const {
+  std::array<Stretch, 8> octants;
+  octants[0].from = stretch.from;
+  for (unsigned octant = 1; octant < 8; ++octant) {
+    auto cut = runs.cut(first_code(regions_[at].cell.child(octant)));
+    if (!cut) return cut.error();
+    octants[octant - 1].to = *cut;
+    octants[octant].from = *std::move(cut);
+  }
+  octants[7].to = stretch.to;
+  for (Stretch& octant : octants) octant.size = TriangleRuns::count(octant.from, octant.to);
+  return octants;
+}
+
+std::size_t MaskRegions::region_of_code(std::uint64_t code) const {
+  std::size_t at = 0;
+  while (regions_[at].divided()) {
+    const unsigned shift = 3 * (kLevels - regions_[at].cell.level - 1);
+    at = regions_[at].first_octant + (code >> shift & 7);
+  }
+  return at;
+}
+
+/// What one part of the model adds to the regions.
+class MaskRegions::Visit {
+ public:
+  explicit Visit(const MaskRegions& regions)
+      : regions_(regions), way_out_(way_out(regions.grid_)), visitors_(regions.float64_) {}
+
+  void add(const storage::SpillKey& key, const Triangle& triangle) {
+    own_ = regions_.region_of_code(key.first);
+    key_ = key;
+    winding_ += crossing_if_near(way_out_, triangle);
+    touch(0, triangle);
+  }
+
+  struct Sum {
+    std::array<std::int64_t, 8> rise{};
+  };
+  const std::map<std::size_t, Sum>& sums() const { return sums_; }
+  std::int64_t winding() const { return winding_; }
+  std::vector<std::byte> take_visitors() {
+    visitors_.sort();
+    return visitors_.take_records();
+  }
+
+ private:
+  // From the root's least corner.
+  static MovedSegment way_out(const CellGrid& grid) {
+    const Point corner = grid.lower({});
+    Point outside = corner;
+    outside.x() = std::min(corner.x() - 1, std::nextafter(corner.x(), -kInfinity));
+    return {corner, outside};
+  }
+
+  void touch(std::size_t at, const Triangle& triangle) {
+    const Region& region = regions_.regions_[at];
+    if (region.divided()) {
+      const unsigned near = octants_of_box(triangle, regions_.grid_.middle(region.cell));
+      for (unsigned octant = 0; octant < 8; ++octant)
+        if ((near >> octant & 1) != 0) touch(region.first_octant + octant, triangle);
+      return;
+    }
+    const Point lower = regions_.grid_.lower(region.cell),
+                upper = regions_.grid_.upper(region.cell);
+    if (at != 0 && !may_touch(triangle, lower, upper)) return;
+    if (at != own_) visitors_.add({at, key_.second}, triangle);
+    Sum& sum = sums_[at];
+    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, sum.rise);
+  }
+
+  // Edges are in sides across two axes.
+  static bool may_cross_edges(const Triangle& triangle, const Point& lower, const Point& upper) {
+    const auto& [a, b, c] = triangle;
+    const Point least = a.cwiseMin(b).cwiseMin(c), greatest = a.cwiseMax(b).cwiseMax(c);
+    return (least.array() <= lower.array() || greatest.array() >= upper.array()).count() >= 2;
+  }
+
+  void add_rise(const Triangle& triangle, const GridCell& cell,
+                std::array<std::int64_t, 8>& rise) const;
+
+  const MaskRegions& regions_;
+  std::size_t own_ = 0;
+  storage::SpillKey key_;
+  const MovedSegment way_out_;
+  std::int64_t winding_ = 0;
+  std::map<std::size_t, Sum> sums_;
+  Triangles visitors_;
+};
+
+// Crossings along the cell's edges, each from the corner before it on the way from the least.
+void MaskRegions::Visit::add_rise(const Triangle& triangle, const GridCell& cell,
+                                  std::array<std::int64_t, 8>& rise) const {
+  std::array<std::int64_t, 8> steps{};
+  for (unsigned which = 1; which < 8; ++which) {
+    const unsigned before = which & (which - 1);
+    steps[which] = steps[before] + crossing_if_near({regions_.grid_.corner(cell, which),
+                                                     regions_.grid_.corner(cell, before)},
+                                                    triangle);
+    rise[which] += steps[which];
+  }
+}
+
+Result<void> MaskRegions::add(const Triangles& triangles) {
+  Visit visit(*this);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    visit.add(triangles.key(i), triangles.corners(i));
+  {
+    const std::lock_guard lock(mutex_);
+    winding_ += visit.winding();
+    for (const auto& [at, sum] : visit.sums()) {
+      regions_[at].touched = true;
+      for (unsigned which = 0; which < 8; ++which) regions_[at].rise[which] += sum.rise[which];
+    }
+  }
+  return visitors_.add(visit.take_visitors());
+}
+
+Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) const {
+  const GridCell& cell = regions_[at].cell;
+  const auto from = runs.cut(first_code(cell));
+  if (!from) return from.error();
+  // The codes of a cell are as many as the finest cells in it.
+  const auto to = runs.cut(first_code(cell) + (std::uint64_t{1} << 3 * (kLevels - cell.level)));
+  if (!to) return to.error();
+  const auto own = runs.read(*from, *to);
+  if (!own) return own.error();
+  const auto first = visitors_.cut({at, 0}), last = visitors_.cut({at + 1, 0});
+  if (!first) return first.error();
+  if (!last) return last.error();
+  auto records = visitors_.read(*first, *last);
+  if (!records) return records.error();
+  const Triangles visitors(*std::move(records), float64_);
+  Triangles all(float64_);
+  all.reserve(std::size_t{own->size()} + visitors.size());
+  const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
+  for (std::uint32_t i = 0; i < own->size(); ++i) {
+    const Triangle triangle = own->corners(i);
+    if (at == 0 || may_touch(triangle, lower, upper)) all.add(own->key(i), triangle);
+  }
+  for (std::uint32_t i = 0; i < visitors.size(); ++i) {
+    const Triangle triangle = visitors.corners(i);
+    all.add({morton_code_of(triangle, lower_), visitors.index(i)}, triangle);
+  }
+  all.sort();
+  return all;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "octree/build/triangle_runs.h"
+#include "octree/cell_grid.h"
+#include "storage/spill_runs.h"
+
+namespace planetree::octree {
+
+/// Cells of fewer triangles are not divided before the mask is built, which then takes one of
+/// them at a time; the mask does depend on this number.
+inline constexpr std::uint64_t kRegionTriangles = 1 << 16;
+
+/// The octree's root, divided until few triangles have their centres in a cell: the regions,
+/// in which a mask is built one by one.
+///
+/// threads  any number may add parts of the model; then any number may read regions.
+class MaskRegions {
+ public:
+  struct Region {
+    GridCell cell;
+    std::uint32_t first_octant = 0;  ///< of eight regions; 0 in one that is not divided
+    /// Of one that is not divided: whether triangles touch it, and the winding number at each
+    /// corner less that at the least.
+    bool touched = false;
+    std::array<std::int64_t, 8> rise{};
+
+    bool divided() const { return first_octant != 0; }
+  };
+
+  /// lower       of the model's box, model frame.
+  /// held_bytes  of triangles that touch other regions than their own may stay in memory.
+  /// file        takes the rest; must outlive this.
+  MaskRegions(const Point& lower, bool float64, std::uint64_t held_bytes, storage::SpillFile& file)
+      : grid_(lower),
+        lower_(lower),
+        float64_(float64),
+        visitors_(Triangles::record_bytes(float64), held_bytes, file) {}
+
+  /// First of all.
+  Result<void> divide(const TriangleRuns& runs, std::uint64_t most = kRegionTriangles);
+
+  /// A part of the model, each triangle once.
+  Result<void> add(const Triangles& triangles);
+
+  /// The root first, octants side by side and after the region they divide.
+  const std::vector<Region>& all() const { return regions_; }
+  const CellGrid& grid() const { return grid_; }
+  /// The winding number at the root's least corner. After the last part.
+  std::int64_t winding() const { return winding_; }
+
+  /// All triangles that may touch a region, in Morton order. After the last part.
+  Result<Triangles> read(std::size_t region, const TriangleRuns& runs) const;
+
+ private:
+  struct Stretch {
+    TriangleRuns::Cut from, to;
+    std::uint64_t size = 0;
+  };
+  class Visit;
+
+  Result<void> divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
+                      std::uint64_t most, unsigned wasted);
+  Result<std::array<Stretch, 8>> octants_of(std::size_t at, const Stretch& stretch,
+                                            const TriangleRuns& runs) const;
+  std::size_t region_of_code(std::uint64_t code) const;
+
+  const CellGrid grid_;
+  const Point lower_;
+  const bool float64_;
+  std::vector<Region> regions_{Region{}};
+  std::mutex mutex_;
+  std::int64_t winding_ = 0;
+  storage::SpillRuns visitors_;  // by region, then index: that touch another than their own
+};
+
+}  // namespace planetree::octree

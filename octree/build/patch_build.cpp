@@ -1,0 +1,75 @@
+#include "octree/build/patch_build.h"
+
+#include <algorithm>
+
+#include "octree/build/binary_tree.h"
+#include "octree/build/disc_fit.h"
+#include "octree/build/morton_order.h"
+#include "octree/build/page_encoder.h"
+#include "octree/build/wide_tree.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+Result<SpilledPage> put_away(const PageEncoder& encoder, const PlannedPage& page,
+                             storage::SpillFile& file) {
+  const EncodedPage raw = encoder.encode(page.number);
+  const auto offset = file.append(raw.bytes);
+  if (!offset) return offset.error();
+  return SpilledPage{page.octcode, *offset, static_cast<std::uint32_t>(raw.bytes.size()),
+                     raw.links_at, raw.link_count};
+}
+
+void describe(const Triangles& triangles, const WideTree& tree, BuiltPatch& patch) {
+  patch.node_count = tree.nodes.size();
+  patch.block_count = tree.blocks.size();
+  patch.least_code = triangles.code(0);
+  patch.greatest_code = triangles.code(triangles.size() - 1);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    patch.area += area_vector(triangles.corners(i));
+  if (tree.nodes.empty()) {
+    patch.boxes_below = {patch.box};
+    return;
+  }
+  patch.height = tree.nodes[0].height;
+  patch.boxes_below = boxes_below(tree, tree.nodes[0]);
+}
+
+}  // namespace
+
+Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
+                               const BlockShape& shape, std::uint32_t page_bytes,
+                               storage::SpillFile& file) {
+  BuiltPatch patch;
+  std::vector<MortonKey> keys = keys_of(triangles);
+  WideTree tree;
+  {
+    const std::vector<BinaryNode> binary = build_binary_tree(triangles, centre, keys);
+    patch.box = binary[0].box;
+    tree = collapse(binary);
+  }
+  fit_discs(triangles, centre, keys, tree);
+  if (shape.moments) {
+    TreeMoments moments = sum_moments(triangles, centre, keys, tree, patch.box);
+    tree.moments = std::move(moments.nodes);
+    patch.sums = moments.root;
+  }
+  describe(triangles, tree, patch);
+  std::vector<std::uint8_t> block_slots;
+  for (const WideBlock& block : tree.blocks)
+    block_slots.push_back(
+        static_cast<std::uint8_t>(shape.slots(count_block_vertices(triangles, keys, block))));
+  const auto plan = plan_pages(tree, keys, {shape.node_slots(), block_slots}, page_bytes);
+  if (!plan) return plan.error();
+  patch.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
+  const PageEncoder encoder(triangles, keys, tree, *plan, shape);
+  for (const PlannedPage& page : plan->pages) {
+    const auto spilled = put_away(encoder, page, file);
+    if (!spilled) return spilled.error();
+    patch.pages.push_back(*spilled);
+  }
+  return patch;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/build/moment_sums.h"
+#include "octree/build/page_plan.h"
+#include "octree/build/triangles.h"
+#include "octree/child_bounds.h"
+#include "octree/frame.h"
+#include "planetree/error.h"
+#include "storage/spill_file.h"
+
+namespace planetree::octree {
+
+/// A page of a patch, put away until all pages have their numbers.
+struct SpilledPage {
+  std::uint64_t octcode = 0;
+  std::uint64_t offset = 0;  ///< of its raw bytes in the SpillFile
+  std::uint32_t raw_bytes = 0;
+  std::uint32_t links_at = 0;    ///< of its links to other pages, shuffled, in the raw bytes
+  std::uint32_t link_count = 0;  ///< they name pages of the patch by their places in `pages`
+};
+
+/// A patch that was built: what the tree above it is made from.
+struct BuiltPatch {
+  std::vector<SpilledPage> pages;  ///< in the order of their keys
+  std::uint32_t root_link = 0;     ///< the page by its place in `pages`
+  std::uint8_t height = 0;         ///< of its root; 0 if that is a block
+  std::uint64_t node_count = 0;
+  std::uint64_t block_count = 0;
+  std::uint64_t least_code = 0, greatest_code = 0;
+  FloatBox box;                       ///< the root's, relative to the model's centre
+  std::vector<FloatBox> boxes_below;  ///< two levels below the root
+  Point area = Point::Zero();         ///< sum of area vectors
+  SurfaceSums sums;                   ///< about the centre of `box`; of open models only
+};
+
+/// Builds the tree of a patch and puts its pages away.
+///
+/// triangles  of the patch, in order; model frame.
+/// centre     of the model.
+/// threads    any number, with patches of their own.
+/// errors     those of plan_pages() and SpillFile.
+Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
+                               const BlockShape& shape, std::uint32_t page_bytes,
+                               storage::SpillFile& file);
+
+}  // namespace planetree::octree

@@ -1,0 +1,215 @@
+#include "octree/build/region_mask.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <span>
+#include <utility>
+
+#include "octree/build/cell_overlap.h"
+#include "octree/build/edge_crossings.h"
+#include "octree/cell_grid.h"
+#include "octree/predicates.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Cells that fewer touch are not divided further.
+constexpr std::size_t kFewTriangles = 48;
+/// Nor are those whose triangles have been listed so many times over, in octants
+/// of octants, since their number last halved: they are larger than the cell or
+/// coincide, and smaller cells would not tell them apart.
+constexpr double kMostCopies = 3;
+/// A special cell pays for its planes by so many triangles each.
+constexpr std::size_t kTrianglesPerPlane = 12;
+constexpr std::size_t kMostSpecialTriangles = 4096;
+
+/// A cell and what is known of it.
+struct GreyCell {
+  GridCell cell;
+  std::vector<std::uint32_t> triangles;  ///< positions; all that may touch it
+  std::int64_t winding = 0;              ///< at its least corner
+  std::size_t halved = 0;                ///< triangles when their number last halved
+  double copies = 1;                     ///< of each triangle since
+};
+
+using Octants = std::array<GreyCell, 8>;
+
+/// winding(from) - winding(to).
+std::int64_t count_crossings(const MovedSegment& segment, std::span<const Triangle> triangles) {
+  std::int64_t sum = 0;
+  for (const Triangle& triangle : triangles) sum += crossing_if_near(segment, triangle);
+  return sum;
+}
+
+class RegionMask {
+ public:
+  RegionMask(const CellGrid& grid, const Triangles& triangles) : grid_(grid), mesh_(triangles) {}
+
+  // winding  at the cell's least corner.
+  MaskTree run(const GridCell& cell, std::int64_t winding) const {
+    GreyCell region{cell, {}, winding, mesh_.size()};
+    for (std::uint32_t i = 0; i < mesh_.size(); ++i) region.triangles.push_back(i);
+    MaskTree tree;
+    tree.entries.resize(1);
+    grow(std::move(region), tree, 0);
+    return tree;
+  }
+
+ private:
+  std::int64_t count_crossings_of(const MovedSegment& segment,
+                                  const std::vector<std::uint32_t>& positions) const {
+    std::int64_t sum = 0;
+    for (const std::uint32_t position : positions)
+      sum += crossing_if_near(segment, mesh_.corners(position));
+    return sum;
+  }
+
+  // Makes the entry at `place` of a cell; what is below goes to the end.
+  void grow(GreyCell grey, MaskTree& tree, std::size_t place) const {
+    tree.levels = std::max(tree.levels, grey.cell.level);
+    if (make_special(grey, tree, place)) return;
+    const std::size_t count = grey.triangles.size();
+    if (count <= kFewTriangles || grey.cell.level == kLevels)
+      return make_corners(grey, tree, place);
+    Octants octants = divide(grey);
+    if (!worthwhile(grey, octants)) return make_corners(grey, tree, place);
+    grey.triangles = {};
+    add_node(octants, tree, place);
+    std::size_t child = tree.entries[place].first;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      if (octants[octant].triangles.empty()) continue;
+      grow(std::move(octants[octant]), tree, child);
+      tree.note_leaf(place, octant, child++);
+    }
+  }
+
+  // Whether octants tell triangles apart; if so, hands on by how much.
+  static bool worthwhile(const GreyCell& grey, Octants& octants) {
+    std::size_t listed = 0;
+    for (const GreyCell& octant : octants) listed += octant.triangles.size();
+    const double copies =
+        grey.copies * static_cast<double>(listed) / static_cast<double>(grey.triangles.size());
+    for (GreyCell& octant : octants) {
+      const bool halved = octant.triangles.size() <= grey.halved / 2;
+      octant.halved = halved ? octant.triangles.size() : grey.halved;
+      octant.copies = halved ? 1 : copies;
+    }
+    return copies <= kMostCopies;
+  }
+
+  Octants divide(const GreyCell& grey) const {
+    Octants octants;
+    const Point middle = grid_.middle(grey.cell);
+    std::array<Point, 8> lower, upper;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      octants[octant].cell = grey.cell.child(octant);
+      lower[octant] = grid_.lower(octants[octant].cell);
+      upper[octant] = grid_.upper(octants[octant].cell);
+    }
+    for (const std::uint32_t position : grey.triangles) {
+      const Triangle triangle = mesh_.corners(position);
+      const unsigned near = octants_of_box(triangle, middle);
+      const bool alone = std::has_single_bit(near);
+      for (unsigned octant = 0; octant < 8; ++octant)
+        if ((near >> octant & 1) != 0 &&
+            (alone || may_touch(triangle, lower[octant], upper[octant])))
+          octants[octant].triangles.push_back(position);
+    }
+    // Along the edges between the octants' least corners.
+    octants[0].winding = grey.winding;
+    for (unsigned octant = 1; octant < 8; ++octant) {
+      const unsigned before = octant & (octant - 1);
+      octants[octant].winding =
+          octants[before].winding +
+          count_crossings_of({lower[octant], lower[before]}, octants[before].triangles);
+    }
+    return octants;
+  }
+
+  static void add_node(const Octants& octants, MaskTree& tree, std::size_t place) {
+    std::array<bool, 8> grey;
+    std::array<std::int64_t, 8> winding;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      grey[octant] = !octants[octant].triangles.empty();
+      winding[octant] = octants[octant].winding;
+    }
+    tree.divide(place, grey, winding);
+  }
+
+  std::array<Point, 8> corners_of(const GridCell& cell) const {
+    std::array<Point, 8> corners;
+    for (unsigned which = 0; which < 8; ++which) corners[which] = grid_.corner(cell, which);
+    return corners;
+  }
+
+  // From the least corner along the cell's edges.
+  static std::array<std::int64_t, 8> count_corners(const std::array<Point, 8>& corners,
+                                                   std::span<const Triangle> triangles,
+                                                   std::int64_t least) {
+    std::array<std::int64_t, 8> winding{least};
+    for (unsigned which = 1; which < 8; ++which) {
+      const unsigned before = which & (which - 1);
+      winding[which] =
+          winding[before] + count_crossings({corners[which], corners[before]}, triangles);
+    }
+    return winding;
+  }
+
+  bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+    constexpr std::size_t kFirst = 16;
+    const std::size_t count = grey.triangles.size();
+    if (count < kTrianglesPerPlane || count > kMostSpecialTriangles) return false;
+    std::vector<Triangle> triangles;
+    for (const std::uint32_t position : grey.triangles) {
+      if (triangles.size() == kFirst && !in_few_planes(triangles)) return false;
+      triangles.push_back(mesh_.corners(position));
+    }
+    if (!in_few_planes(triangles)) return false;
+    const std::array<Point, 8> corners = corners_of(grey.cell);
+    const auto special =
+        special_cell(triangles, corners, count_corners(corners, triangles, grey.winding));
+    if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
+    tree.entries[place].kind = MaskEntry::Kind::kSpecial;
+    tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
+    tree.specials.push_back(*special);
+    return true;
+  }
+
+  void make_corners(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+    MaskEntry& entry = tree.entries[place];
+    entry.kind = MaskEntry::Kind::kCorners;
+    entry.corners.fill(kUncounted);
+    std::vector<Triangle> triangles;
+    for (const std::uint32_t position : grey.triangles)
+      triangles.push_back(mesh_.corners(position));
+    const std::array<Point, 8> corners = corners_of(grey.cell);
+    const std::array<std::int64_t, 8> winding = count_corners(corners, triangles, grey.winding);
+    const auto fits = [](std::int64_t number) {
+      return -kUncounted > number && number > kUncounted;
+    };
+    if (!std::all_of(winding.begin(), winding.end(), fits)) return;
+    // Straight through the cell, past all edges; were it ever another number, the
+    // cell would be left to longer ways.
+    const bool agree =
+        winding[7] == winding[0] + count_crossings({corners[7], corners[0]}, triangles);
+    assert(agree);
+    if (!agree) return;
+    for (unsigned which = 0; which < 8; ++which)
+      entry.corners[which] = static_cast<std::int8_t>(winding[which]);
+  }
+
+  const CellGrid& grid_;
+  const Triangles& mesh_;
+};
+
+}  // namespace
+
+MaskTree mask_of_region(const CellGrid& grid, const GridCell& cell, std::int64_t winding,
+                        const Triangles& triangles) {
+  return RegionMask(grid, triangles).run(cell, winding);
+}
+
+}  // namespace planetree::octree

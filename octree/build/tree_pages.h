@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "octree/build/crown.h"
+#include "octree/build/page_numbers.h"
+#include "octree/build/patch_build.h"
+#include "storage/spill_file.h"
+
+namespace planetree::octree {
+
+/// The raw bytes of the distance pages of a file, by number: the patches' as they were put
+/// away, with the links of the whole tree, and the crown's.
+/// threads  any number.
+class TreePages {
+ public:
+  /// All must outlive this; `crown` is given its links.
+  TreePages(Crown& crown, const std::vector<BuiltPatch>& patches, const PageNumbers& numbers,
+            const BlockShape& shape, const storage::SpillFile& file);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(numbers_.pages().size()); }
+  std::uint64_t octcode(std::uint32_t number) const { return numbers_.pages()[number].octcode; }
+  std::uint32_t ordinal(std::uint32_t number) const { return numbers_.pages()[number].ordinal; }
+  std::uint32_t root_link() const;
+  Result<std::vector<std::byte>> encode(std::uint32_t number) const;
+
+ private:
+  Result<std::vector<std::byte>> fetch(std::uint32_t number) const;
+
+  const Crown& crown_;
+  const std::vector<BuiltPatch>& patches_;
+  const PageNumbers& numbers_;
+  const BlockShape& shape_;
+  const storage::SpillFile& file_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,33 @@
+#include "octree/build/triangle_runs.h"
+
+#include <utility>
+
+#include "octree/build/parallel.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+
+Result<void> TriangleRuns::take(MeshIntake& intake, const std::function<void()>& done) {
+  return for_each_in_parallel(intake.chunk_count(), [&](std::size_t i) -> Result<void> {
+    Result<Triangles> chunk = intake.take_chunk(i);
+    if (!chunk) return chunk.error();
+    const auto added = add(*std::move(chunk));
+    if (added) done();
+    return added;
+  });
+}
+
+Result<void> TriangleRuns::add(Triangles triangles) {
+  triangles.sort();
+  return runs_.add(triangles.take_records());
+}
+
+Result<Triangles> TriangleRuns::read(const Cut& from, const Cut& to) const {
+  auto records = runs_.read(from, to);
+  if (!records) return records.error();
+  Triangles triangles(*std::move(records), float64_);
+  triangles.sort();
+  return triangles;
+}
+
+}  // namespace planetree::octree

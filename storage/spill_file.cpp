@@ -1,0 +1,72 @@
+#include "storage/spill_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <string>
+#include <utility>
+
+#include "storage/file_error.h"
+
+namespace planetree::storage {
+namespace {
+
+constexpr int kMaxNameAttempts = 100;
+constexpr mode_t kMode = 0600;  // what is put away is nobody else's business
+
+Error spill_error(const char* what) noexcept { return file_error(errno, FileAction::kWrite, what); }
+
+// Where the system has no files without names: one is unlinked as soon as it is there.
+FileHandle open_and_unlink(FileCalls& calls, int directory) {
+  static std::atomic<unsigned> counter{0};
+  for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
+    const std::string name =
+        ".planetree-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".spill";
+    FileHandle file = FileHandle::open(calls, directory, name.c_str(),
+                                       O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR, kMode);
+    if (file.is_open()) {
+      // Tried twice, for whatever fails once: nobody else would remove it.
+      if (calls.unlinkat(directory, name.c_str(), 0) != 0 &&
+          calls.unlinkat(directory, name.c_str(), 0) != 0)
+        file.close();
+      return file;
+    }
+    if (errno != EEXIST) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+SpillFile::SpillFile(std::filesystem::path directory, FileCalls& calls)
+    : directory_(std::move(directory)), calls_(calls) {}
+
+Result<void> SpillFile::open() {
+  const char* const path = directory_.empty() ? "." : directory_.c_str();
+  const FileHandle directory = FileHandle::open(calls_, AT_FDCWD, path, O_RDONLY | O_DIRECTORY);
+  if (!directory.is_open()) return spill_error("open the directory for temporary files");
+  file_ = FileHandle::open(calls_, directory.descriptor(), ".", O_TMPFILE | O_RDWR, kMode);
+  const bool unknown = errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL;
+  if (!file_.is_open() && unknown) file_ = open_and_unlink(calls_, directory.descriptor());
+  if (!file_.is_open()) return spill_error("create a temporary file");
+  return {};
+}
+
+Result<std::uint64_t> SpillFile::append(std::span<const std::byte> bytes) {
+  std::call_once(opened_once_, [this] {
+    if (const auto opened = open(); !opened) failure_ = opened.error();
+  });
+  if (failure_) return *failure_;
+  const std::uint64_t offset = next_.fetch_add(bytes.size(), std::memory_order_relaxed);
+  if (const auto written = file_.write_at(offset, bytes); !written) return written.error();
+  return offset;
+}
+
+Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) const {
+  assert(offset + out.size() <= size_bytes());
+  return file_.read_at(offset, out);
+}
+
+}  // namespace planetree::storage

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "planetree/error.h"
+#include "storage/spill_file.h"
+
+namespace planetree::storage {
+
+/// What records are ordered by: their first 16 bytes, as two numbers in the machine's order.
+struct SpillKey {
+  std::uint64_t first = 0;
+  std::uint64_t second = 0;
+
+  auto operator<=>(const SpillKey&) const = default;
+};
+
+/// Sorted runs of records of one size, in memory as far as allowed and in a SpillFile beyond.
+/// They are not merged: who wants the records between two keys gets those of every run, and
+/// sorts them. So records are written once and read once, and nobody depends on how many
+/// runs there are.
+///
+/// threads  any number may add runs; then any number may cut and read.
+class SpillRuns {
+ public:
+  /// Where a key is in every run.
+  using Cut = std::vector<std::uint64_t>;
+
+  /// record_bytes  at least 16.
+  /// held_bytes    of runs may stay in memory.
+  /// file          takes the others; must outlive this.
+  SpillRuns(std::size_t record_bytes, std::uint64_t held_bytes, SpillFile& file)
+      : record_bytes_(record_bytes), held_bytes_(held_bytes), file_(file) {}
+
+  /// Adds a run of whole records, ascending by key.
+  Result<void> add(std::vector<std::byte> records);
+
+  std::uint64_t size() const noexcept { return size_; }
+  std::size_t record_bytes() const noexcept { return record_bytes_; }
+
+  Cut begin() const { return Cut(runs_.size(), 0); }
+  Cut end() const;
+  /// The first records that are not before a key.
+  Result<Cut> cut(const SpillKey& key) const;
+  static std::uint64_t count(const Cut& from, const Cut& to);
+
+  /// Records between two cuts, run after run.
+  Result<std::vector<std::byte>> read(const Cut& from, const Cut& to) const;
+
+ private:
+  struct Run {
+    std::uint64_t size = 0;       // records
+    std::vector<std::byte> held;  // or, if empty,
+    std::uint64_t offset = 0;     // in the file
+  };
+
+  Result<void> get(const Run& run, std::uint64_t from, std::span<std::byte> out) const;
+  Result<std::uint64_t> find(const Run& run, const SpillKey& key) const;
+
+  const std::size_t record_bytes_;
+  std::uint64_t held_bytes_;
+  SpillFile& file_;
+  std::mutex adding_;
+  std::uint64_t size_ = 0;
+  std::vector<Run> runs_;
+};
+
+}  // namespace planetree::storage
