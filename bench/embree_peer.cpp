@@ -1,5 +1,6 @@
 #include "bench/peer_kinds.h"
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -57,13 +58,14 @@ bool count_bytes(void* total, std::ptrdiff_t bytes, bool) {
 
 class EmbreePeer final : public Peer {
  public:
-  explicit EmbreePeer(const PeerMesh& mesh);
+  EmbreePeer(const PeerMesh& mesh, unsigned threads);
   ~EmbreePeer() override {
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
   }
 
   [[nodiscard]] std::string name() const override { return "Embree"; }
+  [[nodiscard]] double commit_seconds() const { return commit_seconds_; }
   double distance(const Vec3& query) override;
   bool inside(const Vec3& query) override;
   [[nodiscard]] std::uint64_t mapped_bytes() const override {
@@ -78,12 +80,16 @@ class EmbreePeer final : public Peer {
 
   std::vector<float> positions_;
   std::vector<std::uint32_t> corners_;
-  RTCDevice device_ = rtcNewDevice("threads=1");
+  RTCDevice device_;
   RTCScene scene_ = nullptr;
   std::int64_t bytes_ = 0;  // that Embree says it holds
+  double commit_seconds_ = 0;
 };
 
-EmbreePeer::EmbreePeer(const PeerMesh& mesh) : positions_(mesh.positions), corners_(mesh.corners) {
+EmbreePeer::EmbreePeer(const PeerMesh& mesh, unsigned threads)
+    : positions_(mesh.positions),
+      corners_(mesh.corners),
+      device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
   const std::size_t vertices = positions_.size() / 3;
   positions_.push_back(0);  // Embree reads 16 bytes a vertex
   rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
@@ -95,10 +101,13 @@ EmbreePeer::EmbreePeer(const PeerMesh& mesh) : positions_(mesh.positions), corne
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, corners_.data(),
                              0, 12, mesh.triangles());
   rtcSetGeometryIntersectFilterFunction(geometry, count_hit);
+  const auto started = std::chrono::steady_clock::now();
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene_);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  commit_seconds_ = elapsed.count();
 }
 
 double EmbreePeer::distance(const Vec3& query) {
@@ -140,7 +149,11 @@ bool EmbreePeer::inside(const Vec3& query) {
 }  // namespace
 
 std::unique_ptr<Peer> make_embree_peer(const PeerMesh& mesh) {
-  return std::make_unique<EmbreePeer>(mesh);
+  return std::make_unique<EmbreePeer>(mesh, 1);
+}
+
+double embree_build_seconds(const PeerMesh& mesh, unsigned threads) {
+  return EmbreePeer(mesh, threads).commit_seconds();
 }
 
 }  // namespace planetree::bench

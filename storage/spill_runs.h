@@ -46,6 +46,7 @@ class SpillRuns {
   Cut end() const;
   /// The first records that are not before a key.
   Result<Cut> cut(const SpillKey& key) const;
+  /// Records between two cuts; modulo 2^64 where `to` is before `from`.
   static std::uint64_t count(const Cut& from, const Cut& to);
 
   /// Records between two cuts, run after run.

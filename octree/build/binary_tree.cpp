@@ -61,23 +61,24 @@ class SubtreeBuilder {
       for (const Point& corner : mesh_.corners(keys_[i].position))
         extend(item.box, corner - centre_);
     }
-    const std::span<SplitItem> used(items.data(), end - begin);
-    const std::uint32_t root = split_items(used, begin);
-    for (std::uint32_t i = begin; i < end; ++i) keys_[i] = items[i - begin].key;
+    AreaSplitter splitter({items.data(), end - begin});
+    const std::uint32_t root = split_items(splitter, begin, 0, end - begin);
+    for (std::uint32_t i = begin; i < end; ++i) keys_[i] = splitter.in_split_order(i - begin).key;
     return root;
   }
 
-  std::uint32_t split_items(std::span<SplitItem> items, std::uint32_t begin) {
+  // Of places [first, last), keys from `begin` on being at place 0 and on.
+  std::uint32_t split_items(AreaSplitter& splitter, std::uint32_t begin, std::uint32_t first,
+                            std::uint32_t last) {
     const auto at = static_cast<std::uint32_t>(nodes.size());
-    const auto count = static_cast<std::uint32_t>(items.size());
-    nodes.push_back({empty_box(), begin, begin + count, 0, 0});
-    if (count <= kMaxBlockTriangles) {
-      for (const SplitItem& item : items) extend(nodes[at].box, item.box);
+    nodes.push_back({empty_box(), begin + first, begin + last, 0, 0});
+    if (last - first <= kMaxBlockTriangles) {
+      for (std::uint32_t i = first; i < last; ++i) extend(nodes[at].box, splitter.at(i).box);
       return at;
     }
-    const std::uint32_t left_count = split_by_area(items);
-    const std::uint32_t left = split_items(items.first(left_count), begin);
-    const std::uint32_t right = split_items(items.subspan(left_count), begin + left_count);
+    const std::uint32_t middle = first + splitter.split(first, last);
+    const std::uint32_t left = split_items(splitter, begin, first, middle);
+    const std::uint32_t right = split_items(splitter, begin, middle, last);
     join(at, left, right);
     return at;
   }

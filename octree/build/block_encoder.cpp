@@ -1,7 +1,6 @@
 #include "octree/build/block_encoder.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 
 namespace planetree::octree {
@@ -37,13 +36,6 @@ std::vector<To> narrowed(const std::vector<From>& values) {
 
 }  // namespace
 
-std::size_t BlockEncoder::Hash::operator()(const Position& position) const {
-  std::uint64_t hash = 0;
-  for (const double value : position)
-    hash = (std::rotl(hash, 21) ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15;
-  return static_cast<std::size_t>(hash ^ hash >> 32);
-}
-
 std::vector<std::uint32_t> BlockEncoder::sorted_positions(const WideBlock& block) const {
   std::vector<std::uint32_t> positions;
   for (std::uint32_t i = block.begin; i < block.end; ++i) positions.push_back(keys_[i].position);
@@ -58,12 +50,11 @@ void BlockEncoder::add(const WideBlock& block) {
   std::vector<std::uint32_t> vertices;
   Corners corners;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Triangle triangle = mesh_.corners(positions[i]);
+    const std::array<std::uint32_t, 3>& of_triangle = of_patch_.corners(positions[i]);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Position position{triangle[k].x(), triangle[k].y(), triangle[k].z()};
       const auto next = static_cast<std::uint32_t>(vertices_.size());
-      const auto [at, is_new] = vertex_of_.try_emplace(position, next);
-      if (is_new) vertices_.push_back(position);
+      const auto [at, is_new] = vertex_of_.try_emplace(of_triangle[k], next);
+      if (is_new) vertices_.push_back(of_triangle[k]);
       corners[i][k] = at->second;
       vertices.push_back(at->second);
     }
@@ -115,8 +106,8 @@ void BlockEncoder::describe(PageHead& head) const {
 
 std::vector<double> BlockEncoder::coordinates_by_axis() const {
   std::vector<double> coordinates;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const Position& vertex : vertices_) coordinates.push_back(vertex[axis]);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const std::uint32_t vertex : vertices_) coordinates.push_back(of_patch_[vertex][axis]);
   return coordinates;
 }
 

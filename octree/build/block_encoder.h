@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "octree/build/morton_order.h"
+#include "octree/build/patch_vertices.h"
 #include "octree/build/stream_writer.h"
 #include "octree/build/triangles.h"
 #include "octree/build/wide_tree.h"
@@ -21,8 +22,11 @@ namespace planetree::octree {
 /// from there and need no reference.
 class BlockEncoder {
  public:
-  BlockEncoder(const Triangles& mesh, const std::vector<MortonKey>& keys, const BlockShape& shape)
-      : mesh_(mesh), keys_(keys), shape_(shape) {}
+  BlockEncoder(const Triangles& mesh, const PatchVertices& vertices,
+               const std::vector<MortonKey>& keys, const BlockShape& shape)
+      : mesh_(mesh), of_patch_(vertices), keys_(keys), shape_(shape) {
+    vertex_of_.reserve(kUsualVertices);
+  }
 
   void add(const WideBlock& block);
   /// Fills the block fields of the head.
@@ -30,11 +34,9 @@ class BlockEncoder {
   void write(StreamWriter& writer) const;
 
  private:
-  using Position = std::array<double, 3>;
-  struct Hash {
-    std::size_t operator()(const Position& position) const;
-  };
   using Corners = std::array<std::array<std::uint32_t, 3>, kMaxBlockTriangles>;
+
+  static constexpr std::size_t kUsualVertices = 2048;  // of a page of 64 KiB
 
   std::vector<std::uint32_t> sorted_positions(const WideBlock& block) const;
   void add_ids(const std::vector<std::uint32_t>& positions);
@@ -43,10 +45,11 @@ class BlockEncoder {
   std::vector<double> coordinates_by_axis() const;
 
   const Triangles& mesh_;
+  const PatchVertices& of_patch_;
   const std::vector<MortonKey>& keys_;
   BlockShape shape_;
-  std::unordered_map<Position, std::uint32_t, Hash> vertex_of_;
-  std::vector<Position> vertices_;
+  std::unordered_map<std::uint32_t, std::uint32_t> vertex_of_;  // of the page, by the patch's
+  std::vector<std::uint32_t> vertices_;                         // of the patch, by the page's
   std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
   std::vector<std::uint16_t> vertex_refs_;
   std::vector<std::byte> corners_;

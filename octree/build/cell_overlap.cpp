@@ -78,6 +78,10 @@ bool may_touch(const Triangle& triangle, const Point& lower, const Point& upper)
   if ((a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any() ||
       (a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any())
     return false;
+  // Most triangles that touch a cell have a corner in it.
+  for (const Point& corner : triangle)
+    if ((corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all())
+      return true;
   const Centred about = centred(triangle, lower, upper);
   return !apart_along_normal(about, triangle) && !apart_along_edges(about, triangle);
 }

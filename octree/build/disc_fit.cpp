@@ -55,9 +55,9 @@ class DiscExtent {
 
 class DiscFitter {
  public:
-  DiscFitter(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
-             WideTree& tree)
-      : mesh_(mesh), centre_(centre), keys_(keys), tree_(tree) {}
+  DiscFitter(const Triangles& mesh, const PatchVertices& vertices, const Point& centre,
+             const std::vector<MortonKey>& keys, const WideTree& tree)
+      : mesh_(mesh), vertices_(vertices), centre_(centre), keys_(keys), tree_(tree) {}
 
   void fit(WideChild& child) const {
     const Point normal = normal_of(area_below(child));
@@ -65,12 +65,24 @@ class DiscFitter {
       return fit_disc(child, normal, boxes_below(tree_, tree_.nodes[child.index]));
     child.packed.normal = pack_normal(normal.x(), normal.y(), normal.z());
     DiscExtent extent(child.box, unpack_normal(child.packed.normal));
-    for (std::uint32_t i = child.begin; i < child.end; ++i)
-      for (const Point& corner : mesh_.corners(keys_[i].position)) extent.add(corner - centre_);
+    for_each_block(child, [&](std::uint32_t block) {
+      for (const std::uint32_t vertex : vertices_.of_block(block))
+        extent.add(vertices_[vertex] - centre_);
+    });
     extent.pack(child.box, child.packed);
   }
 
  private:
+  // Blocks are in the order of their triangles.
+  template <class Look>
+  void for_each_block(const WideChild& child, const Look& look) const {
+    const auto first = std::partition_point(
+        tree_.blocks.begin(), tree_.blocks.end(),
+        [&child](const WideBlock& block) { return block.begin < child.begin; });
+    for (auto block = first; block != tree_.blocks.end() && block->begin < child.end; ++block)
+      look(static_cast<std::uint32_t>(block - tree_.blocks.begin()));
+  }
+
   Point area_below(const WideChild& child) const {
     const std::uint32_t stride = 1 + child.count() / kNormalFaces;
     Point sum = Point::Zero();
@@ -80,6 +92,7 @@ class DiscFitter {
   }
 
   const Triangles& mesh_;
+  const PatchVertices& vertices_;
   const Point& centre_;
   const std::vector<MortonKey>& keys_;
   const WideTree& tree_;
@@ -122,9 +135,9 @@ std::vector<FloatBox> boxes_below(const WideTree& tree, const WideNode& node) {
   return boxes;
 }
 
-void fit_discs(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
-               WideTree& tree) {
-  const DiscFitter fitter(mesh, centre, keys, tree);
+void fit_discs(const Triangles& mesh, const PatchVertices& vertices, const Point& centre,
+               const std::vector<MortonKey>& keys, WideTree& tree) {
+  const DiscFitter fitter(mesh, vertices, centre, keys, tree);
   for (WideNode& node : tree.nodes)
     for (unsigned child = 0; child < node.child_count; ++child) fitter.fit(node.children[child]);
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "octree/build/morton_order.h"
+#include "octree/build/patch_vertices.h"
 #include "octree/build/triangles.h"
 #include "octree/build/wide_tree.h"
 
@@ -17,9 +18,10 @@ namespace planetree::octree {
 /// up to 2^16 triangles are enclosed vertex by vertex, larger ones by the boxes two levels
 /// below them.
 ///
-/// centre  of the model; boxes are relative to it.
-void fit_discs(const Triangles& mesh, const Point& centre, const std::vector<MortonKey>& keys,
-               WideTree& tree);
+/// vertices  of the triangles, with the blocks' listed.
+/// centre    of the model; boxes are relative to it.
+void fit_discs(const Triangles& mesh, const PatchVertices& vertices, const Point& centre,
+               const std::vector<MortonKey>& keys, WideTree& tree);
 
 /// Twice a triangle's area times its unit normal.
 Point area_vector(const Triangle& triangle);

@@ -46,9 +46,9 @@ class EdgeTable {
       : patch_(patch), entries_(std::bit_ceil(std::size_t{3} * patch.size() + 1)) {
     for (std::uint32_t i = 0; i < patch.size(); ++i) {
       const Triangle triangle = patch.corners(i);
-      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      for (unsigned corner = 0; corner < 3; ++corner) {
         const HalfEdge edge = half_edge(triangle, corner);
-        if (edge.way != 0) add(edge, 4 * std::uint64_t{i} + corner);
+        if (edge.way != 0) add(edge, 4 * i + corner);
       }
     }
   }
@@ -56,28 +56,31 @@ class EdgeTable {
   std::vector<LeftOver> left_over() const {
     std::vector<LeftOver> found;
     for (const Entry& entry : entries_)
-      if (entry.net != 0) found.push_back({{entry.hash, 0}, ends_at(entry.place), entry.net});
+      if (entry.net != 0) {
+        const Ends ends = ends_of(entry);
+        found.push_back({{hash_of(ends), 0}, ends, entry.net});
+      }
     return found;
   }
 
  private:
+  // Small: what is looked at is anywhere among them.
   struct Entry {
-    std::uint64_t hash = 0;
-    std::uint64_t place = kNowhere;  // 4 * triangle + corner of the first face
-    std::int64_t net = 0;
+    std::uint32_t place = kNone;  // 4 * triangle + corner of the first face that has the edge
+    std::int32_t net = 0;
   };
-  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  Ends ends_at(std::uint64_t place) const {
-    return half_edge(patch_.corners(static_cast<std::uint32_t>(place / 4)), place % 4).ends;
+  Ends ends_of(const Entry& entry) const {
+    return half_edge(patch_.corners(entry.place / 4), entry.place % 4).ends;
   }
 
-  void add(const HalfEdge& edge, std::uint64_t place) {
-    const std::uint64_t hash = hash_of(edge.ends);
-    for (std::size_t at = hash;; ++at) {
+  void add(const HalfEdge& edge, std::uint32_t place) {
+    for (std::size_t at = hash_of(edge.ends);; ++at) {
       Entry& entry = entries_[at & (entries_.size() - 1)];
-      if (entry.place == kNowhere) entry = {hash, place, 0};
-      if (entry.hash != hash || (entry.place != place && ends_at(entry.place) != edge.ends))
+      if (entry.place == kNone)
+        entry.place = place;
+      else if (ends_of(entry) != edge.ends)
         continue;
       entry.net += edge.way;
       return;

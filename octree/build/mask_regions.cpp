@@ -82,8 +82,9 @@ class MaskRegions::Visit {
   void add(const storage::SpillKey& key, const Triangle& triangle) {
     own_ = regions_.region_of_code(key.first);
     key_ = key;
-    winding_ += crossing_if_near(way_out_, triangle);
-    touch(0, triangle);
+    const BoxedTriangle boxed(triangle);
+    winding_ += way_out_.crossing(boxed);
+    touch(0, boxed);
   }
 
   struct Sum {
@@ -98,14 +99,14 @@ class MaskRegions::Visit {
 
  private:
   // From the root's least corner.
-  static MovedSegment way_out(const CellGrid& grid) {
+  static DownwardSegment way_out(const CellGrid& grid) {
     const Point corner = grid.lower({});
     Point outside = corner;
     outside.x() = std::min(corner.x() - 1, std::nextafter(corner.x(), -kInfinity));
-    return {corner, outside};
+    return DownwardSegment({corner, outside});
   }
 
-  void touch(std::size_t at, const Triangle& triangle) {
+  void touch(std::size_t at, const BoxedTriangle& triangle) {
     const Region& region = regions_.regions_[at];
     if (region.divided()) {
       const unsigned near = octants_of_box(triangle, regions_.grid_.middle(region.cell));
@@ -115,40 +116,40 @@ class MaskRegions::Visit {
     }
     const Point lower = regions_.grid_.lower(region.cell),
                 upper = regions_.grid_.upper(region.cell);
-    if (at != 0 && !may_touch(triangle, lower, upper)) return;
-    if (at != own_) visitors_.add({at, key_.second}, triangle);
+    if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
+    if (at != own_) visitors_.add({at, key_.second}, triangle.corners);
     Sum& sum = sums_[at];
     if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, sum.rise);
   }
 
   // Edges are in sides across two axes.
-  static bool may_cross_edges(const Triangle& triangle, const Point& lower, const Point& upper) {
-    const auto& [a, b, c] = triangle;
-    const Point least = a.cwiseMin(b).cwiseMin(c), greatest = a.cwiseMax(b).cwiseMax(c);
-    return (least.array() <= lower.array() || greatest.array() >= upper.array()).count() >= 2;
+  static bool may_cross_edges(const BoxedTriangle& triangle, const Point& lower,
+                              const Point& upper) {
+    return (triangle.least.array() <= lower.array() || triangle.greatest.array() >= upper.array())
+               .count() >= 2;
   }
 
-  void add_rise(const Triangle& triangle, const GridCell& cell,
+  void add_rise(const BoxedTriangle& triangle, const GridCell& cell,
                 std::array<std::int64_t, 8>& rise) const;
 
   const MaskRegions& regions_;
   std::size_t own_ = 0;
   storage::SpillKey key_;
-  const MovedSegment way_out_;
+  const DownwardSegment way_out_;
   std::int64_t winding_ = 0;
   std::map<std::size_t, Sum> sums_;
   Triangles visitors_;
 };
 
 // Crossings along the cell's edges, each from the corner before it on the way from the least.
-void MaskRegions::Visit::add_rise(const Triangle& triangle, const GridCell& cell,
+void MaskRegions::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
                                   std::array<std::int64_t, 8>& rise) const {
   std::array<std::int64_t, 8> steps{};
   for (unsigned which = 1; which < 8; ++which) {
     const unsigned before = which & (which - 1);
-    steps[which] = steps[before] + crossing_if_near({regions_.grid_.corner(cell, which),
-                                                     regions_.grid_.corner(cell, before)},
-                                                    triangle);
+    const DownwardSegment edge(
+        {regions_.grid_.corner(cell, which), regions_.grid_.corner(cell, before)});
+    steps[which] = steps[before] + edge.crossing(triangle);
     rise[which] += steps[which];
   }
 }
@@ -182,19 +183,35 @@ Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) co
   if (!last) return last.error();
   auto records = visitors_.read(*first, *last);
   if (!records) return records.error();
-  const Triangles visitors(*std::move(records), float64_);
-  Triangles all(float64_);
-  all.reserve(std::size_t{own->size()} + visitors.size());
-  const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
-  for (std::uint32_t i = 0; i < own->size(); ++i) {
-    const Triangle triangle = own->corners(i);
-    if (at == 0 || may_touch(triangle, lower, upper)) all.add(own->key(i), triangle);
-  }
+  Triangles visitors(*std::move(records), float64_);
   for (std::uint32_t i = 0; i < visitors.size(); ++i) {
     const Triangle triangle = visitors.corners(i);
-    all.add({morton_code_of(triangle, lower_), visitors.index(i)}, triangle);
+    visitors.set(i, {morton_code_of(triangle, lower_), visitors.index(i)}, triangle);
   }
-  all.sort();
+  visitors.sort();
+  return joined(*own, visitors, at);
+}
+
+// By key; of a region's own triangles those that touch it.
+Triangles MaskRegions::joined(const Triangles& own, const Triangles& visitors,
+                              std::size_t region) const {
+  const GridCell& cell = regions_[region].cell;
+  const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
+  Triangles all(float64_);
+  all.reserve(std::size_t{own.size()} + visitors.size());
+  std::uint32_t next = 0;
+  const auto add_visitors_before = [&](const storage::SpillKey& key) {
+    for (; next < visitors.size() && visitors.key(next) < key; ++next)
+      all.add(visitors.key(next), visitors.corners(next));
+  };
+  for (std::uint32_t i = 0; i < own.size(); ++i) {
+    const Triangle triangle = own.corners(i);
+    if (region != 0 && !may_touch(triangle, lower, upper)) continue;
+    add_visitors_before(own.key(i));
+    all.add(own.key(i), triangle);
+  }
+  constexpr std::uint64_t kLast = ~std::uint64_t{0};
+  add_visitors_before({kLast, kLast});
   return all;
 }
 

@@ -68,6 +68,7 @@ class MaskRegions {
                       std::uint64_t most, unsigned wasted);
   Result<std::array<Stretch, 8>> octants_of(std::size_t at, const Stretch& stretch,
                                             const TriangleRuns& runs) const;
+  Triangles joined(const Triangles& own, const Triangles& visitors, std::size_t region) const;
   std::size_t region_of_code(std::uint64_t code) const;
 
   const CellGrid grid_;

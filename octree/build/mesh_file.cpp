@@ -73,7 +73,8 @@ Result<MeshFile> MeshFile::open(const std::filesystem::path& path, std::uint64_t
 
 MeshFile::MeshFile(const std::byte* bytes, std::uint64_t size_bytes, std::uint64_t max_mapped_bytes)
     : bytes_(bytes), size_bytes_(size_bytes) {
-  if (bytes_ == nullptr || max_mapped_bytes == 0) return;
+  // What fits whole needs no counting.
+  if (bytes_ == nullptr || max_mapped_bytes == 0 || size_bytes <= max_mapped_bytes) return;
   max_windows_ = std::max<std::uint64_t>(max_mapped_bytes / kWindowBytes, 1);
   windows_.resize(static_cast<std::size_t>((size_bytes - 1) / kWindowBytes + 1));
   // One fault may map a whole huge page, against which counting windows is blind.

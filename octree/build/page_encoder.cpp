@@ -103,22 +103,10 @@ class NodeEncoder {
 
 }  // namespace
 
-unsigned count_block_vertices(const Triangles& mesh, const std::vector<MortonKey>& keys,
-                              const WideBlock& block) {
-  std::array<std::array<double, 3>, kMaxBlockVertices> positions;
-  std::size_t count = 0;
-  for (std::uint32_t i = block.begin; i < block.end; ++i)
-    for (const Point& corner : mesh.corners(keys[i].position))
-      positions[count++] = {corner.x(), corner.y(), corner.z()};
-  const auto end = positions.begin() + static_cast<std::ptrdiff_t>(count);
-  std::sort(positions.begin(), end);
-  return static_cast<unsigned>(std::unique(positions.begin(), end) - positions.begin());
-}
-
 EncodedPage PageEncoder::encode(std::size_t which) const {
   const PlannedPage& page = plan_.pages[which];
   NodeEncoder nodes(plan_, page.number);
-  BlockEncoder blocks(mesh_, keys_, shape_);
+  BlockEncoder blocks(mesh_, vertices_, keys_, shape_);
   for (std::size_t i = 0; i < page.nodes.size(); ++i)
     nodes.add(tree_.nodes[page.nodes[i]], i < page.root_node_count,
               shape_.moments ? &tree_.moments[page.nodes[i]] : nullptr);

@@ -6,15 +6,12 @@
 
 #include "octree/build/morton_order.h"
 #include "octree/build/page_plan.h"
+#include "octree/build/patch_vertices.h"
 #include "octree/build/triangles.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
 
 namespace planetree::octree {
-
-/// Distinct vertices of a block, bit-equal positions counted once.
-unsigned count_block_vertices(const Triangles& mesh, const std::vector<MortonKey>& keys,
-                              const WideBlock& block);
 
 /// A page's raw bytes, and where in them its links to other pages are.
 struct EncodedPage {
@@ -27,15 +24,17 @@ struct EncodedPage {
 /// encoder per thread; the bytes depend on the arguments alone.
 class PageEncoder {
  public:
-  PageEncoder(const Triangles& mesh, const std::vector<MortonKey>& keys, const WideTree& tree,
-              const PagePlan& plan, const BlockShape& shape)
-      : mesh_(mesh), keys_(keys), tree_(tree), plan_(plan), shape_(shape) {}
+  PageEncoder(const Triangles& mesh, const PatchVertices& vertices,
+              const std::vector<MortonKey>& keys, const WideTree& tree, const PagePlan& plan,
+              const BlockShape& shape)
+      : mesh_(mesh), vertices_(vertices), keys_(keys), tree_(tree), plan_(plan), shape_(shape) {}
 
   /// page  of the plan.
   EncodedPage encode(std::size_t page) const;
 
  private:
   const Triangles& mesh_;
+  const PatchVertices& vertices_;
   const std::vector<MortonKey>& keys_;
   const WideTree& tree_;
   const PagePlan& plan_;

@@ -6,6 +6,7 @@
 #include "octree/build/disc_fit.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/page_encoder.h"
+#include "octree/build/patch_vertices.h"
 #include "octree/build/wide_tree.h"
 #include "octree/strict_math.h"
 
@@ -49,7 +50,9 @@ Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
     patch.box = binary[0].box;
     tree = collapse(binary);
   }
-  fit_discs(triangles, centre, keys, tree);
+  PatchVertices vertices(triangles);
+  vertices.list_blocks(tree.blocks, keys);
+  fit_discs(triangles, vertices, centre, keys, tree);
   if (shape.moments) {
     TreeMoments moments = sum_moments(triangles, centre, keys, tree, patch.box);
     tree.moments = std::move(moments.nodes);
@@ -57,13 +60,14 @@ Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
   }
   describe(triangles, tree, patch);
   std::vector<std::uint8_t> block_slots;
-  for (const WideBlock& block : tree.blocks)
-    block_slots.push_back(
-        static_cast<std::uint8_t>(shape.slots(count_block_vertices(triangles, keys, block))));
+  for (std::uint32_t block = 0; block < tree.blocks.size(); ++block) {
+    const auto count = static_cast<unsigned>(vertices.of_block(block).size());
+    block_slots.push_back(static_cast<std::uint8_t>(shape.slots(count)));
+  }
   const auto plan = plan_pages(tree, keys, {shape.node_slots(), block_slots}, page_bytes);
   if (!plan) return plan.error();
   patch.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
-  const PageEncoder encoder(triangles, keys, tree, *plan, shape);
+  const PageEncoder encoder(triangles, vertices, keys, tree, *plan, shape);
   for (const PlannedPage& page : plan->pages) {
     const auto spilled = put_away(encoder, page, file);
     if (!spilled) return spilled.error();

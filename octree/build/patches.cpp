@@ -66,7 +66,10 @@ class PatchCutter {
       const std::uint64_t index = least + (most - least) / 2;
       const auto middle = runs_.cut(stretch.code, index);
       if (!middle) return middle.error();
-      if (TriangleRuns::count(stretch.patch.from, *middle) < lower)
+      // Less than none where the index is before the stretch.
+      const auto before =
+          static_cast<std::int64_t>(TriangleRuns::count(stretch.patch.from, *middle));
+      if (before < static_cast<std::int64_t>(lower))
         least = index + 1;
       else
         most = index;

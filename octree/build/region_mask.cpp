@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <span>
+#include <numeric>
 #include <utility>
 
 #include "octree/build/cell_overlap.h"
@@ -37,21 +37,19 @@ struct GreyCell {
 
 using Octants = std::array<GreyCell, 8>;
 
-/// winding(from) - winding(to).
-std::int64_t count_crossings(const MovedSegment& segment, std::span<const Triangle> triangles) {
-  std::int64_t sum = 0;
-  for (const Triangle& triangle : triangles) sum += crossing_if_near(segment, triangle);
-  return sum;
-}
-
 class RegionMask {
  public:
-  RegionMask(const CellGrid& grid, const Triangles& triangles) : grid_(grid), mesh_(triangles) {}
+  RegionMask(const CellGrid& grid, const Triangles& triangles) : grid_(grid) {
+    triangles_.reserve(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      triangles_.emplace_back(triangles.corners(i));
+  }
 
   // winding  at the cell's least corner.
   MaskTree run(const GridCell& cell, std::int64_t winding) const {
-    GreyCell region{cell, {}, winding, mesh_.size()};
-    for (std::uint32_t i = 0; i < mesh_.size(); ++i) region.triangles.push_back(i);
+    GreyCell region{cell, {}, winding, triangles_.size()};
+    region.triangles.resize(triangles_.size());
+    std::iota(region.triangles.begin(), region.triangles.end(), 0);
     MaskTree tree;
     tree.entries.resize(1);
     grow(std::move(region), tree, 0);
@@ -59,11 +57,12 @@ class RegionMask {
   }
 
  private:
-  std::int64_t count_crossings_of(const MovedSegment& segment,
-                                  const std::vector<std::uint32_t>& positions) const {
+  /// winding(from) - winding(to).
+  std::int64_t count_crossings(const MovedSegment& segment,
+                               const std::vector<std::uint32_t>& triangles) const {
+    const DownwardSegment down(segment);
     std::int64_t sum = 0;
-    for (const std::uint32_t position : positions)
-      sum += crossing_if_near(segment, mesh_.corners(position));
+    for (const std::uint32_t i : triangles) sum += down.crossing(triangles_[i]);
     return sum;
   }
 
@@ -110,12 +109,12 @@ class RegionMask {
       upper[octant] = grid_.upper(octants[octant].cell);
     }
     for (const std::uint32_t position : grey.triangles) {
-      const Triangle triangle = mesh_.corners(position);
+      const BoxedTriangle& triangle = triangles_[position];
       const unsigned near = octants_of_box(triangle, middle);
       const bool alone = std::has_single_bit(near);
       for (unsigned octant = 0; octant < 8; ++octant)
         if ((near >> octant & 1) != 0 &&
-            (alone || may_touch(triangle, lower[octant], upper[octant])))
+            (alone || may_touch(triangle.corners, lower[octant], upper[octant])))
           octants[octant].triangles.push_back(position);
     }
     // Along the edges between the octants' least corners.
@@ -124,7 +123,7 @@ class RegionMask {
       const unsigned before = octant & (octant - 1);
       octants[octant].winding =
           octants[before].winding +
-          count_crossings_of({lower[octant], lower[before]}, octants[before].triangles);
+          count_crossings({lower[octant], lower[before]}, octants[before].triangles);
     }
     return octants;
   }
@@ -146,14 +145,13 @@ class RegionMask {
   }
 
   // From the least corner along the cell's edges.
-  static std::array<std::int64_t, 8> count_corners(const std::array<Point, 8>& corners,
-                                                   std::span<const Triangle> triangles,
-                                                   std::int64_t least) {
-    std::array<std::int64_t, 8> winding{least};
+  std::array<std::int64_t, 8> count_corners(const std::array<Point, 8>& corners,
+                                            const GreyCell& grey) const {
+    std::array<std::int64_t, 8> winding{grey.winding};
     for (unsigned which = 1; which < 8; ++which) {
       const unsigned before = which & (which - 1);
       winding[which] =
-          winding[before] + count_crossings({corners[which], corners[before]}, triangles);
+          winding[before] + count_crossings({corners[which], corners[before]}, grey.triangles);
     }
     return winding;
   }
@@ -165,12 +163,11 @@ class RegionMask {
     std::vector<Triangle> triangles;
     for (const std::uint32_t position : grey.triangles) {
       if (triangles.size() == kFirst && !in_few_planes(triangles)) return false;
-      triangles.push_back(mesh_.corners(position));
+      triangles.push_back(triangles_[position].corners);
     }
     if (!in_few_planes(triangles)) return false;
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const auto special =
-        special_cell(triangles, corners, count_corners(corners, triangles, grey.winding));
+    const auto special = special_cell(triangles, corners, count_corners(corners, grey));
     if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
     tree.entries[place].kind = MaskEntry::Kind::kSpecial;
     tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
@@ -182,11 +179,8 @@ class RegionMask {
     MaskEntry& entry = tree.entries[place];
     entry.kind = MaskEntry::Kind::kCorners;
     entry.corners.fill(kUncounted);
-    std::vector<Triangle> triangles;
-    for (const std::uint32_t position : grey.triangles)
-      triangles.push_back(mesh_.corners(position));
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const std::array<std::int64_t, 8> winding = count_corners(corners, triangles, grey.winding);
+    const std::array<std::int64_t, 8> winding = count_corners(corners, grey);
     const auto fits = [](std::int64_t number) {
       return -kUncounted > number && number > kUncounted;
     };
@@ -194,7 +188,7 @@ class RegionMask {
     // Straight through the cell, past all edges; were it ever another number, the
     // cell would be left to longer ways.
     const bool agree =
-        winding[7] == winding[0] + count_crossings({corners[7], corners[0]}, triangles);
+        winding[7] == winding[0] + count_crossings({corners[7], corners[0]}, grey.triangles);
     assert(agree);
     if (!agree) return;
     for (unsigned which = 0; which < 8; ++which)
@@ -202,7 +196,7 @@ class RegionMask {
   }
 
   const CellGrid& grid_;
-  const Triangles& mesh_;
+  std::vector<BoxedTriangle> triangles_;
 };
 
 }  // namespace

@@ -57,13 +57,16 @@ class PhaseCount {
 class TreeBuild {
  public:
   TreeBuild(const std::filesystem::path& input, const std::filesystem::path& output,
-            const BuildOptions& options, const BuildMemory& memory, BuildProgress& progress)
+            const BuildOptions& options, const BuildMemory& memory, BuildProgress& progress,
+            const BuildSeams& seams)
       : input_(input),
         output_(output),
         options_(options),
         memory_(memory),
         progress_(progress),
-        file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory) {}
+        seams_(seams),
+        file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory,
+              seams.calls) {}
 
   Result<BuildReport> run() {
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
@@ -94,6 +97,7 @@ class TreeBuild {
   const BuildOptions& options_;
   BuildMemory memory_;
   BuildProgress& progress_;
+  const BuildSeams& seams_;
   storage::SpillFile file_;
   ModelFrame frame_;
   std::uint64_t vertex_records_ = 0;
@@ -134,19 +138,19 @@ Result<void> TreeBuild::order_triangles() {
   runs_.emplace(frame_.float64, memory_.runs_bytes, file_);
   PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
   if (const auto taken = runs_->take(intake, [&count] { count.add(); }); !taken) return taken;
-  auto above = cut_patches(*runs_);
+  auto above = cut_patches(*runs_, seams_.patch_triangles);
   if (!above) return above.error();
   above_ = *std::move(above);
   return {};
 }
 
-// Calls work(number, triangles) for each.
+// Calls work(number, triangles in any order) for each.
 template <class Work>
 Result<void> TreeBuild::for_each_patch(BuildPhase phase, const Work& work) {
   PhaseCount count(progress_, phase, above_.patches.size());
   return for_each_in_parallel(above_.patches.size(), [&](std::size_t i) -> Result<void> {
     const Patch& patch = above_.patches[i];
-    const auto triangles = runs_->read(patch.from, patch.to);
+    auto triangles = runs_->read_any_order(patch.from, patch.to);
     if (!triangles) return triangles.error();
     if (const Result<void> done = work(i, *triangles); !done) return done;
     count.add();
@@ -178,11 +182,13 @@ Result<void> TreeBuild::balance_edges() {
 Result<void> TreeBuild::build_patches() {
   if (edges_.open_edges == 0) {
     regions_.emplace(frame_.lower(), frame_.float64, memory_.left_over_bytes, file_);
-    if (const auto divided = regions_->divide(*runs_); !divided) return divided;
+    if (const auto divided = regions_->divide(*runs_, seams_.region_triangles); !divided)
+      return divided;
   }
   patches_.resize(above_.patches.size());
   return for_each_patch(
-      BuildPhase::kBounding, [&](std::size_t i, const Triangles& triangles) -> Result<void> {
+      BuildPhase::kBounding, [&](std::size_t i, Triangles& triangles) -> Result<void> {
+        triangles.sort();
         if (regions_)
           if (const auto added = regions_->add(triangles); !added) return added;
         auto built = build_patch(triangles, frame_.centre(), shape_, options_.page_bytes, file_);
@@ -211,7 +217,8 @@ Result<BuildReport> TreeBuild::write_pages() {
   const PageNumbers numbers(crown, patches_, options_.page_bytes);
   if (const auto checked = numbers.check(); !checked) return checked.error();
   const TreePages pages(crown, patches_, numbers, shape_, file_);
-  auto writer = storage::PageWriter::create(output_, pages.size() + mask_pages(), options_.replace);
+  auto writer = storage::PageWriter::create(output_, pages.size() + mask_pages(), options_.replace,
+                                            seams_.calls);
   if (!writer) return writer.error();
   using Key = std::pair<std::uint64_t, std::uint32_t>;
   const auto appended = append_pages(
@@ -304,17 +311,19 @@ storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {
 
 Result<BuildReport> build_tree(const std::filesystem::path& input,
                                const std::filesystem::path& output, const BuildOptions& options,
-                               BuildProgress& progress) {
+                               BuildProgress& progress, const BuildSeams& seams) {
   if (!std::has_single_bit(options.page_bytes) || options.page_bytes < storage::kMinPageBytes ||
       options.page_bytes > storage::kMaxPageBytes)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "a page of %u bytes; use a power of two from 4K to 256K", options.page_bytes);
-  const auto memory = BuildMemory::share(options.memory_bytes, options.threads);
+  const auto memory = seams.memory ? Result<BuildMemory>(*seams.memory)
+                                   : BuildMemory::share(options.memory_bytes, options.threads);
   if (!memory) return memory.error();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(memory->threads));
   tbb::task_arena arena(memory->threads);
-  return arena.execute([&] { return TreeBuild(input, output, options, *memory, progress).run(); });
+  return arena.execute(
+      [&] { return TreeBuild(input, output, options, *memory, progress, seams).run(); });
 }
 
 }  // namespace planetree::octree

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "octree/build/build_seams.h"
 #include "planetree/error.h"
 #include "storage/file_layout.h"
 
@@ -61,6 +62,6 @@ struct BuildReport {
 ///         collapse and paging are ours.
 Result<BuildReport> build_tree(const std::filesystem::path& input,
                                const std::filesystem::path& output, const BuildOptions& options,
-                               BuildProgress& progress);
+                               BuildProgress& progress, const BuildSeams& seams = {});
 
 }  // namespace planetree::octree

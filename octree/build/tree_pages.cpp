@@ -52,7 +52,10 @@ Result<std::vector<std::byte>> TreePages::encode(std::uint32_t number) const {
   const NumberedPage& page = numbers_.pages()[number];
   if (page.patch != NumberedPage::kCrown) return fetch(number);
   const Triangles none;
-  return PageEncoder(none, {}, crown_.tree, crown_.plan, shape_).encode(page.place).bytes;
+  const PatchVertices no_vertices(none);
+  return PageEncoder(none, no_vertices, {}, crown_.tree, crown_.plan, shape_)
+      .encode(page.place)
+      .bytes;
 }
 
 Result<std::vector<std::byte>> TreePages::fetch(std::uint32_t number) const {

@@ -22,11 +22,15 @@ Result<void> TriangleRuns::add(Triangles triangles) {
   return runs_.add(triangles.take_records());
 }
 
-Result<Triangles> TriangleRuns::read(const Cut& from, const Cut& to) const {
+Result<Triangles> TriangleRuns::read_any_order(const Cut& from, const Cut& to) const {
   auto records = runs_.read(from, to);
   if (!records) return records.error();
-  Triangles triangles(*std::move(records), float64_);
-  triangles.sort();
+  return Triangles(*std::move(records), float64_);
+}
+
+Result<Triangles> TriangleRuns::read(const Cut& from, const Cut& to) const {
+  auto triangles = read_any_order(from, to);
+  if (triangles) triangles->sort();
   return triangles;
 }
 

@@ -39,7 +39,9 @@ class TriangleRuns {
     return storage::SpillRuns::count(from, to);
   }
 
-  /// The triangles between two cuts, by code, then index; fewer than 2^32.
+  /// The triangles between two cuts, fewer than 2^32, in an order that depends on the runs.
+  Result<Triangles> read_any_order(const Cut& from, const Cut& to) const;
+  /// The same by code, then index.
   Result<Triangles> read(const Cut& from, const Cut& to) const;
 
  private:

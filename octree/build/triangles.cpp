@@ -1,6 +1,7 @@
 #include "octree/build/triangles.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "octree/strict_math.h"
 
@@ -16,6 +17,34 @@ void store(const Triangle& corners, std::byte* to) {
   std::memcpy(to, values, sizeof values);
 }
 
+/// Puts elements in order: those of a few sorted runs by merging them. False if they were.
+template <class Element, class Precedes>
+bool merge_runs(std::vector<Element>& elements, const Precedes& precedes) {
+  constexpr std::size_t kFewElements = 64;  // a run, on average, or more: else sorting is quicker
+  const auto first = elements.begin(), last = elements.end();
+  std::vector<std::ptrdiff_t> ends;
+  for (auto begin = first; begin != last;) {
+    begin = std::is_sorted_until(begin, last, precedes);
+    ends.push_back(begin - first);
+  }
+  if (ends.size() <= 1) return false;
+  if (ends.size() > elements.size() / kFewElements) {
+    std::sort(first, last, precedes);
+    return true;
+  }
+  while (ends.size() > 1) {
+    std::vector<std::ptrdiff_t> merged;
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+      const std::ptrdiff_t begin = i == 0 ? 0 : ends[i - 1], middle = ends[i];
+      const std::ptrdiff_t end = i + 1 < ends.size() ? ends[i + 1] : middle;
+      std::inplace_merge(first + begin, first + middle, first + end, precedes);
+      merged.push_back(end);
+    }
+    ends = std::move(merged);
+  }
+  return true;
+}
+
 }  // namespace
 
 void Triangles::set(std::uint32_t position, const storage::SpillKey& key, const Triangle& corners) {
@@ -29,14 +58,15 @@ void Triangles::set(std::uint32_t position, const storage::SpillKey& key, const 
 
 void Triangles::sort() {
   struct Place {
-    storage::SpillKey key;
+    std::uint64_t code;
     std::uint32_t position;
   };
   std::vector<Place> order(size());
-  for (std::uint32_t i = 0; i < size(); ++i) order[i] = {key(i), i};
-  const auto precedes = [](const Place& a, const Place& b) { return a.key < b.key; };
-  if (std::is_sorted(order.begin(), order.end(), precedes)) return;
-  std::sort(order.begin(), order.end(), precedes);
+  for (std::uint32_t i = 0; i < size(); ++i) order[i] = {code(i), i};
+  const auto precedes = [this](const Place& a, const Place& b) {
+    return a.code != b.code ? a.code < b.code : index(a.position) < index(b.position);
+  };
+  if (!merge_runs(order, precedes)) return;
   std::vector<std::byte> sorted(records_.size());
   for (std::uint32_t i = 0; i < size(); ++i)
     std::memcpy(sorted.data() + i * record_bytes(), at(order[i].position), record_bytes());

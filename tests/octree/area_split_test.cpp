@@ -24,6 +24,16 @@ std::vector<SplitItem> boxes_around(const std::vector<Vec3>& centres, float half
   return items;
 }
 
+// Puts the items in the order of one split; returns how many come first.
+std::uint32_t split_by_area(std::vector<SplitItem>& items) {
+  AreaSplitter splitter(items);
+  const std::uint32_t left = splitter.split(0, static_cast<std::uint32_t>(items.size()));
+  std::vector<SplitItem> split;
+  for (std::uint32_t i = 0; i < items.size(); ++i) split.push_back(splitter.in_split_order(i));
+  items = split;
+  return left;
+}
+
 std::vector<std::uint32_t> positions(const std::vector<SplitItem>& items) {
   std::vector<std::uint32_t> all;
   for (const SplitItem& item : items) all.push_back(item.key.position);

@@ -234,9 +234,9 @@ TEST(PagePlan, NamesPagesByCellsThatHoldTheirFirstSubtree) {
 
 TEST(PageEncoder, CountsBitEqualVerticesOnce) {
   const SampleTree same = build_sample(repeated(16));
-  EXPECT_EQ(count_block_vertices(same.mesh, same.keys, same.tree.blocks[0]), 3u);
+  EXPECT_EQ(same.vertices.of_block(0).size(), 3u);
   const SampleTree apart = build_sample(scattered(16, 0.1));
-  EXPECT_EQ(count_block_vertices(apart.mesh, apart.keys, apart.tree.blocks[0]), 48u);
+  EXPECT_EQ(apart.vertices.of_block(0).size(), 48u);
 }
 
 TEST(PageEncoder, StoresEachVertexOfAPageOnce) {

@@ -130,14 +130,16 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_
   sample.keys = keys_of(sample.mesh);
   sample.binary = build_binary_tree(sample.mesh, sample.centre, sample.keys);
   sample.tree = collapse(sample.binary);
-  fit_discs(sample.mesh, sample.centre, sample.keys, sample.tree);
+  sample.vertices = PatchVertices(sample.mesh);
+  sample.vertices.list_blocks(sample.tree.blocks, sample.keys);
+  fit_discs(sample.mesh, sample.vertices, sample.centre, sample.keys, sample.tree);
   if (moments)
     sample.tree.moments =
         sum_moments(sample.mesh, sample.centre, sample.keys, sample.tree, sample.binary[0].box)
             .nodes;
-  for (const WideBlock& block : sample.tree.blocks)
+  for (std::uint32_t block = 0; block < sample.tree.blocks.size(); ++block)
     sample.block_slots.push_back(static_cast<std::uint8_t>(
-        sample.shape.slots(count_block_vertices(sample.mesh, sample.keys, block))));
+        sample.shape.slots(static_cast<unsigned>(sample.vertices.of_block(block).size()))));
   sample.plan = *plan_pages(sample.tree, sample.keys,
                             {sample.shape.node_slots(), sample.block_slots}, page_bytes);
   return sample;
@@ -170,7 +172,7 @@ TreeFacts tree_facts(const SampleTree& sample) {
 }
 
 SamplePages::SamplePages(const SampleTree& sample) : withheld_(sample.plan.pages.size()) {
-  const PageEncoder encoder(sample.mesh, sample.keys, sample.tree, sample.plan, sample.shape);
+  const PageEncoder encoder(sample.mesh, sample.vertices, sample.keys, sample.tree, sample.plan, sample.shape);
   for (std::uint32_t page = 0; page < sample.plan.pages.size(); ++page) {
     raw_.push_back(encoder.encode(page).bytes);
     frames_.emplace_back(sample.plan.page_bytes);

@@ -13,6 +13,7 @@
 #include "octree/build/model_frame.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/page_plan.h"
+#include "octree/build/patch_vertices.h"
 #include "octree/build/triangle_runs.h"
 #include "octree/build/wide_tree.h"
 #include "octree/frame.h"
@@ -88,6 +89,7 @@ struct SampleTree {
   std::vector<MortonKey> keys;
   std::vector<BinaryNode> binary;
   WideTree tree;
+  PatchVertices vertices{Triangles()};
   std::vector<std::uint8_t> block_slots;
   PagePlan plan;
 };

@@ -253,7 +253,7 @@ TEST(DiscFit, EnclosesSubtreesTooLargeForTheirVertices) {
   above.children[0].box = root.box;
   ASSERT_GT(above.children[0].count(), 1u << 16);
   tree.nodes.push_back(above);
-  fit_discs(mesh, sample.centre, sample.keys, tree);
+  fit_discs(mesh, sample.vertices, sample.centre, sample.keys, tree);
   const Disc disc = unpack_disc(root.box, tree.nodes.back().children[0].packed);
   const auto centre = root.box.centre();
   const Point normal(disc.normal[0], disc.normal[1], disc.normal[2]);

@@ -57,9 +57,16 @@ BuiltModel::BuiltModel(const std::filesystem::path& mesh, const BuildChoices& ch
 
 void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& choices) {
   octree::BuildOptions options;
-  options.page_bytes = choices.page_bytes;
   Silent silent;
-  const auto report = octree::build_tree(mesh, path(), options, silent);
+  octree::BuildSeams seams;
+  if (choices.page_bytes < options.page_bytes) {
+    // As a large model is built: of many patches, spilled, and a mask of many regions.
+    seams.patch_triangles = 60;
+    seams.region_triangles = 90;
+    seams.memory = octree::BuildMemory{.threads = 2, .chunk_triangles = 100};
+  }
+  options.page_bytes = choices.page_bytes;
+  const auto report = octree::build_tree(mesh, path(), options, silent, seams);
   if (!report) give_up(report.error());
   scale_exponent_ = report->header.model.scale_exponent;
   OpenOptions open;

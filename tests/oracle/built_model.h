@@ -22,7 +22,7 @@ using Soup = std::vector<Corners>;
 void write_ply(const std::filesystem::path& path, std::span<const Corners> triangles);
 
 struct BuildChoices {
-  std::uint32_t page_bytes = 65536;
+  std::uint32_t page_bytes = 65536;  ///< smaller ones: built as large models are
   std::uint64_t budget_bytes = std::uint64_t{64} << 20;
   unsigned max_probes = 1;
 };

@@ -1,0 +1,147 @@
+// Models of many patches: what large ones are, with sizes so small that tests can look at them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "octree/build/tree_builder.h"
+#include "storage/page_file.h"
+#include "tests/octree/sample_mask.h"
+#include "tests/storage/faulty_calls.h"
+#include "tests/storage/file_image.h"
+#include "tests/storage/temporary_directory.h"
+
+namespace planetree::octree {
+namespace {
+
+class Silent final : public BuildProgress {
+  void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
+};
+
+// Binary STL, whose corners are floats.
+void write_stl(const std::filesystem::path& path, const Soup& soup) {
+  std::ofstream file(path, std::ios::binary);
+  const auto put = [&file](const auto& value) {
+    file.write(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  file << std::string(80, ' ');
+  put(static_cast<std::uint32_t>(soup.size()));
+  for (const auto& triangle : soup) {
+    for (int i = 0; i < 3; ++i) put(0.0f);
+    for (const Vec3& corner : triangle)
+      for (const double value : {corner.x, corner.y, corner.z}) put(static_cast<float>(value));
+    put(std::uint16_t{0});
+  }
+}
+
+struct Case {
+  const char* name;
+  Soup soup;
+};
+
+std::vector<Case> cases() {
+  Soup holed = sphere(4);
+  holed.resize(holed.size() - 5);
+  return {{"sphere", sphere(4)},
+          {"with a hole", holed},
+          {"grains", grains(300, 0.05)},
+          {"in one place", repeated(700)},
+          {"nested", joined({sphere(4), inside_out(scaled(sphere(3), 0.5))})},
+          {"one large, many small",
+           joined({scaled(sphere(3), 0x1p-8), moved(scaled(sphere(3), 0x1p-9), {0.2, 0, 0}),
+                   box({-1, -1, -1}, {1, 1, 1})})}};
+}
+
+class PatchedBuild : public testing::Test {
+ protected:
+  void write(const Soup& soup) { write_stl(mesh_, soup); }
+
+  Result<BuildReport> build(const BuildMemory& memory,
+                            storage::FileCalls& calls = storage::FileCalls::real(),
+                            bool replace = true) {
+    BuildOptions options;
+    options.page_bytes = 4096;
+    options.replace = replace;
+    Silent silent;
+    return build_tree(mesh_, output_, options, silent, {100, 150, memory, calls});
+  }
+  storage::Bytes built() const { return storage::read_bytes(output_); }
+
+  storage::TemporaryDirectory folder_;
+  storage::TemporaryDirectory meshes_;
+  std::filesystem::path mesh_ = meshes_ / "model.stl";
+  std::filesystem::path output_ = folder_ / "model.ptree";
+};
+
+constexpr BuildMemory kRoomy{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30};
+constexpr BuildMemory kTight{1, 77, 65536, 0, 0, 0};
+constexpr BuildMemory kBetween{3, 200, 65536, 30000, 20000, 5000};
+
+TEST_F(PatchedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    write(c.soup);
+    ASSERT_TRUE(build(kRoomy));
+    const storage::Bytes expected = built();
+    for (const BuildMemory& memory : {kTight, kBetween}) {
+      const auto report = build(memory);
+      ASSERT_TRUE(report) << report.error().text;
+      EXPECT_EQ(built(), expected);
+    }
+  }
+}
+
+TEST_F(PatchedBuild, LeavesNothingBesideTheFile) {
+  write(sphere(3));
+  ASSERT_TRUE(build(kTight));
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"});
+}
+
+// The n-th call fails, for every n: a clean error or the whole file, and nothing beside it.
+class PatchedBuildFaults : public PatchedBuild,
+                           public testing::WithParamInterface<storage::FaultyCalls::Fault> {
+ protected:
+  using Fault = storage::FaultyCalls::Fault;
+};
+
+TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
+  write(joined({sphere(2), moved(sphere(2), {3, 0, 0})}));
+  ASSERT_TRUE(build(kRoomy));
+  const storage::Bytes expected = built();
+  const storage::Bytes old(17, std::byte{42});
+  for (const bool no_unnamed : {false, true}) {
+    std::map<std::string, int> failed;
+    for (int fault_at = 0;; ++fault_at) {
+      storage::write_bytes(output_, old);
+      storage::FaultyCalls calls;
+      calls.no_unnamed = no_unnamed;
+      calls.fault = GetParam();
+      calls.number = fault_at % 2 == 0 ? EIO : ENOSPC;
+      calls.fault_at = fault_at;
+      const auto report = build(kTight, calls);
+      ASSERT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"}) << calls.failed_call();
+      if (!calls.happened()) {
+        EXPECT_TRUE(report);
+        break;
+      }
+      ASSERT_TRUE(report || GetParam() == Fault::kError) << report.error().text;
+      // The directory is synced when the file has its name.
+      const bool named = calls.failed_call() == "fsync" && calls.fsync_count() == 2;
+      ASSERT_EQ(built(), report || named ? expected : old) << calls.failed_call();
+      ++failed[calls.failed_call()];
+    }
+    const bool is_short = GetParam() == Fault::kShort;
+    EXPECT_GT(is_short ? failed["short"] : std::min(failed["pread"], failed["pwrite"]), 20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, PatchedBuildFaults,
+                         testing::Values(storage::FaultyCalls::Fault::kError,
+                                         storage::FaultyCalls::Fault::kInterrupt,
+                                         storage::FaultyCalls::Fault::kShort));
+
+}  // namespace
+}  // namespace planetree::octree
