@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <cerrno>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -40,8 +41,11 @@ FileHandle open_and_unlink(FileCalls& calls, int directory) {
 
 }  // namespace
 
-SpillFile::SpillFile(std::filesystem::path directory, FileCalls& calls)
-    : directory_(std::move(directory)), calls_(calls) {}
+SpillFile::SpillFile(std::filesystem::path directory, std::uint64_t held_bytes, FileCalls& calls)
+    : directory_(std::move(directory)),
+      held_bytes_(held_bytes),
+      held_(std::make_unique_for_overwrite<std::byte[]>(held_bytes)),
+      calls_(calls) {}
 
 Result<void> SpillFile::open() {
   const char* const path = directory_.empty() ? "." : directory_.c_str();
@@ -55,18 +59,25 @@ Result<void> SpillFile::open() {
 }
 
 Result<std::uint64_t> SpillFile::append(std::span<const std::byte> bytes) {
+  const std::uint64_t offset = next_.fetch_add(bytes.size(), std::memory_order_relaxed);
+  const std::size_t held = held_part(offset, bytes.size());
+  if (held > 0) std::memcpy(&held_[offset], bytes.data(), held);
+  if (held == bytes.size()) return offset;
   std::call_once(opened_once_, [this] {
     if (const auto opened = open(); !opened) failure_ = opened.error();
   });
   if (failure_) return *failure_;
-  const std::uint64_t offset = next_.fetch_add(bytes.size(), std::memory_order_relaxed);
-  if (const auto written = file_.write_at(offset, bytes); !written) return written.error();
+  const auto written = file_.write_at(offset + held, bytes.subspan(held));
+  if (!written) return written.error();
   return offset;
 }
 
 Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) const {
   assert(offset + out.size() <= size_bytes());
-  return file_.read_at(offset, out);
+  const std::size_t held = held_part(offset, out.size());
+  if (held > 0) std::memcpy(out.data(), &held_[offset], held);
+  if (held == out.size()) return {};
+  return file_.read_at(offset + held, out.subspan(held));
 }
 
 }  // namespace planetree::storage

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -14,15 +16,18 @@
 
 namespace planetree::storage {
 
-/// Bytes put away on disk while a build works. The file has no name, so that the system
-/// takes it back however the process ends; it is made when the first byte is put away.
+/// Bytes put away while a build works: in memory as far as allowed, then on disk. The file has
+/// no name, so that the system takes it back however the process ends; it is made when it is
+/// needed.
 ///
 /// threads  any number may append and read what was appended.
 class SpillFile {
  public:
-  /// directory  where there is room for it.
-  /// calls      the system; must outlive this.
-  explicit SpillFile(std::filesystem::path directory, FileCalls& calls = FileCalls::real());
+  /// directory   where there is room for it.
+  /// held_bytes  may stay in memory, which is taken as it is needed.
+  /// calls       the system; must outlive this.
+  SpillFile(std::filesystem::path directory, std::uint64_t held_bytes,
+            FileCalls& calls = FileCalls::real());
 
   /// Puts bytes away; returns where. Parts of one call are side by side.
   /// errors  kNotFound, kPermission, kNoSpace, kWriteFailed and the like.
@@ -37,8 +42,14 @@ class SpillFile {
 
  private:
   Result<void> open();
+  // How many of some bytes from `offset` on are in memory: the first.
+  std::size_t held_part(std::uint64_t offset, std::size_t bytes) const noexcept {
+    return offset < held_bytes_ ? std::min<std::uint64_t>(bytes, held_bytes_ - offset) : 0;
+  }
 
   const std::filesystem::path directory_;
+  const std::uint64_t held_bytes_;
+  const std::unique_ptr<std::byte[]> held_;
   FileCalls& calls_;
   std::once_flag opened_once_;
   std::optional<Error> failure_;

@@ -193,6 +193,13 @@ std::string page_size_complaint(std::uint64_t bytes) {
                      bytes);
 }
 
+std::string memory_complaint(std::uint64_t bytes) {
+  constexpr std::uint64_t kLeast = octree::BuildMemory::kLeastBytes;
+  if (bytes == 0 || bytes >= kLeast) return {};
+  return fmt::format("--memory: {} is too little for a build; give {}M or more", bytes,
+                     kLeast >> 20);
+}
+
 }  // namespace
 
 int run_build(const BuildArguments& arguments, Console& console) {
@@ -260,7 +267,9 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);
     options->arguments.options.page_bytes = static_cast<std::uint32_t>(options->page_bytes);
     action = [options, &console] { return run_build(options->arguments, console); };
-    return page_size_complaint(options->page_bytes);
+    const std::string complaint = page_size_complaint(options->page_bytes);
+    return complaint.empty() ? memory_complaint(options->arguments.options.memory_bytes)
+                             : complaint;
   });
 }
 

@@ -9,10 +9,6 @@ namespace planetree::octree {
 namespace {
 
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
-/// The program itself, page tables, what is spilled a little at a time.
-constexpr std::uint64_t kFixedBytes = 64 * kMiB;
-/// A patch of 2^18 triangles, its trees and pages; or a chunk, sorted and unsorted.
-constexpr std::uint64_t kThreadBytes = 96 * kMiB;
 /// The mask of a watertight model and its pages' plan, a triangle.
 constexpr std::uint64_t kMaskBytes = 8;
 
@@ -24,12 +20,12 @@ std::uint64_t machine_bytes() {
 }  // namespace
 
 Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
-  if (bytes == 0) bytes = std::max(machine_bytes() / 4, kFixedBytes + kThreadBytes);
-  if (bytes < kFixedBytes + kThreadBytes)
+  if (bytes == 0) bytes = std::max(machine_bytes() / 4, kLeastBytes);
+  if (bytes < kLeastBytes)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "%llu MiB of memory are too little for a build; give it %llu MiB or more",
                       static_cast<unsigned long long>(bytes / kMiB),
-                      static_cast<unsigned long long>((kFixedBytes + kThreadBytes) / kMiB));
+                      static_cast<unsigned long long>(kLeastBytes / kMiB));
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
   const std::uint64_t most = (bytes - kFixedBytes) / kThreadBytes;
   BuildMemory memory;
@@ -40,6 +36,7 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   memory.mapped_bytes = 16 * kMiB + left / 8;
   memory.intake_bytes = left / 4;
   memory.runs_bytes = left / 2;
+  memory.pages_bytes = left / 8;
   memory.left_over_bytes = left / 16;
   return memory;
 }

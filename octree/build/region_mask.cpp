@@ -111,7 +111,7 @@ class RegionMask {
     for (const std::uint32_t position : grey.triangles) {
       const BoxedTriangle& triangle = triangles_[position];
       const unsigned near = octants_of_box(triangle, middle);
-      const bool alone = std::has_single_bit(near);
+      const bool alone = (near & (near - 1)) == 0;
       for (unsigned octant = 0; octant < 8; ++octant)
         if ((near >> octant & 1) != 0 &&
             (alone || may_touch(triangle.corners, lower[octant], upper[octant])))
@@ -157,14 +157,17 @@ class RegionMask {
   }
 
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
-    constexpr std::size_t kFirst = 16;
     const std::size_t count = grey.triangles.size();
     if (count < kTrianglesPerPlane || count > kMostSpecialTriangles) return false;
+    // A few of them, far apart, usually tell.
+    constexpr std::size_t kSamples = 8;
     std::vector<Triangle> triangles;
-    for (const std::uint32_t position : grey.triangles) {
-      if (triangles.size() == kFirst && !in_few_planes(triangles)) return false;
+    for (std::size_t i = 0; i < kSamples; ++i)
+      triangles.push_back(triangles_[grey.triangles[i * count / kSamples]].corners);
+    if (!in_few_planes(triangles)) return false;
+    triangles.clear();
+    for (const std::uint32_t position : grey.triangles)
       triangles.push_back(triangles_[position].corners);
-    }
     if (!in_few_planes(triangles)) return false;
     const std::array<Point, 8> corners = corners_of(grey.cell);
     const auto special = special_cell(triangles, corners, count_corners(corners, grey));

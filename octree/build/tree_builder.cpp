@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "octree/build/build_memory.h"
@@ -18,6 +17,7 @@
 #include "octree/build/mask_plan.h"
 #include "octree/build/mesh_intake.h"
 #include "octree/build/mesh_reader.h"
+#include "octree/build/page_appender.h"
 #include "octree/build/page_numbers.h"
 #include "octree/build/parallel.h"
 #include "octree/build/patch_build.h"
@@ -25,14 +25,10 @@
 #include "octree/build/tree_pages.h"
 #include "octree/build/triangle_runs.h"
 #include "octree/strict_math.h"
-#include "storage/page_codec.h"
 #include "storage/page_writer.h"
 
 namespace planetree::octree {
 namespace {
-
-// Pages encoded together before they are written in order.
-constexpr std::uint32_t kBatchPages = 256;
 
 /// Counts the parts of a phase that are done.
 class PhaseCount {
@@ -65,8 +61,10 @@ class TreeBuild {
         memory_(memory),
         progress_(progress),
         seams_(seams),
-        file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory,
-              seams.calls) {}
+        file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory, 0,
+              seams.calls),
+        pages_file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory,
+                    memory.pages_bytes, seams.calls) {}
 
   Result<BuildReport> run() {
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
@@ -86,9 +84,6 @@ class TreeBuild {
   Result<BuildReport> write_pages();
   template <class Work>
   Result<void> for_each_patch(BuildPhase phase, const Work& work);
-  template <class Encode, class Key>
-  Result<void> append_pages(storage::PageWriter& writer, const Encode& encode, const Key& key,
-                            std::uint32_t first, std::uint32_t last);
   std::uint32_t mask_pages() const { return static_cast<std::uint32_t>(mask_plan_.pages.size()); }
   storage::ModelRecord describe(std::uint32_t root_link) const;
 
@@ -99,6 +94,7 @@ class TreeBuild {
   BuildProgress& progress_;
   const BuildSeams& seams_;
   storage::SpillFile file_;
+  storage::SpillFile pages_file_;
   ModelFrame frame_;
   std::uint64_t vertex_records_ = 0;
   BlockShape shape_;
@@ -191,7 +187,8 @@ Result<void> TreeBuild::build_patches() {
         triangles.sort();
         if (regions_)
           if (const auto added = regions_->add(triangles); !added) return added;
-        auto built = build_patch(triangles, frame_.centre(), shape_, options_.page_bytes, file_);
+        auto built =
+            build_patch(triangles, frame_.centre(), shape_, options_.page_bytes, pages_file_);
         if (!built) return built.error();
         patches_[i] = *std::move(built);
         return {};
@@ -216,28 +213,21 @@ Result<BuildReport> TreeBuild::write_pages() {
   Crown crown = build_crown(above_, patches_, shape_, options_.page_bytes);
   const PageNumbers numbers(crown, patches_, options_.page_bytes);
   if (const auto checked = numbers.check(); !checked) return checked.error();
-  const TreePages pages(crown, patches_, numbers, shape_, file_);
+  const TreePages pages(crown, patches_, numbers, shape_, pages_file_);
   auto writer = storage::PageWriter::create(output_, pages.size() + mask_pages(), options_.replace,
                                             seams_.calls);
   if (!writer) return writer.error();
-  using Key = std::pair<std::uint64_t, std::uint32_t>;
-  const auto appended = append_pages(
-      *writer, [&](std::uint32_t page) { return pages.encode(page); },
-      [&](std::uint32_t page) { return Key(pages.octcode(page), pages.ordinal(page)); }, 0,
-      pages.size());
+  PageAppender appender(*writer, progress_, pages.size() + mask_pages());
+  const auto appended = appender.append(pages.size(), [&](std::uint32_t page) {
+    return RawPage::of(pages.octcode(page), pages.ordinal(page), pages.encode(page));
+  });
   if (!appended) return appended.error();
   writer->begin_mask();
   const MaskEncoder masks(mask_, mask_plan_, pages.size(), shape_.float64);
-  const auto masked = append_pages(
-      *writer,
-      [&](std::uint32_t page) -> Result<std::vector<std::byte>> {
-        return masks.encode(page - pages.size());
-      },
-      [&](std::uint32_t page) {
-        const PlannedMaskPage& planned = mask_plan_.pages[page - pages.size()];
-        return Key(planned.octcode, planned.ordinal);
-      },
-      pages.size(), pages.size() + mask_pages());
+  const auto masked = appender.append(mask_pages(), [&](std::uint32_t page) {
+    const PlannedMaskPage& planned = mask_plan_.pages[page];
+    return RawPage::of(planned.octcode, planned.ordinal, masks.encode(page));
+  });
   if (!masked) return masked.error();
   storage::ModelRecord model = describe(pages.root_link());
   model.node_count = crown.tree.nodes.size();
@@ -249,36 +239,6 @@ Result<BuildReport> TreeBuild::write_pages() {
   const auto header = writer->finish(model, options_.page_bytes);
   if (!header) return header.error();
   return BuildReport{*header, frame_.first_set_aside_text};
-}
-
-// Pages first to last, by encode(page) and key(page).
-template <class Encode, class Key>
-Result<void> TreeBuild::append_pages(storage::PageWriter& writer, const Encode& encode,
-                                     const Key& key, std::uint32_t first, std::uint32_t last) {
-  struct Encoded {
-    std::uint32_t raw_bytes = 0;
-    std::optional<storage::StoredPage> stored;
-  };
-  std::vector<Encoded> batch(kBatchPages);
-  const auto all = std::max(last, mask_pages() + first);
-  for (; first < last;) {
-    progress_.progress(BuildPhase::kWriting, first, all);
-    const std::uint32_t count = std::min(kBatchPages, last - first);
-    const auto encoded = for_each_in_parallel(count, [&](std::size_t i) -> Result<void> {
-      const auto raw = encode(first + static_cast<std::uint32_t>(i));
-      if (!raw) return raw.error();
-      batch[i] = {static_cast<std::uint32_t>(raw->size()), storage::encode_page(*raw)};
-      return {};
-    });
-    if (!encoded) return encoded;
-    for (std::uint32_t i = 0; i < count; ++i, ++first) {
-      const auto [octcode, ordinal] = key(first);
-      const auto appended = writer.append(octcode, ordinal, batch[i].raw_bytes, *batch[i].stored);
-      if (!appended) return appended;
-    }
-  }
-  progress_.progress(BuildPhase::kWriting, last, all);
-  return {};
 }
 
 storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {

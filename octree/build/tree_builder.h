@@ -4,32 +4,13 @@
 #include <filesystem>
 #include <string>
 
+#include "octree/build/build_progress.h"
 #include "octree/build/build_seams.h"
 #include "planetree/error.h"
 #include "storage/file_layout.h"
 
 /// From a mesh file to a .ptree file.
 namespace planetree::octree {
-
-/// What a build is doing.
-enum class BuildPhase : std::uint8_t {
-  kReading,
-  kOrdering,
-  kClosing,
-  kListing,
-  kBounding,
-  kColouring,
-  kWriting
-};
-
-/// Told how far a build is, on any thread but one at a time.
-class BuildProgress {
- public:
-  virtual ~BuildProgress() = default;
-  /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
-  /// the model otherwise.
-  virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
-};
 
 struct BuildOptions {
   std::uint32_t page_bytes = 65536;  ///< of a decoded page; a power of two, 4 KiB to 256 KiB

@@ -77,7 +77,7 @@ SampleMesh store(const Soup& soup, std::uint64_t first_index) {
 }
 
 storage::SpillFile& spill_file() {
-  static storage::SpillFile file(std::filesystem::temp_directory_path());
+  static storage::SpillFile file(std::filesystem::temp_directory_path(), 100000);
   return file;
 }
 

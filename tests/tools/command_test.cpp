@@ -53,6 +53,13 @@ TEST_F(Command, RefusesInOneLine) {
       {{"build", "mesh.obj", "-o", "new.ptree", "--threads", "1025"},
        2,
        "planetree: build: --threads: 1025 is too many; at most 1024; see planetree build --help"},
+      {{"build", "mesh.obj", "-o", "new.ptree", "--memory", "100M"},
+       2,
+       "planetree: build: --memory: 104857600 is too little for a build; give 160M or more; see "
+       "planetree build --help"},
+      {{"build", "mesh.obj", "-o", "new.ptree", "--temp-dir", "none"},
+       2,
+       "planetree: none: no such directory for temporary files; create it first"},
       {{"build", "bad_index.obj", "-o", "new.ptree", "--strict"},
        1,
        "planetree: bad_index.obj: line 5: vertex index 7 is out of range, the file has 3 vertices; "
@@ -145,6 +152,29 @@ TEST_F(Command, BuildsAndReports) {
   const Outcome again = run({"build", "mesh.obj", "-o", "new.ptree", "--force"});
   EXPECT_EQ(again.status, 0);
   EXPECT_EQ(lines_of(again.output).size(), 1u);
+}
+
+TEST_F(Command, BuildsTheSameFileWithLittleMemory) {
+  fs::create_directory("spilled");
+  ASSERT_EQ(run({"build", "mesh.obj", "-o", "much.ptree", "--memory", "8G"}).status, 0);
+  ASSERT_EQ(
+      run({"build", "mesh.obj", "-o", "little.ptree", "--memory", "160M", "--temp-dir", "spilled"})
+          .status,
+      0);
+  EXPECT_EQ(storage::read_bytes("much.ptree"), storage::read_bytes("little.ptree"));
+  EXPECT_TRUE(fs::is_empty("spilled"));
+}
+
+TEST_F(Command, BuildSaysHowLongItsPhasesTook) {
+  const Outcome result = run({"build", "mesh.obj", "-o", "new.ptree", "--json"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const Json report = Json::parse(result.output);
+  double sum = 0;
+  for (const auto& [phase, seconds] : report["seconds_by_phase"].items())
+    sum += seconds.get<double>();
+  EXPECT_TRUE(report["seconds_by_phase"].contains("reading"));
+  EXPECT_TRUE(report["seconds_by_phase"].contains("writing"));
+  EXPECT_LE(sum, report["seconds"].get<double>());
 }
 
 TEST_F(Command, BuildNamesTheFirstRecordSetAside) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+namespace planetree::octree {
+
+/// What a build is doing.
+enum class BuildPhase : std::uint8_t {
+  kReading,
+  kOrdering,
+  kClosing,
+  kListing,
+  kBounding,
+  kColouring,
+  kWriting
+};
+
+/// Told how far a build is, on any thread but one at a time.
+class BuildProgress {
+ public:
+  virtual ~BuildProgress() = default;
+  /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
+  /// the model otherwise.
+  virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
+};
+
+}  // namespace planetree::octree

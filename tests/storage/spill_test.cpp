@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "storage/spill_runs.h"
+#include "tests/storage/faulty_calls.h"
+#include "tests/storage/temporary_directory.h"
+
+namespace planetree::storage {
+namespace {
+
+std::vector<std::byte> bytes_of(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::byte> bytes(count);
+  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+  return bytes;
+}
+
+TEST(SpillFile, GivesBackWhatWasPutAway) {
+  const TemporaryDirectory directory;
+  for (const std::uint64_t held : {0, 5000, 1 << 20}) {
+    SpillFile file(directory / ".", held);
+    std::vector<std::pair<std::uint64_t, std::vector<std::byte>>> parts;
+    for (unsigned i = 0; i < 50; ++i) {
+      std::vector<std::byte> bytes = bytes_of(37 * i, i);
+      const auto offset = file.append(bytes);
+      ASSERT_TRUE(offset) << offset.error().text;
+      parts.emplace_back(*offset, std::move(bytes));
+    }
+    for (const auto& [offset, bytes] : parts) {
+      std::vector<std::byte> found(bytes.size());
+      ASSERT_TRUE(file.read(offset, found));
+      EXPECT_EQ(found, bytes);
+      // Parts of what was put away as one, on whatever side of the border they are.
+      if (bytes.size() < 3) continue;
+      found.resize(bytes.size() / 3);
+      ASSERT_TRUE(file.read(offset + bytes.size() / 3, found));
+      EXPECT_TRUE(std::equal(found.begin(), found.end(), bytes.begin() + bytes.size() / 3));
+      ASSERT_TRUE(file.read(offset, found));
+      EXPECT_TRUE(std::equal(found.begin(), found.end(), bytes.begin()));
+    }
+    EXPECT_EQ(file.size_bytes(), 37u * 49 * 50 / 2);
+  }
+}
+
+TEST(SpillFile, HasNoName) {
+  const TemporaryDirectory directory;
+  for (const bool no_unnamed : {false, true}) {
+    FaultyCalls calls;
+    calls.no_unnamed = no_unnamed;
+    SpillFile file(directory / ".", 0, calls);
+    ASSERT_TRUE(file.append(bytes_of(100, 1)));
+    EXPECT_TRUE(directory.names().empty());
+  }
+}
+
+TEST(SpillFile, TakesNoDiskForWhatIsHeld) {
+  SpillFile file("/no/such/directory", 1000);
+  EXPECT_TRUE(file.append(bytes_of(1000, 1)));
+  const auto refused = file.append(bytes_of(1, 1));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kNotFound);
+  EXPECT_FALSE(file.append(bytes_of(1, 1)));
+}
+
+struct Record {
+  SpillKey key;
+  std::uint32_t value = 0;
+  std::uint32_t padding = 0;
+};
+
+bool precedes(const Record& a, const Record& b) { return a.key < b.key; }
+
+std::vector<std::byte> run_of(std::vector<Record> records) {
+  std::sort(records.begin(), records.end(), precedes);
+  std::vector<std::byte> bytes(records.size() * sizeof(Record));
+  std::memcpy(bytes.data(), records.data(), bytes.size());
+  return bytes;
+}
+
+class SpillRunsTest : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  void SetUp() override {
+    std::mt19937_64 random(7);
+    for (std::uint64_t run = 0; run < 9; ++run) {
+      std::vector<Record> records;
+      for (std::uint64_t i = 0; i < 100 + 10 * run; ++i)
+        records.push_back({{random() % 64, all_.size() + i}, static_cast<std::uint32_t>(i), 0});
+      all_.insert(all_.end(), records.begin(), records.end());
+      ASSERT_TRUE(runs_.add(run_of(records)));
+    }
+    ASSERT_TRUE(runs_.add({}));
+    std::sort(all_.begin(), all_.end(), precedes);
+  }
+
+  const TemporaryDirectory directory_;
+  SpillFile file_{directory_ / ".", 0};
+  SpillRuns runs_{sizeof(Record), GetParam(), file_};
+  std::vector<Record> all_;
+};
+
+TEST_P(SpillRunsTest, FindEveryRecordBetweenTwoKeys) {
+  EXPECT_EQ(runs_.size(), all_.size());
+  EXPECT_EQ(SpillRuns::count(runs_.begin(), runs_.end()), all_.size());
+  for (const SpillKey from : {SpillKey{0, 0}, SpillKey{5, 300}, SpillKey{40, 0}, SpillKey{70, 0}})
+    for (const SpillKey to : {SpillKey{5, 301}, SpillKey{41, 999}, SpillKey{99, 0}}) {
+      if (to < from) continue;
+      const auto first = runs_.cut(from), last = runs_.cut(to);
+      ASSERT_TRUE(first && last);
+      const auto bytes = runs_.read(*first, *last);
+      ASSERT_TRUE(bytes);
+      std::vector<Record> found(bytes->size() / sizeof(Record));
+      if (!found.empty()) std::memcpy(found.data(), bytes->data(), bytes->size());
+      std::sort(found.begin(), found.end(), precedes);
+      std::vector<Record> expected;
+      for (const Record& record : all_)
+        if (from <= record.key && record.key < to) expected.push_back(record);
+      ASSERT_EQ(found.size(), expected.size());
+      EXPECT_EQ(SpillRuns::count(*first, *last), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].key, expected[i].key);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Held, SpillRunsTest, testing::Values(0, 10000, 1 << 20));
+
+TEST(SpillRuns, HoldsNoMoreThanAllowed) {
+  const TemporaryDirectory directory;
+  SpillFile file(directory / ".", 0);
+  SpillRuns runs(sizeof(Record), 3 * 100 * sizeof(Record), file);
+  const std::vector<Record> records(100);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(runs.add(run_of(records)));
+  EXPECT_EQ(file.size_bytes(), 2 * 100 * sizeof(Record));
+}
+
+}  // namespace
+}  // namespace planetree::storage
