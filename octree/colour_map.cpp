@@ -9,7 +9,7 @@
 
 namespace planetree::octree {
 
-// Paints what the nodes of one page say.
+// Paints what the nodes of the first pages say.
 class ColourMap::Painter {
  public:
   Painter(ColourMap& map, unsigned level, const MaskFacts& mask, PageReader pages)
@@ -21,15 +21,24 @@ class ColourMap::Painter {
   }
 
  private:
+  // To a page and back: what opening a model may take.
+  static constexpr std::uint64_t kMostTurns = 512;
+
   void paint_children(const std::byte* record, const GridCell& cell) {
-    const auto& node = *reinterpret_cast<const MaskNode*>(record);
+    const MaskNode node = *reinterpret_cast<const MaskNode*>(record);  // may go with its page
     for (unsigned octant = 0; octant < 8; ++octant) {
       const bool grey = (node.grey >> octant & 1) != 0, leaf = (node.leaf >> octant & 1) != 0;
       if (!grey)
         paint(cell.child(octant), 1 + (node.black >> octant & 1) - (node.inverted >> octant & 1));
-      else if (!leaf && cell.level + 1 < level_ && records_.has_family_at_hand(node))
-        paint_children(records_.child(node, octant, work_), cell.child(octant));
+      else if (!leaf && cell.level + 1 < level_)
+        descend(node, octant, cell);
     }
+  }
+
+  void descend(const MaskNode& node, unsigned octant, const GridCell& cell) {
+    if (!records_.has_family_at_hand(node) && work_.page_turns >= kMostTurns) return;
+    if (const std::byte* child = records_.child(node, octant, work_))
+      paint_children(child, cell.child(octant));
   }
 
   void paint(const GridCell& cell, int colour) {

@@ -22,7 +22,7 @@ class ColourMap {
   /// A map that knows nothing.
   ColourMap() = default;
 
-  /// Of a mask's first page, as far as it can be had. False where memory is short.
+  /// Of a mask's first pages, as far as they can be had. False where memory is short.
   bool fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles,
             PageReader pages) noexcept;
 

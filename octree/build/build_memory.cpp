@@ -9,8 +9,6 @@ namespace planetree::octree {
 namespace {
 
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
-/// The mask of a watertight model and its pages' plan, a triangle.
-constexpr std::uint64_t kMaskBytes = 8;
 
 std::uint64_t machine_bytes() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
@@ -32,17 +30,13 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   memory.threads = static_cast<int>(std::min<std::uint64_t>(threads, most));
   const std::uint64_t used = kFixedBytes + kThreadBytes * static_cast<unsigned>(memory.threads);
   const std::uint64_t left = bytes - used;
-  memory.chunk_triangles = 1 << 18;
+  memory.chunk_triangles = 1 << 19;
   memory.mapped_bytes = 16 * kMiB + left / 8;
   memory.intake_bytes = left / 4;
   memory.runs_bytes = left / 2;
   memory.pages_bytes = left / 8;
   memory.left_over_bytes = left / 16;
   return memory;
-}
-
-void BuildMemory::reserve_for(std::uint64_t triangles) {
-  runs_bytes -= std::min(runs_bytes, kMaskBytes * triangles);
 }
 
 }  // namespace planetree::octree

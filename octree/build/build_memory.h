@@ -21,9 +21,6 @@ struct BuildMemory {
   std::uint64_t pages_bytes = 0;      ///< of pages, until they are written
   std::uint64_t left_over_bytes = 0;  ///< of edges, and of triangles in several regions, each
 
-  /// Less for what is known by the number of triangles: the mask above all.
-  void reserve_for(std::uint64_t triangles);
-
   /// bytes    the most that the process should have; 0: a quarter of the machine's.
   /// threads  0: as many as the machine has.
   /// errors   kNoMemory: too little for one thread; says how much is needed.

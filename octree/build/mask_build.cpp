@@ -1,7 +1,7 @@
 #include "octree/build/mask_build.h"
 
-#include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "octree/build/parallel.h"
@@ -11,7 +11,23 @@
 namespace planetree::octree {
 namespace {
 
-/// Puts the masks of regions together.
+/// What the cells above know of a region's mask: its root.
+struct RegionRoot {
+  MaskEntry entry;
+  std::optional<SpecialCell> special;
+
+  static RegionRoot of(const MaskTree& mask, std::size_t region) {
+    RegionRoot root{mask.entries[0], {}};
+    if (root.entry.kind == MaskEntry::Kind::kSpecial) root.special = mask.specials[0];
+    if (root.entry.kind == MaskEntry::Kind::kNode) {
+      root.entry.kind = MaskEntry::Kind::kRegion;
+      root.entry.first = static_cast<std::uint32_t>(region);
+    }
+    return root;
+  }
+};
+
+/// Counts the regions' least corners, and puts their roots together.
 class MaskJoin {
  public:
   explicit MaskJoin(const MaskRegions& regions)
@@ -29,11 +45,10 @@ class MaskJoin {
   // At a region's least corner.
   std::int64_t winding(std::size_t at) const { return least_[at]; }
 
-  // parts  the masks of the regions that triangles touch, which are used up.
-  MaskTree run(std::vector<MaskTree>& parts) const {
+  MaskTree run(const std::vector<RegionRoot>& roots) const {
     MaskTree tree;
     tree.entries.resize(1);
-    place(0, parts, tree, 0);
+    place(0, roots, tree, 0);
     return tree;
   }
 
@@ -55,11 +70,11 @@ class MaskJoin {
     return least_[at] + regions_[at].rise[which];
   }
 
-  void place(std::size_t at, std::vector<MaskTree>& parts, MaskTree& tree,
+  void place(std::size_t at, const std::vector<RegionRoot>& roots, MaskTree& tree,
              std::size_t entry) const {
     const MaskRegions::Region& region = regions_[at];
     tree.levels = std::max(tree.levels, region.cell.level);
-    if (!region.divided()) return join(std::move(parts[at]), tree, entry);
+    if (!region.divided()) return place_root(roots[at], tree, entry);
     std::array<bool, 8> grey;
     std::array<std::int64_t, 8> winding;
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -70,23 +85,16 @@ class MaskJoin {
     std::size_t child = tree.entries[entry].first;
     for (unsigned octant = 0; octant < 8; ++octant) {
       if (!grey[octant]) continue;
-      place(region.first_octant + octant, parts, tree, child);
+      place(region.first_octant + octant, roots, tree, child);
       tree.note_leaf(entry, octant, child++);
     }
   }
 
-  // The part's root becomes the entry at `place`, the rest goes to the end.
-  static void join(MaskTree part, MaskTree& tree, std::size_t place) {
-    const auto moved = static_cast<std::uint32_t>(tree.entries.size() - 1);
-    const auto specials = static_cast<std::uint32_t>(tree.specials.size());
-    for (MaskEntry& entry : part.entries) {
-      if (entry.kind == MaskEntry::Kind::kNode) entry.first += moved;
-      if (entry.kind == MaskEntry::Kind::kSpecial) entry.first += specials;
-    }
-    tree.entries[place] = part.entries.front();
-    tree.entries.insert(tree.entries.end(), part.entries.begin() + 1, part.entries.end());
-    tree.specials.insert(tree.specials.end(), part.specials.begin(), part.specials.end());
-    tree.levels = std::max(tree.levels, part.levels);
+  static void place_root(const RegionRoot& root, MaskTree& tree, std::size_t entry) {
+    tree.entries[entry] = root.entry;
+    if (!root.special) return;
+    tree.entries[entry].first = static_cast<std::uint32_t>(tree.specials.size());
+    tree.specials.push_back(*root.special);
   }
 
   const std::vector<MaskRegions::Region>& regions_;
@@ -97,21 +105,20 @@ class MaskJoin {
 }  // namespace
 
 Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs,
-                            const std::function<void()>& done) {
+                            const RegionSink& take) {
   const MaskJoin join(regions);
-  std::vector<MaskTree> parts(regions.all().size());
-  const auto built = for_each_in_parallel(parts.size(), [&](std::size_t at) -> Result<void> {
+  std::vector<RegionRoot> roots(regions.all().size());
+  const auto built = for_each_in_parallel(roots.size(), [&](std::size_t at) -> Result<void> {
     const MaskRegions::Region& region = regions.all()[at];
-    if (!region.divided() && region.touched) {
-      const auto triangles = regions.read(at, runs);
-      if (!triangles) return triangles.error();
-      parts[at] = mask_of_region(regions.grid(), region.cell, join.winding(at), *triangles);
-    }
-    done();
-    return {};
+    if (region.divided() || !region.touched) return {};
+    const auto triangles = regions.read(at, runs);
+    if (!triangles) return triangles.error();
+    MaskTree mask = mask_of_region(regions.grid(), region.cell, join.winding(at), *triangles);
+    roots[at] = RegionRoot::of(mask, at);
+    return take(at, std::move(mask));
   });
   if (!built) return built.error();
-  return join.run(parts);
+  return join.run(roots);
 }
 
 }  // namespace planetree::octree

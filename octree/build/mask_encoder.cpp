@@ -57,12 +57,16 @@ class Streams {
     head.plane_count = static_cast<std::uint16_t>(planes_.size() / 9);
   }
 
-  void write(StreamWriter& writer, bool float64) const {
+  std::uint32_t link_count() const { return static_cast<std::uint32_t>(page_links_.size()); }
+
+  // Returns where the links to other pages are.
+  std::size_t write(StreamWriter& writer, bool float64) const {
     writer.shuffled(kinds_);
     writer.shuffled(grey_);
     writer.shuffled(leaf_);
     writer.shuffled(black_);
     writer.shuffled(inverted_);
+    const std::size_t links_at = writer.size();
     writer.shuffled(page_links_);
     writer.shuffled(plain_);
     writer.shuffled(corners_);
@@ -73,6 +77,7 @@ class Streams {
       writer.shuffled(planes_);
     else
       writer.shuffled(std::vector<float>(planes_.begin(), planes_.end()));
+    return links_at;
   }
 
  private:
@@ -88,13 +93,14 @@ class Streams {
 
 }  // namespace
 
-std::vector<std::byte> MaskEncoder::encode(std::uint32_t page) const {
+EncodedPage MaskEncoder::encode(std::size_t page) const {
   const PlannedMaskPage& planned = plan_.pages[page];
-  Streams streams(plan_.page_bytes, page);
+  Streams streams(plan_.page_bytes, planned.number);
   for (const std::uint32_t at : planned.entries) {
     const MaskEntry& entry = mask_.entries[at];
     switch (entry.kind) {
       case MaskEntry::Kind::kNode:
+      case MaskEntry::Kind::kRegion:
         streams.add_node(entry, plan_.families[at]);
         break;
       case MaskEntry::Kind::kCorners:
@@ -106,15 +112,18 @@ std::vector<std::byte> MaskEncoder::encode(std::uint32_t page) const {
     }
   }
   MaskPageHead head{};
-  head.page_number = first_page_ + page;
+  head.page_number = first_page_ + planned.number;
   head.octcode = planned.octcode;
   head.ordinal = planned.ordinal;
   head.root_count = static_cast<std::uint16_t>(planned.root_count);
   streams.describe(head);
   StreamWriter writer;
   writer.plain(&head, sizeof head);
-  streams.write(writer, float64_);
-  return writer.take();
+  EncodedPage encoded;
+  encoded.links_at = static_cast<std::uint32_t>(streams.write(writer, float64_));
+  encoded.link_count = streams.link_count();
+  encoded.bytes = writer.take();
+  return encoded;
 }
 
 }  // namespace planetree::octree

@@ -6,6 +6,7 @@
 
 #include "octree/build/mask_plan.h"
 #include "octree/build/mask_tree.h"
+#include "octree/build/page_encoder.h"
 
 namespace planetree::octree {
 
@@ -18,8 +19,8 @@ class MaskEncoder {
   MaskEncoder(const MaskTree& mask, const MaskPlan& plan, std::uint32_t first_page, bool float64)
       : mask_(mask), plan_(plan), first_page_(first_page), float64_(float64) {}
 
-  /// page  within the mask.
-  std::vector<std::byte> encode(std::uint32_t page) const;
+  /// page  of the plan.
+  EncodedPage encode(std::size_t page) const;
 
  private:
   const MaskTree& mask_;

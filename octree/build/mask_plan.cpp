@@ -22,23 +22,21 @@ struct Draft {
 
 class MaskPlanner {
  public:
-  MaskPlanner(const MaskTree& mask, std::uint32_t page_bytes)
+  MaskPlanner(const MaskTree& mask, std::uint32_t page_bytes, const MaskRoot& root)
       : mask_(mask),
+        root_(root),
         links_(page_bytes),
         head_slots_(mask_head_slots(page_bytes)),
         capacity_(static_cast<std::uint32_t>(page_bytes / kMaskSlotBytes) - head_slots_) {
     plan_.page_bytes = page_bytes;
   }
 
-  Result<MaskPlan> plan() {
+  MaskPlan plan() {
+    if (root_.apart && !has_family(0)) return std::move(plan_);
     measure();
     drafts_.emplace_back();
+    if (root_.apart) drafts_[0].roots.push_back({0, root_.cell});
     for (std::size_t i = 0; i < drafts_.size(); ++i) pack(fill(drafts_[i]));
-    if (drafts_.size() > links_.max_pages())
-      return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                        "%zu mask pages, more than links can tell apart; build with a larger page "
-                        "size",
-                        drafts_.size());
     number_pages();
     return std::move(plan_);
   }
@@ -58,6 +56,7 @@ class MaskPlanner {
   }
 
   std::uint32_t members(std::uint32_t node) const {
+    if (mask_.entries[node].kind != MaskEntry::Kind::kNode) return 0;
     return static_cast<std::uint32_t>(std::popcount(mask_.entries[node].grey));
   }
   bool has_family(std::uint32_t at) const { return members(at) > 0; }
@@ -91,7 +90,7 @@ class MaskPlanner {
     if (draft.roots.empty()) {
       slots += entry_slots(0);
       draft.page.entries.push_back(0);
-      if (has_family(0)) queue.push_back({0, {}});
+      if (has_family(0)) queue.push_back({0, root_.cell});
     }
     for (const Divided& root : draft.roots) place(root);
     draft.page.root_count = static_cast<std::uint32_t>(draft.page.entries.size());
@@ -134,6 +133,7 @@ class MaskPlanner {
         [](const PlannedMaskPage& a, const PlannedMaskPage& b) { return a.octcode < b.octcode; });
     std::vector<std::uint32_t> places(mask_.entries.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) {
+      plan_.pages[number].number = number;
       std::uint32_t slot = head_slots_;
       for (const std::uint32_t entry : plan_.pages[number].entries)
         places[entry] = links_.make(number, slot++);
@@ -144,6 +144,7 @@ class MaskPlanner {
   }
 
   const MaskTree& mask_;
+  const MaskRoot root_;
   const MaskLinkFormat links_;
   const std::uint32_t head_slots_;
   const std::uint32_t capacity_;
@@ -154,8 +155,8 @@ class MaskPlanner {
 
 }  // namespace
 
-Result<MaskPlan> plan_mask(const MaskTree& mask, std::uint32_t page_bytes) {
-  return MaskPlanner(mask, page_bytes).plan();
+MaskPlan plan_mask(const MaskTree& mask, std::uint32_t page_bytes, const MaskRoot& root) {
+  return MaskPlanner(mask, page_bytes, root).plan();
 }
 
 }  // namespace planetree::octree

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <mutex>
@@ -14,7 +15,7 @@ namespace planetree::octree {
 
 /// Cells of fewer triangles are not divided before the mask is built, which then takes one of
 /// them at a time; the mask does depend on this number.
-inline constexpr std::uint64_t kRegionTriangles = 1 << 16;
+inline constexpr std::uint64_t kRegionTriangles = 1 << 18;
 
 /// The octree's root, divided until few triangles have their centres in a cell: the regions,
 /// in which a mask is built one by one.
@@ -50,6 +51,10 @@ class MaskRegions {
 
   /// The root first, octants side by side and after the region they divide.
   const std::vector<Region>& all() const { return regions_; }
+  std::size_t touched_count() const {
+    return static_cast<std::size_t>(
+        std::count_if(regions_.begin(), regions_.end(), [](const Region& r) { return r.touched; }));
+  }
   const CellGrid& grid() const { return grid_; }
   /// The winding number at the root's least corner. After the last part.
   std::int64_t winding() const { return winding_; }

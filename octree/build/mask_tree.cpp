@@ -24,8 +24,7 @@ void MaskTree::divide(std::size_t place, const std::array<bool, 8>& grey,
 }
 
 void MaskTree::note_leaf(std::size_t node, unsigned octant, std::size_t child) {
-  if (entries[child].kind != MaskEntry::Kind::kNode)
-    entries[node].leaf |= static_cast<std::uint8_t>(1U << octant);
+  if (entries[child].is_leaf()) entries[node].leaf |= static_cast<std::uint8_t>(1U << octant);
 }
 
 }  // namespace planetree::octree

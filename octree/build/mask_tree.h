@@ -12,13 +12,15 @@ namespace planetree::octree {
 
 /// A grey cell of the mask.
 struct MaskEntry {
-  enum class Kind : std::uint8_t { kNode, kCorners, kSpecial };
+  /// kRegion is a node whose octants are in a mask of their own.
+  enum class Kind : std::uint8_t { kNode, kRegion, kCorners, kSpecial };
 
   Kind kind = Kind::kNode;
   /// Of a node: its octants, as in MaskNode. `first` is the entry of its first
-  /// grey octant, the others follow.
+  /// grey octant, the others follow; of a region: its number.
   std::uint8_t grey = 0, leaf = 0, black = 0, inverted = 0;
   std::uint32_t first = 0;  ///< of a special cell: into MaskTree::specials
+  bool is_leaf() const { return kind == Kind::kCorners || kind == Kind::kSpecial; }
   MaskCorners corners{};
 };
 

@@ -22,14 +22,14 @@ struct Encoded {
 
 }  // namespace
 
-Result<RawPage> RawPage::of(std::uint64_t octcode, std::uint32_t ordinal,
-                            Result<std::vector<std::byte>> bytes) {
+Result<FilePage> FilePage::of(std::uint64_t octcode, std::uint32_t ordinal,
+                              Result<std::vector<std::byte>> bytes) {
   if (!bytes) return bytes.error();
-  return RawPage{octcode, ordinal, *std::move(bytes)};
+  return FilePage{octcode, ordinal, *std::move(bytes)};
 }
 
 Result<void> PageAppender::append(std::uint32_t count,
-                                  const std::function<Result<RawPage>(std::uint32_t)>& make) {
+                                  const std::function<Result<FilePage>(std::uint32_t)>& make) {
   std::vector<Encoded> batch(std::min(kBatchPages, count));
   progress_.progress(BuildPhase::kWriting, appended_, total_);
   for (std::uint32_t first = 0; first < count; first += kBatchPages) {

@@ -12,13 +12,13 @@
 namespace planetree::octree {
 
 /// A page as it goes to the file but for its compression.
-struct RawPage {
+struct FilePage {
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;
   std::vector<std::byte> bytes;
 
-  static Result<RawPage> of(std::uint64_t octcode, std::uint32_t ordinal,
-                            Result<std::vector<std::byte>> bytes);
+  static Result<FilePage> of(std::uint64_t octcode, std::uint32_t ordinal,
+                             Result<std::vector<std::byte>> bytes);
 };
 
 /// Makes pages side by side and appends them to a file in their order.
@@ -30,7 +30,7 @@ class PageAppender {
 
   /// Appends make(i) for i below `count`. Uses the calling thread's TBB arena.
   Result<void> append(std::uint32_t count,
-                      const std::function<Result<RawPage>(std::uint32_t)>& make);
+                      const std::function<Result<FilePage>(std::uint32_t)>& make);
 
  private:
   storage::PageWriter& writer_;

@@ -13,15 +13,6 @@
 namespace planetree::octree {
 namespace {
 
-Result<SpilledPage> put_away(const PageEncoder& encoder, const PlannedPage& page,
-                             storage::SpillFile& file) {
-  const EncodedPage raw = encoder.encode(page.number);
-  const auto offset = file.append(raw.bytes);
-  if (!offset) return offset.error();
-  return SpilledPage{page.octcode, *offset, static_cast<std::uint32_t>(raw.bytes.size()),
-                     raw.links_at, raw.link_count};
-}
-
 void describe(const Triangles& triangles, const WideTree& tree, BuiltPatch& patch) {
   patch.node_count = tree.nodes.size();
   patch.block_count = tree.blocks.size();
@@ -69,7 +60,7 @@ Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
   patch.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
   const PageEncoder encoder(triangles, vertices, keys, tree, *plan, shape);
   for (const PlannedPage& page : plan->pages) {
-    const auto spilled = put_away(encoder, page, file);
+    const auto spilled = put_away(page.octcode, encoder.encode(page.number), file);
     if (!spilled) return spilled.error();
     patch.pages.push_back(*spilled);
   }

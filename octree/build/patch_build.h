@@ -5,6 +5,7 @@
 
 #include "octree/build/moment_sums.h"
 #include "octree/build/page_plan.h"
+#include "octree/build/spilled_page.h"
 #include "octree/build/triangles.h"
 #include "octree/child_bounds.h"
 #include "octree/frame.h"
@@ -12,15 +13,6 @@
 #include "storage/spill_file.h"
 
 namespace planetree::octree {
-
-/// A page of a patch, put away until all pages have their numbers.
-struct SpilledPage {
-  std::uint64_t octcode = 0;
-  std::uint64_t offset = 0;  ///< of its raw bytes in the SpillFile
-  std::uint32_t raw_bytes = 0;
-  std::uint32_t links_at = 0;    ///< of its links to other pages, shuffled, in the raw bytes
-  std::uint32_t link_count = 0;  ///< they name pages of the patch by their places in `pages`
-};
 
 /// A patch that was built: what the tree above it is made from.
 struct BuiltPatch {

@@ -10,11 +10,9 @@
 #include <tbb/task_arena.h>
 
 #include "octree/build/build_memory.h"
+#include "octree/build/built_mask.h"
 #include "octree/build/crown.h"
 #include "octree/build/edge_balance.h"
-#include "octree/build/mask_build.h"
-#include "octree/build/mask_encoder.h"
-#include "octree/build/mask_plan.h"
 #include "octree/build/mesh_intake.h"
 #include "octree/build/mesh_reader.h"
 #include "octree/build/page_appender.h"
@@ -84,13 +82,13 @@ class TreeBuild {
   Result<BuildReport> write_pages();
   template <class Work>
   Result<void> for_each_patch(BuildPhase phase, const Work& work);
-  std::uint32_t mask_pages() const { return static_cast<std::uint32_t>(mask_plan_.pages.size()); }
+  std::uint32_t mask_pages() const { return mask_ ? mask_->size() : 0; }
   storage::ModelRecord describe(std::uint32_t root_link) const;
 
   const std::filesystem::path& input_;
   const std::filesystem::path& output_;
   const BuildOptions& options_;
-  BuildMemory memory_;
+  const BuildMemory memory_;
   BuildProgress& progress_;
   const BuildSeams& seams_;
   storage::SpillFile file_;
@@ -103,8 +101,7 @@ class TreeBuild {
   EdgeBalance edges_;
   std::vector<BuiltPatch> patches_;
   std::optional<MaskRegions> regions_;  // of a watertight model
-  MaskTree mask_;
-  MaskPlan mask_plan_;
+  std::optional<BuiltMask> mask_;
 };
 
 Result<ModelFrame> TreeBuild::read_model(MeshIntake& intake) {
@@ -130,7 +127,6 @@ Result<void> TreeBuild::order_triangles() {
   if (!frame) return frame.error();
   frame_ = *std::move(frame);
   shape_.float64 = frame_.float64;
-  memory_.reserve_for(frame_.triangle_count);
   runs_.emplace(frame_.float64, memory_.runs_bytes, file_);
   PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
   if (const auto taken = runs_->take(intake, [&count] { count.add(); }); !taken) return taken;
@@ -198,15 +194,11 @@ Result<void> TreeBuild::build_patches() {
 // Only where winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
   if (!regions_) return {};
-  PhaseCount count(progress_, BuildPhase::kColouring, regions_->all().size());
-  auto mask = build_mask(*regions_, *runs_, [&count] { count.add(); });
-  if (!mask) return mask.error();
+  PhaseCount count(progress_, BuildPhase::kColouring, regions_->touched_count());
+  mask_.emplace(options_.page_bytes, frame_.float64, pages_file_);
+  const auto built = mask_->build(*regions_, *runs_, [&count] { count.add(); });
   regions_.reset();
-  mask_ = *std::move(mask);
-  auto plan = plan_mask(mask_, options_.page_bytes);
-  if (!plan) return plan.error();
-  mask_plan_ = *std::move(plan);
-  return {};
+  return built;
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
@@ -219,15 +211,12 @@ Result<BuildReport> TreeBuild::write_pages() {
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress_, pages.size() + mask_pages());
   const auto appended = appender.append(pages.size(), [&](std::uint32_t page) {
-    return RawPage::of(pages.octcode(page), pages.ordinal(page), pages.encode(page));
+    return FilePage::of(pages.octcode(page), pages.ordinal(page), pages.encode(page));
   });
   if (!appended) return appended.error();
   writer->begin_mask();
-  const MaskEncoder masks(mask_, mask_plan_, pages.size(), shape_.float64);
-  const auto masked = appender.append(mask_pages(), [&](std::uint32_t page) {
-    const PlannedMaskPage& planned = mask_plan_.pages[page];
-    return RawPage::of(planned.octcode, planned.ordinal, masks.encode(page));
-  });
+  const auto masked = appender.append(
+      mask_pages(), [&](std::uint32_t page) { return mask_->encode(page, pages.size()); });
   if (!masked) return masked.error();
   storage::ModelRecord model = describe(pages.root_link());
   model.node_count = crown.tree.nodes.size();
@@ -261,9 +250,11 @@ storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {
       shape_.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = shape_.wide_ids ? 8 : 4;
   edges_.describe(frame_.scale_exponent, model);
-  model.mask_cell_count = mask_.entries.size();
   model.mask_page_count = mask_pages();
-  model.mask_levels = static_cast<std::uint8_t>(mask_.levels);
+  if (mask_) {
+    model.mask_cell_count = mask_->cell_count();
+    model.mask_levels = static_cast<std::uint8_t>(mask_->levels());
+  }
   return model;
 }
 

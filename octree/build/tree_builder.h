@@ -31,8 +31,7 @@ struct BuildReport {
 /// Reads the mesh at `input` and writes its tree to `output`, whole or not at
 /// all. The bytes written depend on the mesh and page_bytes alone.
 ///
-/// memory  options.memory_bytes at most, but for the mask of a watertight model, which takes
-///         some 8 bytes a triangle, and patches of more than 2^18 triangles at one place.
+/// memory  options.memory_bytes at most, but where more than 2^18 triangles are at one place.
 /// disk    about 120 bytes a triangle in temp_directory where memory is short, else 12;
 ///         twice that with float64 coordinates. Given back however the process ends.
 /// errors  those of read_mesh, storage::SpillFile and storage::PageWriter; kBadArgument for

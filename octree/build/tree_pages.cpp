@@ -3,25 +3,10 @@
 #include <cstring>
 
 #include "octree/build/page_encoder.h"
+#include "octree/build/shuffled_links.h"
 #include "octree/page_streams.h"
 
 namespace planetree::octree {
-namespace {
-
-// Number i of a byte-shuffled stream of `count`.
-std::uint32_t get_shuffled(const std::byte* stream, std::size_t count, std::size_t i) {
-  std::uint32_t value = 0;
-  for (std::size_t k = 0; k < sizeof value; ++k)
-    value |= std::to_integer<std::uint32_t>(stream[k * count + i]) << 8 * k;
-  return value;
-}
-
-void set_shuffled(std::byte* stream, std::size_t count, std::size_t i, std::uint32_t value) {
-  for (std::size_t k = 0; k < sizeof value; ++k)
-    stream[k * count + i] = static_cast<std::byte>(value >> 8 * k);
-}
-
-}  // namespace
 
 TreePages::TreePages(Crown& crown, const std::vector<BuiltPatch>& patches,
                      const PageNumbers& numbers, const BlockShape& shape,
@@ -68,11 +53,8 @@ Result<std::vector<std::byte>> TreePages::fetch(std::uint32_t number) const {
   head.page_number = number;
   head.ordinal = page.ordinal;
   std::memcpy(raw.data(), &head, sizeof head);
-  std::byte* const links = raw.data() + spilled.links_at;
-  for (std::size_t i = 0; i < spilled.link_count; ++i) {
-    const std::uint32_t link = get_shuffled(links, spilled.link_count, i);
-    set_shuffled(links, spilled.link_count, i, numbers_.link(page.patch, link));
-  }
+  replace_links(raw.data() + spilled.links_at, spilled.link_count,
+                [&](std::uint32_t link) { return numbers_.link(page.patch, link); });
   return raw;
 }
 

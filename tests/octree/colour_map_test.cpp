@@ -85,14 +85,17 @@ TEST_F(ColourMapTest, KnowsAllColoursDownToItsCells) {
   EXPECT_GT(known, 500u);
 }
 
-TEST_F(ColourMapTest, ReadsTheFirstPageAlone) {
+TEST_F(ColourMapTest, TurnsSomePagesAndNoMore) {
   MaskPages pages(random_mask(10), 4096, 3);
   ASSERT_GT(pages.size(), 2u);
   map_of(pages, kMany);
-  EXPECT_EQ(pages.take_asked(), std::vector<std::uint32_t>{0});
+  const std::vector<std::uint32_t> asked = pages.take_asked();
+  EXPECT_EQ(asked.front(), 0u);
+  EXPECT_GT(std::set<std::uint32_t>(asked.begin(), asked.end()).size(), 2u);
+  EXPECT_LE(asked.size(), 1100u);
 }
 
-TEST_F(ColourMapTest, KnowsNothingWithoutThatPage) {
+TEST_F(ColourMapTest, KnowsNothingWithoutTheFirstPage) {
   MaskPages pages(random_mask(10), 4096, 3);
   pages.withhold(0);
   const ColourMap map = map_of(pages, kMany);

@@ -240,11 +240,11 @@ SampleMask::SampleMask(const Soup& soup)
 
 MaskPages::MaskPages(const MaskTree& tree, std::uint32_t page_bytes, std::uint32_t first_page,
                      bool float64)
-    : first_page_(first_page), float64_(float64), plan_(*plan_mask(tree, page_bytes)) {
+    : first_page_(first_page), float64_(float64), plan_(plan_mask(tree, page_bytes)) {
   withheld_.resize(plan_.pages.size());
   const MaskEncoder encoder(tree, plan_, first_page, float64);
   for (std::uint32_t page = 0; page < plan_.pages.size(); ++page) {
-    raw_.push_back(encoder.encode(page));
+    raw_.push_back(encoder.encode(page).bytes);
     frames_.emplace_back(page_bytes);
     const auto decoded = decode_mask_page(raw_[page], facts(page), frames_[page].bytes());
     if (decoded) continue;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include "octree/build/disc_fit.h"
 #include "octree/build/mesh_intake.h"
@@ -93,11 +95,35 @@ std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_
   return runs;
 }
 
+// The part's root becomes the entry at `place`, the rest goes to the end.
+void put_in(MaskTree& whole, std::size_t place, MaskTree part) {
+  const auto moved = static_cast<std::uint32_t>(whole.entries.size() - 1);
+  const auto specials = static_cast<std::uint32_t>(whole.specials.size());
+  for (MaskEntry& entry : part.entries) {
+    if (entry.kind == MaskEntry::Kind::kNode) entry.first += moved;
+    if (entry.kind == MaskEntry::Kind::kSpecial) entry.first += specials;
+  }
+  whole.entries[place] = part.entries.front();
+  whole.entries.insert(whole.entries.end(), part.entries.begin() + 1, part.entries.end());
+  whole.specials.insert(whole.specials.end(), part.specials.begin(), part.specials.end());
+}
+
 MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most) {
   const auto runs = runs_of(mesh);
   MaskRegions regions(mesh.frame.lower(), mesh.float64(), 1000, spill_file());
   if (!regions.divide(*runs, most) || !regions.add(mesh)) std::abort();
-  return *build_mask(regions, *runs, [] {});
+  std::mutex mutex;
+  std::map<std::size_t, MaskTree> parts;
+  MaskTree whole = *build_mask(regions, *runs, [&](std::size_t at, MaskTree part) -> Result<void> {
+    const std::lock_guard lock(mutex);
+    parts[at] = std::move(part);
+    return {};
+  });
+  for (std::size_t i = 0; i < whole.entries.size(); ++i)
+    if (whole.entries[i].kind == MaskEntry::Kind::kRegion)
+      put_in(whole, i, parts.at(whole.entries[i].first));
+  for (const auto& [at, part] : parts) whole.levels = std::max(whole.levels, part.levels);
+  return whole;
 }
 
 EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles) {
@@ -172,7 +198,8 @@ TreeFacts tree_facts(const SampleTree& sample) {
 }
 
 SamplePages::SamplePages(const SampleTree& sample) : withheld_(sample.plan.pages.size()) {
-  const PageEncoder encoder(sample.mesh, sample.vertices, sample.keys, sample.tree, sample.plan, sample.shape);
+  const PageEncoder encoder(sample.mesh, sample.vertices, sample.keys, sample.tree, sample.plan,
+                            sample.shape);
   for (std::uint32_t page = 0; page < sample.plan.pages.size(); ++page) {
     raw_.push_back(encoder.encode(page).bytes);
     frames_.emplace_back(sample.plan.page_bytes);

@@ -57,7 +57,7 @@ void write(const octree::SampleTree& sample, bool masked, const std::filesystem:
   octree::MaskPlan mask_plan;
   if (masked) {
     mask = octree::mask_of(sample.mesh);
-    mask_plan = *octree::plan_mask(mask, sample.plan.page_bytes);
+    mask_plan = octree::plan_mask(mask, sample.plan.page_bytes);
   }
   const auto mask_pages = static_cast<std::uint32_t>(mask_plan.pages.size());
   auto writer = storage::PageWriter::create(path, page_count + mask_pages, false);
@@ -70,7 +70,7 @@ void write(const octree::SampleTree& sample, bool masked, const std::filesystem:
     writer->begin_mask();
     const octree::MaskEncoder encoder(mask, mask_plan, page_count, sample.shape.float64);
     for (std::uint32_t page = 0; page < mask_pages; ++page)
-      append(*writer, mask_plan.pages[page].octcode, 0, encoder.encode(page));
+      append(*writer, mask_plan.pages[page].octcode, 0, encoder.encode(page).bytes);
     model.mask_cell_count = mask.entries.size();
     model.mask_page_count = mask_pages;
     model.mask_levels = static_cast<std::uint8_t>(mask.levels);

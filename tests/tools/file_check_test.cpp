@@ -2,10 +2,39 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 #include "tests/tools/file_check_fixture.h"
 
 namespace planetree::tools {
 namespace {
+
+// The surface of a box, each side a square of squares.
+std::string closed_box(int side) {
+  std::ostringstream obj;
+  int vertices = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int end : {0, side})
+      for (int u = 0; u < side; ++u)
+        for (int v = 0; v < side; ++v) {
+          const auto corner = [&](int du, int dv) {
+            int at[3];
+            at[axis] = end;
+            at[(axis + 1) % 3] = u + du;
+            at[(axis + 2) % 3] = v + dv;
+            obj << "v " << at[0] << ' ' << at[1] << ' ' << at[2] << '\n';
+          };
+          corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1);
+          const int a = vertices + 1, b = a + 1, c = a + 2, d = a + 3;
+          vertices += 4;
+          if (end == 0)
+            obj << "f " << a << ' ' << d << ' ' << c << ' ' << b << '\n';
+          else
+            obj << "f " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
+        }
+  return obj.str();
+}
 
 TEST_F(FileCheck, FindsNothingInAFileThatIsWell) {
   const CheckReport report = check(bytes_);
@@ -37,6 +66,27 @@ TEST(FileCheckOfDamage, FindsEverySingleBit) {
     bytes[bit / 8] ^= mask;
   }
   EXPECT_EQ(check(file).issues.count(), 0u);
+}
+
+// As large models are built: patch by patch, and a mask of many regions.
+TEST(FileCheckOfPatches, FindsNothing) {
+  storage::TemporaryDirectory folder;
+  std::ofstream(folder / "closed.obj") << closed_box(12);
+  write_mesh(folder / "open.obj", 25);
+  for (const char* name : {"closed.obj", "open.obj"}) {
+    octree::BuildOptions options;
+    options.page_bytes = 4096;
+    options.replace = true;
+    NoProgress progress;
+    const auto report =
+        octree::build_tree(folder / name, folder / "tree.ptree", options, progress, {150, 200, {}});
+    ASSERT_TRUE(report) << report.error().text;
+    EXPECT_EQ(report->header.model.open_edge_count == 0, name == std::string("closed.obj"));
+    EXPECT_GT(report->header.page_count, 10u);
+    auto parts = FileParts::open(folder / "tree.ptree", storage::FileCalls::real());
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(codes_of(check_file(*parts, true)), Codes{}) << name;
+  }
 }
 
 TEST(FileCheckOfDamage, FindsEveryTruncation) {

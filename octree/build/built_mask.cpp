@@ -1,0 +1,114 @@
+#include "octree/build/built_mask.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "octree/build/mask_encoder.h"
+#include "octree/build/shuffled_links.h"
+#include "octree/mask_streams.h"
+
+namespace planetree::octree {
+
+Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& runs,
+                              const std::function<void()>& done) {
+  regions_.resize(regions.all().size());
+  const bool alone = regions_.size() == 1;
+  auto above = build_mask(regions, runs, [&](std::size_t at, MaskTree mask) -> Result<void> {
+    const auto put = put_region_away(at, mask, {regions.all()[at].cell, !alone});
+    if (put) done();
+    return put;
+  });
+  if (!above) return above.error();
+  if (!alone) {
+    above_ = *std::move(above);
+    above_plan_ = plan_mask(above_, page_bytes_);
+    // The regions' roots are counted with the cells above.
+    cell_count_ += above_.entries.size();
+  }
+  number_pages();
+  const MaskLinkFormat links(page_bytes_);
+  if (pages_.size() > links.max_pages())
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "%zu mask pages, more than links can tell apart; build with a larger page "
+                      "size",
+                      pages_.size());
+  link_regions();
+  return {};
+}
+
+Result<void> BuiltMask::put_region_away(std::size_t at, const MaskTree& mask,
+                                        const MaskRoot& root) {
+  Region& region = regions_[at];
+  const MaskPlan plan = plan_mask(mask, page_bytes_, root);
+  const MaskEncoder encoder(mask, plan, 0, float64_);
+  for (const PlannedMaskPage& page : plan.pages) {
+    const auto spilled = put_away(page.octcode, encoder.encode(page.number), file_);
+    if (!spilled) return spilled.error();
+    region.pages.push_back(*spilled);
+  }
+  if (root.apart && !plan.pages.empty()) region.family = plan.families[0];
+  const std::lock_guard lock(mutex_);
+  cell_count_ += mask.entries.size() - (root.apart ? 1 : 0);
+  levels_ = std::max(levels_, mask.levels);
+  return {};
+}
+
+// Families above have larger cells, which come first.
+void BuiltMask::number_pages() {
+  for (std::uint32_t i = 0; i < above_plan_.pages.size(); ++i)
+    pages_.push_back({above_plan_.pages[i].octcode, kAbove, i});
+  for (std::uint32_t at = 0; at < regions_.size(); ++at) {
+    regions_[at].numbers.resize(regions_[at].pages.size());
+    for (std::uint32_t i = 0; i < regions_[at].pages.size(); ++i)
+      pages_.push_back({regions_[at].pages[i].octcode, at, i});
+  }
+  std::sort(pages_.begin(), pages_.end(),
+            [](const Page& a, const Page& b) { return a.octcode < b.octcode; });
+}
+
+void BuiltMask::link_regions() {
+  std::vector<std::uint32_t> numbers(above_plan_.pages.size());
+  for (std::uint32_t number = 0; number < pages_.size(); ++number) {
+    const Page& page = pages_[number];
+    (page.region == kAbove ? numbers : regions_[page.region].numbers)[page.place] = number;
+  }
+  const MaskLinkFormat links(page_bytes_);
+  for (PlannedMaskPage& page : above_plan_.pages) page.number = numbers[page.number];
+  for (std::size_t i = 0; i < above_.entries.size(); ++i) {
+    const MaskEntry& entry = above_.entries[i];
+    std::uint32_t& family = above_plan_.families[i];
+    if (entry.kind == MaskEntry::Kind::kRegion)
+      family = link(regions_[entry.first], regions_[entry.first].family);
+    else if (entry.kind == MaskEntry::Kind::kNode && entry.grey != 0)
+      family = links.make(numbers[links.page(family)], links.slot(family));
+  }
+}
+
+std::uint32_t BuiltMask::link(const Region& region, std::uint32_t link) const {
+  const MaskLinkFormat links(page_bytes_);
+  return links.make(region.numbers[links.page(link)], links.slot(link));
+}
+
+Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_page) const {
+  const Page& page = pages_[number];
+  if (page.region != kAbove) return fetch(number, first_page);
+  const MaskEncoder encoder(above_, above_plan_, first_page, float64_);
+  return FilePage{page.octcode, 0, encoder.encode(page.place).bytes};
+}
+
+Result<FilePage> BuiltMask::fetch(std::uint32_t number, std::uint32_t first_page) const {
+  const Page& page = pages_[number];
+  const Region& region = regions_[page.region];
+  const SpilledPage& spilled = region.pages[page.place];
+  FilePage raw{page.octcode, 0, std::vector<std::byte>(spilled.raw_bytes)};
+  if (const auto read = file_.read(spilled.offset, raw.bytes); !read) return read.error();
+  const std::uint32_t in_file = first_page + number;
+  static_assert(offsetof(MaskPageHead, page_number) == 0);
+  std::memcpy(raw.bytes.data(), &in_file, sizeof in_file);
+  replace_links(raw.bytes.data() + spilled.links_at, spilled.link_count,
+                [&](std::uint32_t below) { return link(region, below); });
+  return raw;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "octree/build/mask_build.h"
+#include "octree/build/mask_plan.h"
+#include "octree/build/page_appender.h"
+#include "octree/build/spilled_page.h"
+#include "planetree/error.h"
+#include "storage/spill_file.h"
+
+namespace planetree::octree {
+
+/// The pages of a mask: those of its regions as they were put away, and those of the cells
+/// above. A mask of one region has that region's alone.
+class BuiltMask {
+ public:
+  /// float64  planes are stored as vertices are.
+  /// file     takes the regions' pages; must outlive this.
+  BuiltMask(std::uint32_t page_bytes, bool float64, storage::SpillFile& file)
+      : page_bytes_(page_bytes), float64_(float64), file_(file) {}
+
+  /// Builds it, once.
+  ///
+  /// done    told, on any thread, after each region that triangles touch.
+  /// errors  those of build_mask() and SpillFile; kBadArgument when links of 32 bits cannot
+  ///         tell so many pages apart: 2^19 of 64 KiB.
+  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs,
+                     const std::function<void()>& done);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }
+  std::uint64_t cell_count() const { return cell_count_; }
+  unsigned levels() const { return levels_; }
+
+  /// A page by its number within the mask; any number of threads.
+  /// first_page  of the mask in its file.
+  Result<FilePage> encode(std::uint32_t number, std::uint32_t first_page) const;
+
+ private:
+  static constexpr std::uint32_t kAbove = ~std::uint32_t{0};
+  struct Region {
+    std::vector<SpilledPage> pages;
+    std::vector<std::uint32_t> numbers;
+    std::uint32_t family = 0;  // link to the root's, by the place of its page
+  };
+  struct Page {
+    std::uint64_t octcode = 0;
+    std::uint32_t region = kAbove;
+    std::uint32_t place = 0;  // among the region's
+  };
+
+  Result<void> put_region_away(std::size_t at, const MaskTree& mask, const MaskRoot& root);
+  void number_pages();
+  void link_regions();
+  std::uint32_t link(const Region& region, std::uint32_t link) const;
+  Result<FilePage> fetch(std::uint32_t number, std::uint32_t first_page) const;
+
+  const std::uint32_t page_bytes_;
+  const bool float64_;
+  storage::SpillFile& file_;
+  std::mutex mutex_;
+  std::vector<Region> regions_;
+  MaskTree above_;
+  MaskPlan above_plan_;
+  std::vector<Page> pages_;
+  std::uint64_t cell_count_ = 0;
+  unsigned levels_ = 0;
+};
+
+}  // namespace planetree::octree
