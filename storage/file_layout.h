@@ -96,8 +96,8 @@ static_assert(std::is_trivially_copyable_v<FileHeader>);
 
 enum class Codec : std::uint32_t { kStored = 0, kLz4 = 1 };
 
-/// One page. Its key is (octcode, ordinal) of its first subtree; its number is
-/// the key's rank among the pages of its kind, those of the mask last.
+/// One page. Its key is the least octcode of its subtrees, and an ordinal among pages of that
+/// octcode; its number is the key's rank among the pages of its kind, those of the mask last.
 struct PageEntry {
   std::uint64_t offset;        ///< of the stored bytes in the file
   std::uint64_t check;         ///< XXH3-64 of the stored bytes seeded with the page number,
