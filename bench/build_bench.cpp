@@ -34,12 +34,6 @@ double seconds_since(Clock::time_point started) {
   return std::chrono::duration<double>(Clock::now() - started).count();
 }
 
-const char* name_of(octree::BuildPhase phase) {
-  constexpr const char* kNames[] = {"reading",  "ordering",  "edges",  "open edges",
-                                    "bounding", "colouring", "writing"};
-  return kNames[static_cast<std::size_t>(phase)];
-}
-
 // How long each phase takes.
 class PhaseClock final : public octree::BuildProgress {
  public:
@@ -86,7 +80,7 @@ int build(const Arguments& arguments, std::uint64_t memory_mib, double peer_s) {
   for (const auto& [phase, seconds] : clock.seconds()) {
     all += seconds;
     if (phase == octree::BuildPhase::kReading) parsing = seconds;
-    phases += fmt::format("  {} {:.1f}", name_of(phase), seconds);
+    phases += fmt::format("  {} {:.1f}", octree::name_of(phase), seconds);
   }
   struct rusage usage = {};
   ::getrusage(RUSAGE_SELF, &usage);

@@ -24,11 +24,12 @@ struct GridCell {
     const unsigned shift = level - of_level;
     return {of_level, {at[0] >> shift, at[1] >> shift, at[2] >> shift}};
   }
-  constexpr std::uint64_t octcode() const {
+  /// The Morton code of the first of the finest cells in it.
+  constexpr std::uint64_t first_code() const {
     const unsigned shift = kLevels - level;
-    return octcode_of_prefix(morton_code(at[0] << shift, at[1] << shift, at[2] << shift),
-                             3 * level);
+    return morton_code(at[0] << shift, at[1] << shift, at[2] << shift);
   }
+  constexpr std::uint64_t octcode() const { return octcode_of_prefix(first_code(), 3 * level); }
 };
 
 /// Where the octree's cells are. Its root is the cube of side 2 at the least

@@ -50,7 +50,7 @@ MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max
   if (record && !records.root_is_node()) read_leaf(record, records, point, finding);
   if (!record || !records.root_is_node()) return finding;
   const GridCell finest = CellGrid(mask.lower).finest(point);
-  const std::uint64_t octants = morton_code(finest.at[0], finest.at[1], finest.at[2]);
+  const std::uint64_t octants = finest.first_code();
   // A forged mask could be deeper than cells can be told apart.
   const auto most = static_cast<unsigned>(std::min<std::uint64_t>(max_nodes, kLevels));
   unsigned level = 0;

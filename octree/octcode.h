@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 
 /// Octcodes: 64-bit names of octree cells ("Out-of-core real-time haptic
@@ -48,6 +50,12 @@ constexpr std::uint64_t octcode_of_prefix(std::uint64_t morton, unsigned prefix_
   const unsigned dropped = kMortonBits - prefix_bits;
   const std::uint64_t code = dropped == kMortonBits ? 0 : morton >> dropped << dropped;
   return std::uint64_t{prefix_bits / 3} << 59 | code << 2 | prefix_bits % 3;
+}
+
+/// The octcode of the smallest cell that holds two Morton codes, and so all between them.
+constexpr std::uint64_t octcode_of_range(std::uint64_t least, std::uint64_t greatest) {
+  const auto same = static_cast<unsigned>(std::countl_zero(least ^ greatest)) - (64 - kMortonBits);
+  return octcode_of_prefix(least, std::min(same, kMortonBits));
 }
 
 /// A cell read back from an octcode: `x`, `y`, `z` in cells of its level.

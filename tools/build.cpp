@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -23,30 +24,16 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostThreads = 1024;
 
-struct PhaseWords {
-  const char* name;
-  const char* key;  // in JSON
-  const char* unit;
-};
+const char* unit_of(octree::BuildPhase phase) {
+  if (phase == octree::BuildPhase::kReading) return "bytes";
+  return phase == octree::BuildPhase::kWriting ? "pages" : "parts";
+}
 
-PhaseWords words_of(octree::BuildPhase phase) {
-  switch (phase) {
-    case octree::BuildPhase::kReading:
-      return {"reading", "reading", "bytes"};
-    case octree::BuildPhase::kOrdering:
-      return {"ordering", "ordering", "parts"};
-    case octree::BuildPhase::kClosing:
-      return {"matching edges", "matching_edges", "parts"};
-    case octree::BuildPhase::kListing:
-      return {"listing open edges", "listing_open_edges", "parts"};
-    case octree::BuildPhase::kBounding:
-      return {"bounding", "bounding", "parts"};
-    case octree::BuildPhase::kColouring:
-      return {"colouring", "colouring", "parts"};
-    case octree::BuildPhase::kWriting:
-      break;
-  }
-  return {"writing", "writing", "pages"};
+/// A phase as JSON has it: "matching_edges".
+std::string key_of(octree::BuildPhase phase) {
+  std::string key = name_of(phase);
+  std::replace(key.begin(), key.end(), ' ', '_');
+  return key;
 }
 
 /// Shows how far the build is, and remembers how long its phases took and which is the last:
@@ -60,8 +47,7 @@ class BuildMeter final : public octree::BuildProgress {
       note_seconds();
       phase_ = phase;
       done_ = 0;
-      const PhaseWords words = words_of(phase);
-      progress_.start(words.name, total, words.unit);
+      progress_.start(name_of(phase), total, unit_of(phase));
     }
     if (done > done_) progress_.add(done - done_);
     done_ = std::max(done, done_);
@@ -80,7 +66,7 @@ class BuildMeter final : public octree::BuildProgress {
   void note_seconds() {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> elapsed = now - started_;
-    if (phase_) seconds_[words_of(*phase_).key] = elapsed.count();
+    if (phase_) seconds_[key_of(*phase_)] = elapsed.count();
     started_ = now;
   }
 
@@ -91,19 +77,13 @@ class BuildMeter final : public octree::BuildProgress {
   std::uint64_t done_ = 0;
 };
 
-/// Where a build keeps what it spills.
-fs::path temp_directory(const BuildArguments& arguments) {
-  const fs::path& given = arguments.options.temp_directory;
-  if (!given.empty()) return given;
-  return arguments.output.has_parent_path() ? arguments.output.parent_path() : fs::path(".");
-}
-
 /// What an error of a build is about.
 fs::path blamed_for(const Error& error, const BuildMeter& meter, const BuildArguments& arguments) {
   if (meter.is_writing()) return arguments.output;
   const bool of_spilling =
       error.code == ErrorCode::kNoSpace || error.code == ErrorCode::kWriteFailed;
-  return meter.is_reading() && !of_spilling ? arguments.input : temp_directory(arguments);
+  return meter.is_reading() && !of_spilling ? arguments.input
+                                            : arguments.options.spill_directory(arguments.output);
 }
 
 /// What a build would only find out at its end.
@@ -205,7 +185,7 @@ std::string memory_complaint(std::uint64_t bytes) {
 int run_build(const BuildArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments); !checked)
     return console.fail(arguments.output.string(), checked.error());
-  const fs::path temporary = temp_directory(arguments);
+  const fs::path temporary = arguments.options.spill_directory(arguments.output);
   if (std::error_code ignored; !fs::is_directory(temporary, ignored))
     return console.fail(temporary.string(),
                         make_error(ErrorCode::kNotFound, Error::kNowhere, Error::kNowhere,

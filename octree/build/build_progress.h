@@ -15,6 +15,27 @@ enum class BuildPhase : std::uint8_t {
   kWriting
 };
 
+/// What a person calls it, such as "matching edges".
+constexpr const char* name_of(BuildPhase phase) {
+  switch (phase) {
+    case BuildPhase::kReading:
+      return "reading";
+    case BuildPhase::kOrdering:
+      return "ordering";
+    case BuildPhase::kClosing:
+      return "matching edges";
+    case BuildPhase::kListing:
+      return "listing open edges";
+    case BuildPhase::kBounding:
+      return "bounding";
+    case BuildPhase::kColouring:
+      return "colouring";
+    case BuildPhase::kWriting:
+      break;
+  }
+  return "writing";
+}
+
 /// Told how far a build is, on any thread but one at a time.
 class BuildProgress {
  public:

@@ -1,12 +1,9 @@
 #include "octree/build/built_mask.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "octree/build/mask_encoder.h"
-#include "octree/build/shuffled_links.h"
-#include "octree/mask_streams.h"
 
 namespace planetree::octree {
 
@@ -92,23 +89,15 @@ std::uint32_t BuiltMask::link(const Region& region, std::uint32_t link) const {
 
 Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_page) const {
   const Page& page = pages_[number];
-  if (page.region != kAbove) return fetch(number, first_page);
+  if (page.region != kAbove) {
+    const Region& region = regions_[page.region];
+    auto raw = get_back(region.pages[page.place], file_, first_page + number,
+                        [&](std::uint32_t below) { return link(region, below); });
+    if (!raw) return raw.error();
+    return FilePage{page.octcode, 0, *std::move(raw)};
+  }
   const MaskEncoder encoder(above_, above_plan_, first_page, float64_);
   return FilePage{page.octcode, 0, encoder.encode(page.place).bytes};
-}
-
-Result<FilePage> BuiltMask::fetch(std::uint32_t number, std::uint32_t first_page) const {
-  const Page& page = pages_[number];
-  const Region& region = regions_[page.region];
-  const SpilledPage& spilled = region.pages[page.place];
-  FilePage raw{page.octcode, 0, std::vector<std::byte>(spilled.raw_bytes)};
-  if (const auto read = file_.read(spilled.offset, raw.bytes); !read) return read.error();
-  const std::uint32_t in_file = first_page + number;
-  static_assert(offsetof(MaskPageHead, page_number) == 0);
-  std::memcpy(raw.bytes.data(), &in_file, sizeof in_file);
-  replace_links(raw.bytes.data() + spilled.links_at, spilled.link_count,
-                [&](std::uint32_t below) { return link(region, below); });
-  return raw;
 }
 
 }  // namespace planetree::octree

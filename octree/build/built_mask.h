@@ -57,7 +57,6 @@ class BuiltMask {
   void number_pages();
   void link_regions();
   std::uint32_t link(const Region& region, std::uint32_t link) const;
-  Result<FilePage> fetch(std::uint32_t number, std::uint32_t first_page) const;
 
   const std::uint32_t page_bytes_;
   const bool float64_;

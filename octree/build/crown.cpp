@@ -1,7 +1,6 @@
 #include "octree/build/crown.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include "octree/build/binary_tree.h"
@@ -141,9 +140,7 @@ class CrownPlanner {
     const std::uint64_t least = patches_[node.children[0].begin].least_code;
     const std::uint64_t greatest =
         patches_[node.children[node.child_count - 1u].end - 1].greatest_code;
-    const auto same =
-        static_cast<unsigned>(std::countl_zero(least ^ greatest)) - (64 - kMortonBits);
-    return octcode_of_prefix(least, std::min(same, kMortonBits));
+    return octcode_of_range(least, greatest);
   }
 
   const WideTree& tree_;

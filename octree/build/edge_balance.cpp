@@ -183,8 +183,7 @@ void EdgeFaces::Faces::join(const Faces& other) {
 }
 
 void EdgeFaces::look_at(const Triangles& patch) {
-  const std::size_t listed =
-      static_cast<std::size_t>(std::min<std::uint64_t>(balance_.open_edges, EdgeBalance::kListed));
+  const std::size_t listed = balance_.listed();
   std::array<Faces, EdgeBalance::kListed> found;
   for (std::uint32_t i = 0; i < patch.size(); ++i) {
     const Triangle triangle = patch.corners(i);
@@ -222,7 +221,7 @@ EdgeBalance EdgeFaces::balance() const {
 
 void EdgeBalance::describe(int scale_exponent, storage::ModelRecord& model) const {
   model.open_edge_count = open_edges;
-  for (std::size_t i = 0; i < std::min<std::uint64_t>(open_edges, kListed); ++i) {
+  for (std::size_t i = 0; i < listed(); ++i) {
     storage::OpenEdge& edge = model.open_edge[i];
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       edge.from[axis] = std::ldexp(first[i].from[axis], -scale_exponent);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -29,6 +31,10 @@ struct EdgeBalance {
   static constexpr std::size_t kListed = 3;
 
   std::uint64_t open_edges = 0;
+  /// How many of them are listed.
+  std::size_t listed() const {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(open_edges, kListed));
+  }
   /// Those of them whose ends have the least coordinates.
   std::array<OpenEdge, kListed> first;
 

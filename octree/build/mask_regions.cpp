@@ -9,7 +9,6 @@
 #include "octree/build/cell_overlap.h"
 #include "octree/build/edge_crossings.h"
 #include "octree/build/morton_order.h"
-#include "octree/octcode.h"
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
@@ -19,11 +18,6 @@ namespace {
 /// the triangles together: their centres coincide.
 constexpr unsigned kMostWasted = 3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::uint64_t first_code(const GridCell& cell) {
-  const unsigned shift = kLevels - cell.level;
-  return morton_code(cell.at[0] << shift, cell.at[1] << shift, cell.at[2] << shift);
-}
 
 }  // namespace
 
@@ -54,7 +48,7 @@ Result<std::array<MaskRegions::Stretch, 8>> MaskRegions::octants_of(
   std::array<Stretch, 8> octants;
   octants[0].from = stretch.from;
   for (unsigned octant = 1; octant < 8; ++octant) {
-    auto cut = runs.cut(first_code(regions_[at].cell.child(octant)));
+    auto cut = runs.cut(regions_[at].cell.child(octant).first_code());
     if (!cut) return cut.error();
     octants[octant - 1].to = *cut;
     octants[octant].from = *std::move(cut);
@@ -171,10 +165,10 @@ Result<void> MaskRegions::add(const Triangles& triangles) {
 
 Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) const {
   const GridCell& cell = regions_[at].cell;
-  const auto from = runs.cut(first_code(cell));
+  const auto from = runs.cut(cell.first_code());
   if (!from) return from.error();
   // The codes of a cell are as many as the finest cells in it.
-  const auto to = runs.cut(first_code(cell) + (std::uint64_t{1} << 3 * (kLevels - cell.level)));
+  const auto to = runs.cut(cell.first_code() + (std::uint64_t{1} << 3 * (kLevels - cell.level)));
   if (!to) return to.error();
   const auto own = runs.read(*from, *to);
   if (!own) return own.error();

@@ -22,12 +22,6 @@ struct Encoded {
 
 }  // namespace
 
-Result<FilePage> FilePage::of(std::uint64_t octcode, std::uint32_t ordinal,
-                              Result<std::vector<std::byte>> bytes) {
-  if (!bytes) return bytes.error();
-  return FilePage{octcode, ordinal, *std::move(bytes)};
-}
-
 Result<void> PageAppender::append(std::uint32_t count,
                                   const std::function<Result<FilePage>(std::uint32_t)>& make) {
   std::vector<Encoded> batch(std::min(kBatchPages, count));

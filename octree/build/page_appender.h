@@ -16,9 +16,6 @@ struct FilePage {
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;
   std::vector<std::byte> bytes;
-
-  static Result<FilePage> of(std::uint64_t octcode, std::uint32_t ordinal,
-                             Result<std::vector<std::byte>> bytes);
 };
 
 /// Makes pages side by side and appends them to a file in their order.

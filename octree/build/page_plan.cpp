@@ -1,7 +1,6 @@
 #include "octree/build/page_plan.h"
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <numeric>
 
@@ -137,9 +136,7 @@ class PagePlanner {
       least = std::min(least, keys_[i].code);
       greatest = std::max(greatest, keys_[i].code);
     }
-    const auto same =
-        static_cast<unsigned>(std::countl_zero(least ^ greatest)) - (64 - kMortonBits);
-    return octcode_of_prefix(least, std::min(same, kMortonBits));
+    return octcode_of_range(least, greatest);
   }
 
   // Treelet roots in preorder: parents come first, so ordinals ascend downward.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include "octree/strict_math.h"
+#include "storage/checksum.h"
 
 namespace planetree::octree {
 namespace {
@@ -12,10 +14,7 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 // No coordinate is -0, so that equal positions have equal bits.
 std::uint64_t hash_of(const Point& position) {
-  std::uint64_t hash = 0;
-  for (const double value : position)
-    hash = (std::rotl(hash, 21) ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15;
-  return hash ^ hash >> 32;
+  return storage::hash64(std::as_bytes(std::span(position.data(), 3)));
 }
 
 }  // namespace

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <vector>
 
 #include "octree/build/page_encoder.h"
+#include "octree/build/shuffled_links.h"
+#include "octree/mask_streams.h"
+#include "octree/page_streams.h"
 #include "planetree/error.h"
 #include "storage/spill_file.h"
 
@@ -23,6 +29,21 @@ inline Result<SpilledPage> put_away(std::uint64_t octcode, const EncodedPage& pa
   if (!offset) return offset.error();
   return SpilledPage{octcode, *offset, static_cast<std::uint32_t>(page.bytes.size()), page.links_at,
                      page.link_count};
+}
+
+/// Gets its raw bytes back, its number and every link to another page replaced.
+///
+/// number  in the file.
+/// link    what link(l) says a link among those put away is in the file.
+template <class Link>
+Result<std::vector<std::byte>> get_back(const SpilledPage& page, const storage::SpillFile& file,
+                                        std::uint32_t number, const Link& link) {
+  std::vector<std::byte> raw(page.raw_bytes);
+  if (const auto read = file.read(page.offset, raw); !read) return read.error();
+  static_assert(offsetof(PageHead, page_number) == 0 && offsetof(MaskPageHead, page_number) == 0);
+  std::memcpy(raw.data(), &number, sizeof number);
+  replace_links(raw.data() + page.links_at, page.link_count, link);
+  return raw;
 }
 
 }  // namespace planetree::octree

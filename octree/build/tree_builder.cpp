@@ -59,10 +59,8 @@ class TreeBuild {
         memory_(memory),
         progress_(progress),
         seams_(seams),
-        file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory, 0,
-              seams.calls),
-        pages_file_(options.temp_directory.empty() ? output.parent_path() : options.temp_directory,
-                    memory.pages_bytes, seams.calls) {}
+        file_(options.spill_directory(output), 0, seams.calls),
+        pages_file_(options.spill_directory(output), memory.pages_bytes, seams.calls) {}
 
   Result<BuildReport> run() {
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
@@ -210,9 +208,8 @@ Result<BuildReport> TreeBuild::write_pages() {
                                             seams_.calls);
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress_, pages.size() + mask_pages());
-  const auto appended = appender.append(pages.size(), [&](std::uint32_t page) {
-    return FilePage::of(pages.octcode(page), pages.ordinal(page), pages.encode(page));
-  });
+  const auto appended =
+      appender.append(pages.size(), [&](std::uint32_t page) { return pages.encode(page); });
   if (!appended) return appended.error();
   writer->begin_mask();
   const auto masked = appender.append(
@@ -259,6 +256,11 @@ storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {
 }
 
 }  // namespace
+
+std::filesystem::path BuildOptions::spill_directory(const std::filesystem::path& output) const {
+  if (!temp_directory.empty()) return temp_directory;
+  return output.has_parent_path() ? output.parent_path() : ".";
+}
 
 Result<BuildReport> build_tree(const std::filesystem::path& input,
                                const std::filesystem::path& output, const BuildOptions& options,

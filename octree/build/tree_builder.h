@@ -21,6 +21,9 @@ struct BuildOptions {
   std::filesystem::path temp_directory;  ///< for what is spilled; empty: the output's
   bool strict = false;                   ///< a set-aside record is an error
   bool replace = false;                  ///< an existing output may be replaced
+
+  /// Where a build of this output spills.
+  std::filesystem::path spill_directory(const std::filesystem::path& output) const;
 };
 
 struct BuildReport {

@@ -1,9 +1,10 @@
 #include "octree/build/tree_pages.h"
 
+#include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "octree/build/page_encoder.h"
-#include "octree/build/shuffled_links.h"
 #include "octree/page_streams.h"
 
 namespace planetree::octree {
@@ -20,7 +21,7 @@ TreePages::TreePages(Crown& crown, const std::vector<BuiltPatch>& patches,
   for (std::size_t i = 0; i < plan.pages.size(); ++i) {
     PlannedPage& page = plan.pages[i];
     page.number = numbers.crown_page(i);
-    page.ordinal = ordinal(page.number);
+    page.ordinal = numbers.pages()[page.number].ordinal;
     std::uint32_t slot = frame_head_slots(plan.page_bytes);
     for (const std::uint32_t node : page.nodes) {
       plan.node_links[node] = links.make(false, page.number, slot);
@@ -33,29 +34,19 @@ std::uint32_t TreePages::root_link() const {
   return crown_.tree.nodes.empty() ? crown_.plan.block_links[0] : crown_.plan.node_links[0];
 }
 
-Result<std::vector<std::byte>> TreePages::encode(std::uint32_t number) const {
+Result<FilePage> TreePages::encode(std::uint32_t number) const {
   const NumberedPage& page = numbers_.pages()[number];
-  if (page.patch != NumberedPage::kCrown) return fetch(number);
-  const Triangles none;
-  const PatchVertices no_vertices(none);
-  return PageEncoder(none, no_vertices, {}, crown_.tree, crown_.plan, shape_)
-      .encode(page.place)
-      .bytes;
-}
-
-Result<std::vector<std::byte>> TreePages::fetch(std::uint32_t number) const {
-  const NumberedPage& page = numbers_.pages()[number];
-  const SpilledPage& spilled = patches_[page.patch].pages[page.place];
-  std::vector<std::byte> raw(spilled.raw_bytes);
-  if (const auto read = file_.read(spilled.offset, raw); !read) return read.error();
-  PageHead head;
-  std::memcpy(&head, raw.data(), sizeof head);
-  head.page_number = number;
-  head.ordinal = page.ordinal;
-  std::memcpy(raw.data(), &head, sizeof head);
-  replace_links(raw.data() + spilled.links_at, spilled.link_count,
-                [&](std::uint32_t link) { return numbers_.link(page.patch, link); });
-  return raw;
+  if (page.patch == NumberedPage::kCrown) {
+    const Triangles none;
+    const PatchVertices no_vertices(none);
+    const PageEncoder encoder(none, no_vertices, {}, crown_.tree, crown_.plan, shape_);
+    return FilePage{page.octcode, page.ordinal, encoder.encode(page.place).bytes};
+  }
+  auto raw = get_back(patches_[page.patch].pages[page.place], file_, number,
+                      [&](std::uint32_t link) { return numbers_.link(page.patch, link); });
+  if (!raw) return raw.error();
+  std::memcpy(raw->data() + offsetof(PageHead, ordinal), &page.ordinal, sizeof page.ordinal);
+  return FilePage{page.octcode, page.ordinal, *std::move(raw)};
 }
 
 }  // namespace planetree::octree

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "octree/build/crown.h"
+#include "octree/build/page_appender.h"
 #include "octree/build/page_numbers.h"
 #include "octree/build/patch_build.h"
 #include "storage/spill_file.h"
@@ -21,14 +21,10 @@ class TreePages {
             const BlockShape& shape, const storage::SpillFile& file);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(numbers_.pages().size()); }
-  std::uint64_t octcode(std::uint32_t number) const { return numbers_.pages()[number].octcode; }
-  std::uint32_t ordinal(std::uint32_t number) const { return numbers_.pages()[number].ordinal; }
   std::uint32_t root_link() const;
-  Result<std::vector<std::byte>> encode(std::uint32_t number) const;
+  Result<FilePage> encode(std::uint32_t number) const;
 
  private:
-  Result<std::vector<std::byte>> fetch(std::uint32_t number) const;
-
   const Crown& crown_;
   const std::vector<BuiltPatch>& patches_;
   const PageNumbers& numbers_;
