@@ -16,8 +16,8 @@ struct CacheLimits {
 };
 
 inline constexpr std::uint32_t kMaxFrameBytes = std::uint32_t{1} << 28;
-/// The sections noted in limbo take 8 * max_readers^2 bytes: 8 MiB here.
-inline constexpr std::uint32_t kMaxReaders = 1024;
+/// The sections noted in limbo take 8 * max_readers^2 bytes: 18 MiB here.
+inline constexpr std::uint32_t kMaxReaders = 1536;
 
 /// Refuses limits outside the ranges above, with kBadArgument.
 Result<void> check_limits(const CacheLimits& limits) noexcept;

@@ -85,6 +85,8 @@ Result<ClaimedMemory> ClaimedMemory::claim(std::uint64_t bytes) noexcept {
   return memory;
 }
 
+bool ClaimedMemory::lock() const noexcept { return ::mlock(data_, bytes_) == 0; }
+
 ClaimedMemory::ClaimedMemory(ClaimedMemory&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
 

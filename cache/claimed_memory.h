@@ -22,6 +22,9 @@ class ClaimedMemory {
   ClaimedMemory& operator=(ClaimedMemory&& other) noexcept;
   ~ClaimedMemory();
 
+  /// Keeps the system from paging it out; false where that is not allowed.
+  bool lock() const noexcept;
+
   std::byte* data() const noexcept { return data_; }
   std::uint64_t bytes() const noexcept { return bytes_; }
 

@@ -37,6 +37,8 @@ class FramePool {
   std::uint32_t frame_count() const noexcept { return frame_count_; }
   std::uint32_t frame_bytes() const noexcept { return frame_bytes_; }
   std::uint64_t stride_bytes() const noexcept { return stride_bytes_; }
+  /// As ClaimedMemory::lock().
+  bool lock() const noexcept { return memory_.lock(); }
   /// All memory the pool holds.
   std::uint64_t arena_bytes() const noexcept { return memory_.bytes(); }
 

@@ -77,7 +77,8 @@ PageCache::~PageCache() {
 
 Result<Reader> PageCache::claim_reader() noexcept {
   for (ReaderSlot& slot : tables_.slots) {
-    if (slot.try_claim()) return Reader(*this, slot);
+    if (slot.try_claim())
+      return Reader(*this, slot, static_cast<std::uint32_t>(&slot - tables_.slots.data()));
   }
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                     "all %u probes are in use: open the model with a larger max_probes",
@@ -206,6 +207,11 @@ void PageCache::quarantine(std::uint32_t page) noexcept {
   add_one(counts_.quarantined);
 }
 
+bool PageCache::lock_memory() noexcept {
+  locked_ = table_memory_.lock() && frames_.lock();
+  return locked_;
+}
+
 CacheStats PageCache::stats() const noexcept {
   CacheStats stats{};
   for (const ReaderSlot& slot : tables_.slots) {
@@ -220,6 +226,7 @@ CacheStats PageCache::stats() const noexcept {
   stats.table_bytes = table_memory_.bytes();
   stats.reserved_bytes = limits_.reserved_bytes;
   stats.budget_bytes = limits_.budget_bytes;
+  stats.locked_bytes = locked_ ? stats.arena_bytes + stats.table_bytes : 0;
   return stats;
 }
 

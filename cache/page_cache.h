@@ -37,6 +37,7 @@ struct CacheStats {
   std::uint64_t table_bytes;     ///< of the page map, reader slots and the like
   std::uint64_t reserved_bytes;  ///< as asked
   std::uint64_t budget_bytes;    ///< as asked; the three above and the object fit in it
+  std::uint64_t locked_bytes;    ///< of arena and tables: both or none
 };
 
 /// Decoded pages in a fixed number of frames.
@@ -71,8 +72,13 @@ class PageCache {
   /// frames.
   Result<void> pin(std::uint32_t page) noexcept;
 
-  /// Any thread. Fails with kBadArgument if max_readers are there already.
+  /// Any thread. Fails with kBadArgument if max_readers are there already. Readers that are
+  /// there at one time have different Reader::place()s below max_readers.
   Result<Reader> claim_reader() noexcept;
+
+  /// Keeps the system from paging arena and tables out; false where that is not allowed.
+  /// Before there are readers.
+  bool lock_memory() noexcept;
 
   /// Any thread; waits for nobody.
   CacheStats stats() const noexcept;
@@ -118,6 +124,7 @@ class PageCache {
   Limbo limbo_;
   std::uint32_t free_count_;
   std::uint32_t pinned_count_ = 0;
+  bool locked_ = false;
   Counts counts_;
 };
 

@@ -6,12 +6,13 @@
 
 namespace planetree::cache {
 
-Reader::Reader(PageCache& cache, ReaderSlot& slot) noexcept
+Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t place) noexcept
     : map_(cache.map_),
       scores_(cache.clock_.scores()),
       frames_(cache.frames_.frame(0)),
       stride_bytes_(cache.frames_.stride_bytes()),
       slot_(&slot),
+      place_(place),
       cache_(&cache) {}
 
 Reader::Reader(Reader&& other) noexcept
@@ -20,6 +21,7 @@ Reader::Reader(Reader&& other) noexcept
       frames_(other.frames_),
       stride_bytes_(other.stride_bytes_),
       slot_(std::exchange(other.slot_, nullptr)),
+      place_(other.place_),
       cache_(other.cache_) {}
 
 Reader& Reader::operator=(Reader&& other) noexcept {
@@ -30,6 +32,7 @@ Reader& Reader::operator=(Reader&& other) noexcept {
   frames_ = other.frames_;
   stride_bytes_ = other.stride_bytes_;
   slot_ = std::exchange(other.slot_, nullptr);
+  place_ = other.place_;
   cache_ = other.cache_;
   return *this;
 }

@@ -33,6 +33,9 @@ class Reader {
 
   bool inside() const noexcept { return slot_->inside(); }
 
+  /// Among the readers there are at one time.
+  std::uint32_t place() const noexcept { return place_; }
+
   /// Inside a section: the frame of a page number below page_count, or nullptr
   /// if it is not resident. No lock, allocation, loop or system call.
   const std::byte* find(std::uint32_t page) noexcept {
@@ -69,7 +72,7 @@ class Reader {
 
  private:
   friend class PageCache;
-  Reader(PageCache& cache, ReaderSlot& slot) noexcept;
+  Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t place) noexcept;
   void give_back() noexcept;
   const std::byte* at(std::uint32_t frame) const noexcept {
     return frames_ + frame * stride_bytes_;
@@ -82,6 +85,7 @@ class Reader {
   const std::byte* frames_;
   std::uint64_t stride_bytes_;
   ReaderSlot* slot_;  // nullptr once moved from
+  std::uint32_t place_;
   PageCache* cache_;
 };
 

@@ -60,6 +60,13 @@ class Descent {
     }
   }
 
+  // Where something is left out that may matter, a triangle known from elsewhere helps.
+  void fall_back_on(const NearestAnswer& known) {
+    if (known.triangle == kNoTriangle || !left_out()) return;
+    note(known.corners, known.triangle, 0, 0);
+    settle();
+  }
+
   const BestTriangle& best() const { return best_; }
   const FloatQuery& wide() const { return wide_; }
   // Least bounds of children not visited because max_error allowed it, and
@@ -69,6 +76,8 @@ class Descent {
 
  private:
   static constexpr unsigned kPrefetched = 3;  // children, nearest first
+
+  bool left_out() const { return unread_ <= best_.exact_threshold(); }
 
   void run() {
     std::uint64_t visits = 1;
@@ -206,6 +215,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
                                 const NearestLimits& limits, PageReader pages, TreeWork& work,
                                 Vicinity* vicinity) {
   const auto answer_of = [&](Descent& descent) {
+    if (limits.known) descent.fall_back_on(*limits.known);
     return conclude(tree, query, limits, descent.best(), descent.wide(), descent.pruned(),
                     descent.unread());
   };
@@ -213,10 +223,8 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
     Descent descent(tree, query, limits, pages, work);
     descent.run_from(*vicinity);
     NearestAnswer answer = answer_of(descent);
-    if (answer.status == Status::kExact) {
-      vicinity->note(query, answer.distance);
-      return answer;
-    }
+    if (answer.status == Status::kExact) vicinity->note(query, answer.distance);
+    if (answer.status == Status::kExact || limits.from_last) return answer;
     // Lost pages, or nothing so near as asked: told from the root, as ever.
     vicinity->forget();
   }
@@ -243,10 +251,11 @@ NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLi
                       PageReader pages, TreeWork& work, Vicinity* vicinity) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
   // Limited work and errors depend on the way that is taken.
-  const bool unlimited =
-      limits.max_error == 0 && limits.max_nodes == std::numeric_limits<std::uint32_t>::max();
+  const bool any_way =
+      limits.from_last ||
+      (limits.max_error == 0 && limits.max_nodes == std::numeric_limits<std::uint32_t>::max());
   return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
-                                                 unlimited ? vicinity : nullptr);
+                                                 any_way ? vicinity : nullptr);
 }
 
 }  // namespace planetree::octree

@@ -16,13 +16,6 @@ namespace planetree::octree {
 /// and the nearest triangle is the one of least index.
 inline constexpr double kFarthestQuery = 0x1p300;
 
-/// Limits of one descent; lengths are in the model frame.
-struct NearestLimits {
-  double max_error = 0;
-  double max_distance = std::numeric_limits<double>::infinity();
-  std::uint32_t max_nodes = std::numeric_limits<std::uint32_t>::max();
-};
-
 /// An answer in the model frame.
 struct NearestAnswer {
   double distance = 0;
@@ -34,6 +27,19 @@ struct NearestAnswer {
   Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< of `triangle`
   Feature feature = Feature::kFace;
   Status status = Status::kBadQuery;
+};
+
+/// Limits of one descent; lengths are in the model frame.
+struct NearestLimits {
+  double max_error = 0;
+  double max_distance = std::numeric_limits<double>::infinity();
+  std::uint32_t max_nodes = std::numeric_limits<std::uint32_t>::max();
+  /// Whether limited work, too, may start from what the last query left. Answers that are not
+  /// exact then depend on the queries before.
+  bool from_last = false;
+  /// One with a triangle of this tree, to fall back upon where pages are missing: its
+  /// triangle, not its distance, counts. May be null.
+  const NearestAnswer* known = nullptr;
 };
 
 /// Nearest surface point to `query`, by a descent that takes the nearest child first: of the

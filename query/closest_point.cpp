@@ -81,40 +81,56 @@ ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nea
   return answer;
 }
 
-// Limited work depends on the way that is taken, so that such asks take the one from the root.
-bool unlimited(const Ask& ask) {
-  return ask.max_nodes == std::numeric_limits<std::uint32_t>::max();
+// What an ask comes to where it leaves things open.
+Ask with_defaults(Ask ask) {
+  if (ask.wait == Wait::kNever && ask.max_nodes == Ask::kNoLimit)
+    ask.max_nodes = Ask::kRealTimeNodes;
+  return ask;
+}
+
+// Answers of limited work depend on the way that is taken, so that asks that wait for pages
+// take the one from the root then. What is resident, answers that do not wait depend on anyway.
+bool may_remember(const Ask& ask) {
+  return ask.wait == Wait::kNever || ask.max_nodes == Ask::kNoLimit;
 }
 
 // `clear`: no surface is nearer to the point.
-Standing side_of(ProbeState& probe, const octree::Point& point, double clear, const Ask& ask,
-                 PageTurner& turner, octree::TreeWork& work) {
-  if (unlimited(ask))
-    return find_side(probe.model(), point, clear, probe.side_memory(), turner.pages(), work);
-  const std::uint64_t spent = work.nodes + work.blocks;
-  return find_side(probe.model(), point, spent < ask.max_nodes ? ask.max_nodes - spent : 0,
-                   turner.pages(), work);
+Standing side_of(ProbeState& probe, const octree::Point& point, double clear, bool remember,
+                 std::uint64_t max_nodes, PageTurner& turner, octree::TreeWork& work) {
+  if (remember)
+    return find_side(probe.model(), point, clear, probe.side_memory(), max_nodes, turner.pages(),
+                     work);
+  return find_side(probe.model(), point, max_nodes, turner.pages(), work);
+}
+
+// An ask that lost something for want of pages or work.
+void note_loss(ProbeState& probe, const Vec3& query, const Ask& ask, const PageTurner& turner) {
+  if (turner.missed())
+    probe.wishes().missed.give({query, ask.max_error, ask.max_distance, ask.parts});
 }
 
 // The parts of one ask, in the order in which they need each other.
 class Asking {
  public:
-  Asking(ProbeState& probe, const Vec3& query, const Ask& ask)
+  Asking(ProbeState& probe, const Vec3& query, const Ask& ask, bool remember)
       : probe_(probe),
         model_(probe.model()),
         query_(query),
-        ask_(ask),
+        ask_(with_defaults(ask)),
+        remember_(remember),
         placed_(model_.scale().in(query)),
         far_(is_far(placed_)),
         point_(within_reach(placed_, query)),
-        turner_(probe.reader()) {}
+        turner_(probe.reader(), ask.wait) {}
 
   ClosestPoint run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
     if ((parts & kDistance) != 0) find_nearest();
     if ((parts & kSide) != 0) find_side();
     if ((parts & kNormal) != 0 && answer_.triangle != kNoTriangle) find_normal();
+    if (lost_) note_loss(probe_, query_, ask_, turner_);
     if (answer_.status == Status::kDegraded) model_.count_degraded();
+    probe_.last_parts() = parts;
     return answer_;
   }
 
@@ -129,37 +145,45 @@ class Asking {
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
+    limits.from_last = remember_ && ask_.max_nodes != Ask::kNoLimit;
+    if (ask_.wait == Wait::kNever) limits.known = &probe_.last_nearest();
     nearest_ = far_ ? farthest(model_.tree(), point_)
                     : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
                                       &probe_.vicinity());
+    if (limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
     answer_ = in_model_units(model_.scale(), nearest_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
+    lost_ = answer_.status == Status::kDegraded;
   }
 
   void find_side() {
-    const auto known = unlimited(ask_) ? side_at_once(model_, point_) : std::nullopt;
-    standing_ = known ? *known : side_of(probe_, point_, nearest_.lower, ask_, turner_, work_);
+    const auto known = remember_ ? side_at_once(model_, point_) : std::nullopt;
+    standing_ =
+        known ? *known
+              : side_of(probe_, point_, nearest_.lower, remember_, nodes_left(), turner_, work_);
     answer_.side = standing_.side;
     if (standing_.status == Status::kDegraded) degrade();
   }
 
   void find_normal() {
     const ContactNormal contact = contact_normal(model_.tree(), point_, nearest_, standing_,
-                                                 unlimited(ask_) ? &probe_.vicinity() : nullptr,
+                                                 remember_ ? &probe_.vicinity() : nullptr,
                                                  nodes_left(), turner_.pages(), work_);
     answer_.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
     if (!contact.complete) degrade();
   }
 
   void degrade() {
+    lost_ = true;
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
 
   ProbeState& probe_;
   const ModelState& model_;
   const Vec3& query_;
-  const Ask& ask_;
+  const Ask ask_;
+  const bool remember_;
   const octree::Point placed_;
   const bool far_;
   const octree::Point point_;
@@ -168,13 +192,14 @@ class Asking {
   octree::NearestAnswer nearest_;
   Standing standing_;
   ClosestPoint answer_ = without_distance(Status::kExact);
+  bool lost_ = false;  // something for want of pages or work
 };
 
 }  // namespace
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
-  return Asking(probe, query, ask).run();
+  return Asking(probe, query, ask, may_remember(ask)).run();
 }
 
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
@@ -182,12 +207,22 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   const ModelState& model = probe.model();
   const octree::Point placed = model.scale().in(query);
   if (const auto known = side_at_once(model, placed)) return {known->side, known->status};
-  PageTurner turner(probe.reader());
+  PageTurner turner(probe.reader(), ask.wait);
   octree::TreeWork work;
-  const octree::Point point = within_reach(placed, query);
-  const Standing standing = side_of(probe, point, 0, ask, turner, work);
-  if (standing.status == Status::kDegraded) model.count_degraded();
+  const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),
+                                    with_defaults(ask).max_nodes, turner, work);
+  probe.last_parts() = kSide;
+  if (standing.status == Status::kDegraded) {
+    Ask side_alone = ask;
+    side_alone.parts = kSide;
+    note_loss(probe, query, side_alone, turner);
+    model.count_degraded();
+  }
   return {standing.side, standing.status};
+}
+
+void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
+  if (makes_sense(query, ask)) Asking(probe, query, ask, true).run();
 }
 
 }  // namespace planetree::query

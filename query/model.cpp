@@ -1,9 +1,11 @@
 #include "planetree/model.h"
 
+#include <new>
 #include <utility>
 
 #include "octree/self_test.h"
 #include "query/batch_crew.h"
+#include "query/fetch_crew.h"
 #include "query/host_arithmetic.h"
 #include "query/model_state.h"
 #include "query/page_decoding.h"
@@ -66,6 +68,46 @@ octree::MaskFacts mask_facts(const storage::FileHeader& header, const octree::Tr
   return mask;
 }
 
+Result<void> check_counts(const OpenOptions& options) {
+  const auto check = [](unsigned count, const char* what, unsigned most) -> Result<void> {
+    if (count >= 1 && count <= most) return {};
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "%u %s make no sense; give 1 to %u", count, what, most);
+  };
+  for (const Result<void>& checked :
+       {check(options.batch_threads, "batch threads", OpenOptions::kMostBatchThreads),
+        check(options.fetch_threads, "fetch threads", OpenOptions::kMostFetchThreads),
+        check(options.max_probes, "probes", OpenOptions::kMostProbes)})
+    if (!checked) return checked;
+  return {};
+}
+
+// Of the model's own threads.
+unsigned crew_probes(const OpenOptions& options) {
+  return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
+}
+
+unsigned readers_of(const OpenOptions& options) {
+  return options.max_probes + crew_probes(options);
+}
+
+Pager::Limits limits_of(const OpenOptions& options) {
+  Pager::Limits limits;
+  limits.budget_bytes = options.memory_budget_bytes;
+  limits.max_probes = options.max_probes;
+  limits.probe_bytes = ProbeState::bytes();
+  limits.crew_probes = crew_probes(options);
+  limits.crew_bytes = limits.crew_probes * sizeof(ProbeState) +
+                      options.fetch_threads * FetchCrew::kThreadBytes +
+                      readers_of(options) * sizeof(Wishes);
+  limits.locking = options.locking;
+  return limits;
+}
+
+static_assert(OpenOptions::kMostProbes + OpenOptions::kMostFetchThreads +
+                  OpenOptions::kMostBatchThreads <=
+              cache::kMaxReaders);
+
 }  // namespace
 
 ModelState::~ModelState() = default;
@@ -81,10 +123,27 @@ ModelState::ModelState(std::unique_ptr<Pager> pager)
 Result<void> ModelState::fill_colours() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
-  PageTurner turner(*reader);
+  PageTurner turner(*reader, Wait::kForPages);
   if (colours_.fill(mask_, tree_, info_.triangles, turner.pages())) return {};
   return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                     "no memory for the map of the mask's colours; free some and try again");
+}
+
+Result<void> ModelState::start_crews(const OpenOptions& options) {
+  reader_count_ = readers_of(options);
+  wishes_.reset(new (std::nothrow) Wishes[reader_count_]);
+  if (!wishes_)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory for %u probes; free some or ask for fewer", reader_count_);
+  if (options.batch_threads > 1) {
+    auto crew = BatchCrew::claim(*this, options.batch_threads);
+    if (!crew) return crew.error();
+    crew_ = std::move(*crew);
+  }
+  auto fetchers = FetchCrew::start(*this, options.fetch_threads);
+  if (!fetchers) return fetchers.error();
+  fetchers_ = std::move(*fetchers);
+  return {};
 }
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
@@ -94,24 +153,12 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                       "this build computes otherwise than it must: %s; compile without "
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
-  if (options.batch_threads == 0 || options.batch_threads > OpenOptions::kMostBatchThreads)
-    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "%u batch threads make no sense; give 1 to %u", options.batch_threads,
-                      OpenOptions::kMostBatchThreads);
-  Pager::Limits limits;
-  limits.budget_bytes = options.memory_budget_bytes;
-  limits.max_probes = options.max_probes;
-  limits.probe_bytes = ProbeState::bytes();
-  limits.batch_probes = options.batch_threads > 1 ? options.batch_threads : 0;
-  limits.batch_probe_bytes = sizeof(ProbeState);
-  auto pager = Pager::open(path, limits);
+  if (const auto checked = check_counts(options); !checked) return checked.error();
+  auto pager = Pager::open(path, limits_of(options));
   if (!pager) return pager.error();
   std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
   if (const auto filled = state->fill_colours(); !filled) return filled.error();
-  if (limits.batch_probes == 0) return state;
-  auto crew = BatchCrew::claim(*state, limits.batch_probes);
-  if (!crew) return crew.error();
-  state->crew_ = std::move(*crew);
+  if (const auto started = state->start_crews(options); !started) return started.error();
   return state;
 }
 
@@ -124,10 +171,13 @@ Stats ModelState::stats() const noexcept {
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
+  stats.wishes_fetched = fetchers_->wishes_fetched();
+  stats.places_prefetched = fetchers_->places_prefetched();
   stats.frames = cache.frame_count;
   stats.arena_bytes = cache.arena_bytes;
   stats.table_bytes = cache.table_bytes + cache.reserved_bytes;
   stats.budget_bytes = cache.budget_bytes;
+  stats.locked_bytes = cache.locked_bytes;
   stats.header_copy_damaged = pager_->file().header_copy_damaged();
   return stats;
 }

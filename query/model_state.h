@@ -13,10 +13,12 @@
 #include "planetree/stats.h"
 #include "query/pager.h"
 #include "query/scale.h"
+#include "query/wishes.h"
 
 namespace planetree::query {
 
 class BatchCrew;
+class FetchCrew;
 
 /// What stands behind a Model.
 class ModelState {
@@ -35,12 +37,16 @@ class ModelState {
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   /// Null where batches are answered by the caller's thread alone.
   BatchCrew* crew() const noexcept { return crew_.get(); }
+  /// Of the probe whose reader has this place.
+  Wishes& wishes(std::uint32_t place) const noexcept { return wishes_[place]; }
+  std::uint32_t reader_count() const noexcept { return reader_count_; }
   /// Any thread.
   void count_degraded() const noexcept { degraded_.fetch_add(1, std::memory_order_relaxed); }
 
  private:
   explicit ModelState(std::unique_ptr<Pager> pager);
   Result<void> fill_colours();
+  Result<void> start_crews(const OpenOptions& options);
 
   std::unique_ptr<Pager> pager_;
   ModelInfo info_;
@@ -49,7 +55,11 @@ class ModelState {
   octree::ColourMap colours_;
   Scale scale_;
   mutable std::atomic<std::uint64_t> degraded_{0};
-  std::unique_ptr<BatchCrew> crew_;  // last: its probes are the model's
+  std::uint32_t reader_count_ = 0;
+  std::unique_ptr<Wishes[]> wishes_;  // by place
+  // Last: their probes are the model's.
+  std::unique_ptr<BatchCrew> crew_;
+  std::unique_ptr<FetchCrew> fetchers_;
 };
 
 }  // namespace planetree::query

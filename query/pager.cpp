@@ -43,16 +43,21 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
   cache_limits.frame_bytes = header.page_bytes;
-  cache_limits.max_readers = limits.max_probes + limits.batch_probes;
-  cache_limits.reserved_bytes =
-      file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) + colour_bytes(header.model) +
-      limits.probe_bytes * limits.max_probes + limits.batch_probe_bytes * limits.batch_probes;
+  cache_limits.max_readers = limits.max_probes + limits.crew_probes;
+  cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
+                                colour_bytes(header.model) +
+                                limits.probe_bytes * limits.max_probes + limits.crew_bytes;
   const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
     return static_cast<Pager*>(context)->fill(page, frame);
   };
   auto cache = cache::PageCache::create(cache_limits, fill, this);
   if (!cache) return cache.error();
   cache_ = std::move(*cache);
+  if (limits.locking != Locking::kNever && !cache_->lock_memory() &&
+      limits.locking == Locking::kRequire)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "the system does not let memory be locked; raise the limit (ulimit -l), "
+                      "lower the memory budget, or open the model without locking");
   stored_scratch_.reset(new (std::nothrow) std::byte[header.max_stored_bytes]);
   raw_scratch_.reset(new (std::nothrow) std::byte[header.max_raw_bytes]);
   if (!stored_scratch_ || !raw_scratch_)

@@ -9,6 +9,8 @@
 #include "cache/page_cache.h"
 #include "octree/tree_view.h"
 #include "planetree/error.h"
+#include "planetree/model.h"
+#include "planetree/types.h"
 #include "storage/page_file.h"
 
 namespace planetree::query {
@@ -21,11 +23,12 @@ class Pager {
     std::uint64_t budget_bytes = 0;
     std::uint64_t probe_bytes = 0;  ///< what each probe claims for itself
     unsigned max_probes = 0;
-    std::uint64_t batch_probe_bytes = 0;  ///< the same of those that answer batches together
-    unsigned batch_probes = 0;
+    std::uint64_t crew_bytes = 0;  ///< the same of the probes of the model's own threads,
+    unsigned crew_probes = 0;      ///< all together
+    Locking locking = Locking::kTry;
   };
 
-  /// Opens the file, claims the memory, loads and pins the root page.
+  /// Opens the file, claims and locks the memory, loads and pins the root page.
   static Result<std::unique_ptr<Pager>> open(const std::filesystem::path& path,
                                              const Limits& limits);
 
@@ -47,22 +50,29 @@ class Pager {
 
 /// One probe's way to pages during one ask: a section of the cache, begun where a page is
 /// first looked for, for that is an exchange with memory, and ended with this object.
+///
+/// wait  kNever: what is not resident cannot be had, and the system is not called.
 class PageTurner {
  public:
-  explicit PageTurner(cache::Reader& reader) noexcept : reader_(reader) {}
+  PageTurner(cache::Reader& reader, Wait wait) noexcept : reader_(reader), wait_(wait) {}
   ~PageTurner() {
     if (reader_.inside()) reader_.leave();
   }
   PageTurner(const PageTurner&) = delete;
   PageTurner& operator=(const PageTurner&) = delete;
 
-  /// The page's frame, good until the next call; null if it is unreadable.
+  /// The page's frame, good until the next call; null if it cannot be had.
   const std::byte* page(std::uint32_t number) noexcept {
     if (++turns_ % kTurnsPerSection == 0) reader_.leave();
     begin();
     if (const std::byte* frame = reader_.find(number)) return frame;
-    return reader_.fetch(number);
+    if (wait_ == Wait::kForPages) return reader_.fetch(number);
+    missed_ = true;
+    return nullptr;
   }
+
+  /// Whether a page was not resident that the ask did not wait for.
+  bool missed() const noexcept { return missed_; }
 
   /// Where page() would find it, or null.
   const std::byte* peek(std::uint32_t number) noexcept {
@@ -88,6 +98,8 @@ class PageTurner {
   // Evicted frames are reused only after sections that may see them end.
   static constexpr std::uint32_t kTurnsPerSection = 256;
   cache::Reader& reader_;
+  const Wait wait_;
+  bool missed_ = false;
   std::uint32_t turns_ = 0;
 };
 

@@ -39,6 +39,10 @@ Containment Probe::contains(Vec3 query, const Ask& ask) noexcept {
   return query::contains(*state_, query, ask);
 }
 
+void Probe::motion(Vec3 position, Vec3 velocity) noexcept {
+  state_->wishes().motion.give({position, velocity, state_->last_parts()});
+}
+
 void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,
                      const Ask& ask) noexcept {
   const query::HostArithmetic host;

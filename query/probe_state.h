@@ -8,6 +8,7 @@
 #include "query/batch_order.h"
 #include "query/model_state.h"
 #include "query/side_memory.h"
+#include "query/wishes.h"
 
 namespace planetree::query {
 
@@ -24,6 +25,14 @@ class ProbeState {
   octree::Vicinity& vicinity() noexcept { return vicinity_; }
   SideMemory& side_memory() noexcept { return side_memory_; }
 
+  /// Where it says which pages it would like.
+  Wishes& wishes() noexcept { return model_.wishes(reader_.place()); }
+  /// The last nearest triangle, for asks that may find none; nothing before the first of
+  /// Wait::kNever.
+  octree::NearestAnswer& last_nearest() noexcept { return last_nearest_; }
+  /// The parts last asked for.
+  std::uint32_t& last_parts() noexcept { return last_parts_; }
+
   /// For batches; null in the probes of a BatchCrew.
   BatchOrder* batch_order() noexcept { return batch_order_.get(); }
 
@@ -35,6 +44,8 @@ class ProbeState {
   cache::Reader reader_;
   octree::Vicinity vicinity_;
   SideMemory side_memory_;
+  octree::NearestAnswer last_nearest_;
+  std::uint32_t last_parts_ = kAllParts;
   std::unique_ptr<BatchOrder> batch_order_;
 };
 

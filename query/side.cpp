@@ -184,15 +184,15 @@ std::optional<Standing> side_at_once(const ModelState& model, const Point& point
 }
 
 Standing find_side(const ModelState& model, const Point& point, double clear, SideMemory& memory,
-                   octree::PageReader pages, octree::TreeWork& work) noexcept {
-  constexpr auto kNoLimit = std::numeric_limits<std::uint64_t>::max();
+                   std::uint64_t max_nodes, octree::PageReader pages,
+                   octree::TreeWork& work) noexcept {
   if (!model.info().watertight() || outside_box(model.tree(), point))
-    return find_side(model, point, kNoLimit, pages, work);
+    return find_side(model, point, max_nodes, pages, work);
   if (memory.same_side(point, clear)) {
     memory.note(point, memory.standing(), memory.counted(), clear);
     return memory.standing();
   }
-  SideSearch search(model, point, kNoLimit, pages, work, nullptr, &memory);
+  SideSearch search(model, point, max_nodes, pages, work, nullptr, &memory);
   const Standing standing = search.run();
   if (standing.status == Status::kExact) memory.note(point, standing, search.counted(), clear);
   return standing;

@@ -48,9 +48,11 @@ Standing find_side(const ModelState& model, const octree::Point& point, std::uin
 /// octree::ColourMap's white or black cells. The point may be any.
 std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point) noexcept;
 
-/// The same, with no limit of work, by way of what `memory` knows if that is nearer, and
-/// remembered there. No surface is nearer to the point than `clear`, which may be 0.
+/// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
+/// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
+/// to the point than `clear`, which may be 0.
 Standing find_side(const ModelState& model, const octree::Point& point, double clear,
-                   SideMemory& memory, octree::PageReader pages, octree::TreeWork& work) noexcept;
+                   SideMemory& memory, std::uint64_t max_nodes, octree::PageReader pages,
+                   octree::TreeWork& work) noexcept;
 
 }  // namespace planetree::query

@@ -123,7 +123,7 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   Explanation result;
   result.query = query;
   result.answer = query::closest_point(probe, query, {});
-  query::PageTurner turner(probe.reader());
+  query::PageTurner turner(probe.reader(), Wait::kForPages);
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
   result.standing =
       query::find_side(**model, point, kAllNodes, turner.pages(), result.side_work, &result.reason);

@@ -131,7 +131,7 @@ std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned co
 std::optional<std::int64_t> MaskProof::recount(const Point& point) {
   const octree::TreeFacts& tree = model_->tree();
   if (query::outside_box(tree, point)) return 0;
-  query::PageTurner turner(reader_);
+  query::PageTurner turner(reader_, Wait::kForPages);
   octree::TreeWork work;
   const query::WaysOut ways(tree, point);
   for (const query::WaysOut::Way& way : ways.all()) {
@@ -144,7 +144,7 @@ std::optional<std::int64_t> MaskProof::recount(const Point& point) {
 
 std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
   const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
-  query::PageTurner turner(reader_);
+  query::PageTurner turner(reader_, Wait::kForPages);
   octree::TreeWork work;
   std::vector<Triangle> found;
   octree::BoxWalk(model_->tree(), lower, upper, turner.pages(), work)

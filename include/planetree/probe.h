@@ -16,7 +16,9 @@ class ProbeState;
 /// Asks a Model. One per thread: not for two threads at once.
 ///
 /// No ask allocates, throws or prints. An ask reads the pages it misses from
-/// the file and may wait for the disk.
+/// the file and may wait for the disk; one of Wait::kNever does not: it calls
+/// nothing of the system, takes no lock and visits at most Ask::max_nodes nodes
+/// and blocks, or what 4096 of them take.
 class Probe {
  public:
   /// errors  kBadArgument when OpenOptions::max_probes are there already.
@@ -41,6 +43,11 @@ class Probe {
   /// winding number; unknown only where the work ends before that is certain to
   /// be above or below 1/2, or where it is 1/2 to some 2^-45 a triangle.
   Containment contains(Vec3 query, const Ask& ask = {}) noexcept;
+
+  /// Says where the probe is and how fast it goes, model units a second: pages that asks of
+  /// Wait::kNever will need on the way are got ahead of time, as far as there are others to
+  /// evict. A hint: no answer depends on it but through what is resident. Costs a few stores.
+  void motion(Vec3 position, Vec3 velocity) noexcept;
 
   /// One answer per query, the same bits as one by one, asked in an order that
   /// turns pages seldom, by OpenOptions::batch_threads threads. The spans are

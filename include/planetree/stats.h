@@ -43,11 +43,14 @@ struct Stats {
   std::uint64_t pages_evicted = 0;
   std::uint64_t quarantined_pages = 0;  ///< found unreadable or damaged; not tried again
   std::uint64_t degraded_answers = 0;
-  std::uint64_t frames = 0;          ///< most pages in memory at once
-  std::uint64_t arena_bytes = 0;     ///< memory of those
-  std::uint64_t table_bytes = 0;     ///< page table, page map, reader slots, colour map, scratch
-  std::uint64_t budget_bytes = 0;    ///< as asked; arena and tables stay within it
-  bool header_copy_damaged = false;  ///< one of the file's two headers; copy the file anew
+  std::uint64_t wishes_fetched = 0;     ///< questions of Wait::kNever whose pages were got since
+  std::uint64_t places_prefetched = 0;  ///< that probes were moving to
+  std::uint64_t frames = 0;             ///< most pages in memory at once
+  std::uint64_t arena_bytes = 0;        ///< memory of those
+  std::uint64_t table_bytes = 0;        ///< page table, page map, reader slots, colour map, scratch
+  std::uint64_t budget_bytes = 0;       ///< as asked; arena and tables stay within it
+  std::uint64_t locked_bytes = 0;       ///< of arena and tables: all of them, or 0
+  bool header_copy_damaged = false;     ///< one of the file's two headers; copy the file anew
 };
 
 }  // namespace planetree

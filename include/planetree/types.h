@@ -36,7 +36,7 @@ enum class Side : std::uint8_t {
 enum class Status : std::uint8_t {
   kExact,              ///< proven: nothing left unread can be nearer
   kWithinError,        ///< upper - lower <= Ask::max_error
-  kDegraded,           ///< pages unreadable or Ask::max_nodes spent; the interval still holds
+  kDegraded,           ///< pages missing or unreadable, or Ask::max_nodes spent; the interval holds
   kBeyondMaxDistance,  ///< nothing within Ask::max_distance
   kBadQuery,           ///< the query, or a limit in the Ask, is not a number that makes sense
 };
@@ -49,19 +49,32 @@ inline constexpr std::uint32_t kSide = 2;
 inline constexpr std::uint32_t kNormal = 4;  ///< needs the others and brings them
 inline constexpr std::uint32_t kAllParts = kDistance | kSide | kNormal;
 
+/// Whether an ask waits for pages that are not in memory.
+enum class Wait : std::uint8_t {
+  kForPages,  ///< reads them from the file, so that the answer is exact
+  /// Real time: answers at once from what is in memory, by a certified interval where that is
+  /// not enough. The model's fetch threads meanwhile get what was missing.
+  kNever,
+};
+
 /// What is asked beyond the point itself.
 struct Ask {
   /// Of kDistance, kSide and kNormal any. What is not asked is not computed, nor
   /// are its pages read: without kDistance an answer is as if no triangle was
   /// reached.
   std::uint32_t parts = kAllParts;
+  Wait wait = Wait::kForPages;
   /// May stop once upper - lower <= max_error. Model units, >= 0; 0 goes on
   /// until the answer is exact.
   double max_error = 0;
   /// Look no farther than this. Model units, >= 0.
   double max_distance = std::numeric_limits<double>::infinity();
-  /// Most tree nodes and triangle blocks to visit.
-  std::uint32_t max_nodes = std::numeric_limits<std::uint32_t>::max();
+  /// Most tree nodes and triangle blocks to visit. As it is by default there is no limit for
+  /// Wait::kForPages, and kRealTimeNodes for Wait::kNever.
+  std::uint32_t max_nodes = kNoLimit;
+
+  static constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kRealTimeNodes = 4096;
 };
 
 /// The nearest surface point to a query.

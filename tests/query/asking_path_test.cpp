@@ -1,11 +1,17 @@
-// What an ask may not do: allocate, ever; take a lock, when all is resident.
+// What an ask may not do: allocate, ever; take a lock, when all is resident; call the system,
+// when it does not wait.
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <mutex>
+#include <thread>
 
 #include "planetree/probe.h"
 #include "tests/cache/allocation_count.h"
+#include "tests/query/call_trap.h"
 #include "tests/query/lock_count.h"
 #include "tests/query/sample_model.h"
 
@@ -68,6 +74,60 @@ TEST_F(AskingPath, DoesNotAllocateWhileItFetches) {
   ask_everything(probe);
   EXPECT_EQ(allocation_count(), allocations);
   EXPECT_GT(model.stats().pages_evicted, 1000u);
+}
+
+// On a thread of its own, because a trap is set for good.
+class RealTimePath : public AskingPath {
+ protected:
+  static std::uint64_t page_faults() {
+    rusage usage{};
+    ::getrusage(RUSAGE_THREAD, &usage);
+    return static_cast<std::uint64_t>(usage.ru_minflt + usage.ru_majflt);
+  }
+
+  void ask_at_once(Probe& probe, int rounds) {
+    for (int round = 0; round < rounds; ++round)
+      for (const Vec3& query : queries_) {
+        const ClosestPoint answer = probe.closest_point(query, {.wait = Wait::kNever});
+        degraded_ += answer.status == Status::kDegraded;
+        probe.contains(query, {.wait = Wait::kNever});
+        probe.motion(query, {1, 0, 0});
+      }
+  }
+
+  std::uint64_t degraded_ = 0;
+};
+
+TEST_F(RealTimePath, IsTrapped) {
+  std::thread([] {
+    if (!set_call_trap()) GTEST_SKIP() << "the system does not let itself be watched";
+    const std::uint64_t before = trapped_calls();
+    ::getppid();
+    EXPECT_EQ(trapped_calls(), before + 1);
+  }).join();
+}
+
+// While the fetch thread turns every page there is, again and again.
+TEST_F(RealTimePath, NeitherAllocatesNorLocksNorCallsTheSystemNorFaults) {
+  const Model model = sample_.open(sample_.least_budget() + 8 * 4096);
+  Probe probe = make_probe(model);
+  std::thread([&] {
+    ask_at_once(probe, 1);
+    const std::uint64_t faults = page_faults();
+    ask_at_once(probe, 1);
+    EXPECT_EQ(page_faults(), faults);
+    const bool trapping = set_call_trap();
+    const std::uint64_t allocations = allocation_count(), locks = lock_count();
+    const std::uint64_t calls = trapped_calls();
+    ask_at_once(probe, 40);
+    EXPECT_EQ(lock_count(), locks);
+    EXPECT_EQ(allocation_count(), allocations);
+    if (trapping) {
+      EXPECT_EQ(trapped_calls(), calls);
+    }
+  }).join();
+  EXPECT_GT(degraded_, 0u);
+  EXPECT_GT(model.stats().pages_evicted, 100u);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class CountedSides {
 
   Standing ask(const Vec3& query, octree::TreeWork& work) {
     const octree::Point point = state_->scale().in(query);
-    PageTurner turner(reader_);
+    PageTurner turner(reader_, Wait::kForPages);
     return find_side(*state_, point, ~std::uint64_t{0}, turner.pages(), work);
   }
   const octree::MaskFacts& mask() const { return state_->mask(); }

@@ -9,7 +9,7 @@
 
 namespace {
 
-std::atomic<std::uint64_t> locks_taken{0};
+thread_local std::uint64_t locks_taken = 0;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ namespace planetree::query {
 
 bool locks_are_counted() noexcept { return cache::allocations_are_counted(); }
 
-std::uint64_t lock_count() noexcept { return locks_taken.load(std::memory_order_relaxed); }
+std::uint64_t lock_count() noexcept { return locks_taken; }
 
 }  // namespace planetree::query
 
@@ -40,7 +40,7 @@ extern "C" [[gnu::visibility("default")]] int pthread_mutex_lock(pthread_mutex_t
     lock = reinterpret_cast<Lock>(::dlsym(RTLD_NEXT, "pthread_mutex_lock"));
     next.store(lock, std::memory_order_relaxed);
   }
-  locks_taken.fetch_add(1, std::memory_order_relaxed);
+  ++locks_taken;
   return lock(mutex);
 }
 #endif

@@ -8,7 +8,7 @@ namespace planetree::query {
 /// their own, which must not be replaced.
 bool locks_are_counted() noexcept;
 
-/// Calls of pthread_mutex_lock in this program so far, by all threads.
+/// Calls of pthread_mutex_lock by this thread so far.
 std::uint64_t lock_count() noexcept;
 
 }  // namespace planetree::query

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace planetree::query {
+
+/// The latest of the values that one thread gives away; any number of others look for it. The
+/// giver never waits, loops or locks; a value that nobody looked for in time is lost.
+///
+/// A sequence number is odd while words are written. Who finds the same even number before and
+/// after reading the words has read those of one value:
+///
+///     giver                               taker
+///     G1  sequence = odd                  T1  first = sequence
+///     G2  words = value                   T2  read words
+///     G3  sequence = even                 T3  sequence == first?
+///
+/// A taker that reads any word of G2 acquires what came before it, G1, and so sees at T3 that
+/// the number has changed. What T1 acquires from G3 are the words before it. Words are released
+/// and acquired one by one, where fences would do, because ThreadSanitizer does not model those;
+/// on x86 it is the same code.
+///
+/// Value   of 8-byte words, trivially copyable.
+/// Atomic  std::atomic, or what stands for it in tests.
+template <class Value, template <class> class Atomic = std::atomic>
+class alignas(64) LatestValue {
+  static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(std::uint64_t) == 0);
+  static constexpr std::size_t kWords = sizeof(Value) / sizeof(std::uint64_t);
+
+ public:
+  /// The giver alone.
+  void give(const Value& value) noexcept {
+    const auto words = std::bit_cast<std::array<std::uint64_t, kWords>>(value);
+    const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
+    sequence_.store(sequence + 1, std::memory_order_relaxed);
+    for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
+    sequence_.store(sequence + 2, std::memory_order_release);
+  }
+
+  /// Any thread. False, and nothing changed, where there is no value newer than `seen`, which
+  /// is 0 at first, or one is being written: to be looked for again later.
+  bool take(std::uint64_t& seen, Value& value) const noexcept {
+    const std::uint64_t first = sequence_.load(std::memory_order_acquire);
+    if (first == seen || first % 2 == 1) return false;
+    std::array<std::uint64_t, kWords> words;
+    for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+    if (sequence_.load(std::memory_order_relaxed) != first) return false;
+    value = std::bit_cast<Value>(words);
+    seen = first;
+    return true;
+  }
+
+ private:
+  Atomic<std::uint64_t> sequence_{0};
+  std::array<Atomic<std::uint64_t>, kWords> words_{};
+};
+
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+
+}  // namespace planetree::query

@@ -1,0 +1,200 @@
+// Asks that do not wait for pages: answered at once, refined by the fetch threads.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+constexpr Ask kAtOnce{.wait = Wait::kNever};
+
+// Whether something comes true: a minute is for machines that do other things meanwhile.
+bool eventually(const std::function<bool()>& is_true) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!is_true()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+class RealTime : public testing::Test {
+ protected:
+  RealTime()
+      : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(300, -1.4, 1.4)) {}
+
+  // What an ask that waits says.
+  std::vector<ClosestPoint> exact_answers() {
+    const Model model = sample_.open();
+    Probe probe = make_probe(model);
+    std::vector<ClosestPoint> answers;
+    for (const Vec3& query : queries_) answers.push_back(probe.closest_point(query));
+    return answers;
+  }
+
+  SampleModel sample_;
+  std::vector<Vec3> queries_;
+};
+
+TEST_F(RealTime, AnswersAtOnceByAnIntervalThatHolds) {
+  const Model model = sample_.open(sample_.least_budget());
+  Probe probe = make_probe(model);
+  std::size_t degraded = 0;
+  for (int round = 0; round < 5; ++round)
+    for (const Vec3& query : queries_) {
+      const ClosestPoint answer = probe.closest_point(query, kAtOnce);
+      ASSERT_TRUE(sample_.interval_holds(answer, query));
+      degraded += answer.status == Status::kDegraded;
+    }
+  EXPECT_GT(degraded, 0u);
+  EXPECT_EQ(model.stats().degraded_answers, degraded);
+}
+
+TEST_F(RealTime, ReadsNothingItself) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  // Fetch threads have not looked yet, or bring what one question needs.
+  const ClosestPoint first = probe.closest_point(queries_[0], kAtOnce);
+  EXPECT_EQ(first.status, Status::kDegraded);
+  EXPECT_GT(model.stats().page_misses, 0u);
+}
+
+TEST_F(RealTime, IsRefinedToTheBitsOfAnAskThatWaits) {
+  const std::vector<ClosestPoint> exact = exact_answers();
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
+    ClosestPoint answer;
+    ASSERT_TRUE(eventually([&] {
+      answer = probe.closest_point(queries_[i], kAtOnce);
+      return answer.status == Status::kExact;
+    })) << i;
+    ASSERT_EQ(bits_of(answer), bits_of(exact[i])) << i;
+  }
+  EXPECT_GT(model.stats().wishes_fetched, 0u);
+}
+
+TEST_F(RealTime, IsRefinedWhereOneQuestionsPagesFit) {
+  const std::vector<ClosestPoint> exact = exact_answers();
+  const Model model = sample_.open(sample_.least_budget() + 24 * 4096);
+  Probe probe = make_probe(model);
+  for (std::size_t i = 0; i < 30; ++i) {
+    ClosestPoint answer;
+    ASSERT_TRUE(eventually([&] {
+      answer = probe.closest_point(queries_[i], kAtOnce);
+      return answer.status == Status::kExact;
+    })) << i;
+    ASSERT_EQ(bits_of(answer), bits_of(exact[i])) << i;
+  }
+  EXPECT_GT(model.stats().pages_evicted, 0u);
+}
+
+TEST_F(RealTime, TellsSidesAtOnceOrNotAtAll) {
+  const Model model = sample_.open(sample_.least_budget());
+  Probe probe = make_probe(model);
+  std::size_t known = 0, unknown = 0;
+  for (const Vec3& query : queries_) {
+    const Containment answer = probe.contains(query, kAtOnce);
+    if (answer.status == Status::kDegraded) {
+      EXPECT_EQ(answer.side, Side::kUnknown);
+      ++unknown;
+      continue;
+    }
+    ++known;
+    const double radius = std::sqrt(query.x * query.x + query.y * query.y + query.z * query.z);
+    // The sphere is made of flat faces.
+    if (radius > 0.95 && radius <= 1) continue;
+    EXPECT_EQ(answer.side, radius > 1 ? Side::kOutside : Side::kInside);
+  }
+  EXPECT_GT(known, 0u);
+  EXPECT_GT(unknown, 0u);
+}
+
+TEST_F(RealTime, KeepsTheLastTriangleWhereNothingElseIsKnown) {
+  const Model model = sample_.open(sample_.least_budget());
+  Probe probe = make_probe(model);
+  const Vec3 here{1.1, 0.1, 0.2}, beside{1.0, 0.2, 0.35};
+  ASSERT_TRUE(
+      eventually([&] { return probe.closest_point(here, kAtOnce).status == Status::kExact; }));
+  // The least memory holds few pages, so that those of other places drive these out.
+  for (const Vec3& query : queries_) (void)probe.closest_point(query, {.parts = kDistance});
+  const ClosestPoint answer = probe.closest_point(beside, kAtOnce);
+  EXPECT_NE(answer.triangle, kNoTriangle);
+  EXPECT_TRUE(sample_.interval_holds(answer, beside));
+  EXPECT_LT(answer.upper, 0.5);
+}
+
+TEST_F(RealTime, StopsWhereTheWorkIsSpent) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  for (const Vec3& query : queries_) (void)probe.closest_point(query);
+  const std::uint64_t wishes = model.stats().wishes_fetched;
+  const ClosestPoint answer =
+      probe.closest_point({0.01, 0, 0}, {.parts = kDistance, .wait = Wait::kNever, .max_nodes = 3});
+  EXPECT_EQ(answer.status, Status::kDegraded);
+  // All is resident: there is nothing to wish for.
+  EXPECT_EQ(model.stats().wishes_fetched, wishes);
+}
+
+TEST_F(RealTime, FetchesWhatAMotionLeadsTo) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  // 5 ms ahead, at least, the probe will be at the other end.
+  probe.motion({-1.2, 0, 0}, {2.4 / 0.005, 0, 0});
+  ASSERT_TRUE(eventually([&] { return model.stats().places_prefetched == 4; }));
+  EXPECT_EQ(probe.closest_point({1.2, 0, 0}, kAtOnce).status, Status::kExact);
+}
+
+TEST_F(RealTime, ManyProbesAreServedByFewThreads) {
+  const std::vector<ClosestPoint> exact = exact_answers();
+  OpenOptions options;
+  options.fetch_threads = 2;
+  auto model = Model::open(sample_.path(), options);
+  ASSERT_TRUE(model);
+  std::vector<std::thread> threads;
+  std::atomic<int> agreed{0};
+  for (std::size_t t = 0; t < 5; ++t)
+    threads.emplace_back([&, t] {
+      Probe probe = make_probe(*model);
+      const std::size_t i = 7 * t;
+      agreed += eventually(
+          [&] { return bits_of(probe.closest_point(queries_[i], kAtOnce)) == bits_of(exact[i]); });
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(agreed, 5);
+}
+
+TEST_F(RealTime, RefusesThreadsThatMakeNoSense) {
+  OpenOptions options;
+  for (const unsigned threads : {0u, OpenOptions::kMostFetchThreads + 1}) {
+    options.fetch_threads = threads;
+    const auto model = Model::open(sample_.path(), options);
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);
+  }
+}
+
+TEST_F(RealTime, LocksItsMemoryOrSaysThatItDidNot) {
+  OpenOptions options;
+  options.locking = Locking::kNever;
+  const auto loose = Model::open(sample_.path(), options);
+  ASSERT_TRUE(loose);
+  EXPECT_EQ(loose->stats().locked_bytes, 0u);
+  options.locking = Locking::kRequire;
+  const auto model = Model::open(sample_.path(), options);
+  if (!model) {
+    EXPECT_EQ(model.error().code, ErrorCode::kNoMemory);
+    return;
+  }
+  EXPECT_GE(model->stats().locked_bytes, model->stats().arena_bytes);
+}
+
+}  // namespace
+}  // namespace planetree::query
