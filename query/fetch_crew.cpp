@@ -30,6 +30,10 @@ Ask waiting(std::uint64_t parts) {
   return ask;
 }
 
+bool is_moving(const Motion& motion) {
+  return motion.velocity.x != 0 || motion.velocity.y != 0 || motion.velocity.z != 0;
+}
+
 Vec3 ahead_of(const Motion& motion, double seconds) {
   return {motion.position.x + motion.velocity.x * seconds,
           motion.position.y + motion.velocity.y * seconds,
@@ -89,7 +93,8 @@ class FetchCrew::Worker {
   bool look_ahead() noexcept {
     for (std::size_t place = first_; place < seen_.size(); place += step_) {
       Seen& seen = seen_[place];
-      if (wishes(place).motion.take(seen.motion, seen.moving)) seen.places_left = kPlacesAhead;
+      if (wishes(place).motion.take(seen.motion, seen.moving))
+        seen.places_left = is_moving(seen.moving) ? kPlacesAhead : 0;
       if (seen.places_left == 0) continue;
       const unsigned at = kPlacesAhead - --seen.places_left;
       const double ahead_s = std::clamp(2 * slowest_s_, kLeastAheadS, kMostAheadS);

@@ -13,6 +13,7 @@
 #include "tools/generate.h"
 #include "tools/inspect.h"
 #include "tools/query.h"
+#include "tools/touch.h"
 #include "tools/verify.h"
 
 namespace planetree::tools {
@@ -74,6 +75,7 @@ int run_command(int argc, const char* const* argv, Console& console) {
   add_query(app, console, action);
   add_inspect(app, console, action);
   add_verify(app, console, action);
+  add_touch(app, console, action);
   if (lacks_verb(app, argc, argv, console)) return kCommandLineAtFault;
   try {
     app.parse(argc, argv);

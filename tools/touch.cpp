@@ -1,0 +1,97 @@
+#include "tools/touch.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planetree/model.h"
+#include "planetree/probe.h"
+#include "tools/open_model.h"
+#include "tools/touch_report.h"
+#include "tools/touch_session.h"
+#include "tools/verb_options.h"
+
+namespace planetree::tools {
+namespace {
+
+constexpr std::uint64_t kMostSeconds = 86400, kMostRateHz = 100000;
+
+/// So that every page comes from the disk.
+void drop_from_page_cache(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
+  ::close(file);
+}
+
+/// The path is found with a model of its own, which leaves nothing in the session's memory.
+Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& console) {
+  const auto model = open_model(arguments.file, arguments.memory_bytes, console);
+  if (!model) return model.error();
+  auto probe = Probe::create(*model);
+  if (!probe) return probe.error();
+  return touch_path(*model, *probe, arguments.motion, arguments.seconds * arguments.rate_hz);
+}
+
+}  // namespace
+
+int run_touch(const TouchArguments& arguments, Console& console) {
+  const std::string file = arguments.file.string();
+  const auto path = find_path(arguments, console);
+  if (!path) return console.fail(file, path.error());
+  if (arguments.cold) drop_from_page_cache(arguments.file);
+
+  OpenOptions options;
+  options.memory_budget_bytes = arguments.memory_bytes;
+  options.max_probes = 1;
+  const auto model = Model::open(arguments.file, options);
+  if (!model) return console.fail(file, model.error());
+  auto probe = Probe::create(*model);
+  if (!probe) return console.fail(file, probe.error());
+  const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
+                      static_cast<std::int64_t>(arguments.rate_hz);
+  const TouchRecord record = run_touch_session(*probe, *path, period);
+  console.print(arguments.json ? touch_json(arguments, record, *model)
+                               : touch_words(arguments, record, *model));
+  const auto error = unreadable_pages(model->stats());
+  return console.finish(error ? console.fail(file, *error) : kDone);
+}
+
+void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
+  static const std::map<std::string, TouchMotion> motions = {{"glide", TouchMotion::kGlide},
+                                                             {"scratch", TouchMotion::kScratch},
+                                                             {"teleport", TouchMotion::kTeleport}};
+  const auto options = std::make_shared<TouchArguments>();
+  VerbOptions verb(app, "touch",
+                   "Hold a simulated haptic session: how late are its answers, how certain");
+  verb.require(verb.path("file", "FILE", options->file, "File that planetree build wrote"));
+  verb.default_text(verb.count("--seconds", options->seconds, kMostSeconds, "How long, in seconds"),
+                    "10");
+  verb.default_text(verb.count("--rate", options->rate_hz, kMostRateHz, "Answers a second, in Hz"),
+                    "1000");
+  verb.default_text(verb.bytes("--memory", options->memory_bytes, "Most memory for the model"),
+                    "256M");
+  verb.default_text(
+      verb.word(
+          "--path", {"glide", "scratch", "teleport"},
+          [options](const std::string& name) { options->motion = motions.at(name); },
+          "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
+          "(0.1 %) or teleport (to another place every hundred ticks)"),
+      "glide");
+  verb.flag("--cold", options->cold,
+            "Have the system forget the file first, so that every page comes from the disk");
+  verb.flag("--json", options->json, "Report as one JSON object");
+  verb.on_given([options, &console, &action]() -> std::string {
+    if (options->seconds == 0 || options->rate_hz == 0)
+      return "a session without ticks; give --seconds and --rate of 1 or more";
+    action = [options, &console] { return run_touch(*options, console); };
+    return {};
+  });
+}
+
+}  // namespace planetree::tools
