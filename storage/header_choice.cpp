@@ -19,6 +19,7 @@ struct KnownStart {
 constexpr KnownStart kKnownStarts[] = {
     {"ply\n", "a PLY mesh: build a .ptree file from it first"},
     {"ply\r", "a PLY mesh: build a .ptree file from it first"},
+    {"OFF", "an OFF mesh: build a .ptree file from it first"},
     {"solid", "an STL mesh: build a .ptree file from it first"},
     {"\x1f\x8b", "a gzip archive: unpack it first"},
     {"\x28\xb5\x2f\xfd", "a Zstandard archive: unpack it first"},

@@ -220,7 +220,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   BuildArguments& arguments = options->arguments;
   VerbOptions verb(app, "build", "Build the .ptree file of a mesh");
   verb.require(verb.path("input", "IN", arguments.input,
-                         "Mesh to read: PLY (ascii or binary), STL (ascii or binary) or OBJ"));
+                         "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ"));
   verb.require(verb.path("-o,--output", "OUT.ptree", arguments.output,
                          "File to write; it appears whole or not at all"));
   verb.default_text(verb.count("--threads", options->threads, kMostThreads,

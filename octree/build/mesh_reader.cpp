@@ -8,6 +8,7 @@
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/obj_reader.h"
+#include "octree/build/off_reader.h"
 #include "octree/build/ply_reader.h"
 #include "octree/build/stl_reader.h"
 
@@ -15,7 +16,7 @@ namespace planetree::octree {
 
 namespace {
 
-enum class MeshFormat { kPly, kStlBinary, kStlAscii, kObj, kUnknown };
+enum class MeshFormat { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -30,8 +31,11 @@ MeshFormat judge_format(const MeshFile& file, const std::filesystem::path& path)
   if (is_ply(text)) return MeshFormat::kPly;
   if (has_binary_stl_size(text)) return MeshFormat::kStlBinary;
   if (is_ascii_stl(text)) return MeshFormat::kStlAscii;
+  if (is_off(text)) return MeshFormat::kOff;
   const std::string extension = lower_extension(path);
   if (extension == ".obj") return MeshFormat::kObj;
+  // One without a keyword, as old ones are.
+  if (extension == ".off") return MeshFormat::kOff;
   // A binary STL whose size is wrong: its reader says in which way.
   if (extension == ".stl") return MeshFormat::kStlBinary;
   return MeshFormat::kUnknown;
@@ -46,14 +50,16 @@ Result<MeshSummary> read_mapped(MeshFile& file, const std::filesystem::path& pat
       return read_stl_binary(file, sink);
     case MeshFormat::kStlAscii:
       return read_stl_ascii(file, sink);
+    case MeshFormat::kOff:
+      return read_off(file, sink);
     case MeshFormat::kObj:
       return read_obj(file, sink);
     case MeshFormat::kUnknown:
       break;
   }
   return make_error(ErrorCode::kBadInput, Error::kNowhere, 0,
-                    "byte 0: neither a PLY nor an STL, and not named .obj; give a PLY, STL or OBJ "
-                    "mesh (an OBJ needs its extension)");
+                    "byte 0: neither a PLY, an STL nor an OFF, and not named .obj; give a PLY, STL, "
+                    "OBJ or OFF mesh (an OBJ needs its extension)");
 }
 
 const char* kind_name(RecordKind kind) {

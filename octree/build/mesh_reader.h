@@ -9,7 +9,7 @@
 #include "planetree/types.h"
 
 /// Reading triangle meshes: PLY (ascii and both binary endians), STL (binary
-/// and ascii) and OBJ, streamed one triangle at a time.
+/// and ascii), OBJ and OFF (ascii and binary), streamed one triangle at a time.
 ///
 /// A triangle's index is its place in the input: polygons of n corners are
 /// split into the fan (0, i, i + 1), i = 1 ... n - 2, and take n - 2 indices in
@@ -20,7 +20,7 @@ namespace planetree::octree {
 
 /// What a set-aside record is, and so how it is counted.
 enum class RecordKind : std::uint8_t {
-  kFace,   ///< row of a PLY's face element, from 0
+  kFace,   ///< face of a PLY or an OFF, from 0
   kFacet,  ///< facet of an STL, from 0
   kLine,   ///< first line of an OBJ's f statement, from 1
 };
@@ -38,7 +38,7 @@ struct SetAside {
   RecordKind kind = RecordKind::kFace;
   RecordFault fault = RecordFault::kVertexNotFinite;
   std::uint64_t record = 0;
-  /// The vertex or index as the file writes it (PLY from 0, OBJ from 1), an
+  /// The vertex or index as the file writes it (PLY and OFF from 0, OBJ from 1), an
   /// STL's corner from 0, or the number of corners, as `fault` has it.
   std::int64_t value = 0;
   std::uint64_t vertex_count = 0;  ///< vertices in the file, for kIndexOutOfRange
@@ -84,8 +84,8 @@ struct MeshSummary {
 
 /// Reads the mesh at `path` into `sink`. The format is judged by content: a
 /// PLY by its first line, a binary STL by its size being exactly what its count
-/// says (even if it begins with "solid"), an ascii STL by "solid"; only then,
-/// for OBJ, by the extension.
+/// says (even if it begins with "solid"), an ascii STL by "solid", an OFF by its
+/// keyword; only then, for an OBJ and for an OFF without a keyword, by the extension.
 ///
 /// path    a regular file. It is mapped, so it must not shrink or change during
 ///         the call: pages cut off under the map end the process with SIGBUS.

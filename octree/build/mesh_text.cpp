@@ -50,7 +50,18 @@ bool parse(std::string_view word, T& value) noexcept {
   return *stop == '#';
 }
 
+std::string_view without_comment(std::string_view line) noexcept {
+  std::size_t hash = line.find('#');
+  while (hash != std::string_view::npos && hash > 0 && line[hash - 1] == '.')
+    hash = line.find('#', hash + 1);
+  return line.substr(0, hash);
+}
+
 }  // namespace
+
+TextPlace text_begin(std::string_view file) noexcept {
+  return {file.substr(0, 3) == "\xEF\xBB\xBF" ? std::uint64_t{3} : std::uint64_t{0}, 1};
+}
 
 bool LineScanner::ends_line(char c) const noexcept {
   return (c == '\n' && line_end_ != LineEnd::kCarriageReturn) ||
@@ -67,6 +78,7 @@ bool LineScanner::next() noexcept {
   const bool is_pair = line_end_ == LineEnd::kAny && text_.substr(end, 2) == "\r\n";
   after_.offset = std::min(end + (is_pair ? 2 : 1), text_.size());
   after_.line = place_.line + 1;
+  if (comment_ == LineComment::kHash) line_ = without_comment(line_);
   return true;
 }
 

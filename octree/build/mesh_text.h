@@ -18,19 +18,27 @@ struct TextPlace {
 /// mixture; the others are for text that binary data follows.
 enum class LineEnd : std::uint8_t { kAny, kNewline, kCarriageReturn };
 
+/// Whether a '#' begins a comment, which then goes on to the end of its line.
+/// One behind a '.' does not: "1.#IND" is what some print for a NaN.
+enum class LineComment : std::uint8_t { kNone, kHash };
+
+/// Where the text of a file begins: behind a byte order mark, if it has one.
+TextPlace text_begin(std::string_view file) noexcept;
+
 /// Steps through the lines of a text.
 class LineScanner {
  public:
   explicit LineScanner(std::string_view text, TextPlace start = {},
-                       LineEnd line_end = LineEnd::kAny) noexcept
-      : text_(text), line_end_(line_end), place_(start), after_(start) {}
+                       LineEnd line_end = LineEnd::kAny,
+                       LineComment comment = LineComment::kNone) noexcept
+      : text_(text), line_end_(line_end), comment_(comment), place_(start), after_(start) {}
 
   /// Steps to the next line; false at the end of the text.
   bool next() noexcept;
   /// Steps to the next line that holds a word; false at the end of the text.
   bool next_filled() noexcept;
 
-  /// The current line without what ends it.
+  /// The current line without its comment and what ends it.
   [[nodiscard]] std::string_view line() const noexcept { return line_; }
   /// Where the current line begins.
   [[nodiscard]] TextPlace place() const noexcept { return place_; }
@@ -42,6 +50,7 @@ class LineScanner {
 
   std::string_view text_;
   LineEnd line_end_;
+  LineComment comment_;
   std::string_view line_;
   TextPlace place_;
   TextPlace after_;

@@ -17,7 +17,7 @@ namespace {
 /// a backslash. A comment is never joined: a Windows path may end it.
 class ObjStatements {
  public:
-  explicit ObjStatements(std::string_view text) : lines_(text, begin_of(text)) {}
+  explicit ObjStatements(std::string_view text) : lines_(text, text_begin(text)) {}
 
   bool next() {
     if (!lines_.next()) return false;
@@ -41,11 +41,6 @@ class ObjStatements {
   [[nodiscard]] std::uint64_t end_offset() const { return lines_.after().offset; }
 
  private:
-  /// A byte order mark would hide the first keyword.
-  static TextPlace begin_of(std::string_view text) {
-    return {text.substr(0, 3) == "\xEF\xBB\xBF" ? std::uint64_t{3} : std::uint64_t{0}, 1};
-  }
-
   /// Cuts the backslash off a line that goes on; false if it does not.
   static bool without_backslash(std::string_view& line) {
     const std::size_t last = line.find_last_not_of(" \t\r");

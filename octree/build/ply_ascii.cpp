@@ -97,10 +97,15 @@ PlyAscii::PlyAscii(MeshFile& file, const PlyHeader& header, MeshDelivery& delive
   }
 }
 
+LineScanner PlyAscii::lines_from(TextPlace begin) const noexcept {
+  return LineScanner(file_.text(), begin, LineEnd::kAny,
+                     header_.has_loose_lines ? LineComment::kHash : LineComment::kNone);
+}
+
 template <class TakeLine>
 Result<TextPlace> PlyAscii::each_line(const PlyElement& element, TextPlace begin,
                                       const TakeLine& take_line) {
-  LineScanner lines(file_.text(), begin);
+  LineScanner lines = lines_from(begin);
   // A record without properties is an empty line, and those are passed over.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
   for (std::uint64_t record = 0; record < count; ++record) {
@@ -139,7 +144,7 @@ Result<TextPlace> PlyAscii::faces(TextPlace begin) {
 }
 
 Result<void> PlyAscii::expect_end(TextPlace end) {
-  LineScanner lines(file_.text(), end);
+  LineScanner lines = lines_from(end);
   if (!lines.next_filled()) return {};
   return line_error(lines.place(),
                     "text follows the last record, so a count in the header is too small");
@@ -166,7 +171,7 @@ Result<void> PlyAscii::take_vertex(const LineScanner& lines) {
     }
   }
   ++vertex_count_;
-  return row.expect_end();
+  return header_.has_loose_lines ? Result<void>() : row.expect_end();
 }
 
 Result<void> PlyAscii::take_face(const LineScanner& lines) {
@@ -186,7 +191,7 @@ Result<void> PlyAscii::take_face(const LineScanner& lines) {
       indices_.push_back(*index);
     }
   }
-  return row.expect_end();
+  return header_.has_loose_lines ? Result<void>() : row.expect_end();
 }
 
 MeshCorner PlyAscii::corner(std::int64_t index) const noexcept {

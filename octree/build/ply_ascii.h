@@ -10,8 +10,8 @@
 
 namespace planetree::octree {
 
-/// An ascii PLY body: one record a line, empty lines aside. The vertices are
-/// kept in memory, as floats where the header declares nothing wider.
+/// An ascii body: one record a line, empty lines aside. The vertices are kept
+/// in memory, as floats where the header declares nothing wider.
 class PlyAscii final : public PlyBody {
  public:
   /// All three must outlive this.
@@ -23,6 +23,7 @@ class PlyAscii final : public PlyBody {
   Result<void> expect_end(TextPlace end) override;
 
  private:
+  [[nodiscard]] LineScanner lines_from(TextPlace begin) const noexcept;
   /// Calls take_line(record, lines) on the line of each record.
   template <class TakeLine>
   Result<TextPlace> each_line(const PlyElement& element, TextPlace begin,

@@ -35,9 +35,12 @@ struct PlyElement {
   [[nodiscard]] std::uint64_t min_record_bytes() const noexcept;
 };
 
-/// What the header says, with the parts a mesh needs found and checked.
+/// What the header says, with the parts a mesh needs found and checked. Other
+/// formats whose records follow one another so are described by it too.
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
+  /// Of ascii: words may follow a record's last value, and '#' begins a comment.
+  bool has_loose_lines = false;
   std::vector<PlyElement> elements;
   std::size_t vertex_element = 0;               ///< position in `elements`
   std::size_t face_element = 0;                 ///< position in `elements`

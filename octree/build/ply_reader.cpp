@@ -38,15 +38,19 @@ Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
 Result<MeshSummary> read_ply(MeshFile& file, TriangleSink& sink) {
   const Result<PlyHeader> header = parse_ply_header(file.text());
   if (!header) return header.error();
+  return read_ply_body(file, *header, sink);
+}
+
+Result<MeshSummary> read_ply_body(MeshFile& file, const PlyHeader& header, TriangleSink& sink) {
   MeshDelivery delivery(sink, RecordKind::kFace, file.size_bytes());
   std::unique_ptr<PlyBody> body;
-  if (header->encoding == PlyEncoding::kAscii) {
-    body = std::make_unique<PlyAscii>(file, *header, delivery);
+  if (header.encoding == PlyEncoding::kAscii) {
+    body = std::make_unique<PlyAscii>(file, header, delivery);
   } else {
-    body = std::make_unique<PlyBinary>(file, *header, delivery);
+    body = std::make_unique<PlyBinary>(file, header, delivery);
   }
-  if (Result<void> read = read_elements(*header, *body); !read) return read.error();
-  return delivery.finish(header->float32());
+  if (Result<void> read = read_elements(header, *body); !read) return read.error();
+  return delivery.finish(header.float32());
 }
 
 }  // namespace planetree::octree

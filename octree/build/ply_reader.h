@@ -10,4 +10,8 @@ namespace planetree::octree {
 /// Contract as read_mesh.
 Result<MeshSummary> read_ply(MeshFile& file, TriangleSink& sink);
 
+/// Reads the records that `header` says the file has, whatever its format.
+/// Contract as read_mesh.
+Result<MeshSummary> read_ply_body(MeshFile& file, const PlyHeader& header, TriangleSink& sink);
+
 }  // namespace planetree::octree

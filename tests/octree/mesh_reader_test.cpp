@@ -23,9 +23,11 @@ TEST(MeshReader, JudgesContentBeforeExtension) {
   const std::string stl =
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
       "endfacet\nendsolid\n";
-  for (const std::string extension : {"", ".ply", ".stl", ".obj", ".txt"}) {
+  const std::string off = "# of three corners\nOFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const std::string extension : {"", ".ply", ".stl", ".obj", ".off", ".txt"}) {
     EXPECT_EQ(read_bytes(ply, extension).log, kTriangleLog) << extension;
     EXPECT_EQ(read_bytes(stl, extension).log, kTriangleLog) << extension;
+    EXPECT_EQ(read_bytes(off, extension).log, kTriangleLog) << extension;
   }
   EXPECT_EQ(read_bytes(kObj, ".obj").log, kTriangleLog);
   EXPECT_EQ(read_bytes(kObj, ".OBJ").log, kTriangleLog);
@@ -36,8 +38,8 @@ TEST(MeshReader, RefusesWhatItDoesNotKnow) {
     const Reading reading = read_bytes(kObj, extension);
     EXPECT_EQ(reading.code, ErrorCode::kBadInput);
     EXPECT_EQ(reading.error,
-              "byte 0: neither a PLY nor an STL, and not named .obj; give a PLY, STL or OBJ mesh "
-              "(an OBJ needs its extension)");
+              "byte 0: neither a PLY, an STL nor an OFF, and not named .obj; give a PLY, STL, OBJ "
+              "or OFF mesh (an OBJ needs its extension)");
   }
   EXPECT_EQ(read_bytes("", ".ply").code, ErrorCode::kBadInput);
   EXPECT_EQ(read_bytes("ply", ".ply").code, ErrorCode::kBadInput);

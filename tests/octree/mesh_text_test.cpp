@@ -113,6 +113,20 @@ TEST(MeshText, CountsLinesAndBytes) {
   EXPECT_FALSE(lines.next());
 }
 
+TEST(MeshText, CutsCommentsOnlyAsTold) {
+  const std::string_view text = " # a\nb # c\nd#e\n1.#IND -1.#INF#f\n";
+  LineScanner lines(text, {}, LineEnd::kAny, LineComment::kHash);
+  for (const char* line : {"b ", "d", "1.#IND -1.#INF"}) {
+    ASSERT_TRUE(lines.next_filled());
+    EXPECT_EQ(lines.line(), line);
+  }
+  EXPECT_EQ(lines.after().offset, text.size());
+  EXPECT_FALSE(lines.next_filled());
+  LineScanner kept(text);
+  ASSERT_TRUE(kept.next());
+  EXPECT_EQ(kept.line(), " # a");
+}
+
 TEST(MeshText, EndsALineInFrontOfBinaryDataOnlyAsTold) {
   LineScanner newline("a\rb\n\n", {}, LineEnd::kNewline);
   ASSERT_TRUE(newline.next());

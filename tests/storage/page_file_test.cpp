@@ -166,6 +166,7 @@ TEST(PageFile, SaysWhatIsThereInstead) {
   const Foreign foreign[] = {{"", "empty"},
                              {"ply\nformat ascii 1.0\n", "PLY"},
                              {"solid cube\n", "STL"},
+                             {"OFF\n3 1 0\n", "OFF"},
                              {"PK\x03\x04zip", "zip"},
                              {"\x01\x02", "starts with 01 02"},
                              {std::string(5000, 'x'), "starts with 78 78 78 78 78 78 78 78"}};

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "octree/build/mesh_file.h"
+#include "octree/build/mesh_reader.h"
+
+namespace planetree::octree {
+
+/// Whether the file's first word, comments aside, is a keyword of an OFF.
+bool is_off(std::string_view file) noexcept;
+
+/// Reads an OFF, with or without a keyword, as Geomview defines it and others
+/// write it: ascii, one vertex or face a line, or big-endian binary. Normals,
+/// colours and texture coordinates are not read, nor is the number of edges.
+/// Refuses vertices of other than three dimensions (4OFF, nOFF).
+/// Contract as read_mesh.
+Result<MeshSummary> read_off(MeshFile& file, TriangleSink& sink);
+
+}  // namespace planetree::octree
