@@ -57,9 +57,10 @@ Result<MeshSummary> read_mapped(MeshFile& file, const std::filesystem::path& pat
     case MeshFormat::kUnknown:
       break;
   }
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, 0,
-                    "byte 0: neither a PLY, an STL nor an OFF, and not named .obj; give a PLY, STL, "
-                    "OBJ or OFF mesh (an OBJ needs its extension)");
+  return make_error(
+      ErrorCode::kBadInput, Error::kNowhere, 0,
+      "byte 0: neither a PLY, an STL nor an OFF, and not named .obj; give a PLY, STL, "
+      "OBJ or OFF mesh (an OBJ needs its extension)");
 }
 
 const char* kind_name(RecordKind kind) {

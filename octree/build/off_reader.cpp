@@ -64,8 +64,7 @@ PlyHeader records_of(PlyEncoding encoding, std::size_t more_numbers) {
   header.encoding = encoding;
   header.has_loose_lines = is_ascii;
   header.elements = {{"vertex", 0, {}}, {"face", 0, {}}};
-  for (const char* name : {"x", "y", "z"})
-    header.elements[0].properties.push_back({name, real});
+  for (const char* name : {"x", "y", "z"}) header.elements[0].properties.push_back({name, real});
   header.elements[1].properties = {{"corners", PlyType::kInt32, true, PlyType::kInt32}};
   if (!is_ascii) {
     header.elements[0].properties.resize(3 + more_numbers, {"more", real});

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cinttypes>
+#include <optional>
 #include <string>
 
 namespace planetree::octree {
@@ -75,6 +76,16 @@ class Row {
     const std::string_view word = take_word(rest_);
     if (word.empty()) return {};
     return error("'" + printable(word) + "' follows the last declared value");
+  }
+
+  /// As many words must be left as were the first time, when `count` is set.
+  Result<void> expect_rest(std::optional<std::uint64_t>& count) {
+    std::uint64_t left = 0;
+    while (!take_word(rest_).empty()) ++left;
+    if (!count) count = left;
+    if (left == *count) return {};
+    return error(
+        "a vertex of more or fewer numbers than the first, so a count in the header may be wrong");
   }
 
  private:
@@ -171,7 +182,7 @@ Result<void> PlyAscii::take_vertex(const LineScanner& lines) {
     }
   }
   ++vertex_count_;
-  return header_.has_loose_lines ? Result<void>() : row.expect_end();
+  return header_.has_loose_lines ? row.expect_rest(words_behind_vertex_) : row.expect_end();
 }
 
 Result<void> PlyAscii::take_face(const LineScanner& lines) {

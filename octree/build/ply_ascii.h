@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -36,12 +37,13 @@ class PlyAscii final : public PlyBody {
   MeshFile& file_;
   const PlyHeader& header_;
   MeshDelivery& delivery_;
-  std::vector<int> axes_;              ///< per property of a vertex: 0, 1, 2 for x, y, z, or -1
-  bool float32_;                       ///< which of the two vectors below is used
-  std::vector<float> floats_;          ///< x, y, z of each vertex read
-  std::vector<double> doubles_;        ///< x, y, z of each vertex read
-  std::uint64_t vertex_count_ = 0;     ///< vertices read
-  std::vector<std::int64_t> indices_;  ///< of the face being read
+  std::vector<int> axes_;           ///< per property of a vertex: 0, 1, 2 for x, y, z, or -1
+  bool float32_;                    ///< which of the two vectors below is used
+  std::vector<float> floats_;       ///< x, y, z of each vertex read
+  std::vector<double> doubles_;     ///< x, y, z of each vertex read
+  std::uint64_t vertex_count_ = 0;  ///< vertices read
+  std::optional<std::uint64_t> words_behind_vertex_;  ///< of loose lines: as of the first vertex
+  std::vector<std::int64_t> indices_;                 ///< of the face being read
 };
 
 }  // namespace planetree::octree

@@ -39,7 +39,8 @@ struct PlyElement {
 /// formats whose records follow one another so are described by it too.
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
-  /// Of ascii: words may follow a record's last value, and '#' begins a comment.
+  /// Of ascii: words may follow a record's last value, the same number of them
+  /// every vertex's, and '#' begins a comment.
   bool has_loose_lines = false;
   std::vector<PlyElement> elements;
   std::size_t vertex_element = 0;               ///< position in `elements`

@@ -30,8 +30,9 @@ TEST(OffAscii, ReadsVerticesInDoublePrecision) {
 }
 
 TEST(OffAscii, FindsTheCountsWhereverWritersPutThem) {
-  for (const std::string head : {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1 0\n", "  OFF\t\n\n 3 1 0 \n",
-                                 "OFF\n3 1\n", "OFF 3 1\n", "OFF\n3 1 -7\n"})
+  for (const std::string head :
+       {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1 0\n", "  OFF\t\n\n 3 1 0 \n", "OFF\n3 1\n",
+        "OFF 3 1\n", "OFF\n3 1 -7\n"})
     EXPECT_EQ(read_bytes(head + kBody).log, kTriangle) << head;
 }
 
@@ -43,10 +44,13 @@ TEST(OffAscii, NeedsAKeywordOrTheExtension) {
 }
 
 TEST(OffAscii, PassesOverWhatElseAVertexHas) {
-  const std::string body =
-      "0 0 0 0 0 1 255 0 0 255 0.5 0.5\n1 0 0 0 0 1 7\n0 1 0 and more\n3 0 1 2\n";
   for (const std::string keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF", "NCSTOFF"})
-    EXPECT_EQ(read_bytes(keyword + "\n3 1 0\n" + body).log, kTriangle) << keyword;
+    for (const std::string more : {"", " 255 0 0", " 0 0 1 255 0 0 255 0.5 0.5 # all"})
+      EXPECT_EQ(read_bytes(keyword + "\n3 1 0\n0 0 0" + more + "\n1 0 0" + more + "\n0 1 0" + more +
+                           "\n3 0 1 2\n")
+                    .log,
+                kTriangle)
+          << keyword << more;
 }
 
 TEST(OffAscii, PassesOverColoursOfFaces) {
@@ -137,6 +141,14 @@ TEST(OffAscii, RefusesBodiesThatDoNotMatchTheCounts) {
   expect_refused("OFF\n3 1 0\n0 zero 0\n", "line 3: 'zero' in 'y' is not a number");
 }
 
+// The counts of vertices and faces, one for the other, count as many lines.
+TEST(OffAscii, RefusesFacesThatAreCountedAsVertices) {
+  expect_refused(
+      "OFF\n4 3 0\n" + kVertices + "3 0 1 2\n3 0 1 2\n3 0 1 2\n3 0 1 2\n",
+      "line 6: a vertex of more or fewer numbers than the first, so a count in the header "
+      "may be wrong");
+}
+
 TEST(OffAscii, CountsThatLieCostNothing) {
   expect_refused("OFF\n18446744073709551615 1 0\n0 0 0\n",
                  "line 4: the file ends at record 1 of 9223372036854775807 'vertex'");
@@ -166,8 +178,8 @@ Bytes binary_off(const std::string& head, std::int32_t face_count, int more_numb
 using i32 = std::int32_t;
 
 TEST(OffBinary, ReadsEveryKeyword) {
-  const std::pair<std::string, int> keywords[] = {
-      {"OFF", 0}, {"COFF", 4}, {"NOFF", 3}, {"CNOFF", 7}, {"STOFF", 2}, {"STCNOFF", 9}};
+  const std::pair<std::string, int> keywords[] = {{"OFF", 0},   {"COFF", 4},  {"NOFF", 3},
+                                                  {"CNOFF", 7}, {"STOFF", 2}, {"STCNOFF", 9}};
   for (const auto& [keyword, more_numbers] : keywords) {
     for (const std::string end : {" BINARY\n", " BINARY # big-endian\n", "\tBINARY\r\n"}) {
       Bytes bytes = binary_off(keyword + end, 2, more_numbers);
@@ -211,8 +223,9 @@ TEST(OffBinary, RefusesStructuralDamage) {
   };
   expect_refused(with_counts(-1, 1), "line 2: a count of -1; copy or export the OFF again");
   expect_refused(with_counts(0, -2147483647 - 1), "line 2: a count of -2147483648");
-  expect_refused(with_counts(2147483647, 1),
-                 "byte 23: 2147483647 records 'vertex' of 12 bytes or more do not fit in the 0 left");
+  expect_refused(
+      with_counts(2147483647, 1),
+      "byte 23: 2147483647 records 'vertex' of 12 bytes or more do not fit in the 0 left");
   expect_refused(with_counts(0, 2147483647),
                  "byte 23: 2147483647 records 'face' of 8 bytes or more do not fit in the 0 left");
   Bytes negative = binary_off("OFF BINARY\n", 1);

@@ -1,9 +1,7 @@
 #include "octree/build/mesh_reader.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cstdint>
 
@@ -120,64 +118,6 @@ TEST(MeshReader, ReadsTheSameUnderALimitOnMappedMemory) {
     ASSERT_TRUE(read_mesh(file.path(), summer, MeshReadOptions{limit}));
     EXPECT_EQ(summer.count, kCount);
     EXPECT_EQ(summer.sum, kCount * (kCount - 1.0) / 2);
-  }
-}
-
-/// A file of holes with bytes at chosen places.
-class SparseFile {
- public:
-  explicit SparseFile(std::uint64_t size_bytes) : file_("", ".ply") {
-    descriptor_ = ::open(file_.path().c_str(), O_RDWR | O_CLOEXEC);
-    ok_ = ::ftruncate(descriptor_, static_cast<off_t>(size_bytes)) == 0;
-  }
-  ~SparseFile() { ::close(descriptor_); }
-  void write(std::uint64_t offset, const std::string& bytes) {
-    const auto size = static_cast<ssize_t>(bytes.size());
-    ok_ &= ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset)) == size;
-  }
-  [[nodiscard]] bool ok() const { return ok_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
-
- private:
-  TemporaryFile file_;
-  int descriptor_ = -1;
-  bool ok_ = false;
-};
-
-TEST(MeshReader, ReachesIndicesPast31BitsAndOffsetsPast32) {
-  constexpr std::uint64_t kVertexCount = (std::uint64_t{1} << 32) - 5;
-  constexpr std::uint32_t kIndices[] = {2147483648U, 3000000000U, 4294967290U, 0U};
-  const std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                           std::to_string(kVertexCount) +
-                           "\nproperty float x\nproperty float y\nproperty float z\n"
-                           "element face 3\nproperty list uchar uint vertex_indices\nend_header\n";
-  Bytes faces;
-  faces.put(std::uint8_t{3}, kIndices[0], kIndices[1], kIndices[2]);
-  faces.put(std::uint8_t{4}, kIndices[3], kIndices[2], kIndices[1], kIndices[0]);
-  faces.put(std::uint8_t{3}, kIndices[0], kIndices[1], std::uint32_t{4294967291U});
-  const std::uint64_t faces_begin = head.size() + 12 * kVertexCount;
-
-  SparseFile file(faces_begin + faces.str().size());
-  file.write(0, head);
-  for (std::uint64_t i = 0; i < 4; ++i) {
-    const float x = static_cast<float>(i + 1);
-    file.write(head.size() + std::uint64_t{12} * kIndices[i],
-               Bytes().put(x, 10 * x, 100 * x).str());
-  }
-  file.write(faces_begin, faces.str());
-  ASSERT_TRUE(file.ok()) << "the temporary folder's file system has no sparse files of 52 GB";
-
-  for (const std::uint64_t limit : {std::uint64_t{0}, std::uint64_t{1} << 20}) {
-    const Reading reading = read_path(file.path(), MeshReadOptions{limit});
-    EXPECT_EQ(reading.error, "");
-    EXPECT_EQ(reading.log,
-              "0: 1 10 100, 2 20 200, 3 30 300\n"
-              "1: 4 40 400, 3 30 300, 2 20 200\n"
-              "2: 4 40 400, 2 20 200, 1 10 100\n"
-              "3+1 aside: face 2: vertex index 4294967291 is out of range, the file has 4294967291 "
-              "vertices\n");
-    ASSERT_TRUE(reading.summary);
-    EXPECT_EQ(reading.summary->vertex_records, kVertexCount);
   }
 }
 
