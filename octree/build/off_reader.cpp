@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "octree/build/mesh_text.h"
@@ -34,7 +33,7 @@ struct OffKeyword {
 };
 
 /// Takes the keyword off the front of a file's first word. Geomview has its
-/// letters in one order, others write them in any.
+/// letters in one order, others write them in any, each once.
 std::optional<OffKeyword> take_keyword(std::string_view& word) noexcept {
   std::string_view rest = word;
   OffKeyword keyword;

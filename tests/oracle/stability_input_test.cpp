@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "tests/octree/mesh_formats.h"
 #include "tests/octree/mesh_recorder.h"
 #include "tests/oracle/answer_checks.h"
 #include "tests/oracle/built_model.h"
@@ -47,6 +48,31 @@ TEST(StabilityInput, FaceOfAVertexThatIsNotThereIsSetAside) {
 
 TEST(StabilityInput, FaceOfTwoCornersIsSetAside) {
   expect_set_aside(kVertices + "f 1 2 3\nf 1 2\nf 4 5 6\n");
+}
+
+// In every format: a vertex that is infinite and, where there are such, an index that
+// is none and a face of two corners. The good faces keep their numbers and answer.
+TEST(StabilityInput, BadRecordsOfEveryFormatAreSetAsideAndTheRestAnswers) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const octree::MeshFormat& format :
+       octree::formats_that([](const octree::MeshFormat&) { return true; })) {
+    octree::PlainMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {infinity, 0, 5}}, {}};
+    mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 10}, {1, 0, 10}, {0, 1, 10}});
+    mesh.faces = {{0, 1, 3}, {0, 1, 2}};
+    if (format.is_indexed) mesh.faces.push_back({0, 1, 4294967295});
+    if (format.has_polygons) mesh.faces.push_back({0, 1});
+    mesh.faces.push_back({4, 5, 6});
+    const std::uint64_t last = mesh.faces.size() - 1;
+    const TemporaryFile file(format.write(mesh, {}), format.extension);
+    BuiltModel model(file.path());
+    EXPECT_EQ(model.model().info().triangles, 2U) << format.name;
+    EXPECT_EQ(model.model().info().set_aside, last - 1) << format.name;
+    EXPECT_EQ(model.model().info().first_set_aside, 0U) << format.name;
+    EXPECT_EQ(model.ask({0.25, 0.25, 1}).triangle, 1U) << format.name;
+    EXPECT_EQ(model.ask({0.25, 0.25, 1}).distance, 1) << format.name;
+    EXPECT_EQ(model.ask({0.25, 0.25, 9}).triangle, last) << format.name;
+    EXPECT_EQ(model.ask({0.25, 0.25, 9}).distance, 1) << format.name;
+  }
 }
 
 // In a binary file a vertex may be NaN or infinite.
