@@ -12,7 +12,7 @@ namespace planetree::octree {
 namespace {
 
 constexpr char kNoRoom[] = "the temporary folder's file system has no sparse files of such a size";
-// Least of the limits on mapped memory, and none.
+// Of mapped memory: none, and one far below the vertices.
 constexpr std::uint64_t kMapLimits[] = {0, std::uint64_t{1} << 20};
 
 /// A file of holes with bytes at chosen places.
