@@ -1,9 +1,8 @@
 #include "tools/touch_session.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cstddef>
+#include <ctime>
 #include <limits>
 #include <thread>
 

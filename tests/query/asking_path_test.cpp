@@ -119,7 +119,8 @@ TEST_F(RealTimePath, NeitherAllocatesNorLocksNorCallsTheSystemNorFaults) {
     const bool trapping = set_call_trap();
     const std::uint64_t allocations = allocation_count(), locks = lock_count();
     const std::uint64_t calls = trapped_calls();
-    ask_at_once(probe, 40);
+    for (int most = 5000; most > 0 && model.stats().pages_evicted < 300; --most)
+      ask_at_once(probe, 1);
     EXPECT_EQ(lock_count(), locks);
     EXPECT_EQ(allocation_count(), allocations);
     if (trapping) {
@@ -127,7 +128,7 @@ TEST_F(RealTimePath, NeitherAllocatesNorLocksNorCallsTheSystemNorFaults) {
     }
   }).join();
   EXPECT_GT(degraded_, 0u);
-  EXPECT_GT(model.stats().pages_evicted, 100u);
+  EXPECT_GE(model.stats().pages_evicted, 300u);
 }
 
 }  // namespace
