@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/frame.h"
 #include "octree/triangle_distance.h"
 
 /// Lower bounds on the distance to what a child box and its bounding planes
@@ -62,6 +63,19 @@ struct FloatQuery {
     return query;
   }
 };
+
+/// No surface point in a child's box is farther than this from a query, which is relative to
+/// the model's centre as the box is.
+inline double farthest_in_box(const Node& node, unsigned child, const Point& query) {
+  double squared = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double at = query[axis];
+    const double farther = std::max(std::fabs(at - static_cast<double>(node.lower[axis][child])),
+                                    std::fabs(at - static_cast<double>(node.upper[axis][child])));
+    squared += farther * farther;
+  }
+  return std::sqrt(squared) * (1 + 0x1p-40) + kAbsoluteSlack;
+}
 
 /// Rounds up to float; at least the least normal float, so that squares which
 /// underflow are kept.

@@ -31,11 +31,11 @@ NearestAnswer beyond(const NearestLimits& limits) {
 }
 
 // Nothing was reached: all that is known is one vertex and what was left out.
-NearestAnswer nothing_read(const TreeFacts& tree, const Point& query, double lower) {
+NearestAnswer nothing_read(const TreeFacts& tree, const Point& query, double lower, double within) {
   NearestAnswer answer;
   const double distance = (query - tree.sample).norm();
   answer.point = tree.sample;
-  answer.upper = up(distance * (1 + 0x1p-48) + kUnresolved);
+  answer.upper = std::min(up(distance * (1 + 0x1p-48) + kUnresolved), up(within));
   answer.distance = answer.upper;
   answer.lower = std::min(lower, down(distance * (1 - 0x1p-48) - kUnresolved));
   answer.feature = Feature::kVertex;
@@ -68,15 +68,16 @@ NearestAnswer answer_of(const BestTriangle& best) {
 }  // namespace
 
 NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                       const BestTriangle& best, const FloatQuery& wide, float pruned,
-                       float unread) noexcept {
+                       const BestTriangle& best, const FloatQuery& wide,
+                       const LeftOut& left_out) noexcept {
+  const auto [pruned, unread, within] = left_out;
   const bool spent = may_matter(unread, best);
   const auto bound_of = [&](float squared) {
     return std::max(distance_to_box(tree, query), certified(wide, squared));
   };
   if (!best.found() && !spent) return beyond(limits);
   if (!best.found())
-    return nothing_read(tree, query, std::min(limits.max_distance, bound_of(unread)));
+    return nothing_read(tree, query, std::min(limits.max_distance, bound_of(unread)), within);
   NearestAnswer answer = answer_of(best);
   if (may_matter(pruned, best)) {
     answer.lower = std::min(answer.lower, bound_of(pruned));
@@ -86,6 +87,7 @@ NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestL
   if (answer.lower > limits.max_distance && !spent) return beyond(limits);
   if (spent) {
     answer.lower = std::min(answer.lower, bound_of(unread));
+    answer.upper = std::min(answer.upper, up(within));
     answer.status = Status::kDegraded;
   }
   return answer;

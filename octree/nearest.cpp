@@ -51,6 +51,7 @@ class Descent {
   }
   // From what a ball holds.
   void run_from(const Vicinity& vicinity) {
+    front_ = &vicinity.front();
     if (wide_.usable && vicinity.nearby().complete()) {
       visit_nearby(vicinity.nearby());
       settle();
@@ -62,39 +63,37 @@ class Descent {
 
   // Where something is left out that may matter, a triangle known from elsewhere helps.
   void fall_back_on(const NearestAnswer& known) {
-    if (known.triangle == kNoTriangle || !left_out()) return;
+    if (known.triangle == kNoTriangle || left_out_.unread > best_.exact_threshold()) return;
     note(known.corners, known.triangle, 0, 0);
     settle();
   }
 
   const BestTriangle& best() const { return best_; }
   const FloatQuery& wide() const { return wide_; }
-  // Least bounds of children not visited because max_error allowed it, and
-  // because they could not be read or the work was spent.
-  float pruned() const { return pruned_; }
-  float unread() const { return unread_; }
+  const LeftOut& what_is_left_out() const { return left_out_; }
 
  private:
   static constexpr unsigned kPrefetched = 3;  // children, nearest first
 
-  bool left_out() const { return unread_ <= best_.exact_threshold(); }
+  static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
 
   void run() {
     std::uint64_t visits = 1;
     FrontierEntry entry;
-    while (frontier_.pop(order_, best_.threshold(), entry, pruned_)) visit(entry, visits++);
+    while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned))
+      visit(entry, visits++);
     settle();
   }
 
   HWY_INLINE void visit(FrontierEntry entry, std::uint64_t visits) {
     // An honest tree cannot be visited longer than it is; a forged one could.
     if (visits >= limits_.max_nodes || visits >= tree_.record_count) {
-      unread_ = std::min(unread_, entry.bound);
+      left_out_.unread = std::min(left_out_.unread, entry.bound);
       return;
     }
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
-      unread_ = std::min(unread_, entry.bound);
+      leave_out(entry);
     } else if (LinkFormat::is_leaf(entry.link)) {
       ++work_.blocks;
       visit_block(BlockView(record, tree_.shape));
@@ -104,9 +103,29 @@ class Descent {
     }
   }
 
+  // A page that cannot be had: the box of what is there is all that is known.
+  void leave_out(const FrontierEntry& entry) {
+    left_out_.unread = std::min(left_out_.unread, entry.bound);
+    if (sought_ == kMostSought) return;
+    ++sought_;
+    const RecordFinder::Child child = entry.from == RecordFinder::kNoPage
+                                          ? child_of_front(entry.link)
+                                          : records_.find_parent(entry.link, entry.from);
+    if (!child.node) return;
+    left_out_.within = std::min(left_out_.within,
+                                farthest_in_box(*child.node, child.place, query_ - tree_.centre));
+  }
+
+  RecordFinder::Child child_of_front(std::uint32_t link) const {
+    if (!front_) return {};
+    for (unsigned place = 0; place < front_->child_count; ++place)
+      if (front_->link[place] == link) return {front_, place};
+    return {};
+  }
+
   HWY_INLINE void visit_node(FrontierEntry entry, const Node& node, std::uint32_t page) {
     if (!frontier_.has_room()) {
-      unread_ = std::min(unread_, entry.bound);
+      left_out_.unread = std::min(left_out_.unread, entry.bound);
       return;
     }
     FrontierGroup& group = frontier_.next();
@@ -114,7 +133,7 @@ class Descent {
     const bool far = entry.bound > node.gate;
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
     const unsigned near = sorted_children(node, wide_, far, best_.threshold(), group);
-    if (near < node.child_count) pruned_ = std::min(pruned_, group.bound(near));
+    if (near < node.child_count) left_out_.pruned = std::min(left_out_.pruned, group.bound(near));
     // The nearest child is visited at once, unless from afar another is nearer; the last
     // lines of a node are looked at from afar alone.
     if (far) {
@@ -207,8 +226,9 @@ class Descent {
   Candidates candidates_;
   Frontier frontier_;
   Frontier::Order order_ = Frontier::Order::kLast;
-  float pruned_ = std::numeric_limits<float>::infinity();
-  float unread_ = std::numeric_limits<float>::infinity();
+  const Node* front_ = nullptr;  // where a descent does not begin at the root
+  LeftOut left_out_;
+  unsigned sought_ = 0;
 };
 
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
@@ -216,8 +236,8 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
                                 Vicinity* vicinity) {
   const auto answer_of = [&](Descent& descent) {
     if (limits.known) descent.fall_back_on(*limits.known);
-    return conclude(tree, query, limits, descent.best(), descent.wide(), descent.pruned(),
-                    descent.unread());
+    return conclude(tree, query, limits, descent.best(), descent.wide(),
+                    descent.what_is_left_out());
   };
   if (vicinity && vicinity->holds(query)) {
     Descent descent(tree, query, limits, pages, work);

@@ -68,6 +68,26 @@ class RecordFinder {
   /// The page of the last record.
   std::uint32_t page() const { return page_number_; }
 
+  /// A child of a node, by its place there.
+  struct Child {
+    const Node* node = nullptr;
+    unsigned place = 0;
+  };
+  /// Looks through the nodes of a page, as far as it is in memory, for the one that has `link`.
+  Child find_parent(std::uint32_t link, std::uint32_t page) const {
+    const std::byte* frame =
+        pages_.peek && page != kNoPage ? pages_.peek(pages_.context, page) : nullptr;
+    if (!frame) return {};
+    const auto& header = *reinterpret_cast<const FrameHeader*>(frame);
+    for (unsigned i = 0; i < header.node_count; ++i) {
+      const unsigned slot = header.first_node_slot + i * node_slots_;
+      const auto* node = reinterpret_cast<const Node*>(frame + slot * kSlotBytes);
+      for (unsigned place = 0; place < node->child_count; ++place)
+        if (node->link[place] == link) return {node, place};
+    }
+    return {};
+  }
+
   /// Asks for the record's first cache lines, as far as it is in memory. No answer depends
   /// on it.
   template <std::size_t kLines = 4>

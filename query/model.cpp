@@ -147,19 +147,28 @@ Result<void> ModelState::start_crews(const OpenOptions& options) {
 }
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
-                                                     const OpenOptions& options) {
+                                                     const OpenOptions& options,
+                                                     storage::FileCalls& calls) {
   if (const char* fault = octree::self_test())
     return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
                       "this build computes otherwise than it must: %s; compile without "
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
   if (const auto checked = check_counts(options); !checked) return checked.error();
-  auto pager = Pager::open(path, limits_of(options));
+  auto pager = Pager::open(path, limits_of(options), calls);
   if (!pager) return pager.error();
   std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
   if (const auto filled = state->fill_colours(); !filled) return filled.error();
   if (const auto started = state->start_crews(options); !started) return started.error();
   return state;
+}
+
+Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
+                                     storage::FileCalls& calls) {
+  const HostArithmetic host;
+  auto state = open(path, options, calls);
+  if (!state) return state.error();
+  return Model(std::move(*state));
 }
 
 Stats ModelState::stats() const noexcept {
@@ -185,10 +194,7 @@ Stats ModelState::stats() const noexcept {
 }  // namespace query
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
-  const query::HostArithmetic host;
-  auto state = query::ModelState::open(path, options);
-  if (!state) return state.error();
-  return Model(std::move(*state));
+  return query::ModelState::open_model(path, options);
 }
 
 Model::Model(std::unique_ptr<query::ModelState> state) noexcept : state_(std::move(state)) {}

@@ -14,6 +14,7 @@
 #include "query/pager.h"
 #include "query/scale.h"
 #include "query/wishes.h"
+#include "storage/file_calls.h"
 
 namespace planetree::query {
 
@@ -25,8 +26,12 @@ class ModelState {
  public:
   ~ModelState();
 
-  static Result<std::unique_ptr<ModelState>> open(const std::filesystem::path& path,
-                                                  const OpenOptions& options);
+  /// calls  the system; must outlive the model.
+  static Result<std::unique_ptr<ModelState>> open(
+      const std::filesystem::path& path, const OpenOptions& options,
+      storage::FileCalls& calls = storage::FileCalls::real());
+  static Result<Model> open_model(const std::filesystem::path& path, const OpenOptions& options,
+                                  storage::FileCalls& calls = storage::FileCalls::real());
 
   const ModelInfo& info() const noexcept { return info_; }
   Stats stats() const noexcept;

@@ -16,9 +16,9 @@ std::uint64_t colour_bytes(const storage::ModelRecord& model) {
 
 }  // namespace
 
-Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path,
-                                           const Limits& limits) {
-  auto file = storage::PageFile::open(path);
+Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path, const Limits& limits,
+                                           storage::FileCalls& calls) {
+  auto file = storage::PageFile::open(path, calls);
   if (!file) return file.error();
   // Links in pages are checked as those are decoded; this one is in the header.
   const storage::FileHeader& header = file->header();

@@ -29,8 +29,9 @@ class Pager {
   };
 
   /// Opens the file, claims and locks the memory, loads and pins the root page.
+  /// calls  the system; must outlive this.
   static Result<std::unique_ptr<Pager>> open(const std::filesystem::path& path,
-                                             const Limits& limits);
+                                             const Limits& limits, storage::FileCalls& calls);
 
   const storage::PageFile& file() const noexcept { return file_; }
   cache::PageCache& cache() const noexcept { return *cache_; }

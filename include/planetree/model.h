@@ -66,6 +66,7 @@ class Model {
 
  private:
   friend class Probe;
+  friend class query::ModelState;
   explicit Model(std::unique_ptr<query::ModelState> state) noexcept;
   std::unique_ptr<query::ModelState> state_;
 };

@@ -79,7 +79,8 @@ struct Ask {
 
 /// The nearest surface point to a query.
 struct ClosestPoint {
-  double distance = 0;  ///< >= 0: to `point`, the best surface point known
+  double distance = 0;  ///< >= 0: to `point`, the best surface point known; if no triangle was
+                        ///< reached, as far as the surface may be
   double lower = 0;     ///< the true distance is at least this ...
   double upper = 0;     ///< ... and at most this; lower < upper even when exact
   Side side = Side::kUnknown;

@@ -1,0 +1,140 @@
+// Disks that fail, or take their time, while answers must be on time.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "planetree/probe.h"
+#include "query/model_state.h"
+#include "tests/query/answer_bits.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+constexpr Ask kNow{.wait = Wait::kNever};
+
+/// A disk that can be made to stand still, or to fail.
+class MoodyDisk final : public storage::FileCalls {
+ public:
+  std::atomic<bool> stands_still{false};
+  std::atomic<bool> fails{false};
+  std::atomic<int> waiting{0};
+
+  ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
+    ++waiting;
+    while (stands_still) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --waiting;
+    if (fails) {
+      errno = EIO;
+      return -1;
+    }
+    return FileCalls::pread(descriptor, out, bytes, offset);
+  }
+};
+
+bool comes_true(const std::function<bool()>& is_true) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!is_true()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+class StuckDisk : public testing::Test {
+ protected:
+  StuckDisk()
+      : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(200, -1.4, 1.4)) {}
+
+  Model open(std::uint64_t budget_bytes) {
+    OpenOptions options;
+    options.memory_budget_bytes = budget_bytes;
+    options.max_probes = 2;
+    auto model = ModelState::open_model(sample_.path(), options, disk_);
+    EXPECT_TRUE(model);
+    return *std::move(model);
+  }
+
+  // Every query once; how many answers were degraded.
+  std::size_t ask_all(Probe& probe) {
+    std::size_t degraded = 0;
+    for (const Vec3& query : queries_) {
+      const ClosestPoint answer = probe.closest_point(query, kNow);
+      EXPECT_TRUE(sample_.interval_holds(answer, query));
+      degraded += answer.status == Status::kDegraded;
+    }
+    return degraded;
+  }
+
+  SampleModel sample_;
+  MoodyDisk disk_;
+  std::vector<Vec3> queries_;
+};
+
+TEST_F(StuckDisk, IsNotWaitedFor) {
+  const Model model = open(std::uint64_t{64} << 20);
+  Probe probe = make_probe(model);
+  disk_.stands_still = true;
+  EXPECT_GT(ask_all(probe), 0u);
+  ASSERT_TRUE(comes_true([&] { return disk_.waiting > 0; }));
+  // A page is being read now, and will be for as long as this takes.
+  const std::uint64_t read = model.stats().pages_read;
+  for (int round = 0; round < 3; ++round) EXPECT_GT(ask_all(probe), 0u);
+  EXPECT_EQ(model.stats().pages_read, read);
+  EXPECT_EQ(disk_.waiting, 1);
+  disk_.stands_still = false;
+  EXPECT_TRUE(
+      comes_true([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
+}
+
+TEST_F(StuckDisk, HoldsUpThoseThatWait) {
+  const Model model = open(std::uint64_t{64} << 20);
+  Probe patient = make_probe(model), hasty = make_probe(model);
+  disk_.stands_still = true;
+  std::atomic<bool> answered{false};
+  std::thread waiting([&] {
+    EXPECT_EQ(patient.closest_point(queries_[0]).status, Status::kExact);
+    answered = true;
+  });
+  ASSERT_TRUE(comes_true([&] { return disk_.waiting > 0; }));
+  EXPECT_GT(ask_all(hasty), 0u);
+  EXPECT_FALSE(answered);
+  disk_.stands_still = false;
+  waiting.join();
+  EXPECT_TRUE(answered);
+}
+
+TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
+  const Model model = open(sample_.least_budget(2));
+  Probe probe = make_probe(model);
+  disk_.fails = true;
+  ASSERT_TRUE(comes_true([&] {
+    ask_all(probe);
+    return model.stats().quarantined_pages > 20;
+  }));
+  disk_.fails = false;
+  EXPECT_GT(ask_all(probe), 0u);
+}
+
+// What is known of a page that is missing is the box of what is there.
+TEST_F(StuckDisk, BoundsTheDistanceFromAboveToo) {
+  const Model model = open(std::uint64_t{64} << 20);
+  Probe probe = make_probe(model);
+  disk_.stands_still = true;
+  const Vec3 above{0, 0, 1.5};
+  const ClosestPoint answer =
+      probe.closest_point(above, {.parts = kDistance, .wait = Wait::kNever});
+  EXPECT_EQ(answer.status, Status::kDegraded);
+  EXPECT_TRUE(sample_.interval_holds(answer, above));
+  // The sphere's far side is 2.5 away, its sample vertex is on it or beside.
+  EXPECT_LT(answer.upper, 1.5);
+  disk_.stands_still = false;
+}
+
+}  // namespace
+}  // namespace planetree::query
