@@ -22,6 +22,10 @@ int FileCalls::fstatat(int directory, const char* path, struct stat* status, int
   return ::fstatat(directory, path, status, flags);
 }
 
+int FileCalls::statvfs(const char* path, struct statvfs* room) noexcept {
+  return ::statvfs(path, room);
+}
+
 ssize_t FileCalls::pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept {
   return ::pread(descriptor, out, bytes, offset);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/types.h>
 
 #include <cstddef>
@@ -20,6 +21,7 @@ class FileCalls {
   virtual int close(int descriptor) noexcept;
   virtual int fstat(int descriptor, struct stat* status) noexcept;
   virtual int fstatat(int directory, const char* path, struct stat* status, int flags) noexcept;
+  virtual int statvfs(const char* path, struct statvfs* room) noexcept;
   virtual ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept;
   virtual ssize_t pwrite(int descriptor, const void* in, std::size_t bytes, off_t offset) noexcept;
   virtual int fsync(int descriptor) noexcept;

@@ -41,13 +41,14 @@ void FileHandle::close() noexcept {
   errno = kept_errno;
 }
 
-Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out) const noexcept {
+Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
+                                 const char* what) const noexcept {
   while (!out.empty()) {
     const ssize_t count =
         calls_->pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
     if (count < 0) {
       if (errno == EINTR) continue;
-      return file_error(errno, FileAction::kRead, "read the file", Error::kNowhere, offset);
+      return file_error(errno, FileAction::kRead, what, Error::kNowhere, offset);
     }
     if (count == 0) {
       return make_error(ErrorCode::kTruncated, Error::kNowhere, offset,
@@ -61,16 +62,15 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out)
   return {};
 }
 
-Result<void> FileHandle::write_at(std::uint64_t offset,
-                                  std::span<const std::byte> bytes) const noexcept {
+Result<void> FileHandle::write_at(std::uint64_t offset, std::span<const std::byte> bytes,
+                                  const char* what) const noexcept {
   while (!bytes.empty()) {
     const ssize_t count =
         calls_->pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       // A device that takes nothing without saying why would keep us here forever.
-      return file_error(count < 0 ? errno : EIO, FileAction::kWrite, "write the file",
-                        Error::kNowhere, offset);
+      return file_error(count < 0 ? errno : EIO, FileAction::kWrite, what, Error::kNowhere, offset);
     }
     bytes = bytes.subspan(static_cast<std::size_t>(count));
     offset += static_cast<std::uint64_t>(count);

@@ -31,12 +31,16 @@ class FileHandle {
   void close() noexcept;
 
   /// Fills `out` from `offset`, through interruptions and short reads.
+  /// what    is tried, as file_error() has it.
   /// errors  kTruncated: the file ends before; else as file_error().
-  Result<void> read_at(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+  Result<void> read_at(std::uint64_t offset, std::span<std::byte> out,
+                       const char* what = "read the file") const noexcept;
 
   /// Writes all of `bytes` at `offset`, through interruptions and short writes.
+  /// what    is tried, as file_error() has it.
   /// errors  as file_error(), kNoSpace among them.
-  Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes) const noexcept;
+  Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes,
+                        const char* what = "write the file") const noexcept;
 
  private:
   FileCalls* calls_ = nullptr;

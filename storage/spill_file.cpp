@@ -63,13 +63,19 @@ Result<std::uint64_t> SpillFile::append(std::span<const std::byte> bytes) {
   const std::size_t held = held_part(offset, bytes.size());
   if (held > 0) std::memcpy(&held_[offset], bytes.data(), held);
   if (held == bytes.size()) return offset;
-  std::call_once(opened_once_, [this] {
-    if (const auto opened = open(); !opened) failure_ = opened.error();
-  });
-  if (failure_) return *failure_;
-  const auto written = file_.write_at(offset + held, bytes.subspan(held));
-  if (!written) return written.error();
+  if (const auto written = write(offset + held, bytes.subspan(held)); !written) {
+    failed_ = true;
+    return written.error();
+  }
   return offset;
+}
+
+Result<void> SpillFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+  std::call_once(opened_once_, [this] {
+    if (const auto opened = open(); !opened) open_failure_ = opened.error();
+  });
+  if (open_failure_) return *open_failure_;
+  return file_.write_at(offset, bytes, "write a temporary file");
 }
 
 Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) const {
@@ -77,7 +83,9 @@ Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) con
   const std::size_t held = held_part(offset, out.size());
   if (held > 0) std::memcpy(out.data(), &held_[offset], held);
   if (held == out.size()) return {};
-  return file_.read_at(offset + held, out.subspan(held));
+  const auto read = file_.read_at(offset + held, out.subspan(held), "read a temporary file");
+  if (!read) failed_ = true;
+  return read;
 }
 
 }  // namespace planetree::storage

@@ -39,9 +39,16 @@ class SpillFile {
 
   /// Bytes put away so far.
   std::uint64_t size_bytes() const noexcept { return next_.load(std::memory_order_relaxed); }
+  /// Those of them that are on disk.
+  std::uint64_t disk_bytes() const noexcept {
+    return size_bytes() - std::min(size_bytes(), held_bytes_);
+  }
+  /// Whether putting something away, or getting it back, ever failed.
+  bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
 
  private:
   Result<void> open();
+  Result<void> write(std::uint64_t offset, std::span<const std::byte> bytes);
   // How many of some bytes from `offset` on are in memory: the first.
   std::size_t held_part(std::uint64_t offset, std::size_t bytes) const noexcept {
     return offset < held_bytes_ ? std::min<std::uint64_t>(bytes, held_bytes_ - offset) : 0;
@@ -52,9 +59,10 @@ class SpillFile {
   const std::unique_ptr<std::byte[]> held_;
   FileCalls& calls_;
   std::once_flag opened_once_;
-  std::optional<Error> failure_;
+  std::optional<Error> open_failure_;
   FileHandle file_;
   std::atomic<std::uint64_t> next_ = 0;
+  mutable std::atomic<bool> failed_ = false;
 };
 
 }  // namespace planetree::storage

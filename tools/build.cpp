@@ -1,8 +1,10 @@
 #include "tools/build.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -11,6 +13,7 @@
 #include <string>
 #include <system_error>
 
+#include "storage/file_error.h"
 #include "tools/file_digest.h"
 #include "tools/file_text.h"
 #include "tools/progress.h"
@@ -36,11 +39,10 @@ std::string key_of(octree::BuildPhase phase) {
   return key;
 }
 
-/// Shows how far the build is, and remembers how long its phases took and which is the last:
-/// that tells what is to blame for an error.
+/// Shows how far the build is, and remembers how long its phases took and where it failed.
 class BuildMeter final : public octree::BuildProgress {
  public:
-  explicit BuildMeter(bool quiet) : progress_(quiet) {}
+  BuildMeter(bool quiet, bool json) : progress_(quiet, json) {}
 
   void progress(octree::BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
     if (phase != phase_) {
@@ -52,6 +54,7 @@ class BuildMeter final : public octree::BuildProgress {
     if (done > done_) progress_.add(done - done_);
     done_ = std::max(done, done_);
   }
+  void failed_at(octree::BuildPlace place) override { place_ = place; }
   void finish() {
     note_seconds();
     progress_.finish();
@@ -59,8 +62,7 @@ class BuildMeter final : public octree::BuildProgress {
 
   /// By phase, in their order.
   const nlohmann::ordered_json& seconds() const { return seconds_; }
-  bool is_reading() const { return !phase_ || phase_ == octree::BuildPhase::kReading; }
-  bool is_writing() const { return phase_ == octree::BuildPhase::kWriting; }
+  octree::BuildPlace place() const { return place_; }
 
  private:
   void note_seconds() {
@@ -71,19 +73,23 @@ class BuildMeter final : public octree::BuildProgress {
   }
 
   Progress progress_;
+  octree::BuildPlace place_ = octree::BuildPlace::kInput;
   std::optional<octree::BuildPhase> phase_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   nlohmann::ordered_json seconds_ = nlohmann::ordered_json::object();
   std::uint64_t done_ = 0;
 };
 
-/// What an error of a build is about.
-fs::path blamed_for(const Error& error, const BuildMeter& meter, const BuildArguments& arguments) {
-  if (meter.is_writing()) return arguments.output;
-  const bool of_spilling =
-      error.code == ErrorCode::kNoSpace || error.code == ErrorCode::kWriteFailed;
-  return meter.is_reading() && !of_spilling ? arguments.input
-                                            : arguments.options.spill_directory(arguments.output);
+fs::path path_of(octree::BuildPlace place, const BuildArguments& arguments) {
+  switch (place) {
+    case octree::BuildPlace::kInput:
+      return arguments.input;
+    case octree::BuildPlace::kTemporary:
+      return arguments.options.spill_directory(arguments.output);
+    case octree::BuildPlace::kOutput:
+      break;
+  }
+  return arguments.output;
 }
 
 /// What a build would only find out at its end.
@@ -103,6 +109,8 @@ Result<void> check_output(const BuildArguments& arguments) {
   const fs::path folder = output.parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
     return refuse(ErrorCode::kNotFound, "its directory does not exist; create it first");
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
+    return storage::file_error(errno, storage::FileAction::kWrite, "write to its directory");
   return {};
 }
 
@@ -110,8 +118,9 @@ double bytes_per_triangle(const storage::FileHeader& header) {
   return static_cast<double>(header.file_bytes) / static_cast<double>(header.model.triangle_count);
 }
 
-std::string json_report(const BuildArguments& arguments, const storage::FileHeader& header,
+std::string json_report(const BuildArguments& arguments, const octree::BuildReport& built,
                         double seconds, const BuildMeter& meter, const std::string& sha256) {
+  const storage::FileHeader& header = built.header;
   const storage::ModelRecord& model = header.model;
   nlohmann::ordered_json report = {
       {"input", arguments.input.string()},
@@ -133,6 +142,7 @@ std::string json_report(const BuildArguments& arguments, const storage::FileHead
       {"seconds_by_phase", meter.seconds()},
       {"triangles_per_second", static_cast<double>(model.triangle_count) / seconds},
       {"peak_resident_bytes", peak_resident_bytes()},
+      {"temporary_bytes", built.temporary_bytes},
       {"sha256", sha256},
       {"content_id", content_id_text(header.content_id)}};
   if (model.first_set_aside != storage::kNoTriangle)
@@ -191,12 +201,11 @@ int run_build(const BuildArguments& arguments, Console& console) {
                         make_error(ErrorCode::kNotFound, Error::kNowhere, Error::kNowhere,
                                    "no such directory for temporary files; create it first"));
   const auto started = std::chrono::steady_clock::now();
-  BuildMeter meter(arguments.quiet);
+  BuildMeter meter(arguments.quiet, arguments.json);
   const auto report =
       octree::build_tree(arguments.input, arguments.output, arguments.options, meter);
   meter.finish();
-  if (!report)
-    return console.fail(blamed_for(report.error(), meter, arguments).string(), report.error());
+  if (!report) return console.fail(path_of(meter.place(), arguments).string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
   warn_of_set_aside(arguments, *report, console);
@@ -206,7 +215,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   }
   const auto sha256 = sha256_of_file(arguments.output);
   if (!sha256) return console.fail(arguments.output.string(), sha256.error());
-  console.print(json_report(arguments, report->header, seconds, meter, *sha256));
+  console.print(json_report(arguments, *report, seconds, meter, *sha256));
   return console.finish(kDone);
 }
 
@@ -232,8 +241,9 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
                                "files. The file does not depend on it"),
                     "a quarter of the machine's");
   verb.path("--temp-dir", "DIR", arguments.options.temp_directory,
-            "Where temporary files go, about 120 bytes a triangle if memory is short; the "
-            "output's directory by default. They have no names and vanish with the process");
+            "Where temporary files go, about 120 bytes a triangle if memory is short, or 200 with "
+            "double coordinates; the output's directory by default. They have no names and vanish "
+            "with the process. A build that would find too little room does not begin");
   verb.default_text(verb.bytes("--page-size", options->page_bytes,
                                "Bytes of a page in memory: a power of two from 4K to 256K"),
                     "64K");
@@ -241,7 +251,8 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
             "Refuse a mesh with bad records (a vertex that is not finite, an index out of range, "
             "fewer than 3 corners) instead of setting them aside");
   verb.flag("--force", arguments.options.replace, "Replace the output if it exists");
-  verb.flag("--json", arguments.json, "Report as one JSON object");
+  verb.flag("--json", arguments.json,
+            "Report as one JSON object; progress as one a line, on standard error");
   verb.flag("--quiet", arguments.quiet, "Show no progress");
   verb.on_given([options, &console, &action] {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);

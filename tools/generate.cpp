@@ -38,7 +38,7 @@ Result<Outcome> generate(const GenerateOptions& options) {
   if (!file) return file.error();
   const auto room = file->reserve(ply_bytes(**shape, comment));
   if (!room) return room.error();
-  Progress progress(options.quiet);
+  Progress progress(options.quiet, options.json);
   const auto written = write_ply(**shape, comment, *file, progress);
   if (!written) return written.error();
   const auto committed = file->commit();
@@ -115,7 +115,8 @@ void add_generate(CLI::App& app, Console& console, std::function<int()>& action)
                                "Number that chooses the noise of statue and terrain and the "
                                "places of the soup"),
                     "1");
-  verb.flag("--json", options->json, "Report as one JSON object");
+  verb.flag("--json", options->json,
+            "Report as one JSON object; progress as one a line, on standard error");
   verb.flag("--quiet", options->quiet, "Show no progress");
   verb.flag("--force", options->force, "Replace the file if it exists");
   verb.on_given([options, &console, &action] {

@@ -73,7 +73,8 @@ Json Inspection::issues_json(const IssueList& issues) const {
 
 FileSurvey Inspection::survey(Json& page_rows) {
   const bool print_rows = arguments_.pages && !arguments_.json;
-  Progress progress(arguments_.quiet || (print_rows && console_.output_is_terminal()));
+  Progress progress(arguments_.quiet || (print_rows && console_.output_is_terminal()),
+                    arguments_.json);
   progress.start("reading", parts_.page_count(), "pages");
   if (print_rows && parts_.page_count() > 0) console_.print(page_heading());
   return survey_file(parts_, [&](const PageRow& row) {
@@ -168,7 +169,7 @@ int show_slice(const InspectArguments& arguments, Console& console) {
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
-  Progress progress(arguments.quiet);
+  Progress progress(arguments.quiet, arguments.json);
   std::uint64_t drawn = 0;
   const auto slice =
       draw_slice(*model, *probe, *arguments.slice, [&](std::uint64_t done, std::uint64_t total) {
@@ -283,7 +284,8 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   verb.need(image, slice);
   verb.exclude(page, node);
   verb.need(verb.flag("--force", arguments.replace_image, "Replace the image if it exists"), image);
-  verb.flag("--json", arguments.json, "Answer with one JSON object");
+  verb.flag("--json", arguments.json,
+            "Answer with one JSON object; progress as one a line, on standard error");
   verb.flag("--quiet", arguments.quiet, "Show no progress");
   verb.on_given([options, page, &console, &action] {
     if (VerbOptions::given(page)) options->arguments.page = options->page;

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "tools/size_text.h"
+#include "tools/verb.h"
 
 namespace planetree::tools {
 namespace {
@@ -20,8 +22,9 @@ constexpr nanoseconds kLineInterval = std::chrono::seconds(5);
 
 nanoseconds steady_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-Progress::Style stderr_style(bool quiet) {
+Progress::Style stderr_style(bool quiet, bool json) {
   if (quiet) return Progress::Style::kSilent;
+  if (json) return Progress::Style::kJson;
   // A dumb terminal cannot wipe a line.
   const char* terminal = std::getenv("TERM");
   const bool capable = terminal != nullptr && std::string_view(terminal) != "dumb";
@@ -50,11 +53,12 @@ std::string bar_text(std::uint64_t done, std::uint64_t total, std::size_t column
 
 }  // namespace
 
-Progress::Progress(bool quiet) : Progress(stderr, stderr_style(quiet), steady_now) {}
+Progress::Progress(bool quiet, bool json)
+    : Progress(stderr, stderr_style(quiet, json), steady_now) {}
 
 Progress::Progress(std::FILE* stream, Style style, Clock clock)
     : stream_(stream), style_(style), clock_(std::move(clock)) {
-  // The first plain line is due only after a full interval: short work is silent.
+  // The first line is due only after a full interval: short work is silent.
   const nanoseconds first = style_ == Style::kBar ? nanoseconds(0) : kLineInterval;
   next_draw_ns_.store((clock_() + first).count(), std::memory_order_relaxed);
 }
@@ -93,21 +97,44 @@ void Progress::finish() {
   drawn_ = false;
 }
 
-std::string Progress::status(nanoseconds now) const {
-  const std::uint64_t done = done_.load(std::memory_order_relaxed);
+Progress::Status Progress::status(nanoseconds now) const {
+  Status status{done_.load(std::memory_order_relaxed), 0, {}};
   const double elapsed = std::chrono::duration<double>(now - started_).count();
-  const double rate = elapsed > 0 ? static_cast<double>(done) / elapsed : 0;
-  const std::string speed = fmt::format("{} {}/s", short_count(rate), unit_);
-  if (total_ == 0) return fmt::format("  {} {}  {}", grouped_count(done), unit_, speed);
-  const double left = static_cast<double>(total_ - std::min(done, total_));
-  const std::string remaining = rate > 0 ? duration_text(left / rate) : "?";
+  if (elapsed > 0) status.rate = static_cast<double>(status.done) / elapsed;
+  if (total_ > 0 && status.rate > 0)
+    status.seconds = static_cast<double>(total_ - std::min(status.done, total_)) / status.rate;
+  return status;
+}
+
+std::string Progress::text(const Status& status) const {
+  const std::string speed = fmt::format("{} {}/s", short_count(status.rate), unit_);
+  if (total_ == 0) return fmt::format("  {} {}  {}", grouped_count(status.done), unit_, speed);
+  const double left = static_cast<double>(total_ - std::min(status.done, total_));
+  const std::string remaining = status.seconds ? duration_text(*status.seconds) : "?";
   const double percent = 100 * (1 - left / static_cast<double>(total_));
   return fmt::format("  {:3}%  {}  {} left", static_cast<int>(percent), speed, remaining);
 }
 
+std::string Progress::json(const Status& status) const {
+  nlohmann::ordered_json event = {{"phase", phase_},
+                                  {"done", status.done},
+                                  {"total", nullptr},
+                                  {"unit", unit_},
+                                  {"rate_per_second", status.rate},
+                                  {"remaining_seconds", nullptr}};
+  if (total_ > 0) event["total"] = total_;
+  if (status.seconds) event["remaining_seconds"] = *status.seconds;
+  return json_line(event);
+}
+
 void Progress::draw(nanoseconds now) {
   const std::lock_guard lock(drawing_);
-  const std::string text = status(now);
+  const Status status = this->status(now);
+  if (style_ == Style::kJson) {
+    std::fputs(json(status).c_str(), stream_);
+    return;
+  }
+  const std::string text = this->text(status);
   if (style_ == Style::kLines) {
     fmt::print(stream_, "{}{}\n", phase_, text);
     return;
@@ -119,8 +146,7 @@ void Progress::draw(nanoseconds now) {
   const std::size_t used = phase_.size() + text.size() + kBarFrame;
   std::string bar;
   if (total_ > 0 && used < columns) {
-    bar = bar_text(done_.load(std::memory_order_relaxed), total_,
-                   std::min(kWidestBar, columns - used));
+    bar = bar_text(status.done, total_, std::min(kWidestBar, columns - used));
   }
   fmt::print(stream_, "\r\033[K{}", (phase_ + bar + text).substr(0, columns));
   std::fflush(stream_);

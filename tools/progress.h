@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,18 +15,20 @@ namespace planetree::tools {
 /// Tells a person how far long work has come: phase, percentage, rate and
 /// remaining time. On a terminal one line is redrawn at most 5 times a second and
 /// wiped at the end; elsewhere plain lines follow at most every 5 seconds, so
-/// short work leaves no trace in a log.
+/// short work leaves no trace in a log. For programs such a line is a JSON object:
+/// phase, done, total, unit, rate_per_second and remaining_seconds, null where not known.
 ///
 /// threads  add() may be called by any number of threads at once; start() and
 ///          finish() by one thread, while none is in add().
 /// errors   a stream that cannot be written is ignored: progress is not the work.
 class Progress {
  public:
-  enum class Style { kSilent, kLines, kBar };
+  enum class Style { kSilent, kLines, kBar, kJson };
   using Clock = std::function<std::chrono::nanoseconds()>;
 
-  /// Standard error, with a bar if it is a capable terminal. `quiet` silences it.
-  explicit Progress(bool quiet);
+  /// Standard error: as JSON if that is wanted, else with a bar if it is a capable terminal.
+  /// `quiet` silences it in any case.
+  Progress(bool quiet, bool json);
   /// Any stream, which must outlive this object, and any monotonic clock.
   Progress(std::FILE* stream, Style style, Clock clock);
   Progress(const Progress&) = delete;
@@ -45,8 +48,17 @@ class Progress {
   void finish();
 
  private:
+  /// How far a phase is.
+  struct Status {
+    std::uint64_t done;
+    double rate;                    // steps a second
+    std::optional<double> seconds;  // that remain
+  };
+
   void draw(std::chrono::nanoseconds now);
-  std::string status(std::chrono::nanoseconds now) const;
+  Status status(std::chrono::nanoseconds now) const;
+  std::string text(const Status& status) const;
+  std::string json(const Status& status) const;
 
   std::FILE* stream_;
   Style style_;

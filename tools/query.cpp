@@ -80,7 +80,7 @@ class Session {
   int answer_all(PointReader& points) {
     AnswerWriter writer(console_, arguments_.format);
     // Rows on a terminal and a bar on the same terminal would overwrite each other.
-    Progress progress(arguments_.quiet || console_.output_is_terminal());
+    Progress progress(arguments_.quiet || console_.output_is_terminal(), arguments_.json);
     progress.start("answering", 0, "points");
     std::vector<Vec3> queries(kChunkPoints);
     std::vector<Answer> answers(kChunkPoints);
@@ -176,7 +176,10 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
           "surface, 1 "
           "outside; NaN is an unknown side and no triangle), with --contains 4 (x y z side)"),
       "csv");
-  verb.flag("--json", options->json, "Afterwards report as one JSON object, on standard error");
+  verb.flag(
+      "--json", options->json,
+      "Afterwards report as one JSON object, the last line on standard error; progress as one a "
+      "line there too");
   verb.flag("--quiet", options->quiet, "Show no progress");
   verb.on_given([options, &console, &action] {
     action = [options, &console] { return run_query(*options, console); };

@@ -56,7 +56,7 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
 int run_verify(const VerifyArguments& arguments, Console& console) {
   auto parts = FileParts::open(arguments.file);
   if (!parts) return console.fail(arguments.file.string(), parts.error());
-  Progress progress(arguments.quiet);
+  Progress progress(arguments.quiet, arguments.json);
   progress.start("verifying", parts->page_count(), "pages");
   const CheckReport report =
       check_file(*parts, arguments.full, [&progress](std::uint32_t) { progress.add(1); });
@@ -72,7 +72,8 @@ void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
   verb.require(verb.path("file", "FILE", options->file, "File to verify"));
   verb.flag("--full", options->full,
             "Also look at every triangle and vertex: unique indices, bounds that hold");
-  verb.flag("--json", options->json, "Report as one JSON object");
+  verb.flag("--json", options->json,
+            "Report as one JSON object; progress as one a line, on standard error");
   verb.flag("--quiet", options->quiet, "Show no progress");
   verb.on_given([options, &console, &action] {
     action = [options, &console] { return run_verify(*options, console); };

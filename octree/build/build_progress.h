@@ -36,6 +36,9 @@ constexpr const char* name_of(BuildPhase phase) {
   return "writing";
 }
 
+/// Where a build reads and writes.
+enum class BuildPlace : std::uint8_t { kInput, kTemporary, kOutput };
+
 /// Told how far a build is, on any thread but one at a time.
 class BuildProgress {
  public:
@@ -43,6 +46,8 @@ class BuildProgress {
   /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
   /// the model otherwise.
   virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
+  /// Told, before an error is returned, which place that is about.
+  virtual void failed_at(BuildPlace) {}
 };
 
 }  // namespace planetree::octree

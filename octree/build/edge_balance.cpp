@@ -39,6 +39,8 @@ struct LeftOver {
   std::int64_t net = 0;  // faces that run forward less those that run back
 };
 
+static_assert(sizeof(LeftOver) == EdgeCensus::kEdgeBytes);
+
 /// The edges of a patch, found by their hash.
 class EdgeTable {
  public:

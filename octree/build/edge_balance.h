@@ -46,6 +46,9 @@ struct EdgeBalance {
 /// away, and balanced with what the others left over.
 class EdgeCensus {
  public:
+  /// Of an edge that is put away.
+  static constexpr std::size_t kEdgeBytes = 72;
+
   /// held_bytes  of what is put away may stay in memory.
   /// file        takes the rest; must outlive this.
   EdgeCensus(std::uint64_t held_bytes, storage::SpillFile& file);

@@ -1,12 +1,11 @@
 #include "octree/build/mesh_reader.h"
 
-#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <new>
-#include <string_view>
 
 #include "octree/build/mesh_file.h"
+#include "octree/build/mesh_format.h"
 #include "octree/build/obj_reader.h"
 #include "octree/build/off_reader.h"
 #include "octree/build/ply_reader.h"
@@ -16,34 +15,9 @@ namespace planetree::octree {
 
 namespace {
 
-enum class MeshFormat { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return extension;
-}
-
-MeshFormat judge_format(const MeshFile& file, const std::filesystem::path& path) {
-  const std::string_view text = file.text();
-  if (is_ply(text)) return MeshFormat::kPly;
-  if (has_binary_stl_size(text)) return MeshFormat::kStlBinary;
-  if (is_ascii_stl(text)) return MeshFormat::kStlAscii;
-  if (is_off(text)) return MeshFormat::kOff;
-  const std::string extension = lower_extension(path);
-  if (extension == ".obj") return MeshFormat::kObj;
-  // One without a keyword, as old ones are.
-  if (extension == ".off") return MeshFormat::kOff;
-  // A binary STL whose size is wrong: its reader says in which way.
-  if (extension == ".stl") return MeshFormat::kStlBinary;
-  return MeshFormat::kUnknown;
-}
-
 Result<MeshSummary> read_mapped(MeshFile& file, const std::filesystem::path& path,
                                 TriangleSink& sink) {
-  switch (judge_format(file, path)) {
+  switch (judge_format(file.text(), path)) {
     case MeshFormat::kPly:
       return read_ply(file, sink);
     case MeshFormat::kStlBinary:

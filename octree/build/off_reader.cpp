@@ -172,8 +172,10 @@ bool is_off(std::string_view file) noexcept {
   return take_keyword(word).has_value();
 }
 
+Result<PlyHeader> parse_off_header(std::string_view file) { return OffHeader(file).parse(); }
+
 Result<MeshSummary> read_off(MeshFile& file, TriangleSink& sink) {
-  const Result<PlyHeader> header = OffHeader(file.text()).parse();
+  const Result<PlyHeader> header = parse_off_header(file.text());
   if (!header) return header.error();
   return read_ply_body(file, *header, sink);
 }

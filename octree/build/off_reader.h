@@ -4,11 +4,16 @@
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/mesh_reader.h"
+#include "octree/build/ply_header.h"
 
 namespace planetree::octree {
 
 /// Whether the file's first word, comments aside, is a keyword of an OFF.
 bool is_off(std::string_view file) noexcept;
+
+/// What its header says, its records described as a PLY's are.
+/// errors  kBadInput.
+Result<PlyHeader> parse_off_header(std::string_view file);
 
 /// Reads an OFF, with or without a keyword, as Geomview defines it and others
 /// write it: ascii, one vertex or face a line, or big-endian binary. Normals,

@@ -20,6 +20,7 @@
 #include "octree/build/parallel.h"
 #include "octree/build/patch_build.h"
 #include "octree/build/patches.h"
+#include "octree/build/space_need.h"
 #include "octree/build/tree_pages.h"
 #include "octree/build/triangle_runs.h"
 #include "octree/strict_math.h"
@@ -27,6 +28,10 @@
 
 namespace planetree::octree {
 namespace {
+
+std::filesystem::path directory_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
 
 /// Counts the parts of a phase that are done.
 class PhaseCount {
@@ -63,6 +68,7 @@ class TreeBuild {
         pages_file_(options.spill_directory(output), memory.pages_bytes, seams.calls) {}
 
   Result<BuildReport> run() {
+    if (const auto roomy = foresee_space(); !roomy) return roomy.error();
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
     if (const auto balanced = balance_edges(); !balanced) return balanced.error();
     if (const auto built = build_patches(); !built) return built.error();
@@ -71,7 +77,15 @@ class TreeBuild {
     return write_pages();
   }
 
+  /// Where an error of run() is from.
+  BuildPlace failed_at() const {
+    if (file_.failed() || pages_file_.failed()) return BuildPlace::kTemporary;
+    return place_;
+  }
+
  private:
+  Result<void> foresee_space();
+  Result<void> check_space(const SpaceNeed& need);
   Result<void> order_triangles();
   Result<ModelFrame> read_model(MeshIntake& intake);
   Result<void> balance_edges();
@@ -89,8 +103,10 @@ class TreeBuild {
   const BuildMemory memory_;
   BuildProgress& progress_;
   const BuildSeams& seams_;
+  BuildPlace place_ = BuildPlace::kInput;
   storage::SpillFile file_;
   storage::SpillFile pages_file_;
+  MeshSize size_;
   ModelFrame frame_;
   std::uint64_t vertex_records_ = 0;
   BlockShape shape_;
@@ -101,6 +117,22 @@ class TreeBuild {
   std::optional<MaskRegions> regions_;  // of a watertight model
   std::optional<BuiltMask> mask_;
 };
+
+// Whether there is room, before a day of work rather than after.
+Result<void> TreeBuild::foresee_space() {
+  const auto size = MeshSize::foresee(input_);
+  if (!size) return size.error();
+  size_ = *size;
+  return check_space(SpaceNeed::before_reading(size_, memory_));
+}
+
+Result<void> TreeBuild::check_space(const SpaceNeed& need) {
+  BuildPlace short_of_room = place_;
+  const auto checked = need.check(options_.spill_directory(output_), directory_of(output_),
+                                  seams_.calls, short_of_room);
+  if (!checked) place_ = short_of_room;
+  return checked;
+}
 
 Result<ModelFrame> TreeBuild::read_model(MeshIntake& intake) {
   const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
@@ -125,6 +157,10 @@ Result<void> TreeBuild::order_triangles() {
   if (!frame) return frame.error();
   frame_ = *std::move(frame);
   shape_.float64 = frame_.float64;
+  // Now that they are counted.
+  size_ = {frame_.triangle_count, size_.vertices, frame_.float64};
+  if (const auto roomy = check_space(SpaceNeed::after_reading(size_, memory_)); !roomy)
+    return roomy;
   runs_.emplace(frame_.float64, memory_.runs_bytes, file_);
   PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
   if (const auto taken = runs_->take(intake, [&count] { count.add(); }); !taken) return taken;
@@ -204,6 +240,7 @@ Result<BuildReport> TreeBuild::write_pages() {
   const PageNumbers numbers(crown, patches_, options_.page_bytes);
   if (const auto checked = numbers.check(); !checked) return checked.error();
   const TreePages pages(crown, patches_, numbers, shape_, pages_file_);
+  place_ = BuildPlace::kOutput;
   auto writer = storage::PageWriter::create(output_, pages.size() + mask_pages(), options_.replace,
                                             seams_.calls);
   if (!writer) return writer.error();
@@ -224,7 +261,8 @@ Result<BuildReport> TreeBuild::write_pages() {
   }
   const auto header = writer->finish(model, options_.page_bytes);
   if (!header) return header.error();
-  return BuildReport{*header, frame_.first_set_aside_text};
+  return BuildReport{*header, frame_.first_set_aside_text,
+                     file_.disk_bytes() + pages_file_.disk_bytes()};
 }
 
 storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {
@@ -258,8 +296,7 @@ storage::ModelRecord TreeBuild::describe(std::uint32_t root_link) const {
 }  // namespace
 
 std::filesystem::path BuildOptions::spill_directory(const std::filesystem::path& output) const {
-  if (!temp_directory.empty()) return temp_directory;
-  return output.has_parent_path() ? output.parent_path() : ".";
+  return temp_directory.empty() ? directory_of(output) : temp_directory;
 }
 
 Result<BuildReport> build_tree(const std::filesystem::path& input,
@@ -275,8 +312,12 @@ Result<BuildReport> build_tree(const std::filesystem::path& input,
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(memory->threads));
   tbb::task_arena arena(memory->threads);
-  return arena.execute(
-      [&] { return TreeBuild(input, output, options, *memory, progress, seams).run(); });
+  return arena.execute([&] {
+    TreeBuild build(input, output, options, *memory, progress, seams);
+    auto report = build.run();
+    if (!report) progress.failed_at(build.failed_at());
+    return report;
+  });
 }
 
 }  // namespace planetree::octree

@@ -27,19 +27,22 @@ struct BuildOptions {
 };
 
 struct BuildReport {
-  storage::FileHeader header;   ///< as written
-  std::string first_set_aside;  ///< the first bad record in words; empty if none
+  storage::FileHeader header;         ///< as written
+  std::string first_set_aside;        ///< the first bad record in words; empty if none
+  std::uint64_t temporary_bytes = 0;  ///< spilled on disk
 };
 
 /// Reads the mesh at `input` and writes its tree to `output`, whole or not at
 /// all. The bytes written depend on the mesh and page_bytes alone.
 ///
 /// memory  options.memory_bytes at most, but where more than 2^18 triangles are at one place.
-/// disk    about 120 bytes a triangle in temp_directory where memory is short, else 12;
-///         twice that with float64 coordinates. Given back however the process ends.
+/// disk    about 120 bytes a triangle in temp_directory where memory is short; 200 with float64
+///         coordinates, and 250 more of triangles that share no edges. Given back however the
+///         process ends.
 /// errors  those of read_mesh, storage::SpillFile and storage::PageWriter; kBadArgument for
 ///         page_bytes; kNoMemory for too little memory_bytes; kBadInput for a bad record
-///         under `strict`.
+///         under `strict`; kNoSpace where SpaceNeed foresees too little, before anything is
+///         written or once the triangles are read.
 /// source  bottom-up construction from candidate planes: "Out-of-core real-time
 ///         haptic interaction on very large models", section 3.1; blocks,
 ///         collapse and paging are ours.

@@ -148,6 +148,36 @@ TEST(Progress, ShowsHoursAndAStandstill) {
   EXPECT_TRUE(recorder.text().ends_with("    1%  10 cells/s  2:45:00 left\n"));
 }
 
+TEST(Progress, TellsProgramsEveryFiveSecondsInJson) {
+  Recorder recorder(Progress::Style::kJson);
+  recorder.progress().start("matching \"edges\"", 2000, "parts");
+  for (int i = 0; i < 120; ++i) {
+    recorder.pass(milliseconds(100));
+    recorder.progress().add(10);
+  }
+  recorder.progress().finish();
+  EXPECT_EQ(recorder.text(),
+            "{\"phase\":\"matching \\\"edges\\\"\",\"done\":500,\"total\":2000,\"unit\":\"parts\","
+            "\"rate_per_second\":100.0,\"remaining_seconds\":15.0}\n"
+            "{\"phase\":\"matching \\\"edges\\\"\",\"done\":1000,\"total\":2000,\"unit\":\"parts\","
+            "\"rate_per_second\":100.0,\"remaining_seconds\":10.0}\n");
+}
+
+TEST(Progress, TellsProgramsWhatIsNotKnownAsNull) {
+  Recorder recorder(Progress::Style::kJson);
+  recorder.progress().start("reading", 0, "faces");
+  recorder.pass(seconds(10));
+  recorder.progress().add(50);
+  recorder.progress().start("sorting", 100, "cells");
+  recorder.pass(seconds(10));
+  recorder.progress().add(0);
+  EXPECT_EQ(recorder.text(),
+            "{\"phase\":\"reading\",\"done\":50,\"total\":null,\"unit\":\"faces\","
+            "\"rate_per_second\":5.0,\"remaining_seconds\":null}\n"
+            "{\"phase\":\"sorting\",\"done\":0,\"total\":100,\"unit\":\"cells\","
+            "\"rate_per_second\":0.0,\"remaining_seconds\":null}\n");
+}
+
 TEST(Progress, LosesNoStepOfManyThreads) {
   Recorder recorder(Progress::Style::kLines);
   recorder.progress().start("sorting", 0, "cells");

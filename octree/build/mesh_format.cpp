@@ -1,0 +1,37 @@
+#include "octree/build/mesh_format.h"
+
+#include <algorithm>
+#include <string>
+
+#include "octree/build/off_reader.h"
+#include "octree/build/ply_reader.h"
+#include "octree/build/stl_reader.h"
+
+namespace planetree::octree {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return extension;
+}
+
+}  // namespace
+
+MeshFormat judge_format(std::string_view file, const std::filesystem::path& path) {
+  if (is_ply(file)) return MeshFormat::kPly;
+  if (has_binary_stl_size(file)) return MeshFormat::kStlBinary;
+  if (is_ascii_stl(file)) return MeshFormat::kStlAscii;
+  if (is_off(file)) return MeshFormat::kOff;
+  const std::string extension = lower_extension(path);
+  if (extension == ".obj") return MeshFormat::kObj;
+  // One without a keyword, as old ones are.
+  if (extension == ".off") return MeshFormat::kOff;
+  // A binary STL whose size is wrong: its reader says in which way.
+  if (extension == ".stl") return MeshFormat::kStlBinary;
+  return MeshFormat::kUnknown;
+}
+
+}  // namespace planetree::octree

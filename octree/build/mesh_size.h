@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// How large a mesh is, as far as can be told before it is read.
+struct MeshSize {
+  std::uint64_t triangles = 0;
+  std::uint64_t vertices = 0;
+  bool float64 = false;  ///< unless the format declares coordinates that float32 holds
+
+  /// Looks at a header and the file's size, or at samples of a text that declares nothing.
+  ///
+  /// return  at least what is there, but in a text that is unlike its samples, an ascii PLY of
+  ///         polygons of more than four corners, and a file that its reader will refuse. Of an
+  ///         STL, which repeats every vertex, half as many vertices as triangles: what a closed
+  ///         surface has.
+  /// errors  those of opening the file.
+  static Result<MeshSize> foresee(const std::filesystem::path& path);
+};
+
+}  // namespace planetree::octree

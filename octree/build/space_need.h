@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "octree/build/build_memory.h"
+#include "octree/build/build_progress.h"
+#include "octree/build/mesh_size.h"
+#include "planetree/error.h"
+#include "storage/file_calls.h"
+
+namespace planetree::octree {
+
+/// How much a build is going to write, foreseen: at least what it writes, and for a surface at
+/// most a third more on disk for the time being, and of the file some three times.
+///
+/// More is written where a mesh is a heap of triangles that share no edges and its format does
+/// not let it be seen, as in an STL; or where most triangles reach through much of the model.
+struct SpaceNeed {
+  std::uint64_t temporary_bytes = 0;  ///< put away on disk, together
+  std::uint64_t output_bytes = 0;     ///< of the file
+
+  static SpaceNeed before_reading(const MeshSize& size, const BuildMemory& memory);
+  /// What is still to come once the triangles are known and put away.
+  static SpaceNeed after_reading(const MeshSize& size, const BuildMemory& memory);
+
+  /// Holds it against the free space of both directories, or of the device they share.
+  ///
+  /// place   set if there is too little: which of the two to do something about.
+  /// errors  kNoSpace: says how much is needed, how much there is and what to do. A device that
+  ///         does not tell its free space is taken for large enough.
+  Result<void> check(const std::filesystem::path& temporary_directory,
+                     const std::filesystem::path& output_directory, storage::FileCalls& calls,
+                     BuildPlace& place) const;
+};
+
+}  // namespace planetree::octree
