@@ -13,7 +13,6 @@ namespace planetree::octree {
 namespace {
 
 constexpr std::uint64_t kMappedBytes = std::uint64_t{4} << 20;
-constexpr std::uint64_t kStlFacetBytes = 50;
 
 // What the body of a PLY has beside the items of its lists, or of an ascii one at least;
 // nothing if no file could have it.
@@ -91,6 +90,12 @@ MeshSize size_of_obj(std::string_view file) {
   return {triangles, vertices, true};
 }
 
+MeshSize size_of_binary_stl(std::uint64_t bytes) {
+  constexpr std::uint64_t kHeadBytes = 84, kFacetBytes = 50;
+  const std::uint64_t triangles = (bytes - std::min(bytes, kHeadBytes)) / kFacetBytes;
+  return {triangles, triangles / 2, false};
+}
+
 MeshSize size_of_ascii_stl(std::string_view file) {
   const std::uint64_t triangles =
       TextSample(file).total([](std::string_view line) -> std::uint64_t {
@@ -111,7 +116,7 @@ Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path) {
     case MeshFormat::kOff:
       return size_of_records(text, parse_off_header(text));
     case MeshFormat::kStlBinary:
-      return MeshSize{text.size() / kStlFacetBytes, text.size() / kStlFacetBytes / 2, false};
+      return size_of_binary_stl(text.size());
     case MeshFormat::kStlAscii:
       return size_of_ascii_stl(text);
     case MeshFormat::kObj:

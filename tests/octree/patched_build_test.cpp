@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,13 @@ namespace planetree::octree {
 namespace {
 
 class Silent final : public BuildProgress {
+ public:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
+  void failed_at(BuildPlace place) override { failed_at_ = place; }
+  std::optional<BuildPlace> failed_at() const { return failed_at_; }
+
+ private:
+  std::optional<BuildPlace> failed_at_;
 };
 
 // Binary STL, whose corners are floats.
@@ -66,10 +73,13 @@ class PatchedBuild : public testing::Test {
     options.page_bytes = 4096;
     options.replace = replace;
     Silent silent;
-    return build_tree(mesh_, output_, options, silent, {40, 60, memory, calls});
+    auto report = build_tree(mesh_, output_, options, silent, {40, 60, memory, calls});
+    failed_at_ = silent.failed_at();
+    return report;
   }
   storage::Bytes built() const { return storage::read_bytes(output_); }
 
+  std::optional<BuildPlace> failed_at_;  // the last build
   storage::TemporaryDirectory folder_;
   storage::TemporaryDirectory meshes_;
   std::filesystem::path mesh_ = meshes_ / "model.stl";
@@ -100,11 +110,28 @@ TEST_F(PatchedBuild, LeavesNothingBesideTheFile) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"});
 }
 
+TEST_F(PatchedBuild, SaysThatItFailedOverItsInput) {
+  write({});
+  EXPECT_FALSE(build(kTight));
+  EXPECT_EQ(failed_at_, BuildPlace::kInput);
+  mesh_ = meshes_ / "none.stl";
+  EXPECT_FALSE(build(kTight));
+  EXPECT_EQ(failed_at_, BuildPlace::kInput);
+}
+
 // The n-th call fails, for every n: a clean error or the whole file, and nothing beside it.
 class PatchedBuildFaults : public PatchedBuild,
                            public testing::WithParamInterface<storage::FaultyCalls::Fault> {
  protected:
   using Fault = storage::FaultyCalls::Fault;
+
+  // The words are for people; where something is wrong must go with them.
+  static std::optional<BuildPlace> place_of(const Result<BuildReport>& report) {
+    if (report) return {};
+    const bool temporary =
+        std::string_view(report.error().text).find("temporary file") != std::string_view::npos;
+    return temporary ? BuildPlace::kTemporary : BuildPlace::kOutput;
+  }
 };
 
 TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
@@ -129,6 +156,7 @@ TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
         break;
       }
       ASSERT_TRUE(report || GetParam() == Fault::kError) << report.error().text;
+      EXPECT_EQ(failed_at_, place_of(report)) << calls.failed_call();
       // The directory is synced when the file has its name.
       const bool named = calls.failed_call() == "fsync" && calls.fsync_count() == 2;
       ASSERT_EQ(built(), report || named ? expected : old) << calls.failed_call();

@@ -10,11 +10,21 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include "storage/file_calls.h"
 
 namespace planetree::storage {
+
+/// A device that has room for so many blocks more.
+inline struct statvfs device_room(std::uint64_t free_blocks, std::uint64_t block_bytes = 1) {
+  struct statvfs room = {};
+  room.f_bsize = room.f_frsize = block_bytes;
+  room.f_bavail = free_blocks;
+  room.f_blocks = room.f_bfree = free_blocks + 1000;
+  return room;
+}
 
 /// The system, of which one call goes wrong: the n-th that the fault can befall.
 class FaultyCalls final : public FileCalls {
@@ -28,12 +38,13 @@ class FaultyCalls final : public FileCalls {
   };
 
   Fault fault = Fault::kNone;
-  int number = EIO;           ///< errno of kError
-  int fault_at = 0;           ///< which of the calls, from 0
-  bool every = false;         ///< from then on, rather than once
-  bool no_unnamed = false;    ///< a file system without O_TMPFILE
-  bool no_proc = false;       ///< a system without /proc
-  bool no_noreplace = false;  ///< a file system that renames only with replacement
+  int number = EIO;                    ///< errno of kError
+  int fault_at = 0;                    ///< which of the calls, from 0
+  bool every = false;                  ///< from then on, rather than once
+  bool no_unnamed = false;             ///< a file system without O_TMPFILE
+  bool no_proc = false;                ///< a system without /proc
+  bool no_noreplace = false;           ///< a file system that renames only with replacement
+  std::optional<struct statvfs> room;  ///< that every device has
 
   bool happened() const { return !failed_call_.empty(); }
   const std::string& failed_call() const { return failed_call_; }
@@ -55,6 +66,12 @@ class FaultyCalls final : public FileCalls {
     if (no_proc && std::strncmp(path, "/proc/", 6) == 0) return failed(ENOENT);
     if (strikes("fstatat", false)) return failed(number_);
     return FileCalls::fstatat(directory, path, status, flags);
+  }
+  int statvfs(const char* path, struct statvfs* found) noexcept override {
+    if (strikes("statvfs", false)) return failed(number_);
+    if (!room) return FileCalls::statvfs(path, found);
+    *found = *room;
+    return 0;
   }
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
     if (strikes("pread", true)) return failed(number_);

@@ -7,6 +7,7 @@
 
 #include "storage/spill_runs.h"
 #include "tests/storage/faulty_calls.h"
+#include "tests/storage/file_image.h"
 #include "tests/storage/temporary_directory.h"
 
 namespace planetree::storage {
@@ -55,6 +56,48 @@ TEST(SpillFile, HasNoName) {
     ASSERT_TRUE(file.append(bytes_of(100, 1)));
     EXPECT_TRUE(directory.names().empty());
   }
+}
+
+// Where a file has a name for a moment, that can be guessed: what is planted there is neither
+// followed nor replaced.
+TEST(SpillFile, PassesOverAPlantedLink) {
+  const TemporaryDirectory directory;
+  const std::vector<std::byte> precious = bytes_of(10, 7);
+  write_bytes(directory / "precious", precious);
+  std::vector<std::string> planted;
+  for (int number = 0; number < 40; ++number) {
+    planted.push_back(".planetree-" + std::to_string(::getpid()) + "-" + std::to_string(number) +
+                      ".spill");
+    std::filesystem::create_symlink("precious", directory / planted.back().c_str());
+  }
+  FaultyCalls calls;
+  calls.no_unnamed = true;
+  SpillFile file(directory / ".", 0, calls);
+  ASSERT_TRUE(file.append(bytes_of(100, 1)));
+  EXPECT_EQ(read_bytes(directory / "precious"), precious);
+  for (const std::string& name : planted)
+    EXPECT_TRUE(std::filesystem::is_symlink(directory / name.c_str()));
+  EXPECT_EQ(directory.names().size(), planted.size() + 1);
+}
+
+TEST(SpillFile, KnowsWhatIsOnDiskAndWhetherItFailed) {
+  const TemporaryDirectory directory;
+  FaultyCalls calls;
+  SpillFile file(directory / ".", 1000, calls);
+  ASSERT_TRUE(file.append(bytes_of(900, 1)));
+  EXPECT_EQ(file.disk_bytes(), 0u);
+  ASSERT_TRUE(file.append(bytes_of(150, 1)));
+  EXPECT_EQ(file.disk_bytes(), 50u);
+  EXPECT_EQ(std::filesystem::is_empty(directory / "."), true);
+  EXPECT_FALSE(file.failed());
+  calls.fault = FaultyCalls::Fault::kError;
+  std::vector<std::byte> found(1050);
+  const auto read = file.read(0, found);
+  ASSERT_FALSE(read);
+  EXPECT_STREQ(read.error().text,
+               "cannot read a temporary file: Input/output error; check the device and the "
+               "system's log");
+  EXPECT_TRUE(file.failed());
 }
 
 TEST(SpillFile, TakesNoDiskForWhatIsHeld) {

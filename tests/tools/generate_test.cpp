@@ -128,7 +128,7 @@ TEST_F(Generate, ForetellsTheSizeOfTheFile) {
     ASSERT_TRUE(shape);
     auto file = OutputFile::create(output_, true);
     ASSERT_TRUE(file);
-    Progress progress(true);
+    Progress progress(true, false);
     ASSERT_TRUE(write_ply(**shape, "a comment", *file, progress));
     EXPECT_EQ(file->bytes_written(), ply_bytes(**shape, "a comment"));
   }
