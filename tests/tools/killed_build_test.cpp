@@ -1,0 +1,25 @@
+#include "tests/tools/killed_builds.h"
+
+#include <gtest/gtest.h>
+
+namespace planetree::tools {
+namespace {
+
+#ifdef PLANETREE_COMMAND
+TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElse) {
+  KilledBuilds builds(PLANETREE_COMMAND, 1);
+  if (!builds.has_unnamed_files()) GTEST_SKIP() << "this file system has no files without names";
+  ASSERT_EQ(builds.prepare("200K"), "");
+  constexpr unsigned kCount = 20;
+  unsigned killed = 0;
+  for (unsigned i = 0; i < kCount; ++i) {
+    const KilledBuilds::Left left = builds.strike(i, kCount);
+    EXPECT_EQ(left.wrong, "");
+    killed += left.killed ? 1 : 0;
+  }
+  EXPECT_GE(killed, kCount / 4) << "of the others were done before";
+}
+#endif
+
+}  // namespace
+}  // namespace planetree::tools
