@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <unordered_set>
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/mesh_format.h"
@@ -47,25 +48,31 @@ MeshSize size_of_records(std::string_view file, const Result<PlyHeader>& header)
   return size;
 }
 
-/// Counts in the lines of some windows of a text, evenly spaced, for the whole of it.
-class TextSample {
+/// Some windows of a file, evenly spaced.
+class Sample {
  public:
-  explicit TextSample(std::string_view text) : text_(text) {}
+  explicit Sample(std::string_view file) : file_(file) {}
 
-  /// What count_in(line) says of all lines together, and a little more.
+  /// Calls look(window, where it begins) for each.
+  template <class Look>
+  void each_window(const Look& look) const {
+    const std::uint64_t step = std::max<std::uint64_t>(file_.size() / kWindows, kWindowBytes);
+    for (std::uint64_t at = 0; at < file_.size(); at += step)
+      look(file_.substr(at, kWindowBytes), at);
+  }
+
+  /// Of a text: what count_in(line) says of all lines together, and a little more.
   template <class CountIn>
   std::uint64_t total(const CountIn& count_in) const {
-    const std::uint64_t step = std::max<std::uint64_t>(text_.size() / kWindows, kWindowBytes);
     std::uint64_t count = 0, seen = 0;
-    for (std::uint64_t at = 0; at < text_.size(); at += step) {
+    each_window([&](std::string_view window, std::uint64_t) {
       // Two lines are cut off at the ends of a window: too few to matter.
-      std::string_view window = text_.substr(at, kWindowBytes);
-      seen += window.size();
       LineScanner lines(window);
       while (lines.next()) count += count_in(lines.line());
-    }
+      seen += window.size();
+    });
     if (seen == 0) return 0;
-    const double share = static_cast<double>(text_.size()) / static_cast<double>(seen);
+    const double share = static_cast<double>(file_.size()) / static_cast<double>(seen);
     return static_cast<std::uint64_t>(static_cast<double>(count) * share * kMargin);
   }
 
@@ -74,11 +81,32 @@ class TextSample {
   static constexpr std::uint64_t kWindowBytes = 16384;
   static constexpr double kMargin = 1 + 1.0 / 32;
 
-  const std::string_view text_;
+  const std::string_view file_;
+};
+
+/// How many vertices an STL has, which does not say: judged by corners that are near in the
+/// file, as they are written.
+class StlCorners {
+ public:
+  void add(std::string_view corner) {
+    ++count_;
+    distinct_.insert(corner);
+  }
+
+  /// A surface repeats corners, of which it has half as many as triangles; a heap of triangles
+  /// does not.
+  std::uint64_t vertices_of(std::uint64_t triangles) const {
+    const bool is_heap = distinct_.size() > count_ - count_ / 50;
+    return is_heap ? 3 * triangles : triangles / 2;
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  std::unordered_set<std::string_view> distinct_;
 };
 
 MeshSize size_of_obj(std::string_view file) {
-  const TextSample sample(file);
+  const Sample sample(file);
   const std::uint64_t triangles = sample.total([](std::string_view line) -> std::uint64_t {
     if (take_word(line) != "f") return 0;
     std::uint64_t corners = 0;
@@ -90,18 +118,29 @@ MeshSize size_of_obj(std::string_view file) {
   return {triangles, vertices, true};
 }
 
-MeshSize size_of_binary_stl(std::uint64_t bytes) {
-  constexpr std::uint64_t kHeadBytes = 84, kFacetBytes = 50;
-  const std::uint64_t triangles = (bytes - std::min(bytes, kHeadBytes)) / kFacetBytes;
-  return {triangles, triangles / 2, false};
+MeshSize size_of_binary_stl(std::string_view file) {
+  constexpr std::uint64_t kHeadBytes = 84, kFacetBytes = 50, kNormalBytes = 12, kCornerBytes = 12;
+  const std::string_view facets = file.substr(std::min<std::uint64_t>(file.size(), kHeadBytes));
+  const std::uint64_t triangles = facets.size() / kFacetBytes;
+  StlCorners corners;
+  Sample(facets).each_window([&](std::string_view window, std::uint64_t at) {
+    for (std::uint64_t facet = (kFacetBytes - at % kFacetBytes) % kFacetBytes;
+         facet + kFacetBytes <= window.size(); facet += kFacetBytes)
+      for (std::uint64_t k = 0; k < 3; ++k)
+        corners.add(window.substr(facet + kNormalBytes + k * kCornerBytes, kCornerBytes));
+  });
+  return {triangles, corners.vertices_of(triangles), false};
 }
 
 MeshSize size_of_ascii_stl(std::string_view file) {
+  StlCorners corners;
   const std::uint64_t triangles =
-      TextSample(file).total([](std::string_view line) -> std::uint64_t {
-        return is_same_word(take_word(line), "facet") ? 1 : 0;
+      Sample(file).total([&corners](std::string_view line) -> std::uint64_t {
+        const std::string_view word = take_word(line);
+        if (is_same_word(word, "vertex")) corners.add(line);
+        return is_same_word(word, "facet") ? 1 : 0;
       });
-  return {triangles, triangles / 2, true};
+  return {triangles, corners.vertices_of(triangles), true};
 }
 
 }  // namespace
@@ -116,7 +155,7 @@ Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path) {
     case MeshFormat::kOff:
       return size_of_records(text, parse_off_header(text));
     case MeshFormat::kStlBinary:
-      return size_of_binary_stl(text.size());
+      return size_of_binary_stl(text);
     case MeshFormat::kStlAscii:
       return size_of_ascii_stl(text);
     case MeshFormat::kObj:

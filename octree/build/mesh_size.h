@@ -16,9 +16,9 @@ struct MeshSize {
   /// Looks at a header and the file's size, or at samples of a text that declares nothing.
   ///
   /// return  at least what is there, but in a text that is unlike its samples, an ascii PLY of
-  ///         polygons of more than four corners, and a file that its reader will refuse. Of an
-  ///         STL, which repeats every vertex, half as many vertices as triangles: what a closed
-  ///         surface has.
+  ///         polygons of more than four corners, and a file that its reader will refuse. An STL
+  ///         does not tell its vertices: half as many as triangles are assumed, what a closed
+  ///         surface has, unless triangles have no corners in common.
   /// errors  those of opening the file.
   static Result<MeshSize> foresee(const std::filesystem::path& path);
 };

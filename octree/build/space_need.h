@@ -14,8 +14,8 @@ namespace planetree::octree {
 /// How much a build is going to write, foreseen: at least what it writes, and for a surface at
 /// most a third more on disk for the time being, and of the file some three times.
 ///
-/// More is written where a mesh is a heap of triangles that share no edges and its format does
-/// not let it be seen, as in an STL; or where most triangles reach through much of the model.
+/// More is written of what no surface is: triangles that share few edges though they share
+/// vertices, or most of which reach through much of the model.
 struct SpaceNeed {
   std::uint64_t temporary_bytes = 0;  ///< put away on disk, together
   std::uint64_t output_bytes = 0;     ///< of the file

@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "octree/build/parallel.h"
 #include "octree/build/patch_build.h"
 #include "octree/build/patches.h"
+#include "octree/build/phase_count.h"
 #include "octree/build/space_need.h"
 #include "octree/build/tree_pages.h"
 #include "octree/build/triangle_runs.h"
@@ -32,26 +32,6 @@ namespace {
 std::filesystem::path directory_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
-
-/// Counts the parts of a phase that are done.
-class PhaseCount {
- public:
-  PhaseCount(BuildProgress& progress, BuildPhase phase, std::uint64_t total)
-      : progress_(progress), phase_(phase), total_(total) {
-    progress_.progress(phase_, 0, total_);
-  }
-  void add() {
-    const std::lock_guard lock(mutex_);
-    progress_.progress(phase_, ++done_, total_);
-  }
-
- private:
-  BuildProgress& progress_;
-  const BuildPhase phase_;
-  const std::uint64_t total_;
-  std::mutex mutex_;
-  std::uint64_t done_ = 0;
-};
 
 class TreeBuild {
  public:

@@ -71,6 +71,33 @@ TEST(MeshSize, CountsTheFacetsOfAnStl) {
   expect_size(foresee(binary, ".stl"), 3, 1, false);
 }
 
+// However many triangles there are, some of them are looked at.
+TEST(MeshSize, TellsAHeapOfTrianglesFromASurface) {
+  const std::uint32_t count = 60000;
+  std::string text = "solid s\n", surface(80, ' '), heap(80, ' ');
+  const auto put = [](std::string& to, const auto& value) {
+    to.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (std::string* stl : {&surface, &heap}) put(*stl, count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::string* stl : {&surface, &heap}) stl->append(12, '\0');
+    text += "facet normal 0 0 1\nouter loop\n";
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        put(surface, i + k);
+        put(heap, 3 * i + k);
+      }
+      text += "vertex 0 " + std::to_string(k) + " " + std::to_string(i) + "\n";
+    }
+    for (std::string* stl : {&surface, &heap}) stl->append(2, '\0');
+    text += "endloop\nendfacet\n";
+  }
+  expect_size(foresee(surface, ".stl"), count, count / 2, false);
+  expect_size(foresee(heap, ".stl"), count, 3 * count, false);
+  const MeshSize of_text = foresee(text, ".stl");
+  EXPECT_EQ(of_text.vertices, 3 * of_text.triangles);
+}
+
 void expect_a_little_more(std::uint64_t found, std::uint64_t true_count) {
   EXPECT_GE(found, true_count);
   EXPECT_LE(found, true_count + true_count / 12);

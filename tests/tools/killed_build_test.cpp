@@ -6,10 +6,16 @@ namespace planetree::tools {
 namespace {
 
 #ifdef PLANETREE_COMMAND
+#ifdef NDEBUG
+constexpr const char* kTriangles = "200K";
+#else
+constexpr const char* kTriangles = "20K";  // where building takes long
+#endif
+
 TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElse) {
   KilledBuilds builds(PLANETREE_COMMAND, 1);
   if (!builds.has_unnamed_files()) GTEST_SKIP() << "this file system has no files without names";
-  ASSERT_EQ(builds.prepare("200K"), "");
+  ASSERT_EQ(builds.prepare(kTriangles), "");
   constexpr unsigned kCount = 20;
   unsigned killed = 0;
   for (unsigned i = 0; i < kCount; ++i) {

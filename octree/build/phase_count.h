@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+
+#include "octree/build/build_progress.h"
+
+namespace planetree::octree {
+
+/// Counts the parts of a phase that are done. Any number of threads may add().
+class PhaseCount {
+ public:
+  PhaseCount(BuildProgress& progress, BuildPhase phase, std::uint64_t total)
+      : progress_(progress), phase_(phase), total_(total) {
+    progress_.progress(phase_, 0, total_);
+  }
+  void add() {
+    const std::lock_guard lock(mutex_);
+    progress_.progress(phase_, ++done_, total_);
+  }
+
+ private:
+  BuildProgress& progress_;
+  const BuildPhase phase_;
+  const std::uint64_t total_;
+  std::mutex mutex_;
+  std::uint64_t done_ = 0;
+};
+
+}  // namespace planetree::octree
