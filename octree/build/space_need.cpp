@@ -20,6 +20,7 @@ constexpr std::uint64_t kTrianglesAVisitor = 10;
 constexpr std::uint64_t kPageBytes = 12;
 constexpr std::uint64_t kWideIdBytes = 4;
 constexpr std::uint64_t kLeastPageBytes = 4096;
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
 std::uint64_t beyond(std::uint64_t bytes, std::uint64_t held_bytes) {
   return bytes - std::min(bytes, held_bytes);
@@ -55,8 +56,6 @@ std::uint64_t raw_page_bytes(const MeshSize& size) {
   return vertex_bytes * vertices + size.triangles * (kPageBytes + (wide_ids ? kWideIdBytes : 0)) +
          kLeastPageBytes;
 }
-
-constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
 Error too_little(const char* what, std::uint64_t needed, std::uint64_t free, const char* remedy) {
   return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere,

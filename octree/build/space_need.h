@@ -11,8 +11,9 @@
 
 namespace planetree::octree {
 
-/// How much a build is going to write, foreseen: at least what it writes, and for a surface at
-/// most a third more on disk for the time being, and of the file some three times.
+/// How much a build is going to write, foreseen: at least what it writes. Of temporary files it
+/// is about a seventh more, and where memory holds a part two chunks more; of the file two to
+/// four times as much, for how far it can be compressed is not known before.
 ///
 /// More is written of what no surface is: triangles that share few edges though they share
 /// vertices, or most of which reach through much of the model.

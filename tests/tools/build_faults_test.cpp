@@ -50,10 +50,6 @@ class BuildFaults : public Command {
     write(path, bytes);
   }
 
-  static std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   static std::string build(const std::string& arguments) {
     return std::string(PLANETREE_COMMAND) + " build --quiet " + arguments;
   }

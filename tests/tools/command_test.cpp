@@ -298,6 +298,24 @@ TEST_F(Command, ReportsAFullDevice) {
 }
 
 #ifdef PLANETREE_COMMAND
+// Points that keep it waiting for longer than progress keeps quiet.
+TEST_F(Command, TellsProgramsOfItsProgressUnlessQuiet) {
+  const std::string query = std::string("{ echo 1,1,1; sleep 5.2; echo 2,2,2; } | ") +
+                            PLANETREE_COMMAND + " query tree.ptree --json ";
+  const std::string line =
+      query + "--quiet 2>quiet.txt >quiet.csv & " + query + "2>told.txt >told.csv; wait";
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  const auto told = lines_of(text_of("told.txt")), quiet = lines_of(text_of("quiet.txt"));
+  ASSERT_EQ(told.size(), 2u);
+  const Json event = Json::parse(told[0]);
+  EXPECT_EQ(event["phase"], "answering");
+  EXPECT_EQ(event["done"], 2);
+  EXPECT_EQ(event["total"], nullptr);
+  EXPECT_EQ(Json::parse(told[1])["points"], 2);
+  ASSERT_EQ(quiet.size(), 1u);
+  EXPECT_EQ(Json::parse(quiet[0])["points"], 2);
+}
+
 TEST_F(Command, EndsQuietlyWhenItsReaderHasSeenEnough) {
   std::string points;
   for (int i = 0; i < 5000; ++i) points += "1,1,1\n";
