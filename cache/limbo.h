@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,8 +19,11 @@ namespace planetree::cache {
 /// include all that the first still waits for, so it is never ready earlier.
 ///
 /// For the writer alone. A view of memory that PageCache owns.
-class Limbo {
+template <class Atomics = StdAtomics>
+class BasicLimbo {
  public:
+  using Slot = BasicReaderSlot<Atomics>;
+
   /// A retired frame's place.
   struct Place {
     std::uint32_t frame = kNoFrame;
@@ -27,8 +32,8 @@ class Limbo {
 
   /// `places` has one element per owner; `stamps` one per owner and slot, by
   /// owners.
-  Limbo(std::span<const ReaderSlot> slots, std::span<Place> places,
-        std::span<std::uint64_t> stamps) noexcept;
+  BasicLimbo(std::span<const Slot> slots, std::span<Place> places,
+             std::span<std::uint64_t> stamps) noexcept;
 
   bool holds(std::uint32_t owner) const noexcept { return places_[owner].frame != kNoFrame; }
 
@@ -54,9 +59,57 @@ class Limbo {
   // A stamp of 0, being even, means that there is no section to wait for.
   static constexpr std::uint64_t kNoSection = 0;
 
-  std::span<const ReaderSlot> slots_;
+  std::span<const Slot> slots_;
   std::span<Place> places_;
   std::span<std::uint64_t> stamps_;
 };
+
+template <class Atomics>
+BasicLimbo<Atomics>::BasicLimbo(std::span<const Slot> slots, std::span<Place> places,
+                                std::span<std::uint64_t> stamps) noexcept
+    : slots_(slots), places_(places), stamps_(stamps) {
+  assert(stamps.size() == places.size() * slots.size());
+}
+
+template <class Atomics>
+void BasicLimbo<Atomics>::retire(std::uint32_t owner, std::uint32_t frame) noexcept {
+  assert(!holds(owner) && frame != kNoFrame);
+  const std::span<std::uint64_t> stamps = stamps_of(owner);
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    const std::uint64_t sequence = slots_[slot].sequence_after_withdrawal();
+    stamps[slot] = Slot::is_inside(sequence) ? sequence : kNoSection;
+  }
+  places_[owner].frame = frame;
+}
+
+template <class Atomics>
+bool BasicLimbo<Atomics>::sections_are_over(std::uint32_t owner) const noexcept {
+  const std::span<const std::uint64_t> stamps = stamps_of(owner);
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    if (stamps[slot] == kNoSection) continue;
+    if (slots_[slot].sequence_before_reuse() == stamps[slot]) return false;
+  }
+  return true;
+}
+
+template <class Atomics>
+std::uint32_t BasicLimbo<Atomics>::take(std::uint32_t owner) noexcept {
+  Place& place = places_[owner];
+  if (place.frame == kNoFrame || !sections_are_over(owner)) return kNoFrame;
+  const std::uint32_t frame = place.frame;
+  place = Place{};
+  return frame;
+}
+
+template <class Atomics>
+std::uint32_t BasicLimbo<Atomics>::take_unawaited() noexcept {
+  for (std::uint32_t owner = 0; owner < places_.size(); ++owner) {
+    if (places_[owner].awaited) continue;
+    if (const std::uint32_t frame = take(owner); frame != kNoFrame) return frame;
+  }
+  return kNoFrame;
+}
+
+using Limbo = BasicLimbo<>;
 
 }  // namespace planetree::cache

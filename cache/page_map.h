@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cache/frame_pool.h"
+#include "cache/protocol_step.h"
 
 namespace planetree::cache {
 
@@ -17,19 +18,21 @@ namespace planetree::cache {
 ///
 /// Any thread inside a read section may call find(). The other calls belong to
 /// the one writer, the holder of the cache's mutex.
-class PageMap {
+template <class Atomics = StdAtomics>
+class BasicPageMap {
  public:
-  using Cell = std::atomic<std::uint32_t>;
-  static_assert(Cell::is_always_lock_free);
+  using Cell = typename Atomics::template Atomic<std::uint32_t>;
 
-  explicit PageMap(std::span<Cell> cells) noexcept : cells_(cells.data()), count_(cells.size()) {}
+  explicit BasicPageMap(std::span<Cell> cells) noexcept
+      : cells_(cells.data()), count_(cells.size()) {}
 
-  /// The frame of `page`, or kNoFrame. Acquires the page's bytes. seq_cst
-  /// because it forms a store-buffering pair with withdraw(): see reader_slot.h.
+  /// R2: the frame of `page`, or kNoFrame. Acquires the page's bytes. seq_cst
+  /// because it forms a store-buffering pair with withdraw(): see
+  /// reader_slot.h.
   std::uint32_t find(std::uint32_t page) const noexcept {
     assert(page < count_);
     // 0 - 1 wraps to kNoFrame.
-    return cells_[page].load(std::memory_order_seq_cst) - 1;
+    return cells_[page].load(Atomics::order(ProtocolStep::kFind)) - 1;
   }
 
   /// As find(), for the writer: relaxed, since it reads what it wrote itself,
@@ -39,18 +42,18 @@ class PageMap {
     return cells_[page].load(std::memory_order_relaxed) - 1;
   }
 
-  /// Shows a filled frame to readers; release, so that who finds the page also
-  /// sees the bytes written into its frame.
+  /// I7: shows a filled frame to readers; release, so that who finds the page
+  /// also sees the bytes written into its frame.
   void publish(std::uint32_t page, std::uint32_t frame) const noexcept {
     assert(page < count_ && frame != kNoFrame);
-    cells_[page].store(frame + 1, std::memory_order_release);
+    cells_[page].store(frame + 1, Atomics::order(ProtocolStep::kPublish));
   }
 
-  /// Hides a page. Readers that found it before may still be reading its
+  /// E2: hides a page. Readers that found it before may still be reading its
   /// frame. seq_cst: the other half of the pair with find().
   void withdraw(std::uint32_t page) const noexcept {
     assert(page < count_);
-    cells_[page].store(0, std::memory_order_seq_cst);
+    cells_[page].store(0, Atomics::order(ProtocolStep::kWithdraw));
   }
 
  private:
@@ -58,6 +61,9 @@ class PageMap {
   std::size_t count_;  // Only asserts read it.
 };
 
+using PageMap = BasicPageMap<>;
+
+static_assert(PageMap::Cell::is_always_lock_free);
 static_assert(kNoFrame == std::uint32_t{0} - 1, "an empty cell must read as kNoFrame");
 
 }  // namespace planetree::cache

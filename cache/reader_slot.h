@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cache/protocol_step.h"
+
 namespace planetree::cache {
 
 /// Tells the writer whether one reader may be holding frames.
@@ -30,17 +32,20 @@ namespace planetree::cache {
 /// ThreadSanitizer does not model fences.
 ///
 /// One slot a cache line, so that readers do not disturb each other.
-class alignas(64) ReaderSlot {
+template <class Atomics = StdAtomics>
+class alignas(64) BasicReaderSlot {
  public:
   /// Takes the slot for one reader; false if it is taken. Acquire: the new
   /// owner continues the sequence and the counts where the last one stopped.
-  bool try_claim() noexcept { return !claimed_.exchange(true, std::memory_order_acquire); }
+  bool try_claim() noexcept {
+    return !claimed_.exchange(true, Atomics::order(ProtocolStep::kClaim));
+  }
 
   /// Gives the slot up, outside a section. Release: hands sequence and counts
   /// to the next owner.
   void release() noexcept {
     assert(!inside());
-    claimed_.store(false, std::memory_order_release);
+    claimed_.store(false, Atomics::order(ProtocolStep::kGiveUp));
   }
 
   bool claimed() const noexcept { return claimed_.load(std::memory_order_relaxed); }
@@ -53,7 +58,7 @@ class alignas(64) ReaderSlot {
     // Only the owner stores, so its own load needs no order. R1: seq_cst, as
     // argued above.
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
-    sequence_.store(sequence + 1, std::memory_order_seq_cst);
+    sequence_.store(sequence + 1, Atomics::order(ProtocolStep::kEnter));
   }
 
   /// Ends a section.
@@ -64,7 +69,7 @@ class alignas(64) ReaderSlot {
     // Nothing after it needs to be ordered before it: seen late, it only makes
     // the writer wait longer.
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
-    sequence_.store(sequence + 1, std::memory_order_release);
+    sequence_.store(sequence + 1, Atomics::order(ProtocolStep::kLeave));
   }
 
   bool inside() const noexcept { return is_inside(sequence_.load(std::memory_order_relaxed)); }
@@ -81,27 +86,31 @@ class alignas(64) ReaderSlot {
   /// E3: seq_cst, as argued above; also acquires what the reader did in
   /// sections that are over.
   std::uint64_t sequence_after_withdrawal() const noexcept {
-    return sequence_.load(std::memory_order_seq_cst);
+    return sequence_.load(Atomics::order(ProtocolStep::kSeeOpen));
   }
 
   /// E5: acquire, the other half of leave().
   std::uint64_t sequence_before_reuse() const noexcept {
-    return sequence_.load(std::memory_order_acquire);
+    return sequence_.load(Atomics::order(ProtocolStep::kSeeOver));
   }
 
   std::uint64_t hits() const noexcept { return hits_.load(std::memory_order_relaxed); }
   std::uint64_t misses() const noexcept { return misses_.load(std::memory_order_relaxed); }
 
  private:
-  static void add_one(std::atomic<std::uint64_t>& count) noexcept {
+  using Number = typename Atomics::template Atomic<std::uint64_t>;
+
+  static void add_one(Number& count) noexcept {
     count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
 
-  std::atomic<std::uint64_t> sequence_{0};
-  std::atomic<std::uint64_t> hits_{0};
-  std::atomic<std::uint64_t> misses_{0};
-  std::atomic<bool> claimed_{false};
+  Number sequence_{0};
+  Number hits_{0};
+  Number misses_{0};
+  typename Atomics::template Atomic<bool> claimed_{false};
 };
+
+using ReaderSlot = BasicReaderSlot<>;
 
 static_assert(sizeof(ReaderSlot) == 64 && alignof(ReaderSlot) == 64);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);

@@ -10,9 +10,9 @@
 namespace planetree::cache {
 namespace {
 
-constexpr std::uint32_t kPages = 64;
+constexpr std::uint32_t kStormPages = 64;
 // A system page, so that a budget can give an exact number of frames.
-constexpr std::uint32_t kFrameBytes = 4096;
+constexpr std::uint32_t kStormFrameBytes = 4096;
 constexpr std::uint32_t kUnreadable = 13;
 
 /// What one thread saw.
@@ -26,7 +26,7 @@ void check_frame(const std::byte* frame, std::uint32_t page, Seen& seen) {
   if (frame == nullptr) {
     seen.unreadable += page != kUnreadable;
   } else {
-    seen.wrong += !TaggedPages::matches(frame, kFrameBytes, page);
+    seen.wrong += !TaggedPages::matches(frame, kStormFrameBytes, page);
   }
 }
 
@@ -40,7 +40,7 @@ void run_section(Reader& reader, Numbers& numbers, Seen& seen) {
   std::uint32_t kept = 0;
   reader.enter();
   for (std::uint32_t i = 0; i < kLookups; ++i) {
-    const std::uint32_t page = numbers.below(kPages);
+    const std::uint32_t page = numbers.below(kStormPages);
     const std::byte* frame = reader.find(page);
     ++seen.finds;
     if (frame == nullptr) {
@@ -76,8 +76,9 @@ void run_reader(PageCache& cache, std::uint64_t seed, std::uint32_t sections, Se
 void storm(std::uint32_t reader_count, std::uint32_t frame_count) {
   TaggedPages pages;
   pages.make_unreadable(kUnreadable);
-  auto created = PageCache::create(
-      limits_for_frames(frame_count, kPages, reader_count, kFrameBytes), TaggedPages::fill, &pages);
+  auto created =
+      PageCache::create(limits_for_frames(frame_count, kStormPages, reader_count, kStormFrameBytes),
+                        TaggedPages::fill, &pages);
   ASSERT_TRUE(created);
   PageCache& cache = **created;
   ASSERT_EQ(cache.stats().frame_count, frame_count);

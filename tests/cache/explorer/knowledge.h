@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace planetree::explorer {
+
+inline constexpr std::size_t kMostThreads = 4;
+inline constexpr std::size_t kMostAtomics = 32;
+
+/// One step of one thread; a thread's steps are numbered from 1.
+struct Step {
+  std::uint32_t thread = 0;
+  std::uint16_t time = 0;  ///< 0: before all threads began
+};
+
+/// What happens before a point of a run. Each thread has its own; a store with
+/// release hands a copy on, and a load with acquire that reads the store adds
+/// it to its thread's.
+class Knowledge {
+ public:
+  /// Whether `step` happens before this point.
+  bool includes(Step step) const noexcept { return step.time <= times_[step.thread]; }
+
+  /// The last step of a thread that happens before this point: a vector clock.
+  std::uint16_t time_of(std::uint32_t thread) const noexcept { return times_[thread]; }
+  void set_time(Step step) noexcept { times_[step.thread] = step.time; }
+
+  /// The oldest store to an atomic that may still be read, by its place in the
+  /// modification order. Whoever knows of a store, or of a load that read it,
+  /// reads no older one. This is all there is to coherence: write-read and
+  /// read-read here; write-write and read-write because a new store goes last.
+  std::uint16_t oldest_visible(std::size_t atomic) const noexcept { return oldest_[atomic]; }
+  void saw(std::size_t atomic, std::size_t store) noexcept {
+    oldest_[atomic] = std::max(oldest_[atomic], static_cast<std::uint16_t>(store));
+  }
+
+  void add(const Knowledge& other) noexcept {
+    for (std::size_t i = 0; i < kMostThreads; ++i) {
+      times_[i] = std::max(times_[i], other.times_[i]);
+    }
+    for (std::size_t i = 0; i < kMostAtomics; ++i) {
+      oldest_[i] = std::max(oldest_[i], other.oldest_[i]);
+    }
+  }
+
+ private:
+  std::array<std::uint16_t, kMostThreads> times_{};
+  std::array<std::uint16_t, kMostAtomics> oldest_{};
+};
+
+}  // namespace planetree::explorer

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tests/cache/explored_cache.h"
+#include "tests/cache/explorer/program.h"
+
+namespace planetree::cache {
+
+/// How much of it there is; and what is done wrongly on purpose.
+struct Fetching {
+  std::uint32_t threads = 2;
+  std::uint32_t fetches = 1;     ///< of each
+  bool enters_too_late = false;  ///< begins the section without the mutex
+};
+
+/// Threads that fetch what they miss, each the writer while it has the mutex,
+/// as PageCache::fetch() lets them: with one frame more than threads, and one
+/// page more than frames, so that they take each other's pages.
+class FetchProgram final : public explorer::Program {
+ public:
+  explicit FetchProgram(const Fetching& fetching)
+      : fetching_(fetching),
+        cache_(fetching.threads, fetching.threads + 1, fetching.threads + 2, fetching.threads) {}
+
+  std::uint32_t thread_count() const noexcept override { return fetching_.threads; }
+
+  void run(std::uint32_t thread) override {
+    const std::uint32_t page_count = fetching_.threads + 2;
+    ExploredCache::Slot& slot = cache_.slot(thread);
+    // The first thread begins with the page that is absent, the next with the
+    // one that is evicted for it.
+    std::uint32_t page = (page_count - 1 + thread) % page_count;
+    for (std::uint32_t i = 0; i < fetching_.fetches; ++i, page = (page + 1) % page_count) {
+      slot.enter();
+      std::uint32_t frame = cache_.map().find(page);
+      if (frame == kNoFrame) {
+        slot.leave();
+        frame = fetch(thread, page);
+        if (frame == kNoFrame) return;
+      }
+      cache_.read(frame, page);
+      slot.leave();
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kTries = 2;
+
+  std::uint32_t fetch(std::uint32_t thread, std::uint32_t page) {
+    for (std::uint32_t i = 0; i < kTries; ++i) {
+      mutex_.lock();
+      const std::uint32_t frame = make_resident(thread, page);
+      if (frame != kNoFrame && !fetching_.enters_too_late) cache_.slot(thread).enter();
+      mutex_.unlock();
+      if (frame != kNoFrame && fetching_.enters_too_late) cache_.slot(thread).enter();
+      if (frame != kNoFrame) return frame;
+      explorer::Execution::current().yield();
+    }
+    return kNoFrame;
+  }
+
+  std::uint32_t make_resident(std::uint32_t owner, std::uint32_t page) {
+    cache_.limbo().set_awaited(owner, false);
+    if (const std::uint32_t frame = cache_.map().frame_of(page); frame != kNoFrame) return frame;
+    const std::uint32_t frame = take_frame(owner);
+    if (frame == kNoFrame) {
+      cache_.limbo().set_awaited(owner, true);
+    } else {
+      cache_.install(frame, page);
+    }
+    return frame;
+  }
+
+  std::uint32_t take_frame(std::uint32_t owner) {
+    ExploredCache::Limbo& limbo = cache_.limbo();
+    if (const std::uint32_t frame = limbo.take(owner); frame != kNoFrame) return frame;
+    if (const std::uint32_t frame = limbo.take_unawaited(); frame != kNoFrame) return frame;
+    if (limbo.holds(owner)) return kNoFrame;
+    const std::uint32_t victim = choose_victim();
+    cache_.map().withdraw(cache_.page_in(victim));
+    limbo.retire(owner, victim);
+    return limbo.take(owner);
+  }
+
+  /// Any frame that is not in limbo: what CLOCK prefers must not matter.
+  std::uint32_t choose_victim() {
+    std::array<std::uint32_t, explorer::kMostThreads + 1> resident;
+    std::uint32_t count = 0;
+    for (std::uint32_t frame = 0; frame <= fetching_.threads; ++frame) {
+      if (cache_.map().frame_of(cache_.page_in(frame)) == frame) resident[count++] = frame;
+    }
+    return resident[explorer::Execution::current().choose(count)];
+  }
+
+  const Fetching fetching_;
+  ExploredCache cache_;
+  explorer::Mutex mutex_;
+};
+
+}  // namespace planetree::cache

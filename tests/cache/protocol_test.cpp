@@ -1,0 +1,163 @@
+// The protocol between readers and the writer (cache/reader_slot.h), as it
+// ships: in every run that the language allows, or as many as time allows, no
+// reader sees a frame that is being written, or another page's. And each step
+// is needed: with its order weakened, some run fails.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "tests/cache/explored_atomics.h"
+#include "tests/cache/explorer/explore.h"
+#include "tests/cache/fetch_program.h"
+#include "tests/cache/handover_program.h"
+#include "tests/cache/turnover_program.h"
+
+namespace planetree::cache {
+namespace {
+
+using explorer::explore_all;
+using explorer::explore_at_random;
+using explorer::MakeProgram;
+using explorer::Report;
+
+constexpr std::uint64_t kRandomRuns = 50'000;
+constexpr std::uint32_t kAnyNumber = 1000;
+constexpr std::uint32_t kThreeStops = 3;
+
+MakeProgram turnover(const Turnover& options) {
+  return [options] { return std::make_unique<TurnoverProgram>(options); };
+}
+
+MakeProgram fetching(const Fetching& options) {
+  return [options] { return std::make_unique<FetchProgram>(options); };
+}
+
+MakeProgram handover() {
+  return [] { return std::make_unique<HandoverProgram>(); };
+}
+
+class Protocol : public testing::Test {
+ protected:
+  void SetUp() override { ExploredAtomics::ship_orders(); }
+};
+
+TEST_F(Protocol, HoldsInEveryRunOfOneReader) {
+  for (const std::uint32_t frames : {1u, 2u}) {
+    const Turnover options{.readers = 1, .sections = 2, .frames = frames, .rounds = 2};
+    EXPECT_EQ(explore_all(turnover(options), kAnyNumber).failure, "") << frames;
+  }
+}
+
+TEST_F(Protocol, HoldsInEveryRunOfTwoReadersWhilePagesReturnToTheirFrame) {
+  const Turnover options{.readers = 2, .sections = 1, .frames = 1, .rounds = 2};
+  EXPECT_EQ(explore_all(turnover(options), kAnyNumber).failure, "");
+}
+
+TEST_F(Protocol, HoldsInEveryRunOfTwoReadersWhilePagesChangeFrames) {
+  const Turnover options{.readers = 2, .sections = 1, .frames = 2, .rounds = 1};
+  EXPECT_EQ(explore_all(turnover(options), kAnyNumber).failure, "");
+}
+
+TEST_F(Protocol, HoldsWithThreeStopsWhileSectionsFollowEachOther) {
+  const Turnover options{.readers = 2, .sections = 2, .frames = 1, .rounds = 1};
+  EXPECT_EQ(explore_all(turnover(options), kThreeStops).failure, "");
+}
+
+TEST_F(Protocol, HoldsInRandomRuns) {
+  const Turnover options{.readers = 3, .sections = 2, .frames = 2, .rounds = 2};
+  const Report report = explore_at_random(turnover(options), kRandomRuns, 1);
+  EXPECT_EQ(report.failure, "");
+  EXPECT_EQ(report.runs, kRandomRuns);
+}
+
+TEST_F(Protocol, HoldsInEveryRunOfTwoFetches) {
+  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 1}), kAnyNumber).failure, "");
+}
+
+TEST_F(Protocol, HoldsWithThreeStopsOfFourFetches) {
+  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 2}), kThreeStops).failure, "");
+}
+
+TEST_F(Protocol, HoldsInRandomRunsOfFetches) {
+  for (const Fetching& options :
+       {Fetching{.threads = 2, .fetches = 3}, Fetching{.threads = 3, .fetches = 2}}) {
+    const Report report = explore_at_random(fetching(options), kRandomRuns, 1);
+    EXPECT_EQ(report.failure, "");
+    EXPECT_EQ(report.runs, kRandomRuns);
+  }
+}
+
+TEST_F(Protocol, HoldsInEveryRunOfTwoOwnersOfASlot) {
+  EXPECT_EQ(explore_all(handover(), kAnyNumber).failure, "");
+}
+
+// What the programs would not notice, they could not vouch for.
+
+TEST_F(Protocol, NotingOpenSectionsBeforeHidingThePageIsCaught) {
+  const Report report = explore_all(turnover({.notes_sections_too_early = true}), kThreeStops);
+  EXPECT_NE(report.failure.find("data race"), std::string::npos);
+}
+
+TEST_F(Protocol, FillingAFrameWithoutWaitingIsCaught) {
+  const Report report = explore_all(turnover({.waits_for_nobody = true}), kThreeStops);
+  EXPECT_NE(report.failure.find("data race"), std::string::npos);
+}
+
+TEST_F(Protocol, ShowingAFrameUnderAnotherPageIsCaught) {
+  const Report report = explore_all(turnover({.shows_the_wrong_page = true}), kThreeStops);
+  EXPECT_NE(report.failure.find("a frame of another page"), std::string::npos);
+}
+
+TEST_F(Protocol, EnteringWithoutTheMutexAfterAFetchIsCaught) {
+  const Report report =
+      explore_all(fetching({.threads = 2, .fetches = 1, .enters_too_late = true}), kThreeStops);
+  EXPECT_NE(report.failure.find("data race"), std::string::npos);
+}
+
+struct Weakened {
+  const char* name;
+  ProtocolStep step;
+  std::memory_order order;
+};
+
+constexpr Weakened kWeakenedSteps[] = {
+    {"R1Release", ProtocolStep::kEnter, std::memory_order_release},
+    {"R1Relaxed", ProtocolStep::kEnter, std::memory_order_relaxed},
+    {"R2Acquire", ProtocolStep::kFind, std::memory_order_acquire},
+    {"R2Relaxed", ProtocolStep::kFind, std::memory_order_relaxed},
+    {"R5Relaxed", ProtocolStep::kLeave, std::memory_order_relaxed},
+    {"E2Release", ProtocolStep::kWithdraw, std::memory_order_release},
+    {"E2Relaxed", ProtocolStep::kWithdraw, std::memory_order_relaxed},
+    {"E3Acquire", ProtocolStep::kSeeOpen, std::memory_order_acquire},
+    {"E3Relaxed", ProtocolStep::kSeeOpen, std::memory_order_relaxed},
+    {"E5Relaxed", ProtocolStep::kSeeOver, std::memory_order_relaxed},
+    {"I7Relaxed", ProtocolStep::kPublish, std::memory_order_relaxed},
+    {"ClaimRelaxed", ProtocolStep::kClaim, std::memory_order_relaxed},
+    {"GiveUpRelaxed", ProtocolStep::kGiveUp, std::memory_order_relaxed},
+};
+
+class WeakenedStep : public testing::TestWithParam<Weakened> {
+ protected:
+  void SetUp() override {
+    ExploredAtomics::ship_orders();
+    ExploredAtomics::set_order(GetParam().step, GetParam().order);
+  }
+};
+
+TEST_P(WeakenedStep, IsCaught) {
+  const ProtocolStep step = GetParam().step;
+  const bool of_slot = step == ProtocolStep::kClaim || step == ProtocolStep::kGiveUp;
+  const Report report = explore_all(of_slot ? handover() : turnover({}), kThreeStops);
+  EXPECT_NE(report.failure.find("data race"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Protocol, WeakenedStep, testing::ValuesIn(kWeakenedSteps),
+                         [](const testing::TestParamInfo<Weakened>& weakened) {
+                           return std::string(weakened.param.name);
+                         });
+
+}  // namespace
+}  // namespace planetree::cache
