@@ -5,9 +5,10 @@
 
 namespace planetree::cache {
 
-/// The steps by which readers and the writer understand each other, and the
-/// only places where the order of memory matters. reader_slot.h says why each
-/// has the order it has; the letters are those of its comments.
+/// The steps by which readers and the writer understand each other, and, but
+/// for the mutex among writers, the only places where the order of memory
+/// matters. reader_slot.h says why each has the order it has; R, E and I are
+/// the steps of reading, evicting and installing.
 enum class ProtocolStep : std::uint8_t {
   kClaim,     ///< a slot's new owner continues where the last one stopped
   kGiveUp,    ///< the other half of kClaim

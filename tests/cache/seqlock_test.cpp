@@ -92,9 +92,11 @@ Report explore_box(const BoxOrders& orders, std::uint32_t readers, std::uint32_t
   return report;
 }
 
-TEST(Seqlock, ReturnsNoTornReadInAnyRun) { EXPECT_EQ(explore_box({}, 1, 1000).failure, ""); }
+TEST(Seqlock, ReturnsNoTornReadInAnyRun) { EXPECT_EQ(explore_box({}, 1, kAnyStops).failure, ""); }
 
-TEST(Seqlock, ReturnsNoTornReadToTwoReaders) { EXPECT_EQ(explore_box({}, 2, 3).failure, ""); }
+TEST(Seqlock, ReturnsNoTornReadToTwoReaders) {
+  EXPECT_EQ(explore_box({}, 2, kFewStops).failure, "");
+}
 
 struct WeakenedBox {
   const char* name;
@@ -111,7 +113,7 @@ const WeakenedBox kWeakenedBoxes[] = {
 class WeakenedSeqlock : public testing::TestWithParam<WeakenedBox> {};
 
 TEST_P(WeakenedSeqlock, IsCaught) {
-  const Report report = explore_box(GetParam().orders, 1, 3);
+  const Report report = explore_box(GetParam().orders, 1, kFewStops);
   EXPECT_NE(report.failure.find("a torn read"), std::string::npos);
 }
 

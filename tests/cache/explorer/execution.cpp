@@ -28,8 +28,8 @@ const char* name_of(std::memory_order order) noexcept {
 
 }  // namespace
 
-Execution::Execution(Choices& choices, std::uint32_t preemptions)
-    : choices_(choices), preemptions_(preemptions), fibers_(kMostThreads, &fiber_body) {
+Execution::Execution(Choices& choices, std::uint32_t stops)
+    : choices_(choices), stops_(stops), fibers_(kMostThreads, &fiber_body) {
   assert(the_current == nullptr);
   the_current = this;
 }
@@ -42,7 +42,7 @@ bool Execution::run(const MakeProgram& make) {
   memory_.clear();
   trace_.clear();
   running_ = 0;
-  preemptions_left_ = preemptions_;
+  stops_left_ = stops_;
   const std::unique_ptr<Program> program = make();
   program_ = program.get();
   start_threads();
@@ -97,9 +97,9 @@ bool Execution::may_go_on(std::uint32_t thread) const noexcept {
 }
 
 /// Decides who runs next; false if nobody may go on. The running thread counts
-/// only if it may stay, and being taken off is then a preemption.
+/// only if it may stay, and to stop it is then one of the stops.
 bool Execution::choose_thread(bool may_stay) {
-  if (may_stay && preemptions_left_ == 0) return true;
+  if (may_stay && stops_left_ == 0) return true;
   std::array<std::uint32_t, kMostThreads> able;
   std::uint32_t count = 0;
   if (may_stay) able[count++] = running_;
@@ -108,14 +108,15 @@ bool Execution::choose_thread(bool may_stay) {
   }
   if (count == 0) return false;
   const std::uint32_t next = able[choices_.choose(count)];
-  if (may_stay && next != running_) --preemptions_left_;
+  if (may_stay && next != running_) --stops_left_;
   running_ = next;
   return true;
 }
 
 void Execution::before_step() {
-  if (!threads_run_ || !std::exchange(threads_[running_].did_a_deed, false)) return;
-  if (memory_.time_of(running_) > kMostSteps) fail("the run does not end");
+  if (!threads_run_) return;
+  if (memory_.time_of(running_) > kMostSteps) fail("a thread does not end");
+  if (!std::exchange(threads_[running_].did_a_deed, false)) return;
   choose_thread(true);
   fibers_.switch_to(running_);
 }

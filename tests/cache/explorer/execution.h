@@ -29,9 +29,9 @@ using MakeProgram = std::function<std::unique_ptr<Program>()>;
 /// the two comes first. So nothing is lost, and runs are fewer by far.
 class Execution {
  public:
-  /// In each run, at most `preemptions` times is a thread stopped that could
-  /// have gone on.
-  Execution(Choices& choices, std::uint32_t preemptions);
+  /// In each run, at most `stops` times is a thread stopped that could have
+  /// gone on.
+  Execution(Choices& choices, std::uint32_t stops);
   ~Execution();
 
   /// False if the run failed, after which no other may follow.
@@ -90,7 +90,7 @@ class Execution {
   };
 
   Choices& choices_;
-  const std::uint32_t preemptions_;
+  const std::uint32_t stops_;
   Memory memory_;
   Trace trace_;
   Fibers fibers_;
@@ -100,7 +100,7 @@ class Execution {
   std::uint32_t thread_count_ = 0;
   std::uint32_t running_ = 0;
   bool threads_run_ = false;  ///< else the program is being set up, or finishes
-  std::uint32_t preemptions_left_ = 0;
+  std::uint32_t stops_left_ = 0;
   const char* why_failed_ = nullptr;
 };
 

@@ -1,14 +1,12 @@
 #include "tests/cache/explorer/explore.h"
 
-#include <limits>
-
 #include "tests/cache/explorer/choices.h"
 
 namespace planetree::explorer {
 namespace {
 
-Report explore(const MakeProgram& make, Choices& choices, std::uint32_t preemptions) {
-  Execution execution(choices, preemptions);
+Report explore(const MakeProgram& make, Choices& choices, std::uint32_t stops) {
+  Execution execution(choices, stops);
   Report report;
   bool passed = true;
   do {
@@ -21,14 +19,14 @@ Report explore(const MakeProgram& make, Choices& choices, std::uint32_t preempti
 
 }  // namespace
 
-Report explore_all(const MakeProgram& make, std::uint32_t preemptions) {
+Report explore_all(const MakeProgram& make, std::uint32_t stops) {
   EveryChoice choices;
-  return explore(make, choices, preemptions);
+  return explore(make, choices, stops);
 }
 
 Report explore_at_random(const MakeProgram& make, std::uint64_t runs, std::uint64_t seed) {
   RandomChoice choices(runs, seed);
-  return explore(make, choices, std::numeric_limits<std::uint32_t>::max());
+  return explore(make, choices, kAnyStops);
 }
 
 }  // namespace planetree::explorer

@@ -1,0 +1,147 @@
+// Which outcomes the explorer finds for programs with seq_cst: all that C++20
+// allows, and no others.
+
+#include <gtest/gtest.h>
+
+#include "tests/cache/litmus.h"
+
+namespace planetree::explorer {
+namespace {
+
+Explored store_buffering(std::memory_order store, std::memory_order load) {
+  return explore_threads({[=](Litmus& all) {
+                            all.x.store(1, store);
+                            all.found[0] = all.y.load(load);
+                          },
+                          [=](Litmus& all) {
+                            all.y.store(1, store);
+                            all.found[1] = all.x.load(load);
+                          }});
+}
+
+TEST(SeqCstLitmus, ShowsStoreBufferingUnlessAllIsSeqCst) {
+  EXPECT_TRUE(store_buffering(kRelaxed, kRelaxed).finds({0, 0}));
+  EXPECT_TRUE(store_buffering(kRelease, kAcquire).finds({0, 0}));
+  EXPECT_TRUE(store_buffering(kSeqCst, kAcquire).finds({0, 0}));
+  EXPECT_TRUE(store_buffering(kRelease, kSeqCst).finds({0, 0}));
+  const Explored strong = store_buffering(kSeqCst, kSeqCst);
+  EXPECT_FALSE(strong.finds({0, 0}));
+  EXPECT_TRUE(strong.finds({0, 1}));
+  EXPECT_TRUE(strong.finds({1, 0}));
+  EXPECT_TRUE(strong.finds({1, 1}));
+}
+
+TEST(SeqCstLitmus, ForbidsStoreBufferingOfThreeToo) {
+  const Explored explored = explore_threads({[](Litmus& all) {
+                                               all.x.store(1, kSeqCst);
+                                               all.found[0] = all.y.load(kSeqCst);
+                                             },
+                                             [](Litmus& all) {
+                                               all.y.store(1, kSeqCst);
+                                               all.found[1] = all.z.load(kSeqCst);
+                                             },
+                                             [](Litmus& all) {
+                                               all.z.store(1, kSeqCst);
+                                               all.found[2] = all.x.load(kSeqCst);
+                                             }});
+  EXPECT_EQ(explored.outcomes.size(), 7u);
+  EXPECT_FALSE(explored.finds({0, 0, 0}));
+}
+
+Explored independent_reads(std::memory_order store, std::memory_order load) {
+  return explore_threads({[=](Litmus& all) { all.x.store(1, store); },
+                          [=](Litmus& all) { all.y.store(1, store); },
+                          [=](Litmus& all) {
+                            all.found[0] = all.x.load(load);
+                            all.found[1] = all.y.load(load);
+                          },
+                          [=](Litmus& all) {
+                            all.found[2] = all.y.load(load);
+                            all.found[3] = all.x.load(load);
+                          }});
+}
+
+TEST(SeqCstLitmus, ReadersMayDisagreeOnTheOrderOfStoresUnlessTheyAreSeqCst) {
+  EXPECT_TRUE(independent_reads(kRelease, kAcquire).finds({1, 0, 1, 0}));
+  EXPECT_TRUE(independent_reads(kSeqCst, kAcquire).finds({1, 0, 1, 0}));
+  EXPECT_FALSE(independent_reads(kSeqCst, kSeqCst).finds({1, 0, 1, 0}));
+  EXPECT_FALSE(independent_reads(kRelaxed, kSeqCst).finds({1, 0, 1, 0}));
+}
+
+Explored overtaken_store(std::memory_order order) {
+  return explore_threads({[](Litmus& all) {
+                            all.x.store(1, kSeqCst);
+                            all.y.store(1, kSeqCst);
+                            all.found[1] = all.y.load(kRelaxed);
+                          },
+                          [=](Litmus& all) {
+                            all.y.store(2, order);
+                            all.found[0] = all.x.load(kSeqCst);
+                          }});
+}
+
+TEST(SeqCstLitmus, SeqCstStoresAreInTheOrderOfTheirAtomic) {
+  // The 2 came after the 1, so the store to x before it.
+  EXPECT_TRUE(overtaken_store(kRelease).finds({0, 2}));
+  EXPECT_FALSE(overtaken_store(kSeqCst).finds({0, 2}));
+  EXPECT_TRUE(overtaken_store(kSeqCst).finds({0, 1}));
+  EXPECT_TRUE(overtaken_store(kSeqCst).finds({1, 2}));
+}
+
+TEST(SeqCstLitmus, SeqCstAgreesWithWhatStronglyHappensBefore) {
+  // The first thread's store to x comes before the second's load of y, by way
+  // of z; and that, if it finds 0, before the third thread's operations.
+  const auto explored = [](std::memory_order store, std::memory_order load) {
+    return explore_threads({[=](Litmus& all) {
+                              all.x.store(1, kSeqCst);
+                              all.z.store(1, store);
+                            },
+                            [=](Litmus& all) {
+                              all.found[0] = all.z.load(load);
+                              all.found[1] = all.y.load(kSeqCst);
+                            },
+                            [](Litmus& all) {
+                              all.y.store(1, kSeqCst);
+                              all.found[2] = all.x.load(kSeqCst);
+                            }});
+  };
+  EXPECT_FALSE(explored(kRelease, kAcquire).finds({1, 0, 0}));
+  EXPECT_TRUE(explored(kRelaxed, kAcquire).finds({1, 0, 0}));
+}
+
+TEST(SeqCstLitmus, SeqCstNeedNotAgreeWithAStoreThatIsOnlyAcquired) {
+  const auto explored = [](std::memory_order load) {
+    return explore_threads({[](Litmus& all) { all.x.store(1, kSeqCst); },
+                            [=](Litmus& all) {
+                              all.found[0] = all.x.load(load);
+                              all.found[1] = all.y.load(kSeqCst);
+                            },
+                            [](Litmus& all) {
+                              all.y.store(1, kSeqCst);
+                              all.found[2] = all.x.load(kSeqCst);
+                            }});
+  };
+  EXPECT_TRUE(explored(kAcquire).finds({1, 0, 0}));
+  EXPECT_FALSE(explored(kSeqCst).finds({1, 0, 0}));
+}
+
+TEST(SeqCstLitmus, LetsSeqCstDisagreeWithHappensBeforeThroughOtherOrders) {
+  // P0668R5, "Revising the C++ memory model", the first example: hardware does
+  // it, and C++20 allows it where C++17 did not.
+  const Explored explored = explore_threads({[](Litmus& all) {
+                                               all.x.store(1, kSeqCst);
+                                               all.y.store(1, kRelease);
+                                             },
+                                             [](Litmus& all) {
+                                               all.found[0] = all.y.exchange(2, kSeqCst);
+                                               all.found[1] = all.y.load(kRelaxed);
+                                             },
+                                             [](Litmus& all) {
+                                               all.y.store(3, kSeqCst);
+                                               all.found[2] = all.x.load(kSeqCst);
+                                             }});
+  EXPECT_TRUE(explored.finds({1, 3, 0}));
+}
+
+}  // namespace
+}  // namespace planetree::explorer
