@@ -1,7 +1,7 @@
-// The protocol between readers and the writer (cache/reader_slot.h), as it
-// ships: in every run that the language allows, or as many as time allows, no
-// reader sees a frame that is being written, or another page's. And each step
-// is needed: with its order weakened, some run fails.
+// The protocol between readers and the writer (cache/reader_slot.h) as it ships:
+// in every run of small programs, and in many of larger ones, no reader sees a
+// frame that is being written, or another page's. And each step is needed: with
+// its order weakened, some run fails.
 
 #include <gtest/gtest.h>
 

@@ -86,7 +86,7 @@ class BoxProgram final : public Program {
 
 Report explore_box(const BoxOrders& orders, std::uint32_t readers, std::uint32_t stops) {
   std::uint64_t reads_of_the_last = 0;
-  const Report report = explore_all(
+  Report report = explore_all(
       [&] { return std::make_unique<BoxProgram>(orders, readers, reads_of_the_last); }, stops);
   EXPECT_TRUE(reads_of_the_last > 0 || !report.failure.empty());
   return report;

@@ -3,15 +3,16 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "tests/cache/explorer/execution.h"
 
 namespace planetree::explorer {
 
-/// Stands in for std::atomic of a number or bool in a Program.
+/// Stands in for std::atomic of an integer or bool in a Program.
 template <class T>
 class Atomic {
-  static_assert(sizeof(T) <= sizeof(std::uint64_t));
+  static_assert(std::is_integral_v<T>);
 
  public:
   Atomic(T value = T()) noexcept

@@ -59,8 +59,8 @@ bool Execution::run(const MakeProgram& make) {
   return why_failed_ == nullptr;
 }
 
-// What sets the program up, and later finishes it, takes its steps in the name
-// of thread 0: the thread that it would have to be, had it not the time to wait.
+// What sets the program up takes its steps in the name of thread 0, as if this
+// started the others; and so does what finishes it, as if it joined them.
 void Execution::start_threads() {
   thread_count_ = program_->thread_count();
   assert(thread_count_ <= kMostThreads);

@@ -40,7 +40,7 @@ class Execution {
   /// Why, and the steps that led there.
   std::string failure() const;
 
-  // What the program is made of; all below calls this.
+  // The rest is for Atomic, Plain, Mutex and programs.
 
   /// The one there is.
   static Execution& current() noexcept;

@@ -21,7 +21,7 @@ namespace planetree::explorer {
 /// - loads of stores executed later (load buffering; relaxed loads only);
 /// - stores by several threads to one atomic that take their places in its
 ///   modification order otherwise than as executed. With one writing thread,
-///   as all but the claims of slots have here, there is no other way.
+///   or threads that exclude each other, there is no other way.
 /// Of read-modify-writes it has exchange; it has no fences.
 class Memory {
  public:
