@@ -9,6 +9,27 @@
 
 namespace planetree::query {
 
+/// The steps of LatestValue, below, at which the order of memory matters.
+enum class LatestStep : std::uint8_t {
+  kGiveWord,    ///< G2
+  kGiveNumber,  ///< G3
+  kTakeNumber,  ///< T1
+  kTakeWord,    ///< T2
+};
+
+constexpr std::memory_order order_of(LatestStep step) noexcept {
+  return step == LatestStep::kGiveWord || step == LatestStep::kGiveNumber
+             ? std::memory_order_release
+             : std::memory_order_acquire;
+}
+
+struct StdLatest {
+  template <class T>
+  using Atomic = std::atomic<T>;
+
+  static constexpr std::memory_order order(LatestStep step) noexcept { return order_of(step); }
+};
+
 /// The latest of the values that one thread gives away; any number of others look for it. The
 /// giver never waits, loops or locks; a value that nobody looked for in time is lost.
 ///
@@ -25,9 +46,10 @@ namespace planetree::query {
 /// and acquired one by one, where fences would do, because ThreadSanitizer does not model those;
 /// on x86 it is the same code.
 ///
-/// Value   of 8-byte words, trivially copyable.
-/// Atomic  std::atomic, or what stands for it in tests.
-template <class Value, template <class> class Atomic = std::atomic>
+/// Value    of 8-byte words, trivially copyable.
+/// Atomics  what it is made of; tests run it over atomics that show every behaviour the
+///          language allows, and with one order weakened at a time.
+template <class Value, class Atomics = StdLatest>
 class alignas(64) LatestValue {
   static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(std::uint64_t) == 0);
   static constexpr std::size_t kWords = sizeof(Value) / sizeof(std::uint64_t);
@@ -38,17 +60,19 @@ class alignas(64) LatestValue {
     const auto words = std::bit_cast<std::array<std::uint64_t, kWords>>(value);
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, std::memory_order_relaxed);
-    for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
-    sequence_.store(sequence + 2, std::memory_order_release);
+    for (std::size_t i = 0; i < kWords; ++i)
+      words_[i].store(words[i], Atomics::order(LatestStep::kGiveWord));
+    sequence_.store(sequence + 2, Atomics::order(LatestStep::kGiveNumber));
   }
 
   /// Any thread. False, and nothing changed, where there is no value newer than `seen`, which
   /// is 0 at first, or one is being written: to be looked for again later.
   bool take(std::uint64_t& seen, Value& value) const noexcept {
-    const std::uint64_t first = sequence_.load(std::memory_order_acquire);
+    const std::uint64_t first = sequence_.load(Atomics::order(LatestStep::kTakeNumber));
     if (first == seen || first % 2 == 1) return false;
     std::array<std::uint64_t, kWords> words;
-    for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+    for (std::size_t i = 0; i < kWords; ++i)
+      words[i] = words_[i].load(Atomics::order(LatestStep::kTakeWord));
     if (sequence_.load(std::memory_order_relaxed) != first) return false;
     value = std::bit_cast<Value>(words);
     seen = first;
@@ -56,8 +80,10 @@ class alignas(64) LatestValue {
   }
 
  private:
-  Atomic<std::uint64_t> sequence_{0};
-  std::array<Atomic<std::uint64_t>, kWords> words_{};
+  using Word = typename Atomics::template Atomic<std::uint64_t>;
+
+  Word sequence_{0};
+  std::array<Word, kWords> words_{};
 };
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
