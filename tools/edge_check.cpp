@@ -3,20 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
 #include "octree/strict_math.h"
 #include "query/scale.h"
-#include "storage/checksum.h"
 
 namespace planetree::tools {
 namespace {
 
 using octree::Point;
-
-bool precedes(const Point& a, const Point& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
 
 }  // namespace
 
@@ -30,23 +24,13 @@ EdgeCheck::EdgeCheck(const storage::ModelRecord& model) : model_(model) {
 }
 
 void EdgeCheck::add(const octree::Triangle& triangle) {
+  edges_.add(triangle);
   for (unsigned corner = 0; corner < 3; ++corner)
-    add_edge(triangle[corner], triangle[(corner + 1) % 3]);
+    count(triangle[corner], triangle[(corner + 1) % 3]);
 }
 
-void EdgeCheck::add_edge(const Point& from, const Point& to) {
+void EdgeCheck::count(const Point& from, const Point& to) {
   if (from == to) return;
-  const bool forward = precedes(from, to);
-  const std::array<Point, 2> ends{forward ? from : to, forward ? to : from};
-  const storage::Hash128 hash = storage::hash128(std::as_bytes(std::span(ends)));
-  const std::uint64_t low = sum_[0];
-  if (forward) {
-    sum_[0] += hash.low;
-    sum_[1] += hash.high + (sum_[0] < low);
-  } else {
-    sum_[0] -= hash.low;
-    sum_[1] -= hash.high + (sum_[0] > low);
-  }
   for (Counted& edge : listed_) {
     edge.along += edge.from == from && edge.to == to;
     edge.against += edge.from == to && edge.to == from;
@@ -54,7 +38,7 @@ void EdgeCheck::add_edge(const Point& from, const Point& to) {
 }
 
 std::optional<std::string> EdgeCheck::finding() const {
-  const bool watertight = sum_[0] == 0 && sum_[1] == 0;
+  const bool watertight = edges_.is_watertight();
   if (watertight != (model_.open_edge_count == 0))
     return watertight ? "the header says that edges are open and none is"
                       : "the header says that the surface is watertight and it is not";

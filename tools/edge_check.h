@@ -5,15 +5,14 @@
 #include <optional>
 #include <string>
 
+#include "octree/build/edge_sum.h"
 #include "octree/triangle_distance.h"
 #include "storage/file_layout.h"
 
 namespace planetree::tools {
 
 /// Checks what a header says of open edges against all triangles, in any order
-/// and in constant memory: every edge adds a hash of its ends one way and takes
-/// it away the other, so that the sum is zero if and, but for one case in 2^128,
-/// only if the surface is watertight. Listed edges are counted besides.
+/// and in constant memory: by the sum of all edges; those listed are counted.
 class EdgeCheck {
  public:
   /// Coordinates of `model` are taken to the model frame.
@@ -25,7 +24,7 @@ class EdgeCheck {
   [[nodiscard]] std::optional<std::string> finding() const;
 
  private:
-  void add_edge(const octree::Point& from, const octree::Point& to);
+  void count(const octree::Point& from, const octree::Point& to);
 
   struct Counted {
     octree::Point from, to;
@@ -33,7 +32,7 @@ class EdgeCheck {
   };
   const storage::ModelRecord& model_;
   std::array<Counted, 3> listed_;
-  std::uint64_t sum_[2] = {};  // modulo 2^128, low word first
+  octree::EdgeSum edges_;
 };
 
 }  // namespace planetree::tools

@@ -1,117 +1,54 @@
-// Holds the answers of `planetree query` against every triangle of the mesh.
+// Holds the answers of `planetree query` against every triangle of the mesh, which need not
+// fit into memory.
 // usage: check_answers MESH ANSWERS.csv [COUNT]
 // Checks the first COUNT answers (default: all). Exit status 1 if any is wrong.
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
-#include <limits>
-#include <sstream>
 #include <string>
-#include <vector>
 
-#include "octree/build/mesh_reader.h"
-#include "tests/oracle/brute_force.h"
-#include "tests/oracle/winding.h"
+#include "tests/oracle/answer_judge.h"
 
 namespace planetree::oracle {
 namespace {
 
-class MeshTriangles final : public octree::TriangleSink {
- public:
-  Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
-    indices.push_back(index);
-    triangles.push_back(corners);
-    return {};
-  }
-  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) override {}
-  void progress(std::uint64_t, std::uint64_t) override {}
-
-  std::vector<std::uint64_t> indices;
-  std::vector<Corners> triangles;
-};
-
-struct Answer {
-  Vec3 query;
-  double distance, lower, upper;
-  std::string side;
-  std::uint64_t triangle;
-};
-
-// x,y,z,distance,lower,upper,side,px,py,pz,nx,ny,nz,triangle,...
-Answer parse(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  if (fields.size() < 14) return {};
-  const auto number = [&](std::size_t i) { return std::strtod(fields[i].c_str(), nullptr); };
-  return {{number(0), number(1), number(2)},
-          number(3),
-          number(4),
-          number(5),
-          fields[6],
-          std::strtoull(fields[13].c_str(), nullptr, 10)};
+int fail(const char* about, const char* why) {
+  std::cerr << "check_answers: " << about << ": " << why << '\n';
+  return 1;
 }
 
-double gap(double a, double b, double c, double at) {
-  const double lower = std::fmin(std::fmin(a, b), c);
-  const double upper = std::fmax(std::fmax(a, b), c);
-  return at < lower ? lower - at : at > upper ? at - upper : 0;
-}
-
-// A triangle farther than this by its box alone need not be measured.
-double distance_to_box(const Corners& t, const Vec3& q) {
-  const double x = gap(t[0].x, t[1].x, t[2].x, q.x);
-  const double y = gap(t[0].y, t[1].y, t[2].y, q.y);
-  const double z = gap(t[0].z, t[1].z, t[2].z, q.z);
-  return std::sqrt(x * x + y * y + z * z) * (1 - 1e-12);
-}
-
-// The nearest distance of all triangles, and that of the one answered.
-bool right(const MeshTriangles& mesh, const Answer& answer) {
-  long double nearest = std::numeric_limits<long double>::infinity();
-  long double answered = nearest;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const bool named = mesh.indices[i] == answer.triangle;
-    if (!named && distance_to_box(mesh.triangles[i], answer.query) >= nearest) continue;
-    const long double distance = extended_distance(answer.query, mesh.triangles[i]);
-    nearest = std::fmin(nearest, distance);
-    if (named) answered = distance;
-  }
-  const long double width = static_cast<long double>(answer.upper) - answer.lower;
-  return answer.lower <= nearest && nearest <= answer.upper && answered - nearest <= width;
-}
-
-// The side by the sum of all solid angles; of every tenth answer, for it takes
-// its time. Those on the surface, or too near it for the sum, pass.
-bool side_is_right(const MeshTriangles& mesh, const Answer& answer) {
-  const long double winding = solid_angle_winding(answer.query, mesh.triangles);
-  const long double whole = std::round(winding);
-  if (std::fabs(winding - whole) > 1e-6L) return true;
-  return answer.side == (whole != 0 ? "inside" : "outside");
+void print_sides(const Judgement& judgement) {
+  if (judgement.sides_by_crossings > 0)
+    std::printf("sides: %zu by the crossings of a ray, exactly, for the mesh is watertight\n",
+                judgement.sides_by_crossings);
+  if (judgement.sides_by_solid_angles > 0)
+    std::printf("sides: %zu by the sum of all solid angles\n", judgement.sides_by_solid_angles);
+  if (judgement.sides_by_crossings + judgement.sides_by_solid_angles == 0)
+    std::printf("sides: not checked, for the mesh is not watertight and too large for sums\n");
 }
 
 int run(const char* mesh_path, const char* answers_path, std::size_t count) {
-  MeshTriangles mesh;
-  if (const auto read = octree::read_mesh(mesh_path, mesh); !read) {
-    std::cerr << "check_answers: " << read.error().text << '\n';
-    return 1;
-  }
-  std::ifstream answers(answers_path);
-  std::string line;
-  std::getline(answers, line);  // the header
-  std::size_t checked = 0, wrong = 0;
-  for (; checked < count && std::getline(answers, line); ++checked)
-    if (const Answer answer = parse(line);
-        !right(mesh, answer) || (checked % 10 == 0 && !side_is_right(mesh, answer))) {
-      ++wrong;
-      std::cout << "wrong: " << line << '\n';
-    }
-  std::printf("%zu answers held against all %zu triangles: %zu wrong\n", checked,
-              mesh.triangles.size(), wrong);
-  return wrong == 0 && checked > 0 ? 0 : 1;
+  std::ifstream csv(answers_path);
+  if (!csv) return fail(answers_path, "cannot be read");
+  const auto answers = read_answers(csv, count);
+  if (!answers) return fail(answers_path, answers.error().text);
+  const auto judgement = judge_answers(mesh_path, *answers);
+  if (!judgement) return fail(mesh_path, judgement.error().text);
+  for (std::size_t i = 0; i < answers->size(); ++i)
+    if (const std::string& fault = judgement->faults[i]; !fault.empty())
+      std::cout << "wrong, " << fault << ": " << (*answers)[i].text << '\n';
+  const auto right = std::ranges::count(judgement->faults, std::string());
+  const std::size_t wrong = answers->size() - static_cast<std::size_t>(right);
+  const std::size_t judged = answers->size() - judgement->not_judged;
+  print_sides(*judgement);
+  if (judgement->not_judged > 0)
+    std::printf("%zu answers to queries that make no sense: not judged\n", judgement->not_judged);
+  std::printf("%zu answers held against all %llu triangles: %zu wrong\n", judged,
+              static_cast<unsigned long long>(judgement->triangles), wrong);
+  return wrong == 0 && judged > 0 ? 0 : 1;
 }
 
 }  // namespace

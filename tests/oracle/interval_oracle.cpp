@@ -39,24 +39,12 @@ long double outside(double lower, double upper, double at) {
       {static_cast<long double>(lower) - at, static_cast<long double>(at) - upper, 0.0L});
 }
 
-}  // namespace
-
-IntervalOracle::IntervalOracle(std::span<const Corners> triangles) : triangles_(triangles) {
-  for (const Corners& t : triangles) {
-    const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
-    const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
-    const auto [z0, z1] = std::minmax({t[0].z, t[1].z, t[2].z});
-    measured_.push_back({{x0, y0, z0}, {x1, y1, z1}, relative_error(t)});
-  }
-}
-
-// -1 where the triangle is nearer than `distance`, 0 at it, 1 beyond.
-int IntervalOracle::compare(const Vec3& query, std::size_t triangle, double distance) const {
-  const Corners& corners = triangles_[triangle];
+// As compare_distance(); extended_distance() errs by `relative` of the farthest corner's distance.
+int compare(const Vec3& query, const Corners& corners, long double relative, double distance) {
   long double farthest2 = 0;
   for (const Vec3& corner : corners)
     farthest2 = std::max(farthest2, squared(from_to(query, corner)));
-  const long double error = measured_[triangle].error * std::sqrt(farthest2);
+  const long double error = relative * std::sqrt(farthest2);
   const long double difference = extended_distance(query, corners) - distance;
   if (std::fabs(difference) > error) return difference > 0 ? 1 : -1;
   const ExactSquare exact = exact_square(query, corners);
@@ -69,6 +57,25 @@ int IntervalOracle::compare(const Vec3& query, std::size_t triangle, double dist
   const int shift = 2 * (bits - 53) - 2 * exact.exponent;
   (shift > 0 ? right : left) <<= static_cast<unsigned>(std::abs(shift));
   return left.compare(right);
+}
+
+}  // namespace
+
+int compare_distance(const Vec3& query, const Corners& triangle, double distance) {
+  return compare(query, triangle, relative_error(triangle), distance);
+}
+
+IntervalOracle::IntervalOracle(std::span<const Corners> triangles) : triangles_(triangles) {
+  for (const Corners& t : triangles) {
+    const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+    const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+    const auto [z0, z1] = std::minmax({t[0].z, t[1].z, t[2].z});
+    measured_.push_back({{x0, y0, z0}, {x1, y1, z1}, relative_error(t)});
+  }
+}
+
+int IntervalOracle::compare(const Vec3& query, std::size_t triangle, double distance) const {
+  return oracle::compare(query, triangles_[triangle], measured_[triangle].error, distance);
 }
 
 bool IntervalOracle::none_nearer(const Vec3& query, double lower) const {

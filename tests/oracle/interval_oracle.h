@@ -9,6 +9,10 @@
 
 namespace planetree::oracle {
 
+/// -1 where the triangle is nearer to `query` than `distance`, which is finite, 0 at it, 1
+/// beyond: in long double with a bound on the error, then in integers.
+int compare_distance(const Vec3& query, const Corners& triangle, double distance);
+
 /// Holds intervals of distance against every triangle: by its box first, then in
 /// long double with a bound on the error, then in integers. As sure as
 /// exact_distance(), and a hundred times as fast.

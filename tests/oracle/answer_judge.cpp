@@ -1,0 +1,189 @@
+#include "tests/oracle/answer_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include <tbb/parallel_for.h>
+
+#include "octree/build/edge_sum.h"
+#include "octree/build/mesh_reader.h"
+#include "tests/oracle/answer_evidence.h"
+#include "tests/oracle/triangle_part.h"
+#include "tests/oracle/triangle_rounds.h"
+#include "tests/oracle/winding.h"
+
+namespace planetree::oracle {
+namespace {
+
+// So much of the mesh may stay mapped.
+constexpr octree::MeshReadOptions kReading{std::uint64_t{256} << 20};
+constexpr std::size_t kSolidAnglesOfEach = 10;  // answers, where they can be afforded
+
+bool makes_sense(const AnswerRow& answer) { return answer.status != Status::kBadQuery; }
+
+octree::Triangle in_frame(const Corners& t) {
+  return {octree::Point(t[0].x, t[0].y, t[0].z), octree::Point(t[1].x, t[1].y, t[1].z),
+          octree::Point(t[2].x, t[2].y, t[2].z)};
+}
+
+// Shows each answer what its ball and its ray may meet.
+class Hearing final : public TriangleRounds {
+ public:
+  Hearing(std::span<const AnswerRow> answers, const JudgeLimits& limits)
+      : TriangleRounds(limits.round_triangles), answers_(answers), limits_(limits) {
+    for (const AnswerRow& answer : answers) evidence_.emplace_back(answer);
+  }
+
+  [[nodiscard]] const std::vector<AnswerEvidence>& evidence() const { return evidence_; }
+  [[nodiscard]] bool is_watertight() const { return edges_.is_watertight(); }
+
+ private:
+  struct Part {
+    std::size_t first;
+    TrianglePart triangles;
+  };
+  struct Round {
+    std::span<const Corners> triangles;
+    std::span<const std::uint64_t> indices;
+    std::vector<Part> parts;
+  };
+
+  void take(std::span<const Corners> triangles, std::span<const std::uint64_t> indices) override {
+    const Round round{triangles, indices, parts_of(triangles)};
+    tbb::parallel_for(std::size_t{0}, answers_.size(), [&](std::size_t i) {
+      if (makes_sense(answers_[i])) hear(round, answers_[i], evidence_[i]);
+    });
+  }
+
+  std::vector<Part> parts_of(std::span<const Corners> triangles) {
+    const std::size_t count = (triangles.size() - 1) / limits_.part_triangles + 1;
+    std::vector<std::optional<Part>> made(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const std::size_t first = i * limits_.part_triangles;
+      const auto part = triangles.subspan(first).first(
+          std::min(limits_.part_triangles, triangles.size() - first));
+      made[i].emplace(first, TrianglePart(part));
+      sum_edges(part);
+    });
+    std::vector<Part> parts;
+    for (std::optional<Part>& part : made) parts.push_back(std::move(*part));
+    return parts;
+  }
+
+  void sum_edges(std::span<const Corners> triangles) {
+    octree::EdgeSum sum;
+    for (const Corners& triangle : triangles) sum.add(in_frame(triangle));
+    const std::lock_guard lock(mutex_);
+    edges_.add(sum);
+  }
+
+  static void hear(const Round& round, const AnswerRow& answer, AnswerEvidence& evidence) {
+    const auto named = std::ranges::lower_bound(round.indices, answer.triangle);
+    if (named != round.indices.end() && *named == answer.triangle)
+      evidence.see_named(round.triangles[static_cast<std::size_t>(named - round.indices.begin())]);
+    thread_local std::vector<std::uint32_t> found;
+    for (const Part& part : round.parts) {
+      found.clear();
+      part.triangles.find_near(answer.query, evidence.reach(), found);
+      for (const std::uint32_t place : found)
+        evidence.see_near(round.indices[part.first + place], round.triangles[part.first + place]);
+      found.clear();
+      part.triangles.find_ahead(answer.query, found);
+      for (const std::uint32_t place : found)
+        evidence.see_ahead(round.triangles[part.first + place]);
+    }
+  }
+
+  std::span<const AnswerRow> answers_;
+  JudgeLimits limits_;
+  std::vector<AnswerEvidence> evidence_;
+  std::mutex mutex_;
+  octree::EdgeSum edges_;
+};
+
+// The winding numbers of some answers, triangle by triangle.
+class SolidAngles final : public TriangleRounds {
+ public:
+  SolidAngles(std::vector<const AnswerRow*> answers, std::size_t round_triangles)
+      : TriangleRounds(round_triangles), answers_(std::move(answers)), windings_(answers_.size()) {}
+
+  // What is wrong with the side of one; nothing where the number is too near a half to tell.
+  [[nodiscard]] std::string side_fault(std::size_t i) const {
+    if (windings_[i].on_surface) return oracle::side_fault(*answers_[i], Side::kOnSurface);
+    const long double over = std::fabs(windings_[i].value) - 0.5L;
+    if (std::fabs(over) < 1e-6L) return {};
+    return oracle::side_fault(*answers_[i], over > 0 ? Side::kInside : Side::kOutside);
+  }
+
+ private:
+  void take(std::span<const Corners> triangles, std::span<const std::uint64_t>) override {
+    tbb::parallel_for(std::size_t{0}, answers_.size(), [&](std::size_t i) {
+      const OpenWinding winding = open_winding(answers_[i]->query, triangles);
+      windings_[i].value += winding.value;
+      windings_[i].on_surface = windings_[i].on_surface || winding.on_surface;
+    });
+  }
+
+  std::vector<const AnswerRow*> answers_;
+  std::vector<OpenWinding> windings_;
+};
+
+// Answers, by place, whose sides are to be found from all solid angles.
+std::vector<std::size_t> chosen(std::span<const AnswerRow> answers, const Judgement& judgement,
+                                const JudgeLimits& limits) {
+  const std::uint64_t affordable =
+      limits.solid_angles / std::max<std::uint64_t>(1, judgement.triangles);
+  const std::size_t wanted = (answers.size() + kSolidAnglesOfEach - 1) / kSolidAnglesOfEach;
+  if (affordable == 0 || (judgement.watertight && affordable < wanted)) return {};
+  std::size_t step = kSolidAnglesOfEach;
+  while ((answers.size() + step - 1) / step > affordable) ++step;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < answers.size(); i += step)
+    if (makes_sense(answers[i])) places.push_back(i);
+  return places;
+}
+
+Result<void> judge_solid_angles(const std::filesystem::path& mesh,
+                                std::span<const AnswerRow> answers, const JudgeLimits& limits,
+                                Judgement& judgement) {
+  const std::vector<std::size_t> places = chosen(answers, judgement, limits);
+  if (places.empty()) return {};
+  std::vector<const AnswerRow*> asked;
+  for (const std::size_t i : places) asked.push_back(&answers[i]);
+  SolidAngles angles(std::move(asked), limits.round_triangles);
+  if (const auto read = octree::read_mesh(mesh, angles, kReading); !read) return read.error();
+  angles.finish();
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (std::string& fault = judgement.faults[places[k]]; fault.empty())
+      fault = angles.side_fault(k);
+  judgement.sides_by_solid_angles = places.size();
+  return {};
+}
+
+}  // namespace
+
+Result<Judgement> judge_answers(const std::filesystem::path& mesh,
+                                std::span<const AnswerRow> answers, const JudgeLimits& limits) {
+  Hearing hearing(answers, limits);
+  if (const auto read = octree::read_mesh(mesh, hearing, kReading); !read) return read.error();
+  hearing.finish();
+  Judgement judgement;
+  judgement.triangles = hearing.triangle_count();
+  judgement.watertight = hearing.is_watertight();
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    std::string& fault = judgement.faults.emplace_back();
+    if (!makes_sense(answers[i])) {
+      ++judgement.not_judged;
+      continue;
+    }
+    fault = hearing.evidence()[i].fault();
+    if (judgement.watertight && fault.empty()) fault = hearing.evidence()[i].side_fault();
+    judgement.sides_by_crossings += judgement.watertight;
+  }
+  if (const auto done = judge_solid_angles(mesh, answers, limits, judgement); !done)
+    return done.error();
+  return judgement;
+}
+
+}  // namespace planetree::oracle
