@@ -16,6 +16,10 @@ bool is_within(const Vec3& query, const Corners& triangle, double distance) {
   return !std::isfinite(distance) || compare_distance(query, triangle, distance) <= 0;
 }
 
+bool is_nearer(const Vec3& query, const Corners& triangle, double distance) {
+  return !std::isfinite(distance) || compare_distance(query, triangle, distance) < 0;
+}
+
 const char* word(Side side) {
   return side == Side::kInside ? "inside" : side == Side::kOutside ? "outside" : "on the surface";
 }
@@ -31,7 +35,7 @@ double AnswerEvidence::reach() const {
 void AnswerEvidence::see_near(std::uint64_t index, const Corners& triangle) {
   const Vec3& query = answer_->query;
   if (answer_->lower == 0 && compare_distance(query, triangle, 0) == 0) on_surface_ = true;
-  if (answer_->lower > 0 && compare_distance(query, triangle, answer_->lower) < 0)
+  if (answer_->lower > 0 && is_nearer(query, triangle, answer_->lower))
     nearer_ = std::min(nearer_, index);
   if (!names_triangle()) reached_ = reached_ || is_within(query, triangle, answer_->upper);
   if (!is_exact()) return;
@@ -57,6 +61,7 @@ void AnswerEvidence::see_ahead(const Corners& triangle) {
 
 std::string AnswerEvidence::fault() const {
   const AnswerRow& a = *answer_;
+  if (!is_finite(a.query)) return "nothing can be answered to this query";
   if (!(0 <= a.lower && a.lower <= a.distance && a.distance <= a.upper))
     return "the distance is not within the interval";
   if (nearer_ != kNoTriangle)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -20,7 +22,9 @@ namespace {
 constexpr octree::MeshReadOptions kReading{std::uint64_t{256} << 20};
 constexpr std::size_t kSolidAnglesOfEach = 10;  // answers, where they can be afforded
 
-bool makes_sense(const AnswerRow& answer) { return answer.status != Status::kBadQuery; }
+// Of a query that makes no sense nothing is to be said.
+bool is_judged(const AnswerRow& answer) { return answer.status != Status::kBadQuery; }
+bool is_heard(const AnswerRow& answer) { return is_judged(answer) && is_finite(answer.query); }
 
 octree::Triangle in_frame(const Corners& t) {
   return {octree::Point(t[0].x, t[0].y, t[0].z), octree::Point(t[1].x, t[1].y, t[1].z),
@@ -52,7 +56,7 @@ class Hearing final : public TriangleRounds {
   void take(std::span<const Corners> triangles, std::span<const std::uint64_t> indices) override {
     const Round round{triangles, indices, parts_of(triangles)};
     tbb::parallel_for(std::size_t{0}, answers_.size(), [&](std::size_t i) {
-      if (makes_sense(answers_[i])) hear(round, answers_[i], evidence_[i]);
+      if (is_heard(answers_[i])) hear(round, answers_[i], evidence_[i]);
     });
   }
 
@@ -140,7 +144,7 @@ std::vector<std::size_t> chosen(std::span<const AnswerRow> answers, const Judgem
   while ((answers.size() + step - 1) / step > affordable) ++step;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < answers.size(); i += step)
-    if (makes_sense(answers[i])) places.push_back(i);
+    if (is_heard(answers[i])) places.push_back(i);
   return places;
 }
 
@@ -173,7 +177,7 @@ Result<Judgement> judge_answers(const std::filesystem::path& mesh,
   judgement.watertight = hearing.is_watertight();
   for (std::size_t i = 0; i < answers.size(); ++i) {
     std::string& fault = judgement.faults.emplace_back();
-    if (!makes_sense(answers[i])) {
+    if (!is_judged(answers[i])) {
       ++judgement.not_judged;
       continue;
     }

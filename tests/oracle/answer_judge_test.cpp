@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -180,6 +181,12 @@ TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
       {"not within the interval", [](AnswerRow& row) { row.distance = 0.6; }},
       {"not within the interval", [](AnswerRow& row) { row.distance = 0.4; }},
       {"not within the interval", [](AnswerRow& row) { std::swap(row.lower, row.upper); }},
+      {"is nearer than the interval",
+       [](AnswerRow& row) {
+         row.lower = row.distance = row.upper = std::numeric_limits<double>::infinity();
+       }},
+      {"nothing can be answered",
+       [](AnswerRow& row) { row.query.y = std::numeric_limits<double>::quiet_NaN(); }},
       {"no such triangle", [&](AnswerRow& row) { row.triangle = soup.size(); }},
       {"names no triangle", [](AnswerRow& row) { row.triangle = kNoTriangle; }},
       {"point is outside", [](AnswerRow& row) { row.side = Side::kInside; }},

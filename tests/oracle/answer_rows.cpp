@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <istream>
 #include <optional>
@@ -100,6 +101,10 @@ Result<AnswerRow> row_of(std::string text, const Places& places, std::size_t lin
 }
 
 }  // namespace
+
+bool is_finite(const Vec3& query) {
+  return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z);
+}
 
 Result<std::vector<AnswerRow>> read_answers(std::istream& csv, std::size_t most) {
   std::string line;

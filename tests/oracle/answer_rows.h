@@ -21,6 +21,8 @@ struct AnswerRow {
   std::string text;  ///< the row itself
 };
 
+[[nodiscard]] bool is_finite(const Vec3& query);
+
 /// The first `most` rows of a CSV file of answers, whose first line names the columns.
 ///
 /// errors  kBadInput: a column is not there, or a row says what no answer says.

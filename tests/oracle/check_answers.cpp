@@ -1,5 +1,5 @@
 // Holds the answers of `planetree query` against every triangle of the mesh, which need not
-// fit into memory.
+// fit into memory if it is a binary one.
 // usage: check_answers MESH ANSWERS.csv [COUNT]
 // Checks the first COUNT answers (default: all). Exit status 1 if any is wrong.
 
@@ -43,7 +43,7 @@ int run(const char* mesh_path, const char* answers_path, std::size_t count) {
   const auto right = std::ranges::count(judgement->faults, std::string());
   const std::size_t wrong = answers->size() - static_cast<std::size_t>(right);
   const std::size_t judged = answers->size() - judgement->not_judged;
-  print_sides(*judgement);
+  if (judged > 0) print_sides(*judgement);
   if (judgement->not_judged > 0)
     std::printf("%zu answers to queries that make no sense: not judged\n", judgement->not_judged);
   std::printf("%zu answers held against all %llu triangles: %zu wrong\n", judged,
