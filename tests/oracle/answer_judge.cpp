@@ -26,7 +26,7 @@ constexpr std::size_t kSolidAnglesOfEach = 10;  // answers, where they can be af
 bool is_judged(const AnswerRow& answer) { return answer.status != Status::kBadQuery; }
 bool is_heard(const AnswerRow& answer) { return is_judged(answer) && is_finite(answer.query); }
 
-octree::Triangle in_frame(const Corners& t) {
+octree::Triangle points_of(const Corners& t) {
   return {octree::Point(t[0].x, t[0].y, t[0].z), octree::Point(t[1].x, t[1].y, t[1].z),
           octree::Point(t[2].x, t[2].y, t[2].z)};
 }
@@ -67,7 +67,7 @@ class Hearing final : public TriangleRounds {
       const std::size_t first = i * limits_.part_triangles;
       const auto part = triangles.subspan(first).first(
           std::min(limits_.part_triangles, triangles.size() - first));
-      made[i].emplace(first, TrianglePart(part));
+      made[i].emplace(Part{first, TrianglePart(part)});
       sum_edges(part);
     });
     std::vector<Part> parts;
@@ -77,7 +77,7 @@ class Hearing final : public TriangleRounds {
 
   void sum_edges(std::span<const Corners> triangles) {
     octree::EdgeSum sum;
-    for (const Corners& triangle : triangles) sum.add(in_frame(triangle));
+    for (const Corners& triangle : triangles) sum.add(points_of(triangle));
     const std::lock_guard lock(mutex_);
     edges_.add(sum);
   }
