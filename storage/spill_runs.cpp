@@ -23,6 +23,7 @@ Result<void> SpillRuns::add(std::vector<std::byte> records) {
     const auto offset = file_.append(records);
     if (!offset) return offset.error();
     run.offset = *offset;
+    run.marks = marks_of(records);
   }
   const std::lock_guard lock(adding_);
   size_ += run.size;
@@ -43,9 +44,31 @@ Result<void> SpillRuns::get(const Run& run, std::uint64_t from, std::span<std::b
   return {};
 }
 
+std::vector<std::uint64_t> SpillRuns::marks_of(std::span<const std::byte> records) const {
+  std::vector<std::uint64_t> marks;
+  const std::size_t step = kMarkRecords * record_bytes_;
+  marks.reserve(records.size() / step + 1);
+  for (std::size_t at = 0; at < records.size(); at += step)
+    std::memcpy(&marks.emplace_back(), records.data() + at, sizeof marks.back());
+  return marks;
+}
+
+// Marks tell where the record is to within a stretch between two of them, or more where many
+// records have one first half.
 Result<std::uint64_t> SpillRuns::find(const Run& run, const SpillKey& key) const {
-  std::uint64_t first = 0, last = run.size;
-  while (first < last) {
+  const auto [same, after] = std::equal_range(run.marks.begin(), run.marks.end(), key.first);
+  const auto records_before = [&](auto mark) {
+    return static_cast<std::uint64_t>(mark - run.marks.begin()) * kMarkRecords;
+  };
+  const std::uint64_t first = same == run.marks.begin() ? 0 : records_before(same - 1);
+  const std::uint64_t last = after == run.marks.end() ? run.size : records_before(after);
+  return find_within(run, first, last, key);
+}
+
+Result<std::uint64_t> SpillRuns::find_within(const Run& run, std::uint64_t first,
+                                             std::uint64_t last, const SpillKey& key) const {
+  const std::uint64_t at_once = run.held.empty() ? 2 * kMarkRecords : 0;
+  while (last - first > at_once) {
     const std::uint64_t middle = first + (last - first) / 2;
     SpillKey at;
     if (const auto got = get(run, middle, std::as_writable_bytes(std::span(&at, 1))); !got)
@@ -54,6 +77,13 @@ Result<std::uint64_t> SpillRuns::find(const Run& run, const SpillKey& key) const
       first = middle + 1;
     else
       last = middle;
+  }
+  std::vector<std::byte> records((last - first) * record_bytes_);
+  if (const auto got = get(run, first, records); !got) return got.error();
+  const std::byte* at = records.data();
+  for (SpillKey found; first < last; ++first, at += record_bytes_) {
+    std::memcpy(&found, at, sizeof found);
+    if (!(found < key)) break;
   }
   return first;
 }

@@ -57,10 +57,18 @@ class SpillRuns {
     std::uint64_t size = 0;       // records
     std::vector<std::byte> held;  // or, if empty,
     std::uint64_t offset = 0;     // in the file
+    // Of those in the file: the first halves of the keys of every so-many-th record.
+    std::vector<std::uint64_t> marks;
   };
 
+  // A stretch that is read at once takes little longer than one record of it.
+  static constexpr std::uint64_t kMarkRecords = 256;
+
   Result<void> get(const Run& run, std::uint64_t from, std::span<std::byte> out) const;
+  std::vector<std::uint64_t> marks_of(std::span<const std::byte> records) const;
   Result<std::uint64_t> find(const Run& run, const SpillKey& key) const;
+  Result<std::uint64_t> find_within(const Run& run, std::uint64_t first, std::uint64_t last,
+                                    const SpillKey& key) const;
 
   const std::size_t record_bytes_;
   std::uint64_t held_bytes_;

@@ -130,8 +130,11 @@ class SpillRunsTest : public testing::TestWithParam<std::uint64_t> {
     std::mt19937_64 random(7);
     for (std::uint64_t run = 0; run < 9; ++run) {
       std::vector<Record> records;
-      for (std::uint64_t i = 0; i < 100 + 10 * run; ++i)
-        records.push_back({{random() % 64, all_.size() + i}, static_cast<std::uint32_t>(i), 0});
+      // Few of one first half in the first runs, more than lie between two marks in the last.
+      const std::uint64_t halves = run < 5 ? 64 : 3;
+      for (std::uint64_t i = 0; i < 100 + 300 * run; ++i)
+        records.push_back(
+            {{7 * (random() % halves), all_.size() + i}, static_cast<std::uint32_t>(i), 0});
       all_.insert(all_.end(), records.begin(), records.end());
       ASSERT_TRUE(runs_.add(run_of(records)));
     }
@@ -148,8 +151,10 @@ class SpillRunsTest : public testing::TestWithParam<std::uint64_t> {
 TEST_P(SpillRunsTest, FindEveryRecordBetweenTwoKeys) {
   EXPECT_EQ(runs_.size(), all_.size());
   EXPECT_EQ(SpillRuns::count(runs_.begin(), runs_.end()), all_.size());
-  for (const SpillKey from : {SpillKey{0, 0}, SpillKey{5, 300}, SpillKey{40, 0}, SpillKey{70, 0}})
-    for (const SpillKey to : {SpillKey{5, 301}, SpillKey{41, 999}, SpillKey{99, 0}}) {
+  for (const SpillKey from : {SpillKey{0, 0}, SpillKey{7, 300}, SpillKey{7, 5000}, SpillKey{40, 0},
+                              SpillKey{14, 7000}, SpillKey{470, 0}})
+    for (const SpillKey to :
+         {SpillKey{7, 301}, SpillKey{7, 7777}, SpillKey{42, 999}, SpillKey{999, 0}}) {
       if (to < from) continue;
       const auto first = runs_.cut(from), last = runs_.cut(to);
       ASSERT_TRUE(first && last);
@@ -168,6 +173,32 @@ TEST_P(SpillRunsTest, FindEveryRecordBetweenTwoKeys) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Held, SpillRunsTest, testing::Values(0, 10000, 1 << 20));
+
+class CountedReads final : public FileCalls {
+ public:
+  ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
+    ++count;
+    return FileCalls::pread(descriptor, out, bytes, offset);
+  }
+  int count = 0;
+};
+
+TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
+  const TemporaryDirectory directory;
+  CountedReads calls;
+  SpillFile file(directory / ".", 0, calls);
+  SpillRuns runs(sizeof(Record), 0, file);
+  std::vector<Record> records(100000);
+  for (std::uint64_t i = 0; i < records.size(); ++i) records[i].key = {i, i};
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(runs.add(run_of(records)));
+  for (const std::uint64_t at : {0u, 1u, 255u, 256u, 257u, 70001u, 99999u, 200000u}) {
+    calls.count = 0;
+    const auto cut = runs.cut({at, 0});
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(*cut, SpillRuns::Cut(3, std::min<std::uint64_t>(at, records.size())));
+    EXPECT_LE(calls.count, 3);
+  }
+}
 
 TEST(SpillRuns, HoldsNoMoreThanAllowed) {
   const TemporaryDirectory directory;
