@@ -6,14 +6,18 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tools/generate_file.h"
 #include "tools/open_model.h"
 #include "tools/touch_report.h"
 #include "tools/touch_session.h"
+#include "tools/touch_trace.h"
 #include "tools/verb_options.h"
 
 namespace planetree::tools {
@@ -38,10 +42,26 @@ Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& co
   return touch_path(*model, *probe, arguments.motion, arguments.seconds * arguments.rate_hz);
 }
 
+/// Opened before the session, which may be long, so that it can be written after.
+Result<std::optional<OutputFile>> open_trace(const TouchArguments& arguments) {
+  if (arguments.trace.empty()) return std::optional<OutputFile>();
+  auto file = OutputFile::create(arguments.trace, arguments.force);
+  if (!file) return file.error();
+  return std::optional<OutputFile>(std::move(*file));
+}
+
+Result<void> write_trace(OutputFile& file, std::span<const Vec3> path, const TouchRecord& record) {
+  const std::string text = touch_trace(path, record);
+  if (const auto written = file.write(std::as_bytes(std::span(text))); !written) return written;
+  return file.commit();
+}
+
 }  // namespace
 
 int run_touch(const TouchArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
+  auto trace = open_trace(arguments);
+  if (!trace) return console.fail(arguments.trace.string(), trace.error());
   const auto path = find_path(arguments, console);
   if (!path) return console.fail(file, path.error());
   if (arguments.cold) drop_from_page_cache(arguments.file);
@@ -58,6 +78,9 @@ int run_touch(const TouchArguments& arguments, Console& console) {
   const TouchRecord record = run_touch_session(*probe, *path, period);
   console.print(arguments.json ? touch_json(arguments, record, *model)
                                : touch_words(arguments, record, *model));
+  if (*trace)
+    if (const auto written = write_trace(**trace, *path, record); !written)
+      return console.finish(console.fail(arguments.trace.string(), written.error()));
   const auto error = unreadable_pages(model->stats());
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
@@ -83,10 +106,14 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
           "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
           "(0.1 %) or teleport (to another place every hundred ticks)"),
       "glide");
+  verb.path("--trace", "OUT.csv", options->trace,
+            "Write every tick here: tick,x,y,z,latency_us,ask_us,width,side,status");
+  verb.flag("--force", options->force, "Replace the trace if it exists");
   verb.flag("--cold", options->cold,
             "Have the system forget the file first, so that every page comes from the disk");
   verb.flag("--json", options->json, "Report as one JSON object");
   verb.on_given([options, &console, &action]() -> std::string {
+    if (options->trace == "-") return "a trace needs a file: standard output has the report";
     if (options->seconds == 0 || options->rate_hz == 0)
       return "a session without ticks; give --seconds and --rate of 1 or more";
     action = [options, &console] { return run_touch(*options, console); };

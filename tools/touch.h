@@ -19,7 +19,9 @@ struct TouchArguments {
   std::uint64_t rate_hz = 1000;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   TouchMotion motion = TouchMotion::kGlide;
-  bool cold = false;  ///< the system is to forget what it has of the file in memory
+  std::filesystem::path trace;  ///< where every tick is written; empty: nowhere
+  bool force = false;           ///< an existing trace may be replaced
+  bool cold = false;            ///< the system is to forget what it has of the file in memory
   bool json = false;
 };
 

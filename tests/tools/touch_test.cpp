@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "planetree/probe.h"
 #include "tests/tools/command_fixture.h"
@@ -31,6 +34,11 @@ class Touch : public Command {
     for (std::size_t i = 1; i < path.size(); ++i)
       longest = std::max(longest, distance_between(path[i - 1], path[i]));
     return longest;
+  }
+
+  static std::string read_text(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
   }
 
   double diagonal_ = 0;
@@ -95,6 +103,20 @@ TEST_F(Touch, SaysTheSameInWords) {
   ASSERT_EQ(lines.size(), 8u);
   EXPECT_EQ(lines[0].find("tree.ptree: glide of 100 ticks at 100 Hz"), 0u);
   EXPECT_EQ(lines[3].find("answer, from due"), 0u);
+}
+
+TEST_F(Touch, WritesEveryTickWhereAsked) {
+  const std::vector<std::string> session = {"touch",  "tree.ptree", "--seconds", "1",
+                                            "--rate", "200",        "--trace",   "ticks.csv"};
+  ASSERT_EQ(run(session).status, kDone);
+  const std::vector<std::string> rows = lines_of(read_text("ticks.csv"));
+  ASSERT_EQ(rows.size(), 201u);
+  EXPECT_EQ(rows[0], "tick,x,y,z,latency_us,ask_us,width,side,status");
+  EXPECT_EQ(rows[200].find("199,"), 0u);
+  EXPECT_EQ(std::count(rows[200].begin(), rows[200].end(), ','), 8);
+  const Outcome again = run(session);
+  EXPECT_EQ(again.status, kCommandLineAtFault);
+  EXPECT_EQ(again.output, "");
 }
 
 TEST_F(Touch, RefusesASessionWithoutTicks) {
