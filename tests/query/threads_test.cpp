@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <thread>
 
 #include "planetree/probe.h"
@@ -10,7 +11,7 @@
 namespace planetree::query {
 namespace {
 
-constexpr unsigned kThreads = 8;
+constexpr unsigned kThreads = 16;
 
 // Every thread asks everything, each beginning elsewhere, and with hardly any
 // memory: pages are taken from under one thread by another all the time.
@@ -43,6 +44,46 @@ TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
       ASSERT_EQ(bits_of(answers[t][i]), expected[i]) << t << ' ' << i;
   EXPECT_GT(model.stats().pages_evicted, 500u);
   EXPECT_EQ(model.stats().degraded_answers, 0u);
+}
+
+// Those that do not wait have pages fetched for them, of which those that wait evict some.
+TEST(Threads, WaitOrDoNotWaitSideBySide) {
+  const SampleModel sample = SampleModel::masked(octree::sphere(5));
+  const std::vector<Vec3> queries = random_queries(60, -1.3, 1.3);
+  std::vector<ClosestPoint> exact;
+  {
+    const Model model = sample.open();
+    Probe probe = make_probe(model);
+    for (const Vec3& query : queries) exact.push_back(probe.closest_point(query));
+  }
+  const Model model = sample.open(sample.least_budget(kThreads), kThreads);
+  std::atomic<unsigned> waiting{kThreads / 2}, wrong{0}, degraded{0};
+  const auto wait = [&] {
+    Probe probe = make_probe(model);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      wrong += bits_of(probe.closest_point(queries[i])) != bits_of(exact[i]);
+    --waiting;
+  };
+  const auto hurry = [&] {
+    Probe probe = make_probe(model);
+    do {
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        const ClosestPoint answer = probe.closest_point(queries[i], {.wait = Wait::kNever});
+        const bool is_exact = answer.status == Status::kExact;
+        degraded += !is_exact;
+        wrong += is_exact ? bits_of(answer) != bits_of(exact[i])
+                          : answer.lower > exact[i].upper || answer.upper < exact[i].lower;
+        std::this_thread::yield();
+      }
+    } while (waiting > 0);
+  };
+  std::vector<std::thread> threads;
+  for (unsigned t = 0; t < kThreads; ++t)
+    t % 2 == 0 ? threads.emplace_back(wait) : threads.emplace_back(hurry);
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_GT(degraded, 0u);
+  EXPECT_GT(model.stats().pages_evicted, 100u);
 }
 
 TEST(Threads, ShareBatchesToo) {
