@@ -129,7 +129,6 @@ class Asking {
     if ((parts & kSide) != 0) find_side();
     if ((parts & kNormal) != 0 && answer_.triangle != kNoTriangle) find_normal();
     if (lost_) note_loss(probe_, query_, ask_, turner_);
-    if (answer_.status == Status::kDegraded) model_.count_degraded();
     probe_.last_parts() = parts;
     return answer_;
   }
@@ -199,7 +198,9 @@ class Asking {
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
-  return Asking(probe, query, ask, may_remember(ask)).run();
+  const ClosestPoint answer = Asking(probe, query, ask, may_remember(ask)).run();
+  if (answer.status == Status::kDegraded) probe.model().count_degraded();
+  return answer;
 }
 
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {

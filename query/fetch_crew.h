@@ -9,17 +9,13 @@
 #include <vector>
 
 #include "planetree/error.h"
+#include "query/fetch_worker.h"
 #include "query/model_state.h"
-#include "query/probe_state.h"
 
 namespace planetree::query {
 
-/// Threads that get for a model's probes what they miss (Wait::kNever) and what they are
-/// moving to: each asks the same question again with a probe that waits for pages, which makes
-/// all resident that the answer needs, from the root down.
-///
-/// Nobody wakes them, for that would call the system on the asking thread: they look for
-/// wishes, often while there have been some lately.
+/// A model's fetch threads, a FetchWorker each. Nobody wakes them, for that would call the
+/// system on the asking thread: they look for wishes, often while there have been some lately.
 class FetchCrew {
  public:
   /// What a thread takes besides its probe: its stack, as far as it is used.
@@ -39,13 +35,11 @@ class FetchCrew {
   }
 
  private:
-  class Worker;
-
-  explicit FetchCrew(const ModelState& model);
+  FetchCrew() = default;
+  void run(FetchWorker& worker) noexcept;
   void sleep(bool lately);
 
-  const ModelState& model_;
-  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::unique_ptr<FetchWorker>> workers_;
   std::vector<std::thread> threads_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;

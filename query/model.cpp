@@ -99,6 +99,7 @@ Pager::Limits limits_of(const OpenOptions& options) {
   limits.crew_probes = crew_probes(options);
   limits.crew_bytes = limits.crew_probes * sizeof(ProbeState) +
                       options.fetch_threads * FetchCrew::kThreadBytes +
+                      readers_of(options) * FetchWorker::kProbeBytes * options.fetch_threads +
                       readers_of(options) * sizeof(Wishes);
   limits.locking = options.locking;
   return limits;
@@ -129,7 +130,7 @@ Result<void> ModelState::fill_colours() {
                     "no memory for the map of the mask's colours; free some and try again");
 }
 
-Result<void> ModelState::start_crews(const OpenOptions& options) {
+Result<void> ModelState::start_crews(const OpenOptions& options, const ModelSeams& seams) {
   reader_count_ = readers_of(options);
   wishes_.reset(new (std::nothrow) Wishes[reader_count_]);
   if (!wishes_)
@@ -140,6 +141,7 @@ Result<void> ModelState::start_crews(const OpenOptions& options) {
     if (!crew) return crew.error();
     crew_ = std::move(*crew);
   }
+  if (!seams.starts_fetching) return {};
   auto fetchers = FetchCrew::start(*this, options.fetch_threads);
   if (!fetchers) return fetchers.error();
   fetchers_ = std::move(*fetchers);
@@ -148,25 +150,25 @@ Result<void> ModelState::start_crews(const OpenOptions& options) {
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
                                                      const OpenOptions& options,
-                                                     storage::FileCalls& calls) {
+                                                     const ModelSeams& seams) {
   if (const char* fault = octree::self_test())
     return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
                       "this build computes otherwise than it must: %s; compile without "
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
   if (const auto checked = check_counts(options); !checked) return checked.error();
-  auto pager = Pager::open(path, limits_of(options), calls);
+  auto pager = Pager::open(path, limits_of(options), seams.calls);
   if (!pager) return pager.error();
   std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
   if (const auto filled = state->fill_colours(); !filled) return filled.error();
-  if (const auto started = state->start_crews(options); !started) return started.error();
+  if (const auto started = state->start_crews(options, seams); !started) return started.error();
   return state;
 }
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
-                                     storage::FileCalls& calls) {
+                                     const ModelSeams& seams) {
   const HostArithmetic host;
-  auto state = open(path, options, calls);
+  auto state = open(path, options, seams);
   if (!state) return state.error();
   return Model(std::move(*state));
 }
@@ -180,8 +182,10 @@ Stats ModelState::stats() const noexcept {
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
-  stats.wishes_fetched = fetchers_->wishes_fetched();
-  stats.places_prefetched = fetchers_->places_prefetched();
+  if (fetchers_) {
+    stats.wishes_fetched = fetchers_->wishes_fetched();
+    stats.places_prefetched = fetchers_->places_prefetched();
+  }
   stats.frames = cache.frame_count;
   stats.arena_bytes = cache.arena_bytes;
   stats.table_bytes = cache.table_bytes + cache.reserved_bytes;

@@ -21,17 +21,24 @@ namespace planetree::query {
 class BatchCrew;
 class FetchCrew;
 
+/// Where a model can be taken apart: the system, so that disks can fail or stand still, and its
+/// threads, so that a test can do what they do, step by step.
+struct ModelSeams {
+  storage::FileCalls& calls = storage::FileCalls::real();  ///< must outlive the model
+  bool starts_fetching = true;
+};
+
 /// What stands behind a Model.
 class ModelState {
  public:
   ~ModelState();
 
-  /// calls  the system; must outlive the model.
-  static Result<std::unique_ptr<ModelState>> open(
-      const std::filesystem::path& path, const OpenOptions& options,
-      storage::FileCalls& calls = storage::FileCalls::real());
+  static Result<std::unique_ptr<ModelState>> open(const std::filesystem::path& path,
+                                                  const OpenOptions& options,
+                                                  const ModelSeams& seams = {});
   static Result<Model> open_model(const std::filesystem::path& path, const OpenOptions& options,
-                                  storage::FileCalls& calls = storage::FileCalls::real());
+                                  const ModelSeams& seams = {});
+  static const ModelState& of(const Model& model) noexcept { return *model.state_; }
 
   const ModelInfo& info() const noexcept { return info_; }
   Stats stats() const noexcept;
@@ -51,7 +58,7 @@ class ModelState {
  private:
   explicit ModelState(std::unique_ptr<Pager> pager);
   Result<void> fill_colours();
-  Result<void> start_crews(const OpenOptions& options);
+  Result<void> start_crews(const OpenOptions& options, const ModelSeams& seams);
 
   std::unique_ptr<Pager> pager_;
   ModelInfo info_;

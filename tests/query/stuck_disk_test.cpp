@@ -49,13 +49,13 @@ bool comes_true(const std::function<bool()>& is_true) {
 class StuckDisk : public testing::Test {
  protected:
   StuckDisk()
-      : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(200, -1.4, 1.4)) {}
+      : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(60, -1.4, 1.4)) {}
 
   Model open(std::uint64_t budget_bytes) {
     OpenOptions options;
     options.memory_budget_bytes = budget_bytes;
     options.max_probes = 2;
-    auto model = ModelState::open_model(sample_.path(), options, disk_);
+    auto model = ModelState::open_model(sample_.path(), options, {disk_});
     EXPECT_TRUE(model);
     return *std::move(model);
   }

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "query/model_state.h"
+#include "query/probe_state.h"
+
+namespace planetree::query {
+
+/// Gets for a model's probes what they miss (Wait::kNever) and what they are moving to: it asks
+/// the same question again with a probe that waits for pages, which makes all resident that the
+/// answer needs, from the root down. Serves every so-many-th probe. One thread.
+class FetchWorker {
+ public:
+  using Seconds = std::chrono::duration<double>;
+  using Clock = Seconds (*)();
+
+  /// Of each probe served.
+  static constexpr std::uint64_t kProbeBytes = 96;
+
+  /// first, step  serves the probes whose readers have the places first, first + step, ...
+  /// clock        tells how long pages take to come, and so how far ahead to look.
+  FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first, std::size_t step,
+              Clock clock);
+
+  enum class Did : std::uint8_t { kNothing, kServedAWish, kLookedAhead };
+  /// Does one thing that there is to do; wishes come before plans.
+  Did work() noexcept;
+
+ private:
+  struct Seen {
+    std::uint64_t wish = 0, motion = 0;
+    Motion moving;
+    unsigned places_left = 0;  // of those to look at ahead of the last motion
+  };
+  static_assert(sizeof(Seen) <= kProbeBytes);
+
+  bool serve_wish(std::size_t place) noexcept;
+  bool look_ahead(std::size_t place) noexcept;
+  void note_time(Seconds taken) noexcept;
+  Wishes& wishes(std::size_t place) const noexcept {
+    return model_.wishes(static_cast<std::uint32_t>(place));
+  }
+
+  const ModelState& model_;
+  ProbeState probe_;
+  const std::size_t first_, step_;
+  const Clock clock_;
+  std::vector<Seen> seen_;  // by place
+  std::size_t next_ = 0;    // the place served next: none is kept waiting by another
+  Seconds slowest_{0};
+};
+
+}  // namespace planetree::query

@@ -1,0 +1,150 @@
+// Real time without threads or clocks: who does what when follows from a seed.
+
+#include "query/fetch_worker.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "planetree/probe.h"
+#include "tests/query/answer_bits.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+constexpr Ask kHastily{.wait = Wait::kNever};
+
+// A clock that a test turns on: it goes a tick each time it is looked at.
+double simulated_seconds = 0;
+FetchWorker::Seconds simulated_time() { return FetchWorker::Seconds(simulated_seconds += 0.001); }
+
+/// A disk of which reads fail by chance.
+class ChancyDisk final : public storage::FileCalls {
+ public:
+  ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
+    if (opened && random() % 200 == 0) {
+      errno = EIO;
+      return -1;
+    }
+    return FileCalls::pread(descriptor, out, bytes, offset);
+  }
+  std::mt19937 random;
+  bool opened = false;
+};
+
+class Simulation : public testing::Test {
+ protected:
+  Simulation() : sample_(SampleModel::masked(octree::sphere(5))) {}
+
+  Model open(storage::FileCalls& calls, std::uint64_t more_bytes) {
+    OpenOptions options;
+    options.max_probes = 3;  // one of them for the worker
+    options.memory_budget_bytes = sample_.least_budget(3) + more_bytes;
+    auto model = ModelState::open_model(sample_.path(), options, {calls, false});
+    EXPECT_TRUE(model);
+    return *std::move(model);
+  }
+
+  std::vector<ClosestPoint> exact_answers(const std::vector<Vec3>& places) {
+    const Model model = sample_.open();
+    std::vector<ClosestPoint> answers(places.size());
+    make_probe(model).closest_points(places, answers);
+    return answers;
+  }
+
+  // All that can be seen of a run: answers, and what it cost.
+  std::vector<std::uint64_t> run(unsigned seed) {
+    simulated_seconds = 0;
+    ChancyDisk disk;
+    disk.random.seed(seed);
+    const Model model = open(disk, 6 * 4096);
+    disk.opened = true;
+    const ModelState& state = ModelState::of(model);
+    FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+    Probe probes[] = {make_probe(model), make_probe(model)};
+    const std::vector<Vec3> places = random_queries(40, -1.2, 1.2, seed);
+    const std::vector<ClosestPoint> exact = exact_answers(places);
+    std::mt19937 random(seed);
+    std::vector<std::uint64_t> seen;
+    for (int step = 0; step < 3000; ++step) {
+      Probe& probe = probes[random() % 2];
+      const std::size_t at = random() % places.size();
+      const Vec3& place = places[at];
+      switch (random() % 8) {
+        case 0:
+          probe.motion(place, {place.y, place.z, place.x});
+          break;
+        case 1:
+        case 2:
+        case 3:
+          seen.push_back(static_cast<std::uint64_t>(worker.work()));
+          break;
+        default: {
+          const ClosestPoint answer = probe.closest_point(place, kHastily);
+          EXPECT_LE(answer.lower, exact[at].upper);
+          EXPECT_GE(answer.upper, exact[at].lower);
+          for (const std::uint64_t bits : bits_of(answer)) seen.push_back(bits);
+        }
+      }
+    }
+    const Stats stats = model.stats();
+    for (const std::uint64_t count :
+         {stats.page_hits, stats.page_misses, stats.pages_read, stats.pages_evicted,
+          stats.quarantined_pages, stats.degraded_answers})
+      seen.push_back(count);
+    EXPECT_GT(stats.pages_evicted, 10u);
+    return seen;
+  }
+
+  SampleModel sample_;
+};
+
+TEST_F(Simulation, GoesTheSameWayFromTheSameSeed) {
+  for (const unsigned seed : {1u, 2u, 3u}) EXPECT_EQ(run(seed), run(seed)) << seed;
+  EXPECT_NE(run(1), run(2));
+}
+
+TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
+  const Model model = open(storage::FileCalls::real(), 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+  Probe probe = make_probe(model);
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+  for (const Vec3& place : random_queries(100, -1.2, 1.2)) {
+    if (probe.closest_point(place, kHastily).status == Status::kExact) continue;
+    EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
+    EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+    EXPECT_EQ(probe.closest_point(place, kHastily).status, Status::kExact);
+  }
+}
+
+TEST_F(Simulation, WishesComeBeforePlans) {
+  const Model model = open(storage::FileCalls::real(), 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+  Probe moving = make_probe(model), waiting = make_probe(model);
+  moving.motion({-1.2, 0, 0}, {1, 0, 0});
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
+  EXPECT_EQ(waiting.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
+  for (int left = 3; left > 0; --left) EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+}
+
+TEST_F(Simulation, NoProbeIsKeptWaitingByAnother) {
+  const Model model = open(storage::FileCalls::real(), 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+  Probe greedy = make_probe(model), modest = make_probe(model);
+  EXPECT_EQ(modest.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
+  for (const Vec3& place : random_queries(3, -1.2, 1.2, 5)) {
+    (void)greedy.closest_point(place, kHastily);
+    worker.work();
+  }
+  EXPECT_EQ(modest.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kExact);
+}
+
+}  // namespace
+}  // namespace planetree::query
