@@ -1,6 +1,7 @@
 #include "storage/file_calls.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -36,6 +37,20 @@ ssize_t FileCalls::pwrite(int descriptor, const void* in, std::size_t bytes,
 }
 
 int FileCalls::fsync(int descriptor) noexcept { return ::fsync(descriptor); }
+
+int FileCalls::fdatasync(int descriptor) noexcept { return ::fdatasync(descriptor); }
+
+int FileCalls::ftruncate(int descriptor, off_t bytes) noexcept {
+  return ::ftruncate(descriptor, bytes);
+}
+
+int FileCalls::flock(int descriptor, int operation) noexcept {
+  return ::flock(descriptor, operation);
+}
+
+int FileCalls::mkdirat(int directory, const char* path, mode_t mode) noexcept {
+  return ::mkdirat(directory, path, mode);
+}
 
 int FileCalls::linkat(int old_directory, const char* old_path, int new_directory,
                       const char* new_path, int flags) noexcept {

@@ -25,6 +25,10 @@ class FileCalls {
   virtual ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept;
   virtual ssize_t pwrite(int descriptor, const void* in, std::size_t bytes, off_t offset) noexcept;
   virtual int fsync(int descriptor) noexcept;
+  virtual int fdatasync(int descriptor) noexcept;
+  virtual int ftruncate(int descriptor, off_t bytes) noexcept;
+  virtual int flock(int descriptor, int operation) noexcept;
+  virtual int mkdirat(int directory, const char* path, mode_t mode) noexcept;
   virtual int linkat(int old_directory, const char* old_path, int new_directory,
                      const char* new_path, int flags) noexcept;
   virtual int renameat2(int old_directory, const char* old_path, int new_directory,

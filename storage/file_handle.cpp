@@ -1,6 +1,7 @@
 #include "storage/file_handle.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <utility>
@@ -76,6 +77,28 @@ Result<void> FileHandle::write_at(std::uint64_t offset, std::span<const std::byt
     offset += static_cast<std::uint64_t>(count);
   }
   return {};
+}
+
+Result<std::uint64_t> FileHandle::size_bytes() const noexcept {
+  struct stat status;
+  if (calls_->fstat(descriptor_, &status) != 0)
+    return file_error(errno, FileAction::kRead, "examine the file");
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+Result<void> FileHandle::truncate(std::uint64_t bytes) const noexcept {
+  int outcome = 0;
+  do {
+    outcome = calls_->ftruncate(descriptor_, static_cast<off_t>(bytes));
+  } while (outcome != 0 && errno == EINTR);
+  if (outcome != 0 || calls_->fsync(descriptor_) != 0)
+    return file_error(errno, FileAction::kWrite, "cut the file");
+  return {};
+}
+
+Result<void> FileHandle::sync_data() const noexcept {
+  if (calls_->fdatasync(descriptor_) == 0) return {};
+  return file_error(errno, FileAction::kWrite, "make the file durable");
 }
 
 }  // namespace planetree::storage

@@ -42,6 +42,18 @@ class FileHandle {
   Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes,
                         const char* what = "write the file") const noexcept;
 
+  /// errors  as file_error().
+  Result<std::uint64_t> size_bytes() const noexcept;
+
+  /// Makes the file so long, durably.
+  /// errors  as file_error().
+  Result<void> truncate(std::uint64_t bytes) const noexcept;
+
+  /// Makes what was written durable. After an error nothing is known of it, and a second call
+  /// would not say so.
+  /// errors  as file_error().
+  Result<void> sync_data() const noexcept;
+
  private:
   FileCalls* calls_ = nullptr;
   int descriptor_ = -1;

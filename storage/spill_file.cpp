@@ -47,7 +47,11 @@ SpillFile::SpillFile(std::filesystem::path directory, std::uint64_t held_bytes, 
       held_(std::make_unique_for_overwrite<std::byte[]>(held_bytes)),
       calls_(calls) {}
 
+SpillFile::SpillFile(FileHandle file, std::uint64_t size_bytes)
+    : calls_(file.calls()), file_(std::move(file)), next_(size_bytes) {}
+
 Result<void> SpillFile::open() {
+  if (file_.is_open()) return {};
   const char* const path = directory_.empty() ? "." : directory_.c_str();
   const FileHandle directory = FileHandle::open(calls_, AT_FDCWD, path, O_RDONLY | O_DIRECTORY);
   if (!directory.is_open()) return spill_error("open the directory for temporary files");
@@ -86,6 +90,18 @@ Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) con
   const auto read = file_.read_at(offset + held, out.subspan(held), "read a temporary file");
   if (!read) failed_ = true;
   return read;
+}
+
+Result<void> SpillFile::sync() {
+  // One at a time: the system tells of what it lost but once, and others must know.
+  const std::lock_guard lock(syncing_);
+  if (sync_failure_) return *sync_failure_;
+  const auto synced = file_.sync_data();
+  if (!synced) {
+    sync_failure_ = synced.error();
+    failed_ = true;
+  }
+  return synced;
 }
 
 }  // namespace planetree::storage

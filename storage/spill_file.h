@@ -18,7 +18,7 @@ namespace planetree::storage {
 
 /// Bytes put away while a build works: in memory as far as allowed, then on disk. The file has
 /// no name, so that the system takes it back however the process ends; it is made when it is
-/// needed.
+/// needed. Or it is one with a name, for what shall outlive the process.
 ///
 /// threads  any number may append and read what was appended.
 class SpillFile {
@@ -29,6 +29,10 @@ class SpillFile {
   SpillFile(std::filesystem::path directory, std::uint64_t held_bytes,
             FileCalls& calls = FileCalls::real());
 
+  /// file        open for reading and writing; all goes there,
+  /// size_bytes  behind its first bytes, which can be read.
+  SpillFile(FileHandle file, std::uint64_t size_bytes);
+
   /// Puts bytes away; returns where. Parts of one call are side by side.
   /// errors  kNotFound, kPermission, kNoSpace, kWriteFailed and the like.
   Result<std::uint64_t> append(std::span<const std::byte> bytes);
@@ -37,13 +41,17 @@ class SpillFile {
   /// errors  kReadFailed, kTruncated.
   Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
 
+  /// Makes what was put away durable, in a file with a name.
+  /// errors  as FileHandle::sync_data(); all later calls fail too.
+  Result<void> sync();
+
   /// Bytes put away so far.
   std::uint64_t size_bytes() const noexcept { return next_.load(std::memory_order_relaxed); }
   /// Those of them that are on disk.
   std::uint64_t disk_bytes() const noexcept {
     return size_bytes() - std::min(size_bytes(), held_bytes_);
   }
-  /// Whether putting something away, or getting it back, ever failed.
+  /// Whether putting something away, getting it back or making it durable ever failed.
   bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
 
  private:
@@ -55,7 +63,7 @@ class SpillFile {
   }
 
   const std::filesystem::path directory_;
-  const std::uint64_t held_bytes_;
+  const std::uint64_t held_bytes_ = 0;
   const std::unique_ptr<std::byte[]> held_;
   FileCalls& calls_;
   std::once_flag opened_once_;
@@ -63,6 +71,8 @@ class SpillFile {
   FileHandle file_;
   std::atomic<std::uint64_t> next_ = 0;
   mutable std::atomic<bool> failed_ = false;
+  std::mutex syncing_;
+  std::optional<Error> sync_failure_;
 };
 
 }  // namespace planetree::storage

@@ -7,11 +7,11 @@
 
 namespace planetree::storage {
 
-Result<void> SpillRuns::add(std::vector<std::byte> records) {
+Result<SpillRuns::Place> SpillRuns::add(std::vector<std::byte> records) {
   assert(record_bytes_ >= sizeof(SpillKey) && records.size() % record_bytes_ == 0);
-  if (records.empty()) return {};
+  if (records.empty()) return Place{};
   Run run;
-  run.size = records.size() / record_bytes_;
+  run.place.size = records.size() / record_bytes_;
   {
     const std::lock_guard lock(adding_);
     if (records.size() <= held_bytes_) {
@@ -22,24 +22,41 @@ Result<void> SpillRuns::add(std::vector<std::byte> records) {
   if (run.held.empty()) {
     const auto offset = file_.append(records);
     if (!offset) return offset.error();
-    run.offset = *offset;
-    run.marks = marks_of(records);
+    run.place.offset = *offset;
+    run.place.marks = marks_of(records);
   }
   const std::lock_guard lock(adding_);
-  size_ += run.size;
-  runs_.push_back(std::move(run));
-  return {};
+  size_ += run.place.size;
+  return runs_.emplace_back(std::move(run)).place;
+}
+
+void SpillRuns::add_placed(Place place) {
+  if (place.size == 0) return;
+  assert(place.offset + place.size * record_bytes_ <= file_.size_bytes());
+  assert(place.marks.size() == mark_count(place.size));
+  const std::lock_guard lock(adding_);
+  size_ += place.size;
+  runs_.push_back({std::move(place), {}});
+}
+
+std::vector<SpillRuns::Place> SpillRuns::places() const {
+  std::vector<Place> places;
+  for (const Run& run : runs_) {
+    assert(run.held.empty());
+    places.push_back(run.place);
+  }
+  return places;
 }
 
 SpillRuns::Cut SpillRuns::end() const {
   Cut cut;
-  for (const Run& run : runs_) cut.push_back(run.size);
+  for (const Run& run : runs_) cut.push_back(run.place.size);
   return cut;
 }
 
 Result<void> SpillRuns::get(const Run& run, std::uint64_t from, std::span<std::byte> out) const {
   const std::uint64_t offset = from * record_bytes_;
-  if (run.held.empty()) return file_.read(run.offset + offset, out);
+  if (run.held.empty()) return file_.read(run.place.offset + offset, out);
   if (!out.empty()) std::memcpy(out.data(), run.held.data() + offset, out.size());
   return {};
 }
@@ -47,7 +64,7 @@ Result<void> SpillRuns::get(const Run& run, std::uint64_t from, std::span<std::b
 std::vector<std::uint64_t> SpillRuns::marks_of(std::span<const std::byte> records) const {
   std::vector<std::uint64_t> marks;
   const std::size_t step = kMarkRecords * record_bytes_;
-  marks.reserve(records.size() / step + 1);
+  marks.reserve(mark_count(records.size() / record_bytes_));
   for (std::size_t at = 0; at < records.size(); at += step)
     std::memcpy(&marks.emplace_back(), records.data() + at, sizeof marks.back());
   return marks;
@@ -56,12 +73,13 @@ std::vector<std::uint64_t> SpillRuns::marks_of(std::span<const std::byte> record
 // Marks tell where the record is to within a stretch between two of them, or more where many
 // records have one first half.
 Result<std::uint64_t> SpillRuns::find(const Run& run, const SpillKey& key) const {
-  const auto [same, after] = std::equal_range(run.marks.begin(), run.marks.end(), key.first);
+  const std::vector<std::uint64_t>& marks = run.place.marks;
+  const auto [same, after] = std::equal_range(marks.begin(), marks.end(), key.first);
   const auto records_before = [&](auto mark) {
-    return static_cast<std::uint64_t>(mark - run.marks.begin()) * kMarkRecords;
+    return static_cast<std::uint64_t>(mark - marks.begin()) * kMarkRecords;
   };
-  const std::uint64_t first = same == run.marks.begin() ? 0 : records_before(same - 1);
-  const std::uint64_t last = after == run.marks.end() ? run.size : records_before(after);
+  const std::uint64_t first = same == marks.begin() ? 0 : records_before(same - 1);
+  const std::uint64_t last = after == marks.end() ? run.place.size : records_before(after);
   return find_within(run, first, last, key);
 }
 

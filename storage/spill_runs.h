@@ -29,6 +29,18 @@ class SpillRuns {
  public:
   /// Where a key is in every run.
   using Cut = std::vector<std::uint64_t>;
+  /// Where a run is that is not in memory.
+  struct Place {
+    std::uint64_t offset = 0;  ///< in the file
+    std::uint64_t size = 0;    ///< records
+    /// The first halves of the keys of every kMarkRecords-th record: with them one read finds any.
+    std::vector<std::uint64_t> marks;
+  };
+  /// A stretch that is read at once takes little longer than one record of it.
+  static constexpr std::uint64_t kMarkRecords = 256;
+  static constexpr std::uint64_t mark_count(std::uint64_t records) {
+    return (records + kMarkRecords - 1) / kMarkRecords;
+  }
 
   /// record_bytes  at least 16.
   /// held_bytes    of runs may stay in memory.
@@ -36,8 +48,12 @@ class SpillRuns {
   SpillRuns(std::size_t record_bytes, std::uint64_t held_bytes, SpillFile& file)
       : record_bytes_(record_bytes), held_bytes_(held_bytes), file_(file) {}
 
-  /// Adds a run of whole records, ascending by key.
-  Result<void> add(std::vector<std::byte> records);
+  /// Adds a run of whole records, ascending by key. Returns its place, if it is not in memory.
+  Result<Place> add(std::vector<std::byte> records);
+  /// Adds a run that is in the file.
+  void add_placed(Place place);
+  /// Of all runs, none of which is in memory.
+  std::vector<Place> places() const;
 
   std::uint64_t size() const noexcept { return size_; }
   std::size_t record_bytes() const noexcept { return record_bytes_; }
@@ -54,15 +70,9 @@ class SpillRuns {
 
  private:
   struct Run {
-    std::uint64_t size = 0;       // records
-    std::vector<std::byte> held;  // or, if empty,
-    std::uint64_t offset = 0;     // in the file
-    // Of those in the file: the first halves of the keys of every so-many-th record.
-    std::vector<std::uint64_t> marks;
+    Place place;                  // of which only the size counts where it is
+    std::vector<std::byte> held;  // in memory
   };
-
-  // A stretch that is read at once takes little longer than one record of it.
-  static constexpr std::uint64_t kMarkRecords = 256;
 
   Result<void> get(const Run& run, std::uint64_t from, std::span<std::byte> out) const;
   std::vector<std::uint64_t> marks_of(std::span<const std::byte> records) const;

@@ -42,7 +42,11 @@ std::string key_of(octree::BuildPhase phase) {
 /// Shows how far the build is, and remembers how long its phases took and where it failed.
 class BuildMeter final : public octree::BuildProgress {
  public:
-  BuildMeter(bool quiet, bool json) : progress_(quiet, json) {}
+  BuildMeter(const BuildArguments& arguments, Console& console)
+      : arguments_(arguments),
+        console_(console),
+        progress_(arguments.quiet, arguments.json),
+        failed_at_(arguments.input) {}
 
   void progress(octree::BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
     if (phase != phase_) {
@@ -54,7 +58,11 @@ class BuildMeter final : public octree::BuildProgress {
     if (done > done_) progress_.add(done - done_);
     done_ = std::max(done, done_);
   }
-  void failed_at(octree::BuildPlace place) override { place_ = place; }
+  void failed_at(octree::BuildPlace, const fs::path& path) override { failed_at_ = path; }
+  void takes_up(const std::string& what) override {
+    if (arguments_.quiet) return;
+    console_.note(fmt::format("planetree: {}: {}\n", arguments_.output.string(), what));
+  }
   void finish() {
     note_seconds();
     progress_.finish();
@@ -62,7 +70,7 @@ class BuildMeter final : public octree::BuildProgress {
 
   /// By phase, in their order.
   const nlohmann::ordered_json& seconds() const { return seconds_; }
-  octree::BuildPlace place() const { return place_; }
+  const fs::path& failed_at() const { return failed_at_; }
 
  private:
   void note_seconds() {
@@ -72,25 +80,15 @@ class BuildMeter final : public octree::BuildProgress {
     started_ = now;
   }
 
+  const BuildArguments& arguments_;
+  Console& console_;
   Progress progress_;
-  octree::BuildPlace place_ = octree::BuildPlace::kInput;
+  fs::path failed_at_;
   std::optional<octree::BuildPhase> phase_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   nlohmann::ordered_json seconds_ = nlohmann::ordered_json::object();
   std::uint64_t done_ = 0;
 };
-
-fs::path path_of(octree::BuildPlace place, const BuildArguments& arguments) {
-  switch (place) {
-    case octree::BuildPlace::kInput:
-      return arguments.input;
-    case octree::BuildPlace::kTemporary:
-      return arguments.options.spill_directory(arguments.output);
-    case octree::BuildPlace::kOutput:
-      break;
-  }
-  return arguments.output;
-}
 
 /// What a build would only find out at its end.
 Result<void> check_output(const BuildArguments& arguments) {
@@ -201,11 +199,11 @@ int run_build(const BuildArguments& arguments, Console& console) {
                         make_error(ErrorCode::kNotFound, Error::kNowhere, Error::kNowhere,
                                    "no such directory for temporary files; create it first"));
   const auto started = std::chrono::steady_clock::now();
-  BuildMeter meter(arguments.quiet, arguments.json);
+  BuildMeter meter(arguments, console);
   const auto report =
       octree::build_tree(arguments.input, arguments.output, arguments.options, meter);
   meter.finish();
-  if (!report) return console.fail(path_of(meter.place(), arguments).string(), report.error());
+  if (!report) return console.fail(meter.failed_at().string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
   warn_of_set_aside(arguments, *report, console);
@@ -243,7 +241,13 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   verb.path("--temp-dir", "DIR", arguments.options.temp_directory,
             "Where temporary files go, about 120 bytes a triangle if memory is short, or 200 with "
             "double coordinates; the output's directory by default. They have no names and vanish "
-            "with the process. A build that would find too little room does not begin");
+            "with the process, but for what --resume keeps. A build that would find too little "
+            "room does not begin");
+  verb.flag("--resume", arguments.options.resume,
+            "Keep what is done in a directory OUT.ptree.work, beside the output or in --temp-dir, "
+            "until the file is complete; go on with what an earlier build with --resume, of the "
+            "same input and options, left there when it was interrupted. The file does not "
+            "depend on it");
   verb.default_text(verb.bytes("--page-size", options->page_bytes,
                                "Bytes of a page in memory: a power of two from 4K to 256K"),
                     "64K");

@@ -35,7 +35,17 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   memory.intake_bytes = left / 4;
   memory.runs_bytes = left / 2;
   memory.pages_bytes = left / 8;
-  memory.left_over_bytes = left / 16;
+  memory.edge_bytes = left / 16;
+  memory.visitor_bytes = left / 16;
+  return memory;
+}
+
+BuildMemory BuildMemory::holding_nothing_kept() const {
+  BuildMemory memory = *this;
+  memory.intake_bytes += memory.runs_bytes;
+  memory.runs_bytes = 0;
+  memory.pages_bytes = 0;
+  memory.visitor_bytes = 0;
   return memory;
 }
 

@@ -19,12 +19,16 @@ struct BuildMemory {
   std::uint64_t intake_bytes = 0;     ///< of triangles as they are read
   std::uint64_t runs_bytes = 0;       ///< of sorted triangles
   std::uint64_t pages_bytes = 0;      ///< of pages, until they are written
-  std::uint64_t left_over_bytes = 0;  ///< of edges, and of triangles in several regions, each
+  std::uint64_t edge_bytes = 0;       ///< of edges that patches have in common
+  std::uint64_t visitor_bytes = 0;    ///< of triangles that regions have in common
 
   /// bytes    the most that the process should have; 0: a quarter of the machine's.
   /// threads  0: as many as the machine has.
   /// errors   kNoMemory: too little for one thread; says how much is needed.
   static Result<BuildMemory> share(std::uint64_t bytes, unsigned threads);
+
+  /// The same where triangles in order and pages go to disk in any case.
+  BuildMemory holding_nothing_kept() const;
 };
 
 }  // namespace planetree::octree

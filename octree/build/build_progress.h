@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <string>
 
 namespace planetree::octree {
 
 /// What a build is doing.
 enum class BuildPhase : std::uint8_t {
+  kResuming,
   kReading,
   kOrdering,
   kClosing,
@@ -18,6 +21,8 @@ enum class BuildPhase : std::uint8_t {
 /// What a person calls it, such as "matching edges".
 constexpr const char* name_of(BuildPhase phase) {
   switch (phase) {
+    case BuildPhase::kResuming:
+      return "taking up earlier work";
     case BuildPhase::kReading:
       return "reading";
     case BuildPhase::kOrdering:
@@ -46,8 +51,10 @@ class BuildProgress {
   /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
   /// the model otherwise.
   virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
-  /// Told, before an error is returned, which place that is about.
-  virtual void failed_at(BuildPlace) {}
+  /// Told, before an error is returned, which place that is about, and its path.
+  virtual void failed_at(BuildPlace, const std::filesystem::path&) {}
+  /// Told once, of a build that keeps its work, what it goes on with, or why with nothing.
+  virtual void takes_up(const std::string&) {}
 };
 
 }  // namespace planetree::octree

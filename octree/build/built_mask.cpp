@@ -8,15 +8,26 @@
 namespace planetree::octree {
 
 Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& runs,
-                              const std::function<void()>& done) {
+                              const RegionCall& done) {
   regions_.resize(regions.all().size());
   const bool alone = regions_.size() == 1;
-  auto above = build_mask(regions, runs, [&](std::size_t at, MaskTree mask) -> Result<void> {
-    const auto put = put_region_away(at, mask, {regions.all()[at].cell, !alone});
-    if (put) done();
-    return put;
-  });
+  const auto known = [this](std::size_t at) -> const RegionRoot* {
+    const auto found = known_.find(static_cast<std::uint32_t>(at));
+    return found != known_.end() ? &found->second.root : nullptr;
+  };
+  const auto take = [&](std::size_t at, const MaskTree& mask,
+                        const RegionRoot& root) -> Result<void> {
+    auto built = put_region_away(mask, {regions.all()[at].cell, !alone});
+    if (!built) return built.error();
+    built->root = root;
+    regions_[at].built = *std::move(built);
+    return done(static_cast<std::uint32_t>(at), regions_[at].built);
+  };
+  auto above = build_mask(regions, runs, known, take);
   if (!above) return above.error();
+  for (std::uint32_t at = 0; at < regions_.size(); ++at)
+    if (known(at) && regions.all()[at].touched) regions_[at].built = std::move(known_[at]);
+  count_cells();
   if (!alone) {
     above_ = *std::move(above);
     above_plan_ = plan_mask(above_, page_bytes_);
@@ -34,9 +45,8 @@ Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& ru
   return {};
 }
 
-Result<void> BuiltMask::put_region_away(std::size_t at, const MaskTree& mask,
-                                        const MaskRoot& root) {
-  Region& region = regions_[at];
+Result<BuiltRegion> BuiltMask::put_region_away(const MaskTree& mask, const MaskRoot& root) {
+  BuiltRegion region;
   const MaskPlan plan = plan_mask(mask, page_bytes_, root);
   const MaskEncoder encoder(mask, plan, 0, float64_);
   for (const PlannedMaskPage& page : plan.pages) {
@@ -45,10 +55,16 @@ Result<void> BuiltMask::put_region_away(std::size_t at, const MaskTree& mask,
     region.pages.push_back(*spilled);
   }
   if (root.apart && !plan.pages.empty()) region.family = plan.families[0];
-  const std::lock_guard lock(mutex_);
-  cell_count_ += mask.entries.size() - (root.apart ? 1 : 0);
-  levels_ = std::max(levels_, mask.levels);
-  return {};
+  region.cell_count = mask.entries.size() - (root.apart ? 1 : 0);
+  region.levels = mask.levels;
+  return region;
+}
+
+void BuiltMask::count_cells() {
+  for (const Region& region : regions_) {
+    cell_count_ += region.built.cell_count;
+    levels_ = std::max(levels_, region.built.levels);
+  }
 }
 
 // Families above have larger cells, which come first.
@@ -56,9 +72,9 @@ void BuiltMask::number_pages() {
   for (std::uint32_t i = 0; i < above_plan_.pages.size(); ++i)
     pages_.push_back({above_plan_.pages[i].octcode, kAbove, i});
   for (std::uint32_t at = 0; at < regions_.size(); ++at) {
-    regions_[at].numbers.resize(regions_[at].pages.size());
-    for (std::uint32_t i = 0; i < regions_[at].pages.size(); ++i)
-      pages_.push_back({regions_[at].pages[i].octcode, at, i});
+    regions_[at].numbers.resize(regions_[at].built.pages.size());
+    for (std::uint32_t i = 0; i < regions_[at].built.pages.size(); ++i)
+      pages_.push_back({regions_[at].built.pages[i].octcode, at, i});
   }
   std::sort(pages_.begin(), pages_.end(),
             [](const Page& a, const Page& b) { return a.octcode < b.octcode; });
@@ -76,7 +92,7 @@ void BuiltMask::link_regions() {
     const MaskEntry& entry = above_.entries[i];
     std::uint32_t& family = above_plan_.families[i];
     if (entry.kind == MaskEntry::Kind::kRegion)
-      family = link(regions_[entry.first], regions_[entry.first].family);
+      family = link(regions_[entry.first], regions_[entry.first].built.family);
     else if (entry.kind == MaskEntry::Kind::kNode && entry.grey != 0)
       family = links.make(numbers[links.page(family)], links.slot(family));
   }
@@ -91,7 +107,7 @@ Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_pag
   const Page& page = pages_[number];
   if (page.region != kAbove) {
     const Region& region = regions_[page.region];
-    auto raw = get_back(region.pages[page.place], file_, first_page + number,
+    auto raw = get_back(region.built.pages[page.place], file_, first_page + number,
                         [&](std::uint32_t below) { return link(region, below); });
     if (!raw) return raw.error();
     return FilePage{page.octcode, 0, *std::move(raw)};

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
+#include <map>
 #include <vector>
 
 #include "octree/build/mask_build.h"
@@ -15,6 +15,15 @@
 
 namespace planetree::octree {
 
+/// The mask of a region, its pages put away.
+struct BuiltRegion {
+  std::vector<SpilledPage> pages;
+  std::uint32_t family = 0;  ///< link to the root's, by the place of its page
+  std::uint64_t cell_count = 0;
+  unsigned levels = 0;
+  RegionRoot root;
+};
+
 /// The pages of a mask: those of its regions as they were put away, and those of the cells
 /// above. A mask of one region has that region's alone.
 class BuiltMask {
@@ -24,13 +33,19 @@ class BuiltMask {
   BuiltMask(std::uint32_t page_bytes, bool float64, storage::SpillFile& file)
       : page_bytes_(page_bytes), float64_(float64), file_(file) {}
 
-  /// Builds it, once.
+  /// Takes a region that was built before, its pages being in the file; before build().
+  void take_up(std::uint32_t number, BuiltRegion region) {
+    known_.insert_or_assign(number, std::move(region));
+  }
+
+  /// Given each region that triangles touch once it is built; on any thread.
+  using RegionCall = std::function<Result<void>(std::uint32_t number, const BuiltRegion& region)>;
+
+  /// Builds it, once, but for what was taken up.
   ///
-  /// done    told, on any thread, after each region that triangles touch.
-  /// errors  those of build_mask() and SpillFile; kBadArgument when links of 32 bits cannot
+  /// errors  those of build_mask(), SpillFile and `done`; kBadArgument when links of 32 bits cannot
   ///         tell so many pages apart: 2^19 of 64 KiB.
-  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs,
-                     const std::function<void()>& done);
+  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs, const RegionCall& done);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }
   std::uint64_t cell_count() const { return cell_count_; }
@@ -43,9 +58,8 @@ class BuiltMask {
  private:
   static constexpr std::uint32_t kAbove = ~std::uint32_t{0};
   struct Region {
-    std::vector<SpilledPage> pages;
-    std::vector<std::uint32_t> numbers;
-    std::uint32_t family = 0;  // link to the root's, by the place of its page
+    BuiltRegion built;
+    std::vector<std::uint32_t> numbers;  // of its pages
   };
   struct Page {
     std::uint64_t octcode = 0;
@@ -53,7 +67,8 @@ class BuiltMask {
     std::uint32_t place = 0;  // among the region's
   };
 
-  Result<void> put_region_away(std::size_t at, const MaskTree& mask, const MaskRoot& root);
+  Result<BuiltRegion> put_region_away(const MaskTree& mask, const MaskRoot& root);
+  void count_cells();
   void number_pages();
   void link_regions();
   std::uint32_t link(const Region& region, std::uint32_t link) const;
@@ -61,7 +76,7 @@ class BuiltMask {
   const std::uint32_t page_bytes_;
   const bool float64_;
   storage::SpillFile& file_;
-  std::mutex mutex_;
+  std::map<std::uint32_t, BuiltRegion> known_;
   std::vector<Region> regions_;
   MaskTree above_;
   MaskPlan above_plan_;

@@ -139,7 +139,9 @@ Result<void> EdgeCensus::add(const Triangles& patch) {
             [](const LeftOver& a, const LeftOver& b) { return a.key < b.key; });
   std::vector<std::byte> records(edges.size() * sizeof(LeftOver));
   if (!edges.empty()) std::memcpy(records.data(), edges.data(), records.size());
-  return left_over_.add(std::move(records));
+  const auto added = left_over_.add(std::move(records));
+  if (!added) return added.error();
+  return {};
 }
 
 Result<EdgeBalance> EdgeCensus::balance() {

@@ -11,22 +11,6 @@
 namespace planetree::octree {
 namespace {
 
-/// What the cells above know of a region's mask: its root.
-struct RegionRoot {
-  MaskEntry entry;
-  std::optional<SpecialCell> special;
-
-  static RegionRoot of(const MaskTree& mask, std::size_t region) {
-    RegionRoot root{mask.entries[0], {}};
-    if (root.entry.kind == MaskEntry::Kind::kSpecial) root.special = mask.specials[0];
-    if (root.entry.kind == MaskEntry::Kind::kNode) {
-      root.entry.kind = MaskEntry::Kind::kRegion;
-      root.entry.first = static_cast<std::uint32_t>(region);
-    }
-    return root;
-  }
-};
-
 /// Counts the regions' least corners, and puts their roots together.
 class MaskJoin {
  public:
@@ -104,18 +88,32 @@ class MaskJoin {
 
 }  // namespace
 
+RegionRoot RegionRoot::of(const MaskTree& mask, std::size_t region) {
+  RegionRoot root{mask.entries[0], {}};
+  if (root.entry.kind == MaskEntry::Kind::kSpecial) root.special = mask.specials[0];
+  if (root.entry.kind == MaskEntry::Kind::kNode) {
+    root.entry.kind = MaskEntry::Kind::kRegion;
+    root.entry.first = static_cast<std::uint32_t>(region);
+  }
+  return root;
+}
+
 Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs,
-                            const RegionSink& take) {
+                            const KnownRoots& known, const RegionSink& take) {
   const MaskJoin join(regions);
   std::vector<RegionRoot> roots(regions.all().size());
   const auto built = for_each_in_parallel(roots.size(), [&](std::size_t at) -> Result<void> {
     const MaskRegions::Region& region = regions.all()[at];
     if (region.divided() || !region.touched) return {};
+    if (const RegionRoot* const root = known(at)) {
+      roots[at] = *root;
+      return {};
+    }
     const auto triangles = regions.read(at, runs);
     if (!triangles) return triangles.error();
-    MaskTree mask = mask_of_region(regions.grid(), region.cell, join.winding(at), *triangles);
+    const MaskTree mask = mask_of_region(regions.grid(), region.cell, join.winding(at), *triangles);
     roots[at] = RegionRoot::of(mask, at);
-    return take(at, std::move(mask));
+    return take(at, mask, roots[at]);
   });
   if (!built) return built.error();
   return join.run(roots);

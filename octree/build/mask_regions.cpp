@@ -81,11 +81,13 @@ class MaskRegions::Visit {
     touch(0, boxed);
   }
 
-  struct Sum {
-    std::array<std::int64_t, 8> rise{};
-  };
-  const std::map<std::size_t, Sum>& sums() const { return sums_; }
-  std::int64_t winding() const { return winding_; }
+  // But for the visitors.
+  Part part() const {
+    Part part;
+    part.winding = winding_;
+    for (const auto& [at, rise] : rises_) part.rises.push_back({at, rise});
+    return part;
+  }
   std::vector<std::byte> take_visitors() {
     visitors_.sort();
     return visitors_.take_records();
@@ -112,8 +114,8 @@ class MaskRegions::Visit {
                 upper = regions_.grid_.upper(region.cell);
     if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
     if (at != own_) visitors_.add({at, key_.second}, triangle.corners);
-    Sum& sum = sums_[at];
-    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, sum.rise);
+    auto& rise = rises_[static_cast<std::uint32_t>(at)];
+    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, rise);
   }
 
   // Edges are in sides across two axes.
@@ -131,7 +133,7 @@ class MaskRegions::Visit {
   storage::SpillKey key_;
   const DownwardSegment way_out_;
   std::int64_t winding_ = 0;
-  std::map<std::size_t, Sum> sums_;
+  std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by region
   Triangles visitors_;
 };
 
@@ -148,19 +150,34 @@ void MaskRegions::Visit::add_rise(const BoxedTriangle& triangle, const GridCell&
   }
 }
 
-Result<void> MaskRegions::add(const Triangles& triangles) {
+void MaskRegions::sum_up(const Part& part) {
+  const std::lock_guard lock(mutex_);
+  winding_ += part.winding;
+  for (const Rise& rise : part.rises) {
+    Region& region = regions_[rise.region];
+    region.touched = true;
+    for (unsigned which = 0; which < 8; ++which) region.rise[which] += rise.corners[which];
+  }
+}
+
+Result<MaskRegions::Part> MaskRegions::add(const Triangles& triangles) {
   Visit visit(*this);
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     visit.add(triangles.key(i), triangles.corners(i));
-  {
-    const std::lock_guard lock(mutex_);
-    winding_ += visit.winding();
-    for (const auto& [at, sum] : visit.sums()) {
-      regions_[at].touched = true;
-      for (unsigned which = 0; which < 8; ++which) regions_[at].rise[which] += sum.rise[which];
-    }
-  }
-  return visitors_.add(visit.take_visitors());
+  const auto visitors = visitors_.add(visit.take_visitors());
+  if (!visitors) return visitors.error();
+  Part part = visit.part();
+  part.visitors = *visitors;
+  sum_up(part);
+  return part;
+}
+
+bool MaskRegions::add_placed(const Part& part) {
+  for (const Rise& rise : part.rises)
+    if (rise.region >= regions_.size() || regions_[rise.region].divided()) return false;
+  visitors_.add_placed(part.visitors);
+  sum_up(part);
+  return true;
 }
 
 Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) const {

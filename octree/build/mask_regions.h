@@ -34,6 +34,18 @@ class MaskRegions {
     bool divided() const { return first_octant != 0; }
   };
 
+  /// What a triangle, or many, add to a region's rise.
+  struct Rise {
+    std::uint32_t region = 0;
+    std::array<std::int64_t, 8> corners{};
+  };
+  /// What a part of the model adds to the regions.
+  struct Part {
+    std::int64_t winding = 0;
+    std::vector<Rise> rises;             ///< of regions it touches
+    storage::SpillRuns::Place visitors;  ///< triangles that touch other regions than their own
+  };
+
   /// lower       of the model's box, model frame.
   /// held_bytes  of triangles that touch other regions than their own may stay in memory.
   /// file        takes the rest; must outlive this.
@@ -46,8 +58,11 @@ class MaskRegions {
   /// First of all.
   Result<void> divide(const TriangleRuns& runs, std::uint64_t most = kRegionTriangles);
 
-  /// A part of the model, each triangle once.
-  Result<void> add(const Triangles& triangles);
+  /// A part of the model, each triangle once. Returns what was added.
+  Result<Part> add(const Triangles& triangles);
+  /// Adds a part whose visitors are in the file. False: it is not one of this model, nothing
+  /// was added.
+  bool add_placed(const Part& part);
 
   /// The root first, octants side by side and after the region they divide.
   const std::vector<Region>& all() const { return regions_; }
@@ -74,6 +89,7 @@ class MaskRegions {
   Result<std::array<Stretch, 8>> octants_of(std::size_t at, const Stretch& stretch,
                                             const TriangleRuns& runs) const;
   Triangles joined(const Triangles& own, const Triangles& visitors, std::size_t region) const;
+  void sum_up(const Part& part);
   std::size_t region_of_code(std::uint64_t code) const;
 
   const CellGrid grid_;

@@ -36,16 +36,19 @@ std::uint64_t put_away_bytes(const MeshSize& size, const BuildMemory& memory,
                              : beyond(bytes, beyond(held_bytes, memory.chunk_triangles * record));
 }
 
-std::uint64_t left_over_bytes(const MeshSize& size, const BuildMemory& memory) {
+std::uint64_t edge_bytes(const MeshSize& size, const BuildMemory& memory) {
   // By Euler's formula, of a surface without handles: vertices that faces do not share.
   const std::uint64_t open =
       std::min(beyond(2 * size.vertices, size.triangles), 3 * size.triangles);
-  const std::uint64_t edges =
+  const std::uint64_t bytes =
       EdgeCensus::kEdgeBytes * (open + size.triangles / kTrianglesABorderEdge);
-  const std::uint64_t visitors =
+  return bytes <= memory.edge_bytes ? 0 : bytes;
+}
+
+std::uint64_t visitor_bytes(const MeshSize& size, const BuildMemory& memory) {
+  const std::uint64_t bytes =
       Triangles::record_bytes(size.float64) * (size.triangles / kTrianglesAVisitor);
-  return (edges <= memory.left_over_bytes ? 0 : edges) +
-         (visitors <= memory.left_over_bytes ? 0 : visitors);
+  return bytes <= memory.visitor_bytes ? 0 : bytes;
 }
 
 std::uint64_t raw_page_bytes(const MeshSize& size) {
@@ -69,10 +72,12 @@ constexpr const char* kTemporaryRemedy =
 
 }  // namespace
 
-SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memory) {
+SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memory,
+                                   std::uint64_t kept_bytes, bool matched) {
   const std::uint64_t pages = raw_page_bytes(size);
-  return {put_away_bytes(size, memory, memory.runs_bytes) + left_over_bytes(size, memory) +
-              beyond(pages, memory.pages_bytes),
+  const std::uint64_t to_keep = put_away_bytes(size, memory, memory.runs_bytes) +
+                                visitor_bytes(size, memory) + beyond(pages, memory.pages_bytes);
+  return {beyond(to_keep, kept_bytes) + (matched ? 0 : edge_bytes(size, memory)),
           // Stored pages are not longer than raw ones, and a page of 4 KiB has 40 bytes in the
           // table.
           pages + pages / 64 + 2 * storage::kHeaderBytes};

@@ -23,7 +23,11 @@ struct SpaceNeed {
 
   static SpaceNeed before_reading(const MeshSize& size, const BuildMemory& memory);
   /// What is still to come once the triangles are known and put away.
-  static SpaceNeed after_reading(const MeshSize& size, const BuildMemory& memory);
+  ///
+  /// kept_bytes  of it are there, from an earlier build,
+  /// matched     which did not leave edges to be matched.
+  static SpaceNeed after_reading(const MeshSize& size, const BuildMemory& memory,
+                                 std::uint64_t kept_bytes = 0, bool matched = false);
 
   /// Holds it against the free space of both directories, or of the device they share.
   ///

@@ -19,7 +19,9 @@ Result<void> TriangleRuns::take(MeshIntake& intake, const std::function<void()>&
 
 Result<void> TriangleRuns::add(Triangles triangles) {
   triangles.sort();
-  return runs_.add(triangles.take_records());
+  const auto added = runs_.add(triangles.take_records());
+  if (!added) return added.error();
+  return {};
 }
 
 Result<Triangles> TriangleRuns::read_any_order(const Cut& from, const Cut& to) const {

@@ -14,6 +14,7 @@ namespace planetree::octree {
 class TriangleRuns {
  public:
   using Cut = storage::SpillRuns::Cut;
+  using Place = storage::SpillRuns::Place;
 
   /// held_bytes  of them may stay in memory.
   /// file        takes the others; must outlive this.
@@ -26,6 +27,13 @@ class TriangleRuns {
 
   /// Takes some triangles, in any order.
   Result<void> add(Triangles triangles);
+
+  /// Takes runs that are in the file already.
+  void add_placed(const std::vector<Place>& places) {
+    for (const Place& place : places) runs_.add_placed(place);
+  }
+  /// Where the runs are, if none was held.
+  std::vector<Place> places() const { return runs_.places(); }
 
   bool float64() const { return float64_; }
   std::uint64_t size() const { return runs_.size(); }

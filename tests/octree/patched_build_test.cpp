@@ -1,5 +1,3 @@
-// Models of many patches: what large ones are, with sizes so small that tests can look at them.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,12 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "octree/build/tree_builder.h"
 #include "storage/page_file.h"
-#include "tests/octree/sample_mask.h"
+#include "tests/octree/build_fixture.h"
 #include "tests/storage/faulty_calls.h"
-#include "tests/storage/file_image.h"
-#include "tests/storage/temporary_directory.h"
 
 namespace planetree::octree {
 namespace {
@@ -21,28 +16,12 @@ namespace {
 class Silent final : public BuildProgress {
  public:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
-  void failed_at(BuildPlace place) override { failed_at_ = place; }
+  void failed_at(BuildPlace place, const std::filesystem::path&) override { failed_at_ = place; }
   std::optional<BuildPlace> failed_at() const { return failed_at_; }
 
  private:
   std::optional<BuildPlace> failed_at_;
 };
-
-// Binary STL, whose corners are floats.
-void write_stl(const std::filesystem::path& path, const Soup& soup) {
-  std::ofstream file(path, std::ios::binary);
-  const auto put = [&file](const auto& value) {
-    file.write(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  file << std::string(80, ' ');
-  put(static_cast<std::uint32_t>(soup.size()));
-  for (const auto& triangle : soup) {
-    for (int i = 0; i < 3; ++i) put(0.0f);
-    for (const Vec3& corner : triangle)
-      for (const double value : {corner.x, corner.y, corner.z}) put(static_cast<float>(value));
-    put(std::uint16_t{0});
-  }
-}
 
 struct BuildCase {
   const char* name;
@@ -62,10 +41,8 @@ std::vector<BuildCase> build_cases() {
                    box({-1, -1, -1}, {1, 1, 1})})}};
 }
 
-class PatchedBuild : public testing::Test {
+class PatchedBuild : public SmallPatches {
  protected:
-  void write(const Soup& soup) { write_stl(mesh_, soup); }
-
   Result<BuildReport> build(const BuildMemory& memory,
                             storage::FileCalls& calls = storage::FileCalls::real(),
                             bool replace = true) {
@@ -77,18 +54,9 @@ class PatchedBuild : public testing::Test {
     failed_at_ = silent.failed_at();
     return report;
   }
-  storage::Bytes built() const { return storage::read_bytes(output_); }
 
   std::optional<BuildPlace> failed_at_;  // the last build
-  storage::TemporaryDirectory folder_;
-  storage::TemporaryDirectory meshes_;
-  std::filesystem::path mesh_ = meshes_ / "model.stl";
-  std::filesystem::path output_ = folder_ / "model.ptree";
 };
-
-constexpr BuildMemory kRoomy{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30, 1 << 30};
-constexpr BuildMemory kTight{1, 77, 65536, 0, 0, 0, 0};
-constexpr BuildMemory kBetween{3, 200, 65536, 30000, 20000, 7000, 5000};
 
 TEST_F(PatchedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
   for (const BuildCase& c : build_cases()) {

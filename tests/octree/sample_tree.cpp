@@ -114,11 +114,13 @@ MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most) {
   if (!regions.divide(*runs, most) || !regions.add(mesh)) std::abort();
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;
-  MaskTree whole = *build_mask(regions, *runs, [&](std::size_t at, MaskTree part) -> Result<void> {
-    const std::lock_guard lock(mutex);
-    parts[at] = std::move(part);
-    return {};
-  });
+  MaskTree whole = *build_mask(
+      regions, *runs, [](std::size_t) { return nullptr; },
+      [&](std::size_t at, const MaskTree& part, const RegionRoot&) -> Result<void> {
+        const std::lock_guard lock(mutex);
+        parts[at] = part;
+        return {};
+      });
   for (std::size_t i = 0; i < whole.entries.size(); ++i)
     if (whole.entries[i].kind == MaskEntry::Kind::kRegion)
       put_in(whole, i, parts.at(whole.entries[i].first));

@@ -20,7 +20,7 @@ constexpr std::uint64_t kMegabyte = 1 << 20;
 class BuildSpace : public testing::Test, public BuildProgress {
  protected:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
-  void failed_at(BuildPlace place) override { place_ = place; }
+  void failed_at(BuildPlace place, const std::filesystem::path&) override { place_ = place; }
 
   // A torus of quads, or of polygons of more corners that go round a quad several times.
   void write_torus(unsigned corners, const char* real) const {
@@ -67,10 +67,10 @@ class BuildSpace : public testing::Test, public BuildProgress {
   std::optional<BuildPlace> place_;
 };
 
-constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0};
-constexpr BuildMemory kPartHeld{1, 700, 65536, 200000, 150000, 70000, 3000};
+constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0};
+constexpr BuildMemory kPartHeld{1, 700, 65536, 200000, 150000, 70000, 3000, 3000};
 constexpr BuildMemory kAllHeld{
-    1, 700, 65536, kMegabyte << 5, kMegabyte << 5, kMegabyte << 5, kMegabyte << 5};
+    1, 700, 65536, kMegabyte << 5, kMegabyte << 5, kMegabyte << 5, kMegabyte << 5, kMegabyte << 5};
 
 TEST_F(BuildSpace, IsForeseenHoweverMuchIsHeld) {
   for (const char* real : {"float", "double"}) {

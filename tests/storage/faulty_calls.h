@@ -87,6 +87,19 @@ class FaultyCalls final : public FileCalls {
     (void)descriptor;  // no test here cuts the power, and syncing a disk takes long
     return strikes("fsync", false) ? failed(number_) : 0;
   }
+  int fdatasync(int descriptor) noexcept override {
+    (void)descriptor;
+    return strikes("fdatasync", false) ? failed(number_) : 0;
+  }
+  int ftruncate(int descriptor, off_t bytes) noexcept override {
+    return strikes("ftruncate", true) ? failed(number_) : FileCalls::ftruncate(descriptor, bytes);
+  }
+  int flock(int descriptor, int operation) noexcept override {
+    return strikes("flock", true) ? failed(number_) : FileCalls::flock(descriptor, operation);
+  }
+  int mkdirat(int directory, const char* path, mode_t mode) noexcept override {
+    return strikes("mkdirat", false) ? failed(number_) : FileCalls::mkdirat(directory, path, mode);
+  }
   int linkat(int old_directory, const char* old_path, int new_directory, const char* new_path,
              int flags) noexcept override {
     if (strikes("linkat", false)) return failed(number_);

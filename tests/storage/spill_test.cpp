@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,6 +110,40 @@ TEST(SpillFile, TakesNoDiskForWhatIsHeld) {
   EXPECT_FALSE(file.append(bytes_of(1, 1)));
 }
 
+TEST(SpillFile, GoesOnInAFileWithAName) {
+  const TemporaryDirectory directory;
+  const auto open = [&directory] {
+    return FileHandle::open(FileCalls::real(), AT_FDCWD, (directory / "spill").c_str(),
+                            O_RDWR | O_CREAT, 0600);
+  };
+  const std::vector<std::byte> first = bytes_of(100, 1), second = bytes_of(50, 2);
+  {
+    SpillFile file(open(), 0);
+    ASSERT_TRUE(file.append(first));
+    ASSERT_TRUE(file.sync());
+  }
+  SpillFile file(open(), 90);
+  const auto offset = file.append(second);
+  ASSERT_TRUE(offset);
+  EXPECT_EQ(*offset, 90u);
+  std::vector<std::byte> found(140);
+  ASSERT_TRUE(file.read(0, found));
+  EXPECT_TRUE(std::equal(first.begin(), first.begin() + 90, found.begin()));
+  EXPECT_TRUE(std::equal(second.begin(), second.end(), found.begin() + 90));
+}
+
+// The system tells of what it lost but once, to one of all who ask.
+TEST(SpillFile, IsNotDurableAfterASyncThatFailed) {
+  const TemporaryDirectory directory;
+  FaultyCalls calls;
+  SpillFile file(
+      FileHandle::open(calls, AT_FDCWD, (directory / "spill").c_str(), O_RDWR | O_CREAT, 0600), 0);
+  calls.fault = FaultyCalls::Fault::kError;
+  ASSERT_FALSE(file.sync());
+  ASSERT_EQ(calls.failed_call(), "fdatasync");
+  EXPECT_FALSE(file.sync());
+}
+
 struct Record {
   SpillKey key;
   std::uint32_t value = 0;
@@ -191,13 +226,31 @@ TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
   std::vector<Record> records(100000);
   for (std::uint64_t i = 0; i < records.size(); ++i) records[i].key = {i, i};
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(runs.add(run_of(records)));
-  for (const std::uint64_t at : {0u, 1u, 255u, 256u, 257u, 70001u, 99999u, 200000u}) {
-    calls.count = 0;
-    const auto cut = runs.cut({at, 0});
-    ASSERT_TRUE(cut);
-    EXPECT_EQ(*cut, SpillRuns::Cut(3, std::min<std::uint64_t>(at, records.size())));
-    EXPECT_LE(calls.count, 3);
+  SpillRuns again(sizeof(Record), 0, file);
+  for (SpillRuns::Place& place : runs.places()) again.add_placed(std::move(place));
+  for (const std::uint64_t at : {0u, 1u, 255u, 256u, 257u, 70001u, 99999u, 200000u})
+    for (const SpillRuns* each : {&runs, &again}) {
+      calls.count = 0;
+      const auto cut = each->cut({at, 0});
+      ASSERT_TRUE(cut);
+      EXPECT_EQ(*cut, SpillRuns::Cut(3, std::min<std::uint64_t>(at, records.size())));
+      EXPECT_LE(calls.count, 3);
+    }
+}
+
+TEST(SpillRuns, AreFoundAgainByTheirPlaces) {
+  const TemporaryDirectory directory;
+  SpillFile file(directory / ".", 0);
+  SpillRuns runs(sizeof(Record), 0, file), again(sizeof(Record), 0, file);
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const auto place = runs.add(run_of({{{i, 0}, 7, 0}, {{i, 1}, 8, 0}}));
+    ASSERT_TRUE(place);
+    EXPECT_EQ(place->size, 2u);
+    EXPECT_EQ(place->offset, 2 * i * sizeof(Record));
   }
+  for (const SpillRuns::Place& place : runs.places()) again.add_placed(place);
+  EXPECT_EQ(again.size(), 6u);
+  EXPECT_EQ(*again.read(again.begin(), again.end()), *runs.read(runs.begin(), runs.end()));
 }
 
 TEST(SpillRuns, HoldsNoMoreThanAllowed) {

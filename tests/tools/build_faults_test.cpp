@@ -89,6 +89,13 @@ TEST_F(BuildOnSmallDisk, DoesNotBeginWhatCannotEnd) {
   const Outcome with_more_memory =
       shell(on_small_disk("8M", build("model.ply -o out/new.ptree --memory 1G --temp-dir small")));
   EXPECT_EQ(with_more_memory.status, 0) << with_more_memory.output;
+  // What is kept is on disk, however much memory there is.
+  const Outcome resumable = shell(on_small_disk(
+      "6M", build("model.ply -o out/new.ptree --force --resume --memory 1G --temp-dir small") +
+                "; echo $?; ls -A small"));
+  EXPECT_TRUE(resumable.output.starts_with("planetree: small: temporary files may take "))
+      << resumable.output;
+  EXPECT_TRUE(resumable.output.ends_with("\n3\n")) << resumable.output;
 }
 
 TEST_F(BuildOnSmallDisk, LeavesNothingWhenTemporaryFilesFillIt) {
@@ -154,6 +161,17 @@ TEST_F(BuildFaults, ALimitOfFileSizesIsAnErrorOfTheFileThatMeetsIt) {
     EXPECT_EQ(names("out"), Names{});
     EXPECT_EQ(names("temporary"), Names{});
   }
+}
+
+TEST_F(BuildFaults, WorkThatCannotBeKeptIsAnErrorOfItsDirectory) {
+  ASSERT_EQ(run({"generate", "model.ply", "--triangles", "20K", "--quiet"}).status, 0);
+  fs::create_directory("out");
+  const Outcome limited =
+      shell("ulimit -f 100; " + build("model.ply -o out/new.ptree --resume --memory 1G"));
+  EXPECT_EQ(limited.status, 3);
+  EXPECT_TRUE(limited.output.starts_with("planetree: out/new.ptree.work: at byte "))
+      << limited.output;
+  EXPECT_EQ(names("out"), Names{});
 }
 
 // The page size tells whose the file is.

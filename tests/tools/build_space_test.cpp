@@ -46,11 +46,15 @@ void widen(const fs::path& from, const fs::path& to) {
 
 class FilesOnDisk : public Command {
  protected:
-  void expect_foreseen(const fs::path& mesh, const std::string& page_bytes = "64K") {
+  void expect_foreseen(const fs::path& mesh, const std::string& page_bytes = "64K",
+                       bool resume = false) {
     SCOPED_TRACE(mesh.string() + " " + page_bytes);
     const octree::SpaceNeed need = foreseen_of(mesh);
-    const Outcome built = run({"build", mesh.string(), "-o", "new.ptree", "--memory", kLeast,
-                               "--page-size", page_bytes, "--force", "--json", "--quiet"});
+    std::vector<std::string> arguments = {"build",    mesh.string(), "-o",          "new.ptree",
+                                          "--memory", kLeast,        "--page-size", page_bytes,
+                                          "--force",  "--json",      "--quiet"};
+    if (resume) arguments.emplace_back("--resume");
+    const Outcome built = run(arguments);
     ASSERT_EQ(built.status, 0) << built.errors;
     const Json report = Json::parse(built.output);
     const auto temporary = report["temporary_bytes"].get<double>();
@@ -74,6 +78,7 @@ TEST_F(FilesOnDisk, AreForeseenAndLittleMore) {
     expect_foreseen("wide.ply");
   }
   expect_foreseen("statue", "4K");
+  expect_foreseen("statue", "4K", true);
   expect_foreseen("wide.ply", "256K");
 }
 
@@ -85,14 +90,17 @@ TEST_F(FilesOnDisk, OfRealMeshesAreForeseenAndLittleMore) {
 }
 
 TEST_F(FilesOnDisk, AreReported) {
-  const auto temporary_bytes = [](const char* memory) {
-    const Outcome built = run({"build", "mesh.obj", "-o", "new.ptree", "--memory", memory,
-                               "--force", "--json", "--quiet"});
+  const auto temporary_bytes = [](const std::vector<std::string>& how) {
+    std::vector<std::string> arguments = {"build",   "mesh.obj", "-o",      "new.ptree",
+                                          "--force", "--json",   "--quiet", "--memory"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const Outcome built = run(arguments);
     return Json::parse(built.output)["temporary_bytes"].get<std::uint64_t>();
   };
-  EXPECT_EQ(temporary_bytes("8G"), 0u);
+  EXPECT_EQ(temporary_bytes({"8G"}), 0u);
+  EXPECT_GT(temporary_bytes({"8G", "--resume"}), kTriangles * (16 + 36));
   // Each triangle twice, with code, index and nine coordinates; and its page.
-  EXPECT_GT(temporary_bytes(kLeast), kTriangles * 2 * (16 + 36));
+  EXPECT_GT(temporary_bytes({kLeast}), kTriangles * 2 * (16 + 36));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <random>
@@ -18,7 +19,8 @@ class KilledBuilds {
   /// seed     of the moments.
   KilledBuilds(std::filesystem::path command, unsigned seed);
 
-  /// Generates the model and builds it once, undisturbed. What went wrong, if anything.
+  /// Generates the model and builds it undisturbed, with and without --resume. What went wrong,
+  /// if anything.
   std::string prepare(const std::string& triangles);
 
   /// Where files have no names before they are complete; elsewhere a kill may leave one.
@@ -31,15 +33,19 @@ class KilledBuilds {
     /// Between the two calls by which a file that is complete replaces another, it has a name
     /// of its own.
     bool temporary_name = false;
+    bool work = false;  ///< there is work that --resume goes on with
     std::string wrong;  ///< in words; empty if nothing is
   };
   /// Starts a build and kills it within part `which` of `parts` of the time that one takes.
   /// Every other one is to replace an old file.
-  Left strike(unsigned which, unsigned parts);
+  /// resume  it keeps its work; once killed it is built again, and must come to the same file and
+  ///         leave nothing beside it.
+  Left strike(unsigned which, unsigned parts, bool resume);
 
  private:
-  int start(bool replace) const;
-  Left look(bool replace) const;
+  int start(bool replace, bool resume) const;
+  Left look(bool replace, bool resume) const;
+  std::string go_on() const;
 
   const std::filesystem::path command_;
   std::mt19937 random_;
@@ -49,7 +55,7 @@ class KilledBuilds {
   const std::filesystem::path output_ = output_folder_ / "model.ptree";
   const storage::Bytes old_ = storage::Bytes(17, std::byte{42});
   storage::Bytes whole_;
-  std::chrono::duration<double> build_time_{};
+  std::array<std::chrono::duration<double>, 2> build_times_{};  // without and with --resume
 };
 
 }  // namespace planetree::tools

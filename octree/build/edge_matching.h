@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/build/build_progress.h"
+#include "octree/build/edge_balance.h"
+#include "octree/build/patches.h"
+#include "octree/build/triangle_runs.h"
+#include "planetree/error.h"
+#include "storage/spill_file.h"
+
+namespace planetree::octree {
+
+/// Matches the edges of a model, patch by patch, and looks for the faces of those that are open.
+///
+/// held_bytes  of edges that patches have in common may stay in memory.
+/// scratch     takes the others.
+/// errors      those of SpillFile.
+/// Uses the calling thread's TBB arena.
+Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Patch>& patches,
+                                std::uint64_t held_bytes, storage::SpillFile& scratch,
+                                BuildProgress& progress);
+
+}  // namespace planetree::octree

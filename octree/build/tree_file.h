@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "octree/build/build_options.h"
+#include "octree/build/build_progress.h"
+#include "octree/build/built_mask.h"
+#include "octree/build/edge_balance.h"
+#include "octree/build/model_frame.h"
+#include "octree/build/patch_build.h"
+#include "octree/build/patches.h"
+#include "octree/frame.h"
+#include "planetree/error.h"
+#include "storage/file_layout.h"
+#include "storage/spill_file.h"
+
+namespace planetree::octree {
+
+/// A model of which all parts are built.
+struct BuiltModel {
+  ModelFrame frame;
+  std::uint64_t vertex_records = 0;
+  BlockShape shape;
+  EdgeBalance edges;
+  PatchTree above;
+  std::vector<BuiltPatch> patches;  ///< as above.patches
+  std::optional<BuiltMask> mask;    ///< of a watertight model
+};
+
+/// Puts the parts together and writes the file, whole or not at all.
+///
+/// pages    the patches' are in it.
+/// calls    the system.
+/// return   the header as written.
+/// errors   those of PageNumbers, SpillFile and PageWriter.
+/// Uses the calling thread's TBB arena.
+Result<storage::FileHeader> write_tree(const BuiltModel& model, const storage::SpillFile& pages,
+                                       const std::filesystem::path& output,
+                                       const BuildOptions& options, storage::FileCalls& calls,
+                                       BuildProgress& progress);
+
+}  // namespace planetree::octree
