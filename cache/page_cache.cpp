@@ -208,8 +208,9 @@ void PageCache::quarantine(std::uint32_t page) noexcept {
 }
 
 bool PageCache::lock_memory() noexcept {
-  locked_ = table_memory_.lock() && frames_.lock();
-  return locked_;
+  const bool tables = table_memory_.lock(), arena = frames_.lock();
+  locked_bytes_ = (tables ? table_memory_.bytes() : 0) + (arena ? frames_.arena_bytes() : 0);
+  return tables && arena;
 }
 
 CacheStats PageCache::stats() const noexcept {
@@ -226,7 +227,7 @@ CacheStats PageCache::stats() const noexcept {
   stats.table_bytes = table_memory_.bytes();
   stats.reserved_bytes = limits_.reserved_bytes;
   stats.budget_bytes = limits_.budget_bytes;
-  stats.locked_bytes = locked_ ? stats.arena_bytes + stats.table_bytes : 0;
+  stats.locked_bytes = locked_bytes_;
   return stats;
 }
 

@@ -37,7 +37,7 @@ struct CacheStats {
   std::uint64_t table_bytes;     ///< of the page map, reader slots and the like
   std::uint64_t reserved_bytes;  ///< as asked
   std::uint64_t budget_bytes;    ///< as asked; the three above and the object fit in it
-  std::uint64_t locked_bytes;    ///< of arena and tables: both or none
+  std::uint64_t locked_bytes;    ///< of arena and tables
 };
 
 /// Decoded pages in a fixed number of frames.
@@ -124,7 +124,7 @@ class PageCache {
   Limbo limbo_;
   std::uint32_t free_count_;
   std::uint32_t pinned_count_ = 0;
-  bool locked_ = false;
+  std::uint64_t locked_bytes_ = 0;
   Counts counts_;
 };
 

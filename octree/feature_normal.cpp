@@ -146,6 +146,9 @@ FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest
     found.complete = walk_to(vertex, fan, tree, max_nodes, pages, work);
   }
   found.normal = fan.normal();
+  // Not even the nearest triangle's own page was to be had.
+  if (!found.complete && found.normal.squaredNorm() == 0)
+    found.normal = face_normal(nearest.corners).value_or(Point::Zero());
   return found;
 }
 

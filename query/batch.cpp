@@ -52,7 +52,8 @@ void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<An
                   const Ask& ask,
                   Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept) noexcept {
   assert(queries.size() == answers.size());
-  BatchCrew* const crew = probe.model().crew();
+  // Crews take locks and wait for each other.
+  BatchCrew* const crew = ask.wait == Wait::kNever ? nullptr : probe.model().crew();
   BatchOrder& order = *probe.batch_order();
   while (!queries.empty()) {
     const std::size_t count = std::min(queries.size(), BatchOrder::kMost);

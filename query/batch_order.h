@@ -32,7 +32,7 @@ class BatchOrder {
   // Of a code's bits; neighbours so near each other may be asked in any order.
   static constexpr unsigned kDropped = 3 * octree::kLevels + kIndexBits - 64;
 
-  std::array<std::uint64_t, kMost> keys_;
+  std::array<std::uint64_t, kMost> keys_{};  // so that none is touched for the first time later
 };
 
 }  // namespace planetree::query

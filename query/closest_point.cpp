@@ -1,6 +1,7 @@
 #include "query/closest_point.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -106,22 +107,23 @@ Standing side_of(ProbeState& probe, const octree::Point& point, double clear, bo
 // An ask that lost something for want of pages or work.
 void note_loss(ProbeState& probe, const Vec3& query, const Ask& ask, const PageTurner& turner) {
   if (turner.missed())
-    probe.wishes().missed.give({query, ask.max_error, ask.max_distance, ask.parts});
+    probe.wishes().missed.give({query, ask.max_error, ask.max_distance, ask.max_nodes, ask.parts});
 }
 
 // The parts of one ask, in the order in which they need each other.
 class Asking {
  public:
-  Asking(ProbeState& probe, const Vec3& query, const Ask& ask, bool remember)
+  /// stop  what the ask is given up for, if it waits for pages; may be null.
+  Asking(ProbeState& probe, const Vec3& query, const Ask& ask, const std::atomic<bool>* stop)
       : probe_(probe),
         model_(probe.model()),
         query_(query),
         ask_(with_defaults(ask)),
-        remember_(remember),
+        remember_(may_remember(ask)),
         placed_(model_.scale().in(query)),
         far_(is_far(placed_)),
         point_(within_reach(placed_, query)),
-        turner_(probe.reader(), ask.wait) {}
+        turner_(probe.reader(), ask.wait, stop) {}
 
   ClosestPoint run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
@@ -149,7 +151,8 @@ class Asking {
     nearest_ = far_ ? farthest(model_.tree(), point_)
                     : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
                                       &probe_.vicinity());
-    if (limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
+    // What stands for the farthest queries' nearest triangle is a vertex of it.
+    if (!far_ && limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
     answer_ = in_model_units(model_.scale(), nearest_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
@@ -198,7 +201,7 @@ class Asking {
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
-  const ClosestPoint answer = Asking(probe, query, ask, may_remember(ask)).run();
+  const ClosestPoint answer = Asking(probe, query, ask, nullptr).run();
   if (answer.status == Status::kDegraded) probe.model().count_degraded();
   return answer;
 }
@@ -207,14 +210,15 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   if (!makes_sense(query, ask)) return {};
   const ModelState& model = probe.model();
   const octree::Point placed = model.scale().in(query);
+  probe.last_parts() = kSide;
   if (const auto known = side_at_once(model, placed)) return {known->side, known->status};
+  const Ask limited = with_defaults(ask);
   PageTurner turner(probe.reader(), ask.wait);
   octree::TreeWork work;
   const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),
-                                    with_defaults(ask).max_nodes, turner, work);
-  probe.last_parts() = kSide;
+                                    limited.max_nodes, turner, work);
   if (standing.status == Status::kDegraded) {
-    Ask side_alone = ask;
+    Ask side_alone = limited;
     side_alone.parts = kSide;
     note_loss(probe, query, side_alone, turner);
     model.count_degraded();
@@ -222,8 +226,10 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   return {standing.side, standing.status};
 }
 
-void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  if (makes_sense(query, ask)) Asking(probe, query, ask, true).run();
+void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,
+                 const std::atomic<bool>& stop) noexcept {
+  assert(ask.wait == Wait::kForPages && !may_remember(ask));
+  if (makes_sense(query, ask)) Asking(probe, query, ask, &stop).run();
 }
 
 }  // namespace planetree::query

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "planetree/types.h"
 #include "query/probe_state.h"
 
@@ -11,8 +13,10 @@ ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask)
 /// See Probe::contains.
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
 
-/// Makes resident what the answer to this ask, of limited work, may look at: the probe goes the
-/// way that one which was near lately would go.
-void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
+/// Makes resident what the answer to this ask needs, which waits for pages and is of limited
+/// work: from the root down, for what the probe remembers says nothing of what is resident.
+/// stop  gives up before the next page that is missing, once true.
+void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,
+                 const std::atomic<bool>& stop) noexcept;
 
 }  // namespace planetree::query

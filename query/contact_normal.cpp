@@ -39,7 +39,8 @@ int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side
 bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
                    const Standing& standing, const Point& normal) {
   if (standing.side == Side::kUnknown) return false;
-  if (!standing.beside) return standing.winding < 0;
+  // Only of the nearest triangle is it known that nothing is between it and the query.
+  if (nearest.status != Status::kExact || !standing.beside) return standing.winding < 0;
   const int towards = towards_query(query, nearest, standing.side, normal);
   if (towards == 0) return standing.winding < 0;
   return (towards > 0) == (standing.winding != 0);

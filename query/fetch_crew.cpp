@@ -1,6 +1,10 @@
 #include "query/fetch_crew.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <chrono>
+#include <csignal>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -18,9 +22,19 @@ constexpr auto kLately = std::chrono::seconds(1);
 
 FetchWorker::Seconds time_now() { return Clock::now().time_since_epoch(); }
 
+// Whoever opened the model may run before all others, and handle signals.
+void become_ordinary() noexcept {
+  const sched_param parameters{};
+  ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
+  sigset_t all;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
 }  // namespace
 
 void FetchCrew::run(FetchWorker& worker) noexcept {
+  become_ordinary();
   const HostArithmetic host;
   Clock::time_point last = Clock::now() - kLately;
   while (!stopping_.load(std::memory_order_relaxed)) {
@@ -45,8 +59,8 @@ Result<std::unique_ptr<FetchCrew>> FetchCrew::start(const ModelState& model, uns
     for (unsigned i = 0; i < threads; ++i) {
       auto reader = model.claim_reader();
       if (!reader) return reader.error();
-      crew->workers_.push_back(
-          std::make_unique<FetchWorker>(model, *std::move(reader), i, threads, &time_now));
+      crew->workers_.push_back(std::make_unique<FetchWorker>(model, *std::move(reader), i, threads,
+                                                             &time_now, crew->stopping_));
     }
     for (const auto& worker : crew->workers_)
       crew->threads_.emplace_back([&crew = *crew, &worker = *worker] { crew.run(worker); });

@@ -23,7 +23,7 @@ class FetchCrew {
 
   /// errors  kNoMemory.
   static Result<std::unique_ptr<FetchCrew>> start(const ModelState& model, unsigned threads);
-  /// Waits for the pages being read.
+  /// Waits for the page being read.
   ~FetchCrew();
 
   /// Any thread; waits for nobody.

@@ -15,7 +15,6 @@ constexpr unsigned kPlacesAhead = 4;
 Ask waiting(std::uint64_t parts) {
   Ask ask;
   ask.parts = static_cast<std::uint32_t>(parts);
-  // What takes more cannot be answered in real time, however much is resident.
   ask.max_nodes = Ask::kRealTimeNodes;
   return ask;
 }
@@ -33,12 +32,13 @@ Vec3 ahead_of(const Motion& motion, FetchWorker::Seconds time) {
 }  // namespace
 
 FetchWorker::FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first,
-                         std::size_t step, Clock clock)
+                         std::size_t step, Clock clock, const std::atomic<bool>& stop)
     : model_(model),
       probe_(model, std::move(reader)),
       first_(first),
       step_(step),
       clock_(clock),
+      stop_(stop),
       seen_(model.reader_count()),
       next_(first) {}
 
@@ -61,8 +61,11 @@ bool FetchWorker::serve_wish(std::size_t place) noexcept {
   Ask ask = waiting(wish.parts);
   ask.max_error = wish.max_error;
   ask.max_distance = wish.max_distance;
+  // A probe that remembers may spend its work elsewhere than one from the root.
+  ask.max_nodes = std::clamp(static_cast<std::uint32_t>(wish.max_nodes), Ask::kRealTimeNodes,
+                             Ask::kNoLimit - 1);
   const Seconds began = clock_();
-  bring_pages(probe_, wish.point, ask);
+  bring_pages(probe_, wish.point, ask, stop_);
   note_time(clock_() - began);
   return true;
 }
@@ -75,7 +78,8 @@ bool FetchWorker::look_ahead(std::size_t place) noexcept {
   if (seen.places_left == 0) return false;
   const unsigned at = kPlacesAhead - --seen.places_left;
   const Seconds ahead = std::clamp(2 * slowest_, kLeastAhead, kMostAhead);
-  bring_pages(probe_, ahead_of(seen.moving, ahead * at / kPlacesAhead), waiting(seen.moving.parts));
+  bring_pages(probe_, ahead_of(seen.moving, ahead * at / kPlacesAhead), waiting(seen.moving.parts),
+              stop_);
   return true;
 }
 

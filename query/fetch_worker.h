@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +12,8 @@
 namespace planetree::query {
 
 /// Gets for a model's probes what they miss (Wait::kNever) and what they are moving to: it asks
-/// the same question again with a probe that waits for pages, which makes all resident that the
-/// answer needs, from the root down. Serves every so-many-th probe. One thread.
+/// the same question again with a probe that waits for pages, from the root down. Serves every
+/// so-many-th probe. One thread.
 class FetchWorker {
  public:
   using Seconds = std::chrono::duration<double>;
@@ -23,8 +24,9 @@ class FetchWorker {
 
   /// first, step  serves the probes whose readers have the places first, first + step, ...
   /// clock        tells how long pages take to come, and so how far ahead to look.
+  /// stop         ends work() early, once true; must outlive this.
   FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first, std::size_t step,
-              Clock clock);
+              Clock clock, const std::atomic<bool>& stop);
 
   enum class Did : std::uint8_t { kNothing, kServedAWish, kLookedAhead };
   /// Does one thing that there is to do; wishes come before plans.
@@ -49,6 +51,7 @@ class FetchWorker {
   ProbeState probe_;
   const std::size_t first_, step_;
   const Clock clock_;
+  const std::atomic<bool>& stop_;
   std::vector<Seen> seen_;  // by place
   std::size_t next_ = 0;    // the place served next: none is kept waiting by another
   Seconds slowest_{0};

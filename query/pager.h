@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -53,9 +54,11 @@ class Pager {
 /// first looked for, for that is an exchange with memory, and ended with this object.
 ///
 /// wait  kNever: what is not resident cannot be had, and the system is not called.
+/// stop  once true, what is not resident cannot be had any more; may be null.
 class PageTurner {
  public:
-  PageTurner(cache::Reader& reader, Wait wait) noexcept : reader_(reader), wait_(wait) {}
+  PageTurner(cache::Reader& reader, Wait wait, const std::atomic<bool>* stop = nullptr) noexcept
+      : reader_(reader), wait_(wait), stop_(stop) {}
   ~PageTurner() {
     if (reader_.inside()) reader_.leave();
   }
@@ -67,7 +70,8 @@ class PageTurner {
     if (++turns_ % kTurnsPerSection == 0) reader_.leave();
     begin();
     if (const std::byte* frame = reader_.find(number)) return frame;
-    if (wait_ == Wait::kForPages) return reader_.fetch(number);
+    if (wait_ == Wait::kForPages && !(stop_ && stop_->load(std::memory_order_relaxed)))
+      return reader_.fetch(number);
     missed_ = true;
     return nullptr;
   }
@@ -100,6 +104,7 @@ class PageTurner {
   static constexpr std::uint32_t kTurnsPerSection = 256;
   cache::Reader& reader_;
   const Wait wait_;
+  const std::atomic<bool>* const stop_;
   bool missed_ = false;
   std::uint32_t turns_ = 0;
 };

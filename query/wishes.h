@@ -13,6 +13,7 @@ struct Wish {
   Vec3 point;
   double max_error = 0;
   double max_distance = 0;
+  std::uint64_t max_nodes = 0;
   std::uint64_t parts = 0;
 };
 

@@ -26,7 +26,8 @@ struct OpenOptions {
   /// do. Nothing grows afterwards.
   std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
   /// Threads that get what asks of Wait::kNever miss, and what probes are moving to; 1 to
-  /// kMostFetchThreads. Started at open.
+  /// kMostFetchThreads. Started at open, as ordinary threads whatever the caller's is. Each
+  /// serves some of the probes; pages are read one at a time.
   unsigned fetch_threads = 1;
   /// Threads that answer a batch together (Probe::closest_points over spans), the caller's
   /// among them; 1 to kMostBatchThreads. Probes for them are claimed at open. One batch at a

@@ -39,7 +39,7 @@ class Probe {
 
   /// Which side of the surface `query` is on: exactly, however near it is. (Only
   /// coordinates below 2^-1022 of the model's size are rounded.) Of the Ask,
-  /// `max_nodes` counts. Of a model that is not watertight, the side by its
+  /// `wait` and `max_nodes` count. Of a model that is not watertight, the side by its
   /// winding number; unknown only where the work ends before that is certain to
   /// be above or below 1/2, or where it is 1/2 to some 2^-45 a triangle.
   Containment contains(Vec3 query, const Ask& ask = {}) noexcept;
@@ -50,7 +50,8 @@ class Probe {
   void motion(Vec3 position, Vec3 velocity) noexcept;
 
   /// One answer per query, the same bits as one by one, asked in an order that
-  /// turns pages seldom, by OpenOptions::batch_threads threads. The spans are
+  /// turns pages seldom, by OpenOptions::batch_threads threads. With Wait::kNever
+  /// by the caller's alone, and by what is resident then. The spans are
   /// equally long and do not overlap. More than one thread are oneTBB's, which
   /// may allocate.
   void closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,

@@ -49,7 +49,7 @@ struct Stats {
   std::uint64_t arena_bytes = 0;        ///< memory of those
   std::uint64_t table_bytes = 0;        ///< page table, page map, reader slots, colour map, scratch
   std::uint64_t budget_bytes = 0;       ///< as asked; arena and tables stay within it
-  std::uint64_t locked_bytes = 0;       ///< of arena and tables: all of them, or 0
+  std::uint64_t locked_bytes = 0;       ///< of the arena, the page map and its like
   bool header_copy_damaged = false;     ///< one of the file's two headers; copy the file anew
 };
 

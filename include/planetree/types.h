@@ -79,16 +79,18 @@ struct Ask {
 
 /// The nearest surface point to a query.
 struct ClosestPoint {
-  double distance = 0;  ///< >= 0: to `point`, the best surface point known; if no triangle was
-                        ///< reached, as far as the surface may be
-  double lower = 0;     ///< the true distance is at least this ...
-  double upper = 0;     ///< ... and at most this; lower < upper even when exact
+  /// >= 0: to `point`, the best surface point known, which may be beyond `upper` if degraded;
+  /// if no triangle was reached, as far as the surface may be.
+  double distance = 0;
+  double lower = 0;  ///< the true distance is at least this ...
+  double upper = 0;  ///< ... and at most this; lower < upper even when exact
   Side side = Side::kUnknown;
   Vec3 point;  ///< on the surface
   /// Contact normal, of length 1: the angle-weighted pseudo-normal of the face,
   /// edge or vertex that is nearest, turned to point out of the solid. Of a sheet
   /// that encloses nothing it points to the query. As the mesh is oriented where
-  /// the side is unknown; (0, 0, 1) where there is none.
+  /// the side is unknown or the triangle not proven to be the nearest; (0, 0, 1)
+  /// where there is none.
   Vec3 normal{0, 0, 1};
   /// Counted in the input's order after fan-splitting polygons, triangles set
   /// aside included; kNoTriangle when none was reached. Among equally near

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <random>
 #include <vector>
 
@@ -62,9 +65,11 @@ class Simulation : public testing::Test {
     const Model model = open(disk, 6 * 4096);
     disk.opened = true;
     const ModelState& state = ModelState::of(model);
-    FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+    FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
     Probe probes[] = {make_probe(model), make_probe(model)};
-    const std::vector<Vec3> places = random_queries(40, -1.2, 1.2, seed);
+    std::vector<Vec3> places = random_queries(40, -1.2, 1.2, seed);
+    places.push_back({1e300, 0, 0});
+    places.push_back({0, 1e30, -3});
     const std::vector<ClosestPoint> exact = exact_answers(places);
     std::mt19937 random(seed);
     std::vector<std::uint64_t> seen;
@@ -99,6 +104,7 @@ class Simulation : public testing::Test {
   }
 
   SampleModel sample_;
+  const std::atomic<bool> never_{false};
 };
 
 TEST_F(Simulation, GoesTheSameWayFromTheSameSeed) {
@@ -109,7 +115,7 @@ TEST_F(Simulation, GoesTheSameWayFromTheSameSeed) {
 TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
   Probe probe = make_probe(model);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
   for (const Vec3& place : random_queries(100, -1.2, 1.2)) {
@@ -120,10 +126,80 @@ TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
   }
 }
 
+// A worker that remembered its last answers would read nothing for the same question again.
+TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
+  const Model model = open(storage::FileCalls::real(), 6 * 4096);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  Probe other = make_probe(model);
+  const std::vector<Vec3> elsewhere = random_queries(150, -1.2, 1.2, 9);
+  const auto drive_out = [&] {
+    for (const Vec3& place : elsewhere) (void)other.closest_point(place);
+  };
+  for (const Vec3& place : random_queries(10, -1.05, 1.05, 4)) {
+    Probe probe = make_probe(model);
+    for (int round = 0; round < 3; ++round) {
+      drive_out();
+      (void)probe.closest_point(place, kHastily);
+      worker.work();
+    }
+    drive_out();
+    Status status = Status::kDegraded;
+    for (int round = 0; round < 4 && status != Status::kExact; ++round) {
+      status = probe.closest_point(place, kHastily).status;
+      worker.work();
+    }
+    EXPECT_EQ(status, Status::kExact);
+  }
+}
+
+TEST_F(Simulation, ServesWishesForMoreWorkThanIsUsual) {
+  const Model model = open(storage::FileCalls::real(), 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  Probe probe = make_probe(model);
+  // From so far away nothing is pruned: every node is visited.
+  const Vec3 far{1e30, 2e29, 0};
+  const Ask ask{.parts = kDistance, .wait = Wait::kNever, .max_nodes = 1000000};
+  EXPECT_EQ(probe.closest_point(far, ask).status, Status::kDegraded);
+  worker.work();
+  EXPECT_EQ(probe.closest_point(far, ask).status, Status::kExact);
+}
+
+TEST_F(Simulation, StopsBeforeTheNextPage) {
+  const Model model = open(storage::FileCalls::real(), 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  const std::atomic<bool> stop{true};
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, stop);
+  Probe probe = make_probe(model);
+  (void)probe.closest_point({0, 1.1, 0.3}, kHastily);
+  const std::uint64_t read = model.stats().pages_read;
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
+  EXPECT_EQ(model.stats().pages_read, read);
+}
+
+// However stale the triangle is, its normal is the mesh's, and that of a sphere points out.
+TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
+  const Model model = open(storage::FileCalls::real(), 0);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  Probe probe = make_probe(model);
+  std::size_t degraded = 0;
+  for (const Vec3& place : random_queries(600, -1.2, 1.2, 6)) {
+    const ClosestPoint answer = probe.closest_point(place, kHastily);
+    if (degraded % 3 == 0) worker.work();
+    if (answer.status != Status::kDegraded || answer.triangle == kNoTriangle) continue;
+    ++degraded;
+    const Vec3 &n = answer.normal, &p = answer.point;
+    EXPECT_GT(n.x * p.x + n.y * p.y + n.z * p.z, 0.5);
+  }
+  EXPECT_GT(degraded, 50u);
+}
+
 TEST_F(Simulation, WishesComeBeforePlans) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
   Probe moving = make_probe(model), waiting = make_probe(model);
   moving.motion({-1.2, 0, 0}, {1, 0, 0});
   EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
@@ -136,7 +212,7 @@ TEST_F(Simulation, WishesComeBeforePlans) {
 TEST_F(Simulation, NoProbeIsKeptWaitingByAnother) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
   Probe greedy = make_probe(model), modest = make_probe(model);
   EXPECT_EQ(modest.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
   for (const Vec3& place : random_queries(3, -1.2, 1.2, 5)) {
