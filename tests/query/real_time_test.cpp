@@ -2,28 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <functional>
 #include <thread>
 
 #include "planetree/probe.h"
 #include "tests/query/answer_bits.h"
+#include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
 namespace {
 
 constexpr Ask kAtOnce{.wait = Wait::kNever};
-
-// Whether something comes true: a minute is for machines that do other things meanwhile.
-bool eventually(const std::function<bool()>& is_true) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!is_true()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 class RealTime : public testing::Test {
  protected:
@@ -37,6 +26,19 @@ class RealTime : public testing::Test {
     std::vector<ClosestPoint> answers;
     for (const Vec3& query : queries_) answers.push_back(probe.closest_point(query));
     return answers;
+  }
+
+  // Asks again and again, until each of the first `count` answers is exact: then to the bit.
+  void expect_refined(Probe& probe, std::size_t count) {
+    const std::vector<ClosestPoint> exact = exact_answers();
+    for (std::size_t i = 0; i < count; ++i) {
+      ClosestPoint answer;
+      ASSERT_TRUE(eventually([&] {
+        answer = probe.closest_point(queries_[i], kAtOnce);
+        return answer.status == Status::kExact;
+      })) << i;
+      ASSERT_EQ(bits_of(answer), bits_of(exact[i])) << i;
+    }
   }
 
   SampleModel sample_;
@@ -67,32 +69,16 @@ TEST_F(RealTime, ReadsNothingItself) {
 }
 
 TEST_F(RealTime, IsRefinedToTheBitsOfAnAskThatWaits) {
-  const std::vector<ClosestPoint> exact = exact_answers();
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  for (std::size_t i = 0; i < queries_.size(); ++i) {
-    ClosestPoint answer;
-    ASSERT_TRUE(eventually([&] {
-      answer = probe.closest_point(queries_[i], kAtOnce);
-      return answer.status == Status::kExact;
-    })) << i;
-    ASSERT_EQ(bits_of(answer), bits_of(exact[i])) << i;
-  }
+  expect_refined(probe, queries_.size());
   EXPECT_GT(model.stats().wishes_fetched, 0u);
 }
 
 TEST_F(RealTime, IsRefinedWhereOneQuestionsPagesFit) {
-  const std::vector<ClosestPoint> exact = exact_answers();
   const Model model = sample_.open(sample_.least_budget() + 24 * 4096);
   Probe probe = make_probe(model);
-  for (std::size_t i = 0; i < 30; ++i) {
-    ClosestPoint answer;
-    ASSERT_TRUE(eventually([&] {
-      answer = probe.closest_point(queries_[i], kAtOnce);
-      return answer.status == Status::kExact;
-    })) << i;
-    ASSERT_EQ(bits_of(answer), bits_of(exact[i])) << i;
-  }
+  expect_refined(probe, 30);
   EXPECT_GT(model.stats().pages_evicted, 0u);
 }
 

@@ -5,12 +5,11 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <functional>
 #include <thread>
 
 #include "planetree/probe.h"
 #include "query/model_state.h"
-#include "tests/query/answer_bits.h"
+#include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -36,15 +35,6 @@ class MoodyDisk final : public storage::FileCalls {
     return FileCalls::pread(descriptor, out, bytes, offset);
   }
 };
-
-bool comes_true(const std::function<bool()>& is_true) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!is_true()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 class StuckDisk : public testing::Test {
  protected:
@@ -81,7 +71,7 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   Probe probe = make_probe(model);
   disk_.stands_still = true;
   EXPECT_GT(ask_all(probe), 0u);
-  ASSERT_TRUE(comes_true([&] { return disk_.waiting > 0; }));
+  ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
   // A page is being read now, and will be for as long as this takes.
   const std::uint64_t read = model.stats().pages_read;
   for (int round = 0; round < 3; ++round) EXPECT_GT(ask_all(probe), 0u);
@@ -89,7 +79,7 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   EXPECT_EQ(disk_.waiting, 1);
   disk_.stands_still = false;
   EXPECT_TRUE(
-      comes_true([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
+      eventually([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
 }
 
 TEST_F(StuckDisk, HoldsUpThoseThatWait) {
@@ -101,7 +91,7 @@ TEST_F(StuckDisk, HoldsUpThoseThatWait) {
     EXPECT_EQ(patient.closest_point(queries_[0]).status, Status::kExact);
     answered = true;
   });
-  ASSERT_TRUE(comes_true([&] { return disk_.waiting > 0; }));
+  ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
   EXPECT_GT(ask_all(hasty), 0u);
   EXPECT_FALSE(answered);
   disk_.stands_still = false;
@@ -113,7 +103,7 @@ TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
   const Model model = open(sample_.least_budget(2));
   Probe probe = make_probe(model);
   disk_.fails = true;
-  ASSERT_TRUE(comes_true([&] {
+  ASSERT_TRUE(eventually([&] {
     ask_all(probe);
     return model.stats().quarantined_pages > 0;
   }));
