@@ -75,6 +75,13 @@ INSTANTIATE_TEST_SUITE_P(All, MeshWithAnEnd,
                          })),
                          name_of);
 
+// With sanitizers, which are slow here, at some places.
+#ifdef NDEBUG
+constexpr std::size_t kCutStep = 1;
+#else
+constexpr std::size_t kCutStep = 11;
+#endif
+
 TEST_P(MeshWithAnEnd, IsRefusedWhereverItIsCutOff) {
   const std::string whole = GetParam().write(small_mesh(GetParam()), {});
   const auto report = build_bytes(GetParam(), whole);
@@ -82,7 +89,7 @@ TEST_P(MeshWithAnEnd, IsRefusedWhereverItIsCutOff) {
   // No text needs its last newline.
   const std::size_t least = whole.size() - (GetParam().is_text ? 1 : 0);
   EXPECT_TRUE(build_bytes(GetParam(), whole.substr(0, least)));
-  for (std::size_t size = 0; size < least; ++size)
+  for (std::size_t size = 0; size < least; size += kCutStep)
     expect_refused(GetParam(), whole.substr(0, size), std::to_string(size) + " bytes");
 }
 
