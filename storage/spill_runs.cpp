@@ -12,14 +12,15 @@ Result<SpillRuns::Place> SpillRuns::add(std::vector<std::byte> records) {
   if (records.empty()) return Place{};
   Run run;
   run.place.size = records.size() / record_bytes_;
+  bool held = false;
   {
     const std::lock_guard lock(adding_);
-    if (records.size() <= held_bytes_) {
-      held_bytes_ -= records.size();
-      run.held = std::move(records);
-    }
+    held = records.size() <= held_bytes_;
+    if (held) held_bytes_ -= records.size();
   }
-  if (run.held.empty()) {
+  if (held) {
+    run.held = std::move(records);
+  } else {
     const auto offset = file_.append(records);
     if (!offset) return offset.error();
     run.place.offset = *offset;

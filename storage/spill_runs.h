@@ -16,7 +16,8 @@ struct SpillKey {
   std::uint64_t first = 0;
   std::uint64_t second = 0;
 
-  auto operator<=>(const SpillKey&) const = default;
+  // clang-tidy takes what the compiler writes here for our 0.
+  auto operator<=>(const SpillKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Sorted runs of records of one size, in memory as far as allowed and in a SpillFile beyond.

@@ -44,9 +44,9 @@ class RecordWriter {
   void put(const Value& value) {
     fields(*this, value);
   }
-  template <int Rows, int Columns>
-  void put(const Eigen::Matrix<double, Rows, Columns>& values) {
-    put_bytes(values.data(), sizeof(double) * Rows * Columns);
+  template <int kRows, int kColumns>
+  void put(const Eigen::Matrix<double, kRows, kColumns>& values) {
+    put_bytes(values.data(), sizeof(double) * kRows * kColumns);
   }
   template <class Value, std::size_t kCount>
   void put(const std::array<Value, kCount>& values) {
@@ -102,9 +102,9 @@ class RecordReader {
   void get(Value& value) {
     fields(*this, value);
   }
-  template <int Rows, int Columns>
-  void get(Eigen::Matrix<double, Rows, Columns>& values) {
-    get_bytes(values.data(), sizeof(double) * Rows * Columns);
+  template <int kRows, int kColumns>
+  void get(Eigen::Matrix<double, kRows, kColumns>& values) {
+    get_bytes(values.data(), sizeof(double) * kRows * kColumns);
   }
   template <class Value, std::size_t kCount>
   void get(std::array<Value, kCount>& values) {

@@ -41,7 +41,7 @@ Result<BuildReport> build_bytes(const MeshFormat& format, std::string_view bytes
   BuildOptions options;
   options.threads = 1;
   Unheard progress;
-  const auto report = build_tree(folder / mesh.c_str(), folder / "mesh.ptree", options, progress);
+  auto report = build_tree(folder / mesh.c_str(), folder / "mesh.ptree", options, progress);
   if (!report) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{mesh});
   }

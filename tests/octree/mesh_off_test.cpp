@@ -45,12 +45,11 @@ TEST(OffAscii, NeedsAKeywordOrTheExtension) {
 
 TEST(OffAscii, PassesOverWhatElseAVertexHas) {
   for (const std::string keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF", "NCSTOFF"})
-    for (const std::string more : {"", " 255 0 0", " 0 0 1 255 0 0 255 0.5 0.5 # all"})
-      EXPECT_EQ(read_bytes(keyword + "\n3 1 0\n0 0 0" + more + "\n1 0 0" + more + "\n0 1 0" + more +
-                           "\n3 0 1 2\n")
-                    .log,
-                kTriangle)
-          << keyword << more;
+    for (const std::string more : {"", " 255 0 0", " 0 0 1 255 0 0 255 0.5 0.5 # all"}) {
+      std::string mesh = keyword + "\n3 1 0";
+      for (const char* vertex : {"\n0 0 0", "\n1 0 0", "\n0 1 0"}) mesh.append(vertex).append(more);
+      EXPECT_EQ(read_bytes(mesh + "\n3 0 1 2\n").log, kTriangle) << keyword << more;
+    }
 }
 
 TEST(OffAscii, PassesOverColoursOfFaces) {
@@ -120,7 +119,7 @@ TEST(OffAscii, RefusesHeadersWithoutCounts) {
   expect_refused("OFF", "line 2: the file ends in front of its counts");
   expect_refused("OFF\n# 3 1 0\n", "line 3: the file ends in front of its counts");
   for (const std::string counts : {"3", "3 x 0", "3 1.5 0", "-3 1 0", "3 -1 0", "3 1 x", "3 1 0 0"})
-    expect_refused("OFF\n" + counts + "\n" + kBody,
+    expect_refused(std::string("OFF\n").append(counts).append("\n").append(kBody),
                    "line 2: '" + counts + "' is not the numbers of vertices, faces and edges");
   expect_refused("offer\n3 1 0\n", "line 1: 'offer' is not the numbers of vertices");
 }
@@ -175,7 +174,7 @@ Bytes binary_off(const std::string& head, std::int32_t face_count, int more_numb
   return bytes;
 }
 
-using i32 = std::int32_t;
+using Int32 = std::int32_t;
 
 TEST(OffBinary, ReadsEveryKeyword) {
   const std::pair<std::string, int> keywords[] = {{"OFF", 0},   {"COFF", 4},  {"NOFF", 3},
@@ -183,8 +182,9 @@ TEST(OffBinary, ReadsEveryKeyword) {
   for (const auto& [keyword, more_numbers] : keywords) {
     for (const std::string end : {" BINARY\n", " BINARY # big-endian\n", "\tBINARY\r\n"}) {
       Bytes bytes = binary_off(keyword + end, 2, more_numbers);
-      bytes.put(i32{3}, i32{0}, i32{1}, i32{2}, i32{0});
-      bytes.put(i32{4}, i32{2}, i32{1}, i32{0}, i32{1}, i32{4}, 1.0F, 0.5F, 0.25F, 1.0F);
+      bytes.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{0});
+      bytes.put(Int32{4}, Int32{2}, Int32{1}, Int32{0}, Int32{1}, Int32{4}, 1.0F, 0.5F, 0.25F,
+                1.0F);
       const Reading reading = read_bytes(bytes.str());
       EXPECT_EQ(reading.error, "");
       EXPECT_EQ(reading.log,
@@ -200,10 +200,10 @@ TEST(OffBinary, ReadsEveryKeyword) {
 
 TEST(OffBinary, SetsBadRecordsAside) {
   Bytes bytes = binary_off("OFF BINARY\n", 4);
-  bytes.put(i32{3}, i32{0}, i32{1}, i32{3}, i32{0});
-  bytes.put(i32{3}, i32{0}, i32{1}, std::numeric_limits<i32>::min(), i32{0});
-  bytes.put(i32{1}, i32{0}, i32{1}, 0.5F);
-  bytes.put(i32{3}, i32{2}, i32{1}, i32{0}, i32{0});
+  bytes.put(Int32{3}, Int32{0}, Int32{1}, Int32{3}, Int32{0});
+  bytes.put(Int32{3}, Int32{0}, Int32{1}, std::numeric_limits<Int32>::min(), Int32{0});
+  bytes.put(Int32{1}, Int32{0}, Int32{1}, 0.5F);
+  bytes.put(Int32{3}, Int32{2}, Int32{1}, Int32{0}, Int32{0});
   EXPECT_EQ(read_bytes(bytes.str()).log,
             "0+1 aside: face 0: vertex index 3 is out of range, the file has 3 vertices\n"
             "1+1 aside: face 1: vertex index -2147483648 is out of range, the file has 3 vertices\n"
@@ -213,13 +213,13 @@ TEST(OffBinary, SetsBadRecordsAside) {
 
 TEST(OffBinary, RefusesStructuralDamage) {
   Bytes whole = binary_off("OFF BINARY\n", 1);
-  whole.put(i32{3}, i32{0}, i32{1}, i32{2}, i32{0});
+  whole.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{0});
   ASSERT_TRUE(read_bytes(whole.str()).summary);
   expect_refused(whole.str() + "more", "byte 79: 4 bytes follow the last record");
   expect_refused("OFF BINARY 3 1 0\n" + kBody, "line 1: text follows 'BINARY'");
   expect_refused("OFF BINARY\n" + std::string(11, '\0'), "the file ends in front of its counts");
-  const auto with_counts = [](i32 vertices, i32 faces) {
-    return Bytes(std::endian::big).text("OFF BINARY\n").put(vertices, faces, i32{0}).str();
+  const auto with_counts = [](Int32 vertices, Int32 faces) {
+    return Bytes(std::endian::big).text("OFF BINARY\n").put(vertices, faces, Int32{0}).str();
   };
   expect_refused(with_counts(-1, 1), "line 2: a count of -1; copy or export the OFF again");
   expect_refused(with_counts(0, -2147483647 - 1), "line 2: a count of -2147483648");
@@ -229,10 +229,10 @@ TEST(OffBinary, RefusesStructuralDamage) {
   expect_refused(with_counts(0, 2147483647),
                  "byte 23: 2147483647 records 'face' of 8 bytes or more do not fit in the 0 left");
   Bytes negative = binary_off("OFF BINARY\n", 1);
-  negative.put(i32{-3}, i32{0}, i32{1}, i32{2}, i32{0});
+  negative.put(Int32{-3}, Int32{0}, Int32{1}, Int32{2}, Int32{0});
   expect_refused(negative.str(), "record 0 of 1 'face' has a bad list length");
   Bytes colours = binary_off("OFF BINARY\n", 1);
-  colours.put(i32{3}, i32{0}, i32{1}, i32{2}, i32{2147483647});
+  colours.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{2147483647});
   expect_refused(colours.str(), "record 0 of 1 'face' has a bad list length or is cut off");
 }
 

@@ -97,18 +97,18 @@ TEST(SparseMesh, SetsAsideAPlyFaceOfFourBillionCorners) {
 }
 
 TEST(SparseMesh, ReachesTheLastVerticesOfABinaryOff) {
-  using i32 = std::int32_t;
-  constexpr i32 kVertexCount = 2147483647;
-  constexpr i32 kIndices[] = {2147483646, 1500000000, 357913942};
+  using Int32 = std::int32_t;
+  constexpr Int32 kVertexCount = 2147483647;
+  constexpr Int32 kIndices[] = {2147483646, 1500000000, 357913942};
   Bytes head(std::endian::big), faces(std::endian::big);
-  head.text("OFF BINARY\n").put(kVertexCount, i32{2}, i32{0});
-  faces.put(i32{3}, kIndices[0], kIndices[1], kIndices[2], i32{0});
-  faces.put(i32{3}, kIndices[0], kIndices[1], kVertexCount, i32{0});
+  head.text("OFF BINARY\n").put(kVertexCount, Int32{2}, Int32{0});
+  faces.put(Int32{3}, kIndices[0], kIndices[1], kIndices[2], Int32{0});
+  faces.put(Int32{3}, kIndices[0], kIndices[1], kVertexCount, Int32{0});
   const std::uint64_t faces_begin = head.str().size() + std::uint64_t{12} * kVertexCount;
   SparseFile file(faces_begin + faces.str().size());
   file.write(0, head.str());
   float x = 1;
-  for (const i32 index : kIndices) {
+  for (const Int32 index : kIndices) {
     file.write(head.str().size() + std::uint64_t{12} * static_cast<std::uint64_t>(index),
                Bytes(std::endian::big).put(x, 10 * x, 100 * x).str());
     ++x;

@@ -187,9 +187,10 @@ TEST_F(BuildFaults, OfTwoBuildsOfOneFileOneWins) {
     for (int round = 0; round < 3; ++round) {
       fs::remove("out/new.ptree");
       const std::string one = build("model.ply -o out/new.ptree" + force);
-      const Outcome both =
-          shell("{ " + one + " --page-size 4K >4K.txt 2>&1; echo $? >4K.status; } & " + one +
-                " --page-size 64K >64K.txt 2>&1; echo $? >64K.status; wait");
+      std::string two = "{ " + one;
+      two += " --page-size 4K >4K.txt 2>&1; echo $? >4K.status; } & " + one;
+      two += " --page-size 64K >64K.txt 2>&1; echo $? >64K.status; wait";
+      const Outcome both = shell(two);
       const std::string small_status = text_of("4K.status"), large_status = text_of("64K.status");
       const auto found = storage::read_bytes("out/new.ptree");
       EXPECT_EQ(names("out"), Names{"new.ptree"});

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,7 +55,8 @@ inline void build_sample(const std::filesystem::path& mesh, const std::filesyste
 /// The raw bytes of one page, changed stream by stream.
 class RawPage {
  public:
-  RawPage(std::vector<std::byte> bytes, const octree::BlockShape& shape) : bytes_(bytes) {
+  RawPage(std::vector<std::byte> bytes, const octree::BlockShape& shape)
+      : bytes_(std::move(bytes)) {
     octree::RawStreams streams;
     EXPECT_EQ(streams.cut(bytes_, shape), nullptr);
     rows_ = stream_rows(streams, shape);
