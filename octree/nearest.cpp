@@ -244,7 +244,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
     descent.run_from(*vicinity);
     NearestAnswer answer = answer_of(descent);
     if (answer.status == Status::kExact) vicinity->note(query, answer.distance);
-    if (answer.status == Status::kExact || limits.from_last) return answer;
+    if (answer.status == Status::kExact || limits.known) return answer;
     // Lost pages, or nothing so near as asked: told from the root, as ever.
     vicinity->forget();
   }
@@ -272,7 +272,7 @@ NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLi
   assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
   // Limited work and errors depend on the way that is taken.
   const bool any_way =
-      limits.from_last ||
+      limits.known ||
       (limits.max_error == 0 && limits.max_nodes == std::numeric_limits<std::uint32_t>::max());
   return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
                                                  any_way ? vicinity : nullptr);

@@ -34,11 +34,9 @@ struct NearestLimits {
   double max_error = 0;
   double max_distance = std::numeric_limits<double>::infinity();
   std::uint32_t max_nodes = std::numeric_limits<std::uint32_t>::max();
-  /// Whether limited work, too, may start from what the last query left. Answers that are not
-  /// exact then depend on the queries before.
-  bool from_last = false;
   /// One with a triangle of this tree, to fall back upon where pages are missing: its
-  /// triangle, not its distance, counts. May be null.
+  /// triangle, not its distance, counts. Limited work, too, may then start from what the last
+  /// query left, so that answers that are not exact depend on the queries before. May be null.
   const NearestAnswer* known = nullptr;
 };
 

@@ -146,7 +146,6 @@ class Asking {
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
-    limits.from_last = remember_ && ask_.max_nodes != Ask::kNoLimit;
     if (ask_.wait == Wait::kNever) limits.known = &probe_.last_nearest();
     nearest_ = far_ ? farthest(model_.tree(), point_)
                     : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,

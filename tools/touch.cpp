@@ -86,9 +86,13 @@ int run_touch(const TouchArguments& arguments, Console& console) {
 }
 
 void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
-  static const std::map<std::string, TouchMotion> motions = {{"glide", TouchMotion::kGlide},
-                                                             {"scratch", TouchMotion::kScratch},
-                                                             {"teleport", TouchMotion::kTeleport}};
+  static const std::map<std::string, TouchMotion> motions = [] {
+    std::map<std::string, TouchMotion> named;
+    for (const TouchMotion motion : kAllTouchMotions) named.emplace(name_of(motion), motion);
+    return named;
+  }();
+  std::vector<std::string> names;
+  for (const auto& [name, motion] : motions) names.push_back(name);
   const auto options = std::make_shared<TouchArguments>();
   VerbOptions verb(app, "touch",
                    "Hold a simulated haptic session: how late are its answers, how certain");
@@ -101,7 +105,7 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
                     "256M");
   verb.default_text(
       verb.word(
-          "--path", {"glide", "scratch", "teleport"},
+          "--path", names,
           [options](const std::string& name) { options->motion = motions.at(name); },
           "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
           "(0.1 %) or teleport (to another place every hundred ticks)"),

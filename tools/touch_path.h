@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,6 +17,16 @@ enum class TouchMotion : std::uint8_t {
   kScratch,   ///< the same, 0.1 %
   kTeleport,  ///< to another place at the surface every hundred ticks, and stays there
 };
+
+/// As the command line has it.
+constexpr const char* name_of(TouchMotion motion) {
+  return motion == TouchMotion::kGlide     ? "glide"
+         : motion == TouchMotion::kScratch ? "scratch"
+                                           : "teleport";
+}
+
+inline constexpr std::array<TouchMotion, 3> kAllTouchMotions = {
+    TouchMotion::kGlide, TouchMotion::kScratch, TouchMotion::kTeleport};
 
 /// Where the tip is at each tick: the same for the same model, motion and count. Asks the probe,
 /// which waits for pages.

@@ -74,12 +74,6 @@ std::vector<std::uint32_t> refine_ticks(const TouchRecord& record) {
   return runs;
 }
 
-const char* name_of(TouchMotion motion) {
-  return motion == TouchMotion::kGlide     ? "glide"
-         : motion == TouchMotion::kScratch ? "scratch"
-                                           : "teleport";
-}
-
 nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRecord& record,
                                  const Model& model) {
   const Stats stats = model.stats();

@@ -64,16 +64,14 @@ int run(const std::string& file, std::size_t asks) {
   auto probe = Probe::create(*model);
   const std::uint64_t whole = model->stats().arena_bytes + model->stats().table_bytes;
   std::size_t wrong = 0;
-  for (const auto& [motion, name] : {std::pair{TouchMotion::kGlide, "glide"},
-                                     {TouchMotion::kScratch, "scratch"},
-                                     {TouchMotion::kTeleport, "teleport"}}) {
+  for (const TouchMotion motion : tools::kAllTouchMotions) {
     const std::vector<Vec3> path = tools::touch_path(*model, *probe, motion, asks / 12);
     std::vector<ClosestPoint> exact(path.size());
     probe->closest_points(path, exact);
     for (const unsigned percent : {5u, 10u, 25u, 50u}) {
       const Count count = check(file, whole * percent / 100, path, exact);
-      std::printf("%-9s %3u %% of memory: %zu asks, %zu degraded, %zu wrong\n", name, percent,
-                  count.asked, count.degraded, count.wrong);
+      std::printf("%-9s %3u %% of memory: %zu asks, %zu degraded, %zu wrong\n", name_of(motion),
+                  percent, count.asked, count.degraded, count.wrong);
       wrong += count.wrong;
     }
   }
