@@ -31,14 +31,18 @@ class TaggedPages {
     return true;
   }
 
-  /// The FillPage; `context` is a TaggedPages.
-  static Result<void> fill(void* context, std::uint32_t page, std::span<std::byte> frame) {
-    auto& pages = *static_cast<TaggedPages*>(context);
-    pages.fill_calls_.fetch_add(1, std::memory_order_relaxed);
+  static void write(std::span<std::byte> frame, std::uint32_t page) noexcept {
     for (std::size_t i = 0; i < frame.size() / sizeof(std::uint64_t); ++i) {
       const std::uint64_t value = word(page, i);
       std::memcpy(frame.data() + i * sizeof value, &value, sizeof value);
     }
+  }
+
+  /// The FillPage; `context` is a TaggedPages.
+  static Result<void> fill(void* context, std::uint32_t page, std::span<std::byte> frame) {
+    auto& pages = *static_cast<TaggedPages*>(context);
+    pages.fill_calls_.fetch_add(1, std::memory_order_relaxed);
+    write(frame, page);
     // Fails after writing, as a page does that turns out wrong when decoded.
     if (pages.unreadable_.contains(page)) {
       return make_error(ErrorCode::kDamaged, page, Error::kNowhere, "page %u is damaged", page);

@@ -1,0 +1,108 @@
+// Readers and a writer of the cache at full speed: is every word of the page asked for?
+// usage: check_threads [ASKS INSTALLS]
+//        check_threads --weakened NAME
+//
+// The first has the protocol's own classes do 10 million asks against a million installs at
+// least, and then a whole PageCache; exit status 1 if a word is wrong. Built with a thread
+// sanitizer, a data race ends it with status 66. The second runs the classes with one order
+// weakened, or one mistake of the writer's, until something is wrong: what it does not find by
+// then, it does not see on this processor. --list names those.
+
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "tests/cache/protocol_stress.h"
+
+namespace planetree::cache {
+namespace {
+
+template <ProtocolStep kStep, std::memory_order kOrder>
+struct WeakenedAtomics : StdAtomics {
+  static constexpr std::memory_order order(ProtocolStep step) noexcept {
+    return step == kStep ? kOrder : order_of(step);
+  }
+};
+
+using Stress = std::function<StressCount(const StressGoal&)>;
+
+template <ProtocolStep kStep, std::memory_order kOrder>
+Stress weakened() {
+  return
+      [](const StressGoal& goal) { return stress_protocol<WeakenedAtomics<kStep, kOrder>>(goal); };
+}
+
+Stress mistaken(WriterMistake mistake) {
+  return [mistake](const StressGoal& goal) { return stress_protocol(goal, mistake); };
+}
+
+const std::map<std::string, Stress>& wrong_ways() {
+  static const std::map<std::string, Stress> all = {
+      {"R1Release", weakened<ProtocolStep::kEnter, std::memory_order_release>()},
+      {"R1Relaxed", weakened<ProtocolStep::kEnter, std::memory_order_relaxed>()},
+      {"R2Acquire", weakened<ProtocolStep::kFind, std::memory_order_acquire>()},
+      {"R2Relaxed", weakened<ProtocolStep::kFind, std::memory_order_relaxed>()},
+      {"R5Relaxed", weakened<ProtocolStep::kLeave, std::memory_order_relaxed>()},
+      {"E2Release", weakened<ProtocolStep::kWithdraw, std::memory_order_release>()},
+      {"E2Relaxed", weakened<ProtocolStep::kWithdraw, std::memory_order_relaxed>()},
+      {"E3Acquire", weakened<ProtocolStep::kSeeOpen, std::memory_order_acquire>()},
+      {"E3Relaxed", weakened<ProtocolStep::kSeeOpen, std::memory_order_relaxed>()},
+      {"E5Relaxed", weakened<ProtocolStep::kSeeOver, std::memory_order_relaxed>()},
+      {"I7Relaxed", weakened<ProtocolStep::kPublish, std::memory_order_relaxed>()},
+      {"ReusesAtOnce", mistaken(WriterMistake::kReusesAtOnce)},
+      {"ForgetsAReader", mistaken(WriterMistake::kForgetsAReader)},
+      {"NotesTooEarly", mistaken(WriterMistake::kNotesTooEarly)}};
+  return all;
+}
+
+// Whether no word was wrong.
+bool report(const char* what, const StressCount& count) {
+  std::printf("%s: %llu asks found %llu pages, %llu installs, %llu wrong\n", what,
+              static_cast<unsigned long long>(count.asks),
+              static_cast<unsigned long long>(count.found),
+              static_cast<unsigned long long>(count.installs),
+              static_cast<unsigned long long>(count.wrong));
+  return count.wrong == 0;
+}
+
+int run_wrong_way(const std::string& name) {
+  const auto found = wrong_ways().find(name);
+  if (found == wrong_ways().end()) return 2;
+  constexpr std::uint64_t kAsks = 20'000'000, kInstalls = 2'000'000;
+  const StressGoal goal{.asks = kAsks, .installs = kInstalls, .until_wrong = true};
+  return report(name.c_str(), found->second(goal)) ? 0 : 1;
+}
+
+int run(std::uint64_t asks, std::uint64_t installs) {
+  bool right = true;
+  for (const std::uint32_t readers : {1u, 2u, 4u}) {
+    const StressGoal goal{.readers = readers, .asks = asks, .installs = installs};
+    const std::string what = "protocol, " + std::to_string(readers) + " readers";
+    right &= report(what.c_str(), stress_protocol(goal));
+  }
+  // The thread that fetches sleeps where a reader stands still inside a section: each wants a
+  // processor.
+  const StressGoal goal{.readers = 1, .asks = asks, .installs = installs};
+  right &= report("page cache, 1 reader", stress_page_cache(goal));
+  return right ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace planetree::cache
+
+int main(int argc, char** argv) {
+  using namespace planetree::cache;
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (argc == 2 && word == "--list") {
+    for (const auto& [name, stress] : wrong_ways()) std::printf("%s\n", name.c_str());
+    return 0;
+  }
+  if (argc == 3 && word == "--weakened") return run_wrong_way(argv[2]);
+  if (argc == 1) return run(10'000'000, 1'000'000);
+  if (argc == 3)
+    return run(std::strtoull(argv[1], nullptr, 10), std::strtoull(argv[2], nullptr, 10));
+  std::fprintf(stderr, "usage: check_threads [ASKS INSTALLS | --weakened NAME | --list]\n");
+  return 2;
+}

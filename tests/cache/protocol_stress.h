@@ -1,0 +1,182 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "cache/page_cache.h"
+#include "cache/protocol_step.h"
+#include "tests/cache/stressed_cache.h"
+#include "tests/cache/tagged_pages.h"
+
+/// Readers and a writer at full speed over real threads, where the explorer has small programs:
+/// every word that a reader reads must be of the page it asked for. What a thread sanitizer says
+/// of the same run counts as well.
+namespace planetree::cache {
+
+struct StressGoal {
+  std::uint32_t readers = 2;
+  std::uint64_t asks = 0;      ///< of all readers together, at least
+  std::uint64_t installs = 0;  ///< at least
+  /// Ends at the first wrong word, for runs that are to have one.
+  bool until_wrong = false;
+};
+
+/// What a run came to.
+struct StressCount {
+  std::uint64_t asks = 0;   ///< sections, of up to kLookups pages
+  std::uint64_t found = 0;  ///< pages, each of which was read again at the section's end
+  std::uint64_t wrong = 0;  ///< pages with a word of another page or of none
+  std::uint64_t installs = 0;
+};
+
+/// How far a run is. Relaxed: it must not order what the protocol has to.
+class StressProgress {
+ public:
+  explicit StressProgress(const StressGoal& goal) : goal_(goal) {}
+
+  bool is_over() const noexcept {
+    if (goal_.until_wrong && wrong_.load(std::memory_order_relaxed) > 0) return true;
+    return asks_.load(std::memory_order_relaxed) >= goal_.asks &&
+           installs_.load(std::memory_order_relaxed) >= goal_.installs;
+  }
+  void count_asks(std::uint64_t asks, bool wrong) noexcept {
+    asks_.fetch_add(asks, std::memory_order_relaxed);
+    if (wrong) wrong_.store(1, std::memory_order_relaxed);
+  }
+  void count_installs(std::uint64_t installs) noexcept {
+    installs_.fetch_add(installs, std::memory_order_relaxed);
+  }
+
+ private:
+  const StressGoal goal_;
+  std::atomic<std::uint64_t> asks_{0}, installs_{0}, wrong_{0};
+};
+
+/// One reader's part.
+template <class Reader>
+class StressReading {
+ public:
+  StressReading(Reader& reader, std::uint32_t page_count, std::uint32_t frame_bytes,
+                std::uint64_t seed)
+      : reader_(reader), page_count_(page_count), frame_bytes_(frame_bytes), numbers_(seed) {}
+
+  StressCount run(StressProgress& progress) {
+    constexpr std::uint32_t kAsksAtOnce = 256;
+    while (!progress.is_over()) {
+      for (std::uint32_t i = 0; i < kAsksAtOnce; ++i) ask();
+      count_.asks += kAsksAtOnce;
+      progress.count_asks(kAsksAtOnce, count_.wrong > 0);
+      // Be seen outside a section too, on few cores.
+      if (numbers_.below(4) == 0) std::this_thread::yield();
+    }
+    return count_;
+  }
+
+ private:
+  static constexpr std::uint32_t kLookups = 4;
+
+  void ask() {
+    std::array<const std::byte*, kLookups> frames;
+    std::array<std::uint32_t, kLookups> pages;
+    std::uint32_t kept = 0;
+    reader_.enter();
+    for (std::uint32_t i = 0; i < kLookups; ++i) {
+      pages[kept] = numbers_.below(page_count_);
+      frames[kept] = reader_.find(pages[kept]);
+      if (frames[kept] == nullptr) continue;
+      check(frames[kept], pages[kept]);
+      ++kept;
+    }
+    // Be caught inside a section, on few cores too.
+    if (numbers_.below(1024) == 0) std::this_thread::yield();
+    for (std::uint32_t i = 0; i < kept; ++i) check(frames[i], pages[i]);
+    reader_.leave();
+    count_.found += kept;
+  }
+
+  void check(const std::byte* frame, std::uint32_t page) {
+    count_.wrong += !TaggedPages::matches(frame, frame_bytes_, page);
+  }
+
+  Reader& reader_;
+  const std::uint32_t page_count_, frame_bytes_;
+  Numbers numbers_;
+  StressCount count_;
+};
+
+/// Runs `install`, which says whether it installed a page, beside readers until the goal is
+/// reached.
+///
+/// read  is given a reader's place, and the progress.
+inline StressCount run_stress(
+    const StressGoal& goal, const std::function<bool()>& install,
+    const std::function<StressCount(std::uint32_t, StressProgress&)>& read) {
+  StressProgress progress(goal);
+  std::vector<StressCount> counts(goal.readers);
+  std::vector<std::thread> threads;
+  for (std::uint32_t place = 0; place < goal.readers; ++place)
+    threads.emplace_back([&, place] { counts[place] = read(place, progress); });
+  StressCount sum;
+  while (!progress.is_over()) {
+    const bool installed = install();
+    sum.installs += installed;
+    progress.count_installs(installed);
+    if (!installed) std::this_thread::yield();
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const StressCount& count : counts) {
+    sum.asks += count.asks;
+    sum.found += count.found;
+    sum.wrong += count.wrong;
+  }
+  return sum;
+}
+
+/// Of the classes of the protocol by themselves.
+template <class Atomics = StdAtomics>
+StressCount stress_protocol(const StressGoal& goal, WriterMistake mistake = WriterMistake::kNone) {
+  using Cache = StressedCache<Atomics>;
+  Cache cache(goal.readers, mistake);
+  Numbers numbers(99);
+  return run_stress(
+      goal, [&] { return cache.install_another(numbers); },
+      [&](std::uint32_t place, StressProgress& progress) {
+        typename Cache::Reader reader(cache, place);
+        return StressReading(reader, Cache::kPages, Cache::kFrameBytes, place + 1).run(progress);
+      });
+}
+
+/// Of a whole PageCache, where the thread that installs is one that fetches.
+inline StressCount stress_page_cache(const StressGoal& goal) {
+  // So many frames fill a system page, so that a budget can give an exact number of them.
+  constexpr std::uint32_t kPages = 64, kFrames = 32, kFrameBytes = 128;
+  TaggedPages pages;
+  const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
+    std::memset(frame.data(), 0xa5, frame.size());
+    return TaggedPages::fill(context, page, frame);
+  };
+  auto cache = PageCache::create(limits_for_frames(kFrames, kPages, goal.readers + 1, kFrameBytes),
+                                 fill, &pages);
+  Reader writer = *(*cache)->claim_reader();
+  Numbers numbers(99);
+  const auto install = [&] {
+    const std::uint64_t before = pages.fill_calls();
+    writer.enter();
+    writer.fetch(numbers.below(kPages));
+    writer.leave();
+    return pages.fill_calls() > before;
+  };
+  return run_stress(goal, install, [&](std::uint32_t place, StressProgress& progress) {
+    Reader reader = *(*cache)->claim_reader();
+    return StressReading(reader, kPages, kFrameBytes, place + 1).run(progress);
+  });
+}
+
+}  // namespace planetree::cache

@@ -1,0 +1,45 @@
+#include "tests/cache/protocol_stress.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/cache/allocation_count.h"
+
+namespace planetree::cache {
+namespace {
+
+constexpr StressGoal kShort{.readers = 2, .asks = 200000, .installs = 20000};
+
+void expect_right(const StressCount& count) {
+  EXPECT_GE(count.asks, kShort.asks);
+  EXPECT_GE(count.installs, kShort.installs);
+  EXPECT_GT(count.found, count.asks);
+  EXPECT_EQ(count.wrong, 0u);
+}
+
+TEST(ProtocolStress, EveryWordReadIsOfThePageAskedFor) { expect_right(stress_protocol(kShort)); }
+
+TEST(ProtocolStress, EveryWordReadInAPageCacheIsOfThePageAskedFor) {
+  expect_right(stress_page_cache(kShort));
+}
+
+class WriterMistakes : public testing::TestWithParam<WriterMistake> {};
+
+TEST_P(WriterMistakes, AreSeenAsWordsOfAnotherPage) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer would end the program";
+  constexpr std::uint64_t kMany = 20'000'000;
+  const StressGoal goal{.readers = 2, .asks = kMany, .installs = kMany, .until_wrong = true};
+  EXPECT_GT(stress_protocol(goal, GetParam()).wrong, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(ProtocolStress, WriterMistakes,
+                         testing::Values(WriterMistake::kReusesAtOnce,
+                                         WriterMistake::kForgetsAReader,
+                                         WriterMistake::kNotesTooEarly),
+                         [](const testing::TestParamInfo<WriterMistake>& made) {
+                           return "Mistake" + std::to_string(static_cast<int>(made.param));
+                         });
+
+}  // namespace
+}  // namespace planetree::cache

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "cache/frame_pool.h"
+#include "cache/limbo.h"
+#include "cache/page_map.h"
+#include "cache/reader_slot.h"
+#include "tests/cache/tagged_pages.h"
+
+namespace planetree::cache {
+
+/// What a writer may do wrongly on purpose, to see that it is found out.
+enum class WriterMistake : std::uint8_t {
+  kNone,
+  kReusesAtOnce,    ///< waits for no section
+  kForgetsAReader,  ///< waits for those of all readers but the last
+  kNotesTooEarly,   ///< notes the open sections before it hides the page
+};
+
+/// What a PageCache is made of, with one writer that does nothing but evict and install, as fast
+/// as it can. Frames are written with what no page has as soon as they may be reused, then with
+/// the words of their next page.
+///
+/// Atomics  as the classes of the protocol have them, or with an order weakened.
+template <class Atomics>
+class StressedCache {
+ public:
+  using Slot = BasicReaderSlot<Atomics>;
+  using Map = BasicPageMap<Atomics>;
+
+  static constexpr std::uint32_t kPages = 16, kFrames = 12, kFrameBytes = 128;
+
+  StressedCache(std::uint32_t reader_count, WriterMistake mistake)
+      : mistake_(mistake),
+        slots_(reader_count),
+        stamps_(std::size_t{kOwners} * slots_waited_for().size()),
+        limbo_(slots_waited_for(), places_, stamps_) {
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) install(frame, frame);
+  }
+
+  /// One reader's way in: as cache::Reader, without its counts.
+  class Reader {
+   public:
+    Reader(StressedCache& cache, std::uint32_t place)
+        : map_(cache.map_), frames_(cache.frames_), slot_(cache.slots_[place]) {}
+    void enter() noexcept { slot_.enter(); }
+    void leave() noexcept { slot_.leave(); }
+    const std::byte* find(std::uint32_t page) noexcept {
+      const std::uint32_t frame = map_.find(page);
+      return frame == kNoFrame ? nullptr : frames_.frame(frame);
+    }
+
+   private:
+    const Map map_;
+    const FramePool& frames_;
+    Slot& slot_;
+  };
+
+  /// Puts an absent page into a frame, if one can be had; the writer's thread alone.
+  bool install_another(Numbers& numbers) {
+    const std::uint32_t frame = take_frame(numbers);
+    if (frame == kNoFrame) return false;
+    poison(frame);
+    std::uint32_t page = numbers.below(kPages);
+    while (map_.frame_of(page) != kNoFrame) page = (page + 1) % kPages;
+    install(frame, page);
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kOwners = 4;
+
+  std::span<const Slot> slots_waited_for() const {
+    const std::span<const Slot> all(slots_);
+    return mistake_ == WriterMistake::kForgetsAReader ? all.first(all.size() - 1) : all;
+  }
+
+  // Nothing comes between finding that a frame's sections are over and writing it: looking at
+  // other sections would acquire what that had to.
+  std::uint32_t take_frame(Numbers& numbers) {
+    for (std::uint32_t owner = 0; owner < kOwners; ++owner) {
+      if (limbo_.holds(owner)) continue;
+      const std::uint32_t frame = evict(owner, numbers);
+      if (mistake_ == WriterMistake::kReusesAtOnce) return frame;
+    }
+    for (std::uint32_t owner = 0; owner < kOwners; ++owner)
+      if (const std::uint32_t frame = limbo_.take(owner); frame != kNoFrame) return frame;
+    return kNoFrame;
+  }
+
+  std::uint32_t evict(std::uint32_t owner, Numbers& numbers) {
+    const std::uint32_t frame = resident_frame(numbers);
+    if (mistake_ == WriterMistake::kNotesTooEarly) limbo_.retire(owner, frame);
+    map_.withdraw(pages_[frame]);
+    pages_[frame] = kNoFrame;
+    if (mistake_ != WriterMistake::kNotesTooEarly && mistake_ != WriterMistake::kReusesAtOnce)
+      limbo_.retire(owner, frame);
+    return frame;
+  }
+
+  std::uint32_t resident_frame(Numbers& numbers) {
+    std::uint32_t frame = numbers.below(kFrames);
+    while (pages_[frame] == kNoFrame) frame = (frame + 1) % kFrames;
+    return frame;
+  }
+
+  void poison(std::uint32_t frame) noexcept {
+    std::memset(frames_.frame(frame), 0xa5, kFrameBytes);
+  }
+
+  void install(std::uint32_t frame, std::uint32_t page) noexcept {
+    TaggedPages::write(std::span(frames_.frame(frame), kFrameBytes), page);
+    pages_[frame] = page;
+    map_.publish(page, frame);
+  }
+
+  const WriterMistake mistake_;
+  std::vector<Slot> slots_;
+  std::vector<typename Map::Cell> cells_ = std::vector<typename Map::Cell>(kPages);
+  Map map_{cells_};
+  FramePool frames_ = *FramePool::create(kFrames, kFrameBytes);
+  // The writer's.
+  std::array<std::uint32_t, kFrames> pages_;
+  std::array<typename BasicLimbo<Atomics>::Place, kOwners> places_;
+  std::vector<std::uint64_t> stamps_;
+  BasicLimbo<Atomics> limbo_;
+};
+
+}  // namespace planetree::cache
