@@ -9,7 +9,7 @@
 namespace planetree::cache {
 namespace {
 
-constexpr StressGoal kShort{.readers = 2, .asks = 200000, .installs = 20000};
+constexpr StressGoal kShort{.readers = 2, .asks = 50000, .installs = 5000};
 
 void expect_right(const StressCount& count) {
   EXPECT_GE(count.asks, kShort.asks);
