@@ -65,6 +65,9 @@ class alignas(64) LatestValue {
     sequence_.store(sequence + 2, Atomics::order(LatestStep::kGiveNumber));
   }
 
+  /// Any thread: how many values were given so far.
+  std::uint64_t given() const noexcept { return sequence_.load(std::memory_order_relaxed) / 2; }
+
   /// Any thread. False, and nothing changed, where there is no value newer than `seen`, which
   /// is 0 at first, or one is being written: to be looked for again later.
   bool take(std::uint64_t& seen, Value& value) const noexcept {

@@ -182,6 +182,8 @@ Stats ModelState::stats() const noexcept {
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
+  for (std::uint32_t place = 0; place < reader_count_; ++place)
+    stats.wishes_made += wishes_[place].missed.given();
   if (fetchers_) {
     stats.wishes_fetched = fetchers_->wishes_fetched();
     stats.places_prefetched = fetchers_->places_prefetched();

@@ -43,7 +43,10 @@ struct Stats {
   std::uint64_t pages_evicted = 0;
   std::uint64_t quarantined_pages = 0;  ///< found unreadable or damaged; not tried again
   std::uint64_t degraded_answers = 0;
-  std::uint64_t wishes_fetched = 0;     ///< questions of Wait::kNever whose pages were got since
+  /// Questions of Wait::kNever that lacked pages, and those whose pages were got since. A probe's
+  /// newer question takes the place of one that no thread has come to: that is lost.
+  std::uint64_t wishes_made = 0;
+  std::uint64_t wishes_fetched = 0;
   std::uint64_t places_prefetched = 0;  ///< that probes were moving to
   std::uint64_t frames = 0;             ///< most pages in memory at once
   std::uint64_t arena_bytes = 0;        ///< memory of those

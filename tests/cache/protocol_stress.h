@@ -4,9 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
-#include <span>
 #include <thread>
 #include <vector>
 
@@ -158,12 +156,8 @@ inline StressCount stress_page_cache(const StressGoal& goal) {
   // So many frames fill a system page, so that a budget can give an exact number of them.
   constexpr std::uint32_t kPages = 64, kFrames = 32, kFrameBytes = 128;
   TaggedPages pages;
-  const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
-    std::memset(frame.data(), 0xa5, frame.size());
-    return TaggedPages::fill(context, page, frame);
-  };
   auto cache = PageCache::create(limits_for_frames(kFrames, kPages, goal.readers + 1, kFrameBytes),
-                                 fill, &pages);
+                                 TaggedPages::fill, &pages);
   Reader writer = *(*cache)->claim_reader();
   Numbers numbers(99);
   const auto install = [&] {

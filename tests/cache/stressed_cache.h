@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -66,7 +65,6 @@ class StressedCache {
   bool install_another(Numbers& numbers) {
     const std::uint32_t frame = take_frame(numbers);
     if (frame == kNoFrame) return false;
-    poison(frame);
     std::uint32_t page = numbers.below(kPages);
     while (map_.frame_of(page) != kNoFrame) page = (page + 1) % kPages;
     install(frame, page);
@@ -108,10 +106,6 @@ class StressedCache {
     std::uint32_t frame = numbers.below(kFrames);
     while (pages_[frame] == kNoFrame) frame = (frame + 1) % kFrames;
     return frame;
-  }
-
-  void poison(std::uint32_t frame) noexcept {
-    std::memset(frames_.frame(frame), 0xa5, kFrameBytes);
   }
 
   void install(std::uint32_t frame, std::uint32_t page) noexcept {

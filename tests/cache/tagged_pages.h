@@ -31,7 +31,9 @@ class TaggedPages {
     return true;
   }
 
+  /// First what no page has: whoever still reads the frame is to see that.
   static void write(std::span<std::byte> frame, std::uint32_t page) noexcept {
+    std::memset(frame.data(), 0xa5, frame.size());
     for (std::size_t i = 0; i < frame.size() / sizeof(std::uint64_t); ++i) {
       const std::uint64_t value = word(page, i);
       std::memcpy(frame.data() + i * sizeof value, &value, sizeof value);
