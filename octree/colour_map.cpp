@@ -1,8 +1,8 @@
 #include "octree/colour_map.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
-#include <new>
 
 #include "octree/mask_records.h"
 #include "octree/strict_math.h"
@@ -65,15 +65,15 @@ class ColourMap::Painter {
   TreeWork work_;
 };
 
-bool ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles,
-                     PageReader pages) noexcept {
+void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles,
+                     PageReader pages, std::span<std::uint8_t> memory) noexcept {
   // A forged header may tell of a box that does not fit the root.
   const Point size = tree.box_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
-  if (mask.page_count == 0 || !fits) return true;
-  colours_.reset(new (std::nothrow) std::uint8_t[bytes(triangles)]);
-  if (!colours_) return false;
-  std::memset(colours_.get(), 0xff, bytes(triangles));
+  if (mask.page_count == 0 || !fits) return;
+  assert(memory.size() >= bytes(triangles));
+  colours_ = memory.data();
+  std::memset(colours_, 0xff, bytes(triangles));
   lower_ = mask.lower;
   // The finest cells of which there are not too many in the box.
   unsigned level = 0;
@@ -92,7 +92,6 @@ bool ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t
     cell_side_ = 1 / per_unit;
   }
   Painter(*this, level, mask, pages).run();
-  return true;
 }
 
 }  // namespace planetree::octree

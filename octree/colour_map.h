@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <span>
 
 #include "octree/cell_grid.h"
 #include "octree/mask_lookup.h"
@@ -22,9 +22,10 @@ class ColourMap {
   /// A map that knows nothing.
   ColourMap() = default;
 
-  /// Of a mask's first pages, as far as they can be had. False where memory is short.
-  bool fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles,
-            PageReader pages) noexcept;
+  /// Of a mask's first pages, as far as they can be had.
+  /// memory  of bytes(triangles), if there is a mask; must outlive this.
+  void fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles, PageReader pages,
+            std::span<std::uint8_t> memory) noexcept;
 
   /// The sign of a point's winding number, where its cell is white or black; else kUnknown.
   /// The point is in the model's box.
@@ -60,7 +61,7 @@ class ColourMap {
   double cell_side_ = 0;
   double cells_per_unit_ = 0;
   std::array<std::uint32_t, 3> count_{};
-  std::unique_ptr<std::uint8_t[]> colours_;  // kUnknown, less 1, is 3 in two bits
+  std::uint8_t* colours_ = nullptr;  // kUnknown, less 1, is 3 in two bits
 };
 
 }  // namespace planetree::octree

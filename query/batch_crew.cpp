@@ -22,7 +22,7 @@ Result<std::unique_ptr<BatchCrew>> BatchCrew::claim(const ModelState& model, uns
     for (unsigned i = 0; i < threads; ++i) {
       auto reader = model.claim_reader();
       if (!reader) return reader.error();
-      crew->probes_.push_back(std::make_unique<ProbeState>(model, std::move(*reader)));
+      crew->probes_.push_back(ProbeState::create(model, std::move(*reader)));
     }
     return crew;
   } catch (const std::bad_alloc&) {

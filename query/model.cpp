@@ -87,20 +87,15 @@ unsigned crew_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
 
-unsigned readers_of(const OpenOptions& options) {
-  return options.max_probes + crew_probes(options);
-}
-
 Pager::Limits limits_of(const OpenOptions& options) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
-  limits.probe_bytes = ProbeState::bytes();
+  limits.probe_bytes = sizeof(BatchOrder);
   limits.crew_probes = crew_probes(options);
   limits.crew_bytes = limits.crew_probes * sizeof(ProbeState) +
                       options.fetch_threads * FetchCrew::kThreadBytes +
-                      readers_of(options) * FetchWorker::kProbeBytes * options.fetch_threads +
-                      readers_of(options) * sizeof(Wishes);
+                      limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
   return limits;
 }
@@ -113,8 +108,17 @@ static_assert(OpenOptions::kMostProbes + OpenOptions::kMostFetchThreads +
 
 ModelState::~ModelState() = default;
 
+// What it is in goes after it.
+void ModelState::operator delete(ModelState* state, std::destroying_delete_t) noexcept {
+  state->fetchers_.reset();
+  state->crew_.reset();
+  const std::unique_ptr<Pager> pager = std::move(state->pager_);
+  state->~ModelState();
+}
+
 ModelState::ModelState(std::unique_ptr<Pager> pager)
     : pager_(std::move(pager)),
+      asking_(pager_->asking_memory().parts()),
       info_(describe(pager_->file())),
       scale_(pager_->file().header().model.scale_exponent) {
   tree_ = tree_facts(pager_->file().header(), scale_);
@@ -125,17 +129,11 @@ Result<void> ModelState::fill_colours() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
   PageTurner turner(*reader, Wait::kForPages);
-  if (colours_.fill(mask_, tree_, info_.triangles, turner.pages())) return {};
-  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                    "no memory for the map of the mask's colours; free some and try again");
+  colours_.fill(mask_, tree_, info_.triangles, turner.pages(), asking_.colours);
+  return {};
 }
 
 Result<void> ModelState::start_crews(const OpenOptions& options, const ModelSeams& seams) {
-  reader_count_ = readers_of(options);
-  wishes_.reset(new (std::nothrow) Wishes[reader_count_]);
-  if (!wishes_)
-    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "no memory for %u probes; free some or ask for fewer", reader_count_);
   if (options.batch_threads > 1) {
     auto crew = BatchCrew::claim(*this, options.batch_threads);
     if (!crew) return crew.error();
@@ -159,7 +157,8 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   if (const auto checked = check_counts(options); !checked) return checked.error();
   auto pager = Pager::open(path, limits_of(options), seams.calls);
   if (!pager) return pager.error();
-  std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
+  void* room = (*pager)->asking_memory().parts().model_room;
+  std::unique_ptr<ModelState> state(::new (room) ModelState(std::move(*pager)));
   if (const auto filled = state->fill_colours(); !filled) return filled.error();
   if (const auto started = state->start_crews(options, seams); !started) return started.error();
   return state;
@@ -182,8 +181,7 @@ Stats ModelState::stats() const noexcept {
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
-  for (std::uint32_t place = 0; place < reader_count_; ++place)
-    stats.wishes_made += wishes_[place].missed.given();
+  for (const Wishes& wishes : asking_.wishes) stats.wishes_made += wishes.missed.given();
   if (fetchers_) {
     stats.wishes_fetched = fetchers_->wishes_fetched();
     stats.places_prefetched = fetchers_->places_prefetched();
@@ -192,7 +190,7 @@ Stats ModelState::stats() const noexcept {
   stats.arena_bytes = cache.arena_bytes;
   stats.table_bytes = cache.table_bytes + cache.reserved_bytes;
   stats.budget_bytes = cache.budget_bytes;
-  stats.locked_bytes = cache.locked_bytes;
+  stats.locked_bytes = pager_->locked_bytes();
   stats.header_copy_damaged = pager_->file().header_copy_damaged();
   return stats;
 }

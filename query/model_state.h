@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <new>
 
 #include "octree/colour_map.h"
 #include "octree/mask_lookup.h"
@@ -11,6 +12,7 @@
 #include "planetree/error.h"
 #include "planetree/model.h"
 #include "planetree/stats.h"
+#include "query/asking_memory.h"
 #include "query/pager.h"
 #include "query/scale.h"
 #include "query/wishes.h"
@@ -28,10 +30,12 @@ struct ModelSeams {
   bool starts_fetching = true;
 };
 
-/// What stands behind a Model.
+/// What stands behind a Model; in the AskingMemory that it holds itself.
 class ModelState {
  public:
   ~ModelState();
+  static void* operator new(std::size_t) = delete;
+  static void operator delete(ModelState* state, std::destroying_delete_t) noexcept;
 
   static Result<std::unique_ptr<ModelState>> open(const std::filesystem::path& path,
                                                   const OpenOptions& options,
@@ -50,8 +54,12 @@ class ModelState {
   /// Null where batches are answered by the caller's thread alone.
   BatchCrew* crew() const noexcept { return crew_.get(); }
   /// Of the probe whose reader has this place.
-  Wishes& wishes(std::uint32_t place) const noexcept { return wishes_[place]; }
-  std::uint32_t reader_count() const noexcept { return reader_count_; }
+  Wishes& wishes(std::uint32_t place) const noexcept { return asking_.wishes[place]; }
+  /// For the ProbeState whose reader has this place.
+  void* probe_room(std::uint32_t place) const noexcept { return asking_.probe_room(place); }
+  std::uint32_t reader_count() const noexcept {
+    return static_cast<std::uint32_t>(asking_.wishes.size());
+  }
   /// Any thread.
   void count_degraded() const noexcept { degraded_.fetch_add(1, std::memory_order_relaxed); }
 
@@ -61,14 +69,13 @@ class ModelState {
   Result<void> start_crews(const OpenOptions& options, const ModelSeams& seams);
 
   std::unique_ptr<Pager> pager_;
+  const AskingMemory::Parts asking_;
   ModelInfo info_;
   octree::TreeFacts tree_;
   octree::MaskFacts mask_;
   octree::ColourMap colours_;
   Scale scale_;
   mutable std::atomic<std::uint64_t> degraded_{0};
-  std::uint32_t reader_count_ = 0;
-  std::unique_ptr<Wishes[]> wishes_;  // by place
   // Last: their probes are the model's.
   std::unique_ptr<BatchCrew> crew_;
   std::unique_ptr<FetchCrew> fetchers_;

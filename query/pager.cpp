@@ -8,14 +8,6 @@
 #include "query/page_decoding.h"
 
 namespace planetree::query {
-namespace {
-
-std::uint64_t colour_bytes(const storage::ModelRecord& model) {
-  return model.mask_page_count > 0 ? octree::ColourMap::bytes(model.triangle_count) : 0;
-}
-
-}  // namespace
-
 Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path, const Limits& limits,
                                            storage::FileCalls& calls) {
   auto file = storage::PageFile::open(path, calls);
@@ -37,15 +29,24 @@ std::uint64_t Pager::scratch_bytes() const noexcept {
   return file_.header().max_stored_bytes + file_.header().max_raw_bytes;
 }
 
+AskingMemory::Needs Pager::asking_needs(const Limits& limits) const noexcept {
+  const storage::ModelRecord& model = file_.header().model;
+  AskingMemory::Needs needs;
+  needs.readers = limits.readers();
+  if (model.mask_page_count > 0)
+    needs.colour_bytes = octree::ColourMap::bytes(model.triangle_count);
+  return needs;
+}
+
 Result<void> Pager::claim(const Limits& limits) {
   const storage::FileHeader& header = file_.header();
   cache::CacheLimits cache_limits{};
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
   cache_limits.frame_bytes = header.page_bytes;
-  cache_limits.max_readers = limits.max_probes + limits.crew_probes;
+  cache_limits.max_readers = limits.readers();
   cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
-                                colour_bytes(header.model) +
+                                AskingMemory::bytes(asking_needs(limits)) +
                                 limits.probe_bytes * limits.max_probes + limits.crew_bytes;
   const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
     return static_cast<Pager*>(context)->fill(page, frame);
@@ -53,17 +54,27 @@ Result<void> Pager::claim(const Limits& limits) {
   auto cache = cache::PageCache::create(cache_limits, fill, this);
   if (!cache) return cache.error();
   cache_ = std::move(*cache);
-  if (limits.locking != Locking::kNever && !cache_->lock_memory() &&
-      limits.locking == Locking::kRequire)
-    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "the system does not let memory be locked; raise the limit (ulimit -l), "
-                      "lower the memory budget, or open the model without locking");
+  auto asking = AskingMemory::claim(asking_needs(limits));
+  if (!asking) return asking.error();
+  asking_.emplace(*std::move(asking));
+  if (const auto locked = lock(limits.locking); !locked) return locked;
   stored_scratch_.reset(new (std::nothrow) std::byte[header.max_stored_bytes]);
   raw_scratch_.reset(new (std::nothrow) std::byte[header.max_raw_bytes]);
   if (!stored_scratch_ || !raw_scratch_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
   return {};
+}
+
+Result<void> Pager::lock(Locking locking) noexcept {
+  if (locking == Locking::kNever) return {};
+  // The smaller part first: the system may allow no more.
+  asking_is_locked_ = asking_->lock();
+  const bool cache_is_locked = cache_->lock_memory();
+  if ((asking_is_locked_ && cache_is_locked) || locking != Locking::kRequire) return {};
+  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                    "the system does not let memory be locked; raise the limit (ulimit -l), "
+                    "lower the memory budget, or open the model without locking");
 }
 
 Result<void> Pager::fill(std::uint32_t page, std::span<std::byte> frame) noexcept {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cache/page_cache.h"
@@ -12,6 +13,7 @@
 #include "planetree/error.h"
 #include "planetree/model.h"
 #include "planetree/types.h"
+#include "query/asking_memory.h"
 #include "storage/page_file.h"
 
 namespace planetree::query {
@@ -22,11 +24,13 @@ class Pager {
  public:
   struct Limits {
     std::uint64_t budget_bytes = 0;
-    std::uint64_t probe_bytes = 0;  ///< what each probe claims for itself
+    std::uint64_t probe_bytes = 0;  ///< what each probe takes beyond its AskingMemory
     unsigned max_probes = 0;
     std::uint64_t crew_bytes = 0;  ///< the same of the probes of the model's own threads,
     unsigned crew_probes = 0;      ///< all together
     Locking locking = Locking::kTry;
+
+    unsigned readers() const noexcept { return max_probes + crew_probes; }
   };
 
   /// Opens the file, claims and locks the memory, loads and pins the root page.
@@ -37,10 +41,17 @@ class Pager {
   const storage::PageFile& file() const noexcept { return file_; }
   cache::PageCache& cache() const noexcept { return *cache_; }
   std::uint64_t scratch_bytes() const noexcept;
+  /// Of the model and its probes; claimed and locked with the cache's.
+  AskingMemory& asking_memory() noexcept { return *asking_; }
+  std::uint64_t locked_bytes() const noexcept {
+    return cache_->stats().locked_bytes + (asking_is_locked_ ? asking_->bytes() : 0);
+  }
 
  private:
   explicit Pager(storage::PageFile file) : file_(std::move(file)) {}
+  AskingMemory::Needs asking_needs(const Limits& limits) const noexcept;
   Result<void> claim(const Limits& limits);
+  Result<void> lock(Locking locking) noexcept;
   Result<void> fill(std::uint32_t page, std::span<std::byte> frame) noexcept;
 
   storage::PageFile file_;
@@ -48,6 +59,8 @@ class Pager {
   std::unique_ptr<std::byte[]> stored_scratch_;
   std::unique_ptr<std::byte[]> raw_scratch_;
   std::unique_ptr<cache::PageCache> cache_;
+  std::optional<AskingMemory> asking_;
+  bool asking_is_locked_ = false;
 };
 
 /// One probe's way to pages during one ask: a section of the cache, begun where a page is

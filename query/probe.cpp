@@ -14,14 +14,10 @@ Result<Probe> Probe::create(const Model& model) {
   auto reader = model.state_->claim_reader();
   if (!reader) return reader.error();
   std::unique_ptr<query::BatchOrder> order(new (std::nothrow) query::BatchOrder);
-  std::unique_ptr<query::ProbeState> state;
-  if (order)
-    state.reset(new (std::nothrow)
-                    query::ProbeState(*model.state_, std::move(*reader), std::move(order)));
-  if (!state)
+  if (!order)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for a probe; free some and try again");
-  return Probe(std::move(state));
+  return Probe(query::ProbeState::create(*model.state_, std::move(*reader), std::move(order)));
 }
 
 Probe::Probe(std::unique_ptr<query::ProbeState> state) noexcept : state_(std::move(state)) {}

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "cache/reader.h"
@@ -12,9 +13,22 @@
 
 namespace planetree::query {
 
-/// What stands behind a Probe.
+/// What stands behind a Probe; in the model's AskingMemory, but for those of fetch threads.
 class ProbeState {
  public:
+  /// In the room that the reader's place has.
+  static std::unique_ptr<ProbeState> create(const ModelState& model, cache::Reader reader,
+                                            std::unique_ptr<BatchOrder> batch_order = nullptr) {
+    void* room = model.probe_room(reader.place());
+    return std::unique_ptr<ProbeState>(
+        ::new (room) ProbeState(model, std::move(reader), std::move(batch_order)));
+  }
+  static void* operator new(std::size_t) = delete;
+  // The reader goes last: with it, the room is another's.
+  static void operator delete(ProbeState* state, std::destroying_delete_t) noexcept {
+    state->~ProbeState();
+  }
+
   ProbeState(const ModelState& model, cache::Reader reader,
              std::unique_ptr<BatchOrder> batch_order = nullptr) noexcept
       : model_(model), reader_(std::move(reader)), batch_order_(std::move(batch_order)) {}
@@ -35,9 +49,6 @@ class ProbeState {
 
   /// For batches; null in the probes of a BatchCrew.
   BatchOrder* batch_order() noexcept { return batch_order_.get(); }
-
-  /// What a probe claims, its BatchOrder included.
-  static constexpr std::size_t bytes() { return sizeof(ProbeState) + sizeof(BatchOrder); }
 
  private:
   const ModelState& model_;

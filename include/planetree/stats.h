@@ -50,9 +50,9 @@ struct Stats {
   std::uint64_t places_prefetched = 0;  ///< that probes were moving to
   std::uint64_t frames = 0;             ///< most pages in memory at once
   std::uint64_t arena_bytes = 0;        ///< memory of those
-  std::uint64_t table_bytes = 0;        ///< page table, page map, reader slots, colour map, scratch
+  std::uint64_t table_bytes = 0;        ///< all else: page map, probes, colour map, scratch, ...
   std::uint64_t budget_bytes = 0;       ///< as asked; arena and tables stay within it
-  std::uint64_t locked_bytes = 0;       ///< of the arena, the page map and its like
+  std::uint64_t locked_bytes = 0;       ///< of the arena, and of what else is asked without waiting
   bool header_copy_damaged = false;     ///< one of the file's two headers; copy the file anew
 };
 

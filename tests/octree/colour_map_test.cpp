@@ -20,9 +20,10 @@ class ColourMapTest : public testing::Test {
     tree.box_upper = lower + size;
     return tree;
   }
-  ColourMap map_of(MaskPages& pages, std::uint64_t triangles) const {
+  ColourMap map_of(MaskPages& pages, std::uint64_t triangles) {
     ColourMap map;
-    EXPECT_TRUE(map.fill(pages.mask(lower_), tree_of(lower_, size_), triangles, pages.reader()));
+    memory_.resize(ColourMap::bytes(triangles));
+    map.fill(pages.mask(lower_), tree_of(lower_, size_), triangles, pages.reader(), memory_);
     return map;
   }
   // Half of them on the sides of cells.
@@ -45,6 +46,7 @@ class ColourMapTest : public testing::Test {
 
   const Point lower_{-0.25, 3, 1.0 / 3};
   const Point size_{1.2, 1.9, 0.7};
+  std::vector<std::uint8_t> memory_;  // of the last map
 };
 
 TEST_F(ColourMapTest, SaysWhatTheMaskSays) {
@@ -120,7 +122,8 @@ TEST_F(ColourMapTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double side : {2.1, -0.1, 8589934591.0, 1e300, kInfinity, kInfinity - kInfinity}) {
     ColourMap map;
-    EXPECT_TRUE(map.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), kMany, pages.reader()));
+    memory_.resize(ColourMap::bytes(kMany));
+    map.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), kMany, pages.reader(), memory_);
     EXPECT_EQ(map.winding(lower_ + size_ / 2), ColourMap::kUnknown) << side;
   }
   EXPECT_TRUE(pages.take_asked().empty());
