@@ -8,6 +8,7 @@ set(planetree_headers
   planetree.h
   probe.h
   stats.h
+  trace.h
   types.h)
 
 add_library(planetree)

@@ -22,6 +22,15 @@ AskingMemory::Parts cut(cache::Cutter& cutter, const AskingMemory::Needs& needs)
   parts.probe_rooms = std::as_writable_bytes(cutter.cut<Room<ProbeState>>(needs.readers)).data();
   parts.wishes = cutter.cut<Wishes>(needs.readers);
   parts.colours = cutter.cut<std::uint8_t>(needs.colour_bytes);
+  if (needs.trace_touches == 0) return parts;
+  using Ring = cache::TraceRing<Touch>;
+  const std::uint64_t slots = Ring::slots_for(needs.trace_touches);
+  parts.traces = cutter.cut<TouchTrace>(needs.readers);
+  parts.marks = cutter.cut<PrefetchMark>(needs.page_count);
+  const auto all_slots = cutter.cut<Ring::Slot>(needs.readers * slots);
+  // Where there is no memory yet, these are none.
+  for (std::size_t i = 0; i < parts.traces.size(); ++i)
+    parts.traces[i].ring.attach(all_slots.subspan(i * slots, slots));
   return parts;
 }
 

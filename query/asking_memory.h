@@ -7,18 +7,21 @@
 
 #include "cache/claimed_memory.h"
 #include "planetree/error.h"
+#include "query/touch_log.h"
 #include "query/wishes.h"
 
 namespace planetree::query {
 
 /// What asks touch besides frames and page map: the model's own facts, the colours of its mask,
-/// and what each probe remembers and wishes. Claimed when a model is opened, so that no ask
-/// faults a page in.
+/// what each probe remembers and wishes, and its trace. Claimed when a model is opened, so that no
+/// ask faults a page in.
 class AskingMemory {
  public:
   struct Needs {
     std::uint32_t readers = 0;  ///< most probes, those of the model's threads among them
     std::uint64_t colour_bytes = 0;
+    std::uint64_t trace_touches = 0;  ///< of each reader; 0: no trace
+    std::uint64_t page_count = 0;
   };
 
   /// Where things are.
@@ -27,6 +30,8 @@ class AskingMemory {
     std::byte* probe_rooms = nullptr;
     std::span<Wishes> wishes;  ///< by place
     std::span<std::uint8_t> colours;
+    std::span<TouchTrace> traces;   ///< by place, or none
+    std::span<PrefetchMark> marks;  ///< by page, or none
 
     /// For the ProbeState whose reader has this place.
     void* probe_room(std::uint32_t place) const noexcept;

@@ -123,7 +123,9 @@ class Asking {
         placed_(model_.scale().in(query)),
         far_(is_far(placed_)),
         point_(within_reach(placed_, query)),
-        turner_(probe.reader(), ask.wait, stop) {}
+        turner_(probe.reader(), ask.wait, stop) {
+    turner_.log_to(probe.touches().begin_ask(ask.wait));
+  }
 
   ClosestPoint run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
@@ -210,9 +212,11 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   const ModelState& model = probe.model();
   const octree::Point placed = model.scale().in(query);
   probe.last_parts() = kSide;
+  TouchLog* const log = probe.touches().begin_ask(ask.wait);
   if (const auto known = side_at_once(model, placed)) return {known->side, known->status};
   const Ask limited = with_defaults(ask);
   PageTurner turner(probe.reader(), ask.wait);
+  turner.log_to(log);
   octree::TreeWork work;
   const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),
                                     limited.max_nodes, turner, work);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -31,9 +32,17 @@ void become_ordinary() noexcept {
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
+// As much of the stack as is ever used, so that the process does not grow later.
+[[gnu::noinline]] void claim_stack() noexcept {
+  constexpr std::size_t kLineBytes = 64;
+  volatile std::byte stack[FetchCrew::kThreadBytes / 4 * 3];
+  for (std::size_t at = 0; at < sizeof stack; at += kLineBytes) stack[at] = std::byte{};
+}
+
 }  // namespace
 
 void FetchCrew::run(FetchWorker& worker) noexcept {
+  claim_stack();
   become_ordinary();
   const HostArithmetic host;
   Clock::time_point last = Clock::now() - kLately;

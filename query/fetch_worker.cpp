@@ -78,8 +78,10 @@ bool FetchWorker::look_ahead(std::size_t place) noexcept {
   if (seen.places_left == 0) return false;
   const unsigned at = kPlacesAhead - --seen.places_left;
   const Seconds ahead = std::clamp(2 * slowest_, kLeastAhead, kMostAhead);
+  probe_.touches().set_looks_ahead(true);
   bring_pages(probe_, ahead_of(seen.moving, ahead * at / kPlacesAhead), waiting(seen.moving.parts),
               stop_);
+  probe_.touches().set_looks_ahead(false);
   return true;
 }
 

@@ -1,8 +1,11 @@
 #include "planetree/model.h"
 
+#include <algorithm>
+#include <array>
 #include <new>
 #include <utility>
 
+#include "octree/octcode.h"
 #include "octree/self_test.h"
 #include "query/batch_crew.h"
 #include "query/fetch_crew.h"
@@ -77,7 +80,9 @@ Result<void> check_counts(const OpenOptions& options) {
   for (const Result<void>& checked :
        {check(options.batch_threads, "batch threads", OpenOptions::kMostBatchThreads),
         check(options.fetch_threads, "fetch threads", OpenOptions::kMostFetchThreads),
-        check(options.max_probes, "probes", OpenOptions::kMostProbes)})
+        check(options.max_probes, "probes", OpenOptions::kMostProbes),
+        check(std::max(options.trace_touches, 1U), "touches of a trace",
+              OpenOptions::kMostTraceTouches)})
     if (!checked) return checked;
   return {};
 }
@@ -97,6 +102,7 @@ Pager::Limits limits_of(const OpenOptions& options) {
                       options.fetch_threads * FetchCrew::kThreadBytes +
                       limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
+  limits.trace_touches = options.trace_touches;
   return limits;
 }
 
@@ -172,6 +178,23 @@ Result<Model> ModelState::open_model(const std::filesystem::path& path, const Op
   return Model(std::move(*state));
 }
 
+std::size_t ModelState::take_touches(std::span<PageTouch> touches) const noexcept {
+  std::size_t count = 0;
+  for (std::uint32_t place = 0; place < asking_.traces.size(); ++place) {
+    std::array<Touch, 64> taken;
+    for (std::size_t got = taken.size(); got == taken.size();) {
+      const std::size_t room = std::min(taken.size(), touches.size() - count);
+      got = asking_.traces[place].ring.take(std::span(taken).first(room));
+      for (const Touch& touch : std::span(taken).first(got)) {
+        const std::uint64_t octcode = pager_->file().entries()[touch.page].octcode;
+        const auto level = static_cast<std::uint8_t>(octree::cell_of_octcode(octcode).level);
+        touches[count++] = {touch.ask, place, touch.page, level, touch.kind};
+      }
+    }
+  }
+  return count;
+}
+
 Stats ModelState::stats() const noexcept {
   const cache::CacheStats cache = pager_->cache().stats();
   Stats stats;
@@ -181,6 +204,7 @@ Stats ModelState::stats() const noexcept {
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
+  for (const TouchTrace& trace : asking_.traces) stats.touches_dropped += trace.ring.dropped();
   for (const Wishes& wishes : asking_.wishes) stats.wishes_made += wishes.missed.given();
   if (fetchers_) {
     stats.wishes_fetched = fetchers_->wishes_fetched();
@@ -208,5 +232,8 @@ Model::~Model() = default;
 
 const ModelInfo& Model::info() const noexcept { return state_->info(); }
 Stats Model::stats() const noexcept { return state_->stats(); }
+std::size_t Model::take_touches(std::span<PageTouch> touches) const noexcept {
+  return state_->take_touches(touches);
+}
 
 }  // namespace planetree

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <span>
 
 #include "octree/colour_map.h"
 #include "octree/mask_lookup.h"
@@ -55,6 +56,13 @@ class ModelState {
   BatchCrew* crew() const noexcept { return crew_.get(); }
   /// Of the probe whose reader has this place.
   Wishes& wishes(std::uint32_t place) const noexcept { return asking_.wishes[place]; }
+  /// Its notes of pages.
+  TouchLog touch_log(std::uint32_t place) const noexcept {
+    if (asking_.traces.empty()) return {nullptr, nullptr};
+    return {&asking_.traces[place], asking_.marks.data()};
+  }
+  /// See Model::take_touches.
+  std::size_t take_touches(std::span<PageTouch> touches) const noexcept;
   /// For the ProbeState whose reader has this place.
   void* probe_room(std::uint32_t place) const noexcept { return asking_.probe_room(place); }
   std::uint32_t reader_count() const noexcept {

@@ -35,6 +35,8 @@ AskingMemory::Needs Pager::asking_needs(const Limits& limits) const noexcept {
   needs.readers = limits.readers();
   if (model.mask_page_count > 0)
     needs.colour_bytes = octree::ColourMap::bytes(model.triangle_count);
+  needs.trace_touches = limits.trace_touches;
+  needs.page_count = file_.header().page_count;
   return needs;
 }
 

@@ -29,6 +29,7 @@ class Pager {
     std::uint64_t crew_bytes = 0;  ///< the same of the probes of the model's own threads,
     unsigned crew_probes = 0;      ///< all together
     Locking locking = Locking::kTry;
+    std::uint32_t trace_touches = 0;
 
     unsigned readers() const noexcept { return max_probes + crew_probes; }
   };
@@ -78,13 +79,22 @@ class PageTurner {
   PageTurner(const PageTurner&) = delete;
   PageTurner& operator=(const PageTurner&) = delete;
 
+  /// Where to note what is looked for; null: nowhere.
+  void log_to(TouchLog* log) noexcept { log_ = log; }
+
   /// The page's frame, good until the next call; null if it cannot be had.
   const std::byte* page(std::uint32_t number) noexcept {
     if (++turns_ % kTurnsPerSection == 0) reader_.leave();
     begin();
-    if (const std::byte* frame = reader_.find(number)) return frame;
-    if (wait_ == Wait::kForPages && !(stop_ && stop_->load(std::memory_order_relaxed)))
+    if (const std::byte* frame = reader_.find(number)) {
+      if (log_) log_->found(number);
+      return frame;
+    }
+    if (wait_ == Wait::kForPages && !(stop_ && stop_->load(std::memory_order_relaxed))) {
+      if (log_) log_->fetched(number);
       return reader_.fetch(number);
+    }
+    if (log_ && wait_ == Wait::kNever) log_->missed(number);
     missed_ = true;
     return nullptr;
   }
@@ -118,6 +128,7 @@ class PageTurner {
   cache::Reader& reader_;
   const Wait wait_;
   const std::atomic<bool>* const stop_;
+  TouchLog* log_ = nullptr;
   bool missed_ = false;
   std::uint32_t turns_ = 0;
 };

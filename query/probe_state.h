@@ -31,7 +31,10 @@ class ProbeState {
 
   ProbeState(const ModelState& model, cache::Reader reader,
              std::unique_ptr<BatchOrder> batch_order = nullptr) noexcept
-      : model_(model), reader_(std::move(reader)), batch_order_(std::move(batch_order)) {}
+      : model_(model),
+        reader_(std::move(reader)),
+        touches_(model.touch_log(reader_.place())),
+        batch_order_(std::move(batch_order)) {}
 
   const ModelState& model() const noexcept { return model_; }
   cache::Reader& reader() noexcept { return reader_; }
@@ -44,6 +47,7 @@ class ProbeState {
   /// The last nearest triangle, for asks that may find none; nothing before the first of
   /// Wait::kNever.
   octree::NearestAnswer& last_nearest() noexcept { return last_nearest_; }
+  TouchLog& touches() noexcept { return touches_; }
   /// The parts last asked for.
   std::uint32_t& last_parts() noexcept { return last_parts_; }
 
@@ -53,6 +57,7 @@ class ProbeState {
  private:
   const ModelState& model_;
   cache::Reader reader_;
+  TouchLog touches_;
   octree::Vicinity vicinity_;
   SideMemory side_memory_;
   octree::NearestAnswer last_nearest_;

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "planetree/error.h"
 #include "planetree/stats.h"
+#include "planetree/trace.h"
 
 namespace planetree {
 
@@ -37,10 +40,14 @@ struct OpenOptions {
   /// Most probes at one time; 1 to kMostProbes.
   unsigned max_probes = 16;
   Locking locking = Locking::kTry;
+  /// Most touches of pages that wait to be taken, of each probe, up to kMostTraceTouches; 0: none
+  /// are noted. 16 bytes each or, as the next power of two of them are claimed, up to 32.
+  std::uint32_t trace_touches = 0;
 
   static constexpr unsigned kMostProbes = 1024;
   static constexpr unsigned kMostFetchThreads = 64;
   static constexpr unsigned kMostBatchThreads = 256;
+  static constexpr std::uint32_t kMostTraceTouches = std::uint32_t{1} << 24;
 };
 
 /// An opened .ptree file: immutable, shared by any number of threads, each
@@ -64,6 +71,12 @@ class Model {
   const ModelInfo& info() const noexcept;
   /// Any thread, at any time; waits for nobody.
   Stats stats() const noexcept;
+  /// Takes what asks of Wait::kNever noted of the pages they looked for, where
+  /// OpenOptions::trace_touches has them do so: of each probe, the oldest first. Those that find
+  /// no room are dropped and counted (Stats::touches_dropped), for no ask waits. One thread at a
+  /// time, any; waits for nobody.
+  /// return  how many there were, or room for.
+  std::size_t take_touches(std::span<PageTouch> touches) const noexcept;
 
  private:
   friend class Probe;

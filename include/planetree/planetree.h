@@ -9,4 +9,5 @@
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "planetree/stats.h"
+#include "planetree/trace.h"
 #include "planetree/types.h"

@@ -48,6 +48,7 @@ struct Stats {
   std::uint64_t wishes_made = 0;
   std::uint64_t wishes_fetched = 0;
   std::uint64_t places_prefetched = 0;  ///< that probes were moving to
+  std::uint64_t touches_dropped = 0;    ///< see Model::take_touches
   std::uint64_t frames = 0;             ///< most pages in memory at once
   std::uint64_t arena_bytes = 0;        ///< memory of those
   std::uint64_t table_bytes = 0;        ///< all else: page map, probes, colour map, scratch, ...
