@@ -17,6 +17,7 @@
 #include "tools/open_model.h"
 #include "tools/touch_report.h"
 #include "tools/touch_session.h"
+#include "tools/touch_ticks.h"
 #include "tools/touch_trace.h"
 #include "tools/verb_options.h"
 
@@ -42,44 +43,57 @@ Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& co
   return touch_path(*model, *probe, arguments.motion, arguments.seconds * arguments.rate_hz);
 }
 
-/// Opened before the session, which may be long, so that it can be written after.
-Result<std::optional<OutputFile>> open_trace(const TouchArguments& arguments) {
-  if (arguments.trace.empty()) return std::optional<OutputFile>();
-  auto file = OutputFile::create(arguments.trace, arguments.force);
+/// A file beside the report, if there is to be one. Opened before the session, which may be long,
+/// so that it can be written after.
+Result<std::optional<OutputFile>> open_beside(const std::filesystem::path& path, bool force) {
+  if (path.empty()) return std::optional<OutputFile>();
+  auto file = OutputFile::create(path, force);
   if (!file) return file.error();
   return std::optional<OutputFile>(std::move(*file));
 }
 
-Result<void> write_trace(OutputFile& file, std::span<const Vec3> path, const TouchRecord& record) {
-  const std::string text = touch_trace(path, record);
+Result<void> write_whole(OutputFile& file, const std::string& text) {
   if (const auto written = file.write(std::as_bytes(std::span(text))); !written) return written;
   return file.commit();
+}
+
+OpenOptions options_of(const TouchArguments& arguments) {
+  OpenOptions options;
+  options.memory_budget_bytes = arguments.memory_bytes;
+  options.max_probes = 1;
+  if (!arguments.trace.empty()) options.trace_touches = TouchTaker::kTouchesWaiting;
+  return options;
 }
 
 }  // namespace
 
 int run_touch(const TouchArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
-  auto trace = open_trace(arguments);
+  auto ticks = open_beside(arguments.ticks, arguments.force);
+  if (!ticks) return console.fail(arguments.ticks.string(), ticks.error());
+  auto trace = open_beside(arguments.trace, arguments.force);
   if (!trace) return console.fail(arguments.trace.string(), trace.error());
   const auto path = find_path(arguments, console);
   if (!path) return console.fail(file, path.error());
   if (arguments.cold) drop_from_page_cache(arguments.file);
 
-  OpenOptions options;
-  options.memory_budget_bytes = arguments.memory_bytes;
-  options.max_probes = 1;
-  const auto model = Model::open(arguments.file, options);
+  const auto model = Model::open(arguments.file, options_of(arguments));
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
   const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
                       static_cast<std::int64_t>(arguments.rate_hz);
+  std::optional<TouchTaker> taker;
+  if (*trace) taker.emplace(*model);
   const TouchRecord record = run_touch_session(*probe, *path, period);
+  const std::string touches = taker ? touch_trace(taker->finish()) : "";
   console.print(arguments.json ? touch_json(arguments, record, *model)
                                : touch_words(arguments, record, *model));
+  if (*ticks)
+    if (const auto written = write_whole(**ticks, touch_ticks(*path, record)); !written)
+      return console.finish(console.fail(arguments.ticks.string(), written.error()));
   if (*trace)
-    if (const auto written = write_trace(**trace, *path, record); !written)
+    if (const auto written = write_whole(**trace, touches); !written)
       return console.finish(console.fail(arguments.trace.string(), written.error()));
   const auto error = unreadable_pages(model->stats());
   return console.finish(error ? console.fail(file, *error) : kDone);
@@ -110,14 +124,18 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
           "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
           "(0.1 %) or teleport (to another place every hundred ticks)"),
       "glide");
-  verb.path("--trace", "OUT.csv", options->trace,
+  verb.path("--ticks", "OUT.csv", options->ticks,
             "Write every tick here: tick,x,y,z,latency_us,ask_us,width,side,status");
-  verb.flag("--force", options->force, "Replace the trace if it exists");
+  verb.path("--trace", "OUT.csv", options->trace,
+            "Write every page that an answer looked for here: tick,probe,page,level,touch (hit, "
+            "prefetched or missed)");
+  verb.flag("--force", options->force, "Replace what these name if it exists");
   verb.flag("--cold", options->cold,
             "Have the system forget the file first, so that every page comes from the disk");
   verb.flag("--json", options->json, "Report as one JSON object");
   verb.on_given([options, &console, &action]() -> std::string {
-    if (options->trace == "-") return "a trace needs a file: standard output has the report";
+    if (options->trace == "-" || options->ticks == "-")
+      return "ticks and traces need files: standard output has the report";
     if (options->seconds == 0 || options->rate_hz == 0)
       return "a session without ticks; give --seconds and --rate of 1 or more";
     action = [options, &console] { return run_touch(*options, console); };

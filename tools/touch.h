@@ -19,8 +19,9 @@ struct TouchArguments {
   std::uint64_t rate_hz = 1000;
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   TouchMotion motion = TouchMotion::kGlide;
-  std::filesystem::path trace;  ///< where every tick is written; empty: nowhere
-  bool force = false;           ///< an existing trace may be replaced
+  std::filesystem::path ticks;  ///< where every tick is written; empty: nowhere
+  std::filesystem::path trace;  ///< the same of every page that is looked for
+  bool force = false;           ///< existing ones may be replaced
   bool cold = false;            ///< the system is to forget what it has of the file in memory
   bool json = false;
 };

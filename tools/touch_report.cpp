@@ -109,7 +109,9 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
           {"pages_evicted", stats.pages_evicted},
           {"quarantined_pages", stats.quarantined_pages},
           {"wishes_fetched", stats.wishes_fetched},
+          {"wishes_made", stats.wishes_made},
           {"places_prefetched", stats.places_prefetched},
+          {"touches_dropped", stats.touches_dropped},
           {"budget_bytes", stats.budget_bytes},
           {"held_bytes", stats.arena_bytes + stats.table_bytes},
           {"peak_resident_bytes", peak_resident_bytes()}};
@@ -154,6 +156,8 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
   text += fmt::format("{} page faults, {} switches forced; {} pages read, {} evicted\n",
                       number("faults"), number("switches_forced"),
                       grouped_count(number("pages_read")), grouped_count(number("pages_evicted")));
+  if (!arguments.trace.empty())
+    text += fmt::format("{} touches dropped from the trace\n", number("touches_dropped"));
   return text;
 }
 

@@ -2,24 +2,63 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
-#include <cstddef>
+#include <array>
+#include <chrono>
 #include <iterator>
 
-#include "tools/answer_writer.h"
-
 namespace planetree::tools {
+namespace {
 
-std::string touch_trace(std::span<const Vec3> path, const TouchRecord& record) {
-  assert(path.size() == record.ticks.size());
-  std::string text = "tick,x,y,z,latency_us,ask_us,width,side,status\n";
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Tick& tick = record.ticks[i];
-    fmt::format_to(std::back_inserter(text),
-                   "{},{:.17g},{:.17g},{:.17g},{:.3f},{:.3f},{:.9g},{},{}\n", i, path[i].x,
-                   path[i].y, path[i].z, tick.latency_ns / 1e3, tick.ask_ns / 1e3, tick.width,
-                   side_word(tick.side), status_word(tick.status));
+constexpr auto kPause = std::chrono::milliseconds(2);
+
+const char* touch_word(PageTouch::Kind kind) {
+  switch (kind) {
+    case PageTouch::Kind::kHit:
+      return "hit";
+    case PageTouch::Kind::kPrefetched:
+      return "prefetched";
+    case PageTouch::Kind::kMissed:
+      return "missed";
   }
+  return "";
+}
+
+}  // namespace
+
+TouchTaker::TouchTaker(const Model& model)
+    : model_(model), thread_([this] {
+        while (!stopping_.load(std::memory_order_relaxed)) {
+          take();
+          std::this_thread::sleep_for(kPause);
+        }
+      }) {}
+
+TouchTaker::~TouchTaker() { finish(); }
+
+const std::vector<PageTouch>& TouchTaker::finish() {
+  if (thread_.joinable()) {
+    stopping_.store(true, std::memory_order_relaxed);
+    thread_.join();
+    take();
+  }
+  return touches_;
+}
+
+void TouchTaker::take() {
+  std::array<PageTouch, 1024> taken;
+  for (std::size_t got = taken.size(); got == taken.size();) {
+    got = model_.take_touches(taken);
+    touches_.insert(touches_.end(), taken.begin(),
+                    taken.begin() + static_cast<std::ptrdiff_t>(got));
+  }
+}
+
+std::string touch_trace(std::span<const PageTouch> touches) {
+  std::string text = "tick,probe,page,level,touch\n";
+  for (const PageTouch& touch : touches)
+    if (touch.ask > 0)
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", touch.ask - 1, touch.probe,
+                     touch.page, touch.level, touch_word(touch.kind));
   return text;
 }
 

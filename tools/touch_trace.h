@@ -1,15 +1,42 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <thread>
+#include <vector>
 
-#include "planetree/types.h"
-#include "tools/touch_session.h"
+#include "planetree/model.h"
+#include "planetree/trace.h"
 
 namespace planetree::tools {
 
-/// A session's ticks as CSV: a header, then tick,x,y,z,latency_us,ask_us,width,side,status for
-/// each; lengths in model units.
-std::string touch_trace(std::span<const Vec3> path, const TouchRecord& record);
+/// Takes the pages that a model's asks look for, as they come, on a thread of its own.
+class TouchTaker {
+ public:
+  /// Most that wait to be taken: what a probe may look for in the time of some pauses.
+  static constexpr std::uint32_t kTouchesWaiting = 4096;
+
+  explicit TouchTaker(const Model& model);
+  ~TouchTaker();
+  TouchTaker(const TouchTaker&) = delete;
+  TouchTaker& operator=(const TouchTaker&) = delete;
+
+  /// Ends the thread; all that was taken.
+  const std::vector<PageTouch>& finish();
+
+ private:
+  void take();
+
+  const Model& model_;
+  std::vector<PageTouch> touches_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+/// The touches of a session as CSV: a header, then tick,probe,page,level,touch for each, where
+/// touch is hit, prefetched or missed. The session's first ask is before its ticks, and left out.
+std::string touch_trace(std::span<const PageTouch> touches);
 
 }  // namespace planetree::tools

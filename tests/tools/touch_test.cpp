@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -107,7 +108,7 @@ TEST_F(Touch, SaysTheSameInWords) {
 
 TEST_F(Touch, WritesEveryTickWhereAsked) {
   const std::vector<std::string> session = {"touch",  "tree.ptree", "--seconds", "1",
-                                            "--rate", "200",        "--trace",   "ticks.csv"};
+                                            "--rate", "200",        "--ticks",   "ticks.csv"};
   ASSERT_EQ(run(session).status, kDone);
   const std::vector<std::string> rows = lines_of(read_text("ticks.csv"));
   ASSERT_EQ(rows.size(), 201u);
@@ -117,6 +118,29 @@ TEST_F(Touch, WritesEveryTickWhereAsked) {
   const Outcome again = run(session);
   EXPECT_EQ(again.status, kCommandLineAtFault);
   EXPECT_EQ(again.output, "");
+}
+
+TEST_F(Touch, TracesEveryPageWhereAsked) {
+  const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "200", "--trace",
+                               "pages.csv", "--ticks", "ticks.csv", "--json"});
+  ASSERT_EQ(outcome.status, kDone) << outcome.errors;
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["touches_dropped"], 0);
+  const std::vector<std::string> rows = lines_of(read_text("pages.csv"));
+  ASSERT_GT(rows.size(), 1u);
+  EXPECT_EQ(rows[0], "tick,probe,page,level,touch");
+  unsigned last = 0, missed = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    unsigned tick = 0, probe = 0, page = 0, level = 0;
+    char touch[16] = {};
+    ASSERT_EQ(std::sscanf(rows[i].c_str(), "%u,%u,%u,%u,%15s", &tick, &probe, &page, &level, touch),
+              5);
+    EXPECT_GE(tick, last);
+    EXPECT_LT(tick, 200u);
+    EXPECT_LT(page, entries_.size());
+    missed += std::string(touch) == "missed";
+    last = tick;
+  }
+  EXPECT_LT(missed, rows.size() - 1);
 }
 
 TEST_F(Touch, RefusesASessionWithoutTicks) {
