@@ -154,22 +154,23 @@ StressCount stress_protocol(const StressGoal& goal, WriterMistake mistake = Writ
 /// Of a whole PageCache, where the thread that installs is one that fetches.
 inline StressCount stress_page_cache(const StressGoal& goal) {
   // So many frames fill a system page, so that a budget can give an exact number of them.
-  constexpr std::uint32_t kPages = 64, kFrames = 32, kFrameBytes = 128;
+  constexpr std::uint32_t kStressPages = 64, kStressFrames = 32, kStressFrameBytes = 128;
   TaggedPages pages;
-  auto cache = PageCache::create(limits_for_frames(kFrames, kPages, goal.readers + 1, kFrameBytes),
-                                 TaggedPages::fill, &pages);
+  auto cache = PageCache::create(
+      limits_for_frames(kStressFrames, kStressPages, goal.readers + 1, kStressFrameBytes),
+      TaggedPages::fill, &pages);
   Reader writer = *(*cache)->claim_reader();
   Numbers numbers(99);
   const auto install = [&] {
     const std::uint64_t before = pages.fill_calls();
     writer.enter();
-    writer.fetch(numbers.below(kPages));
+    writer.fetch(numbers.below(kStressPages));
     writer.leave();
     return pages.fill_calls() > before;
   };
   return run_stress(goal, install, [&](std::uint32_t place, StressProgress& progress) {
     Reader reader = *(*cache)->claim_reader();
-    return StressReading(reader, kPages, kFrameBytes, place + 1).run(progress);
+    return StressReading(reader, kStressPages, kStressFrameBytes, place + 1).run(progress);
   });
 }
 

@@ -1,0 +1,177 @@
+// What serving in real time costs: a reader's section, installing pages, and asks beside that.
+// usage: serving_bench MODEL.ptree
+//
+// The asking thread runs first, and on a processor of its own, as far as the system grants it.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cache/reader_slot.h"
+#include "planetree/probe.h"
+#include "query/model_state.h"
+#include "tools/real_time.h"
+#include "tools/touch_path.h"
+
+namespace planetree::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Nanoseconds = std::chrono::duration<double, std::nano>;
+
+constexpr int kRounds = 9;
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double section_ns() {
+  constexpr int kSections = 2'000'000;
+  cache::ReaderSlot slot;
+  std::vector<double> rounds(kRounds);
+  for (double& round : rounds) {
+    const auto began = Clock::now();
+    for (int i = 0; i < kSections; ++i) {
+      slot.enter();
+      slot.leave();
+    }
+    round = Nanoseconds(Clock::now() - began).count() / kSections;
+  }
+  return median(rounds);
+}
+
+/// Fetches all pages in turn, so that with little memory each is installed anew.
+class Installer {
+ public:
+  explicit Installer(const Model& model)
+      : reader_(*query::ModelState::of(model).claim_reader()), pages_(model.info().pages) {}
+
+  void install_next() {
+    reader_.enter();
+    reader_.fetch(next_);
+    reader_.leave();
+    next_ = (next_ + 1) % pages_;
+  }
+
+ private:
+  cache::Reader reader_;
+  const std::uint32_t pages_;
+  std::uint32_t next_ = 0;
+};
+
+double installs_a_second(const Model& model) {
+  Installer installer(model);
+  std::vector<double> rounds(kRounds);
+  for (double& round : rounds) {
+    const std::uint64_t before = model.stats().pages_read;
+    const auto began = Clock::now();
+    while (Clock::now() - began < std::chrono::milliseconds(500)) installer.install_next();
+    const std::chrono::duration<double> taken = Clock::now() - began;
+    round = static_cast<double>(model.stats().pages_read - before) / taken.count();
+  }
+  return median(rounds);
+}
+
+/// How long asks took.
+struct AskTimes {
+  double half_ns, p999_ns;
+  std::size_t degraded;
+};
+
+AskTimes ask_path(Probe& probe, const std::vector<Vec3>& path) {
+  std::vector<double> times;
+  times.reserve(path.size());
+  AskTimes result{};
+  for (const Vec3& place : path) {
+    const auto began = Clock::now();
+    const ClosestPoint answer = probe.closest_point(place, {.wait = Wait::kNever});
+    times.push_back(Nanoseconds(Clock::now() - began).count());
+    result.degraded += answer.status == Status::kDegraded;
+  }
+  std::sort(times.begin(), times.end());
+  result.half_ns = times[times.size() / 2];
+  result.p999_ns = times[times.size() * 999 / 1000];
+  return result;
+}
+
+void say(const char* what, const std::vector<AskTimes>& rounds) {
+  std::vector<double> half, p999;
+  std::size_t degraded = 0;
+  for (const AskTimes& round : rounds) {
+    half.push_back(round.half_ns);
+    p999.push_back(round.p999_ns);
+    degraded += round.degraded;
+  }
+  fmt::print("{}: half {:.0f} ns, 99.9 % {:.0f} ns, {} degraded\n", what, median(half),
+             median(p999), degraded);
+}
+
+// Rounds with and without installs take turns.
+void compare_asks(const Model& model, const std::vector<Vec3>& path) {
+  std::atomic<bool> installs{false}, over{false};
+  std::thread installer([&] {
+    Installer work(model);
+    while (!over) installs ? work.install_next() : std::this_thread::yield();
+  });
+  std::thread asker([&] {
+    const tools::RealTimeRights rights = tools::become_real_time();
+    fmt::print("first before all threads: {}; one processor: {}\n", rights.fifo, rights.pinned);
+    auto probe = Probe::create(model);
+    std::vector<AskTimes> idle, loaded;
+    for (int round = 0; round < 2 * kRounds; ++round) {
+      installs = round % 2 == 1;
+      for (const Vec3& place : path) (void)probe->closest_point(place);  // so that it is resident
+      (installs ? loaded : idle).push_back(ask_path(*probe, path));
+    }
+    say("asks, nothing else done", idle);
+    say("asks beside installs", loaded);
+    over = true;
+  });
+  asker.join();
+  installer.join();
+}
+
+int run(const char* file) {
+  OpenOptions options;
+  options.max_probes = 3;
+  options.locking = Locking::kTry;
+  const auto whole =
+      Model::open(file, {.memory_budget_bytes = ~std::uint64_t{0} / 2, .locking = Locking::kNever});
+  if (!whole) {
+    fmt::print(stderr, "serving_bench: {}\n", whole.error().text);
+    return 1;
+  }
+  auto finder = Probe::create(*whole);
+  constexpr std::size_t kTicks = 20000;
+  const auto path = tools::touch_path(*whole, *finder, tools::TouchMotion::kGlide, kTicks);
+  options.memory_budget_bytes = (whole->stats().arena_bytes + whole->stats().table_bytes) / 2;
+  const auto model =
+      query::ModelState::open_model(file, options, {storage::FileCalls::real(), false});
+  if (!model) {
+    fmt::print(stderr, "serving_bench: {}\n", model.error().text);
+    return 1;
+  }
+  fmt::print("a section of a reader: {:.1f} ns\n", section_ns());
+  fmt::print("installs a second: {:.0f}, pages of {} bytes\n", installs_a_second(*model),
+             model->info().page_bytes);
+  compare_asks(*model, path);
+  return 0;
+}
+
+}  // namespace
+}  // namespace planetree::bench
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: serving_bench MODEL.ptree\n", stderr);
+    return 2;
+  }
+  return planetree::bench::run(argv[1]);
+}
