@@ -68,6 +68,29 @@ void measure_far(const Vec3& query, const Ask& ask, ClosestPoint& answer) {
   answer.lower = std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - 0x1p-48);
 }
 
+// How far the surface is that was left out of a file of a region: at least so far, and all of its
+// triangles would be found to be. Nothing is known where the point itself is out of reach.
+double clearance(const octree::Region& region, const octree::Point& point, bool far) {
+  if (!region.has_walls()) return kInfinity;
+  return far ? 0 : region.clearance(point);
+}
+
+// What the nearest of a region's triangles says of the whole surface, which is nowhere nearer
+// than those or `clear`.
+void widen(const octree::TreeFacts& tree, const octree::Point& point, double clear,
+           double max_distance, octree::NearestAnswer& nearest) {
+  const bool beyond = nearest.status == Status::kBeyondMaxDistance;
+  if (beyond ? max_distance <= clear : nearest.upper < clear) return;
+  // Something that was left out may be nearer.
+  nearest.lower = std::max(0.0, std::min(nearest.lower, clear));
+  nearest.status = Status::kDegraded;
+  if (!beyond) return;
+  nearest.point = tree.sample;
+  nearest.upper = (point - tree.sample).norm() * (1 + 0x1p-48) + 0x1p-500;
+  nearest.distance = nearest.upper;
+  nearest.feature = Feature::kVertex;
+}
+
 ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nearest) {
   ClosestPoint answer;
   answer.distance = scale.out(nearest.distance);
@@ -154,10 +177,15 @@ class Asking {
                                       &probe_.vicinity());
     // What stands for the farthest queries' nearest triangle is a vertex of it.
     if (!far_ && limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
+    lost_ = nearest_.status == Status::kDegraded;
+    widen(model_.tree(), point_, clearance(model_.region(), point_, far_), limits.max_distance,
+          nearest_);
     answer_ = in_model_units(model_.scale(), nearest_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
-    lost_ = answer_.status == Status::kDegraded;
+    if (answer_.status == Status::kDegraded && !lost_ &&
+        answer_.upper - answer_.lower <= ask_.max_error)
+      answer_.status = Status::kWithinError;
   }
 
   void find_side() {

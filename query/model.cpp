@@ -10,6 +10,7 @@
 #include "query/batch_crew.h"
 #include "query/fetch_crew.h"
 #include "query/host_arithmetic.h"
+#include "query/model_region.h"
 #include "query/model_state.h"
 #include "query/page_decoding.h"
 #include "query/probe_state.h"
@@ -29,6 +30,10 @@ ModelInfo describe(const storage::PageFile& file) {
   info.box_lower = {model.box_lower[0], model.box_lower[1], model.box_lower[2]};
   info.box_upper = {model.box_upper[0], model.box_upper[1], model.box_upper[2]};
   info.open_edges = model.open_edge_count;
+  info.input_triangles = model.usable_triangles();
+  info.has_region = model.has_region();
+  info.region_lower = {model.region_lower[0], model.region_lower[1], model.region_lower[2]};
+  info.region_upper = {model.region_upper[0], model.region_upper[1], model.region_upper[2]};
   info.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
   info.nodes = model.node_count;
   info.blocks = model.block_count;
@@ -129,6 +134,9 @@ ModelState::ModelState(std::unique_ptr<Pager> pager)
       scale_(pager_->file().header().model.scale_exponent) {
   tree_ = tree_facts(pager_->file().header(), scale_);
   mask_ = mask_facts(pager_->file().header(), tree_);
+  region_ = region_of(pager_->file().header().model);
+  region_corner_ = region_.clamped(tree_.box_lower);
+  region_winding_ = pager_->file().header().model.region_winding;
 }
 
 Result<void> ModelState::fill_colours() {

@@ -10,6 +10,7 @@
 #include "octree/colour_map.h"
 #include "octree/mask_lookup.h"
 #include "octree/nearest.h"
+#include "octree/region.h"
 #include "planetree/error.h"
 #include "planetree/model.h"
 #include "planetree/stats.h"
@@ -50,6 +51,11 @@ class ModelState {
   const octree::TreeFacts& tree() const noexcept { return tree_; }
   const octree::MaskFacts& mask() const noexcept { return mask_; }
   const octree::ColourMap& colours() const noexcept { return colours_; }
+  /// Where the file knows all of the surface.
+  const octree::Region& region() const noexcept { return region_; }
+  /// A point in it, and the winding number there; of a watertight model of a region.
+  const octree::Point& region_corner() const noexcept { return region_corner_; }
+  std::int64_t region_winding() const noexcept { return region_winding_; }
   const Scale& scale() const noexcept { return scale_; }
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   /// Null where batches are answered by the caller's thread alone.
@@ -82,6 +88,9 @@ class ModelState {
   octree::TreeFacts tree_;
   octree::MaskFacts mask_;
   octree::ColourMap colours_;
+  octree::Region region_;
+  octree::Point region_corner_ = octree::Point::Zero();
+  std::int64_t region_winding_ = 0;
   Scale scale_;
   mutable std::atomic<std::uint64_t> degraded_{0};
   // Last: their probes are the model's.

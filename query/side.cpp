@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "octree/cell_grid.h"
+#include "octree/clipped_grid.h"
 #include "octree/crossings.h"
 #include "octree/mask_lookup.h"
 #include "octree/nearest.h"
@@ -35,9 +35,13 @@ class SideSearch {
   Standing run() {
     if (ask_mask()) return standing_;
     // Usually the first way tells; another may do without a page that is lost.
+    const octree::Region& region = model_.region();
     const WaysOut ways(model_.tree(), point_);
     for (const WaysOut::Way& way : ways.all())
-      if (go(way.end, 0, SideReason::Rule::kWayOut)) return standing_;
+      if (region.holds(way.end) && go(way.end, 0, SideReason::Rule::kWayOut)) return standing_;
+    if (region.has_walls() &&
+        go(model_.region_corner(), model_.region_winding(), SideReason::Rule::kWayOut))
+      return standing_;
     return {Side::kUnknown, Status::kDegraded};
   }
 
@@ -81,7 +85,7 @@ class SideSearch {
 
   // The nearest corner, or the last point if that is nearer: few triangles are between.
   bool go_to_corner(const octree::MaskFinding& found) {
-    const octree::CellGrid grid(model_.mask().lower);
+    const octree::ClippedGrid grid(model_.mask().lower, model_.region());
     const Point lower = grid.lower(found.cell), upper = grid.upper(found.cell);
     unsigned nearest = 0;
     for (unsigned axis = 0; axis < 3; ++axis)
@@ -139,6 +143,13 @@ Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t
   return SideSearch(model, point, max_nodes, pages, work, reason, nullptr).run();
 }
 
+// What is left out of a file may change the winding number: of a point beyond a wall of its
+// region, and of any where winding numbers are not constant off the surface.
+bool is_untold(const ModelState& model, const Point& point) {
+  const octree::Region& region = model.region();
+  return !region.holds(point) || (region.has_walls() && !model.info().watertight());
+}
+
 /// The nearest whole number, however large.
 std::int64_t rounded(double value) {
   constexpr double kMost = 0x1p62;
@@ -170,12 +181,17 @@ Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
 Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
                    octree::PageReader pages, octree::TreeWork& work, SideReason* reason) noexcept {
   if (reason) *reason = {};
+  if (is_untold(model, point)) {
+    if (reason) reason->rule = SideReason::Rule::kRegion;
+    return {};
+  }
   return model.info().watertight()
              ? by_crossings(model, point, max_nodes, pages, work, reason)
              : by_winding_number(model.tree(), point, max_nodes, pages, work, reason);
 }
 
 std::optional<Standing> side_at_once(const ModelState& model, const Point& point) noexcept {
+  if (is_untold(model, point)) return Standing{};
   if (!model.info().watertight()) return {};
   if (outside_box(model.tree(), point)) return Standing{Side::kOutside};
   const int winding = model.colours().winding(point);
@@ -186,7 +202,8 @@ std::optional<Standing> side_at_once(const ModelState& model, const Point& point
 Standing find_side(const ModelState& model, const Point& point, double clear, SideMemory& memory,
                    std::uint64_t max_nodes, octree::PageReader pages,
                    octree::TreeWork& work) noexcept {
-  if (!model.info().watertight() || outside_box(model.tree(), point))
+  if (!model.info().watertight() || !model.region().holds(point) ||
+      outside_box(model.tree(), point))
     return find_side(model, point, max_nodes, pages, work);
   if (memory.same_side(point, clear)) {
     memory.note(point, memory.standing(), memory.counted(), clear);

@@ -16,11 +16,14 @@ namespace planetree::query {
 struct SideReason {
   enum class Rule : std::uint8_t {
     kNone,           ///< the side is not known
+    kRegion,         ///< nor can it be: the file is of a region, and the point beyond it or the
+                     ///< model not watertight
     kOutsideBox,     ///< of the model
     kColour,         ///< `cell` is white or black
     kPlanes,         ///< `cell` is special
     kCorner,         ///< `crossings` from a corner of `cell`, `end`, where `known` is known
-    kWayOut,         ///< `crossings` from `end`, outside of the model's box
+    kWayOut,         ///< `crossings` from `end`, outside of the model's box, or of its region's
+                     ///< least corner
     kWindingNumber,  ///< of a model that is not watertight: `value`, right within `error`
   };
   Rule rule = Rule::kNone;

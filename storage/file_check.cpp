@@ -15,6 +15,7 @@ namespace {
 constexpr int kMaxHeight = 96;
 constexpr int kMaxMaskLevel = 19;
 constexpr std::int32_t kMaxScaleExponent = 1200;
+constexpr std::uint64_t kMostWinding = std::uint64_t{1} << 62;
 
 Error damaged(std::uint64_t page, std::uint64_t offset, const char* cause) noexcept {
   return make_error(ErrorCode::kDamaged, page, offset,
@@ -150,6 +151,43 @@ Result<void> check_open_edges(const ModelRecord& model) noexcept {
   return {};
 }
 
+// A triangle touches both the region and the model's box.
+bool is_region(const ModelRecord& model) noexcept {
+  if (!all_finite(model.region_lower) || !all_finite(model.region_upper)) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (model.region_lower[axis] > model.region_upper[axis] ||
+        model.region_lower[axis] > model.box_upper[axis] ||
+        model.region_upper[axis] < model.box_lower[axis]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool is_no_region(const ModelRecord& model) noexcept {
+  constexpr ModelRecord kNothing{};
+  return std::memcmp(model.region_lower, kNothing.region_lower, sizeof model.region_lower) == 0 &&
+         std::memcmp(model.region_upper, kNothing.region_upper, sizeof model.region_upper) == 0 &&
+         model.region_winding == 0;
+}
+
+Result<void> check_region(const ModelRecord& model) noexcept {
+  if (model.has_region() ? !is_region(model) : !is_no_region(model)) {
+    return bad_model(offsetof(ModelRecord, region_lower), "the region is not one of the model");
+  }
+  if (model.has_region() && model.input_triangles < model.triangle_count) {
+    return bad_model(offsetof(ModelRecord, input_triangles),
+                     "a region has more triangles than the input");
+  }
+  // A triangle counts for one at most. Sums of windings must not overflow.
+  const auto most = static_cast<std::int64_t>(std::min(model.input_triangles, kMostWinding));
+  if (model.region_winding > most || model.region_winding < -most) {
+    return bad_model(offsetof(ModelRecord, region_winding),
+                     "the winding number at the region's corner is out of range");
+  }
+  return {};
+}
+
 Result<void> check_mask(const ModelRecord& model) noexcept {
   if (model.mask_page_count > 0 && model.open_edge_count > 0) {
     return bad_model(offsetof(ModelRecord, mask_page_count),
@@ -223,6 +261,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
     return bad_model(offsetof(ModelRecord, reserved), "the model's reserved bytes are not zero");
   }
   if (const Result<void> checked = check_mask(model); !checked) return checked;
+  if (const Result<void> checked = check_region(model); !checked) return checked;
   return check_open_edges(model);
 }
 

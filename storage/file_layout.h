@@ -13,15 +13,15 @@
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
 ///   ...                    pages           stored bytes, page 0 first, no gap:
 ///                                          distance pages, then mask pages
-///   file_bytes - 512       header again    the same kHeaderBytes bytes
+///   file_bytes - 576       header again    the same kHeaderBytes bytes
 namespace planetree::storage {
 
 static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 4;
-inline constexpr std::size_t kHeaderBytes = 512;
+inline constexpr std::uint16_t kFormatVersion = 5;
+inline constexpr std::size_t kHeaderBytes = 576;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
 inline constexpr std::uint32_t kMaxPageBytes = 262144;
@@ -42,14 +42,14 @@ static_assert(sizeof(OpenEdge) == 64);
 /// What the whole model is. "Model frame" is the input's coordinates times
 /// 2^scale_exponent, so that the longest box edge lies in [1, 2).
 struct ModelRecord {
-  std::uint64_t triangle_count;    ///< triangles that answer
+  std::uint64_t triangle_count;    ///< triangles that answer: of the region, if there is one
   std::uint64_t set_aside_count;   ///< triangles of bad input records, which do not
   std::uint64_t first_set_aside;   ///< the first such triangle's index, or kNoTriangle
   std::uint64_t vertex_count;      ///< vertex records of the input
   std::uint64_t node_count;        ///< inner nodes of the distance tree
   std::uint64_t block_count;       ///< triangle blocks of the distance tree
-  double box_lower[3];             ///< input coordinates, exact
-  double box_upper[3];             ///< input coordinates, exact
+  double box_lower[3];             ///< of the whole input: its coordinates, exact
+  double box_upper[3];             ///< likewise
   double centre[3];                ///< model frame; boxes and planes are relative to it
   double sample[3];                ///< model frame; a vertex of sample_triangle
   std::uint64_t sample_triangle;   ///< the least index of a triangle that answers
@@ -59,14 +59,26 @@ struct ModelRecord {
   std::uint8_t triangle_id_bytes;  ///< width of stored triangle indices: 4 or 8
   std::uint8_t height;             ///< most nodes on a path from root to block
   std::uint8_t reserved[5];        ///< zero
-  std::uint64_t open_edge_count;   ///< 0: the surface is watertight
+  std::uint64_t open_edge_count;   ///< of the whole input; 0: the surface is watertight
   OpenEdge open_edge[3];           ///< the first, by triangle, then corner; else zero
   std::uint64_t mask_cell_count;   ///< grey cells of the mask
   std::uint32_t mask_page_count;   ///< the last pages of the file; 0: there is no mask
   std::uint8_t mask_levels;        ///< level of the finest grey cell
   std::uint8_t mask_reserved[3];   ///< zero
+  /// Of a file that holds only what touches a region: how many triangles of the input could be
+  /// used. 0: the file is of the whole input, and what follows is zero.
+  std::uint64_t input_triangles;
+  double region_lower[3];       ///< the input's units
+  double region_upper[3];       ///< likewise
+  std::int64_t region_winding;  ///< winding number at the least corner of the mask's root
+
+  [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
+  /// Of the whole input.
+  [[nodiscard]] std::uint64_t usable_triangles() const noexcept {
+    return has_region() ? input_triangles : triangle_count;
+  }
 };
-static_assert(sizeof(ModelRecord) == 384);
+static_assert(sizeof(ModelRecord) == 448);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "query/closest_point.h"
 #include "query/probe_state.h"
 #include "tools/answer_writer.h"
+#include "tools/coordinate_text.h"
 #include "tools/file_text.h"
 
 namespace planetree::tools {
@@ -29,6 +28,8 @@ std::string_view rule_word(Rule rule) {
   switch (rule) {
     case Rule::kNone:
       return "none";
+    case Rule::kRegion:
+      return "region";
     case Rule::kOutsideBox:
       return "outside_box";
     case Rule::kColour:
@@ -60,6 +61,8 @@ std::string because(const Explanation& explanation) {
     case Rule::kNone:
       return explanation.standing.status == Status::kDegraded ? "pages cannot be read"
                                                               : "the surface is not watertight";
+    case Rule::kRegion:
+      return "the file is of a region, and the point outside of that or the surface not watertight";
     case Rule::kOutsideBox:
       return "the point is outside of the model's box";
     case Rule::kColour:
@@ -97,15 +100,7 @@ std::string work_text(const octree::TreeWork& work) {
 
 std::optional<Vec3> parse_point(std::string_view text) {
   double values[3];
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis > 0 && (at == end || *at++ != ',')) return std::nullopt;
-    const auto [after, fault] = std::from_chars(at, end, values[axis]);
-    if (fault != std::errc{} || !std::isfinite(values[axis])) return std::nullopt;
-    at = after;
-  }
-  if (at != end) return std::nullopt;
+  if (!parse_coordinates(text, values)) return std::nullopt;
   return Vec3{values[0], values[1], values[2]};
 }
 
@@ -127,6 +122,7 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
   result.standing =
       query::find_side(**model, point, kAllNodes, turner.pages(), result.side_work, &result.reason);
+  result.pages_lost = (*model)->stats().quarantined_pages > 0;
   const octree::CellGrid grid((*model)->mask().lower);
   result.cell_lower = scale.out(grid.lower(result.reason.cell));
   result.cell_upper = scale.out(grid.upper(result.reason.cell));

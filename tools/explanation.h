@@ -24,6 +24,7 @@ struct Explanation {
   Vec3 corners[3];                ///< of the nearest triangle, model units
   octree::TreeWork side_work;     ///< what finding the side took, by itself,
   octree::TreeWork nearest_work;  ///< and the nearest point
+  bool pages_lost = false;        ///< some could not be read, so that the answer may be less exact
 };
 
 /// "X,Y,Z" as typed.

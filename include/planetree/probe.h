@@ -30,9 +30,10 @@ class Probe {
 
   /// Nearest surface point to `query`, model units; its side and contact normal.
   ///
-  /// With the default Ask the answer is exact unless pages are unreadable, and
-  /// then it is a function of the file and the query alone: the same bits for
-  /// any thread, memory budget, order of asking and processor.
+  /// With the default Ask the answer is exact unless pages are unreadable or a wall
+  /// of a region is nearer (ModelInfo::has_region). An exact one is a function of
+  /// the file and the query alone: the same bits for any thread, memory budget,
+  /// order of asking and processor.
   /// A query or limit that is NaN, infinite (but max_distance) or negative
   /// (limits) gives kBadQuery.
   ClosestPoint closest_point(Vec3 query, const Ask& ask = {}) noexcept;
@@ -41,7 +42,8 @@ class Probe {
   /// coordinates below 2^-1022 of the model's size are rounded.) Of the Ask,
   /// `wait` and `max_nodes` count. Of a model that is not watertight, the side by its
   /// winding number; unknown only where the work ends before that is certain to
-  /// be above or below 1/2, or where it is 1/2 to some 2^-45 a triangle.
+  /// be above or below 1/2, or where it is 1/2 to some 2^-45 a triangle, or where
+  /// a region tells no side.
   Containment contains(Vec3 query, const Ask& ask = {}) noexcept;
 
   /// Says where the probe is and how fast it goes, model units a second: pages that asks of

@@ -9,15 +9,24 @@ namespace planetree {
 /// What a file holds; fixed when it was built.
 struct ModelInfo {
   std::uint64_t triangles = 0;        ///< that answer
+  std::uint64_t input_triangles = 0;  ///< of the input that could be used, in the region or not
   std::uint64_t set_aside = 0;        ///< of bad input records, which do not
   std::uint64_t first_set_aside = 0;  ///< index of the first of those, or kNoTriangle
   std::uint64_t vertices = 0;         ///< vertex records of the input
-  Vec3 box_lower, box_upper;          ///< model units
-  std::uint64_t open_edges = 0;       ///< along which faces do not balance; see watertight()
-  bool float64 = false;               ///< coordinates are doubles that float32 does not hold
-  std::uint64_t nodes = 0;            ///< inner nodes of the tree
-  std::uint64_t blocks = 0;           ///< leaves: blocks of up to 16 triangles
-  std::uint32_t levels = 0;           ///< most nodes between the root and a block
+  Vec3 box_lower, box_upper;          ///< of the whole input; model units
+  /// Whether only triangles that touch a box were built (`planetree build --box`), from
+  /// `region_lower` to `region_upper`, model units. Intervals, sides and the first of equally near
+  /// triangles are those of the whole input all the same: nearer to the surface than to the
+  /// box's walls answers are exact, elsewhere Status::kDegraded; no walls are the box's sides
+  /// that are not within the model's. Beyond a wall, and of a model that is not watertight
+  /// wherever there is one, sides are unknown.
+  bool has_region = false;
+  Vec3 region_lower, region_upper;
+  std::uint64_t open_edges = 0;  ///< along which faces do not balance; see watertight()
+  bool float64 = false;          ///< coordinates are doubles that float32 does not hold
+  std::uint64_t nodes = 0;       ///< inner nodes of the tree
+  std::uint64_t blocks = 0;      ///< leaves: blocks of up to 16 triangles
+  std::uint32_t levels = 0;      ///< most nodes between the root and a block
   std::uint32_t pages = 0;
   std::uint32_t page_bytes = 0;  ///< of a page in memory
   std::uint64_t file_bytes = 0;

@@ -29,14 +29,18 @@ enum class Side : std::uint8_t {
   kInside,
   kOutside,
   kOnSurface,  ///< exactly on a triangle
-  kUnknown,    ///< not told: pages unreadable, work spent, or |w| is 1/2 to the last bits
+  /// Not told: pages unreadable, work spent, |w| is 1/2 to the last bits, or not all that counts
+  /// is there (see ModelInfo::has_region).
+  kUnknown,
 };
 
 /// How far an answer may be trusted.
 enum class Status : std::uint8_t {
-  kExact,              ///< proven: nothing left unread can be nearer
-  kWithinError,        ///< upper - lower <= Ask::max_error
-  kDegraded,           ///< pages missing or unreadable, or Ask::max_nodes spent; the interval holds
+  kExact,        ///< proven: nothing left unread can be nearer
+  kWithinError,  ///< upper - lower <= Ask::max_error
+  /// Pages missing or unreadable, or Ask::max_nodes spent, or something nearer may have been
+  /// left out (see ModelInfo::has_region); the interval holds.
+  kDegraded,
   kBeyondMaxDistance,  ///< nothing within Ask::max_distance
   kBadQuery,           ///< the query, or a limit in the Ask, is not a number that makes sense
 };

@@ -15,7 +15,7 @@ namespace planetree::octree {
 namespace {
 
 /// To be raised with every change of the records or of what trees are made of.
-constexpr int kWorkVersion = 1;
+constexpr int kWorkVersion = 2;
 
 constexpr std::uint64_t kSampleBlocks = 64;
 constexpr std::uint64_t kBlockBytes = 4096;
@@ -75,6 +75,10 @@ Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
   identity.strict = options.strict;
   identity.patch_triangles = seams.patch_triangles;
   identity.region_triangles = seams.region_triangles;
+  if (options.box) {
+    const auto& [lower, upper] = *options.box;
+    identity.box = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  }
   return identity;
 }
 

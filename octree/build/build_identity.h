@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "octree/build/build_options.h"
@@ -29,6 +31,7 @@ struct BuildIdentity {
   bool strict = false;
   std::uint64_t patch_triangles = 0;
   std::uint64_t region_triangles = 0;
+  std::optional<std::array<double, 6>> box;  ///< lower, then upper
 
   /// errors  as file_error(); kBadInput: the input is no regular file.
   static Result<BuildIdentity> of(const std::filesystem::path& input, const BuildOptions& options,
@@ -45,7 +48,8 @@ requires std::same_as<std::remove_const_t<Value>, BuildIdentity>
 void fields(Record& record, Value& identity) {
   record(identity.version, identity.input_bytes, identity.input_number, identity.changed_seconds,
          identity.changed_nanoseconds, identity.sample_low, identity.sample_high,
-         identity.page_bytes, identity.strict, identity.patch_triangles, identity.region_triangles);
+         identity.page_bytes, identity.strict, identity.patch_triangles, identity.region_triangles,
+         identity.box);
 }
 
 }  // namespace planetree::octree

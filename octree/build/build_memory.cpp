@@ -37,6 +37,7 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   memory.pages_bytes = left / 8;
   memory.edge_bytes = left / 16;
   memory.visitor_bytes = left / 16;
+  memory.part_bytes = memory.intake_bytes;  // by then there is nothing in that
   return memory;
 }
 
@@ -46,6 +47,7 @@ BuildMemory BuildMemory::holding_nothing_kept() const {
   memory.runs_bytes = 0;
   memory.pages_bytes = 0;
   memory.visitor_bytes = 0;
+  memory.part_bytes = 0;
   return memory;
 }
 

@@ -21,6 +21,7 @@ struct BuildMemory {
   std::uint64_t pages_bytes = 0;      ///< of pages, until they are written
   std::uint64_t edge_bytes = 0;       ///< of edges that patches have in common
   std::uint64_t visitor_bytes = 0;    ///< of triangles that regions have in common
+  std::uint64_t part_bytes = 0;       ///< of sorted triangles that touch the part to be built
 
   /// bytes    the most that the process should have; 0: a quarter of the machine's.
   /// threads  0: as many as the machine has.

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+
+#include "octree/build/region_box.h"
 
 namespace planetree::octree {
 
@@ -14,6 +17,8 @@ struct BuildOptions {
   std::filesystem::path temp_directory;  ///< for what is spilled; empty: the output's
   bool strict = false;                   ///< a set-aside record is an error
   bool replace = false;                  ///< an existing output may be replaced
+  /// Only triangles that touch it are built. Sides are those of the whole input.
+  std::optional<RegionBox> box;
   /// What is completed is kept, and what an earlier build of the same completed is gone on with.
   bool resume = false;
 

@@ -7,10 +7,13 @@ namespace planetree::octree {
 
 Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Patch>& patches,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress) {
+                                BuildProgress& progress, const PatchCall& also) {
   const auto is_done = [](std::size_t) { return false; };
   EdgeCensus census(held_bytes, scratch);
-  const auto add = [&](std::size_t, const Triangles& patch) { return census.add(patch); };
+  const auto add = [&](std::size_t, const Triangles& patch) {
+    const auto counted = census.add(patch);
+    return counted ? also(patch) : counted;
+  };
   const auto added = for_each_patch(runs, patches, progress, BuildPhase::kClosing, is_done, add);
   if (!added) return added.error();
   auto balance = census.balance();

@@ -76,16 +76,18 @@ bool KeptWork::restore(Kind kind, std::span<const std::byte> payload, SpillExten
     mesh_ = std::move(mesh);
     return true;
   }
-  if (kind == Kind::kEdges && mesh_ && !edges_) {
-    EdgeBalance edges;
-    if (!read_record(payload, edges)) return false;
-    edges_ = edges;
-    return true;
-  }
-  if (!edges_) return false;
+  if (kind == Kind::kSurface && mesh_ && !surface_) return restore_surface(payload, extent);
+  if (!surface_) return false;
   return kind == Kind::kPatch    ? restore_patch(payload, extent)
          : kind == Kind::kRegion ? restore_region(payload, extent)
                                  : false;
+}
+
+bool KeptWork::restore_surface(std::span<const std::byte> payload, SpillExtent& extent) {
+  SurfaceWork surface;
+  if (!read_record(payload, surface) || !extent.take(surface, mesh_->frame.float64)) return false;
+  surface_ = std::move(surface);
+  return true;
 }
 
 bool KeptWork::restore_patch(std::span<const std::byte> payload, SpillExtent& extent) {
@@ -116,7 +118,7 @@ KeptWork::~KeptWork() {
 std::string KeptWork::start() const {
   if (!regions_.empty())
     return "going on after colouring " + std::to_string(regions_.size()) + " parts";
-  if (mesh_ && !edges_) return "going on after ordering";
+  if (mesh_ && !surface_) return "going on after ordering";
   if (mesh_ && patches_.empty()) return "going on after matching edges";
   if (mesh_) return "going on after bounding " + std::to_string(patches_.size()) + " parts";
   if (refusal_ == nullptr) return "no earlier work to go on with; building from the start";
@@ -143,7 +145,7 @@ Result<void> KeptWork::keep(const OrderedMesh& mesh) {
   return kept;
 }
 
-Result<void> KeptWork::keep(const EdgeBalance& edges) { return append(Kind::kEdges, edges); }
+Result<void> KeptWork::keep(const SurfaceWork& surface) { return append(Kind::kSurface, surface); }
 
 Result<void> KeptWork::keep(std::uint32_t number, const PatchWork& patch) {
   return append(Kind::kPatch, number, patch);

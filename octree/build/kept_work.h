@@ -46,9 +46,9 @@ class KeptWork {
   /// Whether keeping something, or getting it back, ever failed.
   bool failed() const { return spill_->failed() || journal_.failed(); }
 
-  /// What was taken up; the edges only with the mesh.
+  /// What was taken up; the surface only with the mesh.
   const std::optional<OrderedMesh>& mesh() const { return mesh_; }
-  const std::optional<EdgeBalance>& edges() const { return edges_; }
+  const std::optional<SurfaceWork>& surface() const { return surface_; }
   /// Once for a patch.
   std::optional<PatchWork> take_patch(std::uint32_t number);
   /// Once.
@@ -56,7 +56,7 @@ class KeptWork {
 
   /// Keeps what a phase came to, durably, with all in spill() by now.
   Result<void> keep(const OrderedMesh& mesh);
-  Result<void> keep(const EdgeBalance& edges);
+  Result<void> keep(const SurfaceWork& surface);
   Result<void> keep(std::uint32_t number, const PatchWork& patch);
   Result<void> keep(std::uint32_t number, const BuiltRegion& region);
 
@@ -64,13 +64,14 @@ class KeptWork {
   Result<void> remove();
 
  private:
-  enum class Kind : std::uint32_t { kIdentity, kMesh, kEdges, kPatch, kRegion };
+  enum class Kind : std::uint32_t { kIdentity, kMesh, kSurface, kPatch, kRegion };
 
   KeptWork(storage::WorkDirectory directory, storage::FileHandle journal)
       : directory_(std::move(directory)), journal_(std::move(journal)) {}
   Result<void> take_up(const BuildIdentity& identity, std::uint64_t journal_bytes);
   bool restore(Kind kind, std::span<const std::byte> payload, SpillExtent& extent);
   bool restore_identity(const BuildIdentity& identity, std::span<const std::byte> payload);
+  bool restore_surface(std::span<const std::byte> payload, SpillExtent& extent);
   bool restore_patch(std::span<const std::byte> payload, SpillExtent& extent);
   bool restore_region(std::span<const std::byte> payload, SpillExtent& extent);
   template <class... Values>
@@ -82,7 +83,7 @@ class KeptWork {
   bool identified_ = false;
   const char* refusal_ = nullptr;  // why what was there is not gone on with
   std::optional<OrderedMesh> mesh_;
-  std::optional<EdgeBalance> edges_;
+  std::optional<SurfaceWork> surface_;
   std::map<std::uint32_t, PatchWork> patches_;
   std::map<std::uint32_t, BuiltRegion> regions_;
   std::uint32_t page_bytes_ = 0;

@@ -15,7 +15,10 @@ namespace {
 class MaskJoin {
  public:
   explicit MaskJoin(const MaskRegions& regions)
-      : regions_(regions.all()), least_(regions_.size()), grey_(regions_.size()) {
+      : grid_(regions.grid()),
+        regions_(regions.all()),
+        least_(regions_.size()),
+        grey_(regions_.size()) {
     count_corners(0, regions.winding());
     // Octants come after the region they divide.
     for (std::size_t at = regions_.size(); at-- > 0;) {
@@ -63,7 +66,8 @@ class MaskJoin {
     std::array<std::int64_t, 8> winding;
     for (unsigned octant = 0; octant < 8; ++octant) {
       grey[octant] = grey_[region.first_octant + octant];
-      winding[octant] = least_[region.first_octant + octant];
+      const bool asked_for = grid_.has_part_of(region.cell.child(octant));
+      winding[octant] = asked_for ? least_[region.first_octant + octant] : 0;
     }
     tree.divide(entry, grey, winding);
     std::size_t child = tree.entries[entry].first;
@@ -81,6 +85,7 @@ class MaskJoin {
     tree.specials.push_back(*root.special);
   }
 
+  const ClippedGrid& grid_;
   const std::vector<MaskRegions::Region>& regions_;
   std::vector<std::int64_t> least_;
   std::vector<bool> grey_;

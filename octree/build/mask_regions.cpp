@@ -1,8 +1,6 @@
 #include "octree/build/mask_regions.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,7 +15,6 @@ namespace {
 /// Cells are not divided any more where that has so many times over left more than half of
 /// the triangles together: their centres coincide.
 constexpr unsigned kMostWasted = 3;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -27,17 +24,23 @@ Result<void> MaskRegions::divide(const TriangleRuns& runs, std::uint64_t most) {
 
 Result<void> MaskRegions::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
                                  std::uint64_t most, unsigned wasted) {
-  if (stretch.size <= most || wasted > kMostWasted || regions_[at].cell.level == kLevels) return {};
+  if (stretch.size <= most || wasted > kMostWasted || regions_[at].cell.level == kLevels ||
+      !grid_.has_part_of(regions_[at].cell))
+    return {};
   const auto octants = octants_of(at, stretch, runs);
   if (!octants) return octants.error();
   const std::size_t first = regions_.size();
   regions_[at].first_octant = static_cast<std::uint32_t>(first);
-  for (unsigned octant = 0; octant < 8; ++octant)
+  bool all_asked_for = true;
+  for (unsigned octant = 0; octant < 8; ++octant) {
     regions_.push_back({regions_[at].cell.child(octant)});
+    all_asked_for = all_asked_for && grid_.has_part_of(regions_.back().cell);
+  }
   for (unsigned octant = 0; octant < 8; ++octant) {
     const Stretch& part = (*octants)[octant];
-    const bool halved = part.size <= stretch.size / 2;
-    const auto divided = divide(first + octant, part, runs, most, halved ? 0 : wasted + 1);
+    // Around what is asked for all centres are in one octant however far apart they are.
+    const bool told_apart = part.size <= stretch.size / 2 || !all_asked_for;
+    const auto divided = divide(first + octant, part, runs, most, told_apart ? 0 : wasted + 1);
     if (!divided) return divided;
   }
   return {};
@@ -70,21 +73,17 @@ std::size_t MaskRegions::region_of_code(std::uint64_t code) const {
 /// What one part of the model adds to the regions.
 class MaskRegions::Visit {
  public:
-  explicit Visit(const MaskRegions& regions)
-      : regions_(regions), way_out_(way_out(regions.grid_)), visitors_(regions.float64_) {}
+  explicit Visit(const MaskRegions& regions) : regions_(regions), visitors_(regions.float64_) {}
 
   void add(const storage::SpillKey& key, const Triangle& triangle) {
     own_ = regions_.region_of_code(key.first);
     key_ = key;
-    const BoxedTriangle boxed(triangle);
-    winding_ += way_out_.crossing(boxed);
-    touch(0, boxed);
+    touch(0, BoxedTriangle(triangle));
   }
 
   // But for the visitors.
   Part part() const {
     Part part;
-    part.winding = winding_;
     for (const auto& [at, rise] : rises_) part.rises.push_back({at, rise});
     return part;
   }
@@ -94,14 +93,6 @@ class MaskRegions::Visit {
   }
 
  private:
-  // From the root's least corner.
-  static DownwardSegment way_out(const CellGrid& grid) {
-    const Point corner = grid.lower({});
-    Point outside = corner;
-    outside.x() = std::min(corner.x() - 1, std::nextafter(corner.x(), -kInfinity));
-    return DownwardSegment({corner, outside});
-  }
-
   void touch(std::size_t at, const BoxedTriangle& triangle) {
     const Region& region = regions_.regions_[at];
     if (region.divided()) {
@@ -113,7 +104,8 @@ class MaskRegions::Visit {
     const Point lower = regions_.grid_.lower(region.cell),
                 upper = regions_.grid_.upper(region.cell);
     if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
-    if (at != own_) visitors_.add({at, key_.second}, triangle.corners);
+    if (at != own_ && regions_.grid_.has_part_of(region.cell))
+      visitors_.add({at, key_.second}, triangle.corners);
     auto& rise = rises_[static_cast<std::uint32_t>(at)];
     if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, rise);
   }
@@ -131,8 +123,6 @@ class MaskRegions::Visit {
   const MaskRegions& regions_;
   std::size_t own_ = 0;
   storage::SpillKey key_;
-  const DownwardSegment way_out_;
-  std::int64_t winding_ = 0;
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by region
   Triangles visitors_;
 };
@@ -152,10 +142,9 @@ void MaskRegions::Visit::add_rise(const BoxedTriangle& triangle, const GridCell&
 
 void MaskRegions::sum_up(const Part& part) {
   const std::lock_guard lock(mutex_);
-  winding_ += part.winding;
   for (const Rise& rise : part.rises) {
     Region& region = regions_[rise.region];
-    region.touched = true;
+    region.touched = grid_.has_part_of(region.cell);
     for (unsigned which = 0; which < 8; ++which) region.rise[which] += rise.corners[which];
   }
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "octree/build/triangle_runs.h"
-#include "octree/cell_grid.h"
+#include "octree/clipped_grid.h"
 #include "storage/spill_runs.h"
 
 namespace planetree::octree {
@@ -26,8 +26,8 @@ class MaskRegions {
   struct Region {
     GridCell cell;
     std::uint32_t first_octant = 0;  ///< of eight regions; 0 in one that is not divided
-    /// Of one that is not divided: whether triangles touch it, and the winding number at each
-    /// corner less that at the least.
+    /// Of one that is not divided: whether triangles touch it, if some of it is asked for, and
+    /// the winding number at each corner less that at the least.
     bool touched = false;
     std::array<std::int64_t, 8> rise{};
 
@@ -41,18 +41,21 @@ class MaskRegions {
   };
   /// What a part of the model adds to the regions.
   struct Part {
-    std::int64_t winding = 0;
     std::vector<Rise> rises;             ///< of regions it touches
     storage::SpillRuns::Place visitors;  ///< triangles that touch other regions than their own
   };
 
   /// lower       of the model's box, model frame.
+  /// known       where sides will be asked for: all triangles that touch it are in the model.
+  /// winding     number at the least corner of the root, as far as that is in `known`.
   /// held_bytes  of triangles that touch other regions than their own may stay in memory.
   /// file        takes the rest; must outlive this.
-  MaskRegions(const Point& lower, bool float64, std::uint64_t held_bytes, storage::SpillFile& file)
-      : grid_(lower),
+  MaskRegions(const Point& lower, const octree::Region& known, std::int64_t winding, bool float64,
+              std::uint64_t held_bytes, storage::SpillFile& file)
+      : grid_(lower, known),
         lower_(lower),
         float64_(float64),
+        winding_(winding),
         visitors_(Triangles::record_bytes(float64), held_bytes, file) {}
 
   /// First of all.
@@ -70,8 +73,8 @@ class MaskRegions {
     return static_cast<std::size_t>(
         std::count_if(regions_.begin(), regions_.end(), [](const Region& r) { return r.touched; }));
   }
-  const CellGrid& grid() const { return grid_; }
-  /// The winding number at the root's least corner. After the last part.
+  const ClippedGrid& grid() const { return grid_; }
+  /// The winding number at the root's least corner.
   std::int64_t winding() const { return winding_; }
 
   /// All triangles that may touch a region, in Morton order. After the last part.
@@ -92,12 +95,12 @@ class MaskRegions {
   void sum_up(const Part& part);
   std::size_t region_of_code(std::uint64_t code) const;
 
-  const CellGrid grid_;
+  const ClippedGrid grid_;
   const Point lower_;
   const bool float64_;
+  const std::int64_t winding_;
   std::vector<Region> regions_{Region{}};
   std::mutex mutex_;
-  std::int64_t winding_ = 0;
   storage::SpillRuns visitors_;  // by region, then index: that touch another than their own
 };
 

@@ -8,7 +8,7 @@
 
 #include "octree/build/cell_overlap.h"
 #include "octree/build/edge_crossings.h"
-#include "octree/cell_grid.h"
+#include "octree/clipped_grid.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
 
@@ -38,7 +38,7 @@ using Octants = std::array<GreyCell, 8>;
 
 class RegionMask {
  public:
-  RegionMask(const CellGrid& grid, const Triangles& triangles) : grid_(grid) {
+  RegionMask(const ClippedGrid& grid, const Triangles& triangles) : grid_(grid) {
     triangles_.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
       triangles_.emplace_back(triangles.corners(i));
@@ -124,6 +124,8 @@ class RegionMask {
           octants[before].winding +
           count_crossings({lower[octant], lower[before]}, octants[before].triangles);
     }
+    for (GreyCell& octant : octants)
+      if (!grid_.has_part_of(octant.cell)) octant = {octant.cell, {}};
     return octants;
   }
 
@@ -197,13 +199,13 @@ class RegionMask {
       entry.corners[which] = static_cast<std::int8_t>(winding[which]);
   }
 
-  const CellGrid& grid_;
+  const ClippedGrid& grid_;
   std::vector<BoxedTriangle> triangles_;
 };
 
 }  // namespace
 
-MaskTree mask_of_region(const CellGrid& grid, const GridCell& cell, std::int64_t winding,
+MaskTree mask_of_region(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
                         const Triangles& triangles) {
   return RegionMask(grid, triangles).run(cell, winding);
 }

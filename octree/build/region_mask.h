@@ -4,20 +4,20 @@
 
 #include "octree/build/mask_tree.h"
 #include "octree/build/triangles.h"
-#include "octree/cell_grid.h"
+#include "octree/clipped_grid.h"
 
 namespace planetree::octree {
 
 /// The mask of one cell by itself: its entry is the first. Divides the cell until few triangles
 /// touch one, and finds the winding number at every corner of those that are left, exactly: from
 /// the cell's least corner on, by the crossings of cells' edges. At one corner of every such cell
-/// it is counted another way as well.
+/// it is counted another way as well. Cells that nobody asks for are white.
 ///
 /// winding    at the cell's least corner.
 /// triangles  all that may touch the cell, at least one; only the order of planes in a special
 ///            cell depends on theirs.
 /// memory     about 25 bytes a triangle while it works.
-MaskTree mask_of_region(const CellGrid& grid, const GridCell& cell, std::int64_t winding,
+MaskTree mask_of_region(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
                         const Triangles& triangles);
 
 }  // namespace planetree::octree

@@ -72,19 +72,26 @@ constexpr const char* kTemporaryRemedy =
 
 }  // namespace
 
-SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memory,
-                                   std::uint64_t kept_bytes, bool matched) {
-  const std::uint64_t pages = raw_page_bytes(size);
-  const std::uint64_t to_keep = put_away_bytes(size, memory, memory.runs_bytes) +
-                                visitor_bytes(size, memory) + beyond(pages, memory.pages_bytes);
-  return {beyond(to_keep, kept_bytes) + (matched ? 0 : edge_bytes(size, memory)),
-          // Stored pages are not longer than raw ones, and a page of 4 KiB has 40 bytes in the
-          // table.
-          pages + pages / 64 + 2 * storage::kHeaderBytes};
+SpaceNeed SpaceNeed::after_cutting(const MeshSize& part, const BuildMemory& memory,
+                                   std::uint64_t kept_bytes) {
+  const std::uint64_t pages = raw_page_bytes(part);
+  const std::uint64_t to_keep = visitor_bytes(part, memory) + beyond(pages, memory.pages_bytes);
+  // Stored pages are not longer than raw ones, and a page of 4 KiB has 40 bytes in the table.
+  return {beyond(to_keep, kept_bytes), pages + pages / 64 + 2 * storage::kHeaderBytes};
 }
 
-SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory) {
-  SpaceNeed need = after_reading(size, memory);
+SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memory,
+                                   std::uint64_t kept_bytes, bool matched, bool cut) {
+  SpaceNeed need;
+  if (!cut) need = after_cutting(size, memory, 0);
+  need.temporary_bytes =
+      beyond(need.temporary_bytes + put_away_bytes(size, memory, memory.runs_bytes), kept_bytes);
+  if (!matched) need.temporary_bytes += edge_bytes(size, memory);
+  return need;
+}
+
+SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory, bool cut) {
+  SpaceNeed need = after_reading(size, memory, 0, false, cut);
   need.temporary_bytes += put_away_bytes(size, memory, memory.intake_bytes);
   return need;
 }

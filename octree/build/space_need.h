@@ -21,13 +21,20 @@ struct SpaceNeed {
   std::uint64_t temporary_bytes = 0;  ///< put away on disk, together
   std::uint64_t output_bytes = 0;     ///< of the file
 
-  static SpaceNeed before_reading(const MeshSize& size, const BuildMemory& memory);
+  /// cut  only what touches a region is built: what that takes is not foreseen until it is cut
+  ///      out.
+  static SpaceNeed before_reading(const MeshSize& size, const BuildMemory& memory,
+                                  bool cut = false);
   /// What is still to come once the triangles are known and put away.
   ///
   /// kept_bytes  of it are there, from an earlier build,
   /// matched     which did not leave edges to be matched.
   static SpaceNeed after_reading(const MeshSize& size, const BuildMemory& memory,
-                                 std::uint64_t kept_bytes = 0, bool matched = false);
+                                 std::uint64_t kept_bytes = 0, bool matched = false,
+                                 bool cut = false);
+  /// What building the triangles that touch a region takes.
+  static SpaceNeed after_cutting(const MeshSize& part, const BuildMemory& memory,
+                                 std::uint64_t kept_bytes);
 
   /// Holds it against the free space of both directories, or of the device they share.
   ///

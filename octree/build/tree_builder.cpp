@@ -1,5 +1,6 @@
 #include "octree/build/tree_builder.h"
 
+#include <algorithm>
 #include <bit>
 #include <map>
 #include <optional>
@@ -41,10 +42,12 @@ class TreeBuild {
     if (const auto taken_up = take_up_work(); !taken_up) return taken_up.error();
     if (const auto roomy = foresee_space(); !roomy) return roomy.error();
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
-    if (const auto balanced = balance_edges(); !balanced) return balanced.error();
+    if (const auto looked = look_at_surface(); !looked) return looked.error();
+    if (const auto cut = cut_out_part(); !cut) return cut.error();
     if (const auto built = build_patches(); !built) return built.error();
     if (const auto coloured = colour_cells(); !coloured) return coloured.error();
-    runs_.reset();
+    part_.reset();
+    whole_.reset();
     return write_pages();
   }
 
@@ -62,12 +65,17 @@ class TreeBuild {
   Result<void> read();
   Result<void> take_up_mesh();
   Result<void> set_mesh(const OrderedMesh& mesh);
-  Result<void> balance_edges();
+  Region region() const;
+  Result<void> look_at_surface();
+  Result<void> match_edges();
+  Result<void> cut_out_part();
   Result<void> build_patches();
   void take_up_patches();
   Result<void> build(std::size_t number, Triangles& triangles);
   Result<void> colour_cells();
   Result<BuildReport> write_pages();
+  /// The triangles to be built.
+  const TriangleRuns& runs() const { return part_ ? *part_ : *whole_; }
   template <class... Parts>
   Result<void> keep(const Parts&... parts) {
     return files_.work() ? files_.work()->keep(parts...) : Result<void>();
@@ -83,7 +91,8 @@ class TreeBuild {
   BuildFiles files_;
   MeshSize size_;
   BuiltModel model_;
-  std::optional<TriangleRuns> runs_;
+  std::optional<TriangleRuns> whole_;
+  std::optional<TriangleRuns> part_;    // of it: what touches a region
   std::optional<MaskRegions> regions_;  // of a watertight model
 };
 
@@ -103,13 +112,13 @@ Result<void> TreeBuild::foresee_space() {
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
-  return files_.look_for(SpaceNeed::before_reading(size_, memory_));
+  return files_.look_for(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
 }
 
 Result<void> TreeBuild::order_triangles() {
   const bool ordered_before = files_.work() && files_.work()->mesh();
   if (const auto ordered = ordered_before ? take_up_mesh() : read(); !ordered) return ordered;
-  auto above = cut_patches(*runs_, seams_.patch_triangles);
+  auto above = cut_patches(*whole_, seams_.patch_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   return {};
@@ -118,8 +127,8 @@ Result<void> TreeBuild::order_triangles() {
 Result<void> TreeBuild::take_up_mesh() {
   const OrderedMesh& mesh = *files_.work()->mesh();
   if (const auto set = set_mesh(mesh); !set) return set;
-  runs_.emplace(mesh.frame.float64, 0, files_.triangles());
-  runs_->add_placed(mesh.runs);
+  whole_.emplace(mesh.frame.float64, 0, files_.triangles());
+  whole_->add_placed(mesh.runs);
   return {};
 }
 
@@ -128,51 +137,92 @@ Result<void> TreeBuild::read() {
   auto mesh = read_unordered(input_, options_, memory_, progress_, intake);
   if (!mesh) return mesh.error();
   if (const auto set = set_mesh(*mesh); !set) return set;
-  runs_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
+  whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
   PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
-  if (const auto taken = runs_->take(intake, [&count] { count.add(); }); !taken) return taken;
-  if (files_.work()) mesh->runs = runs_->places();
+  if (const auto taken = whole_->take(intake, [&count] { count.add(); }); !taken) return taken;
+  if (files_.work()) mesh->runs = whole_->places();
   return keep(*mesh);
 }
 
 // And looks for space once more, now that its triangles are counted.
 Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.frame = mesh.frame;
+  model_.box = options_.box;
   model_.vertex_records = mesh.vertex_records;
   model_.shape.float64 = mesh.frame.float64;
   model_.shape.wide_ids = mesh.wide_ids;
+  if (model_.box)
+    if (const auto near = model_.box->check_near(model_.frame); !near) return near;
   size_ = {mesh.frame.triangle_count, size_.vertices, mesh.frame.float64};
   const KeptWork* const work = files_.work();
-  return files_.look_for(work ? SpaceNeed::after_reading(size_, memory_, work->taken_up_bytes(),
-                                                         work->edges().has_value())
-                              : SpaceNeed::after_reading(size_, memory_));
+  return files_.look_for(SpaceNeed::after_reading(size_, memory_, work ? work->taken_up_bytes() : 0,
+                                                  work && work->surface(), model_.box.has_value()));
 }
 
-Result<void> TreeBuild::balance_edges() {
-  if (files_.work() && files_.work()->edges()) {
-    model_.edges = *files_.work()->edges();
-  } else {
-    auto edges =
-        match_edges(*runs_, model_.above.patches, memory_.edge_bytes, files_.scratch(), progress_);
-    if (!edges) return edges.error();
-    model_.edges = *std::move(edges);
-    if (const auto kept = keep(model_.edges); !kept) return kept;
+Region TreeBuild::region() const {
+  return model_.box ? model_.box->region(model_.frame) : Region();
+}
+
+Result<void> TreeBuild::look_at_surface() {
+  if (model_.box) part_.emplace(model_.shape.float64, memory_.part_bytes, files_.triangles());
+  const KeptWork* const work = files_.work();
+  if (work && work->surface()) {
+    model_.edges = work->surface()->edges;
+    model_.cut = work->surface()->cut;
+    if (part_) part_->add_placed(work->surface()->kept);
+  } else if (const auto matched = match_edges(); !matched) {
+    return matched;
   }
   model_.shape.moments = model_.edges.open_edges > 0;
+  if (model_.box) return {};
+  model_.cut.triangle_count = model_.frame.triangle_count;
+  model_.cut.sample_triangle = model_.frame.sample_triangle;
+  model_.cut.sample = model_.frame.scaled(model_.frame.input_sample);
   return {};
+}
+
+Result<void> TreeBuild::match_edges() {
+  RegionCut cut(model_.frame.lower(), model_.frame.upper(), region(), part_ ? &*part_ : nullptr);
+  auto edges =
+      octree::match_edges(*whole_, model_.above.patches, memory_.edge_bytes, files_.scratch(),
+                          progress_, [&cut](const Triangles& patch) { return cut.add(patch); });
+  if (!edges) return edges.error();
+  model_.edges = *std::move(edges);
+  model_.cut = cut.found();
+  if (!files_.work()) return {};
+  return keep(SurfaceWork{model_.edges, model_.cut,
+                          part_ ? part_->places() : std::vector<TriangleRuns::Place>()});
+}
+
+// From here on the rest of the input is of no more use.
+Result<void> TreeBuild::cut_out_part() {
+  if (!part_) return {};
+  whole_.reset();
+  if (part_->size() == 0) return nothing_touches(model_.frame);
+  auto above = cut_patches(*part_, seams_.patch_triangles);
+  if (!above) return above.error();
+  model_.above = *std::move(above);
+  const std::uint64_t triangles = part_->size();
+  const MeshSize part{triangles, std::min(size_.vertices, 3 * triangles), size_.float64};
+  // Of what was taken up all but the triangles.
+  const std::uint64_t record = Triangles::record_bytes(size_.float64);
+  const std::uint64_t kept_bytes = files_.work() ? files_.work()->taken_up_bytes() : 0;
+  const std::uint64_t of_triangles = record * (size_.triangles + triangles);
+  return files_.look_for(
+      SpaceNeed::after_cutting(part, memory_, kept_bytes - std::min(kept_bytes, of_triangles)));
 }
 
 Result<void> TreeBuild::build_patches() {
   if (model_.edges.open_edges == 0) {
-    regions_.emplace(model_.frame.lower(), model_.frame.float64, memory_.visitor_bytes,
-                     files_.triangles());
-    if (const auto divided = regions_->divide(*runs_, seams_.region_triangles); !divided)
+    regions_.emplace(model_.frame.lower(), region(), model_.cut.winding, model_.frame.float64,
+                     memory_.visitor_bytes, files_.triangles());
+    if (const auto divided = regions_->divide(runs(), seams_.region_triangles); !divided)
       return divided;
   }
   model_.patches.resize(model_.above.patches.size());
   take_up_patches();
   return for_each_patch(
-      *runs_, model_.above.patches, progress_, BuildPhase::kBounding,
+      runs(), model_.above.patches, progress_, BuildPhase::kBounding,
       [&](std::size_t i) { return !model_.patches[i].pages.empty(); },
       [&](std::size_t i, Triangles& triangles) { return build(i, triangles); });
 }
@@ -216,7 +266,7 @@ Result<void> TreeBuild::colour_cells() {
     if (kept) count.add();
     return kept;
   };
-  const auto built = model_.mask->build(*regions_, *runs_, done);
+  const auto built = model_.mask->build(*regions_, runs(), done);
   regions_.reset();
   return built;
 }
@@ -227,7 +277,8 @@ Result<BuildReport> TreeBuild::write_pages() {
       write_tree(model_, files_.pages(), output_, options_, seams_.calls, progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
-  return BuildReport{*header, model_.frame.first_set_aside_text, files_.disk_bytes()};
+  return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_set_aside_text,
+                     files_.disk_bytes()};
 }
 
 }  // namespace
@@ -242,6 +293,8 @@ Result<BuildReport> build_tree(const std::filesystem::path& input,
   auto memory = seams.memory ? Result<BuildMemory>(*seams.memory)
                              : BuildMemory::share(options.memory_bytes, options.threads);
   if (!memory) return memory.error();
+  if (options.box)
+    if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->holding_nothing_kept();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(memory->threads));

@@ -14,13 +14,16 @@ namespace planetree::octree {
 
 struct BuildReport {
   storage::FileHeader header;         ///< as written
+  std::uint64_t input_triangles = 0;  ///< that could be used, built or not
   std::string first_set_aside;        ///< the first bad record in words; empty if none
   std::uint64_t temporary_bytes = 0;  ///< spilled on disk
 };
 
 /// Reads the mesh at `input` and writes its tree to `output`, whole or not at
-/// all. The bytes written depend on the mesh and page_bytes alone.
+/// all. The bytes written depend on the mesh, box and page_bytes alone.
 ///
+/// box     with options.box the file holds the triangles that touch it, by a test that may take
+///         some that just do not; frame, edges and winding numbers are those of all.
 /// memory  options.memory_bytes at most, but where more than 2^18 triangles are at one place.
 /// resume  with options.resume, phases and patches that are completed are kept in
 ///         options.work_directory(), and gone on with where a build of the same input and
@@ -31,9 +34,9 @@ struct BuildReport {
 ///         process ends, but for what of it a build that can be resumed keeps, memory or not:
 ///         about 80 bytes a triangle, or 130.
 /// errors  those of read_mesh, storage::SpillFile, storage::PageWriter and KeptWork; kBadArgument
-///         for page_bytes; kNoMemory for too little memory_bytes; kBadInput for a bad record
-///         under `strict`; kNoSpace where SpaceNeed foresees too little, before anything is
-///         written or once the triangles are read.
+///         for page_bytes, a box that is none or one that no triangle touches; kNoMemory for too
+///         little memory_bytes; kBadInput for a bad record under `strict`; kNoSpace where SpaceNeed
+///         foresees too little, before anything is written or once the triangles are read.
 /// source  bottom-up construction from candidate planes: "Out-of-core real-time
 ///         haptic interaction on very large models", section 3.1; blocks,
 ///         collapse and paging are ours.

@@ -12,23 +12,36 @@ namespace {
 
 void describe_mesh(const BuiltModel& built, storage::ModelRecord& model) {
   const ModelFrame& frame = built.frame;
-  model.triangle_count = frame.triangle_count;
+  model.triangle_count = built.cut.triangle_count;
   model.set_aside_count = frame.set_aside_count;
   model.first_set_aside = frame.first_set_aside;
   model.vertex_count = built.vertex_records;
-  const Point centre = frame.centre(), sample = frame.scaled(frame.input_sample);
+  const Point centre = frame.centre();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     model.box_lower[axis] = frame.input_lower[axis];
     model.box_upper[axis] = frame.input_upper[axis];
     model.centre[axis] = centre[axis];
-    model.sample[axis] = sample[axis];
+    model.sample[axis] = built.cut.sample[axis];
   }
-  model.sample_triangle = frame.sample_triangle;
+  model.sample_triangle = built.cut.sample_triangle;
   model.scale_exponent = frame.scale_exponent;
   model.vertex_kind =
       built.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = built.shape.wide_ids ? 8 : 4;
   built.edges.describe(frame.scale_exponent, model);
+}
+
+void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
+  if (!built.box) return;
+  model.input_triangles = built.frame.triangle_count;
+  const auto& [lower, upper] = *built.box;
+  const Point from(lower.x, lower.y, lower.z), to(upper.x, upper.y, upper.z);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    // -0 becomes +0.
+    model.region_lower[axis] = from[axis] + 0.0;
+    model.region_upper[axis] = to[axis] + 0.0;
+  }
+  model.region_winding = built.cut.winding;
 }
 
 void describe_tree(const BuiltModel& built, const WideTree& crown, storage::ModelRecord& model) {
@@ -68,6 +81,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const storage::S
   if (!masked) return masked.error();
   storage::ModelRecord model{};
   describe_mesh(built, model);
+  describe_region(built, model);
   describe_tree(built, crown.tree, model);
   model.root_link = pages.root_link();
   return writer->finish(model, options.page_bytes);

@@ -12,6 +12,7 @@
 #include "octree/build/model_frame.h"
 #include "octree/build/patch_build.h"
 #include "octree/build/patches.h"
+#include "octree/build/region_cut.h"
 #include "octree/frame.h"
 #include "planetree/error.h"
 #include "storage/file_layout.h"
@@ -24,7 +25,9 @@ struct BuiltModel {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
   BlockShape shape;
-  EdgeBalance edges;
+  EdgeBalance edges;  ///< of the whole input, as the frame is
+  SurfaceCut cut;
+  std::optional<RegionBox> box;
   PatchTree above;
   std::vector<BuiltPatch> patches;  ///< as above.patches
   std::optional<BuiltMask> mask;    ///< of a watertight model

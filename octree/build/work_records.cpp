@@ -16,13 +16,23 @@ bool SpillExtent::take(const TriangleRuns::Place& run, bool float64) {
          take(run.offset, run.size, Triangles::record_bytes(float64));
 }
 
-bool SpillExtent::take(const OrderedMesh& mesh) {
-  std::uint64_t left = mesh.frame.triangle_count;
-  for (const TriangleRuns::Place& run : mesh.runs) {
-    if (run.size > left || !take(run, mesh.frame.float64)) return false;
+bool SpillExtent::take(const std::vector<TriangleRuns::Place>& runs, std::uint64_t triangles,
+                       bool float64) {
+  std::uint64_t left = triangles;
+  for (const TriangleRuns::Place& run : runs) {
+    if (run.size > left || !take(run, float64)) return false;
     left -= run.size;
   }
-  return left == 0 && mesh.frame.triangle_count > 0;
+  return left == 0;
+}
+
+bool SpillExtent::take(const OrderedMesh& mesh) {
+  return mesh.frame.triangle_count > 0 &&
+         take(mesh.runs, mesh.frame.triangle_count, mesh.frame.float64);
+}
+
+bool SpillExtent::take(const SurfaceWork& surface, bool float64) {
+  return take(surface.kept, surface.cut.triangle_count, float64);
 }
 
 bool SpillExtent::take(const std::vector<SpilledPage>& pages, std::size_t head_bytes) {

@@ -11,9 +11,17 @@
 #include "octree/build/ordered_mesh.h"
 #include "octree/build/patch_build.h"
 #include "octree/build/record_fields.h"
+#include "octree/build/region_cut.h"
 
 /// What the phases of a build come to, as a later build may go on with it.
 namespace planetree::octree {
+
+/// What looking at the whole surface gave.
+struct SurfaceWork {
+  EdgeBalance edges;
+  SurfaceCut cut;
+  std::vector<TriangleRuns::Place> kept;  ///< of a region: what touches it
+};
 
 /// What building a patch gave.
 struct PatchWork {
@@ -27,6 +35,7 @@ class SpillExtent {
   explicit SpillExtent(std::uint64_t file_bytes) : file_bytes_(file_bytes) {}
 
   bool take(const OrderedMesh& mesh);
+  bool take(const SurfaceWork& surface, bool float64);
   bool take(const PatchWork& patch, bool float64, const LinkFormat& links);
   bool take(std::uint32_t number, const BuiltRegion& region, const MaskLinkFormat& links);
   /// Of what was taken: where it ends, and how much it is.
@@ -35,6 +44,7 @@ class SpillExtent {
 
  private:
   bool take(const std::vector<SpilledPage>& pages, std::size_t head_bytes);
+  bool take(const std::vector<TriangleRuns::Place>& runs, std::uint64_t triangles, bool float64);
   bool take(const TriangleRuns::Place& run, bool float64);
   bool take(std::uint64_t offset, std::uint64_t count, std::uint64_t each_bytes);
 
@@ -73,6 +83,16 @@ void fields(Record& record, Value& balance) {
   record(balance.open_edges, balance.first);
 }
 
+template <class Record, IsA<SurfaceCut> Value>
+void fields(Record& record, Value& cut) {
+  record(cut.triangle_count, cut.sample_triangle, cut.sample, cut.winding);
+}
+
+template <class Record, IsA<SurfaceWork> Value>
+void fields(Record& record, Value& surface) {
+  record(surface.edges, surface.cut, surface.kept);
+}
+
 template <class Record, IsA<SpilledPage> Value>
 void fields(Record& record, Value& page) {
   record(page.octcode, page.offset, page.raw_bytes, page.links_at, page.link_count);
@@ -102,7 +122,7 @@ void fields(Record& record, Value& rise) {
 
 template <class Record, IsA<MaskRegions::Part> Value>
 void fields(Record& record, Value& part) {
-  record(part.winding, part.rises, part.visitors);
+  record(part.rises, part.visitors);
 }
 
 template <class Record, IsA<MaskEntry> Value>

@@ -91,6 +91,10 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, mask_page_count)
       .PLANETREE_FIELD(ModelRecord, mask_levels)
       .PLANETREE_FIELD(ModelRecord, mask_reserved)
+      .PLANETREE_FIELD(ModelRecord, input_triangles)
+      .PLANETREE_FIELD(ModelRecord, region_lower)
+      .PLANETREE_FIELD(ModelRecord, region_upper)
+      .PLANETREE_FIELD(ModelRecord, region_winding)
       .take();
 }
 

@@ -45,6 +45,13 @@ const std::vector<Sample>& samples() {
 }
 
 const Sample& sphere_sample() { return samples()[2]; }
+const Sample& boxes_sample() { return samples()[3]; }
+
+const Sample& region_sample() {
+  static const Sample sample = {"boxes.obj", "region.ptree", 4096,
+                                octree::RegionBox{{11.5, -14, 0}, {26, 14, 14}}};
+  return sample;
+}
 
 std::vector<std::byte> read_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -55,11 +62,12 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
 }
 
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
-                                   unsigned threads) {
+                                   unsigned threads, const std::optional<octree::RegionBox>& box) {
   const storage::TemporaryDirectory folder;
   octree::BuildOptions options;
   options.page_bytes = page_bytes;
   options.threads = threads;
+  options.box = box;
   Silence silence;
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);

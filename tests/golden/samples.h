@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "octree/build/region_box.h"
 #include "planetree/types.h"
 
 /// The files in format-spec/v1/samples: each a mesh and the .ptree made of it.
@@ -16,6 +18,7 @@ struct Sample {
   const char* mesh;   ///< file name
   const char* ptree;  ///< file name
   std::uint32_t page_bytes;
+  std::optional<octree::RegionBox> box = std::nullopt;  ///< the file is of what touches it
 
   std::filesystem::path mesh_path() const;
   std::filesystem::path ptree_path() const;
@@ -24,12 +27,16 @@ struct Sample {
 const std::vector<Sample>& samples();
 /// The one of a sphere: enough triangles for several pages of 4096 bytes.
 const Sample& sphere_sample();
+/// One of a region, which is not among them; and that of the whole mesh.
+const Sample& region_sample();
+const Sample& boxes_sample();
 
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
 /// The bytes of the .ptree file built from `mesh`; throws where it cannot be.
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
-                                   unsigned threads);
+                                   unsigned threads,
+                                   const std::optional<octree::RegionBox>& box = std::nullopt);
 
 struct MeshTriangle {
   std::uint64_t id;

@@ -35,8 +35,11 @@ class Update final : public testing::Environment {
  public:
   void SetUp() override {
     if (!is_update()) return;
-    for (const Sample& sample : samples()) {
-      const std::vector<std::byte> bytes = build_bytes(sample.mesh_path(), sample.page_bytes, 1);
+    std::vector<Sample> all = samples();
+    all.push_back(region_sample());
+    for (const Sample& sample : all) {
+      const std::vector<std::byte> bytes =
+          build_bytes(sample.mesh_path(), sample.page_bytes, 1, sample.box);
       std::ofstream(sample.ptree_path(), std::ios::binary)
           .write(reinterpret_cast<const char*>(bytes.data()),
                  static_cast<std::streamsize>(bytes.size()));

@@ -155,7 +155,8 @@ SpecPoint SpecMask::corner(const SpecCell& cell, unsigned number) const {
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double lower = std::ldexp(header_.box_lower[axis], header_.scale_exponent);
     const double i = cell.at[axis] + (number >> axis & 1);
-    point[axis] = lower + std::ldexp(i, 1 - static_cast<int>(cell.level));
+    const double side = lower + std::ldexp(i, 1 - static_cast<int>(cell.level));
+    point[axis] = std::clamp(side, header_.wall_lower[axis], header_.wall_upper[axis]);
   }
   return point;
 }

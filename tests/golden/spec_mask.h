@@ -56,7 +56,7 @@ class SpecMask {
   std::pair<std::size_t, std::size_t> place_of(std::uint32_t link) const;
   /// The record of a grey octant.
   const SpecMaskRecord& octant(const SpecMaskRecord& node, unsigned number) const;
-  /// Corner `number` of a cell, model frame.
+  /// Corner `number` of a cell, model frame; of a region clamped to it.
   SpecPoint corner(const SpecCell& cell, unsigned number) const;
 
   /// Calls look(cell, record) for every grey cell.

@@ -3,6 +3,7 @@
 #include <lz4.h>
 #include <xxhash.h>
 
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -29,11 +30,27 @@ std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
 bool is_whole(Bytes header) {
   constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
   return std::memcmp(header.data(), kMagic, 8) == 0 &&
-         hash64(header.first(504), 0) == get<std::uint64_t>(header, 504);
+         hash64(header.first(568), 0) == get<std::uint64_t>(header, 568);
+}
+
+// "Region": sides within the mesh's box are walls.
+void read_region(Bytes model, SpecHeader& read) {
+  read.input_triangles = get<std::uint64_t>(model, 384);
+  read.region_winding = get<std::int64_t>(model, 440);
+  read.wall_lower.fill(-INFINITY);
+  read.wall_upper.fill(INFINITY);
+  if (read.input_triangles == 0) return;
+  const auto lower = get<SpecPoint>(model, 392), upper = get<SpecPoint>(model, 416);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (lower[axis] > read.box_lower[axis])
+      read.wall_lower[axis] = std::ldexp(lower[axis], read.scale_exponent);
+    if (upper[axis] < read.box_upper[axis])
+      read.wall_upper[axis] = std::ldexp(upper[axis], read.scale_exponent);
+  }
 }
 
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 384);
+  const Bytes model = header.subspan(80, 448);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -54,6 +71,7 @@ SpecHeader read_header(Bytes header) {
   read.mask_cells = get<std::uint64_t>(model, 368);
   read.mask_pages = get<std::uint32_t>(model, 376);
   read.mask_levels = get<std::uint8_t>(model, 380);
+  read_region(model, read);
   return read;
 }
 
@@ -61,8 +79,8 @@ SpecHeader read_header(Bytes header) {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 4, "another version");
-  require(get<std::uint16_t>(header, 10) == 512, "header length");
+  require(get<std::uint16_t>(header, 8) == 5, "another version");
+  require(get<std::uint16_t>(header, 10) == 576, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
   header_ = read_header(header);
@@ -73,16 +91,16 @@ SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
 Bytes SpecFile::choose_header() const {
   const Bytes all(bytes_);
   require(all.size() >= 1065, "too short");
-  if (is_whole(all.first(512))) return all.first(512);
-  require(is_whole(all.last(512)), "no whole header");
-  return all.last(512);
+  if (is_whole(all.first(576))) return all.first(576);
+  require(is_whole(all.last(576)), "no whole header");
+  return all.last(576);
 }
 
 void SpecFile::check_table(Bytes header) const {
-  const Bytes table = Bytes(bytes_).subspan(512, std::size_t{40} * header_.page_count);
+  const Bytes table = Bytes(bytes_).subspan(576, std::size_t{40} * header_.page_count);
   require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
   std::vector<std::uint64_t> page_hashes;
-  std::uint64_t end = 512 + table.size();
+  std::uint64_t end = 576 + table.size();
   std::pair<std::uint64_t, std::uint32_t> last_key{};
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
     page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
@@ -92,13 +110,13 @@ void SpecFile::check_table(Bytes header) const {
     require(k == 0 || k == header_.d() || last_key < key, "order of keys");
     last_key = key;
   }
-  require(end == bytes_.size() - 512, "pages do not tile the file");
+  require(end == bytes_.size() - 576, "pages do not tile the file");
   const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
   require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {
-  return Bytes(bytes_).subspan(512 + std::size_t{40} * number, 40);
+  return Bytes(bytes_).subspan(576 + std::size_t{40} * number, 40);
 }
 
 std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {

@@ -30,6 +30,9 @@ struct SpecHeader {
   std::uint64_t mask_cells;
   std::uint32_t mask_pages;
   unsigned mask_levels;
+  std::uint64_t input_triangles;     ///< 0: there is no region
+  SpecPoint wall_lower, wall_upper;  ///< of the region, model frame; infinite where none is
+  std::int64_t region_winding;
   /// The first mask page.
   std::uint32_t d() const { return page_count - mask_pages; }
 };

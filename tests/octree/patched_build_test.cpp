@@ -49,12 +49,14 @@ class PatchedBuild : public SmallPatches {
     BuildOptions options;
     options.page_bytes = 4096;
     options.replace = replace;
+    options.box = box_;
     Silent silent;
     auto report = build_tree(mesh_, output_, options, silent, {40, 60, memory, calls});
     failed_at_ = silent.failed_at();
     return report;
   }
 
+  std::optional<RegionBox> box_;
   std::optional<BuildPlace> failed_at_;  // the last build
 };
 
@@ -70,6 +72,48 @@ TEST_F(PatchedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
       EXPECT_EQ(built(), expected);
     }
   }
+}
+
+TEST_F(PatchedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
+  for (const BuildCase& c : build_cases()) {
+    SCOPED_TRACE(c.name);
+    write(c.soup);
+    box_.reset();
+    ASSERT_TRUE(build(kRoomy));
+    const storage::Bytes whole = built();
+    for (const RegionBox& box :
+         {RegionBox{{-0.1, -0.2, -0.3}, {0.9, 0.5, 1.5}}, RegionBox{{-9, -9, 0}, {9, 9, 9}}}) {
+      box_ = box;
+      ASSERT_TRUE(build(kRoomy));
+      const storage::Bytes expected = built();
+      EXPECT_NE(expected, whole);
+      EXPECT_LE(expected.size(), whole.size());
+      BuildMemory held = kBetween;
+      held.part_bytes = 3000;
+      for (const BuildMemory& memory : {kTight, kBetween, held}) {
+        const auto report = build(memory);
+        ASSERT_TRUE(report) << report.error().text;
+        EXPECT_EQ(built(), expected);
+      }
+    }
+  }
+}
+
+// What is built after the edges are matched is of the region alone.
+TEST_F(PatchedBuild, TakesNoMoreOfARegionThanItHas) {
+  write(sphere(5));
+  ASSERT_TRUE(build(kTight));
+  const auto whole = storage::PageFile::open(output_);
+  ASSERT_TRUE(whole);
+  const std::uint32_t pages = whole->page_count();
+  box_ = {{0.5, 0.5, 0.5}, {0.6, 0.6, 0.6}};
+  const auto report = build(kTight);
+  ASSERT_TRUE(report);
+  EXPECT_LT(report->header.page_count, pages / 10);
+  EXPECT_LT(report->header.model.triangle_count, 400u);
+  EXPECT_EQ(report->header.model.input_triangles, sphere(5).size());
+  EXPECT_EQ(report->input_triangles, sphere(5).size());
+  EXPECT_EQ(report->header.model.open_edge_count, 0u);
 }
 
 TEST_F(PatchedBuild, LeavesNothingBesideTheFile) {

@@ -51,6 +51,34 @@ TEST_F(ResumedBuild, GoesOnWhereverItWasStopped) {
   }
 }
 
+TEST_F(ResumedBuild, GoesOnWithARegion) {
+  write(sphere(2));
+  options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
+  const storage::Bytes expected = whole();
+  int matched_before = 0;
+  for (int call = 0; stop_at(call); call += 3) {
+    SCOPED_TRACE("stopped at call " + std::to_string(call));
+    const Witness stopped = witness_;
+    const bool complete = std::filesystem::exists(output_);
+    expect_completed(expected);
+    std::filesystem::remove(output_);
+    if (complete) continue;
+    EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && witness_.did(BuildPhase::kClosing));
+    matched_before += !witness_.did(BuildPhase::kClosing);
+  }
+  EXPECT_GT(matched_before, 3);
+}
+
+TEST_F(ResumedBuild, BeginsAnewWithAnotherRegion) {
+  write(sphere(2));
+  options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
+  stop_in(BuildPhase::kBounding);
+  options_.box->upper.x = 0.4;
+  ASSERT_TRUE(build());
+  EXPECT_EQ(witness_.start,
+            "earlier work is of no use, its options were others; building from the start");
+}
+
 // One call fails, is interrupted or stops half way; the process lives on.
 TEST_F(ResumedBuild, WritesTheSameBytesWhateverGoesWrong) {
   write(sphere(2));

@@ -13,6 +13,7 @@
 #include "octree/build/mesh_intake.h"
 #include "octree/build/moment_sums.h"
 #include "octree/build/page_encoder.h"
+#include "octree/build/region_cut.h"
 #include "tests/octree/divided_octahedron.h"
 
 namespace planetree::octree {
@@ -110,7 +111,10 @@ void put_in(MaskTree& whole, std::size_t place, MaskTree part) {
 
 MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most) {
   const auto runs = runs_of(mesh);
-  MaskRegions regions(mesh.frame.lower(), mesh.float64(), 1000, spill_file());
+  RegionCut cut(mesh.frame.lower(), mesh.frame.upper(), {}, nullptr);
+  if (!cut.add(mesh)) std::abort();
+  MaskRegions regions(mesh.frame.lower(), {}, cut.found().winding, mesh.float64(), 1000,
+                      spill_file());
   if (!regions.divide(*runs, most) || !regions.add(mesh)) std::abort();
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;

@@ -51,6 +51,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
     BuildOptions options;
     options.temp_directory = temporary_ / ".";
     options.replace = true;
+    options.box = box_;
     return build_tree(mesh_, output_, options, *this,
                       {kPatchTriangles, kRegionTriangles, memory, calls});
   }
@@ -65,6 +66,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
   std::filesystem::path mesh_ = folder_ / "torus.ply";
   std::filesystem::path output_ = folder_ / "torus.ptree";
   std::optional<BuildPlace> place_;
+  std::optional<RegionBox> box_;
 };
 
 constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0};
@@ -103,6 +105,26 @@ TEST_F(BuildSpace, IsLookedForBeforeAnythingIsWritten) {
   EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
   EXPECT_FALSE(calls.happened());
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
+}
+
+// A little of a mesh that would not fit.
+TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
+  write_torus(4, "float");
+  const auto size = MeshSize::foresee(mesh_);
+  ASSERT_TRUE(size);
+  const SpaceNeed cut = SpaceNeed::before_reading(*size, kNothingHeld, true);
+  EXPECT_LT(cut.temporary_bytes, need(kNothingHeld).temporary_bytes);
+  EXPECT_EQ(cut.output_bytes, 0u);
+  storage::FaultyCalls calls;
+  calls.room = storage::device_room(cut.temporary_bytes);
+  EXPECT_FALSE(build(kNothingHeld, calls));
+  box_ = {{-100, -100, 0}, {0, 0, 100}};
+  const auto report = build(kNothingHeld, calls);
+  ASSERT_TRUE(report) << report.error().text;
+  EXPECT_LT(report->header.model.triangle_count, size->triangles / 4);
+  // There is no room for what is cut out.
+  calls.room = storage::device_room(1000);
+  EXPECT_FALSE(build(kNothingHeld, calls));
 }
 
 // Of polygons with many corners an ascii PLY does not tell how many triangles they are.

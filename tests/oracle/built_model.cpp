@@ -66,6 +66,7 @@ void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& ch
     seams.memory = octree::BuildMemory{.threads = 2, .chunk_triangles = 100};
   }
   options.page_bytes = choices.page_bytes;
+  options.box = choices.box;
   const auto report = octree::build_tree(mesh, path(), options, silent, seams);
   if (!report) give_up(report.error());
   scale_exponent_ = report->header.model.scale_exponent;
@@ -80,11 +81,15 @@ void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& ch
   probe_.emplace(std::move(*probe));
 }
 
-std::string build_failure(std::span<const Corners> triangles) {
+std::string build_failure(std::span<const Corners> triangles,
+                          const std::optional<octree::RegionBox>& box) {
   const storage::TemporaryDirectory folder;
   write_ply(folder / "model.ply", triangles);
   Silent silent;
-  const auto report = octree::build_tree(folder / "model.ply", folder / "model.ptree", {}, silent);
+  octree::BuildOptions options;
+  options.box = box;
+  const auto report =
+      octree::build_tree(folder / "model.ply", folder / "model.ptree", options, silent);
   return report ? std::string() : std::string(report.error().text);
 }
 

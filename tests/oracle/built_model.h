@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "octree/build/build_options.h"
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tests/oracle/brute_force.h"
@@ -25,6 +26,7 @@ struct BuildChoices {
   std::uint32_t page_bytes = 65536;  ///< smaller ones: built as large models are
   std::uint64_t budget_bytes = std::uint64_t{64} << 20;
   unsigned max_probes = 1;
+  std::optional<octree::RegionBox> box = std::nullopt;  ///< build only what touches it
 };
 
 /// A .ptree file built from a soup, opened, with a probe to ask it. Everything
@@ -58,6 +60,7 @@ class BuiltModel {
 };
 
 /// The error of a build that must fail, as its text; empty if it went well.
-std::string build_failure(std::span<const Corners> triangles);
+std::string build_failure(std::span<const Corners> triangles,
+                          const std::optional<octree::RegionBox>& box = std::nullopt);
 
 }  // namespace planetree::oracle

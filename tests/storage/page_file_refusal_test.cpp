@@ -80,7 +80,7 @@ TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported, "version 4");
+  expect_refused(image, ErrorCode::kUnsupported, "version 5");
 }
 
 TEST_F(PageFileRefusal, NotUnknownCompatibleFeatures) {
@@ -128,6 +128,61 @@ TEST_F(PageFileRefusal, HeaderFields) {
   expect_damaged([](FileHeader& h) { h.reserved[std::size(FileHeader{}.reserved) - 1] = 1; },
                  "reserved");
   expect_damaged([](FileHeader& h) { ++h.max_raw_bytes; }, "no page is as large");
+}
+
+TEST_F(PageFileRefusal, Regions) {
+  const auto make_region = [](ModelRecord& m) {
+    m.input_triangles = m.triangle_count;
+    for (int axis = 0; axis < 3; ++axis) {
+      m.region_lower[axis] = m.box_lower[axis];
+      m.region_upper[axis] = m.box_upper[axis];
+    }
+    m.region_winding = -3;
+  };
+  const auto expect_region_refused = [&](const std::function<void(ModelRecord&)>& change,
+                                         const char* said) {
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          make_region(m);
+          change(m);
+        },
+        said);
+  };
+  FileImage region = good();
+  region.change_header([&](FileHeader& h) { make_region(h.model); });
+  region.seal_header();
+  EXPECT_EQ(refusal_of(region).text[0], 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double value : {kNan, kInfinity, -kInfinity}) {
+      expect_region_refused([&](ModelRecord& m) { m.region_lower[axis] = value; }, "region");
+      expect_region_refused([&](ModelRecord& m) { m.region_upper[axis] = value; }, "region");
+    }
+    expect_region_refused(
+        [&](ModelRecord& m) {
+          m.region_lower[axis] = 0.5;
+          m.region_upper[axis] = 0.25;
+        },
+        "region");
+    for (const double beside : {-9.0, 9.0}) {
+      expect_region_refused(
+          [&](ModelRecord& m) { m.region_lower[axis] = m.region_upper[axis] = beside; }, "region");
+    }
+    expect_model_refused([&](ModelRecord& m) { m.region_lower[axis] = 1; }, "region");
+    expect_model_refused([&](ModelRecord& m) { m.region_upper[axis] = -0.0; }, "region");
+  }
+  expect_region_refused([](ModelRecord& m) { m.input_triangles = m.triangle_count - 1; },
+                        "more triangles than the input");
+  expect_region_refused([](ModelRecord& m) { m.input_triangles = 0; }, "region");
+  for (const std::int64_t winding : {std::int64_t{13}, std::int64_t{-13}, INT64_MAX, INT64_MIN}) {
+    expect_region_refused([&](ModelRecord& m) { m.region_winding = winding; }, "winding number");
+  }
+  expect_region_refused(
+      [](ModelRecord& m) {
+        m.input_triangles = ~std::uint64_t{0};
+        m.region_winding = INT64_MIN;
+      },
+      "winding number");
+  expect_model_refused([](ModelRecord& m) { m.region_winding = 1; }, "region");
 }
 
 TEST_F(PageFileRefusal, ModelFields) {

@@ -105,7 +105,7 @@ TEST_F(Command, RefusesInOneLine) {
        "planetree: inspect: --slice requires --image; see planetree inspect --help"},
       {{"inspect", "cut.ptree"},
        1,
-       "planetree: cut.ptree: FILE_LENGTH: at byte 100: the file should have at least 1024 bytes "
+       "planetree: cut.ptree: FILE_LENGTH: at byte 100: the file should have at least 1152 bytes "
        "and has 100; restore it from a copy or build it again"},
       {{"verify", "none.ptree"},
        2,
