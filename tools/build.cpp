@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <limits>
@@ -13,7 +14,9 @@
 #include <string>
 #include <system_error>
 
+#include "octree/build/mesh_text.h"
 #include "storage/file_error.h"
+#include "tools/coordinate_text.h"
 #include "tools/file_digest.h"
 #include "tools/file_text.h"
 #include "tools/progress.h"
@@ -124,6 +127,7 @@ std::string json_report(const BuildArguments& arguments, const octree::BuildRepo
       {"input", arguments.input.string()},
       {"file", arguments.output.string()},
       {"triangles", model.triangle_count},
+      {"input_triangles", built.input_triangles},
       {"set_aside", model.set_aside_count},
       {"first_set_aside", nullptr},
       {"vertices", model.vertex_count},
@@ -138,7 +142,7 @@ std::string json_report(const BuildArguments& arguments, const octree::BuildRepo
       {"bytes_per_triangle", bytes_per_triangle(header)},
       {"seconds", seconds},
       {"seconds_by_phase", meter.seconds()},
-      {"triangles_per_second", static_cast<double>(model.triangle_count) / seconds},
+      {"triangles_per_second", static_cast<double>(built.input_triangles) / seconds},
       {"peak_resident_bytes", peak_resident_bytes()},
       {"temporary_bytes", built.temporary_bytes},
       {"sha256", sha256},
@@ -148,18 +152,21 @@ std::string json_report(const BuildArguments& arguments, const octree::BuildRepo
   return json_line(report);
 }
 
-std::string plain_report(const BuildArguments& arguments, const storage::FileHeader& header,
+std::string plain_report(const BuildArguments& arguments, const octree::BuildReport& built,
                          double seconds) {
+  const storage::FileHeader& header = built.header;
   const storage::ModelRecord& model = header.model;
+  const std::string part =
+      model.has_region() ? " of " + grouped_count(built.input_triangles) : std::string();
   const std::string surface = model.open_edge_count == 0
                                   ? "watertight"
                                   : grouped_count(model.open_edge_count) + " open edges";
   return fmt::format(
-      "{}: {} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
+      "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
       "({} triangles/s), {} of memory\n",
-      arguments.output.string(), grouped_count(model.triangle_count), surface,
+      arguments.output.string(), grouped_count(model.triangle_count), part, surface,
       short_bytes(header.file_bytes), grouped_count(header.page_count), bytes_per_triangle(header),
-      seconds, short_count(static_cast<double>(model.triangle_count) / seconds),
+      seconds, short_count(static_cast<double>(built.input_triangles) / seconds),
       short_bytes(peak_resident_bytes()));
 }
 
@@ -179,6 +186,23 @@ std::string page_size_complaint(std::uint64_t bytes) {
     return {};
   return fmt::format("--page-size: {} is not a page size; give a power of two from 4K to 256K",
                      bytes);
+}
+
+std::string box_complaint(const std::string& text) {
+  std::array<double, 6> values{};
+  bool good = parse_coordinates(text, values);
+  for (std::size_t axis = 0; axis < 3; ++axis) good = good && values[axis] <= values[axis + 3];
+  if (good) return {};
+  return fmt::format(
+      "'{}' is not a box; give X0,Y0,Z0,X1,Y1,Z1, finite numbers, none of the first three above "
+      "its like among the last",
+      octree::printable(text));
+}
+
+octree::RegionBox box_of(const std::string& text) {
+  std::array<double, 6> v{};
+  parse_coordinates(text, v);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
 std::string memory_complaint(std::uint64_t bytes) {
@@ -208,7 +232,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   const double seconds = std::max(elapsed.count(), 1e-9);
   warn_of_set_aside(arguments, *report, console);
   if (!arguments.json) {
-    console.print(plain_report(arguments, report->header, seconds));
+    console.print(plain_report(arguments, *report, seconds));
     return console.finish(kDone);
   }
   const auto sha256 = sha256_of_file(arguments.output);
@@ -243,6 +267,13 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
             "double coordinates; the output's directory by default. They have no names and vanish "
             "with the process, but for what --resume keeps. A build that would find too little "
             "room does not begin");
+  verb.text(
+      "--box", "X0,Y0,Z0,X1,Y1,Z1", box_complaint,
+      [&arguments](const std::string& text) { arguments.options.box = box_of(text); },
+      "Build only the triangles that touch this box, in model units. Sides, and whether the "
+      "surface is watertight, are those of the whole mesh. Answers are exact where the "
+      "surface is nearer than the box's walls, and lower bounds hold everywhere; sides are "
+      "told in the box, of a watertight mesh");
   verb.flag("--resume", arguments.options.resume,
             "Keep what is done in a directory OUT.ptree.work, beside the output or in --temp-dir, "
             "until the file is complete; go on with what an earlier build with --resume, of the "

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "query/model_region.h"
 #include "query/scale.h"
 #include "tools/geometry_check.h"
 #include "tools/mask_check.h"
@@ -116,9 +117,9 @@ void TreeCheck::check_model() {
         {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
   };
   if (model.triangle_count == 0) wrong("the header says that there is no triangle");
-  if (model.set_aside_count > ~std::uint64_t{0} - model.triangle_count)
+  if (model.set_aside_count > ~std::uint64_t{0} - model.usable_triangles())
     return wrong("the header's counts of triangles overflow");
-  const std::uint64_t indices = model.triangle_count + model.set_aside_count;
+  const std::uint64_t indices = model.usable_triangles() + model.set_aside_count;
   const bool names_one = model.first_set_aside != storage::kNoTriangle;
   if (names_one != (model.set_aside_count > 0) || (names_one && model.first_set_aside >= indices))
     wrong("the first triangle set aside does not fit their count");
@@ -206,9 +207,10 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   settle_height(promise->parent, height);
 }
 
-/// The root's box holds the header's, which is that of the input.
+/// The root's box holds the header's, which is that of the input, if all of that is there.
 void TreeCheck::check_root_box(const FloatBox& box) {
   const storage::ModelRecord& model = header_.model;
+  if (query::region_of(model).has_walls()) return;
   const query::Scale scale(model.scale_exponent);
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = scale.in(model.box_lower[axis]) - model.centre[axis];
@@ -274,7 +276,7 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
 }
 
 void TreeCheck::check_blocks() {
-  const std::uint64_t indices = header_.model.triangle_count + header_.model.set_aside_count;
+  const std::uint64_t indices = header_.model.usable_triangles() + header_.model.set_aside_count;
   frame_->for_each_block([&](std::uint32_t, std::uint32_t slot) {
     const octree::BlockView block = frame_->block(slot);
     report_.triangles += block.triangle_count();

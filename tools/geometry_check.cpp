@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "octree/bounds.h"
+#include "octree/build/cell_overlap.h"
+#include "query/model_region.h"
 #include "query/scale.h"
 #include "tools/moment_check.h"
 
@@ -46,6 +48,7 @@ bool is_inside(const Bounds& bounds, const Point& point) {
 }
 
 Point point_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+Vec3 vec3_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
 
 }  // namespace
 
@@ -54,7 +57,13 @@ GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issue
       issues_(issues),
       edges_(model_),
       lower_(Point::Constant(kInfinity)),
-      upper_(Point::Constant(-kInfinity)) {}
+      upper_(Point::Constant(-kInfinity)) {
+  const query::Scale scale(model_.scale_exponent);
+  const octree::Region region = query::region_of(model_);
+  cut_off_ = region.has_walls();
+  part_lower_ = region.clamped(scale.in(vec3_of(model_.box_lower)));
+  part_upper_ = region.clamped(scale.in(vec3_of(model_.box_upper)));
+}
 
 void GeometryCheck::report(IssueCode code, std::uint32_t page, std::string message) {
   issues_.add({code, page, Error::kNowhere, std::move(message)});
@@ -66,12 +75,18 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
     lower_ = lower_.cwiseMin(block.vertex(i));
     upper_ = upper_.cwiseMax(block.vertex(i));
   }
-  for (unsigned i = 0; i < block.triangle_count(); ++i) edges_.add(block.triangle(i));
+  for (unsigned i = 0; i < block.triangle_count(); ++i) add_triangle(block.triangle(i), page);
   if (bounds == nullptr) return;
   check_vertices(block, page, *bounds);
   if (model_.open_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
     report(IssueCode::kMoments, page,
            fmt::format("the moments of the block of triangle {} are not its own", block.id(0)));
+}
+
+void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
+  edges_.add(triangle);
+  if (cut_off_ && !octree::may_touch(triangle, part_lower_, part_upper_))
+    report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
 }
 
 void GeometryCheck::add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds) {
@@ -127,6 +142,12 @@ bool GeometryCheck::insert(std::uint64_t id) {
   return is_new;
 }
 
+// Whether the header's box is that of the vertices, or of a region holds it.
+bool GeometryCheck::is_box(double lower, double upper, int axis) const {
+  if (cut_off_) return lower <= lower_[axis] && upper_[axis] <= upper;
+  return lower == lower_[axis] && upper == upper_[axis];
+}
+
 void GeometryCheck::finish(bool complete) {
   if (!complete) return;
   const query::Scale scale(model_.scale_exponent);
@@ -134,11 +155,12 @@ void GeometryCheck::finish(bool complete) {
     issues_.add({code, Error::kNowhere, Error::kNowhere, std::move(message)});
   };
   for (int axis = 0; axis < 3; ++axis)
-    if (scale.in(model_.box_lower[axis]) != lower_[axis] ||
-        scale.in(model_.box_upper[axis]) != upper_[axis])
+    if (!is_box(scale.in(model_.box_lower[axis]), scale.in(model_.box_upper[axis]), axis))
       whole_file(IssueCode::kModelBox,
                  fmt::format("the header's box is not that of the vertices along {}", "xyz"[axis]));
-  if (auto finding = edges_.finding()) whole_file(IssueCode::kOpenEdges, *std::move(finding));
+  // Of a region, faces are missing.
+  if (auto finding = cut_off_ ? std::nullopt : edges_.finding())
+    whole_file(IssueCode::kOpenEdges, *std::move(finding));
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
                fmt::format("the header's sample triangle {} is not there", model_.sample_triangle));

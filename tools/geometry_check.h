@@ -38,10 +38,12 @@ class GeometryCheck {
   void finish(bool complete);
 
  private:
+  void add_triangle(const octree::Triangle& triangle, std::uint32_t page);
   void add_ids(const octree::BlockView& block, std::uint32_t page);
   void look_for_sample(const octree::BlockView& block, unsigned triangle, std::uint32_t page);
   void check_vertices(const octree::BlockView& block, std::uint32_t page, const Bounds& bounds);
   bool insert(std::uint64_t id);
+  bool is_box(double lower, double upper, int axis) const;
   void report(IssueCode code, std::uint32_t page, std::string message);
 
   const storage::ModelRecord& model_;
@@ -51,7 +53,9 @@ class GeometryCheck {
   std::uint64_t least_id_ = storage::kNoTriangle;
   bool sample_seen_ = false;
   EdgeCheck edges_;
-  octree::Point lower_, upper_;  // of all vertices, model frame
+  octree::Point lower_, upper_;            // of all vertices, model frame
+  octree::Point part_lower_, part_upper_;  // of the region, as far as it is in the model's box
+  bool cut_off_ = false;                   // triangles may have been left out
 };
 
 }  // namespace planetree::tools

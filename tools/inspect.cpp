@@ -207,7 +207,7 @@ int show_why(const InspectArguments& arguments, Console& console) {
   if (!explanation) return console.fail(arguments.file.string(), explanation.error());
   console.print(arguments.json ? json_line(explanation_json(*explanation))
                                : explanation_text(*explanation));
-  return console.finish(explanation->answer.status == Status::kDegraded ? kDataAtFault : kDone);
+  return console.finish(explanation->pages_lost ? kDataAtFault : kDone);
 }
 
 std::string why_complaint(const std::string& text) {

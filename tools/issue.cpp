@@ -37,7 +37,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "OPEN_EDGES",
                                                                   "MASK_CORNER",
                                                                   "MASK_COLOUR",
-                                                                  "MASK_PLANES"};
+                                                                  "MASK_PLANES",
+                                                                  "REGION"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

@@ -42,8 +42,9 @@ enum class IssueCode : std::uint8_t {
   kMaskCorner,
   kMaskColour,
   kMaskPlanes,
+  kRegion,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kMaskPlanes) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kRegion) + 1;
 
 /// Such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

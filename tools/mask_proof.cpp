@@ -67,7 +67,7 @@ MaskProof::MaskProof(std::unique_ptr<query::ModelState> model, cache::Reader rea
     : model_(std::move(model)),
       reader_(std::move(reader)),
       issues_(issues),
-      grid_(model_->mask().lower) {}
+      grid_(model_->mask().lower, model_->region()) {}
 
 void MaskProof::look_at(const GreyCell& grey) {
   if (grey.node != nullptr) check_octants(grey);
@@ -85,6 +85,12 @@ void MaskProof::check_octants(const GreyCell& grey) {
 void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colour) {
   constexpr std::array<const char*, 3> kNames = {"inverted", "white", "black"};
   const char* name = kNames[static_cast<std::size_t>(colour + 1)];
+  if (!grid_.has_part_of(cell)) {
+    if (colour != 0)
+      report(IssueCode::kMaskColour, page,
+             fmt::format("cell {} is {}, but not in the region", cell_name(cell), name));
+    return;
+  }
   if (!touching(cell).empty())
     return report(IssueCode::kMaskColour, page,
                   fmt::format("cell {} is {}, but triangles touch it", cell_name(cell), name));
@@ -133,6 +139,12 @@ std::optional<std::int64_t> MaskProof::recount(const Point& point) {
   if (query::outside_box(tree, point)) return 0;
   query::PageTurner turner(reader_, Wait::kForPages);
   octree::TreeWork work;
+  if (model_->region().has_walls()) {
+    const octree::Crossings crossings = octree::count_crossings(
+        tree, {point, model_->region_corner()}, kAllNodes, turner.pages(), work);
+    if (!crossings.complete) return std::nullopt;
+    return model_->region_winding() + crossings.difference;
+  }
   const query::WaysOut ways(tree, point);
   for (const query::WaysOut::Way& way : ways.all()) {
     const octree::Crossings crossings =

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "octree/cell_grid.h"
+#include "octree/clipped_grid.h"
 #include "planetree/error.h"
 #include "query/model_state.h"
 #include "tools/file_check.h"
@@ -21,8 +21,9 @@ namespace planetree::tools {
 
 /// Holds what a mask says against the triangles: winding numbers at corners and
 /// in cells of one colour by the way straight out of the model's box, so by
-/// other triangles than those they were found with; and that only grey cells
-/// are touched.
+/// other triangles than those they were found with, or, of a region, by the way
+/// to its least corner, whose number is taken from the header; and that only
+/// grey cells are touched.
 ///
 /// memory  256 MiB of pages at most, and the corners of one page
 class MaskProof {
@@ -50,7 +51,7 @@ class MaskProof {
   std::unique_ptr<query::ModelState> model_;
   cache::Reader reader_;
   IssueList& issues_;
-  octree::CellGrid grid_;
+  octree::ClippedGrid grid_;
   std::unordered_map<std::uint64_t, std::optional<std::int64_t>> counted_;  ///< by corner
 };
 

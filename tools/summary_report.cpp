@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "query/model_region.h"
 #include "tools/file_text.h"
 #include "tools/size_text.h"
 
@@ -95,7 +96,22 @@ std::string point_text(const double (&values)[3]) {
 
 // How sides are found, in a word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
-  return model.open_edge_count == 0 ? "crossings" : "winding";
+  if (model.open_edge_count == 0) return "crossings";
+  return query::region_of(model).has_walls() ? "none" : "winding";
+}
+
+Json region_json(const storage::ModelRecord& model) {
+  if (!model.has_region()) return nullptr;
+  return {{"lower", model.region_lower},
+          {"upper", model.region_upper},
+          {"input_triangles", model.input_triangles}};
+}
+
+std::string region_text(const storage::ModelRecord& model) {
+  if (!model.has_region()) return {};
+  return fmt::format("  region      {} to {}: {} of the input's {} triangles touch it\n",
+                     point_text(model.region_lower), point_text(model.region_upper),
+                     grouped_count(model.triangle_count), grouped_count(model.input_triangles));
 }
 
 std::span<const storage::OpenEdge> listed_open_edges(const storage::ModelRecord& model) {
@@ -118,7 +134,9 @@ Json open_edges_json(const storage::ModelRecord& model) {
 std::string surface_text(const storage::ModelRecord& model) {
   if (model.open_edge_count == 0) return "  surface     watertight; sides by crossings, exactly\n";
   std::string text =
-      fmt::format("  surface     not watertight; sides by winding number: {} open edges\n",
+      fmt::format("  surface     not watertight; {}: {} open edges\n",
+                  query::region_of(model).has_walls() ? "sides unknown, for not all of it is here"
+                                                      : "sides by winding number",
                   grouped_count(model.open_edge_count));
   for (const storage::OpenEdge& edge : listed_open_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
@@ -161,6 +179,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"first_set_aside", nullptr},
                {"vertices", model.vertex_count},
                {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
+               {"region", region_json(model)},
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
                {"watertight", model.open_edge_count == 0},
                {"sign_rule", sign_rule(model)},
@@ -198,6 +217,7 @@ std::string summary_text(const std::string& name, const FileParts& parts,
                         grouped_count(model.set_aside_count), model.first_set_aside);
   text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
                       point_text(model.box_upper));
+  text += region_text(model);
   text += surface_text(model);
   text +=
       fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",

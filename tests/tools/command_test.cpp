@@ -57,6 +57,14 @@ TEST_F(Command, RefusesInOneLine) {
        2,
        "planetree: build: --memory: 104857600 is too little for a build; give 160M or more; see "
        "planetree build --help"},
+      {{"build", "mesh.obj", "-o", "new.ptree", "--box", "0,0,0,1,1"},
+       2,
+       "planetree: build: --box: '0,0,0,1,1' is not a box; give X0,Y0,Z0,X1,Y1,Z1, finite numbers, "
+       "none of the first three above its like among the last; see planetree build --help"},
+      {{"build", "mesh.obj", "-o", "new.ptree", "--box", "500,500,500,501,501,501"},
+       2,
+       "planetree: mesh.obj: no triangle touches the box; that of the whole model is "
+       "0,0,0,14,14,0.875"},
       {{"build", "mesh.obj", "-o", "new.ptree", "--temp-dir", "none"},
        2,
        "planetree: none: no such directory for temporary files; create it first"},
