@@ -15,6 +15,7 @@
 #include "octree/candidates.h"
 #include "octree/conclusion.h"
 #include "octree/frontier.h"
+#include "octree/nearby_kernels-inl.h"
 #include "octree/node_kernels-inl.h"
 #include "octree/strict_math.h"
 #include "octree/triangle_filter-inl.h"
@@ -23,14 +24,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
-
-// The way from a point to the query, in float.
-struct FloatOffset {
-  FloatOffset(const Point& query, const Point& from)
-      : at{static_cast<float>(query.x() - from.x()), static_cast<float>(query.y() - from.y()),
-           static_cast<float>(query.z() - from.z())} {}
-  const float at[3];
-};
 
 // One descent; the parts that touch nodes and blocks are compiled per target.
 class Descent {
@@ -52,11 +45,13 @@ class Descent {
   // From what a ball holds.
   void run_from(const Vicinity& vicinity) {
     front_ = &vicinity.front();
-    if (wide_.usable && vicinity.nearby().complete()) {
-      visit_nearby(vicinity.nearby());
+    const bool exact = limits_.max_error == 0 && wide_.usable;
+    if (exact) best_.promise(vicinity.nearest_of(query_));
+    if (exact && vicinity.blocks().complete() && vicinity.blocks().size() < limits_.max_nodes) {
+      visit_blocks(vicinity.blocks());
       settle();
     } else {
-      visit_node({.bound = 0, .link = 0, .from = 0}, vicinity.front(), RecordFinder::kNoPage);
+      visit_node({.bound = 0, .link = 0, .from = 0}, *front_, RecordFinder::kNoPage);
       run();
     }
   }
@@ -64,7 +59,8 @@ class Descent {
   // Where something is left out that may matter, a triangle known from elsewhere helps.
   void fall_back_on(const NearestAnswer& known) {
     if (known.triangle == kNoTriangle || left_out_.unread > best_.exact_threshold()) return;
-    note(known.corners, known.triangle, 0, 0);
+    make_room();
+    candidates_.add(known.corners, known.triangle);
     settle();
   }
 
@@ -74,6 +70,7 @@ class Descent {
 
  private:
   static constexpr unsigned kPrefetched = 3;  // children, nearest first
+  static constexpr std::size_t kPrefetchedBlocks = 4;
 
   static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
 
@@ -145,10 +142,27 @@ class Descent {
     frontier_.push(near, page);
   }
 
+  // Those of a list that come near enough, nearest first.
+  void visit_blocks(const NearbyBlocks& list) {
+    BlockKeys keys;
+    std::size_t count = near_blocks(list, wide_, best_.threshold(), keys);
+    for (std::size_t i = 0; i < std::min(count, kPrefetchedBlocks); ++i)
+      records_.prefetch(list.link(keys.block(i)));
+    while (count > 0) {
+      const std::size_t least = keys.least(count);
+      const FrontierEntry entry{keys.bound(least), list.link(keys.block(least)),
+                                RecordFinder::kNoPage};
+      if (entry.bound > best_.threshold()) return;
+      visit(entry, 0);
+      keys.at[least] = keys.at[--count];
+    }
+  }
+
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
     const auto note_one = [&](unsigned i, float squared) {
-      note(block.triangle(i), block.id(i), header.extent, squared);
+      make_room();
+      candidates_.add(block, i, squared);
     };
     // Too small for float, or too far away.
     if (!wide_.usable || header.extent < kLeastFilterExtent) {
@@ -158,16 +172,6 @@ class Descent {
     const FloatOffset from(query_, block.vertex(0));
     filter(header.triangle_count, header.extent, note_one,
            [&](float limit, auto& filtered) { filter_block(header, from.at, limit, filtered); });
-  }
-
-  HWY_INLINE void visit_nearby(const NearbyTriangles& list) {
-    const auto note_one = [&](unsigned i, float squared) {
-      note(list.triangle(i), list.id(i), list.extent(), squared);
-    };
-    const FloatOffset from(query_, list.centre());
-    filter(list.size(), list.extent(), note_one, [&](float limit, auto& filtered) {
-      filter_triangles(ListedTriangles(list, from.at), list.size(), limit, filtered);
-    });
   }
 
   // Notes those of some triangles that float cannot rule out. run_filter(limit, filtered)
@@ -186,12 +190,10 @@ class Descent {
     }
   }
 
-  void note(const Triangle& corners, std::uint64_t id, float extent, float squared) {
-    if (candidates_.full()) {
-      keep_possible();
-      if (candidates_.full()) settle();
-    }
-    candidates_.add(corners, id, extent, squared);
+  void make_room() {
+    if (!candidates_.full()) return;
+    keep_possible();
+    if (candidates_.full()) settle();
   }
 
   void keep_possible() {
@@ -231,19 +233,38 @@ class Descent {
   unsigned sought_ = 0;
 };
 
+// All triangles that may be nearest are in the list, no farther than `reach` from its centre.
+NearestAnswer nearest_of_list(const TreeFacts& tree, const Point& query,
+                              const NearestLimits& limits, const NearbyTriangles& list,
+                              double reach, TreeWork& work) {
+  const FloatQuery wide = FloatQuery::from(query, tree.centre);
+  BestTriangle best(wide, limits);
+  offer_nearby(list, reach, query, wide, best, work);
+  return conclude(tree, query, limits, best, wide, {});
+}
+
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
                                 const NearestLimits& limits, PageReader pages, TreeWork& work,
                                 Vicinity* vicinity) {
+  const double reach = vicinity ? vicinity->reach_of(query) : 0;
+  const bool held = vicinity && vicinity->holds(reach);
+  if (held && vicinity->triangles().complete()) {
+    NearestAnswer answer = nearest_of_list(tree, query, limits, vicinity->triangles(), reach, work);
+    if (answer.status == Status::kExact) {
+      vicinity->note(query, answer.point);
+      return answer;
+    }
+  }
   const auto answer_of = [&](Descent& descent) {
     if (limits.known) descent.fall_back_on(*limits.known);
     return conclude(tree, query, limits, descent.best(), descent.wide(),
                     descent.what_is_left_out());
   };
-  if (vicinity && vicinity->holds(query)) {
+  if (held) {
     Descent descent(tree, query, limits, pages, work);
     descent.run_from(*vicinity);
     NearestAnswer answer = answer_of(descent);
-    if (answer.status == Status::kExact) vicinity->note(query, answer.distance);
+    if (answer.status == Status::kExact) vicinity->note(query, answer.point);
     if (answer.status == Status::kExact || limits.known) return answer;
     // Lost pages, or nothing so near as asked: told from the root, as ever.
     vicinity->forget();
@@ -253,7 +274,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   NearestAnswer answer = answer_of(descent);
   if (vicinity && answer.status == Status::kExact) {
     vicinity->renew(tree, query, answer.distance, pages, work);
-    vicinity->note(query, answer.distance);
+    vicinity->note(query, answer.point);
   }
   return answer;
 }

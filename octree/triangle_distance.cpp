@@ -74,7 +74,7 @@ std::size_t apex_of(const std::array<Point, 3>& corner) {
 }
 
 // Looks again, with 113 bits, at the face of a triangle that double found too flat.
-void refine_flat(const Point& query, const Triangle& triangle, TriangleFindings& findings,
+void refine_face(const Point& query, const Triangle& triangle, TriangleFindings& findings,
                  std::size_t lane) {
   const auto order = lexicographic_order(triangle);
   const std::array<Point, 3> corner{triangle[order[0]], triangle[order[1]], triangle[order[2]]};
@@ -101,10 +101,15 @@ void refine_flat(const Point& query, const Triangle& triangle, TriangleFindings&
 
 void evaluate(const Point& query, const TriangleView& triangles, std::size_t count,
               TriangleFindings& findings) noexcept {
-  unsigned flat = HWY_DYNAMIC_DISPATCH(evaluate_on_target)(triangles, query, findings);
-  for (flat &= (1U << count) - 1; flat != 0; flat &= flat - 1) {
+  const unsigned flat = HWY_DYNAMIC_DISPATCH(evaluate_on_target)(triangles, query, findings);
+  refine_flat(query, triangles, flat & ((1U << count) - 1), findings);
+}
+
+void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
+                 TriangleFindings& findings) noexcept {
+  for (; flat != 0; flat &= flat - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(flat));
-    refine_flat(query, triangles.triangle(lane), findings, lane);
+    refine_face(query, triangles.triangle(lane), findings, lane);
   }
 }
 

@@ -91,6 +91,18 @@ HWY_INLINE TriangleBounds triangle_bounds(const Wide3& a, const Wide3& b, const 
           hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
 }
 
+// Squared distances to the boxes of triangles given in the same way: below those of the
+// triangles, at a fifth of the cost.
+HWY_INLINE Floats box_bounds(const Wide3& a, const Wide3& b, const Wide3& c) {
+  const Floats zero = hn::Zero(FloatTag());
+  const auto gap = [&](Floats u, Floats v, Floats w) {
+    const Floats lower = hn::Min(hn::Min(u, v), w), upper = hn::Max(hn::Max(u, v), w);
+    return hn::Max(hn::Max(lower, hn::Neg(upper)), zero);
+  };
+  const Wide3 gaps{gap(a.x, b.x, c.x), gap(a.y, b.y, c.y), gap(a.z, b.z, c.z)};
+  return dot(gaps, gaps);
+}
+
 // A block's vertices, seen from the query; `kStride` of each coordinate.
 template <unsigned kStride>
 class BlockTriangles {
@@ -141,6 +153,14 @@ class BlockTriangles {
   HWY_ALIGN float row_[3][kStride];
 };
 
+// The way from a point to the query.
+struct FloatOffset {
+  FloatOffset(const Point& query, const Point& from)
+      : at{static_cast<float>(query.x() - from.x()), static_cast<float>(query.y() - from.y()),
+           static_cast<float>(query.z() - from.z())} {}
+  const float at[3];
+};
+
 // Triangles that stand side by side.
 class ListedTriangles {
  public:
@@ -161,12 +181,11 @@ class ListedTriangles {
   const Wide3 query_;
 };
 
-// What float says of a block's triangles, or of a list of them.
+// What float says of a block's triangles.
 struct FilteredTriangles {
-  static_assert(NearbyTriangles::kMost >= kMaxBlockTriangles);
-  HWY_ALIGN float squared[NearbyTriangles::kMost];  // lower bounds
-  unsigned near;      // a bit for each whose bound is not above the limit
-  float least_upper;  // of TriangleBounds::upper
+  HWY_ALIGN float squared[kMaxBlockTriangles];  // lower bounds
+  unsigned near;                                // a bit for each whose bound is not above the limit
+  float least_upper;                            // of TriangleBounds::upper
 };
 
 // Lanes past the last triangle must repeat one.
@@ -177,8 +196,10 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
   Floats least = hn::Set(d, std::numeric_limits<float>::infinity());
   unsigned near = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const TriangleBounds bounds =
-        triangle_bounds(triangles.corner(0, i), triangles.corner(1, i), triangles.corner(2, i));
+    const Wide3 a = triangles.corner(0, i), b = triangles.corner(1, i), c = triangles.corner(2, i);
+    // Most of what a block holds is too far away for more to be asked of it.
+    if (bits_not_above(box_bounds(a, b, c), limit) == 0) continue;
+    const TriangleBounds bounds = triangle_bounds(a, b, c);
     hn::Store(bounds.lower, d, filtered.squared + i);
     least = hn::Min(least, bounds.upper);
     near |= bits_not_above(bounds.lower, limit) << i;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,17 +35,29 @@ struct TriangleRows {
   /// Those from `first` on, a multiple of kTrianglesAtOnce.
   TriangleView view(std::size_t first) const { return {at[0][0] + first, kMost}; }
 
-  void set(std::size_t i, const Triangle& corners) {
+  /// value(corner, axis) gives a coordinate.
+  template <class Value>
+  void set(std::size_t i, const Value& value) {
     for (std::size_t k = 0; k < 3; ++k)
-      for (Eigen::Index axis = 0; axis < 3; ++axis) at[k][axis][i] = corners[k][axis];
+      for (std::size_t axis = 0; axis < 3; ++axis) at[k][axis][i] = value(k, axis);
+  }
+  void set(std::size_t i, const Triangle& corners) {
+    set(i, [&](std::size_t k, std::size_t axis) {
+      return corners[k][static_cast<Eigen::Index>(axis)];
+    });
   }
 
   /// Sets `i` and all others that are evaluated with it; `i` is the first of these.
-  void fill(std::size_t i, const Triangle& corners) {
+  template <class Value>
+  void fill(std::size_t i, const Value& value) {
     for (std::size_t k = 0; k < 3; ++k)
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        for (std::size_t lane = 0; lane < kTrianglesAtOnce; ++lane)
-          at[k][axis][i + lane] = corners[k][axis];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        std::fill_n(&at[k][axis][i], kTrianglesAtOnce, value(k, axis));
+  }
+  void fill(std::size_t i, const Triangle& corners) {
+    fill(i, [&](std::size_t k, std::size_t axis) {
+      return corners[k][static_cast<Eigen::Index>(axis)];
+    });
   }
 
   void copy(std::size_t from, std::size_t to) {
@@ -57,5 +70,10 @@ struct TriangleRows {
 /// nearest_on_triangle().
 void evaluate(const Point& query, const TriangleView& triangles, std::size_t count,
               TriangleFindings& findings) noexcept;
+
+/// Looks again, with 113 bits, at those that `flat` has a bit for: evaluate_triangles() found
+/// their faces too flat for double.
+void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
+                 TriangleFindings& findings) noexcept;
 
 }  // namespace planetree::octree

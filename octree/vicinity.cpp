@@ -92,80 +92,101 @@ class FrontSearch {
   unsigned closed_ = 0;
 };
 
-// Whether a triangle's box comes near enough for the triangle to matter.
-bool reaches(const Triangle& corners, const Point& centre, double radius) {
-  const Point lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-  const Point upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-  return (lower - centre).cwiseMax(centre - upper).cwiseMax(0.0).squaredNorm() <=
-         radius * radius * (1 + 0x1p-40);
-}
-
-// The triangles below a front that reach into the ball.
-class TriangleSearch {
+// The blocks below a front that reach into a ball.
+class BlockSearch {
  public:
-  TriangleSearch(const TreeFacts& tree, const Point& centre, double radius, PageReader pages,
-                 TreeWork& work)
-      : tree_(tree),
-        centre_(centre),
-        radius_(radius),
-        query_(FloatQuery::from(centre, tree.centre)),
+  BlockSearch(const TreeFacts& tree, const Point& centre, double radius, PageReader pages,
+              TreeWork& work, NearbyBlocks& found)
+      : query_(FloatQuery::from(centre, tree.centre)),
         threshold_(prune_threshold(query_, radius)),
         records_(tree, pages),
-        work_(work) {}
+        work_(work),
+        found_(found) {}
 
   // False where they are too many, or a page is lost.
-  bool run(const Node& front, NearbyTriangles& found) {
-    found.begin(centre_);
-    push_children(front);
+  bool run(const Node& front) {
+    found_.begin();
+    if (!take_children(front)) return false;
     while (size_ > 0) {
-      const std::uint32_t link = links_[--size_];
-      const std::byte* record = records_.find(link, work_);
+      const std::byte* record = records_.find(links_[--size_], work_);
       if (!record) return false;
-      const bool fits = LinkFormat::is_leaf(link)
-                            ? add_block(BlockView(record, tree_.shape), found)
-                            : add_node(*reinterpret_cast<const Node*>(record));
-      if (!fits) return false;
+      ++work_.nodes;
+      if (!take_children(*reinterpret_cast<const Node*>(record))) return false;
     }
-    found.finish();
-    return found.complete();
+    found_.finish();
+    return true;
   }
 
  private:
-  bool add_node(const Node& node) {
-    ++work_.nodes;
+  bool take_children(const Node& node) {
     if (size_ + kFanOut > links_.size()) return false;
-    push_children(node);
-    return true;
-  }
-
-  void push_children(const Node& node) {
-    for (unsigned near = children_within(node, query_, threshold_); near != 0; near &= near - 1)
-      links_[size_++] = node.link[static_cast<unsigned>(std::countr_zero(near))];
-  }
-
-  bool add_block(const BlockView& block, NearbyTriangles& found) {
-    if (++blocks_ > kMostBlocks) return false;
-    ++work_.blocks;
-    for (unsigned i = 0; i < block.triangle_count(); ++i) {
-      const Triangle corners = block.triangle(i);
-      if (reaches(corners, centre_, radius_) && !found.add(corners, block.id(i))) return false;
+    for (unsigned near = children_within(node, query_, threshold_); near != 0; near &= near - 1) {
+      const auto child = static_cast<unsigned>(std::countr_zero(near));
+      if (!LinkFormat::is_leaf(node.link[child]))
+        links_[size_++] = node.link[child];
+      else if (!found_.add(node, child))
+        return false;
     }
     return true;
   }
 
-  // More than these do not keep to so few triangles.
-  static constexpr unsigned kMostBlocks = 8;
-
-  const TreeFacts& tree_;
-  const Point& centre_;
-  const double radius_;
   const FloatQuery query_;
   const float threshold_;
   RecordFinder records_;
   TreeWork& work_;
-  unsigned blocks_ = 0;
+  NearbyBlocks& found_;
   std::size_t size_ = 0;
   std::array<std::uint32_t, 4 * kFanOut> links_;
+};
+
+// The squared distance to a triangle's box.
+double squared_to_box(const Triangle& corners, const Point& centre) {
+  const Point lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Point upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  return (lower - centre).cwiseMax(centre - upper).cwiseMax(0.0).squaredNorm();
+}
+
+// The triangles of some blocks that reach into a ball.
+class TriangleSearch {
+ public:
+  TriangleSearch(const TreeFacts& tree, const Point& centre, double radius)
+      : tree_(tree), centre_(centre), radius2_(radius * radius * (1 + 0x1p-40)) {}
+
+  // More blocks than these do not keep to so few triangles.
+  static constexpr std::size_t kMostBlocks = 16;
+
+  // False where they are too many, or a page is lost.
+  bool run(const NearbyBlocks& blocks, PageReader pages, TreeWork& work) {
+    if (blocks.size() > kMostBlocks) return false;
+    RecordFinder records(tree_, pages);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      const std::byte* record = records.find(blocks.link(i), work);
+      if (!record) return false;
+      ++work.blocks;
+      if (!add(BlockView(record, tree_.shape))) return false;
+    }
+    return true;
+  }
+
+  std::span<const NearbyTriangle> found() const { return {found_.data(), count_}; }
+
+ private:
+  bool add(const BlockView& block) {
+    for (unsigned i = 0; i < block.triangle_count(); ++i) {
+      const Triangle corners = block.triangle(i);
+      const double squared = squared_to_box(corners, centre_);
+      if (squared > radius2_) continue;
+      if (count_ == found_.size()) return false;
+      found_[count_++] = {corners, block.id(i), squared};
+    }
+    return true;
+  }
+
+  const TreeFacts& tree_;
+  const Point& centre_;
+  const double radius2_;
+  std::size_t count_ = 0;
+  std::array<NearbyTriangle, NearbyTriangles::kMost> found_;
 };
 
 }  // namespace
@@ -177,18 +198,18 @@ void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
   if (!(radius > 0)) return;
   centre_ = query;
   radius_ = radius;
-  fill(tree, pages, work);
-}
-
-void Vicinity::fill(const TreeFacts& tree, PageReader pages, TreeWork& work) {
-  nearby_.begin(centre_);
+  blocks_.begin();
+  triangles_.clear();
   if (!FrontSearch(tree, centre_, radius_, pages, work, front_).run(tree.root_link)) {
     forget();
     return;
   }
   if (radius_ > crowded_radius_ * kLessCrowded) return;
-  const bool few = TriangleSearch(tree, centre_, radius_, pages, work).run(front_, nearby_);
+  const bool few = BlockSearch(tree, centre_, radius_, pages, work, blocks_).run(front_);
   crowded_radius_ = few ? std::numeric_limits<double>::infinity() : radius_;
+  if (!few) return;
+  TriangleSearch search(tree, centre_, radius_);
+  if (search.run(blocks_, pages, work)) triangles_.fill(search.found(), centre_, distance, radius_);
 }
 
 }  // namespace planetree::octree

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "octree/frame.h"
+#include "octree/nearby_blocks.h"
 #include "octree/nearby_triangles.h"
 #include "octree/tree_view.h"
 #include "octree/triangle_distance.h"
@@ -19,13 +20,17 @@ namespace planetree::octree {
 /// into frames. One thread.
 class Vicinity {
  public:
-  /// Whether all triangles that may be nearest to `query`, or as near to the last bits, are
-  /// in front().
-  bool holds(const Point& query) const {
-    if (!(radius_ > 0)) return false;
-    const double nearest = last_distance_ + (query - last_).norm();
-    return (nearest + (query - centre_).norm() + kSlack) * (1 + kSlack) < radius_;
+  /// How near to centre() a triangle is at most that may be nearest to `query`, or as near to
+  /// the last bits.
+  double reach_of(const Point& query) const {
+    return (nearest_of(query) + (query - centre_).norm()) * (1 + kSlack);
   }
+  /// How near to `query` the surface is at least.
+  double nearest_of(const Point& query) const {
+    return ((query - last_nearest_).norm() + kSlack) * (1 + kSlack);
+  }
+  /// Whether all of these are in front().
+  bool holds(double reach) const { return reach < radius_; }
 
   /// The subtrees, as if they were the children of one node.
   const Node& front() const { return front_; }
@@ -39,13 +44,15 @@ class Vicinity {
     return distance + kSteps * std::max(step, distance * kLeastStep);
   }
 
-  /// The triangles, if they are few.
-  const NearbyTriangles& nearby() const { return nearby_; }
+  /// Their blocks, if these are few.
+  const NearbyBlocks& blocks() const { return blocks_; }
+  /// Their triangles, if these are few.
+  const NearbyTriangles& triangles() const { return triangles_; }
 
   /// The triangles, if all that touch a point are among them; else null.
   const NearbyTriangles* all_at(const Point& point) const {
     const bool within = (point - centre_).norm() * (1 + kSlack) < radius_;
-    return within && nearby_.complete() ? &nearby_ : nullptr;
+    return within && triangles_.complete() ? &triangles_ : nullptr;
   }
 
   /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to
@@ -54,30 +61,29 @@ class Vicinity {
              TreeWork& work) noexcept;
 
   /// An exact answer.
-  void note(const Point& query, double distance) {
+  void note(const Point& query, const Point& nearest) {
     last_ = query;
-    last_distance_ = distance;
+    last_nearest_ = nearest;
   }
 
   void forget() { radius_ = 0; }
 
  private:
-  void fill(const TreeFacts& tree, PageReader pages, TreeWork& work);
-
   static constexpr double kSlack = 0x1p-24;       ///< far above what bounds and sums may err
   static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
   static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
-  static constexpr double kSteps = 16;            ///< that a ball is to last
-  /// Balls of more than this share of one that held too many triangles are not searched.
+  static constexpr double kSteps = 24;            ///< that a ball is to last
+  /// Balls of more than this share of one that held too many blocks are not searched.
   static constexpr double kLessCrowded = 0.75;
 
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());
   double radius_ = 0;
-  double last_distance_ = 0;
+  Point last_nearest_ = Point::Zero();
   double crowded_radius_ = std::numeric_limits<double>::infinity();
   Node front_{};
-  NearbyTriangles nearby_;
+  NearbyBlocks blocks_;
+  NearbyTriangles triangles_;
 };
 
 }  // namespace planetree::octree

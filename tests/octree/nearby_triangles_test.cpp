@@ -2,73 +2,85 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace planetree::octree {
 namespace {
 
 Triangle triangle_at(double x) { return {Point(x, 0, 0), Point(x + 1, 0, 0), Point(x, 1, 0)}; }
 
-TEST(NearbyTriangles, KeepsCornersExactly) {
+// As far from the centre as said.
+NearbyTriangle found_at(double x, std::uint64_t id, double distance = 0) {
+  return {triangle_at(x), id, distance * distance};
+}
+
+NearbyTriangles listed(const std::vector<NearbyTriangle>& found, const Point& centre) {
   NearbyTriangles list;
-  list.begin(Point(0.1, 0.2, 0.3));
-  const Triangle corners = triangle_at(1.0 / 3);
-  ASSERT_TRUE(list.add(corners, 7));
-  list.finish();
+  list.fill(found, centre, 0, 1);
+  return list;
+}
+
+TEST(NearbyTriangles, KeepsCornersExactly) {
+  const auto list = listed({found_at(1.0 / 3, 7)}, Point(0.1, 0.2, 0.3));
   EXPECT_TRUE(list.complete());
   EXPECT_EQ(list.size(), 1u);
-  EXPECT_EQ(list.triangle(0), corners);
+  EXPECT_EQ(list.triangle(0), triangle_at(1.0 / 3));
   EXPECT_EQ(list.id(0), 7u);
 }
 
-TEST(NearbyTriangles, HasRoomForSoManyAndNoMore) {
-  NearbyTriangles list;
-  list.begin(Point::Zero());
-  for (std::size_t i = 0; i < NearbyTriangles::kMost; ++i)
-    EXPECT_TRUE(list.add(triangle_at(static_cast<double>(i)), i));
-  EXPECT_FALSE(list.add(triangle_at(0), 99));
-  EXPECT_EQ(list.size(), NearbyTriangles::kMost);
-}
-
 TEST(NearbyTriangles, ReachesAsFarAsItsFarthestCorner) {
-  NearbyTriangles list;
-  list.begin(Point(0, 0, 4));
-  ASSERT_TRUE(list.add(triangle_at(2), 0));
-  list.finish();
+  const auto list = listed({found_at(2, 0)}, Point(0, 0, 4));
   EXPECT_GE(list.extent(), 5);
   EXPECT_LE(list.extent(), 5.0001);
 }
 
 TEST(NearbyTriangles, RepeatsTheLastUpToAWholeVector) {
-  NearbyTriangles list;
-  list.begin(Point(0.5, 0, 0));
-  ASSERT_TRUE(list.add(triangle_at(1), 0));
-  ASSERT_TRUE(list.add(triangle_at(2), 1));
-  list.finish();
+  const auto list = listed({found_at(1, 0), found_at(2, 1)}, Point(0.5, 0, 0));
   EXPECT_EQ(list.row(0, 0)[0], 0.5f);
   EXPECT_EQ(list.row(1, 0)[1], 2.5f);
-  for (std::size_t i = 2; i < 8; ++i) EXPECT_EQ(list.row(0, 0)[i], list.row(0, 0)[1]) << i;
+  for (std::size_t i = 2; i < 8; ++i) {
+    EXPECT_EQ(list.row(0, 0)[i], list.row(0, 0)[1]) << i;
+    EXPECT_EQ(list.triangle(i), list.triangle(1)) << i;
+  }
 }
 
-TEST(NearbyTriangles, IsNoListBeforeItIsFinishedNorOfNothing) {
+TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
+  std::vector<NearbyTriangle> found;
+  for (unsigned i = 0; i < NearbyTriangles::kMost; ++i)
+    found.push_back(found_at(i, i, (i * 37 % 64) / 64.0));
+  const auto list = listed(found, Point::Zero());
+  for (const double distance : {0.0, 0.1, 0.5, 0.99, 1.0, 7.0}) {
+    std::vector<bool> counted(found.size());
+    for (std::size_t i = 0; i < list.count_within(distance); ++i) counted[list.id(i)] = true;
+    for (const NearbyTriangle& one : found) {
+      if (one.squared > distance * distance) continue;
+      EXPECT_TRUE(counted[one.id]) << one.id;
+    }
+  }
+  EXPECT_LT(list.count_within(0.25), found.size() / 2);
+  EXPECT_EQ(list.count_within(1), found.size());
+}
+
+TEST(NearbyTriangles, KnowsWhereAllAreAsNearAsTheBallReaches) {
   NearbyTriangles list;
-  list.begin(Point::Zero());
+  list.fill(std::vector<NearbyTriangle>{found_at(1, 5, 1)}, Point::Zero(), 1, 1);
+  EXPECT_EQ(list.count_within(1), 1u);
+}
+
+TEST(NearbyTriangles, IsNoListBeforeItIsFilledNorOfNothing) {
+  NearbyTriangles list;
   EXPECT_FALSE(list.complete());
-  list.finish();
+  list.fill({}, Point::Zero(), 0, 1);
   EXPECT_FALSE(list.complete());
-  ASSERT_TRUE(list.add(triangle_at(1), 0));
-  EXPECT_FALSE(list.complete());
-  list.finish();
+  list.fill(std::vector<NearbyTriangle>{found_at(1, 0)}, Point::Zero(), 0, 1);
   EXPECT_TRUE(list.complete());
-  list.begin(Point::Zero());
+  list.clear();
   EXPECT_FALSE(list.complete());
 }
 
 TEST(NearbyTriangles, RefusesWhatIsTooSmallForFloat) {
-  NearbyTriangles list;
-  list.begin(Point(1, 0, 0));
   const Point corner(1 + 0x1p-50, 0, 0);
-  ASSERT_TRUE(list.add({corner, corner, corner}, 0));
-  list.finish();
-  EXPECT_FALSE(list.complete());
+  EXPECT_FALSE(listed({{{corner, corner, corner}, 0, 0}}, Point(1, 0, 0)).complete());
 }
 
 }  // namespace

@@ -113,6 +113,22 @@ TEST(Vicinity, LooksAtNoPageWhereTrianglesAreFew) {
   }
 }
 
+TEST(Vicinity, LooksAtNoNodeWhereBlocksAreFew) {
+  const SampleTree sample = build_sample(sphere(7));
+  SamplePages pages(sample);
+  Vicinity vicinity;
+  TreeWork work;
+  for (int i = 0; i < 8; ++i) {
+    const TreeWork before = work;
+    nearest(tree_facts(sample), Point(0.35, 0.355 + i * 1e-3, 0.1), {}, pages.reader(), work,
+            &vicinity);
+    if (i < 2) continue;
+    EXPECT_EQ(work.nodes, before.nodes) << i;
+    EXPECT_GT(work.blocks, before.blocks) << i;
+    EXPECT_FALSE(vicinity.triangles().complete());
+  }
+}
+
 TEST(Vicinity, CostsLittleWhereThereIsNoPath) {
   Path path(sphere(6));
   path.expect_same_answers(wander(500, 1e-4, 1));
@@ -121,7 +137,7 @@ TEST(Vicinity, CostsLittleWhereThereIsNoPath) {
 
 TEST(Vicinity, HoldsNothingBeforeTheFirstAnswer) {
   const Vicinity vicinity{};
-  EXPECT_FALSE(vicinity.holds(Point(0, 0, 0)));
+  EXPECT_FALSE(vicinity.holds(vicinity.reach_of(Point(0, 0, 0))));
   EXPECT_EQ(vicinity.wanted_radius(Point(0, 0, 0), 1, 2), 0);
 }
 

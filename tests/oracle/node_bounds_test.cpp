@@ -179,14 +179,14 @@ void expect_block_passes(const octree::BlockView& block, const FloatQuery& wide,
 // The same triangles as a list about some point.
 void expect_list_passes(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
                         const Point& centre) {
-  octree::NearbyTriangles list;
-  list.begin(centre);
   std::vector<Triangle> triangles;
+  std::vector<octree::NearbyTriangle> found;
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     triangles.push_back(block.triangle(i));
-    ASSERT_TRUE(list.add(triangles.back(), block.id(i)));
+    found.push_back({triangles.back(), block.id(i), 0});
   }
-  list.finish();
+  octree::NearbyTriangles list;
+  list.fill(found, centre, 0, 1);
   if (!list.complete()) return;
   expect_filter_passes(triangles, wide, query, centre, list.extent(),
                        [&](const auto& local, float limit, auto& filtered) {
