@@ -12,7 +12,7 @@ namespace planetree::cache {
 namespace {
 
 /// For the PageCache object itself and the allocator's header beside it.
-constexpr std::uint64_t kObjectBytes = 1024;
+constexpr std::uint64_t kObjectBytes = 2048;
 static_assert(sizeof(PageCache) + 64 <= kObjectBytes);
 
 Error out_of_range(const char* name, std::uint32_t value, std::uint32_t most) noexcept {

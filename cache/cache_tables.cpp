@@ -22,6 +22,7 @@ CacheTables cut_tables(const CacheLimits& limits, std::uint64_t frame_count,
   tables.slots = cutter.cut<ReaderSlot>(slot_count);
   tables.places = cutter.cut<Limbo::Place>(owner_count);
   tables.stamps = cutter.cut<std::uint64_t>(owner_count * slot_count);
+  tables.errands = cutter.cut<Errand>(owner_count);
   return tables;
 }
 

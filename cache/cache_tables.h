@@ -6,6 +6,7 @@
 #include "cache/cache_limits.h"
 #include "cache/claimed_memory.h"
 #include "cache/clock_policy.h"
+#include "cache/errands.h"
 #include "cache/limbo.h"
 #include "cache/page_map.h"
 #include "cache/reader_slot.h"
@@ -27,6 +28,7 @@ struct CacheTables {
   std::span<ReaderSlot> slots;
   std::span<Limbo::Place> places;
   std::span<std::uint64_t> stamps;
+  std::span<Errand> errands;
 };
 
 /// Bytes of the tables of a cache with `frame_count` frames.

@@ -25,6 +25,16 @@ void ClockPolicy::remove(std::uint32_t frame) noexcept {
   states_[frame] = State::kIdle;
 }
 
+void ClockPolicy::hold(std::uint32_t frame) noexcept {
+  assert(states_[frame] != State::kIdle);
+  if (states_[frame] == State::kEvictable) states_[frame] = State::kHeld;
+}
+
+void ClockPolicy::let_go(std::uint32_t frame) noexcept {
+  assert(states_[frame] != State::kIdle);
+  if (states_[frame] == State::kHeld) states_[frame] = State::kEvictable;
+}
+
 std::uint32_t ClockPolicy::advance() noexcept {
   const std::uint32_t frame = hand_;
   hand_ = hand_ + 1 == scores_.size() ? 0 : hand_ + 1;

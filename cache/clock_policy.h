@@ -18,13 +18,16 @@ namespace planetree::cache {
 /// States of a frame, changed by the writer alone:
 ///
 ///     idle --install--> evictable --pin--> pinned
-///      ^___remove___________|
+///      ^___remove_______|   ^
+///                           |--hold--> held, and back by let_go
+///
+/// A held frame stays for a while: somebody who waited for its page has not come for it yet.
 ///
 /// A view of memory that PageCache owns. Only mark() may be called by readers.
 class ClockPolicy {
  public:
   using Score = std::atomic<std::uint8_t>;
-  enum class State : std::uint8_t { kIdle = 0, kEvictable, kPinned };
+  enum class State : std::uint8_t { kIdle = 0, kEvictable, kHeld, kPinned };
 
   static constexpr std::uint8_t kMaxScore = 3;
   static constexpr std::uint8_t kInstallScore = 2;
@@ -49,6 +52,9 @@ class ClockPolicy {
   void install(std::uint32_t frame) noexcept;
   void pin(std::uint32_t frame) noexcept;
   void remove(std::uint32_t frame) noexcept;
+  /// Of a frame that is evictable, held or pinned: what is pinned stays so.
+  void hold(std::uint32_t frame) noexcept;
+  void let_go(std::uint32_t frame) noexcept;
   State state(std::uint32_t frame) const noexcept { return states_[frame]; }
 
   /// An evictable frame, which stays evictable until removed; kNoFrame if

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "cache/frame_pool.h"
 #include "cache/reader_slot.h"
@@ -49,6 +51,10 @@ class BasicLimbo {
 
   /// Takes out a frame that nobody waits for and whose sections are over.
   std::uint32_t take_unawaited() noexcept;
+
+  /// Moves a frame that nobody waits for to the owner's empty place, and the sections it waits
+  /// for with it; false if there is none.
+  bool adopt(std::uint32_t owner) noexcept;
 
  private:
   bool sections_are_over(std::uint32_t owner) const noexcept;
@@ -108,6 +114,19 @@ std::uint32_t BasicLimbo<Atomics>::take_unawaited() noexcept {
     if (const std::uint32_t frame = take(owner); frame != kNoFrame) return frame;
   }
   return kNoFrame;
+}
+
+template <class Atomics>
+bool BasicLimbo<Atomics>::adopt(std::uint32_t owner) noexcept {
+  assert(!holds(owner));
+  for (std::uint32_t other = 0; other < places_.size(); ++other) {
+    if (!holds(other) || places_[other].awaited) continue;
+    const std::span<const std::uint64_t> stamps = stamps_of(other);
+    std::copy(stamps.begin(), stamps.end(), stamps_of(owner).begin());
+    places_[owner].frame = std::exchange(places_[other].frame, kNoFrame);
+    return true;
+  }
+  return false;
 }
 
 using Limbo = BasicLimbo<>;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +14,7 @@
 #include "cache/cache_tables.h"
 #include "cache/claimed_memory.h"
 #include "cache/clock_policy.h"
+#include "cache/errands.h"
 #include "cache/frame_pool.h"
 #include "cache/limbo.h"
 #include "cache/page_map.h"
@@ -19,10 +23,18 @@
 
 namespace planetree::cache {
 
-/// Fills `frame` (frame_bytes long, old bytes in it) with the decoded page.
-/// Called by one thread at a time, outside that thread's section. Must not
-/// throw and must not call the cache.
-using FillPage = Result<void> (*)(void* context, std::uint32_t page, std::span<std::byte> frame);
+/// What is to be filled, and by whom.
+struct FillRequest {
+  std::uint32_t page;
+  std::uint32_t owner;         ///< 0 ... max_readers; no two at the same time are of one owner
+  bool may_wait;               ///< for a disk
+  std::span<std::byte> frame;  ///< frame_bytes long, old bytes in it
+};
+enum class Filled : std::uint8_t { kFilled, kWouldWait };
+
+/// Fills a frame with the decoded page. Called by any number of threads at once, without the
+/// cache's mutex and outside the thread's section. Must not throw and must not call the cache.
+using FillPage = Result<Filled> (*)(void* context, const FillRequest& request);
 
 /// Counts since create(). Taken while others work, they need not agree with
 /// each other to the last one.
@@ -32,6 +44,7 @@ struct CacheStats {
   std::uint64_t fills;        ///< pages made resident; fills - evictions are resident
   std::uint64_t evictions;    ///< pages removed to make room
   std::uint64_t quarantined;  ///< pages found unreadable
+  std::uint64_t given_up;     ///< fetches that ended because they had waited long enough
   std::uint32_t frame_count;
   std::uint64_t arena_bytes;     ///< of the frames
   std::uint64_t table_bytes;     ///< of the page map, reader slots and the like
@@ -43,8 +56,9 @@ struct CacheStats {
 /// Decoded pages in a fixed number of frames.
 ///
 /// Many readers, one writer. Readers find pages without waiting; see
-/// reader_slot.h for the protocol. The writer is whoever holds the mutex: a
-/// thread that misses becomes the writer and reads the page itself.
+/// reader_slot.h for the protocol. The writer is whoever holds the mutex, which
+/// guards decisions only: pages are read and decoded without it, by the thread
+/// that misses or by a helper (see FetchTerms), each page by one thread.
 ///
 /// A frame goes round:
 ///
@@ -66,7 +80,7 @@ class PageCache {
   PageCache(const PageCache&) = delete;
   PageCache& operator=(const PageCache&) = delete;
 
-  /// Makes a page resident for good. Any thread that is not inside a section.
+  /// Makes a page resident for good. One thread at a time, not inside a section.
   /// Fails with the error of `fill`; with kDamaged if the page was found
   /// unreadable earlier; with kNoMemory if fetches would be left with too few
   /// frames.
@@ -80,25 +94,41 @@ class PageCache {
   /// Before there are readers.
   bool lock_memory() noexcept;
 
+  /// For helpers: returns once there is a page to read for others, `stop` is true, or so much
+  /// time is over. Who sets `stop` then calls wake_helpers().
+  void wait_for_errand(std::chrono::microseconds most, const std::atomic<bool>& stop) noexcept;
+  void wake_helpers() noexcept;
+
   /// Any thread; waits for nobody.
   CacheStats stats() const noexcept;
 
  private:
   friend class Reader;
+  using Lock = std::unique_lock<std::mutex>;
 
-  /// What one attempt to make a page resident came to.
-  enum class Attempt { kResident, kUnreadable, kNoFrameYet };
+  /// What became of a page that was to be resident.
+  enum class Outcome { kResident, kUnreadable, kWouldWait, kRetry, kGivenUp };
 
   PageCache(const CacheLimits& limits, FillPage fill, void* context, ClaimedMemory memory,
             FramePool frames) noexcept;
 
-  const std::byte* fetch(ReaderSlot& slot, std::uint32_t page) noexcept;
+  // page_fetch.cpp has these, and says why they end. An owner is a place in limbo and an errand:
+  // a reader's index, or pin_owner(). What takes the lock has it when it returns, but not always
+  // meanwhile.
+  Fetched fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept;
+  bool help(std::uint32_t owner) noexcept;
+  Outcome make_resident(Lock& lock, std::uint32_t owner, std::uint32_t page,
+                        const FetchTerms& terms, Error* why) noexcept;
+  Outcome read_page(Lock& lock, std::uint32_t owner, std::uint32_t page, std::uint32_t frame,
+                    bool may_wait, Error* why) noexcept;
+  Outcome wait_for_page(Lock& lock, std::uint32_t owner, std::uint32_t page,
+                        const FetchTerms& terms) noexcept;
+  std::uint32_t take_frame(Lock& lock, std::uint32_t owner, std::uint32_t attempt) noexcept;
+  void wake(std::uint32_t owner) noexcept { wakers_[owner % kWakers].notify_all(); }
 
-  // All below need the mutex. An owner is a place in limbo: a reader's index,
-  // or pin_owner().
-  Attempt try_make_resident(std::uint32_t owner, std::uint32_t page, Error* why) noexcept;
-  std::uint32_t take_frame(std::uint32_t owner) noexcept;
-  void evict_into_limbo(std::uint32_t owner) noexcept;
+  // All below need the mutex.
+  std::uint32_t try_to_take_frame(std::uint32_t owner) noexcept;
+  bool evict_into_limbo(std::uint32_t owner) noexcept;
   Result<void> pin_resident(std::uint32_t page) noexcept;
   std::uint32_t pin_owner() const noexcept { return limits_.max_readers; }
   bool quarantined(std::uint32_t page) const noexcept;
@@ -109,7 +139,14 @@ class PageCache {
     std::atomic<std::uint64_t> fills{0};
     std::atomic<std::uint64_t> evictions{0};
     std::atomic<std::uint64_t> quarantined{0};
+    std::atomic<std::uint64_t> given_up{0};
   };
+  static void add_one(std::atomic<std::uint64_t>& count) noexcept {
+    count.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  // Owners that wait share these: whoever is woken for another goes on waiting.
+  static constexpr std::uint32_t kWakers = 16;
 
   const CacheLimits limits_;
   const FillPage fill_;
@@ -120,8 +157,11 @@ class PageCache {
   const PageMap map_;
 
   std::mutex mutex_;
+  std::array<std::condition_variable, kWakers> wakers_;
+  std::condition_variable helpers_waker_;
   ClockPolicy clock_;
   Limbo limbo_;
+  Errands errands_;
   std::uint32_t free_count_;
   std::uint32_t pinned_count_ = 0;
   std::uint64_t locked_bytes_ = 0;

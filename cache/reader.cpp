@@ -45,9 +45,14 @@ void Reader::give_back() noexcept {
   std::exchange(slot_, nullptr)->release();
 }
 
-const std::byte* Reader::fetch(std::uint32_t page) noexcept {
+Fetched Reader::fetch(std::uint32_t page, const FetchTerms& terms) noexcept {
   slot_->leave();
-  return cache_->fetch(*slot_, page);
+  return cache_->fetch(*slot_, page, terms);
+}
+
+bool Reader::help() noexcept {
+  assert(!inside());
+  return cache_->help(place_);
 }
 
 }  // namespace planetree::cache

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,6 +12,23 @@
 namespace planetree::cache {
 
 class PageCache;
+
+/// How a fetch goes about a page that is not resident.
+struct FetchTerms {
+  static constexpr std::chrono::milliseconds kNoLimit = std::chrono::milliseconds::max();
+
+  /// Reads it; else only what can be had without waiting for a disk, and for the rest waits for
+  /// a helper: a thread that calls Reader::help().
+  bool reads_itself = true;
+  /// How long to wait for a page that another reads.
+  std::chrono::milliseconds wait_limit = kNoLimit;
+};
+
+/// What a fetch brought.
+struct Fetched {
+  const std::byte* frame = nullptr;  ///< nullptr if the page is unreadable, or was given up
+  bool given_up = false;             ///< the limit was reached; another fetch may have it
+};
 
 /// One thread's access to the pages of a PageCache, which must outlive it.
 /// Move-only; gives its slot back when destroyed. Not for two threads at once.
@@ -68,7 +86,12 @@ class Reader {
   ///
   /// May wait for the disk, for other fetches and for other readers' sections:
   /// not for threads that must answer in time.
-  const std::byte* fetch(std::uint32_t page) noexcept;
+  const std::byte* fetch(std::uint32_t page) noexcept { return fetch(page, {}).frame; }
+  Fetched fetch(std::uint32_t page, const FetchTerms& terms) noexcept;
+
+  /// Outside a section: reads the page that another has waited for longest of those that nobody
+  /// reads; false if there is none.
+  bool help() noexcept;
 
  private:
   friend class PageCache;

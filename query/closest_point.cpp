@@ -146,7 +146,8 @@ class Asking {
         placed_(model_.scale().in(query)),
         far_(is_far(placed_)),
         point_(within_reach(placed_, query)),
-        turner_(probe.reader(), ask.wait, stop) {
+        turner_(probe.reader(), ask.wait, stop ? model_.fetching_terms() : model_.asking_terms(),
+                stop) {
     turner_.log_to(probe.touches().begin_ask(ask.wait));
   }
 
@@ -243,7 +244,7 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   TouchLog* const log = probe.touches().begin_ask(ask.wait);
   if (const auto known = side_at_once(model, placed)) return {known->side, known->status};
   const Ask limited = with_defaults(ask);
-  PageTurner turner(probe.reader(), ask.wait);
+  PageTurner turner(probe.reader(), ask.wait, model.asking_terms());
   turner.log_to(log);
   octree::TreeWork work;
   const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),

@@ -17,8 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPause = std::chrono::microseconds(150);
-constexpr auto kLongPause = std::chrono::milliseconds(10);
+constexpr std::chrono::microseconds kPause(150), kLongPause(10'000);
 constexpr auto kLately = std::chrono::seconds(1);
 
 FetchWorker::Seconds time_now() { return Clock::now().time_since_epoch(); }
@@ -48,8 +47,9 @@ void FetchCrew::run(FetchWorker& worker) noexcept {
   Clock::time_point last = Clock::now() - kLately;
   while (!stopping_.load(std::memory_order_relaxed)) {
     const FetchWorker::Did did = worker.work();
+    if (did == FetchWorker::Did::kReadForAnAsk) continue;
     if (did == FetchWorker::Did::kNothing) {
-      sleep(Clock::now() - last < kLately);
+      cache_.wait_for_errand(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
       continue;
     }
     last = Clock::now();
@@ -64,7 +64,7 @@ Result<std::unique_ptr<FetchCrew>> FetchCrew::start(const ModelState& model, uns
                       "the system refused %u fetch threads; free memory or ask for fewer", threads);
   };
   try {
-    std::unique_ptr<FetchCrew> crew(new FetchCrew);
+    std::unique_ptr<FetchCrew> crew(new FetchCrew(model.cache()));
     for (unsigned i = 0; i < threads; ++i) {
       auto reader = model.claim_reader();
       if (!reader) return reader.error();
@@ -82,21 +82,9 @@ Result<std::unique_ptr<FetchCrew>> FetchCrew::start(const ModelState& model, uns
 }
 
 FetchCrew::~FetchCrew() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_.store(true, std::memory_order_relaxed);
-  }
-  stopped_.notify_all();
+  stopping_.store(true, std::memory_order_relaxed);
+  cache_.wake_helpers();
   for (std::thread& thread : threads_) thread.join();
-}
-
-void FetchCrew::sleep(bool lately) {
-  std::unique_lock lock(mutex_);
-  const auto stopping = [this] { return stopping_.load(std::memory_order_relaxed); };
-  if (lately)
-    stopped_.wait_for(lock, kPause, stopping);
-  else
-    stopped_.wait_for(lock, kLongPause, stopping);
 }
 
 }  // namespace planetree::query

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -14,8 +12,9 @@
 
 namespace planetree::query {
 
-/// A model's fetch threads, a FetchWorker each. Nobody wakes them, for that would call the
-/// system on the asking thread: they look for wishes, often while there have been some lately.
+/// A model's fetch threads, a FetchWorker each. Asks that wait for pages wake them. Those that do
+/// not wait cannot, for that would call the system: so the threads look for wishes, often while
+/// there have been some lately.
 class FetchCrew {
  public:
   /// What a thread takes besides its probe: its stack, as far as it is used.
@@ -35,15 +34,13 @@ class FetchCrew {
   }
 
  private:
-  FetchCrew() = default;
+  explicit FetchCrew(cache::PageCache& cache) : cache_(cache) {}
   void run(FetchWorker& worker) noexcept;
-  void sleep(bool lately);
 
+  cache::PageCache& cache_;
   std::vector<std::unique_ptr<FetchWorker>> workers_;
   std::vector<std::thread> threads_;
   std::atomic<bool> stopping_{false};
-  std::mutex mutex_;
-  std::condition_variable stopped_;
   std::atomic<std::uint64_t> wishes_fetched_{0};
   std::atomic<std::uint64_t> places_prefetched_{0};
 };

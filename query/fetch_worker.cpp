@@ -51,7 +51,12 @@ FetchWorker::Did FetchWorker::work() noexcept {
     }
     return false;
   };
+  // The pages of a wish are read with those of asks in between.
+  ask_was_last_ = !ask_was_last_ && read_for_an_ask();
+  if (ask_was_last_) return Did::kReadForAnAsk;
   if (any_of_mine(&FetchWorker::serve_wish)) return Did::kServedAWish;
+  ask_was_last_ = read_for_an_ask();
+  if (ask_was_last_) return Did::kReadForAnAsk;
   return any_of_mine(&FetchWorker::look_ahead) ? Did::kLookedAhead : Did::kNothing;
 }
 

@@ -28,8 +28,9 @@ class FetchWorker {
   FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first, std::size_t step,
               Clock clock, const std::atomic<bool>& stop);
 
-  enum class Did : std::uint8_t { kNothing, kServedAWish, kLookedAhead };
-  /// Does one thing that there is to do; wishes come before plans.
+  enum class Did : std::uint8_t { kNothing, kServedAWish, kLookedAhead, kReadForAnAsk };
+  /// Does one thing that there is to do: reads a page that an ask waits for, and wishes, come
+  /// before plans, and of these two neither comes twice while the other waits.
   Did work() noexcept;
 
  private:
@@ -40,6 +41,7 @@ class FetchWorker {
   };
   static_assert(sizeof(Seen) <= kProbeBytes);
 
+  bool read_for_an_ask() noexcept { return probe_.reader().help(); }
   bool serve_wish(std::size_t place) noexcept;
   bool look_ahead(std::size_t place) noexcept;
   void note_time(Seconds taken) noexcept;
@@ -54,6 +56,7 @@ class FetchWorker {
   const std::atomic<bool>& stop_;
   std::vector<Seen> seen_;  // by place
   std::size_t next_ = 0;    // the place served next: none is kept waiting by another
+  bool ask_was_last_ = false;
   Seconds slowest_{0};
 };
 

@@ -127,11 +127,12 @@ void ModelState::operator delete(ModelState* state, std::destroying_delete_t) no
   state->~ModelState();
 }
 
-ModelState::ModelState(std::unique_ptr<Pager> pager)
+ModelState::ModelState(std::unique_ptr<Pager> pager, std::chrono::milliseconds wait_limit)
     : pager_(std::move(pager)),
       asking_(pager_->asking_memory().parts()),
       info_(describe(pager_->file())),
-      scale_(pager_->file().header().model.scale_exponent) {
+      scale_(pager_->file().header().model.scale_exponent),
+      wait_limit_(wait_limit) {
   tree_ = tree_facts(pager_->file().header(), scale_);
   mask_ = mask_facts(pager_->file().header(), tree_);
   region_ = region_of(pager_->file().header().model);
@@ -172,7 +173,8 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   auto pager = Pager::open(path, limits_of(options), seams.calls);
   if (!pager) return pager.error();
   void* room = (*pager)->asking_memory().parts().model_room;
-  std::unique_ptr<ModelState> state(::new (room) ModelState(std::move(*pager)));
+  const std::chrono::milliseconds wait_limit(options.wait_limit_ms);
+  std::unique_ptr<ModelState> state(::new (room) ModelState(std::move(*pager), wait_limit));
   if (const auto filled = state->fill_colours(); !filled) return filled.error();
   if (const auto started = state->start_crews(options, seams); !started) return started.error();
   return state;
@@ -211,6 +213,7 @@ Stats ModelState::stats() const noexcept {
   stats.pages_read = cache.fills;
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
+  stats.waits_given_up = cache.given_up;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
   for (const TouchTrace& trace : asking_.traces) stats.touches_dropped += trace.ring.dropped();
   for (const Wishes& wishes : asking_.wishes) stats.wishes_made += wishes.missed.given();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -58,6 +59,10 @@ class ModelState {
   std::int64_t region_winding() const noexcept { return region_winding_; }
   const Scale& scale() const noexcept { return scale_; }
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
+  cache::PageCache& cache() const noexcept { return pager_->cache(); }
+  /// How asks wait for pages; and how fetch threads do.
+  cache::FetchTerms asking_terms() const noexcept { return {!fetchers_, wait_limit_}; }
+  cache::FetchTerms fetching_terms() const noexcept { return {true, wait_limit_}; }
   /// Null where batches are answered by the caller's thread alone.
   BatchCrew* crew() const noexcept { return crew_.get(); }
   /// Of the probe whose reader has this place.
@@ -78,7 +83,7 @@ class ModelState {
   void count_degraded() const noexcept { degraded_.fetch_add(1, std::memory_order_relaxed); }
 
  private:
-  explicit ModelState(std::unique_ptr<Pager> pager);
+  ModelState(std::unique_ptr<Pager> pager, std::chrono::milliseconds wait_limit);
   Result<void> fill_colours();
   Result<void> start_crews(const OpenOptions& options, const ModelSeams& seams);
 
@@ -92,6 +97,7 @@ class ModelState {
   octree::Point region_corner_ = octree::Point::Zero();
   std::int64_t region_winding_ = 0;
   Scale scale_;
+  std::chrono::milliseconds wait_limit_;
   mutable std::atomic<std::uint64_t> degraded_{0};
   // Last: their probes are the model's.
   std::unique_ptr<BatchCrew> crew_;

@@ -47,11 +47,13 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.page_count = header.page_count;
   cache_limits.frame_bytes = header.page_bytes;
   cache_limits.max_readers = limits.readers();
-  cache_limits.reserved_bytes = file_.table_memory_bytes() + scratch_bytes() + sizeof(Pager) +
-                                AskingMemory::bytes(asking_needs(limits)) +
+  // pin() is one more.
+  const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;
+  cache_limits.reserved_bytes = file_.table_memory_bytes() + owner_count * scratch_bytes() +
+                                sizeof(Pager) + AskingMemory::bytes(asking_needs(limits)) +
                                 limits.probe_bytes * limits.max_probes + limits.crew_bytes;
-  const auto fill = [](void* context, std::uint32_t page, std::span<std::byte> frame) {
-    return static_cast<Pager*>(context)->fill(page, frame);
+  const auto fill = [](void* context, const cache::FillRequest& request) {
+    return static_cast<Pager*>(context)->fill(request);
   };
   auto cache = cache::PageCache::create(cache_limits, fill, this);
   if (!cache) return cache.error();
@@ -60,9 +62,8 @@ Result<void> Pager::claim(const Limits& limits) {
   if (!asking) return asking.error();
   asking_.emplace(*std::move(asking));
   if (const auto locked = lock(limits.locking); !locked) return locked;
-  stored_scratch_.reset(new (std::nothrow) std::byte[header.max_stored_bytes]);
-  raw_scratch_.reset(new (std::nothrow) std::byte[header.max_raw_bytes]);
-  if (!stored_scratch_ || !raw_scratch_)
+  scratch_.reset(new (std::nothrow) std::byte[owner_count * scratch_bytes()]);
+  if (!scratch_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
   return {};
@@ -79,13 +80,39 @@ Result<void> Pager::lock(Locking locking) noexcept {
                     "lower the memory budget, or open the model without locking");
 }
 
-Result<void> Pager::fill(std::uint32_t page, std::span<std::byte> frame) noexcept {
+Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file_.header();
-  const storage::PageEntry& entry = file_.entries()[page];
-  const std::span<std::byte> raw(raw_scratch_.get(), entry.raw_bytes);
-  const std::span<std::byte> stored(stored_scratch_.get(), header.max_stored_bytes);
-  if (const auto read = file_.read_page(page, stored, raw); !read) return read;
-  return decode_frame(header, entry, page, raw, frame);
+  const storage::PageEntry& entry = file_.entries()[request.page];
+  std::byte* const scratch = scratch_.get() + request.owner * scratch_bytes();
+  const std::span<std::byte> stored(scratch, header.max_stored_bytes);
+  const std::span<std::byte> raw(scratch + header.max_stored_bytes, entry.raw_bytes);
+  if (request.may_wait) {
+    if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
+  } else {
+    const auto read = file_.read_page_at_once(request.page, stored, raw);
+    if (!read) return read.error();
+    if (!*read) return cache::Filled::kWouldWait;
+  }
+  if (const auto decoded = decode_frame(header, entry, request.page, raw, request.frame); !decoded)
+    return decoded.error();
+  return cache::Filled::kFilled;
+}
+
+// Pages of asks come first, one for each that this thread wants: neither waits for all of the
+// other's.
+const std::byte* PageTurner::fetch(std::uint32_t number) noexcept {
+  if (log_) log_->fetched(number);
+  if (stop_) {
+    reader_.leave();
+    reader_.help();
+    reader_.enter();
+  }
+  const cache::Fetched fetched = reader_.fetch(number, terms_);
+  if (fetched.given_up) {
+    missed_ = true;
+    waits_ = false;
+  }
+  return fetched.frame;
 }
 
 }  // namespace planetree::query

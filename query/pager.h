@@ -41,6 +41,7 @@ class Pager {
 
   const storage::PageFile& file() const noexcept { return file_; }
   cache::PageCache& cache() const noexcept { return *cache_; }
+  /// What each thread that may read a page takes to unpack it.
   std::uint64_t scratch_bytes() const noexcept;
   /// Of the model and its probes; claimed and locked with the cache's.
   AskingMemory& asking_memory() noexcept { return *asking_; }
@@ -53,12 +54,10 @@ class Pager {
   AskingMemory::Needs asking_needs(const Limits& limits) const noexcept;
   Result<void> claim(const Limits& limits);
   Result<void> lock(Locking locking) noexcept;
-  Result<void> fill(std::uint32_t page, std::span<std::byte> frame) noexcept;
+  Result<cache::Filled> fill(const cache::FillRequest& request) noexcept;
 
   storage::PageFile file_;
-  // Of the one page being read: the cache fills one at a time.
-  std::unique_ptr<std::byte[]> stored_scratch_;
-  std::unique_ptr<std::byte[]> raw_scratch_;
+  std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() of each owner of the cache
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<AskingMemory> asking_;
   bool asking_is_locked_ = false;
@@ -67,12 +66,17 @@ class Pager {
 /// One probe's way to pages during one ask: a section of the cache, begun where a page is
 /// first looked for, for that is an exchange with memory, and ended with this object.
 ///
-/// wait  kNever: what is not resident cannot be had, and the system is not called.
-/// stop  once true, what is not resident cannot be had any more; may be null.
+/// An ask that has waited for a page as long as it may waits for no other.
+///
+/// wait   kNever: what is not resident cannot be had, and the system is not called.
+/// terms  how pages are waited for.
+/// stop   of a fetch thread, which reads for others in between: once true, what is not resident
+///        cannot be had any more. Else null.
 class PageTurner {
  public:
-  PageTurner(cache::Reader& reader, Wait wait, const std::atomic<bool>* stop = nullptr) noexcept
-      : reader_(reader), wait_(wait), stop_(stop) {}
+  PageTurner(cache::Reader& reader, Wait wait, const cache::FetchTerms& terms = {},
+             const std::atomic<bool>* stop = nullptr) noexcept
+      : reader_(reader), terms_(terms), stop_(stop), wait_(wait), waits_(wait == Wait::kForPages) {}
   ~PageTurner() {
     if (reader_.inside()) reader_.leave();
   }
@@ -90,10 +94,7 @@ class PageTurner {
       if (log_) log_->found(number);
       return frame;
     }
-    if (wait_ == Wait::kForPages && !(stop_ && stop_->load(std::memory_order_relaxed))) {
-      if (log_) log_->fetched(number);
-      return reader_.fetch(number);
-    }
+    if (waits_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
     if (log_ && wait_ == Wait::kNever) log_->missed(number);
     missed_ = true;
     return nullptr;
@@ -122,13 +123,16 @@ class PageTurner {
   void begin() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
+  const std::byte* fetch(std::uint32_t number) noexcept;
 
   // Evicted frames are reused only after sections that may see them end.
   static constexpr std::uint32_t kTurnsPerSection = 256;
   cache::Reader& reader_;
-  const Wait wait_;
+  const cache::FetchTerms terms_;
   const std::atomic<bool>* const stop_;
   TouchLog* log_ = nullptr;
+  const Wait wait_;
+  bool waits_;  // until it has waited long enough
   bool missed_ = false;
   std::uint32_t turns_ = 0;
 };

@@ -31,6 +31,11 @@ ssize_t FileCalls::pread(int descriptor, void* out, std::size_t bytes, off_t off
   return ::pread(descriptor, out, bytes, offset);
 }
 
+ssize_t FileCalls::preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
+                           int flags) noexcept {
+  return ::preadv2(descriptor, parts, part_count, offset, flags);
+}
+
 ssize_t FileCalls::pwrite(int descriptor, const void* in, std::size_t bytes,
                           off_t offset) noexcept {
   return ::pwrite(descriptor, in, bytes, offset);

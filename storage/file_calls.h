@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/types.h>
+#include <sys/uio.h>
 
 #include <cstddef>
 
@@ -23,6 +24,8 @@ class FileCalls {
   virtual int fstatat(int directory, const char* path, struct stat* status, int flags) noexcept;
   virtual int statvfs(const char* path, struct statvfs* room) noexcept;
   virtual ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept;
+  virtual ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
+                          int flags) noexcept;
   virtual ssize_t pwrite(int descriptor, const void* in, std::size_t bytes, off_t offset) noexcept;
   virtual int fsync(int descriptor) noexcept;
   virtual int fdatasync(int descriptor) noexcept;

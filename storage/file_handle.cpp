@@ -63,6 +63,13 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
   return {};
 }
 
+bool FileHandle::read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept {
+  const iovec part{out.data(), out.size()};
+  const ssize_t count =
+      calls_->preadv2(descriptor_, &part, 1, static_cast<off_t>(offset), RWF_NOWAIT);
+  return count >= 0 && static_cast<std::size_t>(count) == out.size();
+}
+
 Result<void> FileHandle::write_at(std::uint64_t offset, std::span<const std::byte> bytes,
                                   const char* what) const noexcept {
   while (!bytes.empty()) {

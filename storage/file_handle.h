@@ -36,6 +36,10 @@ class FileHandle {
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out,
                        const char* what = "read the file") const noexcept;
 
+  /// Fills `out` from `offset` if the system has the bytes in memory. False where it would have
+  /// to wait for a device, cannot tell, or fails: read_at() says why. `out` is lost then.
+  bool read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+
   /// Writes all of `bytes` at `offset`, through interruptions and short writes.
   /// what    is tried, as file_error() has it.
   /// errors  as file_error(), kNoSpace among them.

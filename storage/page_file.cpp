@@ -88,8 +88,8 @@ Result<void> PageFile::load_table() noexcept {
   return check_table(header_, table);
 }
 
-Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
-                                 std::span<std::byte> raw_out) const noexcept {
+Result<void> PageFile::check_buffers(std::uint32_t page, std::span<std::byte> stored_scratch,
+                                     std::span<std::byte> raw_out) const noexcept {
   if (page >= page_count()) {
     return make_error(ErrorCode::kBadArgument, page, Error::kNowhere,
                       "the file has no such page; its last is %" PRIu32, page_count() - 1);
@@ -102,10 +102,39 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
                       stored_scratch.size(), raw_out.size(), header_.max_stored_bytes,
                       entry.raw_bytes);
   }
+  return {};
+}
+
+Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
+                                 std::span<std::byte> raw_out) const noexcept {
+  if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
+    return checked;
+  }
+  const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
   if (const Result<void> read = file_.read_at(entry.offset, stored); !read) {
     return placed(read.error(), page, entry.offset);
   }
+  return unpack(page, stored, raw_out);
+}
+
+Result<bool> PageFile::read_page_at_once(std::uint32_t page, std::span<std::byte> stored_scratch,
+                                         std::span<std::byte> raw_out) const noexcept {
+  if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
+    return checked.error();
+  }
+  const PageEntry& entry = entries_[page];
+  const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
+  if (!file_.read_at_once(entry.offset, stored)) return false;
+  if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
+    return unpacked.error();
+  }
+  return true;
+}
+
+Result<void> PageFile::unpack(std::uint32_t page, std::span<const std::byte> stored,
+                              std::span<std::byte> raw_out) const noexcept {
+  const PageEntry& entry = entries_[page];
   if ((page_hash(page, stored) ^ header_.content_id[0]) != entry.check) {
     return make_error(
         ErrorCode::kDamaged, page, entry.offset,

@@ -54,10 +54,19 @@ class PageFile {
   Result<void> read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                          std::span<std::byte> raw_out) const noexcept;
 
+  /// The same of a page that the system has in memory. False where reading it would have to wait
+  /// for a device, or fails in a way that read_page() tells.
+  Result<bool> read_page_at_once(std::uint32_t page, std::span<std::byte> stored_scratch,
+                                 std::span<std::byte> raw_out) const noexcept;
+
  private:
   PageFile() noexcept = default;
   Result<void> load_header(std::uint64_t actual_bytes) noexcept;
   Result<void> load_table() noexcept;
+  Result<void> check_buffers(std::uint32_t page, std::span<std::byte> stored_scratch,
+                             std::span<std::byte> raw_out) const noexcept;
+  Result<void> unpack(std::uint32_t page, std::span<const std::byte> stored,
+                      std::span<std::byte> raw_out) const noexcept;
 
   FileHandle file_;
   FileHeader header_{};

@@ -51,6 +51,7 @@ struct Stats {
   std::uint64_t pages_read = 0;  ///< from the file
   std::uint64_t pages_evicted = 0;
   std::uint64_t quarantined_pages = 0;  ///< found unreadable or damaged; not tried again
+  std::uint64_t waits_given_up = 0;     ///< for pages, at OpenOptions::wait_limit_ms
   std::uint64_t degraded_answers = 0;
   /// Questions of Wait::kNever that lacked pages, and those whose pages were got since. A probe's
   /// newer question takes the place of one that no thread has come to: that is lost.

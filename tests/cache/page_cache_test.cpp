@@ -305,13 +305,13 @@ struct WatchedPages {
   std::atomic<bool> holder_inside{false};
   std::atomic<int> fills_while_held{0};
 
-  static Result<void> fill(void* context, std::uint32_t page, std::span<std::byte> frame) {
+  static Result<Filled> fill(void* context, const FillRequest& request) {
     auto& watched = *static_cast<WatchedPages*>(context);
     if (watched.holder_inside.load(std::memory_order_relaxed)) {
       watched.fills_while_held.fetch_add(1, std::memory_order_relaxed);
     }
     TaggedPages tags;
-    return TaggedPages::fill(&tags, page, frame);
+    return TaggedPages::fill(&tags, request);
   }
 };
 

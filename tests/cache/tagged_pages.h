@@ -41,15 +41,16 @@ class TaggedPages {
   }
 
   /// The FillPage; `context` is a TaggedPages.
-  static Result<void> fill(void* context, std::uint32_t page, std::span<std::byte> frame) {
+  static Result<Filled> fill(void* context, const FillRequest& request) {
     auto& pages = *static_cast<TaggedPages*>(context);
+    const std::uint32_t page = request.page;
     pages.fill_calls_.fetch_add(1, std::memory_order_relaxed);
-    write(frame, page);
+    write(request.frame, page);
     // Fails after writing, as a page does that turns out wrong when decoded.
     if (pages.unreadable_.contains(page)) {
       return make_error(ErrorCode::kDamaged, page, Error::kNowhere, "page %u is damaged", page);
     }
-    return {};
+    return Filled::kFilled;
   }
 
   void make_unreadable(std::uint32_t page) { unreadable_.insert(page); }

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "planetree/probe.h"
 #include "query/model_state.h"
@@ -17,15 +18,25 @@ namespace {
 
 constexpr Ask kNow{.wait = Wait::kNever};
 
-/// A disk that can be made to stand still, or to fail.
+/// A disk that can be made to stand still, or to fail; and whether the system has what is on it
+/// in memory.
 class MoodyDisk final : public storage::FileCalls {
  public:
   std::atomic<bool> stands_still{false};
   std::atomic<bool> fails{false};
+  std::atomic<bool> is_in_memory{false};
   std::atomic<int> waiting{0};
+  std::atomic<int> reads{0};
 
+  ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
+                  int flags) noexcept override {
+    if (is_in_memory) return FileCalls::preadv2(descriptor, parts, part_count, offset, flags);
+    errno = EAGAIN;
+    return -1;
+  }
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
     ++waiting;
+    ++reads;
     while (stands_still) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     --waiting;
     if (fails) {
@@ -41,10 +52,11 @@ class StuckDisk : public testing::Test {
   StuckDisk()
       : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(60, -1.4, 1.4)) {}
 
-  Model open(std::uint64_t budget_bytes) {
+  Model open(std::uint64_t budget_bytes, unsigned wait_limit_ms = 60'000) {
     OpenOptions options;
     options.memory_budget_bytes = budget_bytes;
-    options.max_probes = 2;
+    options.max_probes = 4;
+    options.wait_limit_ms = wait_limit_ms;
     auto model = ModelState::open_model(sample_.path(), options, {disk_});
     EXPECT_TRUE(model);
     return *std::move(model);
@@ -99,8 +111,63 @@ TEST_F(StuckDisk, HoldsUpThoseThatWait) {
   EXPECT_TRUE(answered);
 }
 
+TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
+  const Model model = open(std::uint64_t{64} << 20, 20);
+  Probe probe = make_probe(model);
+  disk_.stands_still = true;
+  for (std::uint64_t asked = 1; asked <= 3; ++asked) {
+    const ClosestPoint answer = probe.closest_point(queries_[0]);
+    EXPECT_EQ(answer.status, Status::kDegraded);
+    EXPECT_TRUE(sample_.interval_holds(answer, queries_[0]));
+    // It waits for one page, not for one after the other.
+    EXPECT_EQ(model.stats().waits_given_up, asked);
+  }
+  EXPECT_EQ(model.stats().degraded_answers, 3u);
+  EXPECT_EQ(probe.contains(queries_[1]).status, Status::kDegraded);
+  disk_.stands_still = false;
+  ASSERT_TRUE(eventually([&] { return disk_.waiting == 0; }));
+  EXPECT_EQ(model.stats().quarantined_pages, 0u);
+  EXPECT_TRUE(
+      eventually([&] { return probe.closest_point(queries_[0]).status == Status::kExact; }));
+}
+
+// Others' pages are read meanwhile, by those who want them: one page at most is stuck.
+TEST_F(StuckDisk, DoesNotMatterToPagesThatTheSystemHas) {
+  const Model model = open(std::uint64_t{64} << 20, 20);
+  Probe stuck = make_probe(model), lucky = make_probe(model);
+  disk_.stands_still = true;
+  EXPECT_EQ(stuck.closest_point(queries_[0]).status, Status::kDegraded);
+  ASSERT_EQ(disk_.waiting, 1);
+  disk_.is_in_memory = true;
+  std::size_t exact = 0;
+  for (const Vec3& query : queries_)
+    exact += lucky.closest_point(query, {.parts = kDistance}).status == Status::kExact;
+  EXPECT_GT(exact, 0u);
+  EXPECT_EQ(disk_.waiting, 1);
+  disk_.stands_still = false;
+}
+
+TEST_F(StuckDisk, IsAskedOnceForAPageThatManyWaitFor) {
+  const Model model = open(std::uint64_t{64} << 20);
+  const std::uint64_t misses = model.stats().page_misses;
+  disk_.stands_still = true;
+  std::vector<std::thread> threads;
+  std::atomic<int> exact{0};
+  for (int i = 0; i < 3; ++i)
+    threads.emplace_back([&] {
+      Probe probe = make_probe(model);
+      exact += probe.closest_point(queries_[0]).status == Status::kExact;
+    });
+  const bool all_wait = eventually([&] { return model.stats().page_misses == misses + 3; });
+  disk_.stands_still = false;
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(all_wait);
+  EXPECT_EQ(exact, 3);
+  EXPECT_EQ(model.stats().pages_read, static_cast<std::uint64_t>(disk_.reads));
+}
+
 TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
-  const Model model = open(sample_.least_budget(2));
+  const Model model = open(sample_.least_budget(4));
   Probe probe = make_probe(model);
   disk_.fails = true;
   ASSERT_TRUE(eventually([&] {
