@@ -38,10 +38,15 @@ class ExploredCache {
   const Map& map() const { return map_; }
   Limbo& limbo() { return limbo_; }
 
-  /// Writes a page into a frame and shows it.
-  void install(std::uint32_t frame, std::uint32_t page) {
+  /// Writes a page into a frame.
+  void fill(std::uint32_t frame, std::uint32_t page) {
     for (explorer::Plain<std::uint32_t>& word : frames_[frame].words) word.write(page);
     frames_[frame].page = page;
+  }
+
+  /// Writes a page into a frame and shows it.
+  void install(std::uint32_t frame, std::uint32_t page) {
+    fill(frame, page);
     map_.publish(page, frame);
   }
 

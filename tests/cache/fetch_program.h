@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include "cache/errands.h"
 #include "tests/cache/explored_cache.h"
 #include "tests/cache/explorer/program.h"
 
@@ -11,18 +13,23 @@ namespace planetree::cache {
 /// How much of it there is; and what is done wrongly on purpose.
 struct Fetching {
   std::uint32_t threads = 2;
-  std::uint32_t fetches = 1;     ///< of each
-  bool enters_too_late = false;  ///< begins the section without the mutex
+  std::uint32_t fetches = 1;          ///< of each
+  bool same_page = false;             ///< all begin with the page that is absent
+  bool enters_too_late = false;       ///< begins the section without the mutex
+  bool does_not_hold_frames = false;  ///< though somebody waits for what is in them
 };
 
 /// Threads that fetch what they miss, each the writer while it has the mutex,
-/// as PageCache::fetch() lets them: with one frame more than threads, and one
+/// as PageCache::fetch() lets them: they fill frames without it, and who wants
+/// what another reads waits for that. With one frame more than threads, and one
 /// page more than frames, so that they take each other's pages.
 class FetchProgram final : public explorer::Program {
  public:
   explicit FetchProgram(const Fetching& fetching)
       : fetching_(fetching),
-        cache_(fetching.threads, fetching.threads + 1, fetching.threads + 2, fetching.threads) {}
+        cache_(fetching.threads, fetching.threads + 1, fetching.threads + 2, fetching.threads),
+        table_(fetching.threads),
+        errands_(table_) {}
 
   std::uint32_t thread_count() const noexcept override { return fetching_.threads; }
 
@@ -30,8 +37,8 @@ class FetchProgram final : public explorer::Program {
     const std::uint32_t page_count = fetching_.threads + 2;
     ExploredCache::Slot& slot = cache_.slot(thread);
     // The first thread begins with the page that is absent, the next with the
-    // one that is evicted for it.
-    std::uint32_t page = (page_count - 1 + thread) % page_count;
+    // one that is evicted for it, or with the same.
+    std::uint32_t page = (page_count - 1 + (fetching_.same_page ? 0 : thread)) % page_count;
     for (std::uint32_t i = 0; i < fetching_.fetches; ++i, page = (page + 1) % page_count) {
       slot.enter();
       std::uint32_t frame = cache_.map().find(page);
@@ -58,19 +65,40 @@ class FetchProgram final : public explorer::Program {
       if (frame != kNoFrame) return frame;
       explorer::Execution::current().yield();
     }
+    mutex_.lock();
+    errands_.end(thread);
+    mutex_.unlock();
     return kNoFrame;
   }
 
   std::uint32_t make_resident(std::uint32_t owner, std::uint32_t page) {
     cache_.limbo().set_awaited(owner, false);
+    const Errand errand = errands_.of(owner);
+    if (errand.stage == Errand::Stage::kWaits) return kNoFrame;
+    errands_.end(owner);
+    if (errand.stage == Errand::Stage::kServed) return errand.frame;
     if (const std::uint32_t frame = cache_.map().frame_of(page); frame != kNoFrame) return frame;
+    if (errands_.is_read(page)) {
+      errands_.wait(owner, page, true);
+      return kNoFrame;
+    }
     const std::uint32_t frame = take_frame(owner);
     if (frame == kNoFrame) {
       cache_.limbo().set_awaited(owner, true);
     } else {
-      cache_.install(frame, page);
+      read(owner, page, frame);
     }
     return frame;
+  }
+
+  void read(std::uint32_t owner, std::uint32_t page, std::uint32_t frame) {
+    errands_.read(owner, page);
+    mutex_.unlock();
+    cache_.fill(frame, page);
+    mutex_.lock();
+    errands_.end(owner);
+    cache_.map().publish(page, frame);
+    errands_.serve(page, frame, [](std::uint32_t) {});
   }
 
   std::uint32_t take_frame(std::uint32_t owner) {
@@ -79,23 +107,32 @@ class FetchProgram final : public explorer::Program {
     if (const std::uint32_t frame = limbo.take_unawaited(); frame != kNoFrame) return frame;
     if (limbo.holds(owner)) return kNoFrame;
     const std::uint32_t victim = choose_victim();
-    cache_.map().withdraw(cache_.page_in(victim));
-    limbo.retire(owner, victim);
+    if (victim != kNoFrame) {
+      cache_.map().withdraw(cache_.page_in(victim));
+      limbo.retire(owner, victim);
+    } else if (!limbo.adopt(owner)) {
+      explorer::Execution::current().fail("no frame, not even in limbo");
+      return kNoFrame;
+    }
     return limbo.take(owner);
   }
 
-  /// Any frame that is not in limbo: what CLOCK prefers must not matter.
+  /// Any resident one that nobody waits for: what CLOCK prefers must not matter.
   std::uint32_t choose_victim() {
     std::array<std::uint32_t, explorer::kMostThreads + 1> resident;
     std::uint32_t count = 0;
     for (std::uint32_t frame = 0; frame <= fetching_.threads; ++frame) {
+      if (errands_.holds(frame) && !fetching_.does_not_hold_frames) continue;
       if (cache_.map().frame_of(cache_.page_in(frame)) == frame) resident[count++] = frame;
     }
+    if (count == 0) return kNoFrame;
     return resident[explorer::Execution::current().choose(count)];
   }
 
   const Fetching fetching_;
   ExploredCache cache_;
+  std::vector<Errand> table_;
+  Errands errands_;
   explorer::Mutex mutex_;
 };
 

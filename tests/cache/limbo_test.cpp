@@ -81,5 +81,20 @@ TEST(Limbo, AwaitedFramesAreLeftToTheirOwner) {
   EXPECT_EQ(two.limbo.take_unawaited(), 5u);
 }
 
+TEST(Limbo, AFrameThatNobodyWaitsForCanBeAdopted) {
+  LimboOfTwo two;
+  two.slots[0].enter();
+  two.limbo.retire(0, 5);
+  two.limbo.set_awaited(0, true);
+  EXPECT_FALSE(two.limbo.adopt(1));
+  two.limbo.set_awaited(0, false);
+  EXPECT_TRUE(two.limbo.adopt(1));
+  EXPECT_FALSE(two.limbo.holds(0));
+  // With the sections that it waits for.
+  EXPECT_EQ(two.limbo.take(1), kNoFrame);
+  two.slots[0].leave();
+  EXPECT_EQ(two.limbo.take(1), 5u);
+}
+
 }  // namespace
 }  // namespace planetree::cache

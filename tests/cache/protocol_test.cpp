@@ -80,9 +80,16 @@ TEST_F(Protocol, HoldsWithFewStopsOfFourFetches) {
   EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 2}), kFewStops).failure, "");
 }
 
+TEST_F(Protocol, HoldsInEveryRunOfTwoFetchesOfOnePage) {
+  EXPECT_EQ(
+      explore_all(fetching({.threads = 2, .fetches = 1, .same_page = true}), kAnyStops).failure,
+      "");
+}
+
 TEST_F(Protocol, HoldsInRandomRunsOfFetches) {
   for (const Fetching& options :
-       {Fetching{.threads = 2, .fetches = 3}, Fetching{.threads = 3, .fetches = 2}}) {
+       {Fetching{.threads = 2, .fetches = 3}, Fetching{.threads = 3, .fetches = 2},
+        Fetching{.threads = 3, .fetches = 3, .same_page = true}}) {
     const Report report = explore_at_random(fetching(options), kRandomRuns, 1);
     EXPECT_EQ(report.failure, "");
     EXPECT_EQ(report.runs, kRandomRuns);
@@ -114,6 +121,13 @@ TEST_F(Protocol, EnteringWithoutTheMutexAfterAFetchIsCaught) {
   const Report report =
       explore_all(fetching({.threads = 2, .fetches = 1, .enters_too_late = true}), kFewStops);
   EXPECT_NE(report.failure.find("data race"), std::string::npos);
+}
+
+TEST_F(Protocol, EvictingWhatSomebodyWaitedForIsCaught) {
+  const Report report = explore_at_random(
+      fetching({.threads = 3, .fetches = 2, .same_page = true, .does_not_hold_frames = true}),
+      kRandomRuns, 1);
+  EXPECT_NE(report.failure, "");
 }
 
 struct Weakened {
