@@ -6,6 +6,9 @@
 
 namespace planetree::cache {
 
+/// Which page goes when another needs its frame: clock_policy.h, lru_policy.h.
+enum class Policy : std::uint8_t { kClock, kLru };
+
 /// How much a PageCache may hold, and of what.
 struct CacheLimits {
   std::uint64_t budget_bytes;    ///< hard ceiling for the cache and what the owner reserves
@@ -13,6 +16,7 @@ struct CacheLimits {
   std::uint32_t frame_bytes;     ///< of a decoded page; 1 ... kMaxFrameBytes
   std::uint32_t max_readers;     ///< readers at one time; 1 ... kMaxReaders
   std::uint64_t reserved_bytes;  ///< what the owner needs out of the same budget
+  Policy policy = Policy::kClock;
 };
 
 inline constexpr std::uint32_t kMaxFrameBytes = std::uint32_t{1} << 28;

@@ -15,8 +15,14 @@ CacheTables cut_tables(const CacheLimits& limits, std::uint64_t frame_count,
   CacheTables tables;
   tables.map = cutter.cut<PageMap::Cell>(page_count);
   tables.quarantine_bits = cutter.cut<std::uint64_t>((page_count + 63) / 64);
-  tables.scores = cutter.cut<ClockPolicy::Score>(frame_count);
-  tables.states = cutter.cut<ClockPolicy::State>(frame_count);
+  tables.policy.states = cutter.cut<FrameStates::State>(frame_count);
+  if (limits.policy == Policy::kLru) {
+    tables.policy.now = cutter.cut<LruPolicy::Tick>(1);
+    tables.policy.uses = cutter.cut<LruPolicy::Tick>(frame_count);
+    tables.policy.entries = cutter.cut<LruPolicy::Entry>(frame_count);
+  } else {
+    tables.policy.scores = cutter.cut<ClockPolicy::Score>(frame_count);
+  }
   tables.pages = cutter.cut<std::uint32_t>(frame_count);
   tables.free_frames = cutter.cut<std::uint32_t>(frame_count);
   tables.slots = cutter.cut<ReaderSlot>(slot_count);

@@ -5,8 +5,8 @@
 
 #include "cache/cache_limits.h"
 #include "cache/claimed_memory.h"
-#include "cache/clock_policy.h"
 #include "cache/errands.h"
+#include "cache/eviction_policy.h"
 #include "cache/limbo.h"
 #include "cache/page_map.h"
 #include "cache/reader_slot.h"
@@ -20,8 +20,7 @@ struct CacheTables {
   std::span<PageMap::Cell> map;
   std::span<std::uint64_t> quarantine_bits;  ///< 64 pages a word
   // By frame.
-  std::span<ClockPolicy::Score> scores;
-  std::span<ClockPolicy::State> states;
+  PolicyTables policy;
   std::span<std::uint32_t> pages;        ///< the page in each frame that has one
   std::span<std::uint32_t> free_frames;  ///< a stack
   // By reader, and one more owner: pin().

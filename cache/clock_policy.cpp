@@ -1,39 +1,6 @@
 #include "cache/clock_policy.h"
 
-#include <cassert>
-
 namespace planetree::cache {
-
-ClockPolicy::ClockPolicy(std::span<Score> scores, std::span<State> states) noexcept
-    : scores_(scores), states_(states) {
-  assert(scores.size() == states.size() && !scores.empty() && scores.size() < kNoFrame);
-}
-
-void ClockPolicy::install(std::uint32_t frame) noexcept {
-  assert(states_[frame] == State::kIdle);
-  states_[frame] = State::kEvictable;
-  scores_[frame].store(kInstallScore, std::memory_order_relaxed);
-}
-
-void ClockPolicy::pin(std::uint32_t frame) noexcept {
-  assert(states_[frame] != State::kIdle);
-  states_[frame] = State::kPinned;
-}
-
-void ClockPolicy::remove(std::uint32_t frame) noexcept {
-  assert(states_[frame] == State::kEvictable);
-  states_[frame] = State::kIdle;
-}
-
-void ClockPolicy::hold(std::uint32_t frame) noexcept {
-  assert(states_[frame] != State::kIdle);
-  if (states_[frame] == State::kEvictable) states_[frame] = State::kHeld;
-}
-
-void ClockPolicy::let_go(std::uint32_t frame) noexcept {
-  assert(states_[frame] != State::kIdle);
-  if (states_[frame] == State::kHeld) states_[frame] = State::kEvictable;
-}
 
 std::uint32_t ClockPolicy::advance() noexcept {
   const std::uint32_t frame = hand_;
@@ -41,7 +8,7 @@ std::uint32_t ClockPolicy::advance() noexcept {
   return frame;
 }
 
-std::uint32_t ClockPolicy::choose_victim() noexcept {
+std::uint32_t ClockPolicy::choose_victim(const FrameStates& states) noexcept {
   // After kMaxScore rounds every score is 0 unless readers raised it again
   // meanwhile. They could do so for ever, so after these rounds the score no
   // longer counts, and one more round finds any evictable frame there is.
@@ -49,7 +16,7 @@ std::uint32_t ClockPolicy::choose_victim() noexcept {
   const std::uint64_t most_steps = patient_steps + scores_.size();
   for (std::uint64_t step = 0; step < most_steps; ++step) {
     const std::uint32_t frame = advance();
-    if (states_[frame] != State::kEvictable) continue;
+    if (states.of(frame) != FrameStates::State::kEvictable) continue;
     const std::uint8_t score = scores_[frame].load(std::memory_order_relaxed);
     if (score == 0 || step >= patient_steps) return frame;
     scores_[frame].store(static_cast<std::uint8_t>(score - 1), std::memory_order_relaxed);

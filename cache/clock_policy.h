@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cache/frame_pool.h"
+#include "cache/frame_states.h"
 
 namespace planetree::cache {
 
@@ -15,25 +16,16 @@ namespace planetree::cache {
 /// of what they use, up to 3. A page just installed has score 2: it was wanted,
 /// but one that is wanted again and again outlives it.
 ///
-/// States of a frame, changed by the writer alone:
-///
-///     idle --install--> evictable --pin--> pinned
-///      ^___remove_______|   ^
-///                           |--hold--> held, and back by let_go
-///
-/// A held frame stays for a while: somebody who waited for its page has not come for it yet.
-///
 /// A view of memory that PageCache owns. Only mark() may be called by readers.
 class ClockPolicy {
  public:
   using Score = std::atomic<std::uint8_t>;
-  enum class State : std::uint8_t { kIdle = 0, kEvictable, kHeld, kPinned };
 
   static constexpr std::uint8_t kMaxScore = 3;
   static constexpr std::uint8_t kInstallScore = 2;
 
-  /// `scores` and `states` have one element per frame, all 0.
-  ClockPolicy(std::span<Score> scores, std::span<State> states) noexcept;
+  /// `scores` has one element per frame, all 0.
+  explicit ClockPolicy(std::span<Score> scores) noexcept : scores_(scores) {}
 
   /// Says that a frame was used. Relaxed, and free to lose a race against the
   /// hand or another reader: a score is a guess about the future, and a frame
@@ -46,26 +38,17 @@ class ClockPolicy {
     }
   }
 
-  /// The scores, for readers to mark.
-  Score* scores() const noexcept { return scores_.data(); }
+  void install(std::uint32_t frame) noexcept {
+    scores_[frame].store(kInstallScore, std::memory_order_relaxed);
+  }
 
-  void install(std::uint32_t frame) noexcept;
-  void pin(std::uint32_t frame) noexcept;
-  void remove(std::uint32_t frame) noexcept;
-  /// Of a frame that is evictable, held or pinned: what is pinned stays so.
-  void hold(std::uint32_t frame) noexcept;
-  void let_go(std::uint32_t frame) noexcept;
-  State state(std::uint32_t frame) const noexcept { return states_[frame]; }
-
-  /// An evictable frame, which stays evictable until removed; kNoFrame if
-  /// there is none.
-  std::uint32_t choose_victim() noexcept;
+  /// An evictable frame; kNoFrame if there is none.
+  std::uint32_t choose_victim(const FrameStates& states) noexcept;
 
  private:
   std::uint32_t advance() noexcept;
 
   std::span<Score> scores_;
-  std::span<State> states_;
   std::uint32_t hand_ = 0;
 };
 

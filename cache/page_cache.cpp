@@ -41,7 +41,7 @@ PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context, Cl
       frames_(std::move(frames)),
       tables_(make_tables(limits, frames_.frame_count(), table_memory_)),
       map_(tables_.map),
-      clock_(tables_.scores, tables_.states),
+      policy_(limits.policy, tables_.policy),
       limbo_(tables_.slots, tables_.places, tables_.stamps),
       errands_(tables_.errands),
       free_count_(frames_.frame_count()) {
@@ -76,7 +76,7 @@ Result<void> PageCache::pin(std::uint32_t page) noexcept {
 
 Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   const std::uint32_t frame = map_.frame_of(page);
-  if (clock_.state(frame) == ClockPolicy::State::kPinned) return {};
+  if (policy_.state(frame) == EvictionPolicy::State::kPinned) return {};
   const std::uint32_t frame_count = frames_.frame_count();
   const std::uint32_t places = limits_.max_readers + 1;
   // page_fetch.cpp says why so many must stay unpinned.
@@ -86,7 +86,7 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
                       "raise the memory budget",
                       pinned_count_, frame_count);
   }
-  clock_.pin(frame);
+  policy_.pin(frame);
   ++pinned_count_;
   return {};
 }

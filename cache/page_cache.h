@@ -13,8 +13,8 @@
 #include "cache/cache_limits.h"
 #include "cache/cache_tables.h"
 #include "cache/claimed_memory.h"
-#include "cache/clock_policy.h"
 #include "cache/errands.h"
+#include "cache/eviction_policy.h"
 #include "cache/frame_pool.h"
 #include "cache/limbo.h"
 #include "cache/page_map.h"
@@ -159,7 +159,7 @@ class PageCache {
   std::mutex mutex_;
   std::array<std::condition_variable, kWakers> wakers_;
   std::condition_variable helpers_waker_;
-  ClockPolicy clock_;
+  EvictionPolicy policy_;
   Limbo limbo_;
   Errands errands_;
   std::uint32_t free_count_;

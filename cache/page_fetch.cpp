@@ -72,7 +72,7 @@ PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t owner, std
     limbo_.set_awaited(owner, false);
     // Another thread may have brought the page meanwhile.
     if (const std::uint32_t frame = map_.frame_of(page); frame != kNoFrame) {
-      ClockPolicy::mark(clock_.scores()[frame]);
+      policy_.marks().mark(frame);
       return Outcome::kResident;
     }
     if (quarantined(page)) return Outcome::kUnreadable;
@@ -114,10 +114,10 @@ PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t owner, std::ui
     return Outcome::kWouldWait;
   }
   tables_.pages[frame] = page;
-  clock_.install(frame);
+  policy_.install(frame);
   map_.publish(page, frame);
   add_one(counts_.fills);
-  if (errands_.serve(page, frame, wake_waiting) > 0) clock_.hold(frame);
+  if (errands_.serve(page, frame, wake_waiting) > 0) policy_.hold(frame);
   return Outcome::kResident;
 }
 
@@ -140,7 +140,7 @@ PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t owner, std
   errands_.end(owner);
   switch (errand.stage) {
     case Errand::Stage::kServed:
-      if (!errands_.holds(errand.frame)) clock_.let_go(errand.frame);
+      if (!errands_.holds(errand.frame)) policy_.let_go(errand.frame);
       return Outcome::kResident;
     case Errand::Stage::kFailed:
       return Outcome::kUnreadable;
@@ -189,9 +189,9 @@ std::uint32_t PageCache::try_to_take_frame(std::uint32_t owner) noexcept {
 }
 
 bool PageCache::evict_into_limbo(std::uint32_t owner) noexcept {
-  const std::uint32_t frame = clock_.choose_victim();
+  const std::uint32_t frame = policy_.choose_victim();
   if (frame == kNoFrame) return false;
-  clock_.remove(frame);
+  policy_.remove(frame);
   // Withdrawing comes before noting the open sections: E2, then E3.
   map_.withdraw(tables_.pages[frame]);
   limbo_.retire(owner, frame);

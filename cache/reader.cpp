@@ -8,7 +8,7 @@ namespace planetree::cache {
 
 Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t place) noexcept
     : map_(cache.map_),
-      scores_(cache.clock_.scores()),
+      marks_(cache.policy_.marks()),
       frames_(cache.frames_.frame(0)),
       stride_bytes_(cache.frames_.stride_bytes()),
       slot_(&slot),
@@ -17,7 +17,7 @@ Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t place) noexcept
 
 Reader::Reader(Reader&& other) noexcept
     : map_(other.map_),
-      scores_(other.scores_),
+      marks_(other.marks_),
       frames_(other.frames_),
       stride_bytes_(other.stride_bytes_),
       slot_(std::exchange(other.slot_, nullptr)),
@@ -28,7 +28,7 @@ Reader& Reader::operator=(Reader&& other) noexcept {
   if (this == &other) return *this;
   give_back();
   map_ = other.map_;
-  scores_ = other.scores_;
+  marks_ = other.marks_;
   frames_ = other.frames_;
   stride_bytes_ = other.stride_bytes_;
   slot_ = std::exchange(other.slot_, nullptr);

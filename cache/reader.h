@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cache/clock_policy.h"
+#include "cache/eviction_policy.h"
 #include "cache/page_map.h"
 #include "cache/reader_slot.h"
 
@@ -64,7 +64,7 @@ class Reader {
       return nullptr;
     }
     slot_->count_hit();
-    ClockPolicy::mark(scores_[frame]);
+    marks_.mark(frame);
     return at(frame);
   }
 
@@ -104,7 +104,7 @@ class Reader {
   // Copies of what find() needs, so that it does not touch the cache object,
   // whose lines the writer keeps changing.
   PageMap map_;
-  ClockPolicy::Score* scores_;
+  UseMarks marks_;
   const std::byte* frames_;
   std::uint64_t stride_bytes_;
   ReaderSlot* slot_;  // nullptr once moved from

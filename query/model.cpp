@@ -97,7 +97,7 @@ unsigned crew_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
 
-Pager::Limits limits_of(const OpenOptions& options) {
+Pager::Limits limits_of(const OpenOptions& options, const ModelSeams& seams) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
@@ -108,6 +108,7 @@ Pager::Limits limits_of(const OpenOptions& options) {
                       limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
   limits.trace_touches = options.trace_touches;
+  limits.policy = seams.policy;
   return limits;
 }
 
@@ -170,7 +171,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
   if (const auto checked = check_counts(options); !checked) return checked.error();
-  auto pager = Pager::open(path, limits_of(options), seams.calls);
+  auto pager = Pager::open(path, limits_of(options, seams), seams.calls);
   if (!pager) return pager.error();
   void* room = (*pager)->asking_memory().parts().model_room;
   const std::chrono::milliseconds wait_limit(options.wait_limit_ms);

@@ -26,11 +26,13 @@ namespace planetree::query {
 class BatchCrew;
 class FetchCrew;
 
-/// Where a model can be taken apart: the system, so that disks can fail or stand still, and its
-/// threads, so that a test can do what they do, step by step.
+/// Where a model can be taken apart: the system, so that disks can fail or stand still; its
+/// threads, so that a test can do what they do, step by step; and which pages it keeps, so that
+/// ways to choose can be compared.
 struct ModelSeams {
   storage::FileCalls& calls = storage::FileCalls::real();  ///< must outlive the model
   bool starts_fetching = true;
+  cache::Policy policy = cache::Policy::kClock;
 };
 
 /// What stands behind a Model; in the AskingMemory that it holds itself.

@@ -46,6 +46,7 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
   cache_limits.frame_bytes = header.page_bytes;
+  cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
   // pin() is one more.
   const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;

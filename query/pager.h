@@ -30,6 +30,7 @@ class Pager {
     unsigned crew_probes = 0;      ///< all together
     Locking locking = Locking::kTry;
     std::uint32_t trace_touches = 0;
+    cache::Policy policy = cache::Policy::kClock;
 
     unsigned readers() const noexcept { return max_probes + crew_probes; }
   };

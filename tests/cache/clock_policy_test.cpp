@@ -6,14 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cache/eviction_policy.h"
+
 namespace planetree::cache {
 namespace {
 
 template <std::size_t kFrames>
 struct Frames {
   std::array<ClockPolicy::Score, kFrames> scores{};
-  std::array<ClockPolicy::State, kFrames> states{};
-  ClockPolicy clock{scores, states};
+  std::array<FrameStates::State, kFrames> states{};
+  EvictionPolicy clock{Policy::kClock, {.states = states, .scores = scores}};
 
   Frames() {
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) clock.install(frame);
@@ -70,7 +72,7 @@ TEST(ClockPolicy, PassesOverPinnedAndIdleFrames) {
   EXPECT_EQ(frames.evict(), kNoFrame);
   frames.clock.install(1);
   EXPECT_EQ(frames.evict(), 1u);
-  EXPECT_EQ(frames.clock.state(0), ClockPolicy::State::kPinned);
+  EXPECT_EQ(frames.clock.state(0), FrameStates::State::kPinned);
 }
 
 TEST(ClockPolicy, FindsAVictimEvenWhenEveryScoreIsHighest) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <vector>
 
 #include "planetree/probe.h"
+#include "query/model_state.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 
@@ -44,6 +46,32 @@ TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
       ASSERT_EQ(bits_of(answers[t][i]), expected[i]) << t << ' ' << i;
   EXPECT_GT(model.stats().pages_evicted, 500u);
   EXPECT_EQ(model.stats().degraded_answers, 0u);
+}
+
+TEST(Threads, GetThemWhicheverPageGoesFirst) {
+  const SampleModel sample = SampleModel::masked(octree::sphere(5));
+  const std::vector<Vec3> queries = random_queries(300, -1.3, 1.3);
+  std::vector<std::vector<AnswerBits>> answers;
+  for (const cache::Policy policy : {cache::Policy::kClock, cache::Policy::kLru}) {
+    OpenOptions options;
+    options.max_probes = 4;
+    // Uses take some bytes more than scores.
+    options.memory_budget_bytes = sample.least_budget(4) + 4096;
+    const auto model =
+        ModelState::open_model(sample.path(), options, {.starts_fetching = true, .policy = policy});
+    ASSERT_TRUE(model);
+    std::vector<std::vector<AnswerBits>> own(4);
+    std::vector<std::thread> threads;
+    for (unsigned t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        Probe probe = make_probe(*model);
+        for (const Vec3& query : queries) own[t].push_back(bits_of(probe.closest_point(query)));
+      });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_GT(model->stats().pages_evicted, 500u);
+    answers.insert(answers.end(), own.begin(), own.end());
+  }
+  for (const std::vector<AnswerBits>& others : answers) EXPECT_EQ(others, answers.front());
 }
 
 // Those that do not wait have pages fetched for them, of which those that wait evict some.

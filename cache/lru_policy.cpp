@@ -1,0 +1,67 @@
+#include "cache/lru_policy.h"
+
+#include <utility>
+
+namespace planetree::cache {
+
+bool LruPolicy::is_before(std::uint32_t frame, std::uint32_t other) const noexcept {
+  const std::uint64_t known = entries_[frame].known, others = entries_[other].known;
+  return known != others ? known < others : frame < other;
+}
+
+void LruPolicy::install(std::uint32_t frame) noexcept {
+  const std::uint64_t time = now_[0].load(std::memory_order_relaxed) + 1;
+  now_[0].store(time, std::memory_order_relaxed);
+  uses_[frame].store(time, std::memory_order_relaxed);
+  push(frame);
+}
+
+// A frame may be there still, from before it was removed or held: then what is known of it is
+// older than its use, and put right at the top.
+void LruPolicy::push(std::uint32_t frame) noexcept {
+  if (entries_[frame].in_heap) return;
+  entries_[frame].in_heap = true;
+  entries_[frame].known = uses_[frame].load(std::memory_order_relaxed);
+  std::uint32_t at = size_++;
+  entries_[at].heap = frame;
+  while (at > 0 && is_before(frame, entries_[(at - 1) / 2].heap)) {
+    std::swap(entries_[at].heap, entries_[(at - 1) / 2].heap);
+    at = (at - 1) / 2;
+  }
+}
+
+void LruPolicy::pop() noexcept {
+  entries_[entries_[0].heap].in_heap = false;
+  entries_[0].heap = entries_[--size_].heap;
+  sink();
+}
+
+void LruPolicy::sink() noexcept {
+  for (std::uint32_t at = 0;;) {
+    std::uint32_t first = at;
+    for (std::uint32_t child = 2 * at + 1; child <= 2 * at + 2 && child < size_; ++child)
+      if (is_before(entries_[child].heap, entries_[first].heap)) first = child;
+    if (first == at) return;
+    std::swap(entries_[at].heap, entries_[first].heap);
+    at = first;
+  }
+}
+
+// Ends, because time stands still meanwhile: each frame is put right once at most.
+std::uint32_t LruPolicy::choose_victim(const FrameStates& states) noexcept {
+  while (size_ > 0) {
+    const std::uint32_t frame = entries_[0].heap;
+    const std::uint64_t use = uses_[frame].load(std::memory_order_relaxed);
+    if (states.of(frame) != FrameStates::State::kEvictable) {
+      pop();
+    } else if (use > entries_[frame].known) {
+      entries_[frame].known = use;
+      sink();
+    } else {
+      return frame;
+    }
+  }
+  return kNoFrame;
+}
+
+}  // namespace planetree::cache

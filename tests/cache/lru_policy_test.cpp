@@ -1,0 +1,106 @@
+#include "cache/lru_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <list>
+
+#include "cache/eviction_policy.h"
+#include "cache/page_cache.h"
+#include "tests/cache/tagged_pages.h"
+
+namespace planetree::cache {
+namespace {
+
+template <std::size_t kFrames>
+struct LruFrames {
+  std::array<FrameStates::State, kFrames> states{};
+  std::array<LruPolicy::Tick, 1> now{};
+  std::array<LruPolicy::Tick, kFrames> uses{};
+  std::array<LruPolicy::Entry, kFrames> entries{};
+  EvictionPolicy lru{
+      Policy::kLru, {.states = states, .scores = {}, .now = now, .uses = uses, .entries = entries}};
+
+  LruFrames() {
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) lru.install(frame);
+  }
+  void use(std::uint32_t frame) { lru.marks().mark(frame); }
+  std::uint32_t evict() {
+    const std::uint32_t victim = lru.choose_victim();
+    if (victim != kNoFrame) lru.remove(victim);
+    return victim;
+  }
+};
+
+TEST(LruPolicy, TakesWhatWasUsedLongestAgo) {
+  LruFrames<4> frames;
+  EXPECT_EQ(frames.evict(), 0u);
+  frames.lru.install(0);
+  frames.use(1);
+  EXPECT_EQ(frames.evict(), 2u);
+  EXPECT_EQ(frames.evict(), 3u);
+  EXPECT_EQ(frames.evict(), 0u);
+  EXPECT_EQ(frames.evict(), 1u);
+  EXPECT_EQ(frames.evict(), kNoFrame);
+}
+
+TEST(LruPolicy, PassesOverWhatIsPinnedOrHeld) {
+  LruFrames<4> frames;
+  frames.lru.pin(0);
+  frames.lru.hold(1);
+  EXPECT_EQ(frames.evict(), 2u);
+  EXPECT_EQ(frames.evict(), 3u);
+  EXPECT_EQ(frames.evict(), kNoFrame);
+  frames.lru.let_go(1);
+  EXPECT_EQ(frames.evict(), 1u);
+  EXPECT_EQ(frames.evict(), kNoFrame);
+}
+
+// Beside a list that is kept in order at every use.
+TEST(LruPolicy, IsThatOfTheBook) {
+  constexpr std::uint32_t kBookFrames = 23;
+  LruFrames<kBookFrames> frames;
+  std::list<std::uint32_t> book;  // the last used at the back
+  for (std::uint32_t frame = 0; frame < kBookFrames; ++frame) book.push_back(frame);
+  Numbers numbers(5);
+  for (int step = 0; step < 5000; ++step) {
+    // One use between two installs, so that none are equally long ago.
+    const std::uint32_t victim = frames.evict();
+    ASSERT_EQ(victim, book.front()) << step;
+    frames.lru.install(victim);
+    book.splice(book.end(), book, book.begin());
+    const std::uint32_t used = numbers.below(kBookFrames);
+    if (used == victim) continue;
+    // A use is as long ago as the install before it: the one of lesser number goes first.
+    if (used < victim) continue;
+    frames.use(used);
+    book.splice(book.end(), book, std::find(book.begin(), book.end(), used));
+  }
+}
+
+TEST(LruPolicy, AnswersOfACacheAreThoseOfClock) {
+  for (const Policy policy : {Policy::kClock, Policy::kLru}) {
+    TaggedPages pages;
+    CacheLimits limits{0, 100, 4096, 2, 0, policy};
+    limits.budget_bytes = bytes_needed(limits, 12);
+    auto cache = PageCache::create(limits, TaggedPages::fill, &pages);
+    ASSERT_TRUE(cache);
+    Reader reader = *(*cache)->claim_reader();
+    Numbers numbers(3);
+    reader.enter();
+    for (int i = 0; i < 3000; ++i) {
+      const std::uint32_t page = std::min(numbers.below(100), numbers.below(100));
+      const std::byte* frame = reader.find(page);
+      if (!frame) frame = reader.fetch(page);
+      ASSERT_TRUE(TaggedPages::matches(frame, 4096, page));
+    }
+    reader.leave();
+    EXPECT_GT((*cache)->stats().evictions, 1000u);
+    EXPECT_EQ((*cache)->stats().frame_count, 12u);
+  }
+}
+
+}  // namespace
+}  // namespace planetree::cache
