@@ -29,10 +29,10 @@ struct Errand {
 /// Who reads which page, and who waits for it: so that each page is read once, however many
 /// want it, and that it is still there when they come for it.
 ///
-///     kNone --> kReads --> kNone        kWaits <--> kWanted
-///      |  ^                                  \      /
-///      |  |______________ kServed, kFailed, kRetry
-///      |______________________________________^
+///     kNone --> kReads --> kNone
+///     kNone --> kWaits <--> kWanted --> kNone, at a limit
+///                 |            |
+///                 |--> kServed, kFailed or kRetry --> kNone
 ///
 /// For the holder of the cache's mutex alone. A view of memory that PageCache owns.
 class Errands {

@@ -13,7 +13,8 @@ namespace planetree::query {
 
 /// Gets for a model's probes what they miss (Wait::kNever) and what they are moving to: it asks
 /// the same question again with a probe that waits for pages, from the root down. Serves every
-/// so-many-th probe. One thread.
+/// so-many-th probe. And reads, for whoever waits, the pages that the disk must be waited for.
+/// One thread.
 class FetchWorker {
  public:
   using Seconds = std::chrono::duration<double>;

@@ -26,7 +26,7 @@ Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path, co
 }
 
 std::uint64_t Pager::scratch_bytes() const noexcept {
-  return file_.header().max_stored_bytes + file_.header().max_raw_bytes;
+  return file_.header().max_raw_bytes + (stored_fits_frame() ? 0 : file_.header().max_stored_bytes);
 }
 
 AskingMemory::Needs Pager::asking_needs(const Limits& limits) const noexcept {
@@ -85,8 +85,11 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file_.header();
   const storage::PageEntry& entry = file_.entries()[request.page];
   std::byte* const scratch = scratch_.get() + request.owner * scratch_bytes();
-  const std::span<std::byte> stored(scratch, header.max_stored_bytes);
-  const std::span<std::byte> raw(scratch + header.max_stored_bytes, entry.raw_bytes);
+  const std::span<std::byte> raw(scratch, entry.raw_bytes);
+  // A frame is written last, so that it may hold the stored bytes before.
+  const std::span<std::byte> stored =
+      stored_fits_frame() ? request.frame
+                          : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
   if (request.may_wait) {
     if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
   } else {

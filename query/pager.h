@@ -55,6 +55,9 @@ class Pager {
   AskingMemory::Needs asking_needs(const Limits& limits) const noexcept;
   Result<void> claim(const Limits& limits);
   Result<void> lock(Locking locking) noexcept;
+  bool stored_fits_frame() const noexcept {
+    return file_.header().max_stored_bytes <= file_.header().page_bytes;
+  }
   Result<cache::Filled> fill(const cache::FillRequest& request) noexcept;
 
   storage::PageFile file_;
