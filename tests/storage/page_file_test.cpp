@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -78,6 +79,42 @@ TEST(PageFile, ReadsWithoutAllocating) {
   EXPECT_EQ(allocation_count, before);
   ::operator delete(::operator new(1));
   if (allocation_count != before + 1) GTEST_SKIP() << "a sanitizer keeps allocations to itself";
+}
+
+/// A system that would have to wait, or has a part of what is asked for in memory.
+class ForgetfulCalls final : public FileCalls {
+ public:
+  enum class Has { kAll, kPart, kNothing } has = Has::kAll;
+  ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
+                  int flags) noexcept override {
+    EXPECT_EQ(flags, RWF_NOWAIT);
+    if (has == Has::kNothing) {
+      errno = EAGAIN;
+      return -1;
+    }
+    const ssize_t count = FileCalls::pread(descriptor, parts->iov_base, parts->iov_len, offset);
+    EXPECT_EQ(part_count, 1);
+    return has == Has::kAll ? count : count - 1;
+  }
+};
+
+TEST(PageFile, ReadsAtOnceWhatTheSystemHasAndNothingElse) {
+  const TemporaryDirectory directory;
+  const SampleFile sample;
+  ASSERT_TRUE(sample.write(directory / "a.ptree"));
+  ForgetfulCalls calls;
+  const Result<PageFile> file = PageFile::open(directory / "a.ptree", calls);
+  ASSERT_TRUE(file);
+  Bytes stored(file->header().max_stored_bytes), raw(file->entries()[1].raw_bytes);
+  const auto read = [&] { return file->read_page_at_once(1, stored, raw); };
+  using Has = ForgetfulCalls::Has;
+  for (const Has has : {Has::kPart, Has::kNothing, Has::kAll}) {
+    calls.has = has;
+    ASSERT_TRUE(read());
+    EXPECT_EQ(*read(), has == Has::kAll);
+  }
+  EXPECT_EQ(raw, sample.raw(1));
+  EXPECT_FALSE(file->read_page_at_once(file->page_count(), stored, raw));
 }
 
 TEST(PageFile, ServesThreadsAtOnce) {
