@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include "planetree/probe.h"
@@ -35,6 +37,15 @@ class ChancyDisk final : public storage::FileCalls {
   }
   std::mt19937 random;
   bool opened = false;
+};
+
+/// A disk of which the system has nothing in memory.
+class ColdDisk final : public storage::FileCalls {
+ public:
+  ssize_t preadv2(int, const iovec*, int, off_t, int) noexcept override {
+    errno = EAGAIN;
+    return -1;
+  }
 };
 
 class Simulation : public testing::Test {
@@ -206,6 +217,33 @@ TEST_F(Simulation, WishesComeBeforePlans) {
   EXPECT_EQ(waiting.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
   for (int left = 3; left > 0; --left) EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+}
+
+// The one place with another thread, which does nothing but wait.
+TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
+  ColdDisk disk;
+  const Model model = open(disk, 64 << 20);
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  Probe probe = make_probe(model);
+  EXPECT_EQ(probe.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
+  const auto work_while_one_waits_for = [&](std::uint32_t page) {
+    std::thread waiting([&] {
+      cache::Reader reader = *state.claim_reader();
+      reader.enter();
+      EXPECT_NE(reader.fetch(page, {.reads_itself = false}).frame, nullptr);
+      reader.leave();
+    });
+    state.cache().wait_for_errand(std::chrono::minutes(1), never_);
+    const FetchWorker::Did did = worker.work();
+    waiting.join();
+    return did;
+  };
+  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 1), FetchWorker::Did::kReadForAnAsk);
+  // Its page is read too, in between.
+  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 2), FetchWorker::Did::kServedAWish);
+  EXPECT_EQ(probe.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kExact);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
 }
 
