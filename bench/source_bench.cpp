@@ -40,12 +40,14 @@ double us_since(Clock::time_point start) {
 /// process must that is to stay within its memory.
 class Source {
  public:
-  enum class Way { kPositioned, kMapped, kMappedAndDropped };
+  /// The system reads around what is touched of a map, unless told that it is touched at random.
+  enum class Way { kPositioned, kMapped, kMappedAtRandom, kMappedAndDropped };
   Source(int descriptor, const storage::PageFile& file, Way way)
       : descriptor_(descriptor), file_(file), way_(way), out_(file.header().max_stored_bytes) {
     if (way == Way::kPositioned) return;
     bytes_ = file.header().file_bytes;
     map_ = static_cast<std::byte*>(::mmap(nullptr, bytes_, PROT_READ, MAP_SHARED, descriptor, 0));
+    if (way == Way::kMappedAtRandom) ::madvise(map_, bytes_, MADV_RANDOM);
   }
   ~Source() {
     if (map_) ::munmap(map_, bytes_);
@@ -135,6 +137,7 @@ struct Row {
 };
 constexpr Row kRows[] = {{"positioned", Source::Way::kPositioned},
                          {"mapped", Source::Way::kMapped},
+                         {"mapped at random", Source::Way::kMappedAtRandom},
                          {"mapped, given back", Source::Way::kMappedAndDropped}};
 
 void measure(int descriptor, const storage::PageFile& file, Ticker& ticker, double seconds) {

@@ -23,7 +23,7 @@ struct NearbyTriangle {
 /// at few.
 class NearbyTriangles {
  public:
-  static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kMost = 128;
 
   /// Forgets what was there.
   void clear() {

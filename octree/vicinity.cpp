@@ -153,7 +153,7 @@ class TriangleSearch {
       : tree_(tree), centre_(centre), radius2_(radius * radius * (1 + 0x1p-40)) {}
 
   // More blocks than these do not keep to so few triangles.
-  static constexpr std::size_t kMostBlocks = 16;
+  static constexpr std::size_t kMostBlocks = 28;
 
   // False where they are too many, or a page is lost.
   bool run(const NearbyBlocks& blocks, PageReader pages, TreeWork& work) {
