@@ -153,7 +153,8 @@ Result<void> PlyPoints::read_line(Vec3& point) {
       if (header_.coordinates[axis] == i) *values[axis] = value;
     if (!properties[i].is_list) continue;
     for (double item = 0; item < value; ++item)
-      if (octree::take_word(rest).empty()) return refusal("a vertex's list is shorter than it says");
+      if (octree::take_word(rest).empty())
+        return refusal("a vertex's list is shorter than it says");
   }
   return {};
 }

@@ -30,7 +30,8 @@ Result<void> BuildFiles::remove_work() {
 }
 
 std::uint64_t BuildFiles::disk_bytes() const {
-  return mesh_.disk_bytes() + scratch_.disk_bytes() + pages_.disk_bytes() + (work_ ? work_->disk_bytes() : 0);
+  return mesh_.disk_bytes() + scratch_.disk_bytes() + pages_.disk_bytes() +
+         (work_ ? work_->disk_bytes() : 0);
 }
 
 Result<void> BuildFiles::look_for(const SpaceNeed& need) {

@@ -34,7 +34,8 @@ CornerSort::CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64
       position_bytes_(vertices.position_bytes()),
       buffer_bytes_(memory_bytes / 4) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
-  const std::uint64_t most = std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMost);
+  const std::uint64_t most =
+      std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMost);
   part_shift_ = static_cast<int>(std::bit_width(most)) - 1;
   by_vertex_file_.emplace(scratch);
   by_vertex_.emplace(kByVertexBytes, parts_of(vertices.count()), buffer_bytes_,
@@ -74,8 +75,7 @@ Result<void> CornerSort::match(const std::function<void(std::uint64_t, std::uint
 
 Result<void> CornerSort::match_part(std::size_t part) {
   const std::uint64_t first = std::uint64_t{part} << part_shift_;
-  const std::uint64_t count =
-      std::min(std::uint64_t{1} << part_shift_, vertices_.count() - first);
+  const std::uint64_t count = std::min(std::uint64_t{1} << part_shift_, vertices_.count() - first);
   positions_.resize(static_cast<std::size_t>(count) * position_bytes_);
   if (const auto read = vertices_.read(first, positions_); !read) return read;
   return by_vertex_->each_block(part, [this](std::span<const std::byte> records) -> Result<void> {

@@ -20,7 +20,7 @@ namespace planetree::octree {
 /// Where a face is, for whoever goes through faces to begin there.
 struct FacePlace {
   TextPlace place;
-  std::uint64_t record = 0;           ///< faces before it
+  std::uint64_t record = 0;          ///< faces before it
   std::int64_t vertices_before = 0;  ///< of an OBJ: those in front of it
 };
 
@@ -104,7 +104,7 @@ class MeshJoin {
   const std::uint64_t memory_bytes_;
   MeshDelivery& delivery_;
   std::optional<VertexCache> cache_;
-  std::vector<Vec3> held_;           ///< positions of the face's corners from 3 on
+  std::vector<Vec3> held_;          ///< positions of the face's corners from 3 on
   std::uint64_t credit_bytes_ = 0;  ///< that may still be read; grows with each corner
   std::uint64_t seen_bytes_ = 0;    ///< were read when that was counted
   std::uint64_t limit_bytes_ = 0;   ///< may be read, this face included
@@ -158,8 +158,7 @@ class MeshJoin::SortedCorners {
 
   bool first(std::uint64_t k, MeshCorner& corner) {
     if (!face_.value_at(k, corner.value)) return join_.stop(face_.failure());
-    corner.in_range =
-        join_.vertex_of(corner.value, face_.vertices_before()) < join_.vertex_count_;
+    corner.in_range = join_.vertex_of(corner.value, face_.vertices_before()) < join_.vertex_count_;
     return !corner.in_range || again(k, corner);
   }
   bool again(std::uint64_t k, MeshCorner& corner) {
@@ -202,8 +201,7 @@ Result<bool> MeshJoin::add_to(CornerSort& sort, const Face& face) {
 }
 
 template <class Face>
-Result<bool> MeshJoin::take_sorted(CornerSort& sort, std::uint64_t& next_corner,
-                                   const Face& face) {
+Result<bool> MeshJoin::take_sorted(CornerSort& sort, std::uint64_t& next_corner, const Face& face) {
   SortedCorners<Face> corners(*this, sort, next_corner, face);
   if (face.size() >= 3) next_corner += face.size();
   Result<bool> taken = delivery_.polygon_of(face.record(), face.size(), corners);
@@ -218,8 +216,7 @@ Result<FacePlace> MeshJoin::deliver_sorted(const FacePlace& begin, std::uint64_t
   CornerSort sort(vertices_, scratch_, memory_bytes_);
   const std::uint64_t bytes_before = delivery_.bytes_total();
   delivery_.expect_more(2 * rest_bytes);
-  const auto added =
-      each_face(begin, [&](const auto& face) { return this->add_to(sort, face); });
+  const auto added = each_face(begin, [&](const auto& face) { return this->add_to(sort, face); });
   if (!added) return added.error();
   const auto matched = sort.match([&](std::uint64_t part, std::uint64_t parts) {
     delivery_.advance(bytes_before + rest_bytes / parts * part);
@@ -227,8 +224,8 @@ Result<FacePlace> MeshJoin::deliver_sorted(const FacePlace& begin, std::uint64_t
   if (!matched) return matched.error();
   delivery_.begin_again(2 * rest_bytes);
   std::uint64_t next_corner = 0;
-  return each_face(
-      begin, [&](const auto& face) { return this->take_sorted(sort, next_corner, face); });
+  return each_face(begin,
+                   [&](const auto& face) { return this->take_sorted(sort, next_corner, face); });
 }
 
 }  // namespace planetree::octree

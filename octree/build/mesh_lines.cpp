@@ -23,7 +23,7 @@ bool MeshLines::refill() {
   const TextPlace begin = after();
   const std::uint64_t left = size_bytes_ - begin.offset;
   if (left == 0) return false;
-  for (std::uint64_t wanted = std::min(window_bytes_, left);; wanted = std::min(2 * wanted, left)) {
+  for (std::uint64_t wanted = std::min(window_bytes_, left);;) {
     const std::byte* const bytes = window_.at(begin.offset, wanted);
     if (bytes == nullptr) return fail(window_.failure());
     const std::string_view text(reinterpret_cast<const char*>(bytes),
@@ -40,6 +40,7 @@ bool MeshLines::refill() {
                              " MiB; write such a mesh as a binary PLY",
                              begin.line, kMaxLineBytes >> 20));
     }
+    wanted = std::min(2 * std::uint64_t{text.size()}, left);
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -24,7 +26,7 @@ class MeshLines {
       : size_bytes_(file.size_bytes()),
         comment_(comment),
         window_(file, window_bytes),
-        window_bytes_(window_bytes),
+        window_bytes_(std::max<std::uint64_t>(window_bytes, MeshWindow::kRecordBytes)),
         base_(start.offset),
         lines_({}, {0, start.line}, LineEnd::kAny, comment) {}
 

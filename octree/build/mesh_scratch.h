@@ -36,9 +36,7 @@ class MeshScratch {
   [[nodiscard]] std::uint64_t join_bytes(bool is_text) const {
     return memory_bytes_ - window_bytes() - (is_text ? text_bytes(memory_bytes_) : 0);
   }
-  static constexpr std::uint64_t text_bytes(std::uint64_t memory_bytes) {
-    return memory_bytes / 2;
-  }
+  static constexpr std::uint64_t text_bytes(std::uint64_t memory_bytes) { return memory_bytes / 2; }
   [[nodiscard]] std::uint64_t window_bytes() const {
     return std::min(memory_bytes_ / 4, kWindowBytes);
   }

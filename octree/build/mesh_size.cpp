@@ -38,7 +38,8 @@ Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& 
   if (!header && header.error().code != ErrorCode::kBadInput) return header.error();
   if (!header) return MeshSize{};
   const std::uint64_t faces = header->faces().count, vertices = header->vertices().count;
-  const std::uint64_t body = file.size_bytes() - header->body.offset, least = least_body_bytes(*header);
+  const std::uint64_t body = file.size_bytes() - header->body.offset,
+                      least = least_body_bytes(*header);
   if (least > body) return MeshSize{};
   MeshSize size{faces, vertices, !header->float32()};
   size.is_indexed_text = header->encoding == PlyEncoding::kAscii;
@@ -158,12 +159,11 @@ MeshSize size_of_binary_stl(const Sample& facets) {
 
 MeshSize size_of_ascii_stl(const Sample& sample) {
   StlCorners corners;
-  const std::uint64_t triangles =
-      sample.total([&corners](std::string_view line) -> std::uint64_t {
-        const std::string_view word = take_word(line);
-        if (is_same_word(word, "vertex")) corners.add(line);
-        return is_same_word(word, "facet") ? 1 : 0;
-      });
+  const std::uint64_t triangles = sample.total([&corners](std::string_view line) -> std::uint64_t {
+    const std::string_view word = take_word(line);
+    if (is_same_word(word, "vertex")) corners.add(line);
+    return is_same_word(word, "facet") ? 1 : 0;
+  });
   return {triangles, corners.vertices_of(triangles), true};
 }
 

@@ -12,7 +12,7 @@ namespace planetree::octree {
 struct MeshSize {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
-  bool float64 = false;  ///< unless the format declares coordinates that float32 holds
+  bool float64 = false;          ///< unless the format declares coordinates that float32 holds
   bool is_indexed_text = false;  ///< its vertices are put away while it is read
 
   /// Looks at a header and the file's size, or at samples of a text that declares nothing.

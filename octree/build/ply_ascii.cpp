@@ -192,7 +192,8 @@ Result<TextPlace> PlyAscii::faces(TextPlace begin) {
 
 Result<void> PlyAscii::expect_end(TextPlace end) {
   MeshLines lines = lines_from(end);
-  if (!lines.next_filled()) return lines.failure() ? Result<void>(*lines.failure()) : Result<void>();
+  if (!lines.next_filled())
+    return lines.failure() ? Result<void>(*lines.failure()) : Result<void>();
   return line_error(lines.place(),
                     "text follows the last record, so a count in the header is too small");
 }

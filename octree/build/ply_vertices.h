@@ -39,7 +39,7 @@ class PlyVertices final : public MeshVertices {
   std::uint64_t record_bytes_ = 0;
   std::array<std::uint64_t, 3> offsets_ = {};  ///< of x, y and z in a record
   std::array<PlyType, 3> types_ = {};
-  bool plain_ = true;              ///< records are positions as they should be
+  bool plain_ = true;               ///< records are positions as they should be
   std::vector<std::byte> records_;  ///< as the file has them
 };
 

@@ -11,8 +11,8 @@ namespace planetree::octree {
 /// Whether the size is exactly that of a binary STL with the count that the front has.
 bool has_binary_stl_size(std::string_view front, std::uint64_t size_bytes) noexcept;
 
-/// Whether a file, of which this is the front, begins with "solid" and then goes on as text: binary files
-/// may begin so too, but have zero bytes in or near their count.
+/// Whether a file, of which this is the front, begins with "solid" and then goes on as text: binary
+/// files may begin so too, but have zero bytes in or near their count.
 bool is_ascii_stl(std::string_view file) noexcept;
 
 /// Reads a binary STL. Fewer than 50 bytes behind the last facet are passed

@@ -17,7 +17,8 @@ std::uint64_t most_bytes(const MeshFile& file, bool float32) {
 
 TextVertices::TextVertices(const MeshFile& file, bool float32, MeshScratch& scratch)
     : float32_(float32),
-      file_(scratch, std::min(MeshScratch::text_bytes(scratch.memory_bytes()), most_bytes(file, float32))) {}
+      file_(scratch,
+            std::min(MeshScratch::text_bytes(scratch.memory_bytes()), most_bytes(file, float32))) {}
 
 Result<void> TextVertices::add(const Vec3& position) {
   const std::size_t at = last_.size();

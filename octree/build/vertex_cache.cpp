@@ -20,8 +20,7 @@ VertexCache::VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes)
   block_shift_ = static_cast<int>(std::bit_width(std::max<std::uint64_t>(block_vertices, 1))) - 1;
   const std::uint64_t room = memory_bytes / (kWays * (block_bytes() + sizeof(Slot)));
   const std::uint64_t blocks = (vertices.count() >> block_shift_) + 1;
-  const std::uint64_t sets =
-      std::clamp<std::uint64_t>(room, 1, (blocks + kWays - 1) / kWays);
+  const std::uint64_t sets = std::clamp<std::uint64_t>(room, 1, (blocks + kWays - 1) / kWays);
   slots_.resize(static_cast<std::size_t>(sets * kWays));
 }
 
@@ -44,13 +43,12 @@ bool VertexCache::enter(std::uint64_t block) {
 
 bool VertexCache::load(std::uint64_t block, Slot& slot) {
   if (!slot.positions)
-    slot.positions = std::make_unique_for_overwrite<std::byte[]>(
-        static_cast<std::size_t>(block_bytes()));
+    slot.positions =
+        std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(block_bytes()));
   // What is in it is no longer what it was, whether it can be read or not.
   slot.block = last_block_ = kNone;
   const std::uint64_t first = block << block_shift_;
-  const std::uint64_t count =
-      std::min(std::uint64_t{1} << block_shift_, vertices_.count() - first);
+  const std::uint64_t count = std::min(std::uint64_t{1} << block_shift_, vertices_.count() - first);
   const std::span<std::byte> out(slot.positions.get(),
                                  static_cast<std::size_t>(count * position_bytes_));
   if (const auto read = vertices_.read(first, out); !read) {

@@ -9,6 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const MemoryFile memory(bytes, size);
   const planetree::Result<MeshFile> file = MeshFile::open(memory.path());
   if (!file) std::abort();
-  read_twice([&](TriangleSink& sink, MeshScratch& scratch) { return read_obj(*file, sink, scratch); });
+  read_twice(
+      [&](TriangleSink& sink, MeshScratch& scratch) { return read_obj(*file, sink, scratch); });
   return 0;
 }

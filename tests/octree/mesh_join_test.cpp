@@ -24,8 +24,8 @@ PlainMesh sheet(unsigned side) {
   PlainMesh mesh;
   for (unsigned i = 0; i < side; ++i)
     for (unsigned j = 0; j < side; ++j)
-      mesh.vertices.push_back({static_cast<float>(i), static_cast<float>(j) / 3,
-                               static_cast<float>(i * j % 7)});
+      mesh.vertices.push_back(
+          {static_cast<float>(i), static_cast<float>(j) / 3, static_cast<float>(i * j % 7)});
   const auto at = [side](unsigned i, unsigned j) { return std::int64_t{i} * side + j; };
   for (unsigned i = 0; i + 1 < side; ++i)
     for (unsigned j = 0; j + 1 < side; ++j) {
