@@ -18,27 +18,25 @@ VertexCache::VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes)
   const std::uint64_t block_vertices =
       std::min(kBlockBytes, memory_bytes / kBlocks) / position_bytes_;
   block_shift_ = static_cast<int>(std::bit_width(std::max<std::uint64_t>(block_vertices, 1))) - 1;
-  const std::uint64_t room = memory_bytes / (kWays * (block_bytes() + sizeof(Slot)));
+  const std::uint64_t room = memory_bytes / (block_bytes() + sizeof(Slot));
   const std::uint64_t blocks = (vertices.count() >> block_shift_) + 1;
-  const std::uint64_t sets = std::clamp<std::uint64_t>(room, 1, (blocks + kWays - 1) / kWays);
-  slots_.resize(static_cast<std::size_t>(sets * kWays));
+  if (blocks > room) ways_ = kWays;
+  slots_.resize(static_cast<std::size_t>(
+      blocks > room ? std::max<std::uint64_t>(room / kWays, 1) * kWays : blocks));
+  known_.fill(slots_.data());
 }
 
-bool VertexCache::enter(std::uint64_t block) {
-  Slot* const set = &slots_[static_cast<std::size_t>(block % (slots_.size() / kWays)) * kWays];
-  Slot* oldest = set;
-  for (Slot* slot = set; slot != set + kWays; ++slot) {
-    if (slot->block == block) {
-      oldest = slot;
-      break;
+bool VertexCache::enter(std::uint64_t block, Slot*& slot) {
+  Slot* const set = &slots_[static_cast<std::size_t>(block % (slots_.size() / ways_)) * ways_];
+  slot = set;
+  for (Slot* other = set; other != set + ways_; ++other) {
+    if (other->block == block) {
+      slot = other;
+      return true;
     }
-    if (slot->used < oldest->used) oldest = slot;
+    if (other->used < slot->used) slot = other;
   }
-  if (oldest->block != block && !load(block, *oldest)) return false;
-  oldest->used = ++clock_;
-  last_block_ = block;
-  last_ = oldest->positions.get();
-  return true;
+  return load(block, *slot);
 }
 
 bool VertexCache::load(std::uint64_t block, Slot& slot) {
@@ -46,7 +44,7 @@ bool VertexCache::load(std::uint64_t block, Slot& slot) {
     slot.positions =
         std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(block_bytes()));
   // What is in it is no longer what it was, whether it can be read or not.
-  slot.block = last_block_ = kNone;
+  slot.block = kNone;
   const std::uint64_t first = block << block_shift_;
   const std::uint64_t count = std::min(std::uint64_t{1} << block_shift_, vertices_.count() - first);
   const std::span<std::byte> out(slot.positions.get(),
