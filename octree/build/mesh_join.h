@@ -58,7 +58,7 @@ class MeshJoin {
     cache_.emplace(vertices_, memory_bytes_);
     credit_bytes_ = most_credit_bytes();
     const Result<FacePlace> end =
-        each_face(begin, [this](const auto& face) { return take_near(face); });
+        each_face(begin, [this](const auto& face) { return this->take_near(face); });
     if (!end || !goes_over_) return end;
     cache_.reset();
     return deliver_sorted(*end, file_bytes - end->place.offset, each_face);
