@@ -4,6 +4,9 @@
 #include <cinttypes>
 #include <string_view>
 
+#include "octree/build/mesh_front.h"
+#include "octree/build/mesh_text.h"
+
 namespace planetree::tools {
 namespace {
 
@@ -58,7 +61,7 @@ bool parse_number(const octree::PlyProperty& property, std::string_view word, do
 
 Result<std::unique_ptr<PointReader>> PlyPoints::create(const std::string& path,
                                                        octree::MeshFile file) {
-  auto header = parse_header(file.text());
+  auto header = octree::parse_front(file, parse_header);
   if (!header) return header.error();
   std::unique_ptr<PlyPoints> points(new PlyPoints(path, std::move(file), *std::move(header)));
   if (const auto found = points->find_vertices(); !found) return found.error();
@@ -69,7 +72,8 @@ PlyPoints::PlyPoints(std::string name, octree::MeshFile file, PlyHeader header)
     : PointReader(std::move(name)),
       file_(std::move(file)),
       header_(std::move(header)),
-      lines_(file_.text(), header_.body),
+      lines_(file_, header_.body),
+      window_(file_),
       offset_(header_.body.offset),
       left_(header_.vertices().count) {}
 
@@ -78,8 +82,8 @@ Result<void> PlyPoints::find_vertices() {
   for (std::size_t i = 0; i < header_.vertex_element; ++i) {
     const PlyElement& element = header_.elements[i];
     if (header_.encoding == PlyEncoding::kAscii) {
-      for (std::uint64_t record = 0; record < element.count && lines_.next_filled(); ++record)
-        file_.touch(lines_.place().offset);
+      for (std::uint64_t record = 0; record < element.count && lines_.next_filled(); ++record) {
+      }
       continue;
     }
     const std::uint64_t record_bytes = std::max<std::uint64_t>(element.min_record_bytes(), 1);
@@ -104,53 +108,53 @@ Result<void> PlyPoints::check_room() const {
 }
 
 Result<std::size_t> PlyPoints::read(std::span<Vec3> points) {
+  if (failure_) return *failure_;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(points.size(), left_));
+  const bool is_ascii = header_.encoding == PlyEncoding::kAscii;
   for (std::size_t i = 0; i < count; ++i) {
-    if (header_.encoding != PlyEncoding::kAscii) {
-      read_record(points[i]);
-    } else if (const auto read = read_line(points[i]); !read) {
-      if (i == 0) return read.error();
-      // Points in front of it come first; the same line is met again then.
-      left_ -= i;
-      return i;
-    }
+    const auto read = is_ascii ? read_line(points[i]) : read_record(points[i]);
+    if (read) continue;
+    failure_ = read.error();
+    if (i == 0) return *failure_;
+    return i;  // points in front of it come first
   }
   left_ -= count;
   return count;
 }
 
-void PlyPoints::read_record(Vec3& point) {
-  file_.touch(offset_);
+Result<void> PlyPoints::read_record(Vec3& point) {
   const bool swap = header_.encoding == PlyEncoding::kBinaryBigEndian;
+  const std::byte* const record = window_.at(offset_, record_bytes_);
+  if (record == nullptr) return window_.failure();
   double* const values[] = {&point.x, &point.y, &point.z};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    *values[axis] =
-        octree::load_real(header_.coordinate_type(axis), file_.bytes() + offset_ + at_[axis], swap);
+    *values[axis] = octree::load_real(header_.coordinate_type(axis), record + at_[axis], swap);
   offset_ += record_bytes_;
+  return {};
+}
+
+Error PlyPoints::refusal(const char* cause) const {
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                    "line %" PRIu64 ": %s; export the file again", lines_.place().line, cause);
 }
 
 Result<void> PlyPoints::read_line(Vec3& point) {
-  const octree::LineScanner before = lines_;
-  double* const values[] = {&point.x, &point.y, &point.z};
-  const auto refuse = [&](const char* cause) {
-    const std::uint64_t line = lines_.place().line;
-    lines_ = before;
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "line %" PRIu64 ": %s; export the file again", line, cause);
-  };
-  if (!lines_.next_filled()) return refuse("the file ends in front of its last vertex");
-  file_.touch(lines_.place().offset);
+  if (!lines_.next_filled())
+    return lines_.failure() ? *lines_.failure()
+                            : refusal("the file ends in front of its last vertex");
   std::string_view rest = lines_.line();
+  double* const values[] = {&point.x, &point.y, &point.z};
   const auto& properties = header_.vertices().properties;
   for (std::size_t i = 0; i < properties.size(); ++i) {
     double value = 0;
     if (!parse_number(properties[i], octree::take_word(rest), value))
-      return refuse("a vertex is not of the numbers that the header declares");
+      return refusal("a vertex is not of the numbers that the header declares");
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (header_.coordinates[axis] == i) *values[axis] = value;
     if (!properties[i].is_list) continue;
     for (double item = 0; item < value; ++item)
-      if (octree::take_word(rest).empty()) return refuse("a vertex's list is shorter than it says");
+      if (octree::take_word(rest).empty())
+        return refusal("a vertex's list is shorter than it says");
   }
   return {};
 }

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "octree/build/mesh_file.h"
-#include "octree/build/mesh_text.h"
+#include "octree/build/mesh_lines.h"
+#include "octree/build/mesh_window.h"
 #include "octree/build/ply_header.h"
 #include "tools/point_reader.h"
 
@@ -26,16 +28,19 @@ class PlyPoints final : public PointReader {
   PlyPoints(std::string name, octree::MeshFile file, octree::PlyHeader header);
   Result<void> find_vertices();
   Result<void> check_room() const;
-  void read_record(Vec3& point);
+  Result<void> read_record(Vec3& point);
   Result<void> read_line(Vec3& point);
+  Error refusal(const char* cause) const;
 
   octree::MeshFile file_;
   octree::PlyHeader header_;
-  octree::LineScanner lines_;             // ascii
+  octree::MeshLines lines_;               // ascii
+  octree::MeshWindow window_;             // binary
   std::uint64_t offset_ = 0;              // binary
   std::uint64_t record_bytes_ = 0;        // binary
   std::array<std::uint64_t, 3> at_ = {};  // of x, y and z in a binary record
   std::uint64_t left_ = 0;                // vertices not yet read
+  std::optional<Error> failure_;          // met behind points that came first
 };
 
 }  // namespace planetree::tools

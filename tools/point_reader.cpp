@@ -15,8 +15,8 @@
 namespace planetree::tools {
 namespace {
 
-// Most of a PLY file that counts as resident memory at one time.
-constexpr std::uint64_t kMappedBytes = std::uint64_t{32} << 20;
+// Enough to tell a PLY file.
+constexpr std::uint64_t kPlyBytes = 4;
 
 bool is_regular(const std::string& path) {
   struct stat status {};
@@ -43,9 +43,11 @@ Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
   const bool raw = has_extension(path, ".f64");
   // A pipe is read once, in order: CSV or raw numbers.
   if (!raw && is_regular(path)) {
-    auto mapped = octree::MeshFile::open(path, kMappedBytes);
-    if (!mapped) return mapped.error();
-    if (octree::is_ply(mapped->text())) return PlyPoints::create(path, *std::move(mapped));
+    auto file = octree::MeshFile::open(path);
+    if (!file) return file.error();
+    const auto front = file->front(kPlyBytes);
+    if (!front) return front.error();
+    if (octree::is_ply(*front)) return PlyPoints::create(path, *std::move(file));
   }
   auto file = InputFile::open(path);
   if (!file) return file.error();

@@ -10,6 +10,7 @@ BuildFiles::BuildFiles(const std::filesystem::path& output, const BuildOptions& 
       directory_(options.spill_directory(output)),
       work_directory_(options.work_directory(output)),
       calls_(calls),
+      mesh_(memory.reading_bytes, directory_, calls),
       scratch_(directory_, 0, calls),
       pages_(directory_, memory.pages_bytes, calls) {}
 
@@ -29,7 +30,8 @@ Result<void> BuildFiles::remove_work() {
 }
 
 std::uint64_t BuildFiles::disk_bytes() const {
-  return scratch_.disk_bytes() + pages_.disk_bytes() + (work_ ? work_->disk_bytes() : 0);
+  return mesh_.disk_bytes() + scratch_.disk_bytes() + pages_.disk_bytes() +
+         (work_ ? work_->disk_bytes() : 0);
 }
 
 Result<void> BuildFiles::look_for(const SpaceNeed& need) {
@@ -44,7 +46,7 @@ std::optional<std::pair<BuildPlace, std::filesystem::path>> BuildFiles::failed_a
   if (work_failed_ || (work_ && work_->failed()))
     return std::pair(BuildPlace::kTemporary, work_directory_);
   if (short_of_room_ == BuildPlace::kOutput) return std::pair(BuildPlace::kOutput, output_);
-  if (short_of_room_ || scratch_.failed() || pages_.failed())
+  if (short_of_room_ || mesh_.failed() || scratch_.failed() || pages_.failed())
     return std::pair(BuildPlace::kTemporary, directory_);
   return {};
 }

@@ -11,6 +11,7 @@
 #include "octree/build/build_options.h"
 #include "octree/build/build_progress.h"
 #include "octree/build/kept_work.h"
+#include "octree/build/mesh_scratch.h"
 #include "octree/build/space_need.h"
 #include "planetree/error.h"
 #include "storage/file_calls.h"
@@ -37,6 +38,8 @@ class BuildFiles {
   /// The output is there, whole: removes what was kept, if anything was.
   Result<void> remove_work();
 
+  /// For the mesh while it is read.
+  MeshScratch& mesh() { return mesh_; }
   /// For what only this process needs.
   storage::SpillFile& scratch() { return scratch_; }
   /// For what a later build could go on with: triangles in order, and pages.
@@ -60,6 +63,7 @@ class BuildFiles {
   std::unique_ptr<KeptWork> work_;
   bool work_failed_ = false;  // to be there, or to go
   std::optional<BuildPlace> short_of_room_;
+  MeshScratch mesh_;
   storage::SpillFile scratch_;
   storage::SpillFile pages_;
 };

@@ -31,7 +31,7 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   const std::uint64_t used = kFixedBytes + kThreadBytes * static_cast<unsigned>(memory.threads);
   const std::uint64_t left = bytes - used;
   memory.chunk_triangles = 1 << 19;
-  memory.mapped_bytes = 16 * kMiB + left / 8;
+  memory.reading_bytes = 16 * kMiB + left / 8;
   memory.intake_bytes = left / 4;
   memory.runs_bytes = left / 2;
   memory.pages_bytes = left / 8;

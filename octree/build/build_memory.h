@@ -15,7 +15,7 @@ struct BuildMemory {
 
   int threads = 1;                    ///< that it has room for
   std::uint32_t chunk_triangles = 0;  ///< sorted at a time, by each thread
-  std::uint64_t mapped_bytes = 0;     ///< of the input
+  std::uint64_t reading_bytes = 0;    ///< of the input: vertices and a window of the file
   std::uint64_t intake_bytes = 0;     ///< of triangles as they are read
   std::uint64_t runs_bytes = 0;       ///< of sorted triangles
   std::uint64_t pages_bytes = 0;      ///< of pages, until they are written

@@ -11,8 +11,8 @@ namespace planetree::octree {
 struct BuildOptions {
   std::uint32_t page_bytes = 65536;  ///< of a decoded page; a power of two, 4 KiB to 256 KiB
   unsigned threads = 0;              ///< 0: as many as the machine has
-  /// The most that the process should have resident, mapped pages included; 0: a quarter of
-  /// the machine's memory. What does not fit is spilled.
+  /// The most that the process should have resident; 0: a quarter of the machine's
+  /// memory. What does not fit is spilled.
   std::uint64_t memory_bytes = 0;
   std::filesystem::path temp_directory;  ///< for what is spilled; empty: the output's
   bool strict = false;                   ///< a set-aside record is an error

@@ -31,41 +31,72 @@ class MeshDelivery {
 
   /// Delivers the record's fan, or sets the record aside.
   ///
-  /// corner_at  (k) -> MeshCorner for k in [0, corner_count), the same each
-  ///            time: a record is judged whole before any of it is delivered.
+  /// corners  first(k, corner) for k from 0 on, until the record is judged: that is done
+  ///          before any of it is delivered; then again(k, corner) from 3 on. Each is true, or
+  ///          false where there is none to be had.
+  /// return   false: there was none, and nothing was delivered if first() said so. Else the
+  ///          sink's error, if it gave one.
+  template <class Corners>
+  Result<bool> polygon_of(std::uint64_t record, std::uint64_t corner_count, Corners& corners) {
+    if (corner_count < 3) {
+      ++record_count_;
+      set_aside(record, corner_count, RecordFault::kTooFewCorners,
+                static_cast<std::int64_t>(corner_count));
+      return true;
+    }
+    std::array<Vec3, 3> three;
+    MeshCorner corner;
+    for (std::uint64_t k = 0; k < corner_count; ++k) {
+      if (!corners.first(k, corner)) return false;
+      if (const std::optional<RecordFault> fault = fault_of(corner)) {
+        ++record_count_;
+        set_aside(record, corner_count, *fault, corner.value);
+        return true;
+      }
+      if (k < 3) three[k] = without_negative_zero(corner.position);
+    }
+    ++record_count_;
+    any_delivered_ = true;
+    Result<void> taken = sink_.triangle(next_index_++, three);
+    for (std::uint64_t k = 3; k < corner_count && taken; ++k) {
+      if (!corners.again(k, corner)) return false;
+      three[1] = three[2];
+      three[2] = without_negative_zero(corner.position);
+      taken = sink_.triangle(next_index_++, three);
+    }
+    if (!taken) return taken.error();
+    return true;
+  }
+
+  /// The same of corners that are all at hand.
+  ///
+  /// corner_at  (k) -> MeshCorner for k in [0, corner_count), the same each time.
   /// return     the sink's error, if it gave one.
   template <class CornerAt>
   Result<void> polygon(std::uint64_t record, std::uint64_t corner_count,
                        const CornerAt& corner_at) {
-    ++record_count_;
-    if (corner_count < 3) {
-      set_aside(record, corner_count, RecordFault::kTooFewCorners,
-                static_cast<std::int64_t>(corner_count));
-      return {};
-    }
-    std::array<Vec3, 3> corners;
-    for (std::uint64_t k = 0; k < corner_count; ++k) {
-      const MeshCorner corner = corner_at(k);
-      if (const std::optional<RecordFault> fault = fault_of(corner)) {
-        set_aside(record, corner_count, *fault, corner.value);
-        return {};
+    struct Corners {
+      bool first(std::uint64_t k, MeshCorner& corner) {
+        corner = corner_at(k);
+        return true;
       }
-      if (k < 3) corners[k] = without_negative_zero(corner.position);
-    }
-    Result<void> taken = sink_.triangle(next_index_++, corners);
-    for (std::uint64_t k = 3; k < corner_count && taken; ++k) {
-      corners[1] = corners[2];
-      corners[2] = without_negative_zero(corner_at(k).position);
-      taken = sink_.triangle(next_index_++, corners);
-    }
-    any_delivered_ = true;
-    return taken;
+      bool again(std::uint64_t k, MeshCorner& corner) { return first(k, corner); }
+      const CornerAt& corner_at;
+    } corners{corner_at};
+    const Result<bool> taken = polygon_of(record, corner_count, corners);
+    if (!taken) return taken.error();
+    return {};
   }
 
   /// Tells the sink how far the reading is, about every 4 MiB.
   void advance(std::uint64_t bytes_done) {
-    if (bytes_done >= next_report_bytes_) report(bytes_done);
+    if (bytes_done + bytes_before_ >= next_report_bytes_) report(bytes_done + bytes_before_);
   }
+  /// Says that more is to be done than was thought: so much, as bytes of the file are counted.
+  void expect_more(std::uint64_t bytes) { bytes_total_ += bytes; }
+  /// Says that what advance() is told from now on was told before, and so much of it.
+  void begin_again(std::uint64_t bytes) { bytes_before_ += bytes; }
+  [[nodiscard]] std::uint64_t bytes_total() const { return bytes_total_; }
 
   /// Call once all is read: the summary, or kBadInput if no triangle was found.
   Result<MeshSummary> finish(bool float32);
@@ -90,6 +121,7 @@ class MeshDelivery {
   TriangleSink& sink_;
   RecordKind kind_;
   std::uint64_t bytes_total_;
+  std::uint64_t bytes_before_ = 0;
   std::uint64_t next_report_bytes_ = kReportBytes;
   std::uint64_t vertex_count_ = 0;
   std::uint64_t record_count_ = 0;

@@ -10,6 +10,9 @@
 namespace planetree::octree {
 namespace {
 
+/// None of the formats is told by more.
+constexpr std::uint64_t kProbeBytes = 4096;
+
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
@@ -20,11 +23,13 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
-MeshFormat judge_format(std::string_view file, const std::filesystem::path& path) {
-  if (is_ply(file)) return MeshFormat::kPly;
-  if (has_binary_stl_size(file)) return MeshFormat::kStlBinary;
-  if (is_ascii_stl(file)) return MeshFormat::kStlAscii;
-  if (is_off(file)) return MeshFormat::kOff;
+Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path) {
+  const auto front = file.front(kProbeBytes);
+  if (!front) return front.error();
+  if (is_ply(*front)) return MeshFormat::kPly;
+  if (has_binary_stl_size(*front, file.size_bytes())) return MeshFormat::kStlBinary;
+  if (is_ascii_stl(*front)) return MeshFormat::kStlAscii;
+  if (is_off(*front)) return MeshFormat::kOff;
   const std::string extension = lower_extension(path);
   if (extension == ".obj") return MeshFormat::kObj;
   // One without a keyword, as old ones are.

@@ -2,13 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string_view>
+
+#include "octree/build/mesh_file.h"
+#include "planetree/error.h"
 
 namespace planetree::octree {
 
 enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
 
 /// What a mesh file is, by its content, and only then by the extension of its path.
-MeshFormat judge_format(std::string_view file, const std::filesystem::path& path);
+/// errors  those of MeshFile::read().
+Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path);
 
 }  // namespace planetree::octree

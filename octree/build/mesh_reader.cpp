@@ -15,19 +15,21 @@ namespace planetree::octree {
 
 namespace {
 
-Result<MeshSummary> read_mapped(MeshFile& file, const std::filesystem::path& path,
-                                TriangleSink& sink) {
-  switch (judge_format(file.text(), path)) {
+Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path& path,
+                              TriangleSink& sink, MeshScratch& scratch) {
+  const Result<MeshFormat> format = judge_format(file, path);
+  if (!format) return format.error();
+  switch (*format) {
     case MeshFormat::kPly:
-      return read_ply(file, sink);
+      return read_ply(file, sink, scratch);
     case MeshFormat::kStlBinary:
       return read_stl_binary(file, sink);
     case MeshFormat::kStlAscii:
       return read_stl_ascii(file, sink);
     case MeshFormat::kOff:
-      return read_off(file, sink);
+      return read_off(file, sink, scratch);
     case MeshFormat::kObj:
-      return read_obj(file, sink);
+      return read_obj(file, sink, scratch);
     case MeshFormat::kUnknown:
       break;
   }
@@ -73,17 +75,21 @@ std::string SetAside::text() const {
 }
 
 Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink,
-                              const MeshReadOptions& options) {
+                              MeshScratch& scratch) {
   try {
-    Result<MeshFile> file = MeshFile::open(path, options.max_mapped_bytes);
+    const Result<MeshFile> file = MeshFile::open(path, scratch.calls());
     if (!file) return file.error();
-    return read_mapped(*file, path, sink);
+    return read_open(*file, path, sink, scratch);
   } catch (const std::bad_alloc&) {
-    // Only the ascii readers hold vertices in memory.
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "no memory for the mesh's vertices; convert it to a binary PLY, which is "
-                      "read without holding them");
+                      "no memory to read the mesh; free some, or convert it to a binary PLY, "
+                      "whose faces need not be in memory");
   }
+}
+
+Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink) {
+  MeshScratch scratch;
+  return read_mesh(path, sink, scratch);
 }
 
 }  // namespace planetree::octree

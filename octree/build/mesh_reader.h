@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "octree/build/mesh_scratch.h"
 #include "planetree/error.h"
 #include "planetree/types.h"
 
@@ -62,17 +63,10 @@ class TriangleSink {
   /// and gives no triangle; count >= 1.
   virtual void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) = 0;
 
-  /// Called about every 4 MiB and at the end; never decreases. bytes_total is
-  /// the file's size, or twice that for a format that is read twice (OBJ).
+  /// Called about every 4 MiB and at the end; never decreases. bytes_total is the file's size,
+  /// or twice that for a format that is read twice (OBJ). Where faces turn out to jump about,
+  /// it grows by what is then to be done again.
   virtual void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) = 0;
-};
-
-struct MeshReadOptions {
-  /// About how much of the input may stay mapped into memory at once; 0 sets
-  /// no limit. Mapped pages count as resident memory of the process, although
-  /// the system can take them back. Under a limit below the vertices' size,
-  /// faces that jump about the file are read more slowly.
-  std::uint64_t max_mapped_bytes = 0;
 };
 
 struct MeshSummary {
@@ -87,17 +81,23 @@ struct MeshSummary {
 /// says (even if it begins with "solid"), an ascii STL by "solid", an OFF by its
 /// keyword; only then, for an OBJ and for an OFF without a keyword, by the extension.
 ///
-/// path    a regular file. It is mapped, so it must not shrink or change during
-///         the call: pages cut off under the map end the process with SIGBUS.
-///         Its size is taken once, when it is opened.
-/// memory  vertices and faces of binary formats stay in the file; ascii formats
-///         keep 12 or 24 bytes per vertex actually read.
-/// errors  kNotFound, kPermission, kReadFailed, kNoMemory, kBadInput (structural damage,
-///         an unsupported layout, or no usable triangle; offset is set where a
-///         byte is to blame), or the sink's own. By then the sink may have
-///         taken part of the mesh.
-/// threads one call per sink; calls on different sinks are independent.
+/// path     a regular file. Its size is taken once, when it is opened; one that becomes shorter
+///          during the call is an error, one that changes otherwise gives what it gives.
+/// scratch  memory and room for temporary files; must not be used otherwise during the call.
+///          What a mesh takes of both depends neither on the order of its faces nor, of memory,
+///          on its size: vertices stay in the file, or are put away where the file is a text,
+///          and are read again where faces name them. Faces that jump about take room on disk
+///          for their corners, while it is read (MeshJoin). Only a text's longest face is in
+///          memory whole.
+/// errors   kNotFound, kPermission, kReadFailed, kNoMemory, kBadInput (structural damage, an
+///          unsupported layout, a line of more than 32 MiB, or no usable triangle; offset is
+///          set where a byte is to blame), those of temporary files, or the sink's own. By then
+///          the sink may have taken part of the mesh.
+/// threads  one call per sink; calls on different sinks are independent.
 Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink,
-                              const MeshReadOptions& options = {});
+                              MeshScratch& scratch);
+
+/// The same with MeshScratch::kMemoryBytes and the system's directory for temporary files.
+Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink);
 
 }  // namespace planetree::octree

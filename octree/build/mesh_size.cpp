@@ -1,19 +1,22 @@
 #include "octree/build/mesh_size.h"
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/mesh_format.h"
+#include "octree/build/mesh_front.h"
 #include "octree/build/mesh_text.h"
 #include "octree/build/off_reader.h"
 #include "octree/build/ply_header.h"
 
 namespace planetree::octree {
 namespace {
-
-constexpr std::uint64_t kMappedBytes = std::uint64_t{4} << 20;
 
 // What the body of a PLY has beside the items of its lists, or of an ascii one at least;
 // nothing if no file could have it.
@@ -31,13 +34,16 @@ std::uint64_t least_body_bytes(const PlyHeader& header) {
   return sum;
 }
 
-MeshSize size_of_records(std::string_view file, const Result<PlyHeader>& header) {
-  if (!header) return {};
+Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& header) {
+  if (!header && header.error().code != ErrorCode::kBadInput) return header.error();
+  if (!header) return MeshSize{};
   const std::uint64_t faces = header->faces().count, vertices = header->vertices().count;
-  const std::uint64_t body = file.size() - header->body.offset, least = least_body_bytes(*header);
-  if (least > body) return {};
+  const std::uint64_t body = file.size_bytes() - header->body.offset,
+                      least = least_body_bytes(*header);
+  if (least > body) return MeshSize{};
   MeshSize size{faces, vertices, !header->float32()};
-  if (header->encoding == PlyEncoding::kAscii) {
+  size.is_indexed_text = header->encoding == PlyEncoding::kAscii;
+  if (size.is_indexed_text) {
     // A closed surface has twice as many triangles as vertices, whatever polygons they are in.
     size.triangles = std::max(faces, 2 * std::min(faces, vertices));
   } else {
@@ -51,14 +57,25 @@ MeshSize size_of_records(std::string_view file, const Result<PlyHeader>& header)
 /// Some windows of a file, evenly spaced.
 class Sample {
  public:
-  explicit Sample(std::string_view file) : file_(file) {}
+  /// Of what is behind the first bytes.
+  static Result<Sample> of(const MeshFile& file, std::uint64_t first_bytes = 0) {
+    Sample sample(file.size_bytes() - std::min(file.size_bytes(), first_bytes));
+    const std::uint64_t step = std::max<std::uint64_t>(sample.size_ / kWindows, kWindowBytes);
+    for (std::uint64_t at = 0; at < sample.size_; at += step) {
+      Window window{at, std::string(std::min(kWindowBytes, sample.size_ - at), '\0')};
+      const auto bytes = std::as_writable_bytes(std::span(window.text));
+      if (const auto read = file.read(first_bytes + at, bytes); !read) return read.error();
+      sample.windows_.push_back(std::move(window));
+    }
+    return sample;
+  }
 
-  /// Calls look(window, where it begins) for each.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  /// Calls look(window, where it begins) for each; the text lives as long as this.
   template <class Look>
   void each_window(const Look& look) const {
-    const std::uint64_t step = std::max<std::uint64_t>(file_.size() / kWindows, kWindowBytes);
-    for (std::uint64_t at = 0; at < file_.size(); at += step)
-      look(file_.substr(at, kWindowBytes), at);
+    for (const Window& window : windows_) look(std::string_view(window.text), window.at);
   }
 
   /// Of a text: what count_in(line) says of all lines together, and a little more.
@@ -72,7 +89,7 @@ class Sample {
       seen += window.size();
     });
     if (seen == 0) return 0;
-    const double share = static_cast<double>(file_.size()) / static_cast<double>(seen);
+    const double share = static_cast<double>(size_) / static_cast<double>(seen);
     return static_cast<std::uint64_t>(static_cast<double>(count) * share * kMargin);
   }
 
@@ -81,7 +98,15 @@ class Sample {
   static constexpr std::uint64_t kWindowBytes = 16384;
   static constexpr double kMargin = 1 + 1.0 / 32;
 
-  const std::string_view file_;
+  struct Window {
+    std::uint64_t at = 0;
+    std::string text;
+  };
+
+  explicit Sample(std::uint64_t size) : size_(size) {}
+
+  std::uint64_t size_;
+  std::vector<Window> windows_;
 };
 
 /// How many vertices an STL has, which does not say: judged by corners that are near in the
@@ -105,8 +130,7 @@ class StlCorners {
   std::unordered_set<std::string_view> distinct_;
 };
 
-MeshSize size_of_obj(std::string_view file) {
-  const Sample sample(file);
+MeshSize size_of_obj(const Sample& sample) {
   const std::uint64_t triangles = sample.total([](std::string_view line) -> std::uint64_t {
     if (take_word(line) != "f") return 0;
     std::uint64_t corners = 0;
@@ -115,15 +139,16 @@ MeshSize size_of_obj(std::string_view file) {
   });
   const std::uint64_t vertices = sample.total(
       [](std::string_view line) -> std::uint64_t { return take_word(line) == "v" ? 1 : 0; });
-  return {triangles, vertices, true};
+  return {triangles, vertices, true, true};
 }
 
-MeshSize size_of_binary_stl(std::string_view file) {
-  constexpr std::uint64_t kHeadBytes = 84, kFacetBytes = 50, kNormalBytes = 12, kCornerBytes = 12;
-  const std::string_view facets = file.substr(std::min<std::uint64_t>(file.size(), kHeadBytes));
+constexpr std::uint64_t kStlHeadBytes = 84;
+
+MeshSize size_of_binary_stl(const Sample& facets) {
+  constexpr std::uint64_t kFacetBytes = 50, kNormalBytes = 12, kCornerBytes = 12;
   const std::uint64_t triangles = facets.size() / kFacetBytes;
   StlCorners corners;
-  Sample(facets).each_window([&](std::string_view window, std::uint64_t at) {
+  facets.each_window([&](std::string_view window, std::uint64_t at) {
     for (std::uint64_t facet = (kFacetBytes - at % kFacetBytes) % kFacetBytes;
          facet + kFacetBytes <= window.size(); facet += kFacetBytes)
       for (std::uint64_t k = 0; k < 3; ++k)
@@ -132,34 +157,40 @@ MeshSize size_of_binary_stl(std::string_view file) {
   return {triangles, corners.vertices_of(triangles), false};
 }
 
-MeshSize size_of_ascii_stl(std::string_view file) {
+MeshSize size_of_ascii_stl(const Sample& sample) {
   StlCorners corners;
-  const std::uint64_t triangles =
-      Sample(file).total([&corners](std::string_view line) -> std::uint64_t {
-        const std::string_view word = take_word(line);
-        if (is_same_word(word, "vertex")) corners.add(line);
-        return is_same_word(word, "facet") ? 1 : 0;
-      });
+  const std::uint64_t triangles = sample.total([&corners](std::string_view line) -> std::uint64_t {
+    const std::string_view word = take_word(line);
+    if (is_same_word(word, "vertex")) corners.add(line);
+    return is_same_word(word, "facet") ? 1 : 0;
+  });
   return {triangles, corners.vertices_of(triangles), true};
+}
+
+template <class SizeOf>
+Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
+  if (!sample) return sample.error();
+  return size_of(*sample);
 }
 
 }  // namespace
 
-Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path) {
-  const Result<MeshFile> file = MeshFile::open(path, kMappedBytes);
+Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path, storage::FileCalls& calls) {
+  const Result<MeshFile> file = MeshFile::open(path, calls);
   if (!file) return file.error();
-  const std::string_view text = file->text();
-  switch (judge_format(text, path)) {
+  const Result<MeshFormat> format = judge_format(*file, path);
+  if (!format) return format.error();
+  switch (*format) {
     case MeshFormat::kPly:
-      return size_of_records(text, parse_ply_header(text));
+      return size_of_records(*file, parse_front(*file, parse_ply_header));
     case MeshFormat::kOff:
-      return size_of_records(text, parse_off_header(text));
+      return size_of_records(*file, parse_front(*file, parse_off_header));
     case MeshFormat::kStlBinary:
-      return size_of_binary_stl(text);
+      return size_by(size_of_binary_stl, Sample::of(*file, kStlHeadBytes));
     case MeshFormat::kStlAscii:
-      return size_of_ascii_stl(text);
+      return size_by(size_of_ascii_stl, Sample::of(*file));
     case MeshFormat::kObj:
-      return size_of_obj(text);
+      return size_by(size_of_obj, Sample::of(*file));
     case MeshFormat::kUnknown:
       break;
   }

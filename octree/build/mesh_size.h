@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "planetree/error.h"
+#include "storage/file_calls.h"
 
 namespace planetree::octree {
 
@@ -11,7 +12,8 @@ namespace planetree::octree {
 struct MeshSize {
   std::uint64_t triangles = 0;
   std::uint64_t vertices = 0;
-  bool float64 = false;  ///< unless the format declares coordinates that float32 holds
+  bool float64 = false;          ///< unless the format declares coordinates that float32 holds
+  bool is_indexed_text = false;  ///< its vertices are put away while it is read
 
   /// Looks at a header and the file's size, or at samples of a text that declares nothing.
   ///
@@ -19,8 +21,9 @@ struct MeshSize {
   ///         polygons of more than four corners, and a file that its reader will refuse. An STL
   ///         does not tell its vertices: half as many as triangles are assumed, what a closed
   ///         surface has, unless triangles have no corners in common.
-  /// errors  those of opening the file.
-  static Result<MeshSize> foresee(const std::filesystem::path& path);
+  /// errors  those of opening the file and reading it.
+  static Result<MeshSize> foresee(const std::filesystem::path& path,
+                                  storage::FileCalls& calls = storage::FileCalls::real());
 };
 
 }  // namespace planetree::octree

@@ -22,7 +22,8 @@ enum class LineEnd : std::uint8_t { kAny, kNewline, kCarriageReturn };
 /// One behind a '.' does not: "1.#IND" is what some print for a NaN.
 enum class LineComment : std::uint8_t { kNone, kHash };
 
-/// Where the text of a file begins: behind a byte order mark, if it has one.
+/// Where the text of a file begins, of which this is the front: behind a byte order mark, if it has
+/// one.
 TextPlace text_begin(std::string_view file) noexcept;
 
 /// Steps through the lines of a text.
@@ -55,6 +56,11 @@ class LineScanner {
   TextPlace place_;
   TextPlace after_;
 };
+
+/// Whether a character parts words.
+constexpr bool is_space(char c) noexcept {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
 
 /// Takes the first word off `rest`; empty when there is none.
 std::string_view take_word(std::string_view& rest) noexcept;

@@ -2,12 +2,16 @@
 
 #include <cinttypes>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "octree/build/mesh_delivery.h"
+#include "octree/build/mesh_join.h"
+#include "octree/build/mesh_lines.h"
 #include "octree/build/mesh_text.h"
+#include "octree/build/text_vertices.h"
 
 namespace planetree::octree {
 
@@ -17,7 +21,8 @@ namespace {
 /// a backslash. A comment is never joined: a Windows path may end it.
 class ObjStatements {
  public:
-  explicit ObjStatements(std::string_view text) : lines_(text, text_begin(text)) {}
+  ObjStatements(const MeshFile& file, TextPlace begin, std::size_t window_bytes)
+      : lines_(file, begin, LineComment::kNone, window_bytes) {}
 
   bool next() {
     if (!lines_.next()) return false;
@@ -33,11 +38,13 @@ class ObjStatements {
       joined_ += part;
     }
     text_ = joined_;
-    return true;
+    return !lines_.failure();
   }
 
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] TextPlace place() const { return place_; }
+  /// Why there is no next one, if not for the end.
+  [[nodiscard]] const std::optional<Error>& failure() const { return lines_.failure(); }
   [[nodiscard]] std::uint64_t end_offset() const { return lines_.after().offset; }
 
  private:
@@ -50,72 +57,112 @@ class ObjStatements {
     return true;
   }
 
-  LineScanner lines_;
+  MeshLines lines_;
   TextPlace place_;
   std::string_view text_;
   std::string joined_;
 };
 
+/// An f statement that has been read.
+class ObjFace {
+ public:
+  ObjFace(std::uint64_t line, const std::vector<std::int64_t>& numbers,
+          std::int64_t vertices_before)
+      : line_(line), numbers_(numbers), vertices_before_(vertices_before) {}
+
+  [[nodiscard]] std::uint64_t record() const { return line_; }
+  [[nodiscard]] std::uint64_t size() const { return numbers_.size(); }
+  bool value_at(std::uint64_t k, std::int64_t& value) const {
+    value = numbers_[static_cast<std::size_t>(k)];
+    return true;
+  }
+  [[nodiscard]] std::int64_t vertices_before() const { return vertices_before_; }
+  [[nodiscard]] static Error failure() { return {}; }
+
+ private:
+  const std::uint64_t line_;
+  const std::vector<std::int64_t>& numbers_;
+  const std::int64_t vertices_before_;
+};
+
 /// Reads in two passes, since an f may name a later v.
 class Obj {
  public:
-  Obj(MeshFile& file, TriangleSink& sink)
-      : file_(file), delivery_(sink, RecordKind::kLine, 2 * file.size_bytes()) {}
+  Obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch)
+      : file_(file),
+        scratch_(scratch),
+        delivery_(sink, RecordKind::kLine, 2 * file.size_bytes()),
+        vertices_(file, false, scratch) {}
 
   Result<MeshSummary> read() {
-    if (Result<void> read = read_vertices(); !read) return read.error();
-    if (Result<void> read = read_faces(); !read) return read.error();
+    const Result<TextPlace> begin = text_begin(file_);
+    if (!begin) return begin.error();
+    if (Result<void> read = read_vertices(*begin); !read) return read.error();
+    MeshJoin join(vertices_, 1, scratch_, true, delivery_);
+    const auto read = join.deliver(
+        {*begin, 0, 0}, file_.size_bytes(),
+        [this](const FacePlace& from, const auto& take) { return each_face(from, take); });
+    if (!read) return read.error();
     return delivery_.finish(false);
   }
 
  private:
-  Result<void> read_vertices() {
-    ObjStatements statements(file_.text());
+  [[nodiscard]] ObjStatements statements_from(TextPlace begin) const {
+    return {file_, begin, static_cast<std::size_t>(scratch_.window_bytes())};
+  }
+
+  Result<void> read_vertices(TextPlace begin) {
+    ObjStatements statements = statements_from(begin);
     while (statements.next()) {
-      file_.touch(statements.place().offset);
       std::string_view rest = statements.text();
       if (take_word(rest) == "v") {
         if (Result<void> taken = take_vertex(statements, rest); !taken) return taken;
       }
       delivery_.advance(statements.end_offset());
     }
-    delivery_.set_vertex_count(coordinates_.size() / 3);
-    return {};
+    if (statements.failure()) return *statements.failure();
+    delivery_.set_vertex_count(vertices_.count());
+    return vertices_.finish();
   }
 
-  Result<void> read_faces() {
-    ObjStatements statements(file_.text());
-    std::int64_t vertices_so_far = 0;
+  /// As MeshJoin::deliver() wants it.
+  template <class Take>
+  Result<FacePlace> each_face(const FacePlace& from, const Take& take) {
+    ObjStatements statements = statements_from(from.place);
+    std::int64_t vertices_before = from.vertices_before;
     while (statements.next()) {
-      file_.touch(statements.place().offset);
       std::string_view rest = statements.text();
       const std::string_view keyword = take_word(rest);
-      if (keyword == "v") ++vertices_so_far;
+      if (keyword == "v") ++vertices_before;
       if (keyword == "f") {
-        if (Result<void> taken = take_face(statements, rest, vertices_so_far); !taken) return taken;
+        if (Result<void> read = read_face(statements, rest); !read) return read.error();
+        const Result<bool> taken =
+            take(ObjFace(statements.place().line, numbers_, vertices_before));
+        if (!taken) return taken.error();
+        if (!*taken) return FacePlace{statements.place(), 0, vertices_before};
       }
       delivery_.advance(file_.size_bytes() + statements.end_offset());
     }
-    return {};
+    if (statements.failure()) return *statements.failure();
+    return FacePlace{{statements.end_offset(), 0}, 0, vertices_before};
   }
 
   /// Colours or a weight may follow the three coordinates; they are not read.
   Result<void> take_vertex(const ObjStatements& statements, std::string_view rest) {
-    for (int axis = 0; axis < 3; ++axis) {
+    Vec3 position;
+    for (double* const value : {&position.x, &position.y, &position.z}) {
       const std::string_view word = take_word(rest);
       if (word.empty()) return error(statements, "a vertex of fewer than three numbers");
-      double value = 0;
-      if (!parse_real(word, value)) {
+      if (!parse_real(word, *value)) {
         return error(statements, "'" + printable(word) + "' is not a number");
       }
-      coordinates_.push_back(value);
     }
-    return {};
+    return vertices_.add(position);
   }
 
-  Result<void> take_face(const ObjStatements& statements, std::string_view rest,
-                         std::int64_t vertices_so_far) {
-    corners_.clear();
+  /// Reads a face's statement into numbers_.
+  Result<void> read_face(const ObjStatements& statements, std::string_view rest) {
+    numbers_.clear();
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
       if (word.front() == '#') break;
       std::string_view behind = word;
@@ -123,20 +170,9 @@ class Obj {
       if (!take_integer(behind, number) || !(behind.empty() || behind.front() == '/')) {
         return error(statements, "'" + printable(word) + "' is not a corner of a face");
       }
-      corners_.push_back(number);
+      numbers_.push_back(number);
     }
-    return delivery_.polygon(
-        statements.place().line, corners_.size(),
-        [this, vertices_so_far](std::uint64_t k) { return corner(corners_[k], vertices_so_far); });
-  }
-
-  [[nodiscard]] MeshCorner corner(std::int64_t number, std::int64_t vertices_so_far) const {
-    // Number 0 is none: it becomes the index -1.
-    const std::int64_t index = number < 0 ? number + vertices_so_far : number - 1;
-    const auto vertex_count = static_cast<std::int64_t>(coordinates_.size() / 3);
-    if (index < 0 || index >= vertex_count) return {{}, number, false};
-    const auto at = 3 * static_cast<std::size_t>(index);
-    return {{coordinates_[at], coordinates_[at + 1], coordinates_[at + 2]}, number, true};
+    return {};
   }
 
   [[nodiscard]] static Error error(const ObjStatements& statements, const std::string& cause) {
@@ -145,14 +181,17 @@ class Obj {
                       cause.c_str());
   }
 
-  MeshFile& file_;
+  const MeshFile& file_;
+  MeshScratch& scratch_;
   MeshDelivery delivery_;
-  std::vector<double> coordinates_;    ///< x, y, z of each v
-  std::vector<std::int64_t> corners_;  ///< vertex numbers of the f being read, as written
+  TextVertices vertices_;
+  std::vector<std::int64_t> numbers_;  ///< of vertices of the f being read, as written
 };
 
 }  // namespace
 
-Result<MeshSummary> read_obj(MeshFile& file, TriangleSink& sink) { return Obj(file, sink).read(); }
+Result<MeshSummary> read_obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
+  return Obj(file, sink, scratch).read();
+}
 
 }  // namespace planetree::octree

@@ -2,13 +2,14 @@
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/mesh_reader.h"
+#include "octree/build/mesh_scratch.h"
 
 namespace planetree::octree {
 
 /// Reads the v and f statements of an OBJ and passes over all others. An f may
 /// name vertices by number from 1, by number back from the last v so far (-1),
 /// and ones that follow it; texture and normal numbers are not read.
-/// Contract as read_mesh; reads the file twice and keeps the vertices.
-Result<MeshSummary> read_obj(MeshFile& file, TriangleSink& sink);
+/// Contract as read_mesh; reads the file twice.
+Result<MeshSummary> read_obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
 }  // namespace planetree::octree

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "octree/build/mesh_front.h"
 #include "octree/build/mesh_text.h"
 #include "octree/build/ply_header.h"
 #include "octree/build/ply_reader.h"
@@ -163,9 +164,7 @@ class OffHeader {
 }  // namespace
 
 bool is_off(std::string_view file) noexcept {
-  constexpr std::size_t kProbeBytes = 4096;
-  const std::string_view probe = file.substr(0, kProbeBytes);
-  LineScanner lines(probe, text_begin(probe), LineEnd::kAny, LineComment::kHash);
+  LineScanner lines(file, text_begin(file), LineEnd::kAny, LineComment::kHash);
   if (!lines.next_filled()) return false;
   std::string_view rest = lines.line();
   std::string_view word = take_word(rest);
@@ -174,10 +173,10 @@ bool is_off(std::string_view file) noexcept {
 
 Result<PlyHeader> parse_off_header(std::string_view file) { return OffHeader(file).parse(); }
 
-Result<MeshSummary> read_off(MeshFile& file, TriangleSink& sink) {
-  const Result<PlyHeader> header = parse_off_header(file.text());
+Result<MeshSummary> read_off(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
+  const Result<PlyHeader> header = parse_front(file, parse_off_header);
   if (!header) return header.error();
-  return read_ply_body(file, *header, sink);
+  return read_ply_body(file, *header, sink, scratch);
 }
 
 }  // namespace planetree::octree

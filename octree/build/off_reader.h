@@ -4,14 +4,17 @@
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/mesh_reader.h"
+#include "octree/build/mesh_scratch.h"
 #include "octree/build/ply_header.h"
 
 namespace planetree::octree {
 
-/// Whether the file's first word, comments aside, is a keyword of an OFF.
+/// Whether the first word of a file, of which this is the front, comments aside, is a keyword of
+/// an OFF.
 bool is_off(std::string_view file) noexcept;
 
-/// What its header says, its records described as a PLY's are.
+/// What the header of a file says, of which this is the front, its records described as a PLY's
+/// are.
 /// errors  kBadInput.
 Result<PlyHeader> parse_off_header(std::string_view file);
 
@@ -20,6 +23,6 @@ Result<PlyHeader> parse_off_header(std::string_view file);
 /// colours and texture coordinates are not read, nor is the number of edges.
 /// Refuses vertices of other than three dimensions (4OFF, nOFF).
 /// Contract as read_mesh.
-Result<MeshSummary> read_off(MeshFile& file, TriangleSink& sink);
+Result<MeshSummary> read_off(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
 }  // namespace planetree::octree

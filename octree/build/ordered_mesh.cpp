@@ -9,13 +9,13 @@
 namespace planetree::octree {
 
 Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
-                                   const BuildMemory& memory, BuildProgress& progress,
+                                   MeshScratch& scratch, BuildProgress& progress,
                                    MeshIntake& intake) {
   const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
     static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
   intake.report_progress(report, &progress);
-  const Result<MeshSummary> summary = read_mesh(input, intake, {memory.mapped_bytes});
+  const Result<MeshSummary> summary = read_mesh(input, intake, scratch);
   if (!summary) return summary.error();
   auto frame = intake.finish();
   if (!frame) return frame.error();

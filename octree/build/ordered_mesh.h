@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "octree/build/build_memory.h"
 #include "octree/build/build_options.h"
 #include "octree/build/build_progress.h"
 #include "octree/build/mesh_intake.h"
+#include "octree/build/mesh_scratch.h"
 #include "octree/build/model_frame.h"
 #include "octree/build/triangle_runs.h"
 #include "planetree/error.h"
@@ -24,11 +24,12 @@ struct OrderedMesh {
 
 /// Reads the mesh at `input`, which is not ordered then.
 ///
+/// scratch  as read_mesh() has it.
 /// intake   takes its triangles.
 /// return   all but the runs.
 /// errors   those of read_mesh and MeshIntake; kBadInput for a bad record under options.strict.
 Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
-                                   const BuildMemory& memory, BuildProgress& progress,
+                                   MeshScratch& scratch, BuildProgress& progress,
                                    MeshIntake& intake);
 
 }  // namespace planetree::octree

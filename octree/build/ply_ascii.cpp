@@ -18,7 +18,7 @@ Error line_error(const TextPlace& place, const std::string& cause) {
 /// The line's words, taken as the header declares them.
 class Row {
  public:
-  explicit Row(const LineScanner& lines) : rest_(lines.line()), place_(lines.place()) {}
+  explicit Row(const MeshLines& lines) : rest_(lines.line()), place_(lines.place()) {}
 
   Result<std::string_view> word(const PlyProperty& property) {
     const std::string_view word = take_word(rest_);
@@ -97,71 +97,108 @@ class Row {
 
 }  // namespace
 
-PlyAscii::PlyAscii(MeshFile& file, const PlyHeader& header, MeshDelivery& delivery)
+/// A face whose line has been read.
+class PlyAscii::Face {
+ public:
+  Face(std::uint64_t record, const std::vector<std::int64_t>& indices)
+      : record_(record), indices_(indices) {}
+
+  [[nodiscard]] std::uint64_t record() const { return record_; }
+  [[nodiscard]] std::uint64_t size() const { return indices_.size(); }
+  bool value_at(std::uint64_t k, std::int64_t& value) const {
+    value = indices_[static_cast<std::size_t>(k)];
+    return true;
+  }
+  [[nodiscard]] static std::int64_t vertices_before() { return 0; }
+  [[nodiscard]] static Error failure() { return {}; }
+
+ private:
+  const std::uint64_t record_;
+  const std::vector<std::int64_t>& indices_;
+};
+
+PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+                   MeshScratch& scratch)
     : file_(file),
       header_(header),
       delivery_(delivery),
+      scratch_(scratch),
       axes_(header.vertices().properties.size(), -1),
-      float32_(header.float32()) {
+      vertices_(file, header.float32(), scratch) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     axes_[header.coordinates[axis]] = static_cast<int>(axis);
   }
 }
 
-LineScanner PlyAscii::lines_from(TextPlace begin) const noexcept {
-  return LineScanner(file_.text(), begin, LineEnd::kAny,
-                     header_.has_loose_lines ? LineComment::kHash : LineComment::kNone);
+MeshLines PlyAscii::lines_from(TextPlace begin) const {
+  return {file_, begin, header_.has_loose_lines ? LineComment::kHash : LineComment::kNone,
+          static_cast<std::size_t>(scratch_.window_bytes())};
 }
 
 template <class TakeLine>
-Result<TextPlace> PlyAscii::each_line(const PlyElement& element, TextPlace begin,
+Result<FacePlace> PlyAscii::each_line(const PlyElement& element, const FacePlace& from,
                                       const TakeLine& take_line) {
-  LineScanner lines = lines_from(begin);
+  MeshLines lines = lines_from(from.place);
   // A record without properties is an empty line, and those are passed over.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
-  for (std::uint64_t record = 0; record < count; ++record) {
+  for (std::uint64_t record = from.record; record < count; ++record) {
     if (!lines.next_filled()) {
+      if (lines.failure()) return *lines.failure();
       return line_error(lines.after(), "the file ends at record " + std::to_string(record) +
                                            " of " + std::to_string(count) + " '" +
                                            printable(element.name) + "'");
     }
-    file_.touch(lines.place().offset);
-    if (Result<void> taken = take_line(record, lines); !taken) return taken.error();
+    const Result<bool> taken = take_line(record, lines);
+    if (!taken) return taken.error();
+    if (!*taken) return FacePlace{lines.place(), record, 0};
     delivery_.advance(lines.after().offset);
   }
-  return lines.after();
+  return FacePlace{lines.after(), count, 0};
 }
 
 Result<TextPlace> PlyAscii::skip(const PlyElement& element, TextPlace begin) {
-  return each_line(element, begin,
-                   [](std::uint64_t, const LineScanner&) { return Result<void>(); });
+  const auto end = each_line(element, {begin, 0, 0},
+                             [](std::uint64_t, const MeshLines&) -> Result<bool> { return true; });
+  if (!end) return end.error();
+  return end->place;
 }
 
 Result<TextPlace> PlyAscii::vertices(TextPlace begin) {
-  Result<TextPlace> end =
-      each_line(header_.vertices(), begin,
-                [this](std::uint64_t, const LineScanner& lines) { return take_vertex(lines); });
-  delivery_.set_vertex_count(vertex_count_);
-  return end;
+  const auto end = each_line(header_.vertices(), {begin, 0, 0},
+                             [this](std::uint64_t, const MeshLines& lines) -> Result<bool> {
+                               if (const auto taken = take_vertex(lines); !taken)
+                                 return taken.error();
+                               return true;
+                             });
+  if (!end) return end.error();
+  if (const auto finished = vertices_.finish(); !finished) return finished.error();
+  delivery_.set_vertex_count(vertices_.count());
+  return end->place;
 }
 
 Result<TextPlace> PlyAscii::faces(TextPlace begin) {
-  return each_line(
-      header_.faces(), begin, [this](std::uint64_t face, const LineScanner& lines) -> Result<void> {
-        if (Result<void> taken = take_face(lines); !taken) return taken;
-        return delivery_.polygon(face, indices_.size(),
-                                 [this](std::uint64_t k) { return corner(indices_[k]); });
-      });
+  MeshJoin join(vertices_, 0, scratch_, true, delivery_);
+  const auto each_face = [this](const FacePlace& from, const auto& take) {
+    return each_line(header_.faces(), from,
+                     [&](std::uint64_t record, const MeshLines& lines) -> Result<bool> {
+                       if (const auto taken = take_face(lines); !taken) return taken.error();
+                       return take(Face(record, indices_));
+                     });
+  };
+  const auto end = join.deliver({begin, 0, 0}, file_.size_bytes(), each_face);
+  if (!end) return end.error();
+  return end->place;
 }
 
 Result<void> PlyAscii::expect_end(TextPlace end) {
-  LineScanner lines = lines_from(end);
-  if (!lines.next_filled()) return {};
+  MeshLines lines = lines_from(end);
+  if (!lines.next_filled())
+    return lines.failure() ? Result<void>(*lines.failure()) : Result<void>();
   return line_error(lines.place(),
                     "text follows the last record, so a count in the header is too small");
 }
 
-Result<void> PlyAscii::take_vertex(const LineScanner& lines) {
+Result<void> PlyAscii::take_vertex(const MeshLines& lines) {
   Row row(lines);
   std::array<double, 3> position = {};
   const std::vector<PlyProperty>& properties = header_.vertices().properties;
@@ -174,18 +211,12 @@ Result<void> PlyAscii::take_vertex(const LineScanner& lines) {
     if (!value) return value.error();
     position[static_cast<std::size_t>(axes_[i])] = *value;
   }
-  for (const double value : position) {
-    if (float32_) {
-      floats_.push_back(static_cast<float>(value));
-    } else {
-      doubles_.push_back(value);
-    }
-  }
-  ++vertex_count_;
+  if (const auto added = vertices_.add({position[0], position[1], position[2]}); !added)
+    return added;
   return header_.has_loose_lines ? row.expect_rest(words_behind_vertex_) : row.expect_end();
 }
 
-Result<void> PlyAscii::take_face(const LineScanner& lines) {
+Result<void> PlyAscii::take_face(const MeshLines& lines) {
   Row row(lines);
   indices_.clear();
   const std::vector<PlyProperty>& properties = header_.faces().properties;
@@ -203,17 +234,6 @@ Result<void> PlyAscii::take_face(const LineScanner& lines) {
     }
   }
   return header_.has_loose_lines ? Result<void>() : row.expect_end();
-}
-
-MeshCorner PlyAscii::corner(std::int64_t index) const noexcept {
-  const bool in_range = index >= 0 && static_cast<std::uint64_t>(index) < vertex_count_;
-  if (!in_range) return {{}, index, false};
-  const std::size_t at = 3 * static_cast<std::size_t>(index);
-  if (!float32_) return {{doubles_[at], doubles_[at + 1], doubles_[at + 2]}, index, true};
-  return {{static_cast<double>(floats_[at]), static_cast<double>(floats_[at + 1]),
-           static_cast<double>(floats_[at + 2])},
-          index,
-          true};
 }
 
 }  // namespace planetree::octree

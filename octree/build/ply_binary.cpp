@@ -16,14 +16,46 @@ bool needs_swap(PlyEncoding encoding) {
 
 }  // namespace
 
-PlyBinary::PlyBinary(MeshFile& file, const PlyHeader& header, MeshDelivery& delivery)
-    : file_(file), header_(header), delivery_(delivery), swap_(needs_swap(header.encoding)) {
-  vertex_bytes_ = header.vertices().min_record_bytes();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    coordinate_offsets_[axis] = header.vertices().offset_of(header.coordinates[axis]);
-    coordinate_types_[axis] = header.coordinate_type(axis);
+/// A face of which the list is in the file.
+class PlyBinary::Face {
+ public:
+  Face(std::uint64_t record, const ListSpan& list, PlyType type, bool swap, MeshWindow& window)
+      : record_(record),
+        list_(list),
+        type_(type),
+        index_bytes_(size_bytes(type)),
+        swap_(swap),
+        window_(window) {}
+
+  [[nodiscard]] std::uint64_t record() const { return record_; }
+  [[nodiscard]] std::uint64_t size() const { return list_.count; }
+  bool value_at(std::uint64_t k, std::int64_t& value) const {
+    const std::byte* const at = window_.at(list_.offset + k * index_bytes_, index_bytes_);
+    if (at == nullptr) return false;
+    value = load_integer(type_, at, swap_);
+    return true;
   }
-}
+  [[nodiscard]] static std::int64_t vertices_before() { return 0; }
+  [[nodiscard]] const Error& failure() const { return window_.failure(); }
+
+ private:
+  const std::uint64_t record_;
+  const ListSpan& list_;
+  const PlyType type_;
+  const std::uint64_t index_bytes_;
+  const bool swap_;
+  MeshWindow& window_;
+};
+
+PlyBinary::PlyBinary(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+                     MeshScratch& scratch)
+    : file_(file),
+      header_(header),
+      delivery_(delivery),
+      scratch_(scratch),
+      swap_(needs_swap(header.encoding)),
+      vertices_(file, header, swap_),
+      window_(file, static_cast<std::size_t>(scratch.window_bytes())) {}
 
 Result<void> PlyBinary::check_room(const PlyElement& element, std::uint64_t begin) const {
   const std::uint64_t record_bytes = element.min_record_bytes();
@@ -53,11 +85,8 @@ Result<TextPlace> PlyBinary::skip(const PlyElement& element, TextPlace begin) {
   }
   ListSpan list;
   for (std::uint64_t record = 0; record < element.count; ++record) {
-    const std::uint64_t record_begin = position;
-    file_.touch(position);
-    if (!walk_record(element, kNoProperty, position, list)) {
-      return bad_record(element, record, record_begin);
-    }
+    const auto walked = walk_record(element, record, kNoProperty, position, list);
+    if (!walked) return walked.error();
   }
   return TextPlace{position, 0};
 }
@@ -65,51 +94,65 @@ Result<TextPlace> PlyBinary::skip(const PlyElement& element, TextPlace begin) {
 Result<TextPlace> PlyBinary::vertices(TextPlace begin) {
   const PlyElement& element = header_.vertices();
   if (Result<void> room = check_room(element, begin.offset); !room) return room.error();
-  vertices_begin_ = begin.offset;
-  vertex_count_ = element.count;
-  delivery_.set_vertex_count(vertex_count_);
-  return TextPlace{begin.offset + vertex_count_ * vertex_bytes_, 0};
+  vertices_.set(begin.offset, element.count);
+  delivery_.set_vertex_count(element.count);
+  return TextPlace{begin.offset + element.count * vertices_.record_bytes(), 0};
 }
 
 Result<TextPlace> PlyBinary::faces(TextPlace begin) {
+  if (Result<void> room = check_room(header_.faces(), begin.offset); !room) return room.error();
+  MeshJoin join(vertices_, 0, scratch_, false, delivery_);
+  const auto end = join.deliver(
+      {begin, 0, 0}, file_.size_bytes(),
+      [this](const FacePlace& from, const auto& take) { return each_face(from, take); });
+  if (!end) return end.error();
+  return end->place;
+}
+
+template <class Take>
+Result<FacePlace> PlyBinary::each_face(const FacePlace& from, const Take& take) {
   const PlyElement& element = header_.faces();
-  if (Result<void> room = check_room(element, begin.offset); !room) return room.error();
   const PlyType index_type = element.properties[header_.index_list].type;
-  const std::uint64_t index_bytes = size_bytes(index_type);
-  std::uint64_t position = begin.offset;
+  std::uint64_t position = from.place.offset;
   ListSpan list;
-  for (std::uint64_t face = 0; face < element.count; ++face) {
+  for (std::uint64_t face = from.record; face < element.count; ++face) {
     const std::uint64_t face_begin = position;
-    file_.touch(position);
-    if (!walk_record(element, header_.index_list, position, list)) {
-      return bad_record(element, face, face_begin);
-    }
-    const auto corner_at = [&](std::uint64_t k) {
-      const std::uint64_t offset = list.offset + k * index_bytes;
-      file_.touch(offset);
-      return corner(load_integer(index_type, file_.bytes() + offset, swap_));
-    };
-    if (Result<void> taken = delivery_.polygon(face, list.count, corner_at); !taken) {
-      return taken.error();
-    }
+    const auto walked = walk_record(element, face, header_.index_list, position, list);
+    if (!walked) return walked.error();
+    const Result<bool> taken = take(Face(face, list, index_type, swap_, window_));
+    if (!taken) return taken.error();
+    if (!*taken) return FacePlace{{face_begin, 0}, face, 0};
     delivery_.advance(position);
   }
-  return TextPlace{position, 0};
+  return FacePlace{{position, 0}, element.count, 0};
 }
 
 Result<void> PlyBinary::expect_end(TextPlace end) {
   // A writer's last newline is no record.
-  std::string_view rest = file_.text().substr(static_cast<std::size_t>(end.offset));
-  if (take_word(rest).empty()) return {};
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, end.offset,
-                    "byte %" PRIu64 ": %" PRIu64
-                    " bytes follow the last record: a count in the header is too small; export it "
-                    "again",
-                    end.offset, file_.size_bytes() - end.offset);
+  for (std::uint64_t at = end.offset; at < file_.size_bytes(); ++at) {
+    const std::byte* const byte = window_.at(at, 1);
+    if (byte == nullptr) return window_.failure();
+    if (is_space(static_cast<char>(*byte))) continue;
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, end.offset,
+                      "byte %" PRIu64 ": %" PRIu64
+                      " bytes follow the last record: a count in the header is too small; export "
+                      "it again",
+                      end.offset, file_.size_bytes() - end.offset);
+  }
+  return {};
 }
 
-bool PlyBinary::walk_record(const PlyElement& element, std::size_t list_property,
-                            std::uint64_t& position, ListSpan& list) const noexcept {
+Result<void> PlyBinary::walk_record(const PlyElement& element, std::uint64_t record,
+                                    std::size_t list_property, std::uint64_t& position,
+                                    ListSpan& list) {
+  const std::uint64_t begin = position;
+  unread_ = window_.record_at(begin) == nullptr;
+  if (!unread_ && walk_properties(element, list_property, position, list)) return {};
+  return unread_ ? window_.failure() : bad_record(element, record, begin);
+}
+
+bool PlyBinary::walk_properties(const PlyElement& element, std::size_t list_property,
+                                std::uint64_t& position, ListSpan& list) {
   const std::uint64_t size = file_.size_bytes();
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
@@ -119,7 +162,10 @@ bool PlyBinary::walk_record(const PlyElement& element, std::size_t list_property
     const std::uint64_t begin = position;
     position += fixed_bytes;
     if (!property.is_list) continue;
-    const std::int64_t count = load_integer(property.count_type, file_.bytes() + begin, swap_);
+    const std::byte* const at = window_.at(begin, fixed_bytes);
+    unread_ = at == nullptr;
+    if (unread_) return false;
+    const std::int64_t count = load_integer(property.count_type, at, swap_);
     // Counts have at most 32 bits, so the product below cannot overflow.
     if (count < 0) return false;
     const std::uint64_t list_bytes = static_cast<std::uint64_t>(count) * size_bytes(property.type);
@@ -128,21 +174,6 @@ bool PlyBinary::walk_record(const PlyElement& element, std::size_t list_property
     position += list_bytes;
   }
   return true;
-}
-
-MeshCorner PlyBinary::corner(std::int64_t index) const noexcept {
-  const bool in_range = index >= 0 && static_cast<std::uint64_t>(index) < vertex_count_;
-  if (!in_range) return {{}, index, false};
-  return {vertex(static_cast<std::uint64_t>(index)), index, true};
-}
-
-Vec3 PlyBinary::vertex(std::uint64_t index) const noexcept {
-  const std::uint64_t offset = vertices_begin_ + index * vertex_bytes_;
-  file_.touch(offset);
-  const std::byte* const record = file_.bytes() + offset;
-  return {load_real(coordinate_types_[0], record + coordinate_offsets_[0], swap_),
-          load_real(coordinate_types_[1], record + coordinate_offsets_[1], swap_),
-          load_real(coordinate_types_[2], record + coordinate_offsets_[2], swap_)};
 }
 
 }  // namespace planetree::octree

@@ -58,11 +58,11 @@ struct PlyHeader {
   [[nodiscard]] bool float32() const;
 };
 
-/// Whether the file's first word is PLY's.
+/// Whether the first word of a file, of which this is the front, is PLY's.
 bool is_ply(std::string_view file) noexcept;
 
-/// Reads the header of a file that is_ply(). Trusts no count: they are checked
-/// against the body by whoever reads it. kBadInput names the line.
+/// Reads the header of a file that is_ply(), of which this is the front. Trusts no
+/// count: they are checked against the body by whoever reads it. kBadInput names the line.
 Result<PlyHeader> parse_ply_header(std::string_view file);
 
 }  // namespace planetree::octree

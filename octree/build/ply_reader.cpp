@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "octree/build/mesh_delivery.h"
+#include "octree/build/mesh_front.h"
 #include "octree/build/ply_ascii.h"
 #include "octree/build/ply_binary.h"
 
@@ -35,19 +36,20 @@ Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
 
 }  // namespace
 
-Result<MeshSummary> read_ply(MeshFile& file, TriangleSink& sink) {
-  const Result<PlyHeader> header = parse_ply_header(file.text());
+Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
+  const Result<PlyHeader> header = parse_front(file, parse_ply_header);
   if (!header) return header.error();
-  return read_ply_body(file, *header, sink);
+  return read_ply_body(file, *header, sink, scratch);
 }
 
-Result<MeshSummary> read_ply_body(MeshFile& file, const PlyHeader& header, TriangleSink& sink) {
+Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header, TriangleSink& sink,
+                                  MeshScratch& scratch) {
   MeshDelivery delivery(sink, RecordKind::kFace, file.size_bytes());
   std::unique_ptr<PlyBody> body;
   if (header.encoding == PlyEncoding::kAscii) {
-    body = std::make_unique<PlyAscii>(file, header, delivery);
+    body = std::make_unique<PlyAscii>(file, header, delivery, scratch);
   } else {
-    body = std::make_unique<PlyBinary>(file, header, delivery);
+    body = std::make_unique<PlyBinary>(file, header, delivery, scratch);
   }
   if (Result<void> read = read_elements(header, *body); !read) return read.error();
   return delivery.finish(header.float32());

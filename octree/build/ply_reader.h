@@ -2,16 +2,18 @@
 
 #include "octree/build/mesh_file.h"
 #include "octree/build/mesh_reader.h"
+#include "octree/build/mesh_scratch.h"
 #include "octree/build/ply_header.h"
 
 namespace planetree::octree {
 
 /// Reads a PLY file (is_ply()): ascii or binary, elements in any order.
 /// Contract as read_mesh.
-Result<MeshSummary> read_ply(MeshFile& file, TriangleSink& sink);
+Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
 /// Reads the records that `header` says the file has, whatever its format.
 /// Contract as read_mesh.
-Result<MeshSummary> read_ply_body(MeshFile& file, const PlyHeader& header, TriangleSink& sink);
+Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header, TriangleSink& sink,
+                                  MeshScratch& scratch);
 
 }  // namespace planetree::octree

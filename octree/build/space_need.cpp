@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "octree/build/corner_sort.h"
 #include "octree/build/edge_balance.h"
+#include "octree/build/mesh_scratch.h"
 #include "octree/build/triangles.h"
 #include "storage/device_space.h"
 #include "storage/file_layout.h"
@@ -51,8 +53,12 @@ std::uint64_t visitor_bytes(const MeshSize& size, const BuildMemory& memory) {
   return bytes <= memory.visitor_bytes ? 0 : bytes;
 }
 
+std::uint64_t position_bytes(const MeshSize& size) {
+  return 3 * (size.float64 ? sizeof(double) : sizeof(float));
+}
+
 std::uint64_t raw_page_bytes(const MeshSize& size) {
-  const std::uint64_t vertex_bytes = 3 * (size.float64 ? sizeof(double) : sizeof(float));
+  const std::uint64_t vertex_bytes = position_bytes(size);
   // A vertex is in every page that has a triangle of it.
   const std::uint64_t vertices = std::min(size.vertices + size.triangles / 4, 3 * size.triangles);
   const bool wide_ids = size.triangles > std::numeric_limits<std::uint32_t>::max();
@@ -93,6 +99,18 @@ SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memo
 SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory, bool cut) {
   SpaceNeed need = after_reading(size, memory, 0, false, cut);
   need.temporary_bytes += put_away_bytes(size, memory, memory.intake_bytes);
+  if (size.is_indexed_text)
+    need.temporary_bytes +=
+        beyond(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
+  return need;
+}
+
+SpaceNeed SpaceNeed::before_sorting(const MeshSize& size, const BuildMemory& memory,
+                                    std::uint64_t written_bytes, bool cut) {
+  SpaceNeed need = before_reading(size, memory, cut);
+  need.temporary_bytes =
+      beyond(need.temporary_bytes + CornerSort::disk_bytes(3 * size.triangles, !size.float64),
+             written_bytes);
   return need;
 }
 

@@ -21,10 +21,17 @@ struct SpaceNeed {
   std::uint64_t temporary_bytes = 0;  ///< put away on disk, together
   std::uint64_t output_bytes = 0;     ///< of the file
 
+  /// Of a mesh whose faces are in some order, as nearly all are.
+  ///
   /// cut  only what touches a region is built: what that takes is not foreseen until it is cut
   ///      out.
   static SpaceNeed before_reading(const MeshSize& size, const BuildMemory& memory,
                                   bool cut = false);
+  /// The same of one whose corners have to be sorted, which is known once it is met.
+  ///
+  /// written_bytes  of temporary files are there.
+  static SpaceNeed before_sorting(const MeshSize& size, const BuildMemory& memory,
+                                  std::uint64_t written_bytes, bool cut = false);
   /// What is still to come once the triangles are known and put away.
   ///
   /// kept_bytes  of it are there, from an earlier build,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "octree/build/mesh_delivery.h"
+#include "octree/build/mesh_lines.h"
 #include "octree/build/mesh_text.h"
 #include "octree/build/stl_reader.h"
 
@@ -17,15 +18,15 @@ namespace {
 /// in kFile was cut off.
 class StlAscii {
  public:
-  StlAscii(MeshFile& file, TriangleSink& sink)
-      : file_(file), lines_(file.text()), delivery_(sink, RecordKind::kFacet, file.size_bytes()) {}
+  StlAscii(const MeshFile& file, TriangleSink& sink)
+      : lines_(file, {}), delivery_(sink, RecordKind::kFacet, file.size_bytes()) {}
 
   Result<MeshSummary> read() {
     while (lines_.next_filled()) {
-      file_.touch(lines_.place().offset);
       if (Result<void> taken = take_line(); !taken) return taken.error();
       delivery_.advance(lines_.after().offset);
     }
+    if (lines_.failure()) return *lines_.failure();
     if (depth_ != Depth::kFile) {
       return error_at(lines_.after(), "the file ends in front of 'endsolid': it is truncated");
     }
@@ -107,8 +108,7 @@ class StlAscii {
                       cause.c_str());
   }
 
-  MeshFile& file_;
-  LineScanner lines_;
+  MeshLines lines_;
   MeshDelivery delivery_;
   Depth depth_ = Depth::kFile;
   bool has_loop_ = false;
@@ -119,7 +119,7 @@ class StlAscii {
 
 }  // namespace
 
-Result<MeshSummary> read_stl_ascii(MeshFile& file, TriangleSink& sink) {
+Result<MeshSummary> read_stl_ascii(const MeshFile& file, TriangleSink& sink) {
   return StlAscii(file, sink).read();
 }
 

@@ -6,6 +6,7 @@
 
 #include "octree/build/mesh_delivery.h"
 #include "octree/build/mesh_text.h"
+#include "octree/build/mesh_window.h"
 #include "octree/build/ply_scalar.h"
 
 namespace planetree::octree {
@@ -19,8 +20,10 @@ constexpr std::uint64_t kNormalBytes = 12;
 constexpr std::uint64_t kCornerBytes = 12;
 constexpr bool kSwap = std::endian::native != std::endian::little;
 
-std::uint64_t facet_count(const std::byte* file) {
-  return load<std::uint32_t>(file + kCountOffset, kSwap);
+/// `front` has at least kFacetsOffset bytes.
+std::uint64_t facet_count(std::string_view front) {
+  return load<std::uint32_t>(reinterpret_cast<const std::byte*>(front.data()) + kCountOffset,
+                             kSwap);
 }
 
 Vec3 corner_position(const std::byte* at) {
@@ -29,7 +32,8 @@ Vec3 corner_position(const std::byte* at) {
           static_cast<double>(load<float>(at + 8, kSwap))};
 }
 
-Result<void> check_size(const MeshFile& file) {
+/// The number of facets, of a file that has so many.
+Result<std::uint64_t> checked_count(const MeshFile& file) {
   if (file.size_bytes() < kFacetsOffset) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, file.size_bytes(),
                       "byte %" PRIu64
@@ -37,9 +41,11 @@ Result<void> check_size(const MeshFile& file) {
                       "or export it again",
                       file.size_bytes());
   }
-  const std::uint64_t count = facet_count(file.bytes());
+  const Result<std::string> front = file.front(kFacetsOffset);
+  if (!front) return front.error();
+  const std::uint64_t count = facet_count(*front);
   const std::uint64_t room = (file.size_bytes() - kFacetsOffset) / kFacetBytes;
-  if (count == room) return {};
+  if (count == room) return count;
   return make_error(ErrorCode::kBadInput, Error::kNowhere, kCountOffset,
                     "byte 80: the count says %" PRIu64 " facets, the file has room for %" PRIu64
                     ": %s; copy or export it again",
@@ -48,10 +54,9 @@ Result<void> check_size(const MeshFile& file) {
 
 }  // namespace
 
-bool has_binary_stl_size(std::string_view file) noexcept {
-  if (file.size() < kFacetsOffset) return false;
-  const std::uint64_t count = facet_count(reinterpret_cast<const std::byte*>(file.data()));
-  return file.size() == kFacetsOffset + count * kFacetBytes;
+bool has_binary_stl_size(std::string_view front, std::uint64_t size_bytes) noexcept {
+  if (front.size() < kFacetsOffset) return false;
+  return size_bytes == kFacetsOffset + facet_count(front) * kFacetBytes;
 }
 
 bool is_ascii_stl(std::string_view file) noexcept {
@@ -61,18 +66,19 @@ bool is_ascii_stl(std::string_view file) noexcept {
   return is_same_word(take_word(rest), "solid") && probe.find('\0') == std::string_view::npos;
 }
 
-Result<MeshSummary> read_stl_binary(MeshFile& file, TriangleSink& sink) {
-  if (Result<void> size = check_size(file); !size) return size.error();
-  const std::uint64_t count = facet_count(file.bytes());
+Result<MeshSummary> read_stl_binary(const MeshFile& file, TriangleSink& sink) {
+  const Result<std::uint64_t> count = checked_count(file);
+  if (!count) return count.error();
   MeshDelivery delivery(sink, RecordKind::kFacet, file.size_bytes());
-  delivery.set_vertex_count(3 * count);
-  for (std::uint64_t facet = 0; facet < count; ++facet) {
+  delivery.set_vertex_count(3 * *count);
+  MeshWindow window(file);
+  for (std::uint64_t facet = 0; facet < *count; ++facet) {
     const std::uint64_t offset = kFacetsOffset + facet * kFacetBytes;
-    file.touch(offset);
-    const std::byte* const corners = file.bytes() + offset + kNormalBytes;
-    const auto corner_at = [corners](std::uint64_t k) {
-      return MeshCorner{corner_position(corners + k * kCornerBytes), static_cast<std::int64_t>(k),
-                        true};
+    const std::byte* const record = window.at(offset, kFacetBytes);
+    if (record == nullptr) return window.failure();
+    const auto corner_at = [record](std::uint64_t k) {
+      return MeshCorner{corner_position(record + kNormalBytes + k * kCornerBytes),
+                        static_cast<std::int64_t>(k), true};
     };
     if (Result<void> taken = delivery.polygon(facet, 3, corner_at); !taken) return taken.error();
     delivery.advance(offset + kFacetBytes);

@@ -108,7 +108,7 @@ Result<void> TreeBuild::take_up_work() {
 
 // Whether there is room, before a day of work rather than after.
 Result<void> TreeBuild::foresee_space() {
-  const auto size = MeshSize::foresee(input_);
+  const auto size = MeshSize::foresee(input_, seams_.calls);
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
@@ -134,7 +134,11 @@ Result<void> TreeBuild::take_up_mesh() {
 
 Result<void> TreeBuild::read() {
   MeshIntake intake(memory_.chunk_triangles, memory_.intake_bytes, files_.scratch());
-  auto mesh = read_unordered(input_, options_, memory_, progress_, intake);
+  files_.mesh().before_sorting([this] {
+    return files_.look_for(SpaceNeed::before_sorting(size_, memory_, files_.scratch().disk_bytes(),
+                                                     options_.box.has_value()));
+  });
+  auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, intake);
   if (!mesh) return mesh.error();
   if (const auto set = set_mesh(*mesh); !set) return set;
   whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());

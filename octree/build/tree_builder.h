@@ -30,13 +30,16 @@ struct BuildReport {
 ///         options was interrupted or failed; the bytes written are the same. The directory is
 ///         removed once the output is there, whole; if that fails, the output stays.
 /// disk    about 120 bytes a triangle in temp_directory where memory is short; 200 with float64
-///         coordinates, and 250 more of triangles that share no edges. Given back however the
+///         coordinates, and 250 more of triangles that share no edges. While a mesh is read whose
+///         faces are in no order, and whose vertices do not fit in memory, 90 more or 120; and
+///         vertices of a text, 12 or 24 bytes each. Given back however the
 ///         process ends, but for what of it a build that can be resumed keeps, memory or not:
 ///         about 80 bytes a triangle, or 130.
 /// errors  those of read_mesh, storage::SpillFile, storage::PageWriter and KeptWork; kBadArgument
 ///         for page_bytes, a box that is none or one that no triangle touches; kNoMemory for too
 ///         little memory_bytes; kBadInput for a bad record under `strict`; kNoSpace where SpaceNeed
-///         foresees too little, before anything is written or once the triangles are read.
+///         foresees too little, before anything is written, where corners turn out to have to be
+///         sorted, or once the triangles are read.
 /// source  bottom-up construction from candidate planes: "Out-of-core real-time
 ///         haptic interaction on very large models", section 3.1; blocks,
 ///         collapse and paging are ours.

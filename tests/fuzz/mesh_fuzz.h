@@ -15,6 +15,19 @@
 /// What the mesh readers' fuzzers share.
 namespace planetree::octree {
 
+/// Takes numbers into one, in whatever order they come.
+class Digest {
+ public:
+  void add(const void* bytes, std::size_t size) {
+    const auto* const at = static_cast<const unsigned char*>(bytes);
+    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ at[i]) * 0x100000001b3;
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
 /// Stops the program where a reader breaks a promise of TriangleSink.
 class CheckingSink : public TriangleSink {
  public:
@@ -22,6 +35,7 @@ class CheckingSink : public TriangleSink {
     expect(index == next_index_);
     ++next_index_;
     ++triangle_count_;
+    digest_.add(corners.data(), sizeof corners);
     for (const Vec3& corner : corners) {
       for (const double value : {corner.x, corner.y, corner.z}) {
         expect(std::isfinite(value) && !(value == 0 && std::signbit(value)));
@@ -34,11 +48,15 @@ class CheckingSink : public TriangleSink {
   void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) override {
     expect(first_index == next_index_ && count >= 1);
     next_index_ += count;
-    expect(!why.text().empty());
+    const std::string text = why.text();
+    expect(!text.empty());
+    digest_.add(text.data(), text.size());
   }
 
   void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
     expect(bytes_done >= bytes_done_ && bytes_done <= bytes_total);
+    expect(bytes_total >= bytes_total_);
+    bytes_total_ = bytes_total;
     bytes_done_ = bytes_done;
   }
 
@@ -51,16 +69,36 @@ class CheckingSink : public TriangleSink {
     expect(float32_ || !summary->float32);
   }
 
- private:
+  /// Of all that was taken.
+  [[nodiscard]] std::uint64_t digest() const { return digest_.value(); }
+
   static void expect(bool truth) {
     if (!truth) std::abort();
   }
 
+ private:
   std::uint64_t next_index_ = 0;
   std::uint64_t triangle_count_ = 0;
-  std::uint64_t bytes_done_ = 0;
+  std::uint64_t bytes_done_ = 0, bytes_total_ = 0;
+  Digest digest_;
   bool float32_ = true;  ///< all corners so far are floats
 };
+
+/// Reads with memory for all, and with hardly any: what comes of it must be the same.
+///
+/// read  (sink, scratch) -> Result<MeshSummary>.
+template <class Read>
+void read_twice(const Read& read) {
+  constexpr std::uint64_t kMuch = std::uint64_t{1} << 20, kLittle = 256;
+  CheckingSink one, other;
+  MeshScratch much(kMuch, "/dev/shm"), little(kLittle, "/dev/shm");
+  const Result<MeshSummary> expected = read(one, much), found = read(other, little);
+  one.check(expected);
+  other.check(found);
+  CheckingSink::expect(static_cast<bool>(expected) == static_cast<bool>(found));
+  // What was delivered in front of structural damage depends on when it was met.
+  if (expected) CheckingSink::expect(one.digest() == other.digest());
+}
 
 /// The fuzzer's bytes as a file in memory.
 class MemoryFile {

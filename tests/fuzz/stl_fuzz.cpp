@@ -8,7 +8,7 @@ using namespace planetree::octree;
 
 template <class Read>
 void read_as(const MemoryFile& memory, const Read& read) {
-  planetree::Result<MeshFile> file = MeshFile::open(memory.path(), 0);
+  const planetree::Result<MeshFile> file = MeshFile::open(memory.path());
   if (!file) std::abort();
   CheckingSink sink;
   sink.check(read(*file, sink));

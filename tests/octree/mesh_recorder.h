@@ -83,9 +83,9 @@ struct Reading {
   std::uint64_t offset = Error::kNowhere;
 };
 
-inline Reading read_path(const std::filesystem::path& path, const MeshReadOptions& options = {}) {
+inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch) {
   Recorder recorder;
-  const Result<MeshSummary> summary = read_mesh(path, recorder, options);
+  const Result<MeshSummary> summary = read_mesh(path, recorder, scratch);
   Reading reading;
   reading.log = recorder.log;
   if (summary) {
@@ -98,10 +98,16 @@ inline Reading read_path(const std::filesystem::path& path, const MeshReadOption
   return reading;
 }
 
+inline Reading read_path(const std::filesystem::path& path,
+                         std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
+  MeshScratch scratch(memory_bytes);
+  return read_path(path, scratch);
+}
+
 inline Reading read_bytes(std::string_view bytes, const std::string& extension = "",
-                          const MeshReadOptions& options = {}) {
+                          std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
   const TemporaryFile file(bytes, extension);
-  return read_path(file.path(), options);
+  return read_path(file.path(), memory_bytes);
 }
 
 /// Numbers in a stated byte order, one after the other.

@@ -12,8 +12,8 @@ namespace planetree::octree {
 namespace {
 
 constexpr char kNoRoom[] = "the temporary folder's file system has no sparse files of such a size";
-// Of mapped memory: none, and one far below the vertices.
-constexpr std::uint64_t kMapLimits[] = {0, std::uint64_t{1} << 20};
+// All of it far below the vertices.
+constexpr std::uint64_t kMemoryBytes[] = {MeshScratch::kMemoryBytes, std::uint64_t{1} << 20};
 
 /// A file of holes with bytes at chosen places.
 class SparseFile {
@@ -59,8 +59,8 @@ TEST(SparseMesh, ReachesPlyIndicesPast31BitsAndOffsetsPast32) {
   file.write(faces_begin, faces.str());
   if (!file.ok()) GTEST_SKIP() << kNoRoom;
 
-  for (const std::uint64_t limit : kMapLimits) {
-    const Reading reading = read_path(file.path(), MeshReadOptions{limit});
+  for (const std::uint64_t memory_bytes : kMemoryBytes) {
+    const Reading reading = read_path(file.path(), memory_bytes);
     EXPECT_EQ(reading.error, "");
     EXPECT_EQ(reading.log,
               "0: 1 10 100, 2 20 200, 3 30 300\n"
@@ -116,8 +116,8 @@ TEST(SparseMesh, ReachesTheLastVerticesOfABinaryOff) {
   file.write(faces_begin, faces.str());
   if (!file.ok()) GTEST_SKIP() << kNoRoom;
 
-  for (const std::uint64_t limit : kMapLimits) {
-    const Reading reading = read_path(file.path(), MeshReadOptions{limit});
+  for (const std::uint64_t memory_bytes : kMemoryBytes) {
+    const Reading reading = read_path(file.path(), memory_bytes);
     EXPECT_EQ(reading.error, "");
     EXPECT_EQ(reading.log,
               "0: 1 10 100, 2 20 200, 3 30 300\n"

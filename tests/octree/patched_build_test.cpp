@@ -63,10 +63,10 @@ class PatchedBuild : public SmallPatches {
 TEST_F(PatchedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
   for (const BuildCase& c : build_cases()) {
     SCOPED_TRACE(c.name);
-    write(c.soup);
+    write_shuffled(c.soup);
     ASSERT_TRUE(build(kRoomy));
     const storage::Bytes expected = built();
-    for (const BuildMemory& memory : {kTight, kBetween}) {
+    for (const BuildMemory& memory : {kTight, kBetween, kShuffling}) {
       const auto report = build(memory);
       ASSERT_TRUE(report) << report.error().text;
       EXPECT_EQ(built(), expected);
@@ -140,15 +140,20 @@ class PatchedBuildFaults : public PatchedBuild,
   // The words are for people; where something is wrong must go with them.
   static std::optional<BuildPlace> place_of(const Result<BuildReport>& report) {
     if (report) return {};
-    const bool temporary =
-        std::string_view(report.error().text).find("temporary file") != std::string_view::npos;
-    return temporary ? BuildPlace::kTemporary : BuildPlace::kOutput;
+    const std::string_view text = report.error().text;
+    const auto says = [text](std::string_view words) {
+      return text.find(words) != std::string_view::npos;
+    };
+    if (says("temporary file")) return BuildPlace::kTemporary;
+    return says("the mesh") || says("cannot be opened") ? BuildPlace::kInput : BuildPlace::kOutput;
   }
 };
 
 TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
-  write(sphere(2));
-  ASSERT_TRUE(build(kRoomy));
+  write_shuffled(sphere(2));
+  const auto in_memory = build(kRoomy), spilled = build(kTight), sorted = build(kShuffling);
+  ASSERT_TRUE(in_memory && spilled && sorted);
+  ASSERT_GT(sorted->temporary_bytes, spilled->temporary_bytes);
   const storage::Bytes expected = built();
   const storage::Bytes old(17, std::byte{42});
   for (const bool no_unnamed : {false, true}) {
@@ -161,7 +166,7 @@ TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
       calls.fault = GetParam();
       calls.number = fault_at % 2 == 0 ? EIO : ENOSPC;
       calls.fault_at = fault_at;
-      const auto report = build(kTight, calls);
+      const auto report = build(kShuffling, calls);
       ASSERT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"}) << calls.failed_call();
       if (!calls.happened()) {
         EXPECT_TRUE(report);

@@ -18,8 +18,6 @@
 namespace planetree::oracle {
 namespace {
 
-// So much of the mesh may stay mapped.
-constexpr octree::MeshReadOptions kReading{std::uint64_t{256} << 20};
 constexpr std::size_t kSolidAnglesOfEach = 10;  // answers, where they can be afforded
 
 // Of a query that makes no sense nothing is to be said.
@@ -156,7 +154,7 @@ Result<void> judge_solid_angles(const std::filesystem::path& mesh,
   std::vector<const AnswerRow*> asked;
   for (const std::size_t i : places) asked.push_back(&answers[i]);
   SolidAngles angles(std::move(asked), limits.round_triangles);
-  if (const auto read = octree::read_mesh(mesh, angles, kReading); !read) return read.error();
+  if (const auto read = octree::read_mesh(mesh, angles); !read) return read.error();
   angles.finish();
   for (std::size_t k = 0; k < places.size(); ++k)
     if (std::string& fault = judgement.faults[places[k]]; fault.empty())
@@ -170,7 +168,7 @@ Result<void> judge_solid_angles(const std::filesystem::path& mesh,
 Result<Judgement> judge_answers(const std::filesystem::path& mesh,
                                 std::span<const AnswerRow> answers, const JudgeLimits& limits) {
   Hearing hearing(answers, limits);
-  if (const auto read = octree::read_mesh(mesh, hearing, kReading); !read) return read.error();
+  if (const auto read = octree::read_mesh(mesh, hearing); !read) return read.error();
   hearing.finish();
   Judgement judgement;
   judgement.triangles = hearing.triangle_count();

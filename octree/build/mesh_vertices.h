@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "planetree/error.h"
+#include "planetree/types.h"
+
+namespace planetree::octree {
+
+/// The vertices of a mesh by number, wherever they are: positions of three floats or doubles
+/// side by side, in the machine's order.
+class MeshVertices {
+ public:
+  virtual ~MeshVertices() = default;
+
+  [[nodiscard]] virtual std::uint64_t count() const = 0;
+  /// Whether positions are floats.
+  [[nodiscard]] virtual bool float32() const = 0;
+  /// Gets the positions of vertices from `first` on, as many as `out` has room for; all of them
+  /// below count().
+  virtual Result<void> read(std::uint64_t first, std::span<std::byte> out) = 0;
+
+  [[nodiscard]] std::size_t position_bytes() const {
+    return 3 * (float32() ? sizeof(float) : sizeof(double));
+  }
+};
+
+/// A position as MeshVertices has it.
+inline Vec3 position_at(const std::byte* at, bool float32) noexcept {
+  if (float32) {
+    float values[3];
+    std::memcpy(values, at, sizeof values);
+    return {static_cast<double>(values[0]), static_cast<double>(values[1]),
+            static_cast<double>(values[2])};
+  }
+  double values[3];
+  std::memcpy(values, at, sizeof values);
+  return {values[0], values[1], values[2]};
+}
+
+/// Writes a position; one that is to be of floats must be.
+inline void put_position(const Vec3& position, bool float32, std::byte* to) noexcept {
+  if (float32) {
+    const float values[] = {static_cast<float>(position.x), static_cast<float>(position.y),
+                            static_cast<float>(position.z)};
+    std::memcpy(to, values, sizeof values);
+    return;
+  }
+  const double values[] = {position.x, position.y, position.z};
+  std::memcpy(to, values, sizeof values);
+}
+
+}  // namespace planetree::octree
