@@ -34,7 +34,7 @@ class BestTriangle {
   /// value may be, if its value is less certain.
   double lower() const { return lower_; }
 
-  /// Some triangle, to be offered later, has a value of at most `distance`.
+  /// Some triangle has a value of at most `distance`: it will be offered, or is left unread.
   void promise(double distance) {
     if (!(distance < reach_)) return;
     reach_ = distance;

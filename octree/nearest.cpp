@@ -150,12 +150,23 @@ class Descent {
       records_.prefetch(list.link(keys.block(i)));
     while (count > 0) {
       const std::size_t least = keys.least(count);
-      const FrontierEntry entry{keys.bound(least), list.link(keys.block(least)),
-                                RecordFinder::kNoPage};
-      if (entry.bound > best_.threshold()) return;
-      visit(entry, 0);
+      if (keys.bound(least) > best_.threshold()) return;
+      visit_listed(list, keys.block(least), keys.bound(least));
       keys.at[least] = keys.at[--count];
     }
+  }
+
+  HWY_INLINE void visit_listed(const NearbyBlocks& list, std::size_t i, float bound) {
+    if (const std::byte* record = records_.find(list.link(i), work_)) {
+      ++work_.blocks;
+      visit_block(BlockView(record, tree_.shape));
+      return;
+    }
+    left_out_.unread = std::min(left_out_.unread, bound);
+    left_out_.within = std::min(
+        left_out_.within, farthest_in_box({list.lower(0)[i], list.lower(1)[i], list.lower(2)[i]},
+                                          {list.upper(0)[i], list.upper(1)[i], list.upper(2)[i]},
+                                          query_ - tree_.centre));
   }
 
   HWY_INLINE void visit_block(const BlockView& block) {
@@ -246,6 +257,7 @@ NearestAnswer nearest_of_list(const TreeFacts& tree, const Point& query,
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
                                 const NearestLimits& limits, PageReader pages, TreeWork& work,
                                 Vicinity* vicinity) {
+  const std::uint64_t before = work.nodes + work.blocks;
   const double reach = vicinity ? vicinity->reach_of(query) : 0;
   const bool held = vicinity && vicinity->holds(reach);
   if (held && vicinity->triangles().complete()) {
@@ -273,7 +285,9 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   descent.run_from_root();
   NearestAnswer answer = answer_of(descent);
   if (vicinity && answer.status == Status::kExact) {
-    vicinity->renew(tree, query, answer.distance, pages, work);
+    const std::uint64_t spent = work.nodes + work.blocks - before;
+    const std::uint64_t left = limits.max_nodes - std::min<std::uint64_t>(spent, limits.max_nodes);
+    vicinity->renew(tree, query, answer.distance, left, pages, work);
     vicinity->note(query, answer.point);
   }
   return answer;

@@ -91,8 +91,8 @@ HWY_INLINE TriangleBounds triangle_bounds(const Wide3& a, const Wide3& b, const 
           hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
 }
 
-// Squared distances to the boxes of triangles given in the same way: below those of the
-// triangles, at a fifth of the cost.
+// Squared distances to the boxes of triangles given in the same way: no greater than those of the
+// triangles but for rounding, which is kFilterSlack's, at a fifth of the cost.
 HWY_INLINE Floats box_bounds(const Wide3& a, const Wide3& b, const Wide3& c) {
   const Floats zero = hn::Zero(FloatTag());
   const auto gap = [&](Floats u, Floats v, Floats w) {

@@ -12,16 +12,36 @@
 namespace planetree::octree {
 namespace {
 
+// Records by their links, up to so many: a forged tree could lead to one again and again.
+class LimitedFinder {
+ public:
+  LimitedFinder(const TreeFacts& tree, std::uint64_t most, PageReader pages, TreeWork& work)
+      : records_(tree, pages), work_(work), left_(std::min(most, tree.record_count)) {}
+
+  // Null where it cannot be had, or no more may be visited.
+  const std::byte* find(std::uint32_t link) {
+    const std::byte* record = left_ > 0 ? records_.find(link, work_) : nullptr;
+    if (!record) return nullptr;
+    --left_;
+    ++(LinkFormat::is_leaf(link) ? work_.blocks : work_.nodes);
+    return record;
+  }
+
+ private:
+  RecordFinder records_;
+  TreeWork& work_;
+  std::uint64_t left_;
+};
+
 // The subtrees that reach into a ball: from the root down, the largest first, as long as
 // there is room for its children.
 class FrontSearch {
  public:
-  FrontSearch(const TreeFacts& tree, const Point& centre, double radius, PageReader pages,
-              TreeWork& work, Node& front)
+  FrontSearch(const TreeFacts& tree, const Point& centre, double radius, LimitedFinder& records,
+              Node& front)
       : query_(FloatQuery::from(centre, tree.centre)),
         threshold_(prune_threshold(query_, radius)),
-        records_(tree, pages),
-        work_(work),
+        records_(records),
         front_(front) {}
 
   // False where there is nothing to keep.
@@ -48,9 +68,8 @@ class FrontSearch {
   // Puts a node's near children in its place. False, and nothing changed, where there is no
   // room for them or the page is lost.
   bool open(std::uint32_t link, unsigned place) {
-    const std::byte* record = records_.find(link, work_);
+    const std::byte* record = records_.find(link);
     if (!record) return false;
-    ++work_.nodes;
     const Node& node = *reinterpret_cast<const Node*>(record);
     unsigned near = children_within(node, query_, threshold_);
     const unsigned others = front_.child_count - (front_.child_count > 0 ? 1u : 0u);
@@ -85,8 +104,7 @@ class FrontSearch {
 
   const FloatQuery query_;
   const float threshold_;
-  RecordFinder records_;
-  TreeWork& work_;
+  LimitedFinder& records_;
   Node& front_;
   float size_[kFanOut];
   unsigned closed_ = 0;
@@ -95,12 +113,11 @@ class FrontSearch {
 // The blocks below a front that reach into a ball.
 class BlockSearch {
  public:
-  BlockSearch(const TreeFacts& tree, const Point& centre, double radius, PageReader pages,
-              TreeWork& work, NearbyBlocks& found)
+  BlockSearch(const TreeFacts& tree, const Point& centre, double radius, LimitedFinder& records,
+              NearbyBlocks& found)
       : query_(FloatQuery::from(centre, tree.centre)),
         threshold_(prune_threshold(query_, radius)),
-        records_(tree, pages),
-        work_(work),
+        records_(records),
         found_(found) {}
 
   // False where they are too many, or a page is lost.
@@ -108,9 +125,8 @@ class BlockSearch {
     found_.begin();
     if (!take_children(front)) return false;
     while (size_ > 0) {
-      const std::byte* record = records_.find(links_[--size_], work_);
+      const std::byte* record = records_.find(links_[--size_]);
       if (!record) return false;
-      ++work_.nodes;
       if (!take_children(*reinterpret_cast<const Node*>(record))) return false;
     }
     found_.finish();
@@ -132,8 +148,7 @@ class BlockSearch {
 
   const FloatQuery query_;
   const float threshold_;
-  RecordFinder records_;
-  TreeWork& work_;
+  LimitedFinder& records_;
   NearbyBlocks& found_;
   std::size_t size_ = 0;
   std::array<std::uint32_t, 4 * kFanOut> links_;
@@ -156,13 +171,11 @@ class TriangleSearch {
   static constexpr std::size_t kMostBlocks = 28;
 
   // False where they are too many, or a page is lost.
-  bool run(const NearbyBlocks& blocks, PageReader pages, TreeWork& work) {
+  bool run(const NearbyBlocks& blocks, LimitedFinder& records) {
     if (blocks.size() > kMostBlocks) return false;
-    RecordFinder records(tree_, pages);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const std::byte* record = records.find(blocks.link(i), work);
+      const std::byte* record = records.find(blocks.link(i));
       if (!record) return false;
-      ++work.blocks;
       if (!add(BlockView(record, tree_.shape))) return false;
     }
     return true;
@@ -191,8 +204,8 @@ class TriangleSearch {
 
 }  // namespace
 
-void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance, PageReader pages,
-                     TreeWork& work) noexcept {
+void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
+                     std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
   const double diagonal = (tree.box_upper - tree.box_lower).norm();
   const double radius = wanted_radius(query, distance, diagonal);
   if (!(radius > 0)) return;
@@ -200,16 +213,17 @@ void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
   radius_ = radius;
   blocks_.begin();
   triangles_.clear();
-  if (!FrontSearch(tree, centre_, radius_, pages, work, front_).run(tree.root_link)) {
+  LimitedFinder records(tree, max_nodes, pages, work);
+  if (!FrontSearch(tree, centre_, radius_, records, front_).run(tree.root_link)) {
     forget();
     return;
   }
   if (radius_ > crowded_radius_ * kLessCrowded) return;
-  const bool few = BlockSearch(tree, centre_, radius_, pages, work, blocks_).run(front_);
+  const bool few = BlockSearch(tree, centre_, radius_, records, blocks_).run(front_);
   crowded_radius_ = few ? std::numeric_limits<double>::infinity() : radius_;
   if (!few) return;
   TriangleSearch search(tree, centre_, radius_);
-  if (search.run(blocks_, pages, work)) triangles_.fill(search.found(), centre_, distance, radius_);
+  if (search.run(blocks_, records)) triangles_.fill(search.found(), centre_, distance, radius_);
 }
 
 }  // namespace planetree::octree

@@ -11,13 +11,13 @@
 
 namespace planetree::octree {
 
-/// The few subtrees that reach into a ball, and the triangles that do where they are few as
-/// well, kept from one query for the next ones: those near it start there and not at the root.
+/// The few subtrees that reach into a ball, and the blocks and triangles that do where they are
+/// few as well, kept from one query for the next ones: those near it start there and not at the
+/// root.
 ///
-/// A query's nearest triangle is no farther than the last one was and the way between the
-/// two. Where the ball holds all that is so near, nothing outside it can matter, so that
-/// answers are the same bits as from the root. Plain memory: links and copies, no pointers
-/// into frames. One thread.
+/// A query's nearest triangle is no farther than the last one's nearest point. Where the ball holds
+/// all that is so near, nothing outside it can matter, so that answers are the same bits as from
+/// the root. Plain memory: links and copies, no pointers into frames. One thread.
 class Vicinity {
  public:
   /// How near to centre() a triangle is at most that may be nearest to `query`, or as near to
@@ -27,7 +27,7 @@ class Vicinity {
   }
   /// How near to `query` the surface is at least.
   double nearest_of(const Point& query) const {
-    return ((query - last_nearest_).norm() + kSlack) * (1 + kSlack);
+    return ((query - last_nearest_).norm() + rounding(last_nearest_) + kSlack) * (1 + kSlack);
   }
   /// Whether all of these are in front().
   bool holds(double reach) const { return reach < radius_; }
@@ -51,14 +51,14 @@ class Vicinity {
 
   /// The triangles, if all that touch a point are among them; else null.
   const NearbyTriangles* all_at(const Point& point) const {
-    const bool within = (point - centre_).norm() * (1 + kSlack) < radius_;
+    const bool within = ((point - centre_).norm() + rounding(point)) * (1 + kSlack) < radius_;
     return within && triangles_.complete() ? &triangles_ : nullptr;
   }
 
   /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to
-  /// be worth its while. `distance` is the answer to it.
-  void renew(const TreeFacts& tree, const Point& query, double distance, PageReader pages,
-             TreeWork& work) noexcept;
+  /// be worth its while. `distance` is the answer to it. Visits at most so many nodes and blocks.
+  void renew(const TreeFacts& tree, const Point& query, double distance, std::uint64_t max_nodes,
+             PageReader pages, TreeWork& work) noexcept;
 
   /// An exact answer.
   void note(const Point& query, const Point& nearest) {
@@ -69,6 +69,10 @@ class Vicinity {
   void forget() { radius_ = 0; }
 
  private:
+  // How far a nearest point may be from the surface, for it is rounded as its coordinates are:
+  // a model may be far smaller than they.
+  static double rounding(const Point& point) { return point.cwiseAbs().maxCoeff() * 0x1p-51; }
+
   static constexpr double kSlack = 0x1p-24;       ///< far above what bounds and sums may err
   static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
   static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance

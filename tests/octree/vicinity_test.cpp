@@ -76,6 +76,63 @@ TEST(Vicinity, ChangesNoAnswer) {
     }
 }
 
+// A fine sheet so far from the origin that nearest points lie beside it, and two large
+// triangles that float cannot rule out.
+Soup far_sheet() {
+  constexpr double kFar = 0x1p40, kAbove = 3 * kFar * 0x1p-52;
+  constexpr int kSide = 64;
+  const auto at = [&](int i, int j, double above) {
+    const double x = i * 1.0 / kSide, y = j * 1.0 / kSide;
+    return Vec3{kFar + x, kFar + y, kFar + x / 2 + y / 4 + above};
+  };
+  Soup soup;
+  const auto add = [&](int i, int j, int step, double above) {
+    const Vec3 a = at(i, j, above), b = at(i + step, j, above), c = at(i, j + step, above),
+               d = at(i + step, j + step, above);
+    soup.push_back({a, b, c});
+    soup.push_back({b, d, c});
+  };
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) add(i, j, 1, 0);
+  add(0, 0, kSide, kAbove);
+  return soup;
+}
+
+TEST(Vicinity, ChangesNoAnswerToAPointJustTold) {
+  Path path(far_sheet());
+  Noise noise(5);
+  constexpr double kGrid = 0x1p40 * 0x1p-52;
+  for (int round = 0; round < 100; ++round) {
+    const Vec3 start = noise.point(0.2, 0.8);
+    const double z = start.x / 2 + start.y / 4 - 40 * kGrid;
+    const Point first = Point(start.x, start.y, z).array() + 0x1p40;
+    const Point second = first + Point(0x1p-8, 0, 0);
+    const Point told =
+        nearest(tree_facts(path.sample), second, {}, path.pages.reader(), path.work_alone).point;
+    path.expect_same_answers({first, second, told});
+  }
+}
+
+TEST(Vicinity, VisitsNoMoreThanAllowed) {
+  const SampleTree sample = build_sample(sphere(6));
+  SamplePages pages(sample);
+  for (const std::uint32_t most : {8u, 20u, 40u}) {
+    Vicinity vicinity;
+    TreeWork unlimited;
+    const NearestAnswer known =
+        nearest(tree_facts(sample), Point(0.35, 0.35, 0.1), {}, pages.reader(), unlimited);
+    NearestLimits limits;
+    limits.max_nodes = most;
+    limits.known = &known;
+    for (int i = 0; i < 10; ++i) {
+      TreeWork work;
+      nearest(tree_facts(sample), Point(0.35, 0.355 + i * 1e-4, 0.1), limits, pages.reader(), work,
+              &vicinity);
+      EXPECT_LE(work.nodes + work.blocks, most) << i;
+    }
+  }
+}
+
 TEST(Vicinity, ChangesNoAnswerWithinLimits) {
   NearestLimits near, rough, brief;
   near.max_distance = 0.05;
