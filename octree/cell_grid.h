@@ -54,6 +54,17 @@ class CellGrid {
   /// The sides between a cell's children.
   Point middle(const GridCell& cell) const { return corner(cell.child(7), 0); }
 
+  /// The octant of a cell that a point of it is in: an upper half wherever the point is not
+  /// below the side between the halves.
+  unsigned octant(const GridCell& cell, const Point& point) const {
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      octant |=
+          static_cast<unsigned>(side(axis, cell.level + 1, 2 * cell.at[axis] + 1) <= point[axis])
+          << axis;
+    return octant;
+  }
+
   /// The last of the finest cells that do not begin beyond a point of the root: that which
   /// is reached by taking, from the root down, the upper half wherever the point is not
   /// below the side between the halves.

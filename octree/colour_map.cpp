@@ -2,96 +2,171 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <cstdint>
+#include <memory>
 
 #include "octree/mask_records.h"
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
 
-// Paints what the nodes of the first pages say.
+// Goes through the nodes of a mask's first pages, twice: to paint cells, and to fill in the
+// records of those that are grey.
 class ColourMap::Painter {
  public:
-  Painter(ColourMap& map, unsigned level, const MaskFacts& mask, PageReader pages)
-      : map_(map), level_(level), records_(mask, pages) {}
+  Painter(ColourMap& map, const MaskFacts& mask, PageReader pages)
+      : map_(map), mask_(mask), pages_(pages) {}
 
-  void run() {
-    const std::byte* root = records_.root(work_);
-    if (root && records_.root_is_node() && level_ > 0) paint_children(root, {});
+  /// Returns how many cells are listed.
+  std::uint32_t paint() {
+    run(false);
+    std::uint32_t listed_before = 0;
+    for (std::size_t i = 0; i < stretches_for(cells()); ++i) {
+      Stretch& stretch = map_.stretches_[i];
+      stretch.first_record = listed_before;
+      for (const std::uint32_t codes : stretch.codes) listed_before += listed(codes);
+    }
+    return listed_before;
   }
+  void fill_records() { run(true); }
 
  private:
   // To a page and back: what opening a model may take.
-  static constexpr std::uint64_t kMostTurns = 512;
+  static constexpr std::uint64_t kMostTurns = 1 << 12;
+  // Larger leaves would fill the map with their records.
+  static constexpr unsigned kMostAbove = 2;
 
-  void paint_children(const std::byte* record, const GridCell& cell) {
+  std::uint64_t cells() const {
+    return std::uint64_t{map_.width_[0]} * map_.width_[1] * map_.width_[2];
+  }
+
+  void run(bool filling) {
+    filling_ = filling;
+    MaskRecords records(mask_, pages_);
+    records_ = &records;
+    work_ = {};
+    const std::byte* root = records.root(work_);
+    if (root && records.root_is_node() && map_.level_ > 0) go_below(root, {});
+  }
+
+  void go_below(const std::byte* record, const GridCell& cell) {
     const MaskNode node = *reinterpret_cast<const MaskNode*>(record);  // may go with its page
     for (unsigned octant = 0; octant < 8; ++octant) {
-      const bool grey = (node.grey >> octant & 1) != 0, leaf = (node.leaf >> octant & 1) != 0;
-      if (!grey)
-        paint(cell.child(octant), 1 + (node.black >> octant & 1) - (node.inverted >> octant & 1));
-      else if (!leaf && cell.level + 1 < level_)
-        descend(node, octant, cell);
+      const GridCell child = cell.child(octant);
+      if ((node.grey >> octant & 1) != 0)
+        go_to_grey(node, octant, child);
+      else if (!filling_)
+        paint_colour(child, (node.black >> octant & 1) - (node.inverted >> octant & 1));
     }
   }
 
-  void descend(const MaskNode& node, unsigned octant, const GridCell& cell) {
-    if (!records_.has_family_at_hand(node) && work_.page_turns >= kMostTurns) return;
-    if (const std::byte* child = records_.child(node, octant, work_))
-      paint_children(child, cell.child(octant));
+  void go_to_grey(const MaskNode& node, unsigned octant, const GridCell& child) {
+    for (unsigned axis = 0; axis < 3; ++axis)
+      if (child.at[axis] << (map_.level_ - child.level) >= map_.width_[axis]) return;
+    const bool leaf = (node.leaf >> octant & 1) != 0;
+    const bool listed = child.level == map_.level_ || leaf;
+    if (leaf && map_.level_ - child.level > kMostAbove) return;
+    if (listed && !filling_) return each_cell(child, [&](std::size_t at) { set(at, kListed); });
+    if (!records_->has_family_at_hand(node) && work_.page_turns >= kMostTurns) return;
+    const std::byte* record = records_->child(node, octant, work_);
+    if (!record) return;
+    if (!listed) return go_below(record, child);
+    const MaskNode noted =
+        leaf ? packed(*reinterpret_cast<const MaskCorners*>(record), map_.level_ - child.level)
+             : *reinterpret_cast<const MaskNode*>(record);
+    each_cell(child, [&](std::size_t at) {
+      // A page may be had the second time alone; then its cells are not listed.
+      if (map_.code_of(at) == kListed) map_.records_[map_.record_number(at)] = noted;
+    });
   }
 
-  void paint(const GridCell& cell, int colour) {
-    const unsigned shift = level_ - cell.level;
+  // Nothing known if it does not fit.
+  static MaskNode packed(const MaskCorners& corners, unsigned levels_above) {
+    MaskNode leaf{.family = 0,
+                  .grey = 0,
+                  .leaf = kLeafTag,
+                  .black = static_cast<std::uint8_t>(levels_above),
+                  .inverted = 0};
+    for (unsigned i = 0; i < 8; ++i) {
+      if (corners[i] < -8 || corners[i] > 7) return {};
+      leaf.family |= static_cast<std::uint32_t>(corners[i] + 8) << 4 * i;
+    }
+    return leaf;
+  }
+
+  void paint_colour(const GridCell& cell, int winding) {
+    if (winding != 0 && !has_inside_) {
+      has_inside_ = true;
+      map_.inside_ = winding;
+    }
+    if (winding == 0 || winding == map_.inside_)
+      each_cell(cell, [&](std::size_t at) { set(at, winding == 0 ? kWhite : kInside); });
+  }
+
+  // Calls with the number of each of the map's cells that are in a cell.
+  template <class Call>
+  void each_cell(const GridCell& cell, const Call& call) {
+    const unsigned shift = map_.level_ - cell.level;
     std::array<std::uint32_t, 3> first{}, end{};
     for (unsigned axis = 0; axis < 3; ++axis) {
       first[axis] = cell.at[axis] << shift;
-      end[axis] = std::min((cell.at[axis] + 1) << shift, map_.count_[axis]);
+      end[axis] = std::min((cell.at[axis] + 1) << shift, map_.width_[axis]);
     }
     for (std::uint32_t z = first[2]; z < end[2]; ++z)
       for (std::uint32_t y = first[1]; y < end[1]; ++y)
-        for (std::uint32_t x = first[0]; x < end[0]; ++x)
-          set((std::size_t{z} * map_.count_[1] + y) * map_.count_[0] + x, colour);
+        for (std::uint32_t x = first[0]; x < end[0]; ++x) call(map_.number({x, y, z}));
   }
-  void set(std::size_t cell, int colour) {
-    std::uint8_t& four = map_.colours_[cell / 4];
-    const unsigned at = 2 * (cell % 4);
-    four = static_cast<std::uint8_t>((four & ~(3U << at)) | static_cast<unsigned>(colour) << at);
+  void set(std::size_t cell, Code code) {
+    std::uint32_t& codes =
+        map_.stretches_[cell / Stretch::kCells].codes[cell % Stretch::kCells / 16];
+    const auto at = 2 * static_cast<unsigned>(cell % Stretch::kCells % 16);
+    codes = (codes & ~(3U << at)) | code << at;
   }
 
   ColourMap& map_;
-  const unsigned level_;
-  MaskRecords records_;
+  const MaskFacts& mask_;
+  const PageReader pages_;
+  MaskRecords* records_ = nullptr;
   TreeWork work_;
+  bool filling_ = false;
+  bool has_inside_ = false;
 };
 
-void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles,
-                     PageReader pages, std::span<std::uint8_t> memory) noexcept {
+void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pages,
+                     std::span<std::byte> memory) noexcept {
   // A forged header may tell of a box that does not fit the root.
   const Point size = tree.box_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
   if (mask.page_count == 0 || !fits) return;
-  assert(memory.size() >= bytes(triangles));
-  colours_ = memory.data();
-  std::memset(colours_, 0xff, bytes(triangles));
+  assert(reinterpret_cast<std::uintptr_t>(memory.data()) % alignof(Stretch) == 0);
   lower_ = mask.lower;
-  // The finest cells of which there are not too many in the box.
-  unsigned level = 0;
-  for (unsigned finer = 0; finer <= kLevels; ++finer) {
-    const double per_unit = 0.5 * static_cast<double>(std::uint64_t{1} << finer);
-    std::array<std::uint32_t, 3> count{};
+  // The finest cells that there is room for, and for the records of those that are grey.
+  for (unsigned level = kLevels - 1; level > 0; --level) {
+    const double per_unit = 0.5 * static_cast<double>(std::uint64_t{1} << level);
     double cells = 1;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      count[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1;
-      cells *= count[axis];
+      width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1;
+      count_[axis] = width_[axis];
+      cells *= count_[axis];
     }
-    if (cells > static_cast<double>(most_cells(triangles))) break;
-    level = finer;
-    count_ = count;
+    if (cells > 3.0 * static_cast<double>(memory.size())) continue;
+    const std::size_t stretches = stretches_for(static_cast<std::uint64_t>(cells));
+    const std::size_t stretch_bytes = stretches * sizeof(Stretch);
+    if (stretch_bytes > memory.size()) continue;
+    level_ = level;
     cells_per_unit_ = per_unit;
     cell_side_ = 1 / per_unit;
+    stretches_ = reinterpret_cast<Stretch*>(memory.data());
+    std::uninitialized_fill_n(stretches_, stretches, kUnpainted);
+    Painter painter(*this, mask, pages);
+    const std::size_t listed = painter.paint();
+    if (stretch_bytes + listed * sizeof(MaskNode) > memory.size()) continue;
+    records_ = reinterpret_cast<MaskNode*>(memory.data() + stretch_bytes);
+    std::uninitialized_value_construct_n(records_, listed);
+    painter.fill_records();
+    return;
   }
-  Painter(*this, level, mask, pages).run();
+  count_ = {};
 }
 
 }  // namespace planetree::octree

@@ -7,50 +7,144 @@
 #include <span>
 
 #include "octree/cell_grid.h"
+#include "octree/mask_frame.h"
 #include "octree/mask_lookup.h"
 #include "octree/tree_view.h"
 
 namespace planetree::octree {
 
-/// The colours of a mask's upper cells side by side, two bits each: one look tells the side of
-/// most points of a model's box, and needs no page. Filled once; then any thread may look.
+/// A mask's cells of one level side by side: one look tells the side of most points of a
+/// model's box, and needs no page. The mask's records of the grey ones are there too, so that
+/// a lookup need not begin at the root. Filled once; then any thread may look.
 class ColourMap {
  public:
   /// Memory of the map of a model of so many triangles.
-  static constexpr std::size_t bytes(std::uint64_t triangles) { return most_cells(triangles) / 4; }
+  static constexpr std::size_t bytes(std::uint64_t triangles) {
+    constexpr std::uint64_t kFewest = 64, kMost = std::uint64_t{1} << 18;
+    return std::clamp(triangles / 4, kFewest, kMost);
+  }
 
   /// A map that knows nothing.
   ColourMap() = default;
 
   /// Of a mask's first pages, as far as they can be had.
-  /// memory  of bytes(triangles), if there is a mask; must outlive this.
-  void fill(const MaskFacts& mask, const TreeFacts& tree, std::uint64_t triangles, PageReader pages,
-            std::span<std::uint8_t> memory) noexcept;
+  ///
+  /// memory  where the map is to be, on a boundary of 4 bytes; must outlive this.
+  void fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pages,
+            std::span<std::byte> memory) noexcept;
 
   /// The sign of a point's winding number, where its cell is white or black; else kUnknown.
   /// The point is in the model's box.
   int winding(const Point& point) const noexcept {
-    std::size_t cell = 0;
-    for (unsigned axis = 3; axis-- > 0;) {
-      const double place = (point[axis] - lower_[axis]) * cells_per_unit_;
-      if (!(place >= 0 && place < count_[axis])) return kUnknown;
-      const auto index = static_cast<std::uint32_t>(place);
-      // As rounded, sides may be elsewhere than the product says.
-      if (!(side(axis, index) <= point[axis] && point[axis] < side(axis, index + 1)))
-        return kUnknown;
-      cell = cell * count_[axis] + index;
-    }
-    return static_cast<int>(colours_[cell / 4] >> 2 * (cell % 4) & 3) - 1;
+    std::array<std::uint32_t, 3> at;
+    if (!find(point, at)) return kUnknown;
+    const std::size_t cell = number(at);
+    const unsigned code = code_of(cell);
+    if (code == kWhite) return 0;
+    if (code == kInside) return inside_;
+    if (code == kOther) return kUnknown;
+    const MaskNode& record = record_of(cell);
+    return record.grey != 0 ? winding_below(record, point, at) : kUnknown;
   }
 
   static constexpr int kUnknown = 2;
 
+  /// A grey cell and its record in the mask.
+  struct Spot {
+    GridCell cell;
+    const MaskNode* record = nullptr;  ///< null where the map has none
+  };
+  /// That of a point of the model's box.
+  Spot spot(const Point& point) const noexcept {
+    std::array<std::uint32_t, 3> at;
+    if (!find(point, at)) return {};
+    const std::size_t cell = number(at);
+    if (code_of(cell) != kListed) return {};
+    const MaskNode& record = record_of(cell);
+    if (is_leaf(record)) return {GridCell{level_, at}.ancestor(level_ - record.black), &record};
+    return {{level_, at}, record.grey != 0 ? &record : nullptr};
+  }
+
+  /// No node is stored so: a leaf whose corners have numbers of four bits, in `family`; it may
+  /// be of a level above, `black` ones.
+  static constexpr bool is_leaf(const MaskNode& record) {
+    return record.grey == 0 && record.leaf == kLeafTag;
+  }
+  static constexpr MaskCorners corners_of(const MaskNode& leaf) {
+    MaskCorners corners{};
+    for (unsigned i = 0; i < 8; ++i)
+      corners[i] = static_cast<std::int8_t>(static_cast<int>(leaf.family >> 4 * i & 15) - 8);
+    return corners;
+  }
+
  private:
   class Painter;
 
-  static constexpr std::uint64_t most_cells(std::uint64_t triangles) {
-    constexpr std::uint64_t kFewestCells = 64, kMostCells = std::uint64_t{1} << 18;
-    return std::clamp(triangles / 4 * 4, kFewestCells, kMostCells);
+  enum Code : unsigned {
+    kWhite,
+    kInside,  ///< of the sign `inside_`
+    kListed,  ///< grey, with a record
+    kOther,   ///< nothing is known here
+  };
+  static constexpr std::uint8_t kLeafTag = 0xff;
+
+  /// Some cells, and the number of the first record of those that are listed.
+  struct Stretch {
+    static constexpr unsigned kCells = 48;
+    std::uint32_t first_record;
+    std::uint32_t codes[3];  ///< two bits a cell
+  };
+  static_assert(sizeof(Stretch) == 16 && sizeof(Stretch) % alignof(MaskNode) == 0);
+  static constexpr Stretch kUnpainted{0, {~0U, ~0U, ~0U}};
+
+  static constexpr std::size_t stretches_for(std::uint64_t cells) {
+    return static_cast<std::size_t>((cells + Stretch::kCells - 1) / Stretch::kCells);
+  }
+
+  // Of the cells that the map has, which the point is in.
+  bool find(const Point& point, std::array<std::uint32_t, 3>& at) const {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double place = (point[axis] - lower_[axis]) * cells_per_unit_;
+      if (!(place >= 0 && place < count_[axis])) return false;
+      at[axis] = static_cast<std::uint32_t>(static_cast<std::int32_t>(place));
+      // As rounded, sides may be elsewhere than the product says.
+      if (!(side(axis, at[axis]) <= point[axis] && point[axis] < side(axis, at[axis] + 1)))
+        return false;
+    }
+    return true;
+  }
+  std::size_t number(const std::array<std::uint32_t, 3>& at) const {
+    return (std::size_t{at[2]} * width_[1] + at[1]) * width_[0] + at[0];
+  }
+  unsigned code_of(std::size_t cell) const {
+    const auto at = static_cast<unsigned>(cell % Stretch::kCells);
+    return stretches_[cell / Stretch::kCells].codes[at / 16] >> 2 * (at % 16) & 3;
+  }
+  const MaskNode& record_of(std::size_t cell) const { return records_[record_number(cell)]; }
+  // Of a listed cell: as many are listed before it.
+  std::uint32_t record_number(std::size_t cell) const {
+    const Stretch& stretch = stretches_[cell / Stretch::kCells];
+    const auto at = static_cast<unsigned>(cell % Stretch::kCells);
+    std::uint32_t record = stretch.first_record;
+    for (unsigned i = 0; i < at / 16; ++i) record += listed(stretch.codes[i]);
+    return record + listed(stretch.codes[at / 16] & ((1U << 2 * (at % 16)) - 1));
+  }
+  static constexpr unsigned listed(std::uint32_t codes) {
+    std::uint32_t set = codes >> 1 & ~codes & 0x55555555;
+    set = (set & 0x33333333) + (set >> 2 & 0x33333333);
+    set = (set + (set >> 4)) & 0x0f0f0f0f;
+    return set * 0x01010101 >> 24;
+  }
+  // Of the half as large cell that the point is in.
+  int winding_below(const MaskNode& node, const Point& point,
+                    const std::array<std::uint32_t, 3>& at) const {
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double middle = lower_[axis] + cell_side_ / 2 * static_cast<double>(2 * at[axis] + 1);
+      octant |= static_cast<unsigned>(middle <= point[axis]) << axis;
+    }
+    if ((node.grey >> octant & 1) != 0) return kUnknown;
+    return (node.black >> octant & 1) - (node.inverted >> octant & 1);
   }
   // As CellGrid's.
   double side(unsigned axis, std::uint32_t index) const {
@@ -60,8 +154,13 @@ class ColourMap {
   Point lower_ = Point::Zero();
   double cell_side_ = 0;
   double cells_per_unit_ = 0;
-  std::array<std::uint32_t, 3> count_{};
-  std::uint8_t* colours_ = nullptr;  // kUnknown, less 1, is 3 in two bits
+  std::array<double, 3> count_{};
+  std::array<std::uint32_t, 3> width_{};
+  unsigned level_ = 0;
+  int inside_ = 1;
+  // Side by side in the memory.
+  Stretch* stretches_ = nullptr;
+  MaskNode* records_ = nullptr;
 };
 
 }  // namespace planetree::octree

@@ -4,13 +4,14 @@
 #define HWY_TARGET_INCLUDE "octree/crossings.cpp"
 #include <hwy/foreach_target.h>
 
+#include <algorithm>
 #include <bit>
 
-#include "octree/box_walk.h"
 #include "octree/crossing_kernels-inl.h"
-#include "octree/node_kernels-inl.h"
-#include "octree/outcodes.h"
+#include "octree/float_segment.h"
+#include "octree/segment_kernels-inl.h"
 #include "octree/strict_math.h"
+#include "octree/tree_walk.h"
 #include "octree/triangle_rows.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -55,22 +56,40 @@ class CrossingSum {
   Crossings sum_;
 };
 
-Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
+// As triangles_met(), where vertices are doubles: those whose boxes are not apart from the
+// segment's.
+unsigned boxes_met(const BlockView& block, const MovedSegment& segment) {
   const Point lower = segment.from.cwiseMin(segment.to);
   const Point upper = segment.from.cwiseMax(segment.to);
-  const Outcodes outcodes(lower, upper);
+  unsigned found = 0;
+  for (unsigned i = 0; i < block.triangle_count(); ++i) {
+    const auto [a, b, c] = block.triangle(i);
+    const bool apart = (a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any() ||
+                       (a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any();
+    found |= (apart ? 0U : 1U) << i;
+  }
+  return found;
+}
+
+Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
+                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
+  const double largest =
+      std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff());
+  const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
+  const FloatSegment in_blocks =
+      FloatSegment::between(segment.from, segment.to, Point::Zero(), largest);
   CrossingSum crossings(segment);
-  BoxWalk walk(tree, lower, upper, pages, work);
-  const auto visit = [&](const BlockView& block) {
-    for (unsigned near = outcodes.meeting(block); near != 0; near &= near - 1) {
-      crossings.add(block.triangle(static_cast<unsigned>(std::countr_zero(near))));
+  const auto visit = [&](const BlockView& block) HWY_ATTR {
+    const float* vertices = block.float_vertices();
+    unsigned met =
+        vertices ? triangles_met(block.header(), vertices, in_blocks) : boxes_met(block, segment);
+    for (; met != 0; met &= met - 1) {
+      crossings.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
       ++work.triangles;
     }
   };
-  const bool complete = walk.run(max_nodes, visit,
-                                 [](const Node& node, const FloatBox& box)
-                                     HWY_ATTR { return meeting_children(node, box); });
+  const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, in_nodes); };
+  const bool complete = TreeWalk(tree, pages, work).run(max_nodes, visit, meeting);
   Crossings found = crossings.sum();
   found.complete = complete;
   return found;

@@ -58,11 +58,13 @@ inline constexpr std::int8_t kUncounted = -128;
 
 /// How many octants a set has. The processors we build for may lack an instruction for it,
 /// and a lookup asks at every node.
-constexpr unsigned count_octants(unsigned set) {
-  set -= set >> 1 & 0x55;
-  set = (set & 0x33) + (set >> 2 & 0x33);
-  return (set + (set >> 4)) & 0xf;
-}
+inline constexpr auto kOctantCounts = [] {
+  std::array<std::uint8_t, 256> counts{};
+  for (unsigned set = 1; set < 256; ++set)
+    counts[set] = static_cast<std::uint8_t>(counts[set / 2] + set % 2);
+  return counts;
+}();
+constexpr unsigned count_octants(unsigned set) { return kOctantCounts[set]; }
 
 /// A grey cell that is not divided: the winding numbers at its corners, each
 /// moved by the infinitesimal step of predicates.h. All are kUncounted or none.

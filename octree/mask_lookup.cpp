@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "octree/colour_map.h"
 #include "octree/mask_records.h"
 #include "octree/octcode.h"
 #include "octree/predicates.h"
@@ -39,6 +40,30 @@ void read_leaf(const std::byte* record, const MaskRecords& records, const Point&
   }
 }
 
+// Goes down from a node of `cell`, which is told by `octant_in`.
+template <class OctantIn>
+void descend(MaskRecords& records, const MaskNode& from, const Point& point,
+             std::uint64_t max_nodes, const OctantIn& octant_in, TreeWork& work,
+             MaskFinding& finding) {
+  MaskNode node = from;
+  // A forged mask could be deeper than cells can be told apart.
+  for (std::uint64_t left = std::min<std::uint64_t>(max_nodes, kLevels - finding.cell.level);
+       left > 0; --left) {
+    ++work.nodes;
+    const unsigned octant = octant_in(finding.cell);
+    finding.cell = finding.cell.child(octant);
+    if ((node.grey >> octant & 1) == 0) {
+      finding.kind = MaskFinding::Kind::kColour;
+      finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
+      return;
+    }
+    const std::byte* record = records.child(node, octant, work);
+    if (!record) return;
+    if ((node.leaf >> octant & 1) != 0) return read_leaf(record, records, point, finding);
+    node = *reinterpret_cast<const MaskNode*>(record);
+  }
+}
+
 }  // namespace
 
 MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
@@ -47,31 +72,35 @@ MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max
   if (mask.page_count == 0 || max_nodes == 0) return finding;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
-  if (record && !records.root_is_node()) read_leaf(record, records, point, finding);
-  if (!record || !records.root_is_node()) return finding;
-  const GridCell finest = CellGrid(mask.lower).finest(point);
-  const std::uint64_t octants = finest.first_code();
-  // A forged mask could be deeper than cells can be told apart.
-  const auto most = static_cast<unsigned>(std::min<std::uint64_t>(max_nodes, kLevels));
-  unsigned level = 0;
-  while (level < most) {
-    ++work.nodes;
-    const auto& node = *reinterpret_cast<const MaskNode*>(record);
-    const auto octant = static_cast<unsigned>(octants >> 3 * (kLevels - ++level) & 7);
-    if ((node.grey >> octant & 1) == 0) {
-      finding.kind = MaskFinding::Kind::kColour;
-      finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
-      break;
-    }
-    const bool leaf = (node.leaf >> octant & 1) != 0;  // the node goes with its page
-    record = records.child(node, octant, work);
-    if (!record) break;
-    if (leaf) {
-      read_leaf(record, records, point, finding);
-      break;
-    }
+  if (!record) return finding;
+  if (!records.root_is_node()) {
+    read_leaf(record, records, point, finding);
+    return finding;
   }
-  finding.cell = finest.ancestor(level);
+  const std::uint64_t octants = CellGrid(mask.lower).finest(point).first_code();
+  const auto octant_in = [octants](const GridCell& cell) {
+    return static_cast<unsigned>(octants >> 3 * (kLevels - cell.level - 1) & 7);
+  };
+  descend(records, *reinterpret_cast<const MaskNode*>(record), point, max_nodes, octant_in, work,
+          finding);
+  return finding;
+}
+
+MaskFinding look_up(const MaskFacts& mask, const ColourMap& colours, const Point& point,
+                    std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+  const ColourMap::Spot spot = colours.spot(point);
+  if (!spot.record || max_nodes == 0) return look_up(mask, point, max_nodes, pages, work);
+  MaskFinding finding;
+  finding.cell = spot.cell;
+  if (ColourMap::is_leaf(*spot.record)) {
+    finding.kind = MaskFinding::Kind::kCorners;
+    finding.corners = ColourMap::corners_of(*spot.record);
+    return finding;
+  }
+  MaskRecords records(mask, pages);
+  const CellGrid grid(mask.lower);
+  const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
+  descend(records, *spot.record, point, max_nodes, octant_in, work, finding);
   return finding;
 }
 

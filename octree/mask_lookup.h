@@ -46,4 +46,10 @@ struct MaskFinding {
 MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
                     PageReader pages, TreeWork& work) noexcept;
 
+class ColourMap;
+
+/// The same, begun where `colours`, of this mask, has the record of the point's cell.
+MaskFinding look_up(const MaskFacts& mask, const ColourMap& colours, const Point& point,
+                    std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+
 }  // namespace planetree::octree

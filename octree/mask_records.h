@@ -43,6 +43,8 @@ class MaskRecords {
   const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
 
  private:
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+
   bool holds(std::uint32_t at, bool leaf) const {
     return at >= header().first_record_slot &&
            at < std::uint32_t{header().first_record_slot} + header().record_count &&
@@ -50,7 +52,7 @@ class MaskRecords {
   }
   const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
   void turn_to(std::uint32_t page, TreeWork& work) {
-    if (frame_ && page == page_) return;
+    if (page == page_) return;
     ++work.page_turns;
     page_ = page;
     frame_ = pages_.page(pages_.context, first_page_ + page);
@@ -59,7 +61,7 @@ class MaskRecords {
   const MaskLinkFormat links_;
   const std::uint32_t first_page_;
   const PageReader pages_;
-  std::uint32_t page_ = 0;
+  std::uint32_t page_ = kNoPage;
   const std::byte* frame_ = nullptr;
 };
 

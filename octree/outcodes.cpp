@@ -7,20 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/corner_codes-inl.h"
 #include "octree/wide_floats-inl.h"
-
-#ifndef PLANETREE_OCTREE_CORNER_CODES_
-#define PLANETREE_OCTREE_CORNER_CODES_  // once for all targets
-namespace planetree::octree {
-
-// What triangles have of their corners' codes.
-struct CornerCodes {
-  unsigned shared;  // a bit for each that has a bit in all three
-  unsigned none;    // a bit for each that has a corner without any
-};
-
-}  // namespace planetree::octree
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
@@ -44,39 +32,6 @@ void float_codes(const float* HWY_RESTRICT vertices, unsigned stride, const floa
     hn::StoreU(hn::DemoteTo(bytes, code), bytes, codes + i);
   }
 }
-
-#if PLANETREE_EIGHT_LANES
-CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes) {
-  const hn::FixedTag<std::uint8_t, kMaxBlockTriangles> d;
-  const auto zero = hn::Zero(d);
-  auto shared = hn::Set(d, 0xff);
-  auto some_clear = hn::FirstN(d, 0);
-  for (const auto& corner : block.corner) {
-    const auto index = hn::LoadU(d, corner);
-    auto found = zero;
-    // Bytes from 128 on look nothing up.
-    for (unsigned i = 0; i < block.stride; i += kMaxBlockTriangles) {
-      const auto here = hn::SaturatedAdd(hn::Sub(index, hn::Set(d, static_cast<std::uint8_t>(i))),
-                                         hn::Set(d, 0x80 - kMaxBlockTriangles));
-      found = hn::Or(found, hn::TableLookupBytesOr0(hn::LoadU(d, codes + i), here));
-    }
-    shared = hn::And(shared, found);
-    some_clear = hn::Or(some_clear, hn::Eq(found, zero));
-  }
-  return {mask_bits(d, hn::Not(hn::Eq(shared, zero))), mask_bits(d, some_clear)};
-}
-#else
-CornerCodes corner_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes) {
-  CornerCodes found{};
-  for (unsigned i = 0; i < block.triangle_count; ++i) {
-    const std::uint8_t a = codes[block.corner[0][i]], b = codes[block.corner[1][i]],
-                       c = codes[block.corner[2][i]];
-    found.shared |= static_cast<unsigned>((a & b & c) != 0) << i;
-    found.none |= static_cast<unsigned>(a == 0 || b == 0 || c == 0) << i;
-  }
-  return found;
-}
-#endif
 
 CornerCodes float_corner_codes(const BlockHeader& block, const float* vertices,
                                const float (&lower)[3], const float (&upper)[3]) {
@@ -109,14 +64,7 @@ float not_below(double value) {
 
 unsigned all_of(const BlockView& block) { return (1U << block.triangle_count()) - 1; }
 
-// Of triangles whose vertices are doubles.
-unsigned apart(const Triangle& triangle, const Point& lower, const Point& upper) {
-  const auto& [a, b, c] = triangle;
-  return ((a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any() ||
-          (a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any())
-             ? 1
-             : 0;
-}
+// Of a triangle whose vertices are doubles.
 unsigned has_corner_within(const Triangle& triangle, const Point& lower, const Point& upper) {
   for (const Point& corner : triangle)
     if ((corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all())
@@ -131,18 +79,6 @@ Outcodes::Outcodes(const Point& lower, const Point& upper) noexcept
       upper_(upper),
       float_lower_{not_above(lower.x()), not_above(lower.y()), not_above(lower.z())},
       float_upper_{not_below(upper.x()), not_below(upper.y()), not_below(upper.z())} {}
-
-unsigned Outcodes::meeting(const BlockView& block) const noexcept {
-  unsigned found = 0;
-  if (const float* vertices = block.float_vertices())
-    found = ~HWY_DYNAMIC_DISPATCH(float_corner_codes)(block.header(), vertices, float_lower_,
-                                                      float_upper_)
-                 .shared;
-  else
-    for (unsigned i = 0; i < block.triangle_count(); ++i)
-      found |= (apart(block.triangle(i), lower_, upper_) ^ 1) << i;
-  return found & all_of(block);
-}
 
 unsigned Outcodes::with_corner_within(const BlockView& block) const noexcept {
   unsigned found = 0;

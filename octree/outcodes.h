@@ -13,9 +13,7 @@ class Outcodes {
   /// lower, upper  of the box, model frame.
   Outcodes(const Point& lower, const Point& upper) noexcept;
 
-  /// The triangles whose own boxes are not apart from the box, a bit each.
-  unsigned meeting(const BlockView& block) const noexcept;
-  /// Those with a corner in the box.
+  /// The triangles with a corner in the box, a bit each.
   unsigned with_corner_within(const BlockView& block) const noexcept;
 
  private:

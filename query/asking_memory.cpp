@@ -21,7 +21,7 @@ AskingMemory::Parts cut(cache::Cutter& cutter, const AskingMemory::Needs& needs)
   parts.model_room = cutter.cut<Room<ModelState>>(1).data();
   parts.probe_rooms = std::as_writable_bytes(cutter.cut<Room<ProbeState>>(needs.readers)).data();
   parts.wishes = cutter.cut<Wishes>(needs.readers);
-  parts.colours = cutter.cut<std::uint8_t>(needs.colour_bytes);
+  parts.colours = cutter.cut<std::byte>(needs.colour_bytes);
   if (needs.trace_touches == 0) return parts;
   using Ring = cache::TraceRing<Touch>;
   const std::uint64_t slots = Ring::slots_for(needs.trace_touches);

@@ -29,7 +29,7 @@ class AskingMemory {
     void* model_room = nullptr;  ///< for the ModelState
     std::byte* probe_rooms = nullptr;
     std::span<Wishes> wishes;  ///< by place
-    std::span<std::uint8_t> colours;
+    std::span<std::byte> colours;
     std::span<TouchTrace> traces;   ///< by place, or none
     std::span<PrefetchMark> marks;  ///< by page, or none
 

@@ -190,12 +190,22 @@ class Asking {
   }
 
   void find_side() {
-    const auto known = remember_ ? side_at_once(model_, point_) : std::nullopt;
+    const auto known = remember_ ? known_side() : std::nullopt;
     standing_ =
         known ? *known
               : side_of(probe_, point_, nearest_.lower, remember_, nodes_left(), turner_, work_);
     answer_.side = standing_.side;
     if (standing_.status == Status::kDegraded) degrade();
+  }
+
+  // Most often that of the ask before, if the surface is known to be farther than that was.
+  std::optional<Standing> known_side() {
+    SideMemory& memory = probe_.side_memory();
+    if (model_.region().holds(point_) && memory.same_side(point_, nearest_.lower)) {
+      memory.note(point_, memory.standing(), memory.counted(), nearest_.lower);
+      return memory.standing();
+    }
+    return side_at_once(model_, point_);
   }
 
   void find_normal() {

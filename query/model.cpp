@@ -145,7 +145,7 @@ Result<void> ModelState::fill_colours() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
   PageTurner turner(*reader, Wait::kForPages);
-  colours_.fill(mask_, tree_, info_.triangles, turner.pages(), asking_.colours);
+  colours_.fill(mask_, tree_, turner.pages(), asking_.colours);
   return {};
 }
 

@@ -74,7 +74,10 @@ class SideSearch {
   const octree::MaskFinding& cell() {
     if (memory_)
       if (const octree::MaskFinding* last = memory_->cell_with(point_)) return *last;
-    found_ = octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+    // What is resident, answers that remember depend on anyway.
+    found_ = memory_ ? octree::look_up(model_.mask(), model_.colours(), point_, nodes_left(),
+                                       pages_, work_)
+                     : octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
     // What a special cell knows is of this point alone.
     const bool of_all = found_.kind == octree::MaskFinding::Kind::kColour ||
                         found_.kind == octree::MaskFinding::Kind::kCorners;
@@ -86,12 +89,14 @@ class SideSearch {
   // The nearest corner, or the last point if that is nearer: few triangles are between.
   bool go_to_corner(const octree::MaskFinding& found) {
     const octree::ClippedGrid grid(model_.mask().lower, model_.region());
-    const Point lower = grid.lower(found.cell), upper = grid.upper(found.cell);
+    Point corner = grid.lower(found.cell);
+    const Point upper = grid.upper(found.cell);
     unsigned nearest = 0;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      nearest |= static_cast<unsigned>(point_[axis] - lower[axis] > upper[axis] - point_[axis])
-                 << axis;
-    const Point corner = grid.corner(found.cell, nearest);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const bool is_upper = point_[axis] - corner[axis] > upper[axis] - point_[axis];
+      if (is_upper) corner[axis] = upper[axis];
+      nearest |= static_cast<unsigned>(is_upper) << axis;
+    }
     if (memory_ && memory_->counted() &&
         (memory_->point() - point_).squaredNorm() < (corner - point_).squaredNorm() &&
         go(memory_->point(), memory_->standing().winding, SideReason::Rule::kCorner))

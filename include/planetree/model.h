@@ -60,8 +60,8 @@ struct OpenOptions {
 /// with a Probe of its own. Must outlive its probes.
 class Model {
  public:
-  /// Opens and checks a file, claims the memory, loads the root and looks at the mask's
-  /// first page, if there is one.
+  /// Opens and checks a file, claims the memory, loads the root and looks at the upper
+  /// cells of the mask, if there is one.
   ///
   /// errors  kNotFound, kPermission, kReadFailed; kNotPlanetree, kUnsupported,
   ///         kTruncated, kDamaged; kNoMemory, naming the least budget that will

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <numeric>
 #include <utility>
@@ -17,6 +18,8 @@ namespace {
 
 /// Cells that fewer touch are not divided further.
 constexpr std::size_t kFewTriangles = 48;
+/// Unless they touch so few octants.
+constexpr int kFewOctants = 2;
 /// Nor are those whose triangles have been listed so many times over, in octants
 /// of octants, since their number last halved: they are larger than the cell or
 /// coincide, and smaller cells would not tell them apart.
@@ -70,7 +73,7 @@ class RegionMask {
     tree.levels = std::max(tree.levels, grey.cell.level);
     if (make_special(grey, tree, place)) return;
     const std::size_t count = grey.triangles.size();
-    if (count <= kFewTriangles || grey.cell.level == kLevels)
+    if (grey.cell.level == kLevels || (count <= kFewTriangles && !in_few_octants(grey)))
       return make_corners(grey, tree, place);
     Octants octants = divide(grey);
     if (!worthwhile(grey, octants)) return make_corners(grey, tree, place);
@@ -82,6 +85,15 @@ class RegionMask {
       grow(std::move(octants[octant]), tree, child);
       tree.note_leaf(place, octant, child++);
     }
+  }
+
+  // Whether the surface only grazes the cell, so that most of it will be white or black.
+  bool in_few_octants(const GreyCell& grey) const {
+    const Point middle = grid_.middle(grey.cell);
+    unsigned near = 0;
+    for (const std::uint32_t position : grey.triangles)
+      near |= octants_of_box(triangles_[position], middle);
+    return std::popcount(near) <= kFewOctants;
   }
 
   // Whether octants tell triangles apart; if so, hands on by how much.

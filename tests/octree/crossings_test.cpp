@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "tests/octree/sample_mask.h"
 #include "tests/octree/sample_tree.h"
 
 namespace planetree::octree {
@@ -33,6 +34,8 @@ void expect_as_one_by_one(const Soup& soup, std::uint64_t seed) {
     const Point from = i % 4 == 0 ? corner : point_in(noise.point(-1, 1));
     Point to = point_in(noise.point(-1, 1));
     if (i % 3 == 0) to = {from.x(), from.y(), 3};
+    if (i % 5 == 0) to = from + 0.05 * (to - from);
+    if (i % 50 == 0) to = from;
     TreeWork work;
     const Crossings found = count_crossings(tree, {from, to}, kEveryNode, pages.reader(), work);
     const Crossings expected = count_all(sample.mesh, {from, to});
@@ -52,6 +55,13 @@ TEST(CountCrossings, IsTheSumOverAllTriangles) {
   expect_as_one_by_one(repeated(1), 5);
 }
 
+// Where neighbouring floats are as far apart as vertices.
+TEST(CountCrossings, IsTheSumOverAllTrianglesFarFromTheOrigin) {
+  for (const double offset : {1e3, 1e5, 1e7}) {
+    expect_as_one_by_one(moved(sphere(4), {offset, -offset, 0}), 6);
+  }
+}
+
 TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
   const SampleTree sample = build_sample(sphere(6));
   SamplePages pages(sample);
@@ -60,7 +70,19 @@ TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
                                           kEveryNode, pages.reader(), work);
   EXPECT_NE(found.difference, 0);
   EXPECT_LT(work.nodes + work.blocks, 40u);
-  EXPECT_LT(work.triangles, 40u);
+  EXPECT_LT(work.triangles, 8u);
+}
+
+// A box about it would hold an eighth of the model.
+TEST(CountCrossings, LooksOnlyAtWhatADiagonalSegmentMeets) {
+  const SampleTree sample = build_sample(sphere(6));
+  SamplePages pages(sample);
+  TreeWork work;
+  const Crossings found = count_crossings(tree_facts(sample), {{0.01, 0.02, 0}, {2, 2.1, 2.2}},
+                                          kEveryNode, pages.reader(), work);
+  EXPECT_NE(found.difference, 0);
+  EXPECT_LT(work.nodes + work.blocks, 20u);
+  EXPECT_LT(work.triangles, 8u);
 }
 
 TEST(CountCrossings, IsIncompleteWhereWorkOrPagesEnd) {

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -263,8 +264,22 @@ TEST(MaskTree, EndsAtTheFinestLevel) {
   EXPECT_GT(found.colours, 100u);
 }
 
+// Few as they are: most of the root is told from the two corners where they are.
+TEST(MaskTree, DividesCellsThatTheSurfaceOnlyGrazes) {
+  const SampleMask sample(
+      joined({box({0, 0, 0}, {0.1, 0.1, 0.1}), box({1.55, 1.55, 1.55}, {1.65, 1.65, 1.65})}));
+  double grey = 0;
+  each_entry(sample.tree, [&](const GridCell& cell, std::uint32_t entry) {
+    if (sample.tree.entries[entry].kind != Kind::kNode) grey += std::exp2(-3.0 * cell.level);
+  });
+  EXPECT_GT(grey, 0);
+  EXPECT_LT(grey, 0.01);
+  expect_form(sample.tree);
+  expect_truth(sample);
+}
+
 TEST(MaskTree, IsOneLeafWhereThereIsLittle) {
-  const SampleMask sample(box({0, 0, 0}, {1, 0.75, 0.5}));
+  const SampleMask sample(box({0, 0, 0}, {1.75, 1.5, 1.25}));
   ASSERT_EQ(sample.tree.entries.size(), 1u);
   EXPECT_EQ(sample.tree.entries[0].kind, Kind::kCorners);
   EXPECT_EQ(sample.tree.levels, 0u);

@@ -46,7 +46,7 @@ TEST_F(AskingMemoryTest, IsLockedAsMuchAsIsSaid) {
   if (!model) GTEST_SKIP() << model.error().text;
   const Stats stats = model->stats();
   EXPECT_EQ(kernel_locked_bytes() - before, stats.locked_bytes);
-  const AskingMemory::Needs needs{.readers = 5, .colour_bytes = 64 / 4};
+  const AskingMemory::Needs needs{.readers = 5, .colour_bytes = 64};
   EXPECT_GE(stats.locked_bytes, stats.arena_bytes + AskingMemory::bytes(needs));
 }
 
