@@ -67,6 +67,8 @@ PlainMesh damaged(PlainMesh mesh, std::size_t corners) {
     many.push_back(static_cast<std::int64_t>(random() % (count / 2)));
   mesh.faces.insert(mesh.faces.begin() + static_cast<std::ptrdiff_t>(mesh.faces.size()) / 2, many);
   many.back() = static_cast<std::int64_t>(count / 2);
+  // And where corners have long been sorted.
+  mesh.faces.push_back({2, 1});
   mesh.faces.push_back(many);
   mesh.faces.push_back({0, 1, 2});
   return mesh;

@@ -20,6 +20,8 @@ TEST(MeshLines, AreThoseOfTheText) {
       const char end = ends[random() % ends.size()];
       text += end == 'b' ? "\r\n" : end == 'n' ? "\n" : "\r";
     }
+    // Some that would fill a window but for the last character.
+    for (int i = 0; i < 5; ++i) text += std::string(MeshWindow::kRecordBytes - 1, 'y') + "\r\n";
     text += "end";
     const TemporaryFile path(text, ".txt");
     const auto file = MeshFile::open(path.path());
