@@ -20,8 +20,8 @@ class ColourMap {
  public:
   /// Memory of the map of a model of so many triangles.
   static constexpr std::size_t bytes(std::uint64_t triangles) {
-    constexpr std::uint64_t kFewest = 64, kMost = std::uint64_t{1} << 18;
-    return std::clamp(triangles / 4, kFewest, kMost);
+    constexpr std::uint64_t kFewestBytes = 64, kMostBytes = std::uint64_t{1} << 18;
+    return std::clamp(triangles / 4, kFewestBytes, kMostBytes);
   }
 
   /// A map that knows nothing.
