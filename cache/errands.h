@@ -78,6 +78,8 @@ class Errands {
     return (errand.stage == Errand::Stage::kWaits || errand.stage == Errand::Stage::kWanted) &&
            errand.page == page;
   }
+  template <class Tell>
+  void each_waiting(std::uint32_t page, const Tell& tell) noexcept;
   template <class Wake>
   std::uint32_t tell_all(std::uint32_t page, Errand::Stage stage, std::uint32_t frame,
                          const Wake& wake) noexcept;
@@ -87,32 +89,34 @@ class Errands {
   std::uint64_t next_number_ = 0;
 };
 
+template <class Tell>
+void Errands::each_waiting(std::uint32_t page, const Tell& tell) noexcept {
+  for (std::uint32_t owner = 0; waiting_ > 0 && owner < errands_.size(); ++owner)
+    if (waits_for(errands_[owner], page)) tell(owner, errands_[owner]);
+}
+
 template <class Wake>
 std::uint32_t Errands::tell_all(std::uint32_t page, Errand::Stage stage, std::uint32_t frame,
                                 const Wake& wake) noexcept {
   std::uint32_t told = 0;
-  for (std::uint32_t owner = 0; waiting_ > 0 && owner < errands_.size(); ++owner) {
-    Errand& errand = errands_[owner];
-    if (!waits_for(errand, page)) continue;
+  each_waiting(page, [&](std::uint32_t owner, Errand& errand) {
     errand.stage = stage;
     errand.frame = frame;
     --waiting_;
     ++told;
     wake(owner);
-  }
+  });
   return told;
 }
 
 template <class Wake>
 void Errands::put_back(std::uint32_t page, const Wake& wake) noexcept {
-  for (std::uint32_t owner = 0; waiting_ > 0 && owner < errands_.size(); ++owner) {
-    Errand& errand = errands_[owner];
-    if (!waits_for(errand, page)) continue;
+  each_waiting(page, [&](std::uint32_t owner, Errand& errand) {
     errand.stage = errand.reads_itself ? Errand::Stage::kRetry : Errand::Stage::kWanted;
-    if (!errand.reads_itself) continue;
+    if (!errand.reads_itself) return;
     --waiting_;
     wake(owner);
-  }
+  });
 }
 
 }  // namespace planetree::cache

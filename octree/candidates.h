@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "octree/block_view.h"
 #include "octree/triangle_rows.h"
 
 namespace planetree::octree {
@@ -17,18 +16,17 @@ class Candidates {
   std::size_t size() const { return size_; }
   bool full() const { return size_ == kMost; }
 
-  /// A block's triangle; `squared` is the filter's value (octree/bounds.h).
-  void add(const BlockView& block, unsigned triangle, float squared) {
-    const BlockHeader& header = block.header();
-    const float* const local = block.float_vertices();
-    if (!local) return add(block.triangle(triangle), block.id(triangle), header.extent, squared);
-    add([&](std::size_t k, std::size_t axis) {
-      return static_cast<double>(local[axis * header.stride + header.corner[k][triangle]]);
-    });
-    tell(block.id(triangle), header.extent, squared);
+  /// `squared` is the filter's value (octree/bounds.h), `extent` that of the block.
+  void add(const Triangle& corners, std::uint64_t id, float extent, float squared) {
+    // The first of a group stands in all its lanes, so that kernels need no mask.
+    if (size_ % kTrianglesAtOnce == 0)
+      rows_.fill(size_, corners);
+    else
+      rows_.set(size_, corners);
+    id_[size_] = id;
+    extent_[size_] = extent;
+    squared_[size_++] = squared;
   }
-  /// A triangle that is to be evaluated in any case.
-  void add(const Triangle& corners, std::uint64_t id) { add(corners, id, 0, 0); }
 
   /// Drops those for which `still(squared, extent)` is false.
   template <class Still>
@@ -49,28 +47,6 @@ class Candidates {
   std::uint64_t id(std::size_t at) const { return id_[at]; }
 
  private:
-  void add(const Triangle& corners, std::uint64_t id, float extent, float squared) {
-    add([&](std::size_t k, std::size_t axis) {
-      return corners[k][static_cast<Eigen::Index>(axis)];
-    });
-    tell(id, extent, squared);
-  }
-
-  // The first of a group stands in all its lanes, so that kernels need no mask.
-  template <class At>
-  void add(const At& at) {
-    if (size_ % kTrianglesAtOnce == 0)
-      rows_.fill(size_, at);
-    else
-      rows_.set(size_, at);
-  }
-
-  void tell(std::uint64_t id, float extent, float squared) {
-    id_[size_] = id;
-    extent_[size_] = extent;
-    squared_[size_++] = squared;
-  }
-
   void copy(std::size_t from, std::size_t to) {
     rows_.copy(from, to);
     id_[to] = id_[from];

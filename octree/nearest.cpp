@@ -59,8 +59,7 @@ class Descent {
   // Where something is left out that may matter, a triangle known from elsewhere helps.
   void fall_back_on(const NearestAnswer& known) {
     if (known.triangle == kNoTriangle || left_out_.unread > best_.exact_threshold()) return;
-    make_room();
-    candidates_.add(known.corners, known.triangle);
+    note(known.corners, known.triangle, 0, 0);
     settle();
   }
 
@@ -172,8 +171,7 @@ class Descent {
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
     const auto note_one = [&](unsigned i, float squared) {
-      make_room();
-      candidates_.add(block, i, squared);
+      note(block.triangle(i), block.id(i), header.extent, squared);
     };
     // Too small for float, or too far away.
     if (!wide_.usable || header.extent < kLeastFilterExtent) {
@@ -201,10 +199,12 @@ class Descent {
     }
   }
 
-  void make_room() {
-    if (!candidates_.full()) return;
-    keep_possible();
-    if (candidates_.full()) settle();
+  void note(const Triangle& corners, std::uint64_t id, float extent, float squared) {
+    if (candidates_.full()) {
+      keep_possible();
+      if (candidates_.full()) settle();
+    }
+    candidates_.add(corners, id, extent, squared);
   }
 
   void keep_possible() {

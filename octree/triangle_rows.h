@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -35,29 +34,17 @@ struct TriangleRows {
   /// Those from `first` on, a multiple of kTrianglesAtOnce.
   TriangleView view(std::size_t first) const { return {at[0][0] + first, kMost}; }
 
-  /// value(corner, axis) gives a coordinate.
-  template <class Value>
-  void set(std::size_t i, const Value& value) {
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis) at[k][axis][i] = value(k, axis);
-  }
   void set(std::size_t i, const Triangle& corners) {
-    set(i, [&](std::size_t k, std::size_t axis) {
-      return corners[k][static_cast<Eigen::Index>(axis)];
-    });
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Eigen::Index axis = 0; axis < 3; ++axis) at[k][axis][i] = corners[k][axis];
   }
 
   /// Sets `i` and all others that are evaluated with it; `i` is the first of these.
-  template <class Value>
-  void fill(std::size_t i, const Value& value) {
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        std::fill_n(&at[k][axis][i], kTrianglesAtOnce, value(k, axis));
-  }
   void fill(std::size_t i, const Triangle& corners) {
-    fill(i, [&](std::size_t k, std::size_t axis) {
-      return corners[k][static_cast<Eigen::Index>(axis)];
-    });
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        for (std::size_t lane = 0; lane < kTrianglesAtOnce; ++lane)
+          at[k][axis][i + lane] = corners[k][axis];
   }
 
   void copy(std::size_t from, std::size_t to) {

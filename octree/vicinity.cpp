@@ -33,16 +33,27 @@ class LimitedFinder {
   std::uint64_t left_;
 };
 
+// A ball as the children of nodes are held against it.
+class Ball {
+ public:
+  Ball(const TreeFacts& tree, const Point& centre, double radius)
+      : query_(FloatQuery::from(centre, tree.centre)),
+        threshold_(prune_threshold(query_, radius)) {}
+
+  // A bit for each child that reaches into it.
+  unsigned reached_by(const Node& node) const { return children_within(node, query_, threshold_); }
+
+ private:
+  const FloatQuery query_;
+  const float threshold_;
+};
+
 // The subtrees that reach into a ball: from the root down, the largest first, as long as
 // there is room for its children.
 class FrontSearch {
  public:
-  FrontSearch(const TreeFacts& tree, const Point& centre, double radius, LimitedFinder& records,
-              Node& front)
-      : query_(FloatQuery::from(centre, tree.centre)),
-        threshold_(prune_threshold(query_, radius)),
-        records_(records),
-        front_(front) {}
+  FrontSearch(const Ball& ball, LimitedFinder& records, Node& front)
+      : ball_(ball), records_(records), front_(front) {}
 
   // False where there is nothing to keep.
   bool run(std::uint32_t root_link) {
@@ -71,7 +82,7 @@ class FrontSearch {
     const std::byte* record = records_.find(link);
     if (!record) return false;
     const Node& node = *reinterpret_cast<const Node*>(record);
-    unsigned near = children_within(node, query_, threshold_);
+    unsigned near = ball_.reached_by(node);
     const unsigned others = front_.child_count - (front_.child_count > 0 ? 1u : 0u);
     if (others + static_cast<unsigned>(std::popcount(near)) > kFanOut) return false;
     if (near == 0) return remove(place);
@@ -102,8 +113,7 @@ class FrontSearch {
     size_[place] = diagonal2;
   }
 
-  const FloatQuery query_;
-  const float threshold_;
+  const Ball& ball_;
   LimitedFinder& records_;
   Node& front_;
   float size_[kFanOut];
@@ -113,12 +123,8 @@ class FrontSearch {
 // The blocks below a front that reach into a ball.
 class BlockSearch {
  public:
-  BlockSearch(const TreeFacts& tree, const Point& centre, double radius, LimitedFinder& records,
-              NearbyBlocks& found)
-      : query_(FloatQuery::from(centre, tree.centre)),
-        threshold_(prune_threshold(query_, radius)),
-        records_(records),
-        found_(found) {}
+  BlockSearch(const Ball& ball, LimitedFinder& records, NearbyBlocks& found)
+      : ball_(ball), records_(records), found_(found) {}
 
   // False where they are too many, or a page is lost.
   bool run(const Node& front) {
@@ -136,7 +142,7 @@ class BlockSearch {
  private:
   bool take_children(const Node& node) {
     if (size_ + kFanOut > links_.size()) return false;
-    for (unsigned near = children_within(node, query_, threshold_); near != 0; near &= near - 1) {
+    for (unsigned near = ball_.reached_by(node); near != 0; near &= near - 1) {
       const auto child = static_cast<unsigned>(std::countr_zero(near));
       if (!LinkFormat::is_leaf(node.link[child]))
         links_[size_++] = node.link[child];
@@ -146,8 +152,7 @@ class BlockSearch {
     return true;
   }
 
-  const FloatQuery query_;
-  const float threshold_;
+  const Ball& ball_;
   LimitedFinder& records_;
   NearbyBlocks& found_;
   std::size_t size_ = 0;
@@ -213,13 +218,14 @@ void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
   radius_ = radius;
   blocks_.begin();
   triangles_.clear();
+  const Ball ball(tree, centre_, radius_);
   LimitedFinder records(tree, max_nodes, pages, work);
-  if (!FrontSearch(tree, centre_, radius_, records, front_).run(tree.root_link)) {
+  if (!FrontSearch(ball, records, front_).run(tree.root_link)) {
     forget();
     return;
   }
   if (radius_ > crowded_radius_ * kLessCrowded) return;
-  const bool few = BlockSearch(tree, centre_, radius_, records, blocks_).run(front_);
+  const bool few = BlockSearch(ball, records, blocks_).run(front_);
   crowded_radius_ = few ? std::numeric_limits<double>::infinity() : radius_;
   if (!few) return;
   TriangleSearch search(tree, centre_, radius_);

@@ -200,12 +200,8 @@ class Asking {
 
   // Most often that of the ask before, if the surface is known to be farther than that was.
   std::optional<Standing> known_side() {
-    SideMemory& memory = probe_.side_memory();
-    if (model_.region().holds(point_) && memory.same_side(point_, nearest_.lower)) {
-      memory.note(point_, memory.standing(), memory.counted(), nearest_.lower);
-      return memory.standing();
-    }
-    return side_at_once(model_, point_);
+    const auto before = side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
+    return before ? before : side_at_once(model_, point_);
   }
 
   void find_normal() {

@@ -42,6 +42,7 @@ AskingMemory::Needs Pager::asking_needs(const Limits& limits) const noexcept {
 
 Result<void> Pager::claim(const Limits& limits) {
   const storage::FileHeader& header = file_.header();
+  const AskingMemory::Needs needs = asking_needs(limits);
   cache::CacheLimits cache_limits{};
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
@@ -51,7 +52,7 @@ Result<void> Pager::claim(const Limits& limits) {
   // pin() is one more.
   const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + owner_count * scratch_bytes() +
-                                sizeof(Pager) + AskingMemory::bytes(asking_needs(limits)) +
+                                sizeof(Pager) + AskingMemory::bytes(needs) +
                                 limits.probe_bytes * limits.max_probes + limits.crew_bytes;
   const auto fill = [](void* context, const cache::FillRequest& request) {
     return static_cast<Pager*>(context)->fill(request);
@@ -59,7 +60,7 @@ Result<void> Pager::claim(const Limits& limits) {
   auto cache = cache::PageCache::create(cache_limits, fill, this);
   if (!cache) return cache.error();
   cache_ = std::move(*cache);
-  auto asking = AskingMemory::claim(asking_needs(limits));
+  auto asking = AskingMemory::claim(needs);
   if (!asking) return asking.error();
   asking_.emplace(*std::move(asking));
   if (const auto locked = lock(limits.locking); !locked) return locked;

@@ -204,16 +204,20 @@ std::optional<Standing> side_at_once(const ModelState& model, const Point& point
   return Standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
 }
 
+std::optional<Standing> side_as_before(const ModelState& model, const Point& point, double clear,
+                                       SideMemory& memory) noexcept {
+  if (!model.region().holds(point) || !memory.same_side(point, clear)) return {};
+  memory.note(point, memory.standing(), memory.counted(), clear);
+  return memory.standing();
+}
+
 Standing find_side(const ModelState& model, const Point& point, double clear, SideMemory& memory,
                    std::uint64_t max_nodes, octree::PageReader pages,
                    octree::TreeWork& work) noexcept {
   if (!model.info().watertight() || !model.region().holds(point) ||
       outside_box(model.tree(), point))
     return find_side(model, point, max_nodes, pages, work);
-  if (memory.same_side(point, clear)) {
-    memory.note(point, memory.standing(), memory.counted(), clear);
-    return memory.standing();
-  }
+  if (const auto before = side_as_before(model, point, clear, memory)) return *before;
   SideSearch search(model, point, max_nodes, pages, work, nullptr, &memory);
   const Standing standing = search.run();
   if (standing.status == Status::kExact) memory.note(point, standing, search.counted(), clear);

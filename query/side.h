@@ -51,6 +51,11 @@ Standing find_side(const ModelState& model, const octree::Point& point, std::uin
 /// octree::ColourMap's white or black cells. The point may be any.
 std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point) noexcept;
 
+/// The same where the point cannot but stand where the last one that `memory` knows does, which it
+/// then remembers. No surface is nearer to the point than `clear`.
+std::optional<Standing> side_as_before(const ModelState& model, const octree::Point& point,
+                                       double clear, SideMemory& memory) noexcept;
+
 /// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
 /// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
 /// to the point than `clear`, which may be 0.

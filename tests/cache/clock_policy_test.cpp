@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "cache/eviction_policy.h"
+#include "tests/cache/evicting.h"
 
 namespace planetree::cache {
 namespace {
@@ -17,17 +18,11 @@ struct Frames {
   std::array<FrameStates::State, kFrames> states{};
   EvictionPolicy clock{Policy::kClock, {.states = states, .scores = scores}};
 
-  Frames() {
-    for (std::uint32_t frame = 0; frame < kFrames; ++frame) clock.install(frame);
-  }
+  Frames() { install_all(clock, kFrames); }
   void mark(std::uint32_t frame, int times) {
     for (int i = 0; i < times; ++i) ClockPolicy::mark(scores[frame]);
   }
-  std::uint32_t evict() {
-    const std::uint32_t victim = clock.choose_victim();
-    if (victim != kNoFrame) clock.remove(victim);
-    return victim;
-  }
+  std::uint32_t evict() { return evict_one(clock); }
 };
 
 TEST(ClockPolicy, TakesUnusedFramesInTurn) {

@@ -111,6 +111,13 @@ class SideBySide : public testing::Test {
     });
   }
 
+  /// The same, which has come upon a slow page.
+  std::thread standing_at(std::uint32_t page) {
+    std::thread thread = fetching(page);
+    while (pages_.standing == 0) std::this_thread::yield();
+    return thread;
+  }
+
   SlowPages pages_;
   std::unique_ptr<PageCache> cache_;
   std::atomic<int> right_{0}, given_up_{0};
@@ -123,8 +130,7 @@ constexpr FetchTerms kAtOnceOrNot{.reads_itself = false,
 TEST_F(SideBySide, OneReadsWhatTwoWant) {
   open(6);
   pages_.slow = {7};
-  std::thread first = fetching(7);
-  while (pages_.standing == 0) std::this_thread::yield();
+  std::thread first = standing_at(7);
   std::thread second = fetching(7);
   pages_.moves = true;
   first.join();
@@ -136,8 +142,7 @@ TEST_F(SideBySide, OneReadsWhatTwoWant) {
 TEST_F(SideBySide, OthersReadWhileOneStandsStill) {
   open(6);
   pages_.slow = {7};
-  std::thread stuck = fetching(7);
-  while (pages_.standing == 0) std::this_thread::yield();
+  std::thread stuck = standing_at(7);
   // In the smallest cache too, where pages are evicted meanwhile.
   for (std::uint32_t page = 8; page < 50; ++page) fetching(page).join();
   EXPECT_EQ(right_, 42);
@@ -186,8 +191,7 @@ TEST_F(SideBySide, WaitsNoLongerThanTheLimit) {
 TEST_F(SideBySide, WhoReadsItselfGoesOnWhereAnotherGaveUp) {
   open(6);
   pages_.slow = {7};
-  std::thread stuck = fetching(7);
-  while (pages_.standing == 0) std::this_thread::yield();
+  std::thread stuck = standing_at(7);
   std::thread patient = fetching(7), hasty = fetching(7, kAtOnceOrNot);
   hasty.join();
   EXPECT_EQ(given_up_, 1);
@@ -202,8 +206,7 @@ TEST_F(SideBySide, UnreadablePagesAreToldToAllWhoWait) {
   open(6);
   pages_.slow = {7};
   pages_.tags.make_unreadable(7);
-  std::thread first = fetching(7);
-  while (pages_.standing == 0) std::this_thread::yield();
+  std::thread first = standing_at(7);
   std::thread second = fetching(7), third = fetching(7, kByHelpers);
   pages_.moves = true;
   first.join();

@@ -9,6 +9,7 @@
 
 #include "cache/eviction_policy.h"
 #include "cache/page_cache.h"
+#include "tests/cache/evicting.h"
 #include "tests/cache/tagged_pages.h"
 
 namespace planetree::cache {
@@ -23,15 +24,9 @@ struct LruFrames {
   EvictionPolicy lru{
       Policy::kLru, {.states = states, .scores = {}, .now = now, .uses = uses, .entries = entries}};
 
-  LruFrames() {
-    for (std::uint32_t frame = 0; frame < kFrames; ++frame) lru.install(frame);
-  }
+  LruFrames() { install_all(lru, kFrames); }
   void use(std::uint32_t frame) { lru.marks().mark(frame); }
-  std::uint32_t evict() {
-    const std::uint32_t victim = lru.choose_victim();
-    if (victim != kNoFrame) lru.remove(victim);
-    return victim;
-  }
+  std::uint32_t evict() { return evict_one(lru); }
 };
 
 TEST(LruPolicy, TakesWhatWasUsedLongestAgo) {

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,15 +44,7 @@ class SpecMasks : public testing::TestWithParam<Sample> {
 
   // Nothing where the point is so near the surface that rounding decides.
   std::optional<int> winding(const SpecPoint& point) const {
-    double sum = 0;
-    for (const SpecTriangle& triangle : triangles_) {
-      const SpecPoint a = triangle.corners[0] - point, b = triangle.corners[1] - point,
-                      c = triangle.corners[2] - point;
-      const double al = std::sqrt(dot(a, a)), bl = std::sqrt(dot(b, b)), cl = std::sqrt(dot(c, c));
-      sum += 2 * std::atan2(volume(a, b, c),
-                            al * bl * cl + dot(a, b) * cl + dot(b, c) * al + dot(c, a) * bl);
-    }
-    const double number = sum / (4 * std::numbers::pi);
+    const double number = winding_number(triangles_, point);
     if (std::fabs(number - std::round(number)) > 1e-6 || tree_.nearest(point).distance < 1e-9)
       return std::nullopt;
     return static_cast<int>(std::round(number));

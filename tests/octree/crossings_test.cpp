@@ -62,27 +62,25 @@ TEST(CountCrossings, IsTheSumOverAllTrianglesFarFromTheOrigin) {
   }
 }
 
-TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
+// Out of a sphere, by fewer nodes and blocks than so many.
+void expect_little_work(const MovedSegment& segment, std::uint64_t too_many) {
   const SampleTree sample = build_sample(sphere(6));
   SamplePages pages(sample);
   TreeWork work;
-  const Crossings found = count_crossings(tree_facts(sample), {{0.1, 0.2, 0}, {0.1, 0.2, 3}},
-                                          kEveryNode, pages.reader(), work);
+  const Crossings found =
+      count_crossings(tree_facts(sample), segment, kEveryNode, pages.reader(), work);
   EXPECT_NE(found.difference, 0);
-  EXPECT_LT(work.nodes + work.blocks, 40u);
+  EXPECT_LT(work.nodes + work.blocks, too_many);
   EXPECT_LT(work.triangles, 8u);
+}
+
+TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
+  expect_little_work({{0.1, 0.2, 0}, {0.1, 0.2, 3}}, 40);
 }
 
 // A box about it would hold an eighth of the model.
 TEST(CountCrossings, LooksOnlyAtWhatADiagonalSegmentMeets) {
-  const SampleTree sample = build_sample(sphere(6));
-  SamplePages pages(sample);
-  TreeWork work;
-  const Crossings found = count_crossings(tree_facts(sample), {{0.01, 0.02, 0}, {2, 2.1, 2.2}},
-                                          kEveryNode, pages.reader(), work);
-  EXPECT_NE(found.difference, 0);
-  EXPECT_LT(work.nodes + work.blocks, 20u);
-  EXPECT_LT(work.triangles, 8u);
+  expect_little_work({{0.01, 0.02, 0}, {2, 2.1, 2.2}}, 20);
 }
 
 TEST(CountCrossings, IsIncompleteWhereWorkOrPagesEnd) {

@@ -94,6 +94,14 @@ class ResumedBuild : public SmallPatches {
     ASSERT_EQ(folder_.names(), Names{"model.ptree"});
   }
 
+  /// Completes what was stopped, and takes the output away. False if it was complete before.
+  bool goes_on(const storage::Bytes& expected) {
+    const bool complete = std::filesystem::exists(output_);
+    expect_completed(expected);
+    std::filesystem::remove(output_);
+    return !complete;
+  }
+
   static BuildOptions resumable() {
     BuildOptions options;
     options.page_bytes = 4096;

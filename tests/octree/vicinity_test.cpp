@@ -62,6 +62,25 @@ struct Path {
   TreeWork work_alone, work_along;
 };
 
+// Asks of one probe.
+struct Warm {
+  explicit Warm(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
+
+  NearestAnswer answer(const Point& query) {
+    TreeWork work;
+    return nearest(tree_facts(sample), query, {}, pages.reader(), work, &vicinity);
+  }
+  TreeWork work(const Point& query, const NearestLimits& limits = {}) {
+    TreeWork work;
+    nearest(tree_facts(sample), query, limits, pages.reader(), work, &vicinity);
+    return work;
+  }
+
+  SampleTree sample;
+  SamplePages pages;
+  Vicinity vicinity;
+};
+
 TEST(Vicinity, ChangesNoAnswer) {
   const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(5)},
                                                 {"a triangle many times", repeated(500)},
@@ -114,20 +133,14 @@ TEST(Vicinity, ChangesNoAnswerToAPointJustTold) {
 }
 
 TEST(Vicinity, VisitsNoMoreThanAllowed) {
-  const SampleTree sample = build_sample(sphere(6));
-  SamplePages pages(sample);
+  const NearestAnswer known = Warm(sphere(6)).answer(Point(0.35, 0.35, 0.1));
   for (const std::uint32_t most : {8u, 20u, 40u}) {
-    Vicinity vicinity;
-    TreeWork unlimited;
-    const NearestAnswer known =
-        nearest(tree_facts(sample), Point(0.35, 0.35, 0.1), {}, pages.reader(), unlimited);
+    Warm warm(sphere(6));
     NearestLimits limits;
     limits.max_nodes = most;
     limits.known = &known;
     for (int i = 0; i < 10; ++i) {
-      TreeWork work;
-      nearest(tree_facts(sample), Point(0.35, 0.355 + i * 1e-4, 0.1), limits, pages.reader(), work,
-              &vicinity);
+      const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1e-4, 0.1), limits);
       EXPECT_LE(work.nodes + work.blocks, most) << i;
     }
   }
@@ -157,32 +170,22 @@ TEST(Vicinity, SparesMostNodesOfAPath) {
 }
 
 TEST(Vicinity, LooksAtNoPageWhereTrianglesAreFew) {
-  const SampleTree sample = build_sample(sphere(6));
-  SamplePages pages(sample);
-  Vicinity vicinity;
-  TreeWork work;
+  Warm warm(sphere(6));
   for (int i = 0; i < 12; ++i) {
-    const std::uint64_t turns = work.page_turns;
-    nearest(tree_facts(sample), Point(0.35, 0.355 + i * 1e-6, 0.1), {}, pages.reader(), work,
-            &vicinity);
+    const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1e-6, 0.1));
     if (i < 2) continue;
-    EXPECT_EQ(work.page_turns, turns) << i;
+    EXPECT_EQ(work.page_turns, 0u) << i;
   }
 }
 
 TEST(Vicinity, LooksAtNoNodeWhereBlocksAreFew) {
-  const SampleTree sample = build_sample(sphere(7));
-  SamplePages pages(sample);
-  Vicinity vicinity;
-  TreeWork work;
+  Warm warm(sphere(7));
   for (int i = 0; i < 8; ++i) {
-    const TreeWork before = work;
-    nearest(tree_facts(sample), Point(0.35, 0.355 + i * 1e-3, 0.1), {}, pages.reader(), work,
-            &vicinity);
+    const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1e-3, 0.1));
     if (i < 2) continue;
-    EXPECT_EQ(work.nodes, before.nodes) << i;
-    EXPECT_GT(work.blocks, before.blocks) << i;
-    EXPECT_FALSE(vicinity.triangles().complete());
+    EXPECT_EQ(work.nodes, 0u) << i;
+    EXPECT_GT(work.blocks, 0u) << i;
+    EXPECT_FALSE(warm.vicinity.triangles().complete());
   }
 }
 
