@@ -19,6 +19,7 @@ class ColourMap::Painter {
 
   /// Returns how many cells are listed.
   std::uint32_t paint() {
+    paint_rim();
     run(false);
     std::uint32_t listed_before = 0;
     for (std::size_t i = 0; i < stretches_for(cells()); ++i) {
@@ -38,6 +39,18 @@ class ColourMap::Painter {
 
   std::uint64_t cells() const {
     return std::uint64_t{map_.width_[0]} * map_.width_[1] * map_.width_[2];
+  }
+  // Without the rim.
+  std::uint32_t width(unsigned axis) const { return map_.width_[axis] - 2 * kRim; }
+
+  void paint_rim() {
+    const auto& end = map_.width_;
+    for (std::uint32_t z = 0; z < end[2]; ++z)
+      for (std::uint32_t y = 0; y < end[1]; ++y) {
+        const bool all = z == 0 || z + 1 == end[2] || y == 0 || y + 1 == end[1];
+        for (std::uint32_t x = 0; x < end[0]; x += all ? 1 : end[0] - 1)
+          set(map_.number({x, y, z}), kWhite);
+      }
   }
 
   void run(bool filling) {
@@ -62,7 +75,7 @@ class ColourMap::Painter {
 
   void go_to_grey(const MaskNode& node, unsigned octant, const GridCell& child) {
     for (unsigned axis = 0; axis < 3; ++axis)
-      if (child.at[axis] << (map_.level_ - child.level) >= map_.width_[axis]) return;
+      if (child.at[axis] << (map_.level_ - child.level) >= width(axis)) return;
     const bool leaf = (node.leaf >> octant & 1) != 0;
     const bool listed = child.level == map_.level_ || leaf;
     if (leaf && map_.level_ - child.level > kMostAbove) return;
@@ -109,8 +122,8 @@ class ColourMap::Painter {
     const unsigned shift = map_.level_ - cell.level;
     std::array<std::uint32_t, 3> first{}, end{};
     for (unsigned axis = 0; axis < 3; ++axis) {
-      first[axis] = cell.at[axis] << shift;
-      end[axis] = std::min((cell.at[axis] + 1) << shift, map_.width_[axis]);
+      first[axis] = (cell.at[axis] << shift) + kRim;
+      end[axis] = std::min((cell.at[axis] + 1) << shift, width(axis)) + kRim;
     }
     for (std::uint32_t z = first[2]; z < end[2]; ++z)
       for (std::uint32_t y = first[1]; y < end[1]; ++y)
@@ -145,9 +158,9 @@ void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pa
     const double per_unit = 0.5 * static_cast<double>(std::uint64_t{1} << level);
     double cells = 1;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1;
-      count_[axis] = width_[axis];
-      cells *= count_[axis];
+      width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1 + 2 * kRim;
+      last_middle_[axis] = width_[axis] - 0.5;
+      cells *= width_[axis];
     }
     if (cells > 3.0 * static_cast<double>(memory.size())) continue;
     const std::size_t stretches = stretches_for(static_cast<std::uint64_t>(cells));
@@ -164,9 +177,14 @@ void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pa
     records_ = reinterpret_cast<MaskNode*>(memory.data() + stretch_bytes);
     std::uninitialized_value_construct_n(records_, listed);
     painter.fill_records();
+    // A difference, of at most 2, errs by 2^-53 of it, a side by 2^-53 of the largest, and what
+    // is computed in cells by 2^-53 of their number, four times; twice that is allowed for.
+    const double error = (lower_.cwiseAbs().maxCoeff() + 4) * cells_per_unit_ +
+                         4.0 * *std::max_element(width_.begin(), width_.end());
+    certain_ = 0.5 - 0x1p-52 * error;
     return;
   }
-  count_ = {};
+  *this = {};
 }
 
 }  // namespace planetree::octree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,9 +14,10 @@
 
 namespace planetree::octree {
 
-/// A mask's cells of one level side by side: one look tells the side of most points of a
-/// model's box, and needs no page. The mask's records of the grey ones are there too, so that
-/// a lookup need not begin at the root. Filled once; then any thread may look.
+/// A mask's cells of one level side by side, with a rim of white ones about the model's box: one
+/// look tells the side of most points, and needs no page. The mask's records of the grey ones
+/// are there too, so that a lookup need not begin at the root. Filled once; then any thread may
+/// look.
 class ColourMap {
  public:
   /// Memory of the map of a model of so many triangles.
@@ -34,14 +36,13 @@ class ColourMap {
             std::span<std::byte> memory) noexcept;
 
   /// The sign of a point's winding number, where its cell is white or black; else kUnknown.
-  /// The point is in the model's box.
   int winding(const Point& point) const noexcept {
     std::array<std::uint32_t, 3> at;
     if (!find(point, at)) return kUnknown;
     const std::size_t cell = number(at);
     const unsigned code = code_of(cell);
-    if (code == kWhite) return 0;
-    if (code == kInside) return inside_;
+    // By no branch: points come from either side.
+    if (code <= kInside) return static_cast<int>(code) * inside_;
     if (code == kOther) return kUnknown;
     const MaskNode& record = record_of(cell);
     return record.grey != 0 ? winding_below(record, point, at) : kUnknown;
@@ -54,15 +55,16 @@ class ColourMap {
     GridCell cell;
     const MaskNode* record = nullptr;  ///< null where the map has none
   };
-  /// That of a point of the model's box.
+  /// That of a point.
   Spot spot(const Point& point) const noexcept {
     std::array<std::uint32_t, 3> at;
     if (!find(point, at)) return {};
-    const std::size_t cell = number(at);
-    if (code_of(cell) != kListed) return {};
-    const MaskNode& record = record_of(cell);
-    if (is_leaf(record)) return {GridCell{level_, at}.ancestor(level_ - record.black), &record};
-    return {{level_, at}, record.grey != 0 ? &record : nullptr};
+    const std::size_t number = this->number(at);
+    if (code_of(number) != kListed) return {};
+    const MaskNode& record = record_of(number);
+    const GridCell cell{level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
+    if (is_leaf(record)) return {cell.ancestor(level_ - record.black), &record};
+    return {cell, record.grey != 0 ? &record : nullptr};
   }
 
   /// No node is stored so: a leaf whose corners have numbers of four bits, in `family`; it may
@@ -81,12 +83,13 @@ class ColourMap {
   class Painter;
 
   enum Code : unsigned {
-    kWhite,
-    kInside,  ///< of the sign `inside_`
-    kListed,  ///< grey, with a record
-    kOther,   ///< nothing is known here
+    kWhite = 0,
+    kInside = 1,  ///< of the sign `inside_`
+    kListed,      ///< grey, with a record
+    kOther,       ///< nothing is known here
   };
   static constexpr std::uint8_t kLeafTag = 0xff;
+  static constexpr std::uint32_t kRim = 1;  ///< cells before, and behind, those of the box
 
   /// Some cells, and the number of the first record of those that are listed.
   struct Stretch {
@@ -101,13 +104,25 @@ class ColourMap {
     return static_cast<std::size_t>((cells + Stretch::kCells - 1) / Stretch::kCells);
   }
 
-  // Of the cells that the map has, which the point is in.
+  // Which of the map's cells the point is in. False where rounding does not tell that cell for
+  // certain, and where the map knows nothing.
   bool find(const Point& point, std::array<std::uint32_t, 3>& at) const {
+    double from_middle = 0;
+#pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double place = (point[axis] - lower_[axis]) * cells_per_unit_;
-      if (!(place >= 0 && place < count_[axis])) return false;
-      at[axis] = static_cast<std::uint32_t>(static_cast<std::int32_t>(place));
-      // As rounded, sides may be elsewhere than the product says.
+      const double place = (point[axis] - lower_[axis]) * cells_per_unit_ + kRim;
+      // What is no number is in the rim.
+      const double clamped = std::min(std::max(0.5, place), last_middle_[axis]);
+      const auto whole = static_cast<std::int32_t>(clamped);
+      at[axis] = static_cast<std::uint32_t>(whole);
+      from_middle = std::max(from_middle, std::fabs(clamped - 0.5 - whole));
+    }
+    return from_middle < certain_ || find_among_sides(point, at);
+  }
+  // As rounded, sides may be elsewhere than the product says.
+  bool find_among_sides(const Point& point, const std::array<std::uint32_t, 3>& at) const {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if (at[axis] < kRim || at[axis] + kRim >= width_[axis]) return false;
       if (!(side(axis, at[axis]) <= point[axis] && point[axis] < side(axis, at[axis] + 1)))
         return false;
     }
@@ -140,22 +155,24 @@ class ColourMap {
                     const std::array<std::uint32_t, 3>& at) const {
     unsigned octant = 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double middle = lower_[axis] + cell_side_ / 2 * static_cast<double>(2 * at[axis] + 1);
+      const double middle =
+          lower_[axis] + cell_side_ / 2 * static_cast<double>(2 * (at[axis] - kRim) + 1);
       octant |= static_cast<unsigned>(middle <= point[axis]) << axis;
     }
     if ((node.grey >> octant & 1) != 0) return kUnknown;
     return (node.black >> octant & 1) - (node.inverted >> octant & 1);
   }
   // As CellGrid's.
-  double side(unsigned axis, std::uint32_t index) const {
-    return lower_[axis] + cell_side_ * static_cast<double>(index);
+  double side(unsigned axis, std::uint32_t at) const {
+    return lower_[axis] + cell_side_ * static_cast<double>(at - kRim);
   }
 
   Point lower_ = Point::Zero();
   double cell_side_ = 0;
   double cells_per_unit_ = 0;
-  std::array<double, 3> count_{};
-  std::array<std::uint32_t, 3> width_{};
+  std::array<double, 3> last_middle_{0.5, 0.5, 0.5};  // of the last cells of the rim, in cells
+  double certain_ = 0;  // so far from a cell's middle, in cells, rounding changes nothing
+  std::array<std::uint32_t, 3> width_{};  // with the rim
   unsigned level_ = 0;
   int inside_ = 1;
   // Side by side in the memory.

@@ -22,13 +22,14 @@ class Region {
       if (lower[axis] > box_lower[axis]) lower_[axis] = lower[axis];
       if (upper[axis] < box_upper[axis]) upper_[axis] = upper[axis];
     }
+    has_walls_ = lower_.maxCoeff() > -kNone || upper_.minCoeff() < kNone;
   }
 
   /// Infinite where there is no wall.
   const Point& lower() const { return lower_; }
   const Point& upper() const { return upper_; }
 
-  bool has_walls() const { return lower_.maxCoeff() > -kNone || upper_.minCoeff() < kNone; }
+  bool has_walls() const { return has_walls_; }
   /// Whether a point is in it, or on a wall.
   bool holds(const Point& point) const {
     return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all();
@@ -59,6 +60,7 @@ class Region {
 
   Point lower_ = Point::Constant(-kNone);
   Point upper_ = Point::Constant(kNone);
+  bool has_walls_ = false;
 };
 
 }  // namespace planetree::octree

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool makes_sense(const Vec3& query, const Ask& ask) {
+inline bool makes_sense(const Vec3& query, const Ask& ask) {
   return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z) &&
          ask.max_error >= 0 && std::isfinite(ask.max_error) && ask.max_distance >= 0 &&
          (ask.parts & ~kAllParts) == 0;
@@ -233,6 +233,24 @@ class Asking {
   bool lost_ = false;  // something for want of pages or work
 };
 
+// Apart from what most asks come to, which needs few registers.
+[[gnu::noinline]] Containment find_containment(ProbeState& probe, const Vec3& query, const Ask& ask,
+                                               const octree::Point& placed, TouchLog* log) {
+  const Ask limited = with_defaults(ask);
+  PageTurner turner(probe.reader(), ask.wait, probe.model().asking_terms());
+  turner.log_to(log);
+  octree::TreeWork work;
+  const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),
+                                    limited.max_nodes, turner, work);
+  if (standing.status == Status::kDegraded) {
+    Ask side_alone = limited;
+    side_alone.parts = kSide;
+    note_loss(probe, query, side_alone, turner);
+    probe.model().count_degraded();
+  }
+  return {standing.side, standing.status};
+}
+
 }  // namespace
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
@@ -244,24 +262,11 @@ ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask)
 
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return {};
-  const ModelState& model = probe.model();
-  const octree::Point placed = model.scale().in(query);
+  const octree::Point placed = probe.model().scale().in(query);
   probe.last_parts() = kSide;
   TouchLog* const log = probe.touches().begin_ask(ask.wait);
-  if (const auto known = side_at_once(model, placed)) return {known->side, known->status};
-  const Ask limited = with_defaults(ask);
-  PageTurner turner(probe.reader(), ask.wait, model.asking_terms());
-  turner.log_to(log);
-  octree::TreeWork work;
-  const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),
-                                    limited.max_nodes, turner, work);
-  if (standing.status == Status::kDegraded) {
-    Ask side_alone = limited;
-    side_alone.parts = kSide;
-    note_loss(probe, query, side_alone, turner);
-    model.count_degraded();
-  }
-  return {standing.side, standing.status};
+  if (const auto known = side_at_once(probe.model(), placed)) return {known->side, known->status};
+  return find_containment(probe, query, ask, placed, log);
 }
 
 void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,

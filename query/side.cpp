@@ -152,7 +152,7 @@ Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t
 // region, and of any where winding numbers are not constant off the surface.
 bool is_untold(const ModelState& model, const Point& point) {
   const octree::Region& region = model.region();
-  return !region.holds(point) || (region.has_walls() && !model.info().watertight());
+  return region.has_walls() && (!region.holds(point) || !model.info().watertight());
 }
 
 /// The nearest whole number, however large.
@@ -196,12 +196,15 @@ Standing find_side(const ModelState& model, const Point& point, std::uint64_t ma
 }
 
 std::optional<Standing> side_at_once(const ModelState& model, const Point& point) noexcept {
-  if (is_untold(model, point)) return Standing{};
-  if (!model.info().watertight()) return {};
-  if (outside_box(model.tree(), point)) return Standing{Side::kOutside};
-  const int winding = model.colours().winding(point);
-  if (winding == octree::ColourMap::kUnknown) return {};
-  return Standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
+  // Models that are not watertight have no colours.
+  const bool untold = is_untold(model, point);
+  const int winding = untold ? octree::ColourMap::kUnknown : model.colours().winding(point);
+  if (winding != octree::ColourMap::kUnknown)
+    return Standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
+  if (untold) return Standing{};
+  if (model.info().watertight() && outside_box(model.tree(), point))
+    return Standing{Side::kOutside};
+  return {};
 }
 
 std::optional<Standing> side_as_before(const ModelState& model, const Point& point, double clear,

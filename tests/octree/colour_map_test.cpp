@@ -108,17 +108,56 @@ TEST_F(ColourMapTest, KnowsNothingWithoutTheFirstPage) {
   for (const Point& point : points(100)) EXPECT_EQ(map.winding(point), ColourMap::kUnknown);
 }
 
-TEST_F(ColourMapTest, KnowsNothingOutsideOfItsCells) {
+TEST_F(ColourMapTest, IsWhiteAroundItsCells) {
   MaskPages pages(random_mask(10), 4096, 3);
   const ColourMap map = map_of(pages, kMany);
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (unsigned axis = 0; axis < 3; ++axis)
-    for (const double off : {-1e-9, 2.0, 1e300, -1e300, kNaN}) {
+    for (const double off : {-1e-9, 2.0, 1e300, -1e300}) {
       Point point = lower_ + size_ / 2;
       point[axis] = lower_[axis] + off;
-      EXPECT_EQ(map.winding(point), ColourMap::kUnknown) << axis << " " << off;
+      EXPECT_EQ(map.winding(point), 0) << axis << " " << off;
+      EXPECT_EQ(map.spot(point).record, nullptr);
     }
-  EXPECT_EQ(ColourMap().winding(lower_ + size_ / 2), ColourMap::kUnknown);
+}
+
+TEST_F(ColourMapTest, KnowsNothingUnlessFilled) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (const double at : {0.0, -1e300, 1e300, kNaN}) {
+    EXPECT_EQ(ColourMap().winding(Point::Constant(at)), ColourMap::kUnknown) << at;
+    EXPECT_EQ(ColourMap().spot(Point::Constant(at)).record, nullptr);
+  }
+}
+
+// On a side between two cells, and an ulp beside it, which cell a point is in is a matter of
+// rounding: the map says what the mask says, or nothing. From far away sides are coarse.
+TEST_F(ColourMapTest, SaysWhatTheMaskSaysBesideSides) {
+  MaskPages pages(random_mask(10), 65536, 3);
+  for (const double far : {1.0 / 3, 1e6 + 1.0 / 3, 1e12}) {
+    const Point lower = lower_ + Point::Constant(far);
+    ColourMap map;
+    memory_.resize(kMany);
+    map.fill(pages.mask(lower), tree_of(lower, size_), pages.reader(), memory_);
+    Noise noise(11);
+    std::size_t known = 0;
+    for (unsigned i = 0; i < 6000; ++i) {
+      const Vec3 p = noise.point(0, 1);
+      Point step = Point(p.x, p.y, p.z).cwiseProduct(size_);
+      const unsigned axis = i % 3;
+      step[axis] = std::floor(step[axis] * 64) / 64;
+      Point point = lower + step;
+      if (i % 2 != 0) point[axis] = std::nextafter(point[axis], i % 4 == 1 ? -1e300 : 1e300);
+      if ((point.array() < lower.array()).any()) continue;
+      const int winding = map.winding(point);
+      if (winding == ColourMap::kUnknown) continue;
+      ++known;
+      TreeWork work;
+      const MaskFinding found =
+          look_up(pages.mask(lower), point, ~std::uint64_t{0}, pages.reader(), work);
+      ASSERT_EQ(found.kind, MaskFinding::Kind::kColour) << point.transpose();
+      ASSERT_EQ(winding, found.winding) << point.transpose();
+    }
+    EXPECT_GT(known, 200u) << far;
+  }
 }
 
 TEST_F(ColourMapTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
