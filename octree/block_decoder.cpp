@@ -2,43 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <span>
 
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
 namespace {
 
-// Bits, lowest first, from a stream of bytes.
-class BitReader {
- public:
-  explicit BitReader(const std::byte* bytes) : next_(bytes) {}
-  unsigned take(unsigned bits) {
-    while (held_ < bits) {
-      window_ |= static_cast<unsigned>(*next_++) << held_;
-      held_ += 8;
-    }
-    const unsigned value = window_ & ((1u << bits) - 1);
-    window_ >>= bits;
-    held_ -= bits;
-    return value;
-  }
-  unsigned rest() const { return window_; }
-
- private:
-  const std::byte* next_;
-  unsigned window_ = 0;
-  unsigned held_ = 0;
-};
-
 // An honest model's coordinates are below 2^55. Up to here no square and no
 // product of squares overflows, wherever vertices go from here.
 constexpr double kFarthestVertex = 0x1p60;
 
-bool in_range(double coordinate) { return std::fabs(coordinate) <= kFarthestVertex; }
+// Four bytes from one on, those past the end 0; the first is the lowest.
+std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t first) {
+  std::uint32_t word = 0;
+  if (bytes.size() - first >= sizeof word)
+    std::memcpy(&word, bytes.data() + first, sizeof word);
+  else
+    std::memcpy(&word, bytes.data() + first, bytes.size() - first);
+  return word;
+}
 
-float distance_up(float x, float y, float z) {
-  return std::sqrt(x * x + y * y + z * z) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
+// At least the distance of any vertex from the first.
+float extent_of(const float* rows, unsigned count, unsigned stride) {
+  float squared = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const float x = rows[i] - rows[0], y = rows[stride + i] - rows[stride],
+                z = rows[2 * stride + i] - rows[2 * stride];
+    squared = std::max(squared, x * x + y * y + z * z);
+  }
+  return std::sqrt(squared) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
 }
 
 }  // namespace
@@ -66,36 +61,44 @@ const char* BlockDecoder::finish() const noexcept {
              : "its vertices do not add up";
 }
 
-// Vertices that the page has had come first, ascending; then new ones in order.
 const char* BlockDecoder::collect_vertices(unsigned count, unsigned new_count, Vertices& vertices) {
-  const unsigned old_count = count - new_count;
-  if (old_count > streams_.vertex_refs.size() - next_ref_ ||
+  vertices.old_count = count - new_count;
+  if (vertices.old_count > streams_.vertex_refs.size() - next_ref_ ||
       new_count > streams_.head.vertex_count - next_vertex_)
     return "its vertices do not add up";
   std::uint32_t vertex = 0;
-  for (unsigned i = 0; i < old_count; ++i) {
+  for (unsigned i = 0; i < vertices.old_count; ++i) {
     const std::uint32_t step = streams_.vertex_refs[next_ref_++];
     if (i > 0 && step == 0) return "a block names a vertex twice";
     vertex += step;
     if (vertex >= next_vertex_) return "a block names a vertex the page has not had";
-    vertices[i] = vertex;
+    vertices.old[i] = vertex;
   }
-  for (unsigned i = old_count; i < count; ++i)
-    vertices[i] = static_cast<std::uint32_t>(next_vertex_++);
+  vertices.first_new = next_vertex_;
+  next_vertex_ += new_count;
   return nullptr;
 }
 
 const char* BlockDecoder::store_corners(BlockHeader& header) {
-  const unsigned bits = corner_bits(header.vertex_count);
-  BitReader reader(streams_.corners.data() + next_corner_byte_);
-  for (unsigned triangle = 0; triangle < header.triangle_count; ++triangle)
+  const unsigned bits = corner_bits(header.vertex_count), mask = (1u << bits) - 1;
+  const auto bytes = streams_.corners.subspan(
+      next_corner_byte_, corner_bytes(header.triangle_count, header.vertex_count));
+  next_corner_byte_ += bytes.size();
+  std::size_t next_bit = 0;
+  unsigned greatest = 0;
+  for (unsigned triangle = 0; triangle < header.triangle_count; ++triangle, next_bit += 3 * bits) {
+    // At most 7 bits before it, and 18 of its own.
+    std::uint32_t window = word_at(bytes, next_bit / 8) >> next_bit % 8;
     for (auto& corners : header.corner) {
-      const unsigned vertex = reader.take(bits);
-      if (vertex >= header.vertex_count) return "a corner names a vertex its block has not";
+      const unsigned vertex = window & mask;
+      window >>= bits;
+      greatest = std::max(greatest, vertex);
       corners[triangle] = static_cast<std::uint8_t>(vertex);
     }
-  if (reader.rest() != 0) return "padding is not zero";
-  next_corner_byte_ += corner_bytes(header.triangle_count, header.vertex_count);
+  }
+  if (greatest >= header.vertex_count) return "a corner names a vertex its block has not";
+  if (next_bit % 8 != 0 && std::to_integer<unsigned>(bytes.back()) >> next_bit % 8 != 0)
+    return "padding is not zero";
   // Lanes beyond the last triangle repeat it, so that kernels need no mask.
   for (auto& corners : header.corner)
     std::fill(corners + header.triangle_count, corners + kMaxBlockTriangles,
@@ -105,34 +108,37 @@ const char* BlockDecoder::store_corners(BlockHeader& header) {
 
 const char* BlockDecoder::store_vertices(BlockHeader& header, const Vertices& vertices) {
   constexpr const char* kOutOfRange = "a vertex is out of range";
+  const unsigned count = header.vertex_count, stride = header.stride;
   auto* record = reinterpret_cast<std::byte*>(&header);
   auto* local = reinterpret_cast<float*>(record + kSlotBytes);
-  auto* exact = reinterpret_cast<double*>(record + shape_.exact_offset(header.stride));
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    float* row = local + std::size_t{axis} * header.stride;
-    double* exact_row = exact + std::size_t{axis} * header.stride;
-    for (unsigned i = 0; i < header.vertex_count; ++i) {
-      const std::size_t element = axis * std::size_t{streams_.head.vertex_count} + vertices[i];
-      if (shape_.float64) {
-        exact_row[i] = streams_.vertices64[element];
-        if (!in_range(exact_row[i])) return kOutOfRange;
-        row[i] = static_cast<float>(exact_row[i] - exact_row[0]);
-      } else {
-        row[i] = streams_.vertices32[element];
-        if (!in_range(static_cast<double>(row[i]))) return kOutOfRange;
-      }
-    }
-    std::fill(row + header.vertex_count, row + header.stride, row[0]);
-    if (shape_.float64)
-      std::fill(exact_row + header.vertex_count, exact_row + header.stride, exact_row[0]);
+  if (shape_.float64) {
+    auto* exact = reinterpret_cast<double*>(record + shape_.exact_offset(stride));
+    if (!store_rows(streams_.vertices64, vertices, count, stride, exact)) return kOutOfRange;
+    for (unsigned i = 0; i < 3 * stride; ++i)
+      local[i] = static_cast<float>(exact[i] - exact[i / stride * stride]);
+  } else if (!store_rows(streams_.vertices32, vertices, count, stride, local)) {
+    return kOutOfRange;
   }
-  for (unsigned i = 0; i < header.vertex_count; ++i) {
-    const unsigned stride = header.stride;
-    header.extent =
-        std::max(header.extent, distance_up(local[i] - local[0], local[stride + i] - local[stride],
-                                            local[2 * stride + i] - local[2 * stride]));
-  }
+  header.extent = extent_of(local, count, stride);
   return nullptr;
+}
+
+// A row of each coordinate, with the first vertex again up to the stride. False where one is out
+// of range.
+template <class T>
+bool BlockDecoder::store_rows(const Shuffled<T>& page, const Vertices& vertices, unsigned count,
+                              unsigned stride, T* rows) {
+  const std::size_t per_axis = page.size() / 3;
+  bool good = true;
+  for (std::size_t axis = 0; axis < 3; ++axis, rows += stride) {
+    const std::size_t first = axis * per_axis;
+    for (unsigned i = 0; i < vertices.old_count; ++i) rows[i] = page[first + vertices.old[i]];
+    const std::size_t first_new = first + vertices.first_new - vertices.old_count;
+    for (unsigned i = vertices.old_count; i < count; ++i) rows[i] = page[first_new + i];
+    for (unsigned i = 0; i < count; ++i) good &= std::fabs(rows[i]) <= T{kFarthestVertex};
+    std::fill(rows + count, rows + stride, rows[0]);
+  }
+  return good;
 }
 
 const char* BlockDecoder::store_ids(BlockHeader& header) {

@@ -24,11 +24,19 @@ class BlockDecoder {
   const char* finish() const noexcept;
 
  private:
-  using Vertices = std::array<std::uint32_t, kMaxBlockVertices>;
+  // Vertices of a block: some that the page has had, ascending, then the page's next ones.
+  struct Vertices {
+    unsigned old_count = 0;
+    std::array<std::uint32_t, kMaxBlockVertices> old;
+    std::size_t first_new = 0;
+  };
 
   const char* collect_vertices(unsigned count, unsigned new_count, Vertices& vertices);
   const char* store_corners(BlockHeader& header);
   const char* store_vertices(BlockHeader& header, const Vertices& vertices);
+  template <class T>
+  static bool store_rows(const Shuffled<T>& page, const Vertices& vertices, unsigned count,
+                         unsigned stride, T* rows);
   const char* store_ids(BlockHeader& header);
 
   const RawStreams& streams_;

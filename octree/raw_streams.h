@@ -26,6 +26,7 @@ class Shuffled {
         std::conditional_t<sizeof(T) == 4, std::uint32_t,
                            std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
     Bits bits = 0;
+#pragma GCC unroll 8
     for (std::size_t k = 0; k < sizeof(T); ++k)
       bits = static_cast<Bits>(bits | static_cast<Bits>(bytes_[k * count_ + index]) << (8 * k));
     T value;
