@@ -75,7 +75,7 @@ int fail(const char* what) {
 int run(const Arguments& arguments) {
   fmt::print("{:<10}{:<20}{:>12}{:>12}{:>14}\n", "points", "the first asks", "asks/s", "max us",
              "pages an ask");
-  for (const Workload workload : {Workload::kUniform, Workload::kPath})
+  for (const Workload workload : {Workload::kUniform, Workload::kNear, Workload::kPath})
     for (const bool side : {false, true}) {
       const auto points = points_of(arguments, workload);
       if (!points) return fail(points.error().text);

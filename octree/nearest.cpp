@@ -276,7 +276,7 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
     Descent descent(tree, query, limits, pages, work);
     descent.run_from(*vicinity);
     NearestAnswer answer = answer_of(descent);
-    if (answer.status == Status::kExact) vicinity->note(query, answer.point);
+    if (answer.status == Status::kExact) vicinity->outlive(query, answer.distance, answer.point);
     if (answer.status == Status::kExact || limits.known) return answer;
     // Lost pages, or nothing so near as asked: told from the root, as ever.
     vicinity->forget();

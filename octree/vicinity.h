@@ -43,7 +43,6 @@ class Vicinity {
     if (!(step <= diagonal * kLongestStep)) return 0;
     return distance + kSteps * std::max(step, distance * kLeastStep);
   }
-
   /// Their blocks, if these are few.
   const NearbyBlocks& blocks() const { return blocks_; }
   /// Their triangles, if these are few.
@@ -66,6 +65,16 @@ class Vicinity {
     last_nearest_ = nearest;
   }
 
+  /// One that was found in the ball; which is forgotten if it is far larger than is wanted by
+  /// now, and so holds more than it need.
+  void outlive(const Point& query, double distance, const Point& nearest) {
+    const double room = radius_ / kTooWide - distance;
+    if (room > kSteps * kLeastStep * distance &&
+        room * room > kSteps * kSteps * (query - last_).squaredNorm())
+      forget();
+    note(query, nearest);
+  }
+
   void forget() { radius_ = 0; }
 
  private:
@@ -77,6 +86,7 @@ class Vicinity {
   static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
   static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
   static constexpr double kSteps = 24;            ///< that a ball is to last
+  static constexpr double kTooWide = 16;          ///< so many times what is wanted
   /// Balls of more than this share of one that held too many blocks are not searched.
   static constexpr double kLessCrowded = 0.75;
 

@@ -132,6 +132,20 @@ TEST(Vicinity, ChangesNoAnswerToAPointJustTold) {
   }
 }
 
+// Leaps that are just short enough to be thought steps, then steps so short that all they want is
+// few triangles.
+TEST(Vicinity, GivesWayToASmallerBallWhenStepsGetShorter) {
+  Warm warm(sphere(6));
+  Point at(0.45, 0.15, 0.078);
+  for (int i = 0; i < 4; ++i) warm.answer(at += Point(0, 0, 0.02));
+  std::uint64_t visits = 0;
+  for (int i = 0; i < 20; ++i) {
+    const TreeWork work = warm.work(at += Point(0, 1e-5, 0));
+    visits = work.nodes + work.blocks;
+  }
+  EXPECT_EQ(visits, 0u);
+}
+
 TEST(Vicinity, VisitsNoMoreThanAllowed) {
   const NearestAnswer known = Warm(sphere(6)).answer(Point(0.35, 0.35, 0.1));
   for (const std::uint32_t most : {8u, 20u, 40u}) {
