@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <hwy/targets.h>
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +23,7 @@ namespace {
 
 struct Options {
   std::string mesh, model, json;
+  std::string instructions;  // whatever the processor has when empty
   std::vector<std::string> peers{"embree", "cgal"};
   std::vector<std::string> workloads;  // all when empty
   std::size_t asks = 20000, rounds = 5;
@@ -37,6 +40,18 @@ void pin_to_last_core() {
       CPU_SET(core, &chosen);
     }
   sched_setaffinity(0, sizeof chosen, &chosen);
+}
+
+// Planetree's kernels for one instruction set alone; peers choose for themselves. False where
+// there are none, or the processor has not got it.
+bool use_only(const std::string& instructions) {
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const std::int64_t target = left & -left;
+    if (hwy::TargetName(target) != instructions) continue;
+    hwy::SetSupportedTargetsForTest(target);
+    return true;
+  }
+  return false;
 }
 
 // One thing that is asked, of planetree or of a peer, and what it is asked for.
@@ -150,6 +165,10 @@ int run(const Options& options) {
   if (!model) return fail(model.error());
   auto probe = Probe::create(*model);
   if (!probe) return fail(probe.error());
+  if (!options.instructions.empty() && !use_only(options.instructions)) {
+    std::cerr << "peers_bench: no kernels for '" << options.instructions << "' here\n";
+    return 2;
+  }
   pin_to_last_core();
 
   nlohmann::json report = describe(*model, *peers);
@@ -180,6 +199,8 @@ int main(int argc, char** argv) {
   app.add_option("--asks", options.asks, "Points a workload")->capture_default_str();
   app.add_option("--rounds", options.rounds, "Rounds in turn; their median counts")
       ->capture_default_str();
+  app.add_option("--instructions", options.instructions,
+                 "Planetree's kernels for this set alone: SSE4, AVX2, AVX3 (AVX-512)");
   app.add_option("--json", options.json, "File for all figures");
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(options);
