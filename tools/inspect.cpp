@@ -198,7 +198,7 @@ int show_slice(const InspectArguments& arguments, Console& console) {
         "farthest {:.6g}\n",
         arguments.image.string(), axis, slice->coordinate, slice->image.width(),
         slice->image.height(), slice->pixel_length, slice->line_distance, slice->greatest));
-  const auto error = unreadable_pages(model->stats());
+  const auto error = pages_lost(model->stats());
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
 

@@ -23,6 +23,7 @@ namespace planetree::tools {
 namespace {
 
 constexpr std::size_t kChunkPoints = 65536;
+constexpr std::uint64_t kMostWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
 
 /// How many answers ended how.
 struct Tally {
@@ -48,7 +49,7 @@ class Session {
   int run(PointReader& points) {
     const int status =
         arguments_.contains ? answer_all<Containment>(points) : answer_all<ClosestPoint>(points);
-    const auto error = unreadable_pages(model_.stats());
+    const auto error = pages_lost(model_.stats());
     return error ? std::max(status, console_.fail(arguments_.file.string(), *error)) : status;
   }
 
@@ -63,6 +64,7 @@ class Session {
     report["points_per_second"] = static_cast<double>(tally_.points) / std::max(seconds, 1e-9);
     report["pages_read"] = stats.pages_read;
     report["quarantined_pages"] = stats.quarantined_pages;
+    report["waits_given_up"] = stats.waits_given_up;
     report["budget_bytes"] = stats.budget_bytes;
     report["peak_resident_bytes"] = peak_resident_bytes();
     return json_line(report);
@@ -122,7 +124,8 @@ int run_query(const QueryArguments& arguments, Console& console) {
     return console.fail("standard output", checked.error());
   const std::string file = arguments.file.string();
   const auto model = open_model(arguments.file, arguments.memory_bytes, console,
-                                static_cast<unsigned>(arguments.threads));
+                                static_cast<unsigned>(arguments.threads),
+                                static_cast<unsigned>(arguments.wait_limit_ms));
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
@@ -166,6 +169,11 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
                                "Threads to answer with; 0 means one for each processor. No "
                                "answer depends on it"),
                     "0");
+  verb.default_text(
+      verb.count("--wait-limit", options->wait_limit_ms, kMostWaitMs,
+                 "Longest wait for one page, in milliseconds. An answer that needs it then is "
+                 "degraded: its interval holds, and the others go on"),
+      "10000");
   verb.default_text(
       verb.word(
           "--format", {"csv", "jsonl", "f64"},

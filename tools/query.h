@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "planetree/model.h"
 #include "planetree/types.h"
 #include "tools/answer_writer.h"
 #include "tools/verb.h"
@@ -22,6 +23,7 @@ struct QueryArguments {
   bool contains = false;  ///< ask for the side alone
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint64_t threads = 0;  ///< 0: one for each processor
+  std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;
   AnswerFormat format = AnswerFormat::kCsv;
   bool json = false;
   bool quiet = false;

@@ -95,7 +95,7 @@ int run_touch(const TouchArguments& arguments, Console& console) {
   if (*trace)
     if (const auto written = write_whole(**trace, touches); !written)
       return console.finish(console.fail(arguments.trace.string(), written.error()));
-  const auto error = unreadable_pages(model->stats());
+  const auto error = pages_lost(model->stats());
   return console.finish(error ? console.fail(file, *error) : kDone);
 }
 

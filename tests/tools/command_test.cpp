@@ -247,9 +247,11 @@ TEST_F(Command, QueryTellsTheSideAlone) {
 
 TEST_F(Command, QuerySumsUpOnStandardError) {
   const Outcome result =
-      run({"query", "tree.ptree", "--json", "--format", "jsonl"}, "1,1,1\ninf,1,1\n");
+      run({"query", "tree.ptree", "--json", "--format", "jsonl", "--wait-limit", "60000"},
+          "1,1,1\ninf,1,1\n");
   EXPECT_EQ(result.status, 0);
   const Json report = Json::parse(result.errors);
+  EXPECT_EQ(report["waits_given_up"], 0);
   EXPECT_EQ(report["points"], 2);
   EXPECT_EQ(report["exact"], 1);
   EXPECT_EQ(report["bad_query"], 1);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "tools/file_digest.h"
 #include "tools/file_text.h"
 #include "tools/issue.h"
+#include "tools/open_model.h"
 #include "tools/slice_image.h"
 
 namespace planetree::tools {
@@ -182,6 +184,22 @@ TEST(ErrorLine, IsOneLineWhateverTheName) {
             "planetree: a?b: page 3, at byte 4096: it is wrong; mend it\n");
   error.page = Error::kNowhere;
   EXPECT_EQ(error_line("a", error), "planetree: a: at byte 4096: it is wrong; mend it\n");
+}
+
+TEST(PagesLost, NamesWhatWasLostFirst) {
+  Stats stats;
+  EXPECT_EQ(pages_lost(stats), std::nullopt);
+  stats.waits_given_up = 3;
+  stats.degraded_answers = 5;
+  const auto late = pages_lost(stats);
+  ASSERT_TRUE(late);
+  EXPECT_EQ(exit_status(late->code), 3);
+  EXPECT_TRUE(std::string(late->text).starts_with("3 waits for its pages were given up, so 5 "));
+  stats.quarantined_pages = 1;
+  const auto unreadable = pages_lost(stats);
+  ASSERT_TRUE(unreadable);
+  EXPECT_EQ(exit_status(unreadable->code), 1);
+  EXPECT_TRUE(std::string(unreadable->text).starts_with("1 of its pages cannot be read, so 5 "));
 }
 
 TEST(ExitStatus, TellsWhoHasToAct) {
