@@ -114,8 +114,9 @@ const char* BlockDecoder::store_vertices(BlockHeader& header, const Vertices& ve
   if (shape_.float64) {
     auto* exact = reinterpret_cast<double*>(record + shape_.exact_offset(stride));
     if (!store_rows(streams_.vertices64, vertices, count, stride, exact)) return kOutOfRange;
-    for (unsigned i = 0; i < 3 * stride; ++i)
-      local[i] = static_cast<float>(exact[i] - exact[i / stride * stride]);
+    for (unsigned first = 0; first < 3 * stride; first += stride)
+      for (unsigned i = first; i < first + stride; ++i)
+        local[i] = static_cast<float>(exact[i] - exact[first]);
   } else if (!store_rows(streams_.vertices32, vertices, count, stride, local)) {
     return kOutOfRange;
   }

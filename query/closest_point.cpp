@@ -190,7 +190,10 @@ class Asking {
   }
 
   void find_side() {
-    const auto known = remember_ ? known_side() : std::nullopt;
+    // What stands for a point that far away may be beyond another wall of a region.
+    const auto known = far_        ? side_at_once(model_, placed_)
+                       : remember_ ? known_side()
+                                   : std::nullopt;
     standing_ =
         known ? *known
               : side_of(probe_, point_, nearest_.lower, remember_, nodes_left(), turner_, work_);

@@ -116,6 +116,27 @@ TEST(Region, HasWallsOnlyWithinTheModel) {
   }
 }
 
+// So far away that all of the model is in one direction; but which walls a point is beyond, its
+// other coordinates say.
+TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
+  const Soup cube = box({0, 0, 0}, {1, 1, 1});
+  for (const double far : {1e80, 1e100, 1e300, 1e308, -1e100}) {
+    for (const RegionBox& box :
+         {RegionBox{{0.25, -10, -10}, {10, 10, 10}}, RegionBox{{-10, -10, -10}, {0.5, 10, 10}}}) {
+      Parted model(cube, box);
+      for (const double x : {0.1, 0.4, 0.9}) {
+        const bool within = box.lower.x <= x && x <= box.upper.x;
+        const Side side = within ? Side::kOutside : Side::kUnknown;
+        for (const Vec3& query : {Vec3{x, 0.5, far}, Vec3{x, far, 0.5}}) {
+          EXPECT_EQ(model.part().ask(query).side, side) << x << " " << far;
+          EXPECT_EQ(model.part().probe().contains(query).side, side);
+          EXPECT_EQ(model.part().ask(query, {.max_nodes = 1000}).side, side);
+        }
+      }
+    }
+  }
+}
+
 // At the same distance from the wall as from the surface something beyond could round nearer.
 TEST(Region, IsCarefulWhereTheWallIsAsNearAsTheSurface) {
   const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
