@@ -15,9 +15,9 @@ namespace {
 // product of squares overflows, wherever vertices go from here.
 constexpr double kFarthestVertex = 0x1p60;
 
-// Four bytes from one on, those past the end 0; the first is the lowest.
-std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t first) {
-  std::uint32_t word = 0;
+// Eight bytes from one on, those past the end 0; the first is the lowest.
+std::uint64_t word_at(std::span<const std::byte> bytes, std::size_t first) {
+  std::uint64_t word = 0;
   if (bytes.size() - first >= sizeof word)
     std::memcpy(&word, bytes.data() + first, sizeof word);
   else
@@ -84,17 +84,21 @@ const char* BlockDecoder::store_corners(BlockHeader& header) {
   const auto bytes = streams_.corners.subspan(
       next_corner_byte_, corner_bytes(header.triangle_count, header.vertex_count));
   next_corner_byte_ += bytes.size();
+  // Whole triangles, with at most 7 bits before them.
+  const unsigned at_once = 57 / (3 * bits);
   std::size_t next_bit = 0;
   unsigned greatest = 0;
-  for (unsigned triangle = 0; triangle < header.triangle_count; ++triangle, next_bit += 3 * bits) {
-    // At most 7 bits before it, and 18 of its own.
-    std::uint32_t window = word_at(bytes, next_bit / 8) >> next_bit % 8;
-    for (auto& corners : header.corner) {
-      const unsigned vertex = window & mask;
-      window >>= bits;
-      greatest = std::max(greatest, vertex);
-      corners[triangle] = static_cast<std::uint8_t>(vertex);
-    }
+  for (unsigned first = 0; first < header.triangle_count; first += at_once) {
+    std::uint64_t window = word_at(bytes, next_bit / 8) >> next_bit % 8;
+    const unsigned end = std::min(first + at_once, unsigned{header.triangle_count});
+    next_bit += std::size_t{3} * bits * (end - first);
+    for (unsigned triangle = first; triangle < end; ++triangle)
+      for (auto& corners : header.corner) {
+        const auto vertex = static_cast<unsigned>(window) & mask;
+        window >>= bits;
+        greatest = std::max(greatest, vertex);
+        corners[triangle] = static_cast<std::uint8_t>(vertex);
+      }
   }
   if (greatest >= header.vertex_count) return "a corner names a vertex its block has not";
   if (next_bit % 8 != 0 && std::to_integer<unsigned>(bytes.back()) >> next_bit % 8 != 0)
@@ -144,22 +148,28 @@ bool BlockDecoder::store_rows(const Shuffled<T>& page, const Vertices& vertices,
 
 const char* BlockDecoder::store_ids(BlockHeader& header) {
   auto* ids = reinterpret_cast<std::byte*>(&header) + shape_.id_offset(header.stride);
-  std::uint64_t id = shape_.wide_ids ? streams_.first_ids64[block_] : streams_.first_ids32[block_];
-  const std::uint64_t limit = shape_.wide_ids ? ~std::uint64_t{0} : 0xffffffff;
-  for (unsigned i = 0; i < kMaxBlockTriangles; ++i) {
-    if (i > 0 && i < header.triangle_count) {
-      const std::uint64_t step =
-          shape_.wide_ids ? streams_.id_steps64[next_id_step_] : streams_.id_steps32[next_id_step_];
-      ++next_id_step_;
-      if (step == 0 || step > limit - id) return "triangle indices do not ascend";
-      id += step;
-    }
-    if (shape_.wide_ids)
-      reinterpret_cast<std::uint64_t*>(ids)[i] = id;
-    else
-      reinterpret_cast<std::uint32_t*>(ids)[i] = static_cast<std::uint32_t>(id);
+  const bool ascend = shape_.wide_ids
+                          ? store_ids(streams_.first_ids64, streams_.id_steps64,
+                                      header.triangle_count, reinterpret_cast<std::uint64_t*>(ids))
+                          : store_ids(streams_.first_ids32, streams_.id_steps32,
+                                      header.triangle_count, reinterpret_cast<std::uint32_t*>(ids));
+  return ascend ? nullptr : "triangle indices do not ascend";
+}
+
+template <class Id>
+bool BlockDecoder::store_ids(const Shuffled<Id>& firsts, const Shuffled<Id>& steps, unsigned count,
+                             Id* ids) {
+  Id id = firsts[block_];
+  ids[0] = id;
+  bool ascend = true;
+  for (unsigned i = 1; i < count; ++i) {
+    const Id last = id;
+    id = static_cast<Id>(id + steps[next_id_step_++]);
+    ascend &= id > last;  // nor does a sum that overflows
+    ids[i] = id;
   }
-  return nullptr;
+  std::fill(ids + count, ids + kMaxBlockTriangles, id);
+  return ascend;
 }
 
 }  // namespace planetree::octree

@@ -38,6 +38,8 @@ class BlockDecoder {
   static bool store_rows(const Shuffled<T>& page, const Vertices& vertices, unsigned count,
                          unsigned stride, T* rows);
   const char* store_ids(BlockHeader& header);
+  template <class Id>
+  bool store_ids(const Shuffled<Id>& firsts, const Shuffled<Id>& steps, unsigned count, Id* ids);
 
   const RawStreams& streams_;
   const BlockShape& shape_;
