@@ -60,7 +60,7 @@ class Region {
 
   Point lower_ = Point::Constant(-kNone);
   Point upper_ = Point::Constant(kNone);
-  bool has_walls_ = false;
+  bool has_walls_ = false;  // of these; kept, for every ask wants to know
 };
 
 }  // namespace planetree::octree

@@ -39,9 +39,8 @@ class Vicinity {
   /// ball; 0 if `query` is so far from the last one that more such queries would leave it.
   /// `diagonal` is that of the model.
   double wanted_radius(const Point& query, double distance, double diagonal) const {
-    const double step = (query - last_).norm();
-    if (!(step <= diagonal * kLongestStep)) return 0;
-    return distance + kSteps * std::max(step, distance * kLeastStep);
+    const double step = step_to(query);
+    return step <= diagonal * kLongestStep ? radius_for(step, distance) : 0;
   }
   /// Their blocks, if these are few.
   const NearbyBlocks& blocks() const { return blocks_; }
@@ -65,19 +64,22 @@ class Vicinity {
     last_nearest_ = nearest;
   }
 
-  /// One that was found in the ball; which is forgotten if it is far larger than is wanted by
-  /// now, and so holds more than it need.
+  /// An exact answer that the ball gave. If the ball is far larger than steps as short as the last
+  /// one want, and so holds more than it need, it is forgotten.
   void outlive(const Point& query, double distance, const Point& nearest) {
-    const double room = radius_ / kTooWide - distance;
-    if (room > kSteps * kLeastStep * distance &&
-        room * room > kSteps * kSteps * (query - last_).squaredNorm())
-      forget();
+    if (radius_ > kTooWide * radius_for(step_to(query), distance)) forget();
     note(query, nearest);
   }
 
   void forget() { radius_ = 0; }
 
  private:
+  double step_to(const Point& query) const { return (query - last_).norm(); }
+  // That lasts for kSteps, about a query `distance` away from the surface.
+  static double radius_for(double step, double distance) {
+    return distance + kSteps * std::max(step, distance * kLeastStep);
+  }
+
   // How far a nearest point may be from the surface, for it is rounded as its coordinates are:
   // a model may be far smaller than they.
   static double rounding(const Point& point) { return point.cwiseAbs().maxCoeff() * 0x1p-51; }

@@ -190,10 +190,7 @@ class Asking {
   }
 
   void find_side() {
-    // What stands for a point that far away may be beyond another wall of a region.
-    const auto known = far_        ? side_at_once(model_, placed_)
-                       : remember_ ? known_side()
-                                   : std::nullopt;
+    const auto known = known_side();
     standing_ =
         known ? *known
               : side_of(probe_, point_, nearest_.lower, remember_, nodes_left(), turner_, work_);
@@ -201,8 +198,12 @@ class Asking {
     if (standing_.status == Status::kDegraded) degrade();
   }
 
-  // Most often that of the ask before, if the surface is known to be farther than that was.
+  // The side where it takes no search: most often that of the ask before, if the surface is known
+  // to be farther than that was.
   std::optional<Standing> known_side() {
+    // What stands for a point that far away may be beyond another wall of a region.
+    if (far_) return side_at_once(model_, placed_);
+    if (!remember_) return {};
     const auto before = side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
     return before ? before : side_at_once(model_, point_);
   }

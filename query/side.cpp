@@ -196,12 +196,11 @@ Standing find_side(const ModelState& model, const Point& point, std::uint64_t ma
 }
 
 std::optional<Standing> side_at_once(const ModelState& model, const Point& point) noexcept {
+  if (is_untold(model, point)) return Standing{};
   // Models that are not watertight have no colours.
-  const bool untold = is_untold(model, point);
-  const int winding = untold ? octree::ColourMap::kUnknown : model.colours().winding(point);
+  const int winding = model.colours().winding(point);
   if (winding != octree::ColourMap::kUnknown)
     return Standing{winding != 0 ? Side::kInside : Side::kOutside, Status::kExact, winding};
-  if (untold) return Standing{};
   if (model.info().watertight() && outside_box(model.tree(), point))
     return Standing{Side::kOutside};
   return {};
