@@ -130,6 +130,12 @@ inline double filter_upper(float squared, float block_extent) {
   return value + 2 * kFilterSlack * (value + static_cast<double>(block_extent));
 }
 
+/// A triangle of this filter value, which is a lower bound, is at least so far away.
+inline double filter_lower(float squared, float block_extent) {
+  const double value = std::sqrt(static_cast<double>(squared));
+  return std::max(0.0, value - 2 * kFilterSlack * (value + static_cast<double>(block_extent)));
+}
+
 /// Filter values above this belong to triangles farther than `distance`.
 inline float filter_threshold(const FloatQuery& query, double distance, float block_extent) {
   if (!query.usable || block_extent < kLeastFilterExtent)

@@ -39,11 +39,11 @@ class Frontier {
 
   /// Where the next group is to be written; push() then counts it in.
   FrontierGroup& next() { return groups_[size_]; }
-  /// The group has `count` entries, of a node in page `from`.
-  void push(unsigned count, std::uint32_t from) {
-    if (count == 0) return;
-    cursors_[size_] = {from, 0, static_cast<std::uint8_t>(count)};
-    set_key(size_, groups_[size_].bound_bits[0]);
+  /// The group's entries from `first` to `end` are to be visited; of a node in page `from`.
+  void push(unsigned first, unsigned end, std::uint32_t from) {
+    if (first >= end) return;
+    cursors_[size_] = {from, static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end)};
+    set_key(size_, groups_[size_].bound_bits[first]);
     ++size_;
   }
 

@@ -1,4 +1,4 @@
-// The nearest of the blocks and triangles that a ball holds.
+// The nearest of the subtrees and triangles that a ball holds.
 
 #if defined(PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_
@@ -15,7 +15,7 @@
 
 #include "octree/best_triangle.h"
 #include "octree/bounds.h"
-#include "octree/nearby_blocks.h"
+#include "octree/nearby_subtrees.h"
 #include "octree/nearby_triangles.h"
 #include "octree/triangle_filter-inl.h"
 #include "octree/triangle_kernels-inl.h"
@@ -25,12 +25,12 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Blocks of a list with bounds of theirs. Squared bounds are not negative, so that their bits
+// Subtrees of a list with bounds of theirs. Squared bounds are not negative, so that their bits
 // order as they do.
-struct BlockKeys {
-  std::uint64_t at[NearbyBlocks::kMost];  // the bound's bits, then the block
+struct SubtreeKeys {
+  std::uint64_t at[NearbySubtrees::kMost];  // the bound's bits, then the place in the list
 
-  std::size_t block(std::size_t i) const { return static_cast<std::uint32_t>(at[i]); }
+  std::size_t place(std::size_t i) const { return static_cast<std::uint32_t>(at[i]); }
   float bound(std::size_t i) const {
     return std::bit_cast<float>(static_cast<std::uint32_t>(at[i] >> 32));
   }
@@ -40,9 +40,9 @@ struct BlockKeys {
   }
 };
 
-// Finds the blocks whose boxes come as near as a threshold, and returns how many.
-HWY_INLINE std::size_t near_blocks(const NearbyBlocks& list, const FloatQuery& query,
-                                   float threshold, BlockKeys& keys) {
+// Finds the subtrees whose boxes come as near as a threshold, and returns how many.
+HWY_INLINE std::size_t near_subtrees(const NearbySubtrees& list, const FloatQuery& query,
+                                     float threshold, SubtreeKeys& keys) {
   const FloatTag d;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
   std::size_t count = 0;

@@ -15,7 +15,7 @@ namespace planetree::octree {
 struct NearbyTriangle {
   Triangle corners;
   std::uint64_t id;
-  double squared;  ///< it is no nearer to the centre than the root of this
+  double nearest;  ///< it is no nearer to the centre than this
 };
 
 /// All triangles that reach into a ball, where they are few: queries within it look at no
@@ -23,7 +23,7 @@ struct NearbyTriangle {
 /// at few.
 class NearbyTriangles {
  public:
-  static constexpr std::size_t kMost = 128;
+  static constexpr std::size_t kMost = 192;
 
   /// Forgets what was there.
   void clear() {
@@ -43,7 +43,7 @@ class NearbyTriangles {
     std::array<std::uint8_t, kMost> ring;
     std::array<std::size_t, kRings + 1> next{};
     for (std::size_t i = 0; i < size_; ++i) {
-      ring[i] = static_cast<std::uint8_t>(ring_at(std::sqrt(found[i].squared)));
+      ring[i] = static_cast<std::uint8_t>(ring_at(found[i].nearest));
       ++next[ring[i] + 1u];
     }
     for (std::size_t i = 1; i <= kRings; ++i) next[i] += next[i - 1];

@@ -39,21 +39,29 @@ class Descent {
         best_(wide_, limits_) {}
 
   void run_from_root() {
-    visit({.bound = 0, .link = tree_.root_link, .from = RecordFinder::kNoPage}, 0);
-    run();
+    go_down({.bound = 0, .link = tree_.root_link, .from = RecordFinder::kNoPage});
+    finish_frontier();
+    settle();
   }
-  // From what a ball holds.
+  // From the subtrees that a ball holds, nearest first.
   void run_from(const Vicinity& vicinity) {
-    front_ = &vicinity.front();
-    const bool exact = limits_.max_error == 0 && wide_.usable;
-    if (exact) best_.promise(vicinity.nearest_of(query_));
-    if (exact && vicinity.blocks().complete() && vicinity.blocks().size() < limits_.max_nodes) {
-      visit_blocks(vicinity.blocks());
-      settle();
-    } else {
-      visit_node({.bound = 0, .link = 0, .from = 0}, *front_, RecordFinder::kNoPage);
-      run();
+    subtrees_ = &vicinity.subtrees();
+    if (limits_.max_error == 0 && wide_.usable) best_.promise(vicinity.nearest_of(query_));
+    SubtreeKeys keys;
+    std::size_t count = near_subtrees(*subtrees_, wide_, best_.exact_threshold(), keys);
+    while (count > 0) {
+      const std::size_t least = keys.least(count);
+      const FrontierEntry entry{keys.bound(least), subtrees_->link(keys.place(least)),
+                                RecordFinder::kNoPage};
+      if (entry.bound > best_.threshold()) {
+        left_out_.pruned = std::min(left_out_.pruned, entry.bound);
+        break;
+      }
+      keys.at[least] = keys.at[--count];
+      go_down(entry);
+      finish_frontier();
     }
+    settle();
   }
 
   // Where something is left out that may matter, a triangle known from elsewhere helps.
@@ -69,24 +77,28 @@ class Descent {
 
  private:
   static constexpr unsigned kPrefetched = 3;  // children, nearest first
-  static constexpr std::size_t kPrefetchedBlocks = 4;
 
   static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
 
-  void run() {
-    std::uint64_t visits = 1;
+  void finish_frontier() {
     FrontierEntry entry;
-    while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned))
-      visit(entry, visits++);
-    settle();
+    while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned)) go_down(entry);
   }
 
-  HWY_INLINE void visit(FrontierEntry entry, std::uint64_t visits) {
-    // An honest tree cannot be visited longer than it is; a forged one could.
-    if (visits >= limits_.max_nodes || visits >= tree_.record_count) {
-      left_out_.unread = std::min(left_out_.unread, entry.bound);
-      return;
+  // From nearest child to nearest child, as long as no other can be nearer.
+  HWY_INLINE void go_down(FrontierEntry entry) {
+    while (visit(entry)) {
     }
+  }
+
+  // Whether to go on with a child, which `entry` then is.
+  HWY_INLINE bool visit(FrontierEntry& entry) {
+    // An honest tree cannot be visited longer than it is; a forged one could.
+    if (visits_ >= limits_.max_nodes || visits_ >= tree_.record_count) {
+      left_out_.unread = std::min(left_out_.unread, entry.bound);
+      return false;
+    }
+    ++visits_;
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
       leave_out(entry);
@@ -95,8 +107,9 @@ class Descent {
       visit_block(BlockView(record, tree_.shape));
     } else {
       ++work_.nodes;
-      visit_node(entry, *reinterpret_cast<const Node*>(record), records_.page());
+      return visit_node(entry, *reinterpret_cast<const Node*>(record), records_.page());
     }
+    return false;
   }
 
   // A page that cannot be had: the box of what is there is all that is known.
@@ -104,31 +117,32 @@ class Descent {
     left_out_.unread = std::min(left_out_.unread, entry.bound);
     if (sought_ == kMostSought) return;
     ++sought_;
-    const RecordFinder::Child child = entry.from == RecordFinder::kNoPage
-                                          ? child_of_front(entry.link)
-                                          : records_.find_parent(entry.link, entry.from);
+    if (entry.from == RecordFinder::kNoPage) return leave_out_listed(entry.link);
+    const RecordFinder::Child child = records_.find_parent(entry.link, entry.from);
     if (!child.node) return;
     left_out_.within = std::min(left_out_.within,
                                 farthest_in_box(*child.node, child.place, query_ - tree_.centre));
   }
 
-  RecordFinder::Child child_of_front(std::uint32_t link) const {
-    if (!front_) return {};
-    for (unsigned place = 0; place < front_->child_count; ++place)
-      if (front_->link[place] == link) return {front_, place};
-    return {};
+  // A subtree that a ball holds; or the root, of whose box nothing is said here.
+  void leave_out_listed(std::uint32_t link) {
+    for (std::size_t i = 0; subtrees_ && i < subtrees_->size(); ++i)
+      if (subtrees_->link(i) == link)
+        left_out_.within =
+            std::min(left_out_.within, subtrees_->farthest(i, query_ - tree_.centre));
   }
 
-  HWY_INLINE void visit_node(FrontierEntry entry, const Node& node, std::uint32_t page) {
+  HWY_INLINE bool visit_node(FrontierEntry& entry, const Node& node, std::uint32_t page) {
     if (!frontier_.has_room()) {
       left_out_.unread = std::min(left_out_.unread, entry.bound);
-      return;
+      return false;
     }
     FrontierGroup& group = frontier_.next();
     // Far away, bounds say little of where the nearest triangle is.
     const bool far = entry.bound > node.gate;
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
-    const unsigned near = sorted_children(node, wide_, far, best_.threshold(), group);
+    const NearChildren children = sorted_children(node, wide_, far, best_.threshold(), group);
+    const unsigned near = children.count;
     if (near < node.child_count) left_out_.pruned = std::min(left_out_.pruned, group.bound(near));
     // The nearest child is visited at once, unless from afar another is nearer; the last
     // lines of a node are looked at from afar alone.
@@ -138,34 +152,10 @@ class Descent {
     } else {
       for (unsigned i = 1; i < std::min(near, kPrefetched); ++i) records_.prefetch(group.link[i]);
     }
-    frontier_.push(near, page);
-  }
-
-  // Those of a list that come near enough, nearest first.
-  void visit_blocks(const NearbyBlocks& list) {
-    BlockKeys keys;
-    std::size_t count = near_blocks(list, wide_, best_.threshold(), keys);
-    for (std::size_t i = 0; i < std::min(count, kPrefetchedBlocks); ++i)
-      records_.prefetch(list.link(keys.block(i)));
-    while (count > 0) {
-      const std::size_t least = keys.least(count);
-      if (keys.bound(least) > best_.threshold()) return;
-      visit_listed(list, keys.block(least), keys.bound(least));
-      keys.at[least] = keys.at[--count];
-    }
-  }
-
-  HWY_INLINE void visit_listed(const NearbyBlocks& list, std::size_t i, float bound) {
-    if (const std::byte* record = records_.find(list.link(i), work_)) {
-      ++work_.blocks;
-      visit_block(BlockView(record, tree_.shape));
-      return;
-    }
-    left_out_.unread = std::min(left_out_.unread, bound);
-    left_out_.within = std::min(
-        left_out_.within, farthest_in_box({list.lower(0)[i], list.lower(1)[i], list.lower(2)[i]},
-                                          {list.upper(0)[i], list.upper(1)[i], list.upper(2)[i]},
-                                          query_ - tree_.centre));
+    const bool at_once = !far && near > 0;
+    frontier_.push(at_once ? 1 : 0, near, page);
+    if (at_once) entry = {children.bound(), node.link[children.child()], page};
+    return at_once;
   }
 
   HWY_INLINE void visit_block(const BlockView& block) {
@@ -239,9 +229,10 @@ class Descent {
   Candidates candidates_;
   Frontier frontier_;
   Frontier::Order order_ = Frontier::Order::kLast;
-  const Node* front_ = nullptr;  // where a descent does not begin at the root
+  const NearbySubtrees* subtrees_ = nullptr;  // where a descent does not begin at the root
   LeftOut left_out_;
   unsigned sought_ = 0;
+  std::uint64_t visits_ = 0;
 };
 
 // All triangles that may be nearest are in the list, no farther than `reach` from its centre.

@@ -103,10 +103,19 @@ HWY_INLINE Ints sort_lanes(Ints v) {
 }
 #endif
 
+// A node's children that are worth a visit.
+struct NearChildren {
+  unsigned count;
+  std::int32_t nearest;  // child_keys() of the nearest; kNoChild if there is none
+
+  float bound() const { return std::bit_cast<float>(nearest & ~kChildBits); }
+  unsigned child() const { return static_cast<unsigned>(nearest & kChildBits); }
+};
+
 // Writes a node's children, nearest first, and returns how many of them have bounds
 // that are not above the threshold. Bounds lose their kChildBits.
-HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, bool discs,
-                                    float threshold, FrontierGroup& group) {
+HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& query, bool discs,
+                                        float threshold, FrontierGroup& group) {
   const FloatTag d;
   const IntTag di;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
@@ -114,12 +123,15 @@ HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, b
 #if PLANETREE_EIGHT_LANES
   const hn::RebindToUnsigned<IntTag> du;
   const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
-  const Ints keys =
-      sort_lanes(hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoChild)));
+  const Ints unsorted = hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoChild));
+  // By itself: where the descent goes next need not wait for the order of the others.
+  const std::int32_t nearest = hn::GetLane(hn::MinOfLanes(di, unsorted));
+  const Ints keys = sort_lanes(unsorted);
   const auto child = hn::IndicesFromVec(du, hn::And(keys, hn::Set(di, kChildBits)));
   hn::Store(hn::AndNot(hn::Set(di, kChildBits), keys), di, group.bound_bits);
   hn::Store(hn::TableLookupLanes(hn::Load(du, node.link), child), du, group.link);
-  return static_cast<unsigned>(hn::CountTrue(di, hn::Not(hn::Gt(keys, hn::Set(di, most)))));
+  const auto near = hn::Not(hn::Gt(unsorted, hn::Set(di, most)));
+  return {static_cast<unsigned>(hn::CountTrue(di, near)), nearest};
 #else
   HWY_ALIGN std::int32_t keys[kFanOut];
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
@@ -132,7 +144,7 @@ HWY_INLINE unsigned sorted_children(const Node& node, const FloatQuery& query, b
     group.link[i] = node.link[keys[i] & kChildBits];
     count += keys[i] <= most ? 1 : 0;
   }
-  return count;
+  return {count, node.child_count > 0 ? keys[0] : kNoChild};
 #endif
 }
 

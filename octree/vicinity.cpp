@@ -8,6 +8,7 @@
 #include "octree/bounds.h"
 #include "octree/child_tests.h"
 #include "octree/strict_math.h"
+#include "octree/triangle_tests.h"
 
 namespace planetree::octree {
 namespace {
@@ -48,135 +49,68 @@ class Ball {
   const float threshold_;
 };
 
-// The subtrees that reach into a ball: from the root down, the largest first, as long as
-// there is room for its children.
-class FrontSearch {
+// The subtrees that reach into a ball: from the root down, level by level, as long as there is
+// room for more.
+class SubtreeSearch {
  public:
-  FrontSearch(const Ball& ball, LimitedFinder& records, Node& front)
-      : ball_(ball), records_(records), front_(front) {}
+  SubtreeSearch(const Ball& ball, LimitedFinder& records, NearbySubtrees& found)
+      : ball_(ball), records_(records), found_(found) {}
 
   // False where there is nothing to keep.
   bool run(std::uint32_t root_link) {
-    front_.child_count = 0;
-    front_.gate = std::numeric_limits<float>::infinity();
-    if (LinkFormat::is_leaf(root_link) || !open(root_link, 0)) return false;
-    for (unsigned at; (at = largest()) < front_.child_count;)
-      if (!open(front_.link[at], at)) closed_ |= 1u << at;
-    return front_.child_count > 0;
-  }
-
- private:
-  // The largest subtree that may still be opened.
-  unsigned largest() const {
-    unsigned best = kFanOut;
-    for (unsigned at = 0; at < front_.child_count; ++at) {
-      if ((closed_ >> at & 1) != 0 || LinkFormat::is_leaf(front_.link[at])) continue;
-      if (best == kFanOut || size_[at] > size_[best]) best = at;
-    }
-    return best;
-  }
-
-  // Puts a node's near children in its place. False, and nothing changed, where there is no
-  // room for them or the page is lost.
-  bool open(std::uint32_t link, unsigned place) {
-    const std::byte* record = records_.find(link);
-    if (!record) return false;
-    const Node& node = *reinterpret_cast<const Node*>(record);
-    unsigned near = ball_.reached_by(node);
-    const unsigned others = front_.child_count - (front_.child_count > 0 ? 1u : 0u);
-    if (others + static_cast<unsigned>(std::popcount(near)) > kFanOut) return false;
-    if (near == 0) return remove(place);
-    for (bool first = true; near != 0; near &= near - 1, first = false) {
-      const bool here = first && front_.child_count > 0;
-      put(node, static_cast<unsigned>(std::countr_zero(near)), here ? place : front_.child_count++);
-    }
-    return true;
-  }
-
-  bool remove(unsigned place) {
-    const unsigned last = --front_.child_count;
-    closed_ = (closed_ & ~(1u << place)) | (closed_ >> last & 1) << place;
-    closed_ &= ~(1u << last);
-    put(front_, last, place);
-    return true;
-  }
-
-  void put(const Node& from, unsigned child, unsigned place) {
-    float diagonal2 = 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      front_.lower[axis][place] = from.lower[axis][child];
-      front_.upper[axis][place] = from.upper[axis][child];
-      const float side = from.upper[axis][child] - from.lower[axis][child];
-      diagonal2 += side * side;
-    }
-    front_.link[place] = from.link[child];
-    size_[place] = diagonal2;
-  }
-
-  const Ball& ball_;
-  LimitedFinder& records_;
-  Node& front_;
-  float size_[kFanOut];
-  unsigned closed_ = 0;
-};
-
-// The blocks below a front that reach into a ball.
-class BlockSearch {
- public:
-  BlockSearch(const Ball& ball, LimitedFinder& records, NearbyBlocks& found)
-      : ball_(ball), records_(records), found_(found) {}
-
-  // False where they are too many, or a page is lost.
-  bool run(const Node& front) {
-    found_.begin();
-    if (!take_children(front)) return false;
-    while (size_ > 0) {
-      const std::byte* record = records_.find(links_[--size_]);
-      if (!record) return false;
-      if (!take_children(*reinterpret_cast<const Node*>(record))) return false;
+    found_.clear();
+    const Node* root = LinkFormat::is_leaf(root_link) ? nullptr : node(root_link);
+    if (!root) return false;
+    add_children(*root);
+    while (open_level()) {
     }
     found_.finish();
-    return true;
+    return found_.size() > 0;
   }
 
  private:
-  bool take_children(const Node& node) {
-    if (size_ + kFanOut > links_.size()) return false;
-    for (unsigned near = ball_.reached_by(node); near != 0; near &= near - 1) {
-      const auto child = static_cast<unsigned>(std::countr_zero(near));
-      if (!LinkFormat::is_leaf(node.link[child]))
-        links_[size_++] = node.link[child];
-      else if (!found_.add(node, child))
-        return false;
+  // Puts nodes' near children in their places. False where none was opened.
+  bool open_level() {
+    bool opened = false;
+    for (std::size_t i = found_.size(); i-- > 0 && found_.has_room();) {
+      const Node* opening = LinkFormat::is_leaf(found_.link(i)) ? nullptr : node(found_.link(i));
+      if (!opening) continue;
+      found_.remove(i);
+      add_children(*opening);
+      opened = true;
     }
-    return true;
+    return opened;
+  }
+
+  // Null where its page is lost, or no more may be visited.
+  const Node* node(std::uint32_t link) {
+    return reinterpret_cast<const Node*>(records_.find(link));
+  }
+
+  void add_children(const Node& node) {
+    for (unsigned near = ball_.reached_by(node); near != 0; near &= near - 1)
+      found_.add(node, static_cast<unsigned>(std::countr_zero(near)));
   }
 
   const Ball& ball_;
   LimitedFinder& records_;
-  NearbyBlocks& found_;
-  std::size_t size_ = 0;
-  std::array<std::uint32_t, 4 * kFanOut> links_;
+  NearbySubtrees& found_;
 };
-
-// The squared distance to a triangle's box.
-double squared_to_box(const Triangle& corners, const Point& centre) {
-  const Point lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-  const Point upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-  return (lower - centre).cwiseMax(centre - upper).cwiseMax(0.0).squaredNorm();
-}
 
 // The triangles of some blocks that reach into a ball.
 class TriangleSearch {
  public:
   TriangleSearch(const TreeFacts& tree, const Point& centre, double radius)
-      : tree_(tree), centre_(centre), radius2_(radius * radius * (1 + 0x1p-40)) {}
+      : tree_(tree),
+        centre_(centre),
+        query_(FloatQuery::from(centre, tree.centre)),
+        radius_(radius) {}
 
   // More blocks than these do not keep to so few triangles.
   static constexpr std::size_t kMostBlocks = 28;
 
   // False where they are too many, or a page is lost.
-  bool run(const NearbyBlocks& blocks, LimitedFinder& records) {
+  bool run(const NearbySubtrees& blocks, LimitedFinder& records) {
     if (blocks.size() > kMostBlocks) return false;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const std::byte* record = records.find(blocks.link(i));
@@ -190,19 +124,20 @@ class TriangleSearch {
 
  private:
   bool add(const BlockView& block) {
-    for (unsigned i = 0; i < block.triangle_count(); ++i) {
-      const Triangle corners = block.triangle(i);
-      const double squared = squared_to_box(corners, centre_);
-      if (squared > radius2_) continue;
-      if (count_ == found_.size()) return false;
-      found_[count_++] = {corners, block.id(i), squared};
+    double nearest[kMaxBlockTriangles];
+    unsigned near = triangles_within(block, centre_, query_, radius_, nearest);
+    if (count_ + static_cast<unsigned>(std::popcount(near)) > found_.size()) return false;
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(near));
+      found_[count_++] = {block.triangle(i), block.id(i), nearest[i]};
     }
     return true;
   }
 
   const TreeFacts& tree_;
   const Point& centre_;
-  const double radius2_;
+  const FloatQuery query_;
+  const double radius_;
   std::size_t count_ = 0;
   std::array<NearbyTriangle, NearbyTriangles::kMost> found_;
 };
@@ -216,20 +151,13 @@ void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
   if (!(radius > 0)) return;
   centre_ = query;
   radius_ = radius;
-  blocks_.begin();
   triangles_.clear();
   const Ball ball(tree, centre_, radius_);
   LimitedFinder records(tree, max_nodes, pages, work);
-  if (!FrontSearch(ball, records, front_).run(tree.root_link)) {
-    forget();
-    return;
-  }
-  if (radius_ > crowded_radius_ * kLessCrowded) return;
-  const bool few = BlockSearch(ball, records, blocks_).run(front_);
-  crowded_radius_ = few ? std::numeric_limits<double>::infinity() : radius_;
-  if (!few) return;
+  if (!SubtreeSearch(ball, records, subtrees_).run(tree.root_link)) return forget();
+  if (!subtrees_.are_blocks()) return;
   TriangleSearch search(tree, centre_, radius_);
-  if (search.run(blocks_, records)) triangles_.fill(search.found(), centre_, distance, radius_);
+  if (search.run(subtrees_, records)) triangles_.fill(search.found(), centre_, distance, radius_);
 }
 
 }  // namespace planetree::octree

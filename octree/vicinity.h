@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "octree/frame.h"
-#include "octree/nearby_blocks.h"
+#include "octree/nearby_subtrees.h"
 #include "octree/nearby_triangles.h"
 #include "octree/tree_view.h"
 #include "octree/triangle_distance.h"
 
 namespace planetree::octree {
 
-/// The few subtrees that reach into a ball, and the blocks and triangles that do where they are
-/// few as well, kept from one query for the next ones: those near it start there and not at the
-/// root.
+/// The subtrees that reach into a ball, and the triangles that do where they are few, kept from
+/// one query for the next ones: those near it start there and not at the root.
 ///
 /// A query's nearest triangle is no farther than the last one's nearest point. Where the ball holds
 /// all that is so near, nothing outside it can matter, so that answers are the same bits as from
@@ -29,11 +27,8 @@ class Vicinity {
   double nearest_of(const Point& query) const {
     return ((query - last_nearest_).norm() + rounding(last_nearest_) + kSlack) * (1 + kSlack);
   }
-  /// Whether all of these are in front().
+  /// Whether all of these are in subtrees().
   bool holds(double reach) const { return reach < radius_; }
-
-  /// The subtrees, as if they were the children of one node.
-  const Node& front() const { return front_; }
 
   /// The radius about `query`, which is `distance` away from the surface, that is worth a new
   /// ball; 0 if `query` is so far from the last one that more such queries would leave it.
@@ -42,8 +37,7 @@ class Vicinity {
     const double step = step_to(query);
     return step <= diagonal * kLongestStep ? radius_for(step, distance) : 0;
   }
-  /// Their blocks, if these are few.
-  const NearbyBlocks& blocks() const { return blocks_; }
+  const NearbySubtrees& subtrees() const { return subtrees_; }
   /// Their triangles, if these are few.
   const NearbyTriangles& triangles() const { return triangles_; }
 
@@ -89,16 +83,12 @@ class Vicinity {
   static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
   static constexpr double kSteps = 24;            ///< that a ball is to last
   static constexpr double kTooWide = 16;          ///< so many times what is wanted
-  /// Balls of more than this share of one that held too many blocks are not searched.
-  static constexpr double kLessCrowded = 0.75;
 
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());
   double radius_ = 0;
   Point last_nearest_ = Point::Zero();
-  double crowded_radius_ = std::numeric_limits<double>::infinity();
-  Node front_{};
-  NearbyBlocks blocks_;
+  NearbySubtrees subtrees_;
   NearbyTriangles triangles_;
 };
 

@@ -12,12 +12,13 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 using Order = Frontier::Order;
 
 // Bounds ascend within a group; a child's link says where it was pushed.
-void push(Frontier& frontier, std::uint32_t group, const std::vector<float>& bounds) {
+void push(Frontier& frontier, std::uint32_t group, const std::vector<float>& bounds,
+          unsigned first = 0) {
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     frontier.next().bound_bits[i] = std::bit_cast<std::int32_t>(bounds[i]);
     frontier.next().link[i] = group * kFanOut + static_cast<std::uint32_t>(i);
   }
-  frontier.push(static_cast<unsigned>(bounds.size()), group);
+  frontier.push(first, static_cast<unsigned>(bounds.size()), group);
 }
 
 std::vector<float> drain(Frontier& frontier, Order order, float threshold, float& dropped) {
@@ -56,6 +57,16 @@ TEST(FrontierTest, LastGroupFirst) {
   push(frontier, 1, {2, 3});
   float dropped = kInfinity;
   EXPECT_EQ(drain(frontier, Order::kLast, 100, dropped), (std::vector<float>{2, 3, 1, 5}));
+}
+
+TEST(FrontierTest, LeavesOutWhatIsVisitedAlready) {
+  for (const Order order : {Order::kNearest, Order::kLast}) {
+    Frontier frontier;
+    push(frontier, 0, {1, 4, 5}, 1);
+    push(frontier, 1, {2}, 1);
+    float dropped = kInfinity;
+    EXPECT_EQ(drain(frontier, order, 100, dropped), (std::vector<float>{4, 5}));
+  }
 }
 
 TEST(FrontierTest, TellsTheLeastOfWhatItDrops) {

@@ -11,7 +11,7 @@ Triangle triangle_at(double x) { return {Point(x, 0, 0), Point(x + 1, 0, 0), Poi
 
 // As far from the centre as said.
 NearbyTriangle found_at(double x, std::uint64_t id, double distance = 0) {
-  return {triangle_at(x), id, distance * distance};
+  return {triangle_at(x), id, distance};
 }
 
 NearbyTriangles listed(const std::vector<NearbyTriangle>& found, const Point& centre) {
@@ -53,7 +53,7 @@ TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
     std::vector<bool> counted(found.size());
     for (std::size_t i = 0; i < list.count_within(distance); ++i) counted[list.id(i)] = true;
     for (const NearbyTriangle& one : found) {
-      if (one.squared > distance * distance) continue;
+      if (one.nearest > distance) continue;
       EXPECT_TRUE(counted[one.id]) << one.id;
     }
   }

@@ -195,12 +195,27 @@ TEST(Vicinity, LooksAtNoPageWhereTrianglesAreFew) {
 TEST(Vicinity, LooksAtNoNodeWhereBlocksAreFew) {
   Warm warm(sphere(7));
   for (int i = 0; i < 8; ++i) {
-    const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1e-3, 0.1));
+    const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1.5e-3, 0.1));
     if (i < 2) continue;
     EXPECT_EQ(work.nodes, 0u) << i;
     EXPECT_GT(work.blocks, 0u) << i;
     EXPECT_FALSE(warm.vicinity.triangles().complete());
   }
+}
+
+TEST(Vicinity, BeginsFarDownWhereBlocksAreMany) {
+  Warm warm(sphere(7));
+  std::uint64_t along = 0, alone = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Point query(0.35, 0.355 + i * 3e-3, 0.1);
+    const TreeWork work = warm.work(query);
+    if (i < 2) continue;
+    EXPECT_FALSE(warm.vicinity.subtrees().are_blocks());
+    along += work.nodes;
+    alone += Warm(sphere(7)).work(query).nodes;
+  }
+  EXPECT_GT(along, 0u);
+  EXPECT_LT(along, alone / 2);
 }
 
 TEST(Vicinity, CostsLittleWhereThereIsNoPath) {

@@ -59,11 +59,14 @@ void expect_bounds_below(const Node& node, unsigned child, const Soup& below,
   const float threshold = octree::prune_threshold(wide, distance);
   for (const bool discs : {false, true}) {
     octree::FrontierGroup group;
-    const unsigned near =
+    const auto children =
         octree::HWY_NAMESPACE::sorted_children(node, wide, discs, threshold, group);
+    const unsigned near = children.count;
     const auto* const at = std::find(group.link, group.link + near, node.link[child]);
     ASSERT_NE(at, group.link + near)
         << (discs ? "disc" : "box") << " distance " << distance << " slack " << wide.slack;
+    EXPECT_EQ(node.link[children.child()], group.link[0]);
+    EXPECT_EQ(children.bound(), group.bound(0));
     if (wide.usable) {
       const float bound = group.bound(static_cast<unsigned>(at - group.link));
       EXPECT_LE(octree::certified(wide, bound), distance * (1 + 1e-15) + 0x1p-500);

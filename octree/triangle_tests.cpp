@@ -1,0 +1,52 @@
+#include "octree/triangle_tests.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "octree/triangle_tests.cpp"
+#include <hwy/foreach_target.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "octree/bounds.h"
+#include "octree/strict_math.h"
+#include "octree/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+unsigned triangles_on_target(const BlockView& block, const Point& point, float limit,
+                             double (&nearest)[kMaxBlockTriangles]) {
+  const BlockHeader& header = block.header();
+  FilteredTriangles filtered;
+  filter_block(header, FloatOffset(point, block.vertex(0)).at, limit, filtered);
+  for (unsigned near = filtered.near; near != 0; near &= near - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(near));
+    nearest[i] = filter_lower(filtered.squared[i], header.extent);
+  }
+  return filtered.near;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace planetree::octree {
+
+HWY_EXPORT(triangles_on_target);
+
+unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
+                          double distance, double (&nearest)[kMaxBlockTriangles]) noexcept {
+  const float limit = filter_threshold(wide, distance, block.header().extent);
+  // Too small for float, or too far away.
+  if (limit == std::numeric_limits<float>::infinity()) {
+    std::fill_n(nearest, block.triangle_count(), 0.0);
+    return (1U << block.triangle_count()) - 1;
+  }
+  return HWY_DYNAMIC_DISPATCH(triangles_on_target)(block, point, limit, nearest);
+}
+
+}  // namespace planetree::octree
+#endif

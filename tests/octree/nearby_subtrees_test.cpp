@@ -1,0 +1,85 @@
+#include "octree/nearby_subtrees.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace planetree::octree {
+namespace {
+
+// One child, between x and x + 1 of each axis.
+Node parent_of(float x, std::uint32_t link) {
+  Node node{};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    node.lower[axis][3] = x;
+    node.upper[axis][3] = x + 1;
+  }
+  node.link[3] = link;
+  return node;
+}
+
+constexpr LinkFormat kLinks(65536);
+constexpr std::uint32_t kToBlock = kLinks.make(true, 1, 40), kToNode = kLinks.make(false, 2, 50);
+
+TEST(NearbySubtrees, KeepsBoxesAndLinks) {
+  NearbySubtrees list;
+  list.clear();
+  list.add(parent_of(2, kToBlock), 3);
+  list.finish();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list.link(0), kToBlock);
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(list.lower(axis)[0], 2);
+    EXPECT_EQ(list.upper(axis)[0], 3);
+  }
+}
+
+TEST(NearbySubtrees, EndsWithBoxesThatNothingIsNear) {
+  NearbySubtrees list;
+  list.add(parent_of(2, kToBlock), 3);
+  list.finish();
+  for (std::size_t i = 1; i < kFanOut; ++i)
+    EXPECT_EQ(list.lower(0)[i], std::numeric_limits<float>::infinity()) << i;
+}
+
+TEST(NearbySubtrees, HasRoomForANodesChildrenWhileItSaysSo) {
+  NearbySubtrees list;
+  while (list.has_room()) list.add(parent_of(0, kToBlock), 3);
+  EXPECT_LT(NearbySubtrees::kMost - kFanOut, list.size());
+  EXPECT_LE(list.size(), NearbySubtrees::kMost);
+}
+
+TEST(NearbySubtrees, PutsTheLastInThePlaceOfOneThatGoes) {
+  NearbySubtrees list;
+  for (std::uint32_t i = 0; i < 3; ++i)
+    list.add(parent_of(static_cast<float>(10 * i), kToBlock + i), 3);
+  list.remove(0);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list.link(0), kToBlock + 2);
+  EXPECT_EQ(list.lower(1)[0], 20);
+  EXPECT_EQ(list.link(1), kToBlock + 1);
+  list.remove(1);
+  EXPECT_EQ(list.size(), 1u);
+  EXPECT_EQ(list.link(0), kToBlock + 2);
+}
+
+TEST(NearbySubtrees, KnowsWhetherAllAreBlocks) {
+  NearbySubtrees list;
+  list.add(parent_of(0, kToBlock), 3);
+  EXPECT_TRUE(list.are_blocks());
+  list.add(parent_of(0, kToNode), 3);
+  EXPECT_FALSE(list.are_blocks());
+  list.clear();
+  EXPECT_EQ(list.size(), 0u);
+}
+
+TEST(NearbySubtrees, IsNowhereFartherThanSaid) {
+  NearbySubtrees list;
+  list.add(parent_of(1, kToBlock), 3);
+  const double farthest = list.farthest(0, Point(0, 0, 2));
+  EXPECT_GE(farthest, 3);
+  EXPECT_LE(farthest, 3.0001);
+}
+
+}  // namespace
+}  // namespace planetree::octree
