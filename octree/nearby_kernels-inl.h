@@ -81,12 +81,12 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
 // centre than `reach`.
 HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Point& query,
                              const FloatQuery& wide, BestTriangle& best, TreeWork& work) {
-  const FloatTag d;
+  const TriangleTag d;
   const std::size_t count = list.count_within(reach);
   const FloatOffset from(query, list.centre());
   const ListedTriangles triangles(list, from.at);
   HWY_ALIGN float squared[NearbyTriangles::kMost];  // lower bounds
-  Floats least = hn::Set(d, std::numeric_limits<float>::infinity());
+  TriangleFloats least = hn::Set(d, std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const TriangleBounds bounds =
         triangle_bounds(triangles.corner(0, i), triangles.corner(1, i), triangles.corner(2, i));

@@ -65,7 +65,7 @@ class NearbyTriangles {
   /// At least the distance of any corner from the centre; 2^-40 or more.
   float extent() const { return extent_; }
   /// A coordinate of a corner of each, relative to the centre and rounded; the last is
-  /// repeated up to the next multiple of eight.
+  /// repeated up to the next multiple of sixteen.
   const float* row(std::size_t corner, std::size_t axis) const { return row_[corner][axis]; }
   /// The exact corners, repeated in the same way.
   const TriangleRows<kMost>& exact() const { return exact_; }
@@ -81,7 +81,7 @@ class NearbyTriangles {
   std::uint64_t id(std::size_t i) const { return id_[i]; }
 
  private:
-  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kLanes = 16;
   static constexpr std::size_t kRings = 16;
 
   // Greater distances have no smaller rings, however they are rounded.

@@ -34,6 +34,7 @@ class Descent {
         query_(query),
         wide_(FloatQuery::from(query, tree.centre)),
         limits_(limits),
+        visits_left_(std::min<std::uint64_t>(limits.max_nodes, tree.record_count)),
         work_(work),
         records_(tree, pages),
         best_(wide_, limits_) {}
@@ -93,12 +94,11 @@ class Descent {
 
   // Whether to go on with a child, which `entry` then is.
   HWY_INLINE bool visit(FrontierEntry& entry) {
-    // An honest tree cannot be visited longer than it is; a forged one could.
-    if (visits_ >= limits_.max_nodes || visits_ >= tree_.record_count) {
+    if (visits_left_ == 0) {
       left_out_.unread = std::min(left_out_.unread, entry.bound);
       return false;
     }
-    ++visits_;
+    --visits_left_;
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
       leave_out(entry);
@@ -223,6 +223,8 @@ class Descent {
   const Point query_;
   const FloatQuery wide_;
   const NearestLimits limits_;
+  // An honest tree cannot be visited longer than it is; a forged one could.
+  std::uint64_t visits_left_;
   TreeWork& work_;
   RecordFinder records_;
   BestTriangle best_;
@@ -232,7 +234,6 @@ class Descent {
   const NearbySubtrees* subtrees_ = nullptr;  // where a descent does not begin at the root
   LeftOut left_out_;
   unsigned sought_ = 0;
-  std::uint64_t visits_ = 0;
 };
 
 // All triangles that may be nearest are in the list, no farther than `reach` from its centre.
@@ -251,30 +252,31 @@ NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
   const std::uint64_t before = work.nodes + work.blocks;
   const double reach = vicinity ? vicinity->reach_of(query) : 0;
   const bool held = vicinity && vicinity->holds(reach);
-  if (held && vicinity->triangles().complete()) {
-    NearestAnswer answer = nearest_of_list(tree, query, limits, vicinity->triangles(), reach, work);
-    if (answer.status == Status::kExact) {
-      vicinity->note(query, answer.point);
-      return answer;
-    }
-  }
-  const auto answer_of = [&](Descent& descent) {
+  const bool listed = held && vicinity->triangles().complete();
+  const auto descend = [&](bool from_ball) {
+    Descent descent(tree, query, limits, pages, work);
+    from_ball ? descent.run_from(*vicinity) : descent.run_from_root();
     if (limits.known) descent.fall_back_on(*limits.known);
     return conclude(tree, query, limits, descent.best(), descent.wide(),
                     descent.what_is_left_out());
   };
+  NearestAnswer answer =
+      listed ? nearest_of_list(tree, query, limits, vicinity->triangles(), reach, work)
+             : descend(held);
+  if (listed) {
+    if (answer.status == Status::kExact) {
+      vicinity->note(query, answer.point);
+      return answer;
+    }
+    answer = descend(true);
+  }
   if (held) {
-    Descent descent(tree, query, limits, pages, work);
-    descent.run_from(*vicinity);
-    NearestAnswer answer = answer_of(descent);
     if (answer.status == Status::kExact) vicinity->outlive(query, answer.distance, answer.point);
     if (answer.status == Status::kExact || limits.known) return answer;
     // Lost pages, or nothing so near as asked: told from the root, as ever.
     vicinity->forget();
+    answer = descend(false);
   }
-  Descent descent(tree, query, limits, pages, work);
-  descent.run_from_root();
-  NearestAnswer answer = answer_of(descent);
   if (vicinity && answer.status == Status::kExact) {
     const std::uint64_t spent = work.nodes + work.blocks - before;
     const std::uint64_t left = limits.max_nodes - std::min<std::uint64_t>(spent, limits.max_nodes);

@@ -25,81 +25,81 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Squared distance to the segment from a point `p2` away, squared, from the query, along
 // an edge; `along` is the edge times the vector to the query. The products of a triangle's
 // sides do for all of it: what cancels is paid for by kEdgeError.
-HWY_INLINE Floats segment_squared(Floats p2, Floats along, Floats edge2) {
-  const FloatTag d;
-  const Floats least = hn::Set(d, 0x1p-126f);
-  const Floats one = hn::Set(d, 1.0f);
-  const Floats t = hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
+HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats along, TriangleFloats edge2) {
+  const TriangleTag d;
+  const TriangleFloats least = hn::Set(d, 0x1p-126f);
+  const TriangleFloats one = hn::Set(d, 1.0f);
+  const TriangleFloats t = hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
   return hn::Sub(p2, hn::Mul(t, hn::Sub(hn::Add(along, along), hn::Mul(t, edge2))));
 }
 
 // Squared distances of triangles as float sees them: on either side of the true one, but
 // for the rounding of the corners, which is kFilterSlack's.
 struct TriangleBounds {
-  Floats lower;  // 0 where float cannot tell
-  Floats upper;
+  TriangleFloats lower;  // 0 where float cannot tell
+  TriangleFloats upper;
 };
 
 // Of a face too flat for float: it lies within its own height of its edges.
-HWY_INLINE Floats flat_lower(Floats edges, Floats whole, Floats sides, Floats longest2) {
-  const FloatTag d;
-  const Floats zero = hn::Zero(d);
-  const Floats doubt = hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
-  const Floats rise = hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
-  const Floats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
+HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole, TriangleFloats sides, TriangleFloats longest2) {
+  const TriangleTag d;
+  const TriangleFloats zero = hn::Zero(d);
+  const TriangleFloats doubt = hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
+  const TriangleFloats rise = hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
+  const TriangleFloats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
   return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
 }
 
 // Of triangles given by vectors from the query to corners.
-HWY_INLINE TriangleBounds triangle_bounds(const Wide3& a, const Wide3& b, const Wide3& c) {
-  const FloatTag d;
-  const Floats zero = hn::Zero(d);
-  const Wide3 ab = sub(b, a), ac = sub(c, a);
-  const Floats a2 = dot(a, a), ab2 = dot(ab, ab), ac2 = dot(ac, ac), ab_ac = dot(ab, ac);
-  const Floats to_b = hn::Neg(dot(a, ab)), to_c = hn::Neg(dot(a, ac));
+HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const TriangleVectors& b, const TriangleVectors& c) {
+  const TriangleTag d;
+  const TriangleFloats zero = hn::Zero(d);
+  const TriangleVectors ab = sub(b, a), ac = sub(c, a);
+  const TriangleFloats a2 = dot(a, a), ab2 = dot(ab, ab), ac2 = dot(ac, ac), ab_ac = dot(ab, ac);
+  const TriangleFloats to_b = hn::Neg(dot(a, ab)), to_c = hn::Neg(dot(a, ac));
   // The third side and its start, from the products of the others.
-  const Floats b2 = hn::Sub(hn::Add(a2, ab2), hn::Add(to_b, to_b));
-  const Floats bc2 = hn::Sub(hn::Add(ab2, ac2), hn::Add(ab_ac, ab_ac));
-  const Floats b_to_c = hn::Sub(hn::Add(to_c, ab2), hn::Add(to_b, ab_ac));
-  const Floats edges =
+  const TriangleFloats b2 = hn::Sub(hn::Add(a2, ab2), hn::Add(to_b, to_b));
+  const TriangleFloats bc2 = hn::Sub(hn::Add(ab2, ac2), hn::Add(ab_ac, ab_ac));
+  const TriangleFloats b_to_c = hn::Sub(hn::Add(to_c, ab2), hn::Add(to_b, ab_ac));
+  const TriangleFloats edges =
       hn::Min(hn::Min(segment_squared(a2, to_b, ab2), segment_squared(a2, to_c, ac2)),
               segment_squared(b2, b_to_c, bc2));
-  const Floats edge_error = hn::Mul(hn::Add(a2, hn::Add(ab2, ac2)), hn::Set(d, kEdgeError));
+  const TriangleFloats edge_error = hn::Mul(hn::Add(a2, hn::Add(ab2, ac2)), hn::Set(d, kEdgeError));
 
-  const Floats sides = hn::Mul(ab2, ac2);
-  const Floats whole = hn::Sub(sides, hn::Mul(ab_ac, ab_ac));
-  const Floats v = hn::Sub(hn::Mul(ac2, to_b), hn::Mul(ab_ac, to_c));
-  const Floats w = hn::Sub(hn::Mul(ab2, to_c), hn::Mul(ab_ac, to_b));
+  const TriangleFloats sides = hn::Mul(ab2, ac2);
+  const TriangleFloats whole = hn::Sub(sides, hn::Mul(ab_ac, ab_ac));
+  const TriangleFloats v = hn::Sub(hn::Mul(ac2, to_b), hn::Mul(ab_ac, to_c));
+  const TriangleFloats w = hn::Sub(hn::Mul(ab2, to_c), hn::Mul(ab_ac, to_b));
   const auto inside =
       hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
-  const Floats inverse = hn::Div(hn::Set(d, 1.0f), whole);
+  const TriangleFloats inverse = hn::Div(hn::Set(d, 1.0f), whole);
   // Shares of b and c first: products of three short sides underflow.
-  const Floats face =
+  const TriangleFloats face =
       hn::Sub(a2, hn::Add(hn::Mul(hn::Mul(v, inverse), to_b), hn::Mul(hn::Mul(w, inverse), to_c)));
-  const Floats face_error = hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
+  const TriangleFloats face_error = hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
 
-  const Floats squared = hn::IfThenElse(inside, face, edges);
-  const Floats error = hn::IfThenElse(inside, face_error, edge_error);
-  const Floats lower = hn::Max(hn::Sub(squared, error), zero);
-  const Floats upper = hn::Add(squared, error);
+  const TriangleFloats squared = hn::IfThenElse(inside, face, edges);
+  const TriangleFloats error = hn::IfThenElse(inside, face_error, edge_error);
+  const TriangleFloats lower = hn::Max(hn::Sub(squared, error), zero);
+  const TriangleFloats upper = hn::Add(squared, error);
   const auto round = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFlatSine2), sides)),
                              hn::Ge(whole, hn::Set(d, 0x1p-100f)));
   if (hn::AllTrue(d, round)) return {lower, upper};
-  const Floats least = hn::Max(hn::Sub(edges, edge_error), zero);
-  const Floats flat = flat_lower(least, whole, sides, hn::Max(hn::Max(ab2, ac2), bc2));
+  const TriangleFloats least = hn::Max(hn::Sub(edges, edge_error), zero);
+  const TriangleFloats flat = flat_lower(least, whole, sides, hn::Max(hn::Max(ab2, ac2), bc2));
   return {hn::IfThenElse(round, lower, flat),
           hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
 }
 
 // Squared distances to the boxes of triangles given in the same way: no greater than those of the
 // triangles but for rounding, which is kFilterSlack's, at a fifth of the cost.
-HWY_INLINE Floats box_bounds(const Wide3& a, const Wide3& b, const Wide3& c) {
-  const Floats zero = hn::Zero(FloatTag());
-  const auto gap = [&](Floats u, Floats v, Floats w) {
-    const Floats lower = hn::Min(hn::Min(u, v), w), upper = hn::Max(hn::Max(u, v), w);
+HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVectors& b, const TriangleVectors& c) {
+  const TriangleFloats zero = hn::Zero(TriangleTag());
+  const auto gap = [&](TriangleFloats u, TriangleFloats v, TriangleFloats w) {
+    const TriangleFloats lower = hn::Min(hn::Min(u, v), w), upper = hn::Max(hn::Max(u, v), w);
     return hn::Max(hn::Max(lower, hn::Neg(upper)), zero);
   };
-  const Wide3 gaps{gap(a.x, b.x, c.x), gap(a.y, b.y, c.y), gap(a.z, b.z, c.z)};
+  const TriangleVectors gaps{gap(a.x, b.x, c.x), gap(a.y, b.y, c.y), gap(a.z, b.z, c.z)};
   return dot(gaps, gaps);
 }
 
@@ -109,11 +109,11 @@ class BlockTriangles {
  public:
   // `query` is relative to vertex 0.
   HWY_INLINE BlockTriangles(const BlockHeader& block, const float (&query)[3]) : block_(block) {
-    const FloatTag d;
+    const hn::CappedTag<float, kStride % kMaxBlockTriangles == 0 ? kMaxBlockTriangles : kFanOut> d;
     const float* HWY_RESTRICT local = reinterpret_cast<const float*>(&block + 1);
     for (unsigned axis = 0; axis < 3; ++axis, local += kStride) {
-      const Floats first = hn::Set(d, local[0]);
-      const Floats q = hn::Set(d, query[axis]);
+      const auto first = hn::Set(d, local[0]);
+      const auto q = hn::Set(d, query[axis]);
 #pragma GCC unroll 6
       for (unsigned i = 0; i < kStride; i += static_cast<unsigned>(hn::Lanes(d)))
         hn::Store(hn::Sub(hn::Sub(hn::Load(d, local + i), first), q), d, row_[axis] + i);
@@ -121,21 +121,22 @@ class BlockTriangles {
   }
 
   // Corner `k` of the triangles from `first` on.
-  HWY_INLINE Wide3 corner(std::size_t k, std::size_t first) const {
-    const FloatTag d;
-    const IntTag di;
-    const hn::Rebind<std::uint8_t, IntTag> bytes;
-    const Ints index = hn::PromoteTo(di, hn::LoadU(bytes, block_.corner[k] + first));
+  HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t first) const {
+    const TriangleTag d;
+    const hn::RebindToSigned<TriangleTag> di;
+    const hn::Rebind<std::uint8_t, decltype(di)> bytes;
+    const auto index = hn::PromoteTo(di, hn::LoadU(bytes, block_.corner[k] + first));
 #if PLANETREE_EIGHT_LANES
     // A gather costs more than looking each vector of a row up in registers, which minds the
-    // last three bits alone.
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
+    // last bits alone.
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(TriangleTag()));
+    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, kLanes - 1)));
     const auto look_up = [&](unsigned axis, unsigned i) {
       return hn::TableLookupLanes(hn::Load(d, row_[axis] + i), lane);
     };
-    Wide3 found{look_up(0, 0), look_up(1, 0), look_up(2, 0)};
+    TriangleVectors found{look_up(0, 0), look_up(1, 0), look_up(2, 0)};
 #pragma GCC unroll 5
-    for (unsigned i = 8; i < kStride; i += 8) {
+    for (unsigned i = kLanes; i < kStride; i += kLanes) {
       const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, static_cast<int>(i) - 1)));
       found.x = hn::IfThenElse(here, look_up(0, i), found.x);
       found.y = hn::IfThenElse(here, look_up(1, i), found.y);
@@ -149,8 +150,12 @@ class BlockTriangles {
   }
 
  private:
+  // Whole vectors: of what is behind the vertices nothing is used.
+  static constexpr unsigned kRow =
+      (kStride + kMaxBlockTriangles - 1) / kMaxBlockTriangles * kMaxBlockTriangles;
+
   const BlockHeader& block_;
-  HWY_ALIGN float row_[3][kStride];
+  HWY_ALIGN float row_[3][kRow];
 };
 
 // The way from a point to the query.
@@ -166,19 +171,19 @@ class ListedTriangles {
  public:
   HWY_INLINE ListedTriangles(const NearbyTriangles& list, const float (&query)[3])
       : list_(list),
-        query_{hn::Set(FloatTag(), query[0]), hn::Set(FloatTag(), query[1]),
-               hn::Set(FloatTag(), query[2])} {}
+        query_{hn::Set(TriangleTag(), query[0]), hn::Set(TriangleTag(), query[1]),
+               hn::Set(TriangleTag(), query[2])} {}
 
-  HWY_INLINE Wide3 corner(std::size_t k, std::size_t i) const {
-    const FloatTag d;
-    const Wide3 at{hn::Load(d, list_.row(k, 0) + i), hn::Load(d, list_.row(k, 1) + i),
+  HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t i) const {
+    const TriangleTag d;
+    const TriangleVectors at{hn::Load(d, list_.row(k, 0) + i), hn::Load(d, list_.row(k, 1) + i),
                    hn::Load(d, list_.row(k, 2) + i)};
     return sub(at, query_);
   }
 
  private:
   const NearbyTriangles& list_;
-  const Wide3 query_;
+  const TriangleVectors query_;
 };
 
 // What float says of a block's triangles.
@@ -192,17 +197,20 @@ struct FilteredTriangles {
 template <class Triangles>
 HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, float limit,
                                  FilteredTriangles& filtered) {
-  const FloatTag d;
-  Floats least = hn::Set(d, std::numeric_limits<float>::infinity());
+  const TriangleTag d;
+  const TriangleFloats none = hn::Set(d, std::numeric_limits<float>::infinity());
+  TriangleFloats least = none;
   unsigned near = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Wide3 a = triangles.corner(0, i), b = triangles.corner(1, i), c = triangles.corner(2, i);
+    const TriangleVectors a = triangles.corner(0, i), b = triangles.corner(1, i), c = triangles.corner(2, i);
     // Most of what a block holds is too far away for more to be asked of it.
     if (bits_not_above(box_bounds(a, b, c), limit) == 0) continue;
     const TriangleBounds bounds = triangle_bounds(a, b, c);
     hn::Store(bounds.lower, d, filtered.squared + i);
-    least = hn::Min(least, bounds.upper);
-    near |= bits_not_above(bounds.lower, limit) << i;
+    // Of those that are near alone, so that it does not matter how many a register holds.
+    const auto far = hn::Gt(bounds.lower, hn::Set(d, limit));
+    least = hn::Min(least, hn::IfThenElse(far, none, bounds.upper));
+    near |= mask_bits(d, hn::Not(far)) << i;
   }
   filtered.near = near & (~0u >> (32 - count));
   filtered.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
@@ -230,7 +238,7 @@ HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], 
 // anything.
 HWY_INLINE unsigned near_triangles(const FilteredTriangles& filtered, std::size_t count,
                                    float limit) {
-  const FloatTag d;
+  const TriangleTag d;
   unsigned near = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d))
     near |= bits_not_above(hn::Load(d, filtered.squared + i), limit) << i;

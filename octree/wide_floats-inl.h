@@ -29,15 +29,25 @@ using IntTag = hn::RebindToSigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 
-struct Wide3 {
-  Floats x, y, z;
-};
+// As many as a block has triangles, or a part of them.
+using TriangleTag = hn::CappedTag<float, kMaxBlockTriangles>;
+using TriangleFloats = hn::Vec<TriangleTag>;
 
-HWY_INLINE Wide3 sub(const Wide3& a, const Wide3& b) {
+// A vector, of three coordinates, in each lane.
+template <class Lanes>
+struct Vectors {
+  Lanes x, y, z;
+};
+using Wide3 = Vectors<Floats>;
+using TriangleVectors = Vectors<TriangleFloats>;
+
+template <class Lanes>
+HWY_INLINE Vectors<Lanes> sub(const Vectors<Lanes>& a, const Vectors<Lanes>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 
-HWY_INLINE Floats dot(const Wide3& a, const Wide3& b) {
+template <class Lanes>
+HWY_INLINE Lanes dot(const Vectors<Lanes>& a, const Vectors<Lanes>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
@@ -55,8 +65,9 @@ HWY_INLINE unsigned mask_bits(Tag d, Mask mask) {
 }
 
 // A bit for each lane that is not above the limit, or not a number.
-HWY_INLINE unsigned bits_not_above(Floats values, float limit) {
-  const FloatTag d;
+template <class Lanes>
+HWY_INLINE unsigned bits_not_above(Lanes values, float limit) {
+  const hn::DFromV<Lanes> d;
   return mask_bits(d, hn::Not(hn::Gt(values, hn::Set(d, limit))));
 }
 

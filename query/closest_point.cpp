@@ -91,8 +91,7 @@ void widen(const octree::TreeFacts& tree, const octree::Point& point, double cle
   nearest.feature = Feature::kVertex;
 }
 
-ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nearest) {
-  ClosestPoint answer;
+void fill_in(const Scale& scale, const octree::NearestAnswer& nearest, ClosestPoint& answer) {
   answer.distance = scale.out(nearest.distance);
   answer.lower = std::min(scale.out_below(nearest.lower), std::numeric_limits<double>::max());
   answer.upper = scale.out_above(nearest.upper);
@@ -102,7 +101,6 @@ ClosestPoint in_model_units(const Scale& scale, const octree::NearestAnswer& nea
   answer.barycentric = {nearest.barycentric[0], nearest.barycentric[1], nearest.barycentric[2]};
   answer.feature = nearest.feature;
   answer.status = nearest.status;
-  return answer;
 }
 
 // What an ask comes to where it leaves things open.
@@ -136,8 +134,10 @@ void note_loss(ProbeState& probe, const Vec3& query, const Ask& ask, const PageT
 // The parts of one ask, in the order in which they need each other.
 class Asking {
  public:
-  /// stop  what the ask is given up for, if it waits for pages; may be null.
-  Asking(ProbeState& probe, const Vec3& query, const Ask& ask, const std::atomic<bool>* stop)
+  /// stop    what the ask is given up for, if it waits for pages; may be null.
+  /// answer  that of an ask that reached no triangle: run() fills in what is asked for.
+  Asking(ProbeState& probe, const Vec3& query, const Ask& ask, const std::atomic<bool>* stop,
+         ClosestPoint& answer)
       : probe_(probe),
         model_(probe.model()),
         query_(query),
@@ -147,18 +147,20 @@ class Asking {
         far_(is_far(placed_)),
         point_(within_reach(placed_, query)),
         turner_(probe.reader(), ask.wait, stop ? model_.fetching_terms() : model_.asking_terms(),
-                stop) {
+                stop),
+        answer_(answer) {
     turner_.log_to(probe.touches().begin_ask(ask.wait));
   }
 
-  ClosestPoint run() {
+  void run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
-    if ((parts & kDistance) != 0) find_nearest();
-    if ((parts & kSide) != 0) find_side();
-    if ((parts & kNormal) != 0 && answer_.triangle != kNoTriangle) find_normal();
+    const octree::NearestAnswer nearest =
+        (parts & kDistance) != 0 ? find_nearest() : octree::NearestAnswer{};
+    Standing standing;
+    if ((parts & kSide) != 0) standing = find_side(nearest.lower);
+    if ((parts & kNormal) != 0 && answer_.triangle != kNoTriangle) find_normal(nearest, standing);
     if (lost_) note_loss(probe_, query_, ask_, turner_);
     probe_.last_parts() = parts;
-    return answer_;
   }
 
  private:
@@ -167,49 +169,52 @@ class Asking {
     return spent < ask_.max_nodes ? ask_.max_nodes - spent : 0;
   }
 
-  void find_nearest() {
+  octree::NearestAnswer find_nearest() {
     octree::NearestLimits limits;
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
     if (ask_.wait == Wait::kNever) limits.known = &probe_.last_nearest();
-    nearest_ = far_ ? farthest(model_.tree(), point_)
-                    : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
-                                      &probe_.vicinity());
+    octree::NearestAnswer nearest =
+        far_ ? farthest(model_.tree(), point_)
+             : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
+                               &probe_.vicinity());
     // What stands for the farthest queries' nearest triangle is a vertex of it.
-    if (!far_ && limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
-    lost_ = nearest_.status == Status::kDegraded;
+    if (!far_ && limits.known && nearest.triangle != kNoTriangle) probe_.last_nearest() = nearest;
+    lost_ = nearest.status == Status::kDegraded;
     widen(model_.tree(), point_, clearance(model_.region(), point_, far_), limits.max_distance,
-          nearest_);
-    answer_ = in_model_units(model_.scale(), nearest_);
+          nearest);
+    fill_in(model_.scale(), nearest, answer_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
     if (answer_.status == Status::kDegraded && !lost_ &&
         answer_.upper - answer_.lower <= ask_.max_error)
       answer_.status = Status::kWithinError;
+    return nearest;
   }
 
-  void find_side() {
-    const auto known = known_side();
-    standing_ =
-        known ? *known
-              : side_of(probe_, point_, nearest_.lower, remember_, nodes_left(), turner_, work_);
-    answer_.side = standing_.side;
-    if (standing_.status == Status::kDegraded) degrade();
+  // `clear`: no surface is nearer to the point.
+  Standing find_side(double clear) {
+    const auto known = known_side(clear);
+    const Standing standing =
+        known ? *known : side_of(probe_, point_, clear, remember_, nodes_left(), turner_, work_);
+    answer_.side = standing.side;
+    if (standing.status == Status::kDegraded) degrade();
+    return standing;
   }
 
   // The side where it takes no search: most often that of the ask before, if the surface is known
   // to be farther than that was.
-  std::optional<Standing> known_side() {
+  std::optional<Standing> known_side(double clear) {
     // What stands for a point that far away may be beyond another wall of a region.
     if (far_) return side_at_once(model_, placed_);
     if (!remember_) return {};
-    const auto before = side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
+    const auto before = side_as_before(model_, point_, clear, probe_.side_memory());
     return before ? before : side_at_once(model_, point_);
   }
 
-  void find_normal() {
-    const ContactNormal contact = contact_normal(model_.tree(), point_, nearest_, standing_,
+  void find_normal(const octree::NearestAnswer& nearest, const Standing& standing) {
+    const ContactNormal contact = contact_normal(model_.tree(), point_, nearest, standing,
                                                  remember_ ? &probe_.vicinity() : nullptr,
                                                  nodes_left(), turner_.pages(), work_);
     answer_.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
@@ -231,9 +236,7 @@ class Asking {
   const octree::Point point_;
   PageTurner turner_;
   octree::TreeWork work_;
-  octree::NearestAnswer nearest_;
-  Standing standing_;
-  ClosestPoint answer_ = without_distance(Status::kExact);
+  ClosestPoint& answer_;
   bool lost_ = false;  // something for want of pages or work
 };
 
@@ -259,7 +262,8 @@ class Asking {
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
-  const ClosestPoint answer = Asking(probe, query, ask, nullptr).run();
+  ClosestPoint answer = without_distance(Status::kExact);
+  Asking(probe, query, ask, nullptr, answer).run();
   if (answer.status == Status::kDegraded) probe.model().count_degraded();
   return answer;
 }
@@ -276,7 +280,9 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
 void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,
                  const std::atomic<bool>& stop) noexcept {
   assert(ask.wait == Wait::kForPages && !may_remember(ask));
-  if (makes_sense(query, ask)) Asking(probe, query, ask, &stop).run();
+  if (!makes_sense(query, ask)) return;
+  ClosestPoint unused;
+  Asking(probe, query, ask, &stop, unused).run();
 }
 
 }  // namespace planetree::query
