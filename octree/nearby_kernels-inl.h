@@ -43,18 +43,18 @@ struct SubtreeKeys {
 // Finds the subtrees whose boxes come as near as a threshold, and returns how many.
 HWY_INLINE std::size_t near_subtrees(const NearbySubtrees& list, const FloatQuery& query,
                                      float threshold, SubtreeKeys& keys) {
-  const FloatTag d;
-  const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
+  const TriangleTag d;
+  const TriangleVectors p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
   std::size_t count = 0;
   for (std::size_t i = 0; i < list.size(); i += hn::Lanes(d)) {
-    const auto gap = [&](std::size_t axis, Floats at) {
+    const auto gap = [&](std::size_t axis, TriangleFloats at) {
       return outside(hn::Load(d, list.lower(axis) + i), hn::Load(d, list.upper(axis) + i), at);
     };
-    const Wide3 gaps{gap(0, p.x), gap(1, p.y), gap(2, p.z)};
-    const Floats squared = dot(gaps, gaps);
-    HWY_ALIGN std::uint32_t bits[kFanOut];
-    hn::Store(hn::BitCast(hn::RebindToUnsigned<FloatTag>(), squared),
-              hn::RebindToUnsigned<FloatTag>(), bits);
+    const TriangleVectors gaps{gap(0, p.x), gap(1, p.y), gap(2, p.z)};
+    const TriangleFloats squared = dot(gaps, gaps);
+    HWY_ALIGN std::uint32_t bits[hn::MaxLanes(d)];
+    hn::Store(hn::BitCast(hn::RebindToUnsigned<TriangleTag>(), squared),
+              hn::RebindToUnsigned<TriangleTag>(), bits);
     for (unsigned near = bits_not_above(squared, threshold); near != 0; near &= near - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(near));
       keys.at[count++] = std::uint64_t{bits[lane]} << 32 | (i + lane);

@@ -40,7 +40,7 @@ class NearbySubtrees {
   }
   /// All have been added.
   void finish() {
-    for (std::size_t i = size_; i % kFanOut != 0; ++i)
+    for (std::size_t i = size_; i % kLanes != 0; ++i)
       for (unsigned axis = 0; axis < 3; ++axis)
         lower_[axis][i] = upper_[axis][i] = std::numeric_limits<float>::infinity();
   }
@@ -53,11 +53,13 @@ class NearbySubtrees {
     return farthest_in_box({lower_[0][i], lower_[1][i], lower_[2][i]},
                            {upper_[0][i], upper_[1][i], upper_[2][i]}, query);
   }
-  /// A side of each box; up to the next multiple of eight, of boxes infinitely far away.
+  /// A side of each box; up to the next multiple of sixteen, of boxes infinitely far away.
   const float* lower(std::size_t axis) const { return lower_[axis]; }
   const float* upper(std::size_t axis) const { return upper_[axis]; }
 
  private:
+  static constexpr std::size_t kLanes = 16;
+
   std::size_t size_ = 0;
   alignas(kSlotBytes) float lower_[3][kMost];
   alignas(kSlotBytes) float upper_[3][kMost];

@@ -51,8 +51,9 @@ HWY_INLINE Lanes dot(const Vectors<Lanes>& a, const Vectors<Lanes>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-HWY_INLINE Floats outside(Floats lower, Floats upper, Floats at) {
-  const Floats zero = hn::Zero(FloatTag());
+template <class Lanes>
+HWY_INLINE Lanes outside(Lanes lower, Lanes upper, Lanes at) {
+  const Lanes zero = hn::Zero(hn::DFromV<Lanes>());
   return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
 }
 
