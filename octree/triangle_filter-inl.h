@@ -25,11 +25,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Squared distance to the segment from a point `p2` away, squared, from the query, along
 // an edge; `along` is the edge times the vector to the query. The products of a triangle's
 // sides do for all of it: what cancels is paid for by kEdgeError.
-HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats along, TriangleFloats edge2) {
+HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats along,
+                                          TriangleFloats edge2) {
   const TriangleTag d;
   const TriangleFloats least = hn::Set(d, 0x1p-126f);
   const TriangleFloats one = hn::Set(d, 1.0f);
-  const TriangleFloats t = hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
+  const TriangleFloats t =
+      hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
   return hn::Sub(p2, hn::Mul(t, hn::Sub(hn::Add(along, along), hn::Mul(t, edge2))));
 }
 
@@ -41,17 +43,20 @@ struct TriangleBounds {
 };
 
 // Of a face too flat for float: it lies within its own height of its edges.
-HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole, TriangleFloats sides, TriangleFloats longest2) {
+HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole,
+                                     TriangleFloats sides, TriangleFloats longest2) {
   const TriangleTag d;
   const TriangleFloats zero = hn::Zero(d);
   const TriangleFloats doubt = hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
-  const TriangleFloats rise = hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
+  const TriangleFloats rise =
+      hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
   const TriangleFloats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
   return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
 }
 
 // Of triangles given by vectors from the query to corners.
-HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const TriangleVectors& b, const TriangleVectors& c) {
+HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const TriangleVectors& b,
+                                          const TriangleVectors& c) {
   const TriangleTag d;
   const TriangleFloats zero = hn::Zero(d);
   const TriangleVectors ab = sub(b, a), ac = sub(c, a);
@@ -76,7 +81,8 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
   // Shares of b and c first: products of three short sides underflow.
   const TriangleFloats face =
       hn::Sub(a2, hn::Add(hn::Mul(hn::Mul(v, inverse), to_b), hn::Mul(hn::Mul(w, inverse), to_c)));
-  const TriangleFloats face_error = hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
+  const TriangleFloats face_error =
+      hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
 
   const TriangleFloats squared = hn::IfThenElse(inside, face, edges);
   const TriangleFloats error = hn::IfThenElse(inside, face_error, edge_error);
@@ -93,7 +99,8 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
 
 // Squared distances to the boxes of triangles given in the same way: no greater than those of the
 // triangles but for rounding, which is kFilterSlack's, at a fifth of the cost.
-HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVectors& b, const TriangleVectors& c) {
+HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVectors& b,
+                                     const TriangleVectors& c) {
   const TriangleFloats zero = hn::Zero(TriangleTag());
   const auto gap = [&](TriangleFloats u, TriangleFloats v, TriangleFloats w) {
     const TriangleFloats lower = hn::Min(hn::Min(u, v), w), upper = hn::Max(hn::Max(u, v), w);
@@ -177,7 +184,7 @@ class ListedTriangles {
   HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t i) const {
     const TriangleTag d;
     const TriangleVectors at{hn::Load(d, list_.row(k, 0) + i), hn::Load(d, list_.row(k, 1) + i),
-                   hn::Load(d, list_.row(k, 2) + i)};
+                             hn::Load(d, list_.row(k, 2) + i)};
     return sub(at, query_);
   }
 
@@ -202,7 +209,8 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
   TriangleFloats least = none;
   unsigned near = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const TriangleVectors a = triangles.corner(0, i), b = triangles.corner(1, i), c = triangles.corner(2, i);
+    const TriangleVectors a = triangles.corner(0, i), b = triangles.corner(1, i),
+                          c = triangles.corner(2, i);
     // Most of what a block holds is too far away for more to be asked of it.
     if (bits_not_above(box_bounds(a, b, c), limit) == 0) continue;
     const TriangleBounds bounds = triangle_bounds(a, b, c);
