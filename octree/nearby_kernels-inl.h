@@ -55,7 +55,9 @@ HWY_INLINE std::size_t near_subtrees(const NearbySubtrees& list, const FloatQuer
     HWY_ALIGN std::uint32_t bits[hn::MaxLanes(d)];
     hn::Store(hn::BitCast(hn::RebindToUnsigned<TriangleTag>(), squared),
               hn::RebindToUnsigned<TriangleTag>(), bits);
-    for (unsigned near = bits_not_above(squared, threshold); near != 0; near &= near - 1) {
+    unsigned near = bits_not_above(squared, threshold);
+    if (list.size() - i < hn::Lanes(d)) near &= (1u << (list.size() - i)) - 1;
+    for (; near != 0; near &= near - 1) {
       const auto lane = static_cast<unsigned>(std::countr_zero(near));
       keys.at[count++] = std::uint64_t{bits[lane]} << 32 | (i + lane);
     }
@@ -86,12 +88,14 @@ HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Po
   const FloatOffset from(query, list.centre());
   const ListedTriangles triangles(list, from.at);
   HWY_ALIGN float squared[NearbyTriangles::kMost];  // lower bounds
-  TriangleFloats least = hn::Set(d, std::numeric_limits<float>::infinity());
+  const TriangleFloats none = hn::Set(d, std::numeric_limits<float>::infinity());
+  TriangleFloats least = none;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const TriangleBounds bounds =
         triangle_bounds(triangles.corner(0, i), triangles.corner(1, i), triangles.corner(2, i));
     hn::Store(bounds.lower, d, squared + i);
-    least = hn::Min(least, bounds.upper);
+    const auto listed = hn::FirstN(d, count - i);
+    least = hn::Min(least, hn::IfThenElse(listed, bounds.upper, none));
   }
   const float least_upper = hn::GetLane(hn::MinOfLanes(d, least));
   const double upper = std::min(best.reach(), filter_upper(least_upper, list.extent()));

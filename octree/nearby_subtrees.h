@@ -53,17 +53,18 @@ class NearbySubtrees {
     return farthest_in_box({lower_[0][i], lower_[1][i], lower_[2][i]},
                            {upper_[0][i], upper_[1][i], upper_[2][i]}, query);
   }
-  /// A side of each box; up to the next multiple of sixteen, of boxes infinitely far away.
+  /// A side of each box; up to the next multiple of sixteen there are numbers, of no meaning.
   const float* lower(std::size_t axis) const { return lower_[axis]; }
   const float* upper(std::size_t axis) const { return upper_[axis]; }
 
  private:
-  static constexpr std::size_t kLanes = 16;
+  static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
+  static_assert(kMost % kLanes == 0);
 
   std::size_t size_ = 0;
   alignas(kSlotBytes) float lower_[3][kMost];
   alignas(kSlotBytes) float upper_[3][kMost];
-  std::uint32_t link_[kMost];
+  std::uint32_t link_[kMost] = {};
 };
 
 }  // namespace planetree::octree

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "octree/bounds.h"
+#include "octree/frame.h"
 #include "octree/triangle_rows.h"
 
 namespace planetree::octree {
@@ -81,7 +82,8 @@ class NearbyTriangles {
   std::uint64_t id(std::size_t i) const { return id_[i]; }
 
  private:
-  static constexpr std::size_t kLanes = 16;
+  static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
+  static_assert(kMost % kLanes == 0 && kMost <= 255);
   static constexpr std::size_t kRings = 16;
 
   // Greater distances have no smaller rings, however they are rounded.

@@ -86,7 +86,7 @@ class Descent {
     while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned)) go_down(entry);
   }
 
-  // From nearest child to nearest child, as long as no other can be nearer.
+  // From nearest child to nearest child, as long as nodes are near.
   HWY_INLINE void go_down(FrontierEntry entry) {
     while (visit(entry)) {
     }

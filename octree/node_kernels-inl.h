@@ -103,17 +103,18 @@ HWY_INLINE Ints sort_lanes(Ints v) {
 }
 #endif
 
-// A node's children that are worth a visit.
+// A node's children that are worth a visit, if any are.
 struct NearChildren {
   unsigned count;
-  std::int32_t nearest;  // child_keys() of the nearest; kNoChild if there is none
+  std::int32_t nearest;  // child_keys() of the nearest child
 
+  // Of the nearest, where there are some.
   float bound() const { return std::bit_cast<float>(nearest & ~kChildBits); }
   unsigned child() const { return static_cast<unsigned>(nearest & kChildBits); }
 };
 
-// Writes a node's children, nearest first, and returns how many of them have bounds
-// that are not above the threshold. Bounds lose their kChildBits.
+// Writes a node's children, nearest first. Those are near whose bounds are not above the
+// threshold. Bounds lose their kChildBits.
 HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& query, bool discs,
                                         float threshold, FrontierGroup& group) {
   const FloatTag d;

@@ -212,11 +212,12 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
     const TriangleVectors a = triangles.corner(0, i), b = triangles.corner(1, i),
                           c = triangles.corner(2, i);
     // Most of what a block holds is too far away for more to be asked of it.
-    if (bits_not_above(box_bounds(a, b, c), limit) == 0) continue;
+    const auto beyond = hn::Gt(box_bounds(a, b, c), hn::Set(d, limit));
+    if (hn::AllTrue(d, beyond)) continue;
     const TriangleBounds bounds = triangle_bounds(a, b, c);
     hn::Store(bounds.lower, d, filtered.squared + i);
-    // Of those that are near alone, so that it does not matter how many a register holds.
-    const auto far = hn::Gt(bounds.lower, hn::Set(d, limit));
+    // Whatever others there are in the register: how many it holds must not matter.
+    const auto far = hn::Or(beyond, hn::Gt(bounds.lower, hn::Set(d, limit)));
     least = hn::Min(least, hn::IfThenElse(far, none, bounds.upper));
     near |= mask_bits(d, hn::Not(far)) << i;
   }

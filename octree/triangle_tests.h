@@ -9,7 +9,7 @@
 namespace planetree::octree {
 
 /// Those that may be as near to a point as `distance`; the others are farther. Fills in how near
-/// each of them is at least.
+/// each of the former is at least.
 ///
 /// wide  the point as float has it, see FloatQuery::from().
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,

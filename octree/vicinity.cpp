@@ -22,8 +22,9 @@ class LimitedFinder {
   // Null where it cannot be had, or no more may be visited.
   const std::byte* find(std::uint32_t link) {
     const std::byte* record = left_ > 0 ? records_.find(link, work_) : nullptr;
+    // After a page that is lost nothing more is looked for.
+    left_ = record ? left_ - 1 : 0;
     if (!record) return nullptr;
-    --left_;
     ++(LinkFormat::is_leaf(link) ? work_.blocks : work_.nodes);
     return record;
   }

@@ -1,6 +1,6 @@
-// Eight floats, points of them, and the bits of masks, compiled once for each instruction set that
-// Highway knows at hand. Multiplications and additions are never fused and lanes never mixed, so
-// that every set computes the same bits.
+// Floats side by side, points of them, and the bits of masks, compiled once for each instruction
+// set that Highway knows at hand. Multiplications and additions are never fused and lanes never
+// mixed, so that every set computes the same bits.
 
 #if defined(PLANETREE_OCTREE_WIDE_FLOATS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
@@ -29,7 +29,7 @@ using IntTag = hn::RebindToSigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 
-// As many as a block has triangles, or a part of them.
+// As many as a block has triangles, or a part of them: for whatever stands in longer lists.
 using TriangleTag = hn::CappedTag<float, kMaxBlockTriangles>;
 using TriangleFloats = hn::Vec<TriangleTag>;
 

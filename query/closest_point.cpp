@@ -281,7 +281,7 @@ void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,
                  const std::atomic<bool>& stop) noexcept {
   assert(ask.wait == Wait::kForPages && !may_remember(ask));
   if (!makes_sense(query, ask)) return;
-  ClosestPoint unused;
+  ClosestPoint unused = without_distance(Status::kExact);
   Asking(probe, query, ask, &stop, unused).run();
 }
 

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>
+
+#include <hwy/targets.h>
 
 #include "octree/nearest.h"
 #include "tests/octree/sample_tree.h"
@@ -79,6 +82,23 @@ struct Warm {
   SampleTree sample;
   SamplePages pages;
   Vicinity vicinity;
+};
+
+// Pages of which the numbers that are asked for are watched.
+struct WatchedPages {
+  explicit WatchedPages(SamplePages& sample) : pages(sample), inner(sample.reader()) {}
+
+  PageReader reader() {
+    return {this, [](void* context, std::uint32_t number) noexcept {
+              auto& self = *static_cast<WatchedPages*>(context);
+              self.strange = self.strange || number >= self.pages.size();
+              return self.inner.page(self.inner.context, number);
+            }};
+  }
+
+  SamplePages& pages;
+  const PageReader inner;
+  bool strange = false;  // one was asked for that there is not
 };
 
 TEST(Vicinity, ChangesNoAnswer) {
@@ -160,6 +180,73 @@ TEST(Vicinity, VisitsNoMoreThanAllowed) {
   }
 }
 
+// So far away float has no squares, and nothing is pruned; of longer lists there may be left
+// what must not be taken for subtrees.
+TEST(Vicinity, HoldsNoMoreThanThereIsFarAway) {
+  const Point far(0x1p61, 0x1p60, 0);
+  for (const unsigned level : {3u, 4u, 5u, 6u}) {
+    Warm warm(sphere(level));
+    WatchedPages watched(warm.pages);
+    TreeWork alone;
+    nearest(tree_facts(warm.sample), far, {}, watched.reader(), alone);
+    for (const Point& query : wander(60, 0.02, 7)) warm.answer(query);
+    for (int i = 0; i < 4; ++i) {
+      TreeWork work;
+      nearest(tree_facts(warm.sample), far, {}, watched.reader(), work, &warm.vicinity);
+      if (i < 2) continue;  // makes the ball
+      EXPECT_LE(work.nodes + work.blocks, alone.nodes + alone.blocks) << level;
+    }
+    EXPECT_FALSE(watched.strange) << level;
+  }
+}
+
+// Where an error is allowed and pages are lost, no bound is known for long.
+TEST(Vicinity, HoldsNoMoreThanThereIsWherePagesAreLost) {
+  for (const double step : {1e-3, 3e-3, 1e-2, 3e-2}) {
+    Warm warm(sphere(5));
+    WatchedPages watched(warm.pages);
+    Point at(0.35, 0.355, 0.1);
+    NearestAnswer known;
+    for (int i = 0; i < 3; ++i) known = warm.answer(at += Point(0, step, 0));
+    for (std::uint32_t page = 0; page < warm.pages.size(); ++page) warm.pages.withhold(page);
+    NearestLimits limits;
+    limits.known = &known;
+    limits.max_error = 0.01;
+    TreeWork work;
+    nearest(tree_facts(warm.sample), at + Point(0, step, 0), limits, watched.reader(), work,
+            &warm.vicinity);
+    EXPECT_FALSE(watched.strange) << step;
+  }
+}
+
+// Limited asks tell what they came to: they must come to the same whatever a register holds.
+TEST(Vicinity, IsTheSameOnEveryInstructionSet) {
+  const Soup soup = scattered(20000, 0.03);
+  NearestLimits limits;
+  limits.max_nodes = 12;
+  limits.max_error = 1e-4;
+  const NearestAnswer known = Warm(soup).answer(Point(0.35, 0.35, 0.1));
+  limits.known = &known;
+  std::vector<std::vector<std::uint64_t>> told;
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
+    Warm warm(soup);
+    std::vector<std::uint64_t> bits;
+    for (const double step : {1e-4, 1e-3, 0.01})
+      for (const Point& query : wander(300, step, 30)) {
+        TreeWork work;
+        const NearestAnswer answer = nearest(tree_facts(warm.sample), query, limits,
+                                             warm.pages.reader(), work, &warm.vicinity);
+        const auto more = bits_of(answer);
+        bits.insert(bits.end(), more.begin(), more.end());
+        bits.insert(bits.end(), {work.nodes, work.blocks, work.triangles, work.page_turns});
+      }
+    told.push_back(bits);
+    hwy::SetSupportedTargetsForTest(0);
+  }
+  for (const auto& bits : told) EXPECT_EQ(bits == told[0], true);
+}
+
 TEST(Vicinity, ChangesNoAnswerWithinLimits) {
   NearestLimits near, rough, brief;
   near.max_distance = 0.05;
@@ -212,7 +299,9 @@ TEST(Vicinity, BeginsFarDownWhereBlocksAreMany) {
     if (i < 2) continue;
     EXPECT_FALSE(warm.vicinity.subtrees().are_blocks());
     along += work.nodes;
-    alone += Warm(sphere(7)).work(query).nodes;
+    TreeWork cold;
+    nearest(tree_facts(warm.sample), query, {}, warm.pages.reader(), cold);
+    alone += cold.nodes;
   }
   EXPECT_GT(along, 0u);
   EXPECT_LT(along, alone / 2);

@@ -6,13 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include <hwy/targets.h>
+
 #include "octree/nearby_triangles.h"
 #include "octree/node_kernels-inl.h"
 #include "octree/triangle_filter-inl.h"
+#include "octree/triangle_tests.h"
 #include "tests/oracle/nasty_models.h"
 #include "tests/oracle/random.h"
 #include "tests/oracle/tree_pages.h"
@@ -198,6 +202,39 @@ void expect_list_passes(const octree::BlockView& block, const FloatQuery& wide, 
                        });
 }
 
+// The same ones, and the same said of them, whatever a register holds.
+void expect_found_alike(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
+                        double distance) {
+  double first[octree::kMaxBlockTriangles], nearest[octree::kMaxBlockTriangles];
+  const unsigned near = octree::triangles_within(block, query, wide, distance, first);
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
+    EXPECT_EQ(octree::triangles_within(block, query, wide, distance, nearest), near);
+    for (unsigned i = 0; i < block.triangle_count(); ++i)
+      EXPECT_TRUE((near >> i & 1) == 0 || nearest[i] == first[i]) << i;
+    hwy::SetSupportedTargetsForTest(0);
+  }
+}
+
+// Those as near as one of them are all found, and none is said to be farther than it is.
+void expect_found_within(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
+                         unsigned which) {
+  std::vector<double> distances;
+  for (unsigned i = 0; i < block.triangle_count(); ++i)
+    distances.push_back(std::sqrt(octree::triangle_value(query, block.triangle(i)).squared));
+  const double distance = distances[which % distances.size()];
+  double nearest[octree::kMaxBlockTriangles];
+  const unsigned near = octree::triangles_within(block, query, wide, distance, nearest);
+  EXPECT_EQ(near >> distances.size(), 0u);
+  if (which % 8 == 0) expect_found_alike(block, wide, query, distance);
+  for (unsigned i = 0; i < distances.size(); ++i) {
+    const bool found = (near >> i & 1) != 0;
+    EXPECT_TRUE(found || distances[i] > distance) << distances[i] << " and " << distance;
+    if (!found) continue;
+    EXPECT_LE(nearest[i], distances[i] * (1 + 0x1p-40));
+  }
+}
+
 TEST(TriangleFilter, NeverRejectsTheNearest) {
   for (const NastyFamily& family : nasty_families()) {
     SCOPED_TRACE(std::string(family.name));
@@ -213,6 +250,7 @@ TEST(TriangleFilter, NeverRejectsTheNearest) {
           const Point query(q.x, q.y, q.z), centre(c.x, c.y, c.z);
           const FloatQuery wide = float_query(pages, query);
           expect_block_passes(block, wide, query);
+          expect_found_within(block, wide, query, static_cast<unsigned>(k));
           if (wide.usable && float_query(pages, centre).usable)
             expect_list_passes(block, wide, query, centre);
         }
