@@ -124,6 +124,11 @@ inline constexpr double kFilterSlack = 0x1p-19;
 /// Blocks smaller than this have squares that float cannot hold.
 inline constexpr float kLeastFilterExtent = 0x1p-40f;
 
+/// Whether float has squares for a query's distances to the triangles of a block.
+inline bool filter_tells(const FloatQuery& query, float block_extent) {
+  return query.usable && block_extent >= kLeastFilterExtent;
+}
+
 /// A triangle of this filter value is at most so far away.
 inline double filter_upper(float squared, float block_extent) {
   const double value = std::sqrt(static_cast<double>(squared));
@@ -138,8 +143,7 @@ inline double filter_lower(float squared, float block_extent) {
 
 /// Filter values above this belong to triangles farther than `distance`.
 inline float filter_threshold(const FloatQuery& query, double distance, float block_extent) {
-  if (!query.usable || block_extent < kLeastFilterExtent)
-    return std::numeric_limits<float>::infinity();
+  if (!filter_tells(query, block_extent)) return std::numeric_limits<float>::infinity();
   const double reach = distance + kFilterSlack * (distance + static_cast<double>(block_extent));
   return round_up(reach * reach);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "octree/bounds.h"
 #include "octree/frame.h"
@@ -38,12 +37,6 @@ class NearbySubtrees {
     }
     link_[at] = link_[size_];
   }
-  /// All have been added.
-  void finish() {
-    for (std::size_t i = size_; i % kLanes != 0; ++i)
-      for (unsigned axis = 0; axis < 3; ++axis)
-        lower_[axis][i] = upper_[axis][i] = std::numeric_limits<float>::infinity();
-  }
 
   std::size_t size() const { return size_; }
   bool are_blocks() const { return std::all_of(link_, link_ + size_, LinkFormat::is_leaf); }
@@ -62,8 +55,8 @@ class NearbySubtrees {
   static_assert(kMost % kLanes == 0);
 
   std::size_t size_ = 0;
-  alignas(kSlotBytes) float lower_[3][kMost];
-  alignas(kSlotBytes) float upper_[3][kMost];
+  alignas(kSlotBytes) float lower_[3][kMost] = {};
+  alignas(kSlotBytes) float upper_[3][kMost] = {};
   std::uint32_t link_[kMost] = {};
 };
 

@@ -164,7 +164,7 @@ class Descent {
       note(block.triangle(i), block.id(i), header.extent, squared);
     };
     // Too small for float, or too far away.
-    if (!wide_.usable || header.extent < kLeastFilterExtent) {
+    if (!filter_tells(wide_, header.extent)) {
       for (unsigned i = 0; i < header.triangle_count; ++i) note_one(i, 0);
       return;
     }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "octree/bounds.h"
 #include "octree/strict_math.h"
@@ -39,12 +38,12 @@ HWY_EXPORT(triangles_on_target);
 
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
                           double distance, double (&nearest)[kMaxBlockTriangles]) noexcept {
-  const float limit = filter_threshold(wide, distance, block.header().extent);
   // Too small for float, or too far away.
-  if (limit == std::numeric_limits<float>::infinity()) {
+  if (!filter_tells(wide, block.header().extent)) {
     std::fill_n(nearest, block.triangle_count(), 0.0);
     return (1U << block.triangle_count()) - 1;
   }
+  const float limit = filter_threshold(wide, distance, block.header().extent);
   return HWY_DYNAMIC_DISPATCH(triangles_on_target)(block, point, limit, nearest);
 }
 

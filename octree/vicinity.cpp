@@ -22,9 +22,11 @@ class LimitedFinder {
   // Null where it cannot be had, or no more may be visited.
   const std::byte* find(std::uint32_t link) {
     const std::byte* record = left_ > 0 ? records_.find(link, work_) : nullptr;
-    // After a page that is lost nothing more is looked for.
-    left_ = record ? left_ - 1 : 0;
-    if (!record) return nullptr;
+    if (!record) {
+      left_ = 0;  // after a page that is lost nothing more is looked for
+      return nullptr;
+    }
+    --left_;
     ++(LinkFormat::is_leaf(link) ? work_.blocks : work_.nodes);
     return record;
   }
@@ -35,17 +37,25 @@ class LimitedFinder {
   std::uint64_t left_;
 };
 
-// A ball as the children of nodes are held against it.
+// A ball as the children of nodes and the triangles of blocks are held against it.
 class Ball {
  public:
   Ball(const TreeFacts& tree, const Point& centre, double radius)
-      : query_(FloatQuery::from(centre, tree.centre)),
+      : centre_(centre),
+        radius_(radius),
+        query_(FloatQuery::from(centre, tree.centre)),
         threshold_(prune_threshold(query_, radius)) {}
 
   // A bit for each child that reaches into it.
   unsigned reached_by(const Node& node) const { return children_within(node, query_, threshold_); }
+  // The same for triangles; see triangles_within().
+  unsigned reached_by(const BlockView& block, double (&nearest)[kMaxBlockTriangles]) const {
+    return triangles_within(block, centre_, query_, radius_, nearest);
+  }
 
  private:
+  const Point& centre_;
+  const double radius_;
   const FloatQuery query_;
   const float threshold_;
 };
@@ -60,12 +70,11 @@ class SubtreeSearch {
   // False where there is nothing to keep.
   bool run(std::uint32_t root_link) {
     found_.clear();
-    const Node* root = LinkFormat::is_leaf(root_link) ? nullptr : node(root_link);
+    const Node* root = node(root_link);
     if (!root) return false;
     add_children(*root);
     while (open_level()) {
     }
-    found_.finish();
     return found_.size() > 0;
   }
 
@@ -74,7 +83,7 @@ class SubtreeSearch {
   bool open_level() {
     bool opened = false;
     for (std::size_t i = found_.size(); i-- > 0 && found_.has_room();) {
-      const Node* opening = LinkFormat::is_leaf(found_.link(i)) ? nullptr : node(found_.link(i));
+      const Node* opening = node(found_.link(i));
       if (!opening) continue;
       found_.remove(i);
       add_children(*opening);
@@ -83,9 +92,9 @@ class SubtreeSearch {
     return opened;
   }
 
-  // Null where its page is lost, or no more may be visited.
+  // Null where it is a block, its page is lost, or no more may be visited.
   const Node* node(std::uint32_t link) {
-    return reinterpret_cast<const Node*>(records_.find(link));
+    return LinkFormat::is_leaf(link) ? nullptr : reinterpret_cast<const Node*>(records_.find(link));
   }
 
   void add_children(const Node& node) {
@@ -101,11 +110,7 @@ class SubtreeSearch {
 // The triangles of some blocks that reach into a ball.
 class TriangleSearch {
  public:
-  TriangleSearch(const TreeFacts& tree, const Point& centre, double radius)
-      : tree_(tree),
-        centre_(centre),
-        query_(FloatQuery::from(centre, tree.centre)),
-        radius_(radius) {}
+  TriangleSearch(const TreeFacts& tree, const Ball& ball) : tree_(tree), ball_(ball) {}
 
   // More blocks than these do not keep to so few triangles.
   static constexpr std::size_t kMostBlocks = 28;
@@ -126,7 +131,7 @@ class TriangleSearch {
  private:
   bool add(const BlockView& block) {
     double nearest[kMaxBlockTriangles];
-    unsigned near = triangles_within(block, centre_, query_, radius_, nearest);
+    unsigned near = ball_.reached_by(block, nearest);
     if (count_ + static_cast<unsigned>(std::popcount(near)) > found_.size()) return false;
     for (; near != 0; near &= near - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(near));
@@ -136,9 +141,7 @@ class TriangleSearch {
   }
 
   const TreeFacts& tree_;
-  const Point& centre_;
-  const FloatQuery query_;
-  const double radius_;
+  const Ball& ball_;
   std::size_t count_ = 0;
   std::array<NearbyTriangle, NearbyTriangles::kMost> found_;
 };
@@ -157,7 +160,7 @@ void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
   LimitedFinder records(tree, max_nodes, pages, work);
   if (!SubtreeSearch(ball, records, subtrees_).run(tree.root_link)) return forget();
   if (!subtrees_.are_blocks()) return;
-  TriangleSearch search(tree, centre_, radius_);
+  TriangleSearch search(tree, ball);
   if (search.run(subtrees_, records)) triangles_.fill(search.found(), centre_, distance, radius_);
 }
 

@@ -18,8 +18,8 @@ namespace planetree::octree {
 /// the root. Plain memory: links and copies, no pointers into frames. One thread.
 class Vicinity {
  public:
-  /// How near to centre() a triangle is at most that may be nearest to `query`, or as near to
-  /// the last bits.
+  /// How near to the ball's centre a triangle is at most that may be nearest to `query`, or as near
+  /// to the last bits.
   double reach_of(const Point& query) const {
     return (nearest_of(query) + (query - centre_).norm()) * (1 + kSlack);
   }
@@ -30,6 +30,8 @@ class Vicinity {
   /// Whether all of these are in subtrees().
   bool holds(double reach) const { return reach < radius_; }
 
+  const NearbySubtrees& subtrees() const { return subtrees_; }
+
   /// The radius about `query`, which is `distance` away from the surface, that is worth a new
   /// ball; 0 if `query` is so far from the last one that more such queries would leave it.
   /// `diagonal` is that of the model.
@@ -37,8 +39,7 @@ class Vicinity {
     const double step = step_to(query);
     return step <= diagonal * kLongestStep ? radius_for(step, distance) : 0;
   }
-  const NearbySubtrees& subtrees() const { return subtrees_; }
-  /// Their triangles, if these are few.
+  /// Those of them that reach into the ball, if these are few.
   const NearbyTriangles& triangles() const { return triangles_; }
 
   /// The triangles, if all that touch a point are among them; else null.

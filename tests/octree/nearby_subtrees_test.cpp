@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <new>
 
 namespace planetree::octree {
 namespace {
@@ -25,7 +27,6 @@ TEST(NearbySubtrees, KeepsBoxesAndLinks) {
   NearbySubtrees list;
   list.clear();
   list.add(parent_of(2, kToBlock), 3);
-  list.finish();
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list.link(0), kToBlock);
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -35,9 +36,11 @@ TEST(NearbySubtrees, KeepsBoxesAndLinks) {
 }
 
 TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
-  NearbySubtrees list;
+  // Where there was something else before.
+  alignas(NearbySubtrees) unsigned char memory[sizeof(NearbySubtrees)];
+  std::memset(memory, 0xff, sizeof memory);
+  auto& list = *new (memory) NearbySubtrees;
   list.add(parent_of(2, kToBlock), 3);
-  list.finish();
   for (std::size_t i = 1; i < 16; ++i)
     for (unsigned axis = 0; axis < 3; ++axis) {
       EXPECT_FALSE(std::isnan(list.lower(axis)[i])) << i;
