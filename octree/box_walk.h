@@ -19,7 +19,7 @@ class BoxWalk {
           TreeWork& work)
       : box_(rounded_outward(lower, upper, tree.centre)), walk_(tree, pages, work) {}
 
-  /// Calls visit(BlockView). False as TreeWalk's.
+  /// Calls visit(BlockView, link). False as TreeWalk's.
   template <class Visit>
   bool run(std::uint64_t max_nodes, const Visit& visit) {
     return walk_.run(max_nodes, visit,

@@ -47,6 +47,7 @@ class CellGrid {
   /// Corner `which`: bits as those of GridCell::child().
   Point corner(const GridCell& cell, unsigned which) const {
     Point result;
+#pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis)
       result[axis] = side(axis, cell.level, cell.at[axis] + (which >> axis & 1));
     return result;
@@ -58,6 +59,7 @@ class CellGrid {
   /// below the side between the halves.
   unsigned octant(const GridCell& cell, const Point& point) const {
     unsigned octant = 0;
+#pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis)
       octant |=
           static_cast<unsigned>(side(axis, cell.level + 1, 2 * cell.at[axis] + 1) <= point[axis])
@@ -92,8 +94,9 @@ class CellGrid {
   // The product is exact; one rounding, so sides never change places.
   double side(unsigned axis, unsigned level, std::uint32_t index) const {
     constexpr double kFinestCell = 2.0 / (1 << kLevels);
-    return lower_[axis] +
-           kFinestCell * static_cast<double>(std::uint64_t{index} << (kLevels - level));
+    // At most 2^kLevels.
+    const auto finest = static_cast<std::int32_t>(index << (kLevels - level));
+    return lower_[axis] + kFinestCell * static_cast<double>(finest);
   }
 
   Point lower_;

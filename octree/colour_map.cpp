@@ -23,9 +23,8 @@ class ColourMap::Painter {
     run(false);
     std::uint32_t listed_before = 0;
     for (std::size_t i = 0; i < stretches_for(cells()); ++i) {
-      Stretch& stretch = map_.stretches_[i];
-      stretch.first_record = listed_before;
-      for (const std::uint32_t codes : stretch.codes) listed_before += listed(codes);
+      map_.first_records_[i] = listed_before;
+      listed_before += count(listed_in(map_.stretches_[i]));
     }
     return listed_before;
   }
@@ -81,30 +80,24 @@ class ColourMap::Painter {
     if (leaf && map_.level_ - child.level > kMostAbove) return;
     if (listed && !filling_) return each_cell(child, [&](std::size_t at) { set(at, kListed); });
     if (!records_->has_family_at_hand(node) && work_.page_turns >= kMostTurns) return;
-    const std::byte* record = records_->child(node, octant, work_);
+    const std::uint32_t link = records_->child_link(node, octant);
+    const std::byte* record = records_->record(link, leaf, work_);
     if (!record) return;
     if (!listed) return go_below(record, child);
-    const MaskNode noted =
-        leaf ? packed(*reinterpret_cast<const MaskCorners*>(record), map_.level_ - child.level)
-             : *reinterpret_cast<const MaskNode*>(record);
+    const MaskNode noted = leaf ? leaf_at(link, map_.level_ - child.level)
+                                : *reinterpret_cast<const MaskNode*>(record);
     each_cell(child, [&](std::size_t at) {
       // A page may be had the second time alone; then its cells are not listed.
       if (map_.code_of(at) == kListed) map_.records_[map_.record_number(at)] = noted;
     });
   }
 
-  // Nothing known if it does not fit.
-  static MaskNode packed(const MaskCorners& corners, unsigned levels_above) {
-    MaskNode leaf{.family = 0,
-                  .grey = 0,
-                  .leaf = kLeafTag,
-                  .black = static_cast<std::uint8_t>(levels_above),
-                  .inverted = 0};
-    for (unsigned i = 0; i < 8; ++i) {
-      if (corners[i] < -8 || corners[i] > 7) return {};
-      leaf.family |= static_cast<std::uint32_t>(corners[i] + 8) << 4 * i;
-    }
-    return leaf;
+  static constexpr MaskNode leaf_at(std::uint32_t link, unsigned levels_above) {
+    return {.family = link,
+            .grey = 0,
+            .leaf = kLeafTag,
+            .black = static_cast<std::uint8_t>(levels_above),
+            .inverted = 0};
   }
 
   void paint_colour(const GridCell& cell, int winding) {
@@ -130,10 +123,10 @@ class ColourMap::Painter {
         for (std::uint32_t x = first[0]; x < end[0]; ++x) call(map_.number({x, y, z}));
   }
   void set(std::size_t cell, Code code) {
-    std::uint32_t& codes =
-        map_.stretches_[cell / Stretch::kCells].codes[cell % Stretch::kCells / 16];
-    const auto at = 2 * static_cast<unsigned>(cell % Stretch::kCells % 16);
-    codes = (codes & ~(3U << at)) | code << at;
+    Stretch& stretch = map_.stretches_[cell / Stretch::kCells];
+    const std::uint64_t bit = std::uint64_t{1} << cell % Stretch::kCells;
+    stretch.low = (code & 1) != 0 ? stretch.low | bit : stretch.low & ~bit;
+    stretch.high = (code & 2) != 0 ? stretch.high | bit : stretch.high & ~bit;
   }
 
   ColourMap& map_;
@@ -159,18 +152,20 @@ void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pa
     double cells = 1;
     for (unsigned axis = 0; axis < 3; ++axis) {
       width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1 + 2 * kRim;
-      last_middle_[axis] = width_[axis] - 0.5;
+      last_middle_[axis] = (width_[axis] - 0.5) * kSteps;
       cells *= width_[axis];
     }
     if (cells > 3.0 * static_cast<double>(memory.size())) continue;
     const std::size_t stretches = stretches_for(static_cast<std::uint64_t>(cells));
-    const std::size_t stretch_bytes = stretches * sizeof(Stretch);
+    const std::size_t stretch_bytes = stretches * (sizeof(Stretch) + sizeof(std::uint32_t));
     if (stretch_bytes > memory.size()) continue;
     level_ = level;
-    cells_per_unit_ = per_unit;
+    steps_per_unit_ = per_unit * kSteps;
     cell_side_ = 1 / per_unit;
     stretches_ = reinterpret_cast<Stretch*>(memory.data());
     std::uninitialized_fill_n(stretches_, stretches, kUnpainted);
+    first_records_ = reinterpret_cast<std::uint32_t*>(stretches_ + stretches);
+    std::uninitialized_value_construct_n(first_records_, stretches);
     Painter painter(*this, mask, pages);
     const std::size_t listed = painter.paint();
     if (stretch_bytes + listed * sizeof(MaskNode) > memory.size()) continue;
@@ -179,9 +174,10 @@ void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pa
     painter.fill_records();
     // A difference, of at most 2, errs by 2^-53 of it, a side by 2^-53 of the largest, and what
     // is computed in cells by 2^-53 of their number, four times; twice that is allowed for.
-    const double error = (lower_.cwiseAbs().maxCoeff() + 4) * cells_per_unit_ +
+    const double error = (lower_.cwiseAbs().maxCoeff() + 4) * per_unit +
                          4.0 * *std::max_element(width_.begin(), width_.end());
-    certain_ = 0.5 - 0x1p-52 * error;
+    const bool within_a_step = 0x1p-52 * error * kSteps < 1;
+    within_cell_ = within_a_step ? (std::int64_t{1} << kStepBits) - 2 : 0;
     return;
   }
   *this = {};

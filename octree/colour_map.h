@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,52 +30,37 @@ class ColourMap {
 
   /// Of a mask's first pages, as far as they can be had.
   ///
-  /// memory  where the map is to be, on a boundary of 4 bytes; must outlive this.
+  /// memory  where the map is to be, on a boundary of 8 bytes; must outlive this.
   void fill(const MaskFacts& mask, const TreeFacts& tree, PageReader pages,
             std::span<std::byte> memory) noexcept;
 
-  /// The sign of a point's winding number, where its cell is white or black; else kUnknown.
-  int winding(const Point& point) const noexcept {
-    std::array<std::uint32_t, 3> at;
-    if (!find(point, at)) return kUnknown;
-    const std::size_t cell = number(at);
-    const unsigned code = code_of(cell);
-    // By no branch: points come from either side.
-    if (code <= kInside) return static_cast<int>(code) * inside_;
-    if (code == kOther) return kUnknown;
-    const MaskNode& record = record_of(cell);
-    return record.grey != 0 ? winding_below(record, point, at) : kUnknown;
-  }
-
   static constexpr int kUnknown = 2;
 
-  /// A grey cell and its record in the mask.
+  /// What the map knows of the place where a point is.
   struct Spot {
-    GridCell cell;
-    const MaskNode* record = nullptr;  ///< null where the map has none
+    int winding = kUnknown;            ///< its sign, where a cell is white or black; else kUnknown
+    GridCell cell;                     ///< grey: the one that
+    const MaskNode* record = nullptr;  ///< this is the record of; null where the map has none
   };
-  /// That of a point.
-  Spot spot(const Point& point) const noexcept {
+  Spot look(const Point& point) const noexcept {
     std::array<std::uint32_t, 3> at;
     if (!find(point, at)) return {};
     const std::size_t number = this->number(at);
-    if (code_of(number) != kListed) return {};
+    const unsigned code = code_of(number);
+    // By no branch: points come from either side.
+    if (code <= kInside) return {static_cast<int>(code) * inside_, {}, nullptr};
+    if (code == kOther) return {};
     const MaskNode& record = record_of(number);
     const GridCell cell{level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
-    if (is_leaf(record)) return {cell.ancestor(level_ - record.black), &record};
-    return {cell, record.grey != 0 ? &record : nullptr};
+    if (is_leaf(record)) return {kUnknown, cell.ancestor(level_ - record.black), &record};
+    if (record.grey == 0) return {};
+    return {winding_below(record, point, at), cell, &record};
   }
 
-  /// No node is stored so: a leaf whose corners have numbers of four bits, in `family`; it may
-  /// be of a level above, `black` ones.
+  /// No node is stored so: a leaf, whose link is `family`; it may be of a level above, `black`
+  /// ones.
   static constexpr bool is_leaf(const MaskNode& record) {
     return record.grey == 0 && record.leaf == kLeafTag;
-  }
-  static constexpr MaskCorners corners_of(const MaskNode& leaf) {
-    MaskCorners corners{};
-    for (unsigned i = 0; i < 8; ++i)
-      corners[i] = static_cast<std::int8_t>(static_cast<int>(leaf.family >> 4 * i & 15) - 8);
-    return corners;
   }
 
  private:
@@ -91,14 +75,13 @@ class ColourMap {
   static constexpr std::uint8_t kLeafTag = 0xff;
   static constexpr std::uint32_t kRim = 1;  ///< cells before, and behind, those of the box
 
-  /// Some cells, and the number of the first record of those that are listed.
+  /// The codes of some cells, a bit of each in either word.
   struct Stretch {
-    static constexpr unsigned kCells = 48;
-    std::uint32_t first_record;
-    std::uint32_t codes[3];  ///< two bits a cell
+    static constexpr unsigned kCells = 64;
+    std::uint64_t low, high;
   };
-  static_assert(sizeof(Stretch) == 16 && sizeof(Stretch) % alignof(MaskNode) == 0);
-  static constexpr Stretch kUnpainted{0, {~0U, ~0U, ~0U}};
+  static_assert(sizeof(Stretch) % alignof(MaskNode) == 0);
+  static constexpr Stretch kUnpainted{~std::uint64_t{0}, ~std::uint64_t{0}};
 
   static constexpr std::size_t stretches_for(std::uint64_t cells) {
     return static_cast<std::size_t>((cells + Stretch::kCells - 1) / Stretch::kCells);
@@ -107,17 +90,17 @@ class ColourMap {
   // Which of the map's cells the point is in. False where rounding does not tell that cell for
   // certain, and where the map knows nothing.
   bool find(const Point& point, std::array<std::uint32_t, 3>& at) const {
-    double from_middle = 0;
+    bool certain = true;
 #pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double place = (point[axis] - lower_[axis]) * cells_per_unit_ + kRim;
+      const double place = (point[axis] - lower_[axis]) * steps_per_unit_ + kRim * kSteps;
       // What is no number is in the rim.
-      const double clamped = std::min(std::max(0.5, place), last_middle_[axis]);
-      const auto whole = static_cast<std::int32_t>(clamped);
-      at[axis] = static_cast<std::uint32_t>(whole);
-      from_middle = std::max(from_middle, std::fabs(clamped - 0.5 - whole));
+      const auto step =
+          static_cast<std::int64_t>(std::min(std::max(kSteps / 2, place), last_middle_[axis]));
+      at[axis] = static_cast<std::uint32_t>(step >> kStepBits);
+      certain = certain && ((step + 1) & within_cell_) != 0;
     }
-    return from_middle < certain_ || find_among_sides(point, at);
+    return certain || find_among_sides(point, at);
   }
   // As rounded, sides may be elsewhere than the product says.
   bool find_among_sides(const Point& point, const std::array<std::uint32_t, 3>& at) const {
@@ -132,23 +115,26 @@ class ColourMap {
     return (std::size_t{at[2]} * width_[1] + at[1]) * width_[0] + at[0];
   }
   unsigned code_of(std::size_t cell) const {
-    const auto at = static_cast<unsigned>(cell % Stretch::kCells);
-    return stretches_[cell / Stretch::kCells].codes[at / 16] >> 2 * (at % 16) & 3;
+    const Stretch& stretch = stretches_[cell / Stretch::kCells];
+    const std::size_t at = cell % Stretch::kCells;
+    return static_cast<unsigned>((stretch.low >> at & 1) | (stretch.high >> at & 1) << 1);
   }
   const MaskNode& record_of(std::size_t cell) const { return records_[record_number(cell)]; }
   // Of a listed cell: as many are listed before it.
   std::uint32_t record_number(std::size_t cell) const {
     const Stretch& stretch = stretches_[cell / Stretch::kCells];
-    const auto at = static_cast<unsigned>(cell % Stretch::kCells);
-    std::uint32_t record = stretch.first_record;
-    for (unsigned i = 0; i < at / 16; ++i) record += listed(stretch.codes[i]);
-    return record + listed(stretch.codes[at / 16] & ((1U << 2 * (at % 16)) - 1));
+    const std::uint64_t before = (std::uint64_t{1} << cell % Stretch::kCells) - 1;
+    return first_records_[cell / Stretch::kCells] + count(listed_in(stretch) & before);
   }
-  static constexpr unsigned listed(std::uint32_t codes) {
-    std::uint32_t set = codes >> 1 & ~codes & 0x55555555;
-    set = (set & 0x33333333) + (set >> 2 & 0x33333333);
-    set = (set + (set >> 4)) & 0x0f0f0f0f;
-    return set * 0x01010101 >> 24;
+  static constexpr std::uint64_t listed_in(const Stretch& stretch) {
+    return stretch.high & ~stretch.low;
+  }
+  // The processors we build for may lack an instruction for it.
+  static constexpr std::uint32_t count(std::uint64_t set) {
+    set -= set >> 1 & 0x5555555555555555;
+    set = (set & 0x3333333333333333) + (set >> 2 & 0x3333333333333333);
+    set = (set + (set >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    return static_cast<std::uint32_t>(set * 0x0101010101010101 >> 56);
   }
   // Of the half as large cell that the point is in.
   int winding_below(const MaskNode& node, const Point& point,
@@ -167,17 +153,30 @@ class ColourMap {
     return lower_[axis] + cell_side_ * static_cast<double>(at - kRim);
   }
 
+  // Points are told apart in steps, so many to a cell.
+  static constexpr unsigned kStepBits = 20;
+  static constexpr double kSteps = std::int64_t{1} << kStepBits;
+
   Point lower_ = Point::Zero();
   double cell_side_ = 0;
-  double cells_per_unit_ = 0;
-  std::array<double, 3> last_middle_{0.5, 0.5, 0.5};  // of the last cells of the rim, in cells
-  double certain_ = 0;  // so far from a cell's middle, in cells, rounding changes nothing
+  double steps_per_unit_ = 0;
+  // Of the last cells of the rim, in steps.
+  std::array<double, 3> last_middle_{kSteps / 2, kSteps / 2, kSteps / 2};
+  // Where a cell's first and last step are no others than its middle ones, rounding changes
+  // nothing: of a step and 1 more, the bits that are not all 0 then.
+  std::int64_t within_cell_ = 0;
   std::array<std::uint32_t, 3> width_{};  // with the rim
   unsigned level_ = 0;
   int inside_ = 1;
   // Side by side in the memory.
   Stretch* stretches_ = nullptr;
   MaskNode* records_ = nullptr;
+  std::uint32_t* first_records_ = nullptr;  ///< of each stretch
 };
+
+/// Finds the cell of the mask that a point is in, from where a map of the mask's colours has found
+/// `spot` for it.
+MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
+                    std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

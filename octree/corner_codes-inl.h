@@ -32,27 +32,51 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if PLANETREE_EIGHT_LANES
+using CodeTag = hn::FixedTag<std::uint8_t, kMaxBlockTriangles>;
+
+// The codes of one corner of each triangle.
+HWY_INLINE hn::Vec<CodeTag> codes_of(const BlockHeader& block, unsigned corner,
+                                     const std::uint8_t* HWY_RESTRICT codes) {
+  const CodeTag d;
+  const auto index = hn::LoadU(d, block.corner[corner]);
+  auto found = hn::Zero(d);
+  // Bytes from 128 on look nothing up.
+  for (unsigned i = 0; i < block.stride; i += kMaxBlockTriangles) {
+    const auto here = hn::SaturatedAdd(hn::Sub(index, hn::Set(d, static_cast<std::uint8_t>(i))),
+                                       hn::Set(d, 0x80 - kMaxBlockTriangles));
+    found = hn::Or(found, hn::TableLookupBytesOr0(hn::LoadU(d, codes + i), here));
+  }
+  return found;
+}
+
 HWY_INLINE CornerCodes corner_codes(const BlockHeader& block,
                                     const std::uint8_t* HWY_RESTRICT codes) {
-  const hn::FixedTag<std::uint8_t, kMaxBlockTriangles> d;
+  const CodeTag d;
   const auto zero = hn::Zero(d);
   auto shared = hn::Set(d, 0xff);
   auto some_clear = hn::FirstN(d, 0);
-  for (const auto& corner : block.corner) {
-    const auto index = hn::LoadU(d, corner);
-    auto found = zero;
-    // Bytes from 128 on look nothing up.
-    for (unsigned i = 0; i < block.stride; i += kMaxBlockTriangles) {
-      const auto here = hn::SaturatedAdd(hn::Sub(index, hn::Set(d, static_cast<std::uint8_t>(i))),
-                                         hn::Set(d, 0x80 - kMaxBlockTriangles));
-      found = hn::Or(found, hn::TableLookupBytesOr0(hn::LoadU(d, codes + i), here));
-    }
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const auto found = codes_of(block, corner, codes);
     shared = hn::And(shared, found);
     some_clear = hn::Or(some_clear, hn::Eq(found, zero));
   }
   return {mask_bits(d, hn::Not(hn::Eq(shared, zero))), mask_bits(d, some_clear)};
 }
+
+// The bits that all corners of a triangle share, of each.
+HWY_INLINE void shared_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes,
+                             std::uint8_t* HWY_RESTRICT shared) {
+  hn::StoreU(hn::And(codes_of(block, 0, codes),
+                     hn::And(codes_of(block, 1, codes), codes_of(block, 2, codes))),
+             CodeTag(), shared);
+}
 #else
+HWY_INLINE void shared_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes,
+                             std::uint8_t* HWY_RESTRICT shared) {
+  for (unsigned i = 0; i < block.triangle_count; ++i)
+    shared[i] = codes[block.corner[0][i]] & codes[block.corner[1][i]] & codes[block.corner[2][i]];
+}
+
 HWY_INLINE CornerCodes corner_codes(const BlockHeader& block,
                                     const std::uint8_t* HWY_RESTRICT codes) {
   CornerCodes found{};

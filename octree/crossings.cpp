@@ -71,28 +71,67 @@ unsigned boxes_met(const BlockView& block, const MovedSegment& segment) {
   return found;
 }
 
-Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
-  const double largest =
-      std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff());
-  const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
-  const FloatSegment in_blocks =
-      FloatSegment::between(segment.from, segment.to, Point::Zero(), largest);
-  CrossingSum crossings(segment);
-  const auto visit = [&](const BlockView& block) HWY_ATTR {
+// What a segment crosses of the blocks that are visited.
+class BlockCrossings {
+ public:
+  BlockCrossings(const TreeFacts& tree, const MovedSegment& segment, TreeWork& work)
+      : segment_(segment),
+        in_blocks_(FloatSegment::between(
+            segment.from, segment.to, Point::Zero(),
+            std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff()))),
+        crossings_(segment),
+        work_(work) {}
+
+  void visit(const BlockView& block) {
     const float* vertices = block.float_vertices();
     unsigned met =
-        vertices ? triangles_met(block.header(), vertices, in_blocks) : boxes_met(block, segment);
+        vertices ? triangles_met(block.header(), vertices, in_blocks_) : boxes_met(block, segment_);
     for (; met != 0; met &= met - 1) {
-      crossings.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
-      ++work.triangles;
+      crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
+      ++work_.triangles;
     }
-  };
+  }
+
+  Crossings found(bool complete) {
+    Crossings found = crossings_.sum();
+    found.complete = complete;
+    return found;
+  }
+
+ private:
+  const MovedSegment& segment_;
+  const FloatSegment in_blocks_;
+  CrossingSum crossings_;
+  TreeWork& work_;
+};
+
+Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
+                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
+  const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
+  BlockCrossings crossings(tree, segment, work);
+  const auto visit = [&](const BlockView& block, std::uint32_t)
+                         HWY_ATTR { crossings.visit(block); };
   const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, in_nodes); };
   const bool complete = TreeWalk(tree, pages, work).run(max_nodes, visit, meeting);
-  Crossings found = crossings.sum();
-  found.complete = complete;
-  return found;
+  return crossings.found(complete);
+}
+
+Crossings count_in_blocks_on_target(const TreeFacts& tree, const MovedSegment& segment,
+                                    std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
+                                    PageReader pages, TreeWork& work) {
+  if (blocks.size() > max_nodes) return {.complete = false};
+  RecordFinder records(tree, pages);
+  for (const std::uint32_t link : blocks) records.prefetch<6>(link);
+  BlockCrossings crossings(tree, segment, work);
+  bool complete = true;
+  for (const std::uint32_t link : blocks) {
+    const std::byte* record = LinkFormat::is_leaf(link) ? records.find(link, work) : nullptr;
+    complete = complete && record;
+    if (!record) continue;
+    ++work.blocks;
+    crossings.visit(BlockView(record, tree.shape));
+  }
+  return crossings.found(complete);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -103,10 +142,18 @@ HWY_AFTER_NAMESPACE();
 namespace planetree::octree {
 
 HWY_EXPORT(count_on_target);
+HWY_EXPORT(count_in_blocks_on_target);
 
 Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
                           std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
   return HWY_DYNAMIC_DISPATCH(count_on_target)(tree, segment, max_nodes, pages, work);
+}
+
+Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
+                          std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
+                          PageReader pages, TreeWork& work) noexcept {
+  return HWY_DYNAMIC_DISPATCH(count_in_blocks_on_target)(tree, segment, blocks, max_nodes, pages,
+                                                         work);
 }
 
 }  // namespace planetree::octree

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "octree/predicates.h"
 #include "octree/tree_view.h"
@@ -26,5 +27,12 @@ struct Crossings {
 ///            ones, so that doubled and overlapping surfaces are right, are ours.
 Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
                           std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+
+/// The same, of the triangles of some blocks alone.
+///
+/// blocks  links that need not be right: what leads to no block counts as missing.
+Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
+                          std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
+                          PageReader pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

@@ -100,12 +100,14 @@ class Fan {
 bool walk_to(const Point& vertex, Fan& fan, const TreeFacts& tree, std::uint64_t max_nodes,
              PageReader pages, TreeWork& work) {
   const Outcodes outcodes(vertex, vertex);
-  return BoxWalk(tree, vertex, vertex, pages, work).run(max_nodes, [&](const BlockView& block) {
-    for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
-      const auto i = static_cast<unsigned>(std::countr_zero(around));
-      fan.add(block.triangle(i), block.id(i));
-    }
-  });
+  return BoxWalk(tree, vertex, vertex, pages, work)
+      .run(max_nodes, [&](const BlockView& block, std::uint32_t) {
+        for (unsigned around = outcodes.with_corner_within(block); around != 0;
+             around &= around - 1) {
+          const auto i = static_cast<unsigned>(std::countr_zero(around));
+          fan.add(block.triangle(i), block.id(i));
+        }
+      });
 }
 
 }  // namespace

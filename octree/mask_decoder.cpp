@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "octree/frame.h"
 #include "octree/mask_frame.h"
 #include "octree/mask_streams.h"
 #include "octree/strict_math.h"
@@ -19,7 +21,10 @@ constexpr double kFarthestPlane = 0x1p60;
 class MaskDecoder {
  public:
   MaskDecoder(const PageFacts& facts, std::span<std::byte> frame)
-      : facts_(facts), links_(facts.page_bytes), frame_(frame.data()) {}
+      : facts_(facts),
+        links_(facts.page_bytes),
+        block_links_(facts.page_bytes),
+        frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
     if (const char* fault = streams_.cut(raw, facts_.shape.float64)) return fault;
@@ -36,6 +41,7 @@ class MaskDecoder {
  private:
   const MaskPageHead& head() const { return streams_.head; }
   const char* write_header();
+  const char* count_lists(std::size_t& slots) const;
   const char* decode_record(std::size_t index);
   const char* decode_node(MaskNode& node, bool above);
   const char* link_family(MaskNode& node);
@@ -44,12 +50,15 @@ class MaskDecoder {
   const char* decode_corners(MaskCorners& corners);
   const char* decode_special(MaskSpecial& special);
   const char* decode_plane();
+  const char* decode_listed(MaskListed& listed);
+  const char* decode_list(std::byte* octants, std::byte* links, unsigned count);
   const char* check_sums() const;
 
   static bool is_leaf(std::uint8_t kind) { return kind > static_cast<int>(MaskKind::kNodeAbove); }
 
   const PageFacts& facts_;
   MaskLinkFormat links_;
+  LinkFormat block_links_;
   std::byte* frame_;
   MaskStreams streams_;
   std::size_t first_record_slot_ = 0;
@@ -61,12 +70,17 @@ class MaskDecoder {
   std::size_t next_corners_ = 0;
   std::size_t next_special_ = 0;
   std::size_t next_plane_ = 0;
+  std::size_t next_listed_ = 0;
+  std::size_t next_list_slot_ = 0;
+  std::size_t next_block_ = 0;
 };
 
 const char* MaskDecoder::write_header() {
   first_record_slot_ = mask_head_slots(facts_.page_bytes);
   first_plane_slot_ = first_record_slot_ + head().record_count;
-  const std::size_t end = first_plane_slot_ + kPlaneSlots * head().plane_count;
+  next_list_slot_ = first_plane_slot_ + kPlaneSlots * head().plane_count;
+  std::size_t end = next_list_slot_;
+  if (const char* fault = count_lists(end)) return fault;
   if (end * kMaskSlotBytes > facts_.page_bytes) return "its records do not fit a page";
   std::memset(frame_, 0, first_record_slot_ * kMaskSlotBytes);
   MaskHeader header{};
@@ -79,6 +93,18 @@ const char* MaskDecoder::write_header() {
   header.first_plane_slot = static_cast<std::uint16_t>(first_plane_slot_);
   std::memcpy(frame_, &header, sizeof header);
   return nullptr;
+}
+
+// Adds their slots.
+const char* MaskDecoder::count_lists(std::size_t& slots) const {
+  std::size_t blocks = 0;
+  for (std::size_t i = 0; i < head().listed_count; ++i) {
+    const unsigned count = streams_.block_counts[i];
+    if (count == 0 || count > kMostListed) return "a list's count of blocks is out of range";
+    slots += list_slots(count);
+    blocks += count;
+  }
+  return blocks == head().block_link_count ? nullptr : "its lists do not add up";
 }
 
 const char* MaskDecoder::decode_record(std::size_t index) {
@@ -99,6 +125,8 @@ const char* MaskDecoder::decode_record(std::size_t index) {
       return decode_corners(*reinterpret_cast<MaskCorners*>(record));
     case MaskKind::kSpecial:
       return decode_special(*reinterpret_cast<MaskSpecial*>(record));
+    case MaskKind::kListed:
+      return decode_listed(*reinterpret_cast<MaskListed*>(record));
   }
   return "a record is of unknown kind";
 }
@@ -133,7 +161,10 @@ const char* MaskDecoder::link_above(MaskNode& node) {
   if (node.grey == 0 || next_link_ == head().page_link_count) return "its page links do not add up";
   node.family = streams_.page_links[next_link_++];
   const std::uint64_t page = links_.page(node.family);
-  if (page <= facts_.page_number - facts_.first_page || page >= facts_.page_count)
+  const std::size_t end =
+      links_.slot(node.family) + static_cast<std::size_t>(std::popcount(node.grey));
+  if (page <= facts_.page_number - facts_.first_page || page >= facts_.page_count ||
+      end * kMaskSlotBytes > facts_.page_bytes)
     return "a link leads to a page that cannot be below it";
   return nullptr;
 }
@@ -150,6 +181,8 @@ const char* MaskDecoder::decode_corners(MaskCorners& corners) {
   if (next_corners_ == head().corners_count) return "the counts of records do not add up";
   const std::size_t at = 8 * next_corners_++;
   for (unsigned corner = 0; corner < 8; ++corner) corners[corner] = streams_.corners[at + corner];
+  if (std::count(corners.begin(), corners.end(), kListedTag) != 0)
+    return "a corner's winding number is out of range";
   const auto uncounted = std::count(corners.begin(), corners.end(), kUncounted);
   return uncounted == 0 || uncounted == 8 ? nullptr : "a corner of a cell is not counted";
 }
@@ -181,6 +214,36 @@ const char* MaskDecoder::decode_plane() {
     if (!(std::fabs(plane[i]) < kFarthestPlane)) return "a plane is out of range";
   }
   ++next_plane_;
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_listed(MaskListed& listed) {
+  if (next_listed_ == head().listed_count) return "the counts of records do not add up";
+  const std::size_t at = next_listed_++;
+  listed = {kListedTag, streams_.block_counts[at], streams_.least[at], streams_.higher[at],
+            static_cast<std::uint32_t>(next_list_slot_)};
+  if (listed.least <= kListedTag || listed.least == std::numeric_limits<std::int8_t>::max())
+    return "a corner's winding number is out of range";
+  std::byte* const octants = frame_ + next_list_slot_ * kMaskSlotBytes;
+  next_list_slot_ += list_slots(listed.block_count);
+  const std::size_t octant_bytes = list_octant_slots(listed.block_count) * kMaskSlotBytes;
+  return decode_list(octants, octants + octant_bytes, listed.block_count);
+}
+
+const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
+  std::memset(octants, 0, list_slots(count) * kMaskSlotBytes);
+  std::uint32_t before = 0;
+  for (unsigned i = 0; i < count; ++i, ++next_block_) {
+    const std::uint8_t touched = streams_.block_octants[next_block_];
+    const std::uint32_t link = streams_.block_links[next_block_];
+    if (touched == 0) return "a block of a list touches nothing";
+    if (!LinkFormat::is_leaf(link) || block_links_.page(link) >= facts_.first_page)
+      return "a list leads to what is no block";
+    if (i > 0 && link <= before) return "the blocks of a list are not in order";
+    before = link;
+    std::memcpy(octants + i, &touched, sizeof touched);
+    std::memcpy(links + i * sizeof link, &link, sizeof link);
+  }
   return nullptr;
 }
 

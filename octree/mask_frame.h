@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 /// The mask says which side the cells of the octree are on: white cells are
 /// outside of the solid, black ones inside, and the surface passes through grey
@@ -18,6 +19,7 @@
 ///   slot 8 ...             which records are nodes, one bit a slot
 ///   first record slot ...  records, a slot each: roots first, then breadth first
 ///   ...                    planes of special cells
+///   ...                    lists of blocks
 ///
 /// A slot is 8 bytes. The grey children of a node lie side by side, in the order
 /// of their octants, and are linked to as one family.
@@ -56,6 +58,9 @@ static_assert(sizeof(MaskNode) == kMaskSlotBytes);
 /// Winding numbers do not fit in a byte, or some corner is not known.
 inline constexpr std::int8_t kUncounted = -128;
 
+/// What tells a MaskListed from winding numbers.
+inline constexpr std::int8_t kListedTag = -127;
+
 /// How many octants a set has. The processors we build for may lack an instruction for it,
 /// and a lookup asks at every node.
 inline constexpr auto kOctantCounts = [] {
@@ -67,7 +72,8 @@ inline constexpr auto kOctantCounts = [] {
 constexpr unsigned count_octants(unsigned set) { return kOctantCounts[set]; }
 
 /// A grey cell that is not divided: the winding numbers at its corners, each
-/// moved by the infinitesimal step of predicates.h. All are kUncounted or none.
+/// moved by the infinitesimal step of predicates.h. All are kUncounted or none, and
+/// none is kListedTag.
 using MaskCorners = std::array<std::int8_t, 8>;
 static_assert(sizeof(MaskCorners) == kMaskSlotBytes);
 
@@ -88,9 +94,57 @@ static_assert(sizeof(MaskSpecial) == kMaskSlotBytes);
 
 inline constexpr unsigned kPlaneSlots = 9;
 
+inline constexpr unsigned kMostListed = 16;
+
+/// A cell whose corners have one of two winding numbers, and of which it is known what blocks of
+/// the tree have triangles in it.
+struct MaskListed {
+  std::int8_t tag;           ///< kListedTag
+  std::uint8_t block_count;  ///< 1 to kMostListed
+  std::int8_t least;         ///< winding number of the corners that are not `higher`
+  std::uint8_t higher;       ///< corners whose winding number is `least` + 1
+  std::uint32_t list_slot;   ///< in this page: for each block a u8, the octants of the cell that
+                             ///< its triangles touch; from the next whole slot on its link, a u32
+};
+static_assert(sizeof(MaskListed) == kMaskSlotBytes);
+
+/// The winding number at one of its corners.
+constexpr std::int8_t corner_of(const MaskListed& listed, unsigned corner) {
+  return static_cast<std::int8_t>(listed.least + (listed.higher >> corner & 1));
+}
+
+/// Slots of the octants of a list, and of all of it.
+constexpr unsigned list_octant_slots(unsigned block_count) { return (block_count + 7) / 8; }
+constexpr unsigned list_slots(unsigned block_count) {
+  return list_octant_slots(block_count) + (block_count + 1) / 2;
+}
+
+/// A list of blocks by itself.
+struct MaskBlocks {
+  std::uint8_t count = 0;
+  alignas(kMaskSlotBytes)
+      std::array<std::uint8_t, kMostListed> octants;  ///< the first `count`, as the links
+  std::array<std::uint32_t, kMostListed> links;
+};
+
+/// The list of a record that a frame holds.
+inline void copy_list(const std::byte* frame, const MaskListed& listed, MaskBlocks& blocks) {
+  const std::byte* list = frame + std::size_t{listed.list_slot} * kMaskSlotBytes;
+  blocks.count = listed.block_count;
+  // By slots, of which both have whole ones.
+  const auto copy = [&list](auto& to, unsigned slots) {
+    auto* bytes = reinterpret_cast<std::byte*>(to.data());
+    for (; slots > 0; --slots, bytes += kMaskSlotBytes, list += kMaskSlotBytes)
+      std::memcpy(bytes, list, kMaskSlotBytes);
+  };
+  copy(blocks.octants, list_octant_slots(blocks.count));
+  copy(blocks.links, (blocks.count + 1U) / 2);
+}
+
 constexpr bool is_special(const MaskCorners& record) {
   return record[0] == kUncounted && record[1] != kUncounted;
 }
+constexpr bool is_listed(const MaskCorners& record) { return record[0] == kListedTag; }
 
 /// A family's address: [page within the mask 32 - s][slot s], where s is
 /// log2(page bytes / 8).

@@ -27,6 +27,15 @@ void ask_planes(const MaskSpecial& special, const double* planes, const Point& p
   finding.on_surface = on_plane && !beyond;
 }
 
+// Pages may go with the next that is asked for, so that lists are copied.
+void read_list(const MaskListed& listed, const MaskRecords& records, MaskFinding& finding) {
+  // Octants of cells at the last level cannot be told apart: forged.
+  if (finding.cell.level == kLevels) return;
+  finding.kind = MaskFinding::Kind::kCorners;
+  finding.listed = listed;
+  copy_list(records.slot(0), listed, finding.blocks);
+}
+
 void read_leaf(const std::byte* record, const MaskRecords& records, const Point& point,
                MaskFinding& finding) {
   const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
@@ -34,6 +43,8 @@ void read_leaf(const std::byte* record, const MaskRecords& records, const Point&
     const auto& special = *reinterpret_cast<const MaskSpecial*>(record);
     const auto* planes = reinterpret_cast<const double*>(records.slot(special.plane_slot));
     ask_planes(special, planes, point, finding);
+  } else if (is_listed(corners)) {
+    read_list(*reinterpret_cast<const MaskListed*>(record), records, finding);
   } else if (corners[0] != kUncounted) {
     finding.kind = MaskFinding::Kind::kCorners;
     finding.corners = corners;
@@ -86,18 +97,17 @@ MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max
   return finding;
 }
 
-MaskFinding look_up(const MaskFacts& mask, const ColourMap& colours, const Point& point,
+MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
                     std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
-  const ColourMap::Spot spot = colours.spot(point);
   if (!spot.record || max_nodes == 0) return look_up(mask, point, max_nodes, pages, work);
   MaskFinding finding;
   finding.cell = spot.cell;
+  MaskRecords records(mask, pages);
   if (ColourMap::is_leaf(*spot.record)) {
-    finding.kind = MaskFinding::Kind::kCorners;
-    finding.corners = ColourMap::corners_of(*spot.record);
+    const std::byte* leaf = records.record(spot.record->family, true, work);
+    if (leaf) read_leaf(leaf, records, point, finding);
     return finding;
   }
-  MaskRecords records(mask, pages);
   const CellGrid grid(mask.lower);
   const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
   descend(records, *spot.record, point, max_nodes, octant_in, work, finding);

@@ -28,7 +28,7 @@ struct MaskFinding {
   enum class Kind {
     kColour,   ///< white or black: only the sign of `winding` counts
     kPlanes,   ///< a special cell: `winding` and `on_surface`
-    kCorners,  ///< a grey cell: `corners` of `cell`
+    kCorners,  ///< a grey cell: `corners` of `cell`, or its `listed`
     kNothing,  ///< no mask, a page missing, or corners that were not counted
   };
   Kind kind = Kind::kNothing;
@@ -36,6 +36,8 @@ struct MaskFinding {
   bool on_surface = false;  ///< then `winding` is of a step beside it
   GridCell cell;            ///< the smallest of the mask that was reached
   MaskCorners corners{};
+  MaskListed listed{};  ///< of a cell that lists blocks: in place of its `corners`
+  MaskBlocks blocks;    ///< its list; empty if it has none
 };
 
 /// Finds the cell of the mask that a point is in.
@@ -45,11 +47,5 @@ struct MaskFinding {
 /// threads    any; no allocation, no lock, no exception.
 MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
                     PageReader pages, TreeWork& work) noexcept;
-
-class ColourMap;
-
-/// The same, begun where `colours`, of this mask, has the record of the point's cell.
-MaskFinding look_up(const MaskFacts& mask, const ColourMap& colours, const Point& point,
-                    std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

@@ -13,7 +13,10 @@ namespace planetree::octree {
 class MaskRecords {
  public:
   MaskRecords(const MaskFacts& mask, PageReader pages)
-      : links_(mask.page_bytes), first_page_(mask.first_page), pages_(pages) {}
+      : links_(mask.page_bytes),
+        first_page_(mask.first_page),
+        page_count_(mask.page_count),
+        pages_(pages) {}
 
   /// The mask's root; null if its page cannot be had.
   const std::byte* root(TreeWork& work) {
@@ -25,19 +28,26 @@ class MaskRecords {
   /// Whether a node's children are in the page of the last record.
   bool has_family_at_hand(const MaskNode& node) const { return links_.page(node.family) == page_; }
 
-  /// The record of a grey octant; null if its page cannot be had or does not
-  /// hold what the node says.
+  /// The record of a grey octant of the last record, or of a node that was kept before there was
+  /// one; null as record()'s.
   const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {
-    const unsigned below = (1U << octant) - 1;
-    const std::uint32_t page = links_.page(node.family);
-    const std::uint32_t at = links_.slot(node.family) + count_octants(node.grey & below);
+    const std::uint32_t link = child_link(node, octant);
     // Links within a page were checked when it was decoded.
-    if (page != page_) {
-      const bool leaf = (node.leaf >> octant & 1) != 0;  // the node goes with its page
-      turn_to(page, work);
-      if (!frame_ || !holds(at, leaf)) return nullptr;
-    }
-    return slot(at);
+    if (links_.page(link) == page_ && frame_) return slot(links_.slot(link));
+    return record(link, (node.leaf >> octant & 1) != 0, work);
+  }
+  /// The link to it.
+  std::uint32_t child_link(const MaskNode& node, unsigned octant) const {
+    const unsigned below = (1U << octant) - 1;
+    return links_.make(links_.page(node.family),
+                       links_.slot(node.family) + count_octants(node.grey & below));
+  }
+  /// The record at a link, which is said to be a leaf or a node; null if its page cannot be had
+  /// or holds no such record there.
+  const std::byte* record(std::uint32_t link, bool leaf, TreeWork& work) {
+    turn_to(links_.page(link), work);
+    const std::uint32_t at = links_.slot(link);
+    return frame_ && holds(at, leaf) ? slot(at) : nullptr;
   }
 
   const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
@@ -55,11 +65,12 @@ class MaskRecords {
     if (page == page_) return;
     ++work.page_turns;
     page_ = page;
-    frame_ = pages_.page(pages_.context, first_page_ + page);
+    frame_ = page < page_count_ ? pages_.page(pages_.context, first_page_ + page) : nullptr;
   }
 
   const MaskLinkFormat links_;
   const std::uint32_t first_page_;
+  const std::uint32_t page_count_;
   const PageReader pages_;
   std::uint32_t page_ = kNoPage;
   const std::byte* frame_ = nullptr;

@@ -10,10 +10,12 @@ namespace {
 const char* check_head(const MaskPageHead& head) {
   if (head.record_count == 0 || head.root_count == 0) return "the page holds no record";
   if (head.root_count > head.record_count) return "the count of roots does not fit";
-  if (std::size_t{head.node_count} + head.plain_count + head.corners_count + head.special_count !=
+  if (std::size_t{head.node_count} + head.plain_count + head.corners_count + head.special_count +
+          head.listed_count !=
       head.record_count)
     return "the counts of records do not add up";
   if (head.page_link_count > head.node_count) return "the count of links does not fit";
+  if (head.reserved != 0) return "reserved bytes are not 0";
   return nullptr;
 }
 
@@ -38,6 +40,11 @@ const char* MaskStreams::cut(std::span<const std::byte> raw, bool float64) noexc
     cutter.take(planes64, coordinates);
   else
     cutter.take(planes32, coordinates);
+  cutter.take(least, head.listed_count);
+  cutter.take(higher, head.listed_count);
+  cutter.take(block_counts, head.listed_count);
+  cutter.take(block_octants, head.block_link_count);
+  cutter.take(block_links, head.block_link_count);
   if (!cutter.whole()) return kShort;
   return cutter.empty() ? nullptr : "the page is longer than its counts say";
 }

@@ -21,8 +21,13 @@
 ///   behind          i8 a special cell
 ///   beyond          i8 a special cell
 ///   planes          float32 or float64 x 9 a plane
+///   least           i8 a listed cell
+///   higher          u8 a listed cell
+///   block counts    u8 a listed cell
+///   block octants   u8 a block of a list
+///   block links     u32 a block of a list
 ///
-/// "Page links" and "planes" are byte-shuffled, as in octree/page_streams.h.
+/// "Page links", "planes" and "block links" are byte-shuffled, as in octree/page_streams.h.
 namespace planetree::octree {
 
 enum class MaskKind : std::uint8_t {
@@ -31,6 +36,7 @@ enum class MaskKind : std::uint8_t {
   kPlainCorners = 2,  ///< winding numbers 0 and 1 alone
   kCorners = 3,
   kSpecial = 4,
+  kListed = 5,
 };
 
 struct MaskPageHead {
@@ -45,8 +51,11 @@ struct MaskPageHead {
   std::uint16_t corners_count;
   std::uint16_t special_count;
   std::uint16_t plane_count;
+  std::uint16_t listed_count;
+  std::uint16_t block_link_count;  ///< of all lists
+  std::uint32_t reserved;          ///< 0
 };
-static_assert(sizeof(MaskPageHead) == 32);
+static_assert(sizeof(MaskPageHead) == 40);
 
 /// The streams of a mask page, cut and length-checked but not yet believed.
 struct MaskStreams {
@@ -60,6 +69,9 @@ struct MaskStreams {
   Shuffled<std::int8_t> behind, beyond;
   Shuffled<float> planes32;
   Shuffled<double> planes64;
+  Shuffled<std::int8_t> least;
+  Shuffled<std::uint8_t> higher, block_counts, block_octants;
+  Shuffled<std::uint32_t> block_links;
 
   /// Cuts `raw`. Returns null, or what is wrong.
   const char* cut(std::span<const std::byte> raw, bool float64) noexcept;

@@ -40,6 +40,19 @@ CornerCodes float_corner_codes(const BlockHeader& block, const float* vertices,
   return corner_codes(block, codes);
 }
 
+void float_octants(const BlockHeader& block, const float* vertices, const float (&box)[2][3],
+                   const float (&middle)[2][3], OctantCodes::Met& met) {
+  HWY_ALIGN std::uint8_t outcodes[kMaxBlockVertices], codes[kMaxBlockVertices];
+  float_codes(vertices, block.stride, box[0], box[1], outcodes);
+  float_codes(vertices, block.stride, middle[0], middle[1], codes);
+  for (unsigned i = 0; i < block.stride; ++i)
+    met.with_vertex |= outcodes[i] == 0 ? OctantCodes::kOctants[codes[i]] : 0U;
+  shared_codes(block, codes, met.by_box);
+  const unsigned apart = corner_codes(block, outcodes).shared;
+  for (unsigned i = 0; i < block.triangle_count; ++i)
+    met.by_box[i] = (apart >> i & 1) != 0 ? 0 : OctantCodes::kOctants[met.by_box[i]];
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace planetree::octree
 HWY_AFTER_NAMESPACE();
@@ -49,6 +62,7 @@ namespace planetree::octree {
 namespace {
 
 HWY_EXPORT(float_corner_codes);
+HWY_EXPORT(float_octants);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -90,6 +104,45 @@ unsigned Outcodes::with_corner_within(const BlockView& block) const noexcept {
     for (unsigned i = 0; i < block.triangle_count(); ++i)
       found |= has_corner_within(block.triangle(i), lower_, upper_) << i;
   return found & all_of(block);
+}
+
+OctantCodes::OctantCodes(const Point& lower, const Point& middle, const Point& upper) noexcept
+    : box_{lower, upper}, middle_(middle) {
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    float_box_[0][axis] = not_above(lower[axis]);
+    float_box_[1][axis] = not_below(upper[axis]);
+    float_middle_[0][axis] = not_above(middle[axis]);
+    float_middle_[1][axis] = not_below(middle[axis]);
+  }
+}
+
+OctantCodes::Met OctantCodes::met_by(const BlockView& block) const noexcept {
+  Met met;
+  if (const float* vertices = block.float_vertices()) {
+    HWY_DYNAMIC_DISPATCH(float_octants)(block.header(), vertices, float_box_, float_middle_, met);
+    return met;
+  }
+  for (unsigned i = 0; i < block.triangle_count(); ++i) {
+    const auto [a, b, c] = block.triangle(i);
+    const Point least = a.cwiseMin(b).cwiseMin(c), greatest = a.cwiseMax(b).cwiseMax(c);
+    const bool apart =
+        (greatest.array() < box_[0].array()).any() || (least.array() > box_[1].array()).any();
+    met.by_box[i] = apart ? 0 : kOctants[code(greatest, least)];
+    for (const Point& corner : {a, b, c})
+      if (((corner.array() >= box_[0].array()) && (corner.array() <= box_[1].array())).all())
+        met.with_vertex |= kOctants[code(corner, corner)];
+  }
+  return met;
+}
+
+// Below the middle where the greatest is, above where the least is.
+unsigned OctantCodes::code(const Point& greatest, const Point& least) const {
+  unsigned code = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    code |= static_cast<unsigned>(greatest[axis] < middle_[axis]) << (2 * axis);
+    code |= static_cast<unsigned>(least[axis] > middle_[axis]) << (2 * axis + 1);
+  }
+  return code;
 }
 
 }  // namespace planetree::octree

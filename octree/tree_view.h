@@ -121,7 +121,7 @@ class RecordFinder {
   const LinkFormat links_;
   const unsigned node_slots_;
   const PageReader pages_;
-  std::uint32_t page_number_ = 0;
+  std::uint32_t page_number_ = kNoPage;
   const std::byte* frame_ = nullptr;
 };
 

@@ -17,7 +17,7 @@ class TreeWalk {
   TreeWalk(const TreeFacts& tree, PageReader pages, TreeWork& work)
       : tree_(tree), work_(work), records_(tree, pages) {}
 
-  /// Calls meeting(Node) for a bit for each child to go to, and visit(BlockView). False where
+  /// Calls meeting(Node) for a bit for each child to go to, and visit(BlockView, link). False where
   /// pages are missing or there was more than `max_nodes` nodes and blocks to visit: some
   /// blocks were not.
   template <class Visit, class Meeting>
@@ -34,7 +34,7 @@ class TreeWalk {
         complete = false;
       } else if (LinkFormat::is_leaf(next.to)) {
         ++work_.blocks;
-        visit(BlockView(record, tree_.shape));
+        visit(BlockView(record, tree_.shape), next.to);
       } else {
         ++work_.nodes;
         const Node& node = *reinterpret_cast<const Node*>(record);

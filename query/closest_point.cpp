@@ -117,11 +117,12 @@ bool may_remember(const Ask& ask) {
 }
 
 // `clear`: no surface is nearer to the point.
-Standing side_of(ProbeState& probe, const octree::Point& point, double clear, bool remember,
-                 std::uint64_t max_nodes, PageTurner& turner, octree::TreeWork& work) {
+Standing side_of(ProbeState& probe, const octree::Point& point, const octree::ColourMap::Spot& spot,
+                 double clear, bool remember, std::uint64_t max_nodes, PageTurner& turner,
+                 octree::TreeWork& work) {
   if (remember)
-    return find_side(probe.model(), point, clear, probe.side_memory(), max_nodes, turner.pages(),
-                     work);
+    return find_side(probe.model(), point, spot, clear, probe.side_memory(), max_nodes,
+                     turner.pages(), work);
   return find_side(probe.model(), point, max_nodes, turner.pages(), work);
 }
 
@@ -195,9 +196,11 @@ class Asking {
 
   // `clear`: no surface is nearer to the point.
   Standing find_side(double clear) {
-    const auto known = known_side(clear);
+    octree::ColourMap::Spot spot;
+    const auto known = known_side(clear, spot);
     const Standing standing =
-        known ? *known : side_of(probe_, point_, clear, remember_, nodes_left(), turner_, work_);
+        known ? *known
+              : side_of(probe_, point_, spot, clear, remember_, nodes_left(), turner_, work_);
     answer_.side = standing.side;
     if (standing.status == Status::kDegraded) degrade();
     return standing;
@@ -205,12 +208,14 @@ class Asking {
 
   // The side where it takes no search: most often that of the ask before, if the surface is known
   // to be farther than that was.
-  std::optional<Standing> known_side(double clear) {
+  std::optional<Standing> known_side(double clear, octree::ColourMap::Spot& spot) {
     // What stands for a point that far away may be beyond another wall of a region.
-    if (far_) return side_at_once(model_, placed_);
+    if (far_) return side_at_once(model_, placed_, look_at_colours(model_, placed_));
     if (!remember_) return {};
     const auto before = side_as_before(model_, point_, clear, probe_.side_memory());
-    return before ? before : side_at_once(model_, point_);
+    if (before) return before;
+    spot = look_at_colours(model_, point_);
+    return side_at_once(model_, point_, spot);
   }
 
   void find_normal(const octree::NearestAnswer& nearest, const Standing& standing) {
@@ -242,12 +247,17 @@ class Asking {
 
 // Apart from what most asks come to, which needs few registers.
 [[gnu::noinline]] Containment find_containment(ProbeState& probe, const Vec3& query, const Ask& ask,
-                                               const octree::Point& placed, TouchLog* log) {
+                                               const octree::Point& placed,
+                                               const octree::ColourMap::Spot& spot, TouchLog* log) {
+  // What stands for a point that far away may be beyond another wall of a region.
+  if (is_far(placed))
+    if (const auto known = side_at_once(probe.model(), placed, spot))
+      return {known->side, known->status};
   const Ask limited = with_defaults(ask);
   PageTurner turner(probe.reader(), ask.wait, probe.model().asking_terms());
   turner.log_to(log);
   octree::TreeWork work;
-  const Standing standing = side_of(probe, within_reach(placed, query), 0, may_remember(ask),
+  const Standing standing = side_of(probe, within_reach(placed, query), spot, 0, may_remember(ask),
                                     limited.max_nodes, turner, work);
   if (standing.status == Status::kDegraded) {
     Ask side_alone = limited;
@@ -273,8 +283,11 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   const octree::Point placed = probe.model().scale().in(query);
   probe.last_parts() = kSide;
   TouchLog* const log = probe.touches().begin_ask(ask.wait);
-  if (const auto known = side_at_once(probe.model(), placed)) return {known->side, known->status};
-  return find_containment(probe, query, ask, placed, log);
+  const octree::ColourMap::Spot spot = look_at_colours(probe.model(), placed);
+  // What most asks come to.
+  if (spot.winding != octree::ColourMap::kUnknown)
+    return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+  return find_containment(probe, query, ask, placed, spot, log);
 }
 
 void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,

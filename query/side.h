@@ -47,9 +47,18 @@ Standing find_side(const ModelState& model, const octree::Point& point, std::uin
                    octree::PageReader pages, octree::TreeWork& work,
                    SideReason* reason = nullptr) noexcept;
 
-/// The same where one look tells: outside of a watertight model's box, or in one of
-/// octree::ColourMap's white or black cells. The point may be any.
-std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point) noexcept;
+/// What octree::ColourMap knows of a point, as far as the file knows it. The point may be any.
+/// Models that are not watertight have no colours.
+inline octree::ColourMap::Spot look_at_colours(const ModelState& model,
+                                               const octree::Point& point) noexcept {
+  const bool known = !model.region().has_walls() || model.region().holds(point);
+  return known ? model.colours().look(point) : octree::ColourMap::Spot{};
+}
+
+/// The same as find_side() where one look tells: beyond a wall of a region, outside of a
+/// watertight model's box, or in a white or black cell. The point may be any.
+std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point,
+                                     const octree::ColourMap::Spot& spot) noexcept;
 
 /// The same where the point cannot but stand where the last one that `memory` knows does, which it
 /// then remembers. No surface is nearer to the point than `clear`.
@@ -59,8 +68,10 @@ std::optional<Standing> side_as_before(const ModelState& model, const octree::Po
 /// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
 /// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
 /// to the point than `clear`, which may be 0.
-Standing find_side(const ModelState& model, const octree::Point& point, double clear,
-                   SideMemory& memory, std::uint64_t max_nodes, octree::PageReader pages,
+/// spot  what look_at_colours() says.
+Standing find_side(const ModelState& model, const octree::Point& point,
+                   const octree::ColourMap::Spot& spot, double clear, SideMemory& memory,
+                   std::uint64_t max_nodes, octree::PageReader pages,
                    octree::TreeWork& work) noexcept;
 
 }  // namespace planetree::query

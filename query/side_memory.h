@@ -42,8 +42,10 @@ class SideMemory {
   /// Whether `point`, which has no surface nearer than `clear`, stands where the last one
   /// does: there is nothing between.
   bool same_side(const octree::Point& point, double clear) const {
+    const double most = std::max(clear, clear_);
+    if (!(most > 0)) return false;
     const double gap = (point - point_).norm();
-    return gap * (1 + kRounding) < std::max(clear, clear_);
+    return gap * (1 + kRounding) < most;
   }
 
   /// A point's side; no surface is nearer to it than `clear`, which may be 0.

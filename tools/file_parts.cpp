@@ -156,9 +156,13 @@ bool FileParts::cut(octree::RawStreams& streams) const {
   return streams.cut(raw_, shape()) == nullptr;
 }
 
+bool FileParts::cut(octree::MaskStreams& streams) const {
+  return page_ >= first_mask_page() && streams.cut(raw_, shape().float64) == nullptr;
+}
+
 std::optional<octree::MaskPageHead> FileParts::mask_head() const {
   octree::MaskStreams streams;
-  if (page_ < first_mask_page() || streams.cut(raw_, shape().float64) != nullptr) return {};
+  if (!cut(streams)) return {};
   return streams.head;
 }
 

@@ -59,6 +59,8 @@ class FileParts {
   /// The same, of a distance page, cut into streams; false if they are not what
   /// the head says.
   bool cut(octree::RawStreams& streams) const;
+  /// The same of a mask page; false if that is not one.
+  bool cut(octree::MaskStreams& streams) const;
   /// The head of the mask page read last; nothing if that is not one.
   std::optional<octree::MaskPageHead> mask_head() const;
   /// Of the page decoded last, if a distance page; good until the next.

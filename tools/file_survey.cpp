@@ -44,10 +44,11 @@ class Surveyor {
       return pending_.finish_page(row.number, [](const auto&, const auto&) {});
     }
     if (mask) {
-      row.mask = parts_.mask_head();
+      row.mask = add_streams<octree::MaskStreams>(survey_.mask_streams);
+      survey_.lists += row.mask->listed_count;
       return mask_.add(row.number);
     }
-    add_streams(row);
+    row.head = add_streams<octree::RawStreams>(survey_.streams);
     add_levels(row.number);
   }
 
@@ -59,7 +60,7 @@ class Surveyor {
   void count(const GreyCell& grey) {
     MaskLevelRow& row = mask_level(grey.cell.level);
     ++row.grey;
-    row.corners += grey.corners != nullptr;
+    row.corners += grey.corners != nullptr || grey.listed != nullptr;
     row.special += grey.special != nullptr;
     if (grey.node == nullptr) return;
     const auto count_bits = [](unsigned mask) {
@@ -71,21 +72,23 @@ class Surveyor {
     below.white += 8 - count_bits(inside | grey.node->grey);
   }
 
-  void add_streams(PageRow& row) {
-    octree::RawStreams streams;
+  // Those of the page at hand; its head.
+  template <class Streams>
+  decltype(Streams::head) add_streams(std::vector<StreamRow>& sums) const {
+    Streams streams;
     const bool whole = parts_.cut(streams);
     assert(whole);
     static_cast<void>(whole);
-    row.head = streams.head;
     const std::vector<StreamRow> rows = stream_rows(streams, parts_.shape());
-    if (survey_.streams.empty()) {
-      survey_.streams = rows;
-      return;
+    if (sums.empty()) {
+      sums = rows;
+      return streams.head;
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      survey_.streams[i].elements += rows[i].elements;
-      survey_.streams[i].bytes += rows[i].bytes;
+      sums[i].elements += rows[i].elements;
+      sums[i].bytes += rows[i].bytes;
     }
+    return streams.head;
   }
 
   LevelRow& level(std::uint32_t depth) {

@@ -26,9 +26,9 @@ struct LevelRow {
 /// All cells of one level of the mask.
 struct MaskLevelRow {
   std::uint64_t white = 0;
-  std::uint64_t black = 0;  ///< of positive or negative winding number
-  std::uint64_t grey = 0;   ///< divided, with corners, and special ones together
-  std::uint64_t corners = 0;
+  std::uint64_t black = 0;    ///< of positive or negative winding number
+  std::uint64_t grey = 0;     ///< divided, with corners, and special ones together
+  std::uint64_t corners = 0;  ///< with a list of blocks or without
   std::uint64_t special = 0;
 };
 
@@ -43,7 +43,9 @@ struct PageRow {
 /// What is in a file, counted by walking its pages once.
 struct FileSurvey {
   IssueList issues;
-  std::vector<StreamRow> streams;    ///< sums over all pages; empty if none can be read
+  /// Sums over all pages of either kind; empty if none can be read.
+  std::vector<StreamRow> streams, mask_streams;
+  std::uint64_t lists = 0;           ///< cells of the mask that list blocks
   std::vector<LevelRow> levels;      ///< by depth
   std::vector<MaskLevelRow> mask;    ///< by level; empty without a mask
   std::uint64_t unplaced_pages = 0;  ///< that hang from what cannot be read, so not in `levels`

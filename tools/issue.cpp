@@ -38,6 +38,7 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "MASK_CORNER",
                                                                   "MASK_COLOUR",
                                                                   "MASK_PLANES",
+                                                                  "MASK_BLOCKS",
                                                                   "REGION"};
 static_assert(!kNames.back().empty());
 

@@ -42,6 +42,7 @@ enum class IssueCode : std::uint8_t {
   kMaskCorner,
   kMaskColour,
   kMaskPlanes,
+  kMaskBlocks,
   kRegion,
 };
 inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kRegion) + 1;

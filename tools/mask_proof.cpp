@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "octree/box_walk.h"
+#include "octree/build/block_lister.h"
 #include "octree/build/cell_overlap.h"
 #include "octree/build/special_cell.h"
 #include "octree/crossings.h"
@@ -48,6 +49,17 @@ octree::SpecialCell claim_of(const GreyCell& grey) {
   return claim;
 }
 
+// More may be listed than need be.
+bool has_all(const octree::MaskBlocks& said, const octree::MaskBlocks& found) {
+  for (unsigned i = 0; i < found.count; ++i) {
+    unsigned octants = 0;
+    for (unsigned k = 0; k < said.count; ++k)
+      if (said.links[k] == found.links[i]) octants = said.octants[k];
+    if ((found.octants[i] & ~octants) != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<MaskProof>> MaskProof::open(const std::filesystem::path& path,
@@ -71,7 +83,14 @@ MaskProof::MaskProof(std::unique_ptr<query::ModelState> model, cache::Reader rea
 
 void MaskProof::look_at(const GreyCell& grey) {
   if (grey.node != nullptr) check_octants(grey);
-  if (grey.corners != nullptr) check_corners(grey);
+  if (grey.corners != nullptr) check_corners(grey, *grey.corners);
+  if (grey.listed != nullptr) {
+    octree::MaskCorners corners;
+    for (unsigned corner = 0; corner < 8; ++corner)
+      corners[corner] = octree::corner_of(*grey.listed, corner);
+    check_corners(grey, corners);
+    check_list(grey);
+  }
   if (grey.special != nullptr) check_special(grey);
 }
 
@@ -101,15 +120,38 @@ void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colou
         fmt::format("cell {} is {}, but its winding number is {}", cell_name(cell), name, *number));
 }
 
-void MaskProof::check_corners(const GreyCell& grey) {
-  if ((*grey.corners)[0] == octree::kUncounted) return;
+void MaskProof::check_corners(const GreyCell& grey, const octree::MaskCorners& corners) {
+  if (corners[0] == octree::kUncounted) return;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const int said = (*grey.corners)[corner];
+    const int said = corners[corner];
     const std::optional<std::int64_t> number = winding(grey.cell, corner);
     if (number && *number != said)
       report(IssueCode::kMaskCorner, grey.page,
              fmt::format("the winding number at corner {} of cell {} is {}, not {}", corner,
                          cell_name(grey.cell), *number, said));
+  }
+}
+
+void MaskProof::check_list(const GreyCell& grey) {
+  if (grey.cell.level == octree::kLevels) return;
+  query::PageTurner turner(reader_, Wait::kForPages);
+  octree::MaskBlocks found;
+  const octree::BlockLister lister(model_->tree(), grid_);
+  const auto outcome = lister.list(grey.cell, turner.pages(), found);
+  if (outcome == octree::BlockLister::Outcome::kLost) return;
+  const bool all = outcome == octree::BlockLister::Outcome::kListed;
+  if (!all || !has_all(grey.blocks, found))
+    report(IssueCode::kMaskBlocks, grey.page,
+           fmt::format("cell {} does not list all blocks that touch it", cell_name(grey.cell)));
+  octree::RecordFinder records(model_->tree(), turner.pages());
+  octree::TreeWork work;
+  for (unsigned i = 0; i < grey.blocks.count; ++i) {
+    const std::uint32_t link = grey.blocks.links[i];
+    const octree::LinkFormat links(model_->tree().page_bytes);
+    // What is wrong with a page that cannot be had is said elsewhere.
+    if (!records.find(link, work) && turner.peek(links.page(link)) != nullptr)
+      report(IssueCode::kMaskBlocks, grey.page,
+             fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
   }
 }
 
@@ -160,7 +202,7 @@ std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
   octree::TreeWork work;
   std::vector<Triangle> found;
   octree::BoxWalk(model_->tree(), lower, upper, turner.pages(), work)
-      .run(kAllNodes, [&](const octree::BlockView& block) {
+      .run(kAllNodes, [&](const octree::BlockView& block, std::uint32_t) {
         for (unsigned i = 0; i < block.triangle_count(); ++i)
           if (const Triangle triangle = block.triangle(i);
               octree::may_touch(triangle, lower, upper))

@@ -23,7 +23,7 @@ namespace planetree::tools {
 /// in cells of one colour by the way straight out of the model's box, so by
 /// other triangles than those they were found with, or, of a region, by the way
 /// to its least corner, whose number is taken from the header; and that only
-/// grey cells are touched.
+/// grey cells are touched, and only by blocks that they list, if they do.
 ///
 /// memory  256 MiB of pages at most, and the corners of one page
 class MaskProof {
@@ -40,7 +40,8 @@ class MaskProof {
 
   void check_octants(const GreyCell& grey);
   void check_colour(std::uint32_t page, const octree::GridCell& cell, int colour);
-  void check_corners(const GreyCell& grey);
+  void check_corners(const GreyCell& grey, const octree::MaskCorners& corners);
+  void check_list(const GreyCell& grey);
   void check_special(const GreyCell& grey);
   /// Nothing if pages are missing.
   std::optional<std::int64_t> winding(const octree::GridCell& cell, unsigned corner);

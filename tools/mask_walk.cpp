@@ -118,6 +118,9 @@ void MaskWalk::follow(Page& page, std::uint32_t slot, const GridCell& cell) {
     if (octree::is_special(corners)) {
       grey.special = reinterpret_cast<const octree::MaskSpecial*>(record);
       grey.planes = reinterpret_cast<const double*>(page.slot(grey.special->plane_slot));
+    } else if (octree::is_listed(corners)) {
+      grey.listed = reinterpret_cast<const octree::MaskListed*>(record);
+      octree::copy_list(page.slot(0), *grey.listed, grey.blocks);
     } else {
       grey.corners = &corners;
     }

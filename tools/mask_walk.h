@@ -11,14 +11,16 @@
 
 namespace planetree::tools {
 
-/// A grey cell as its page holds it: one of the three is not null.
+/// A grey cell as its page holds it: one of the four is not null.
 struct GreyCell {
   std::uint32_t page = 0;
   octree::GridCell cell;
   const octree::MaskNode* node = nullptr;
   const octree::MaskCorners* corners = nullptr;
   const octree::MaskSpecial* special = nullptr;
+  const octree::MaskListed* listed = nullptr;
   const double* planes = nullptr;  ///< of a special cell, 9 each
+  octree::MaskBlocks blocks;       ///< of a listed one
 };
 
 /// Goes through the mask page by page, as pages come, and finds the cell that

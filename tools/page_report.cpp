@@ -59,12 +59,15 @@ Json mask_head_json(const octree::MaskPageHead& head) {
           {"plain_count", head.plain_count},
           {"corners_count", head.corners_count},
           {"special_count", head.special_count},
-          {"plane_count", head.plane_count}};
+          {"plane_count", head.plane_count},
+          {"listed_count", head.listed_count},
+          {"block_link_count", head.block_link_count}};
 }
 
+template <class Streams>
 Json streams_json(const FileParts& parts) {
   Json rows = Json::array();
-  octree::RawStreams streams;
+  Streams streams;
   if (!parts.cut(streams)) return rows;
   std::uint64_t offset = 0;
   for (const StreamRow& row : stream_rows(streams, parts.shape())) {
@@ -154,9 +157,12 @@ Json page_details(const FileParts& parts, const PageRow& row, bool decoded) {
   Json details = {{"page", row.number}, {"entry", entry_json(row.entry)}};
   if (row.head) {
     details["head"] = head_json(*row.head);
-    details["streams"] = streams_json(parts);
+    details["streams"] = streams_json<octree::RawStreams>(parts);
   }
-  if (row.mask) details["head"] = mask_head_json(*row.mask);
+  if (row.mask) {
+    details["head"] = mask_head_json(*row.mask);
+    details["streams"] = streams_json<octree::MaskStreams>(parts);
+  }
   if (row.head && decoded) details["nodes"] = nodes_json(parts, false);
   return details;
 }

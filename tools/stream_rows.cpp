@@ -14,7 +14,7 @@ StreamRow row(std::string_view name, StreamGroup group, const octree::Shuffled<T
 
 std::string_view group_name(StreamGroup group) {
   static constexpr std::array<std::string_view, kStreamGroupCount> kNames = {
-      "heads", "nodes", "blocks", "corners", "vertices", "ids"};
+      "heads", "nodes", "blocks", "corners", "vertices", "ids", "mask", "mask_lists"};
   return kNames[static_cast<std::size_t>(group)];
 }
 
@@ -48,6 +48,30 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
       shape.wide_ids ? row("id_steps", kIds, s.id_steps64) : row("id_steps", kIds, s.id_steps32)};
   rows.insert(rows.end(), others.begin(), others.end());
   return rows;
+}
+
+std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
+                                   const octree::BlockShape& shape) {
+  using enum StreamGroup;
+  const octree::MaskStreams& s = streams;
+  return {{"mask_page_head", kHead, 1, sizeof(octree::MaskPageHead)},
+          row("record_kinds", kMask, s.kinds),
+          row("grey_masks", kMask, s.grey),
+          row("leaf_masks", kMask, s.leaf),
+          row("black_masks", kMask, s.black),
+          row("inverted_masks", kMask, s.inverted),
+          row("mask_page_links", kMask, s.page_links),
+          row("corner_bits", kMask, s.plain_corners),
+          row("mask_corners", kMask, s.corners),
+          row("plane_counts", kMask, s.plane_counts),
+          row("behind", kMask, s.behind),
+          row("beyond", kMask, s.beyond),
+          shape.float64 ? row("planes", kMask, s.planes64) : row("planes", kMask, s.planes32),
+          row("least", kMaskLists, s.least),
+          row("higher", kMaskLists, s.higher),
+          row("block_counts", kMaskLists, s.block_counts),
+          row("block_octants", kMaskLists, s.block_octants),
+          row("block_links", kMaskLists, s.block_links)};
 }
 
 }  // namespace planetree::tools

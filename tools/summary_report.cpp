@@ -60,17 +60,17 @@ std::string mask_text(const FileSurvey& survey, const Sections& sections, std::u
   if (survey.mask.empty()) return {};
   const MaskLevelRow sum = mask_sum(survey);
   return fmt::format(
-      "  mask        {} levels, {} white, {} black, {} grey cells, of those {} with corners and {} "
-      "special; {:.2f} bytes a triangle\n",
+      "  mask        {} levels, {} white, {} black, {} grey cells, of those {} with corners, {} of "
+      "them listing blocks, and {} special; {:.2f} bytes a triangle\n",
       survey.mask.size() - 1, grouped_count(sum.white), grouped_count(sum.black),
-      grouped_count(sum.grey), grouped_count(sum.corners), grouped_count(sum.special),
-      share(sections.mask_pages, triangles));
+      grouped_count(sum.grey), grouped_count(sum.corners), grouped_count(survey.lists),
+      grouped_count(sum.special), share(sections.mask_pages, triangles));
 }
 
 std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
   std::array<std::uint64_t, kStreamGroupCount> bytes{};
-  for (const StreamRow& row : survey.streams)
-    bytes[static_cast<std::size_t>(row.group)] += row.bytes;
+  for (const auto* rows : {&survey.streams, &survey.mask_streams})
+    for (const StreamRow& row : *rows) bytes[static_cast<std::size_t>(row.group)] += row.bytes;
   return bytes;
 }
 
@@ -81,7 +81,8 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
   for (std::size_t i = 0; i < kStreamGroupCount; ++i)
     raw[std::string(group_name(static_cast<StreamGroup>(i)))] = groups[i];
   Json streams = Json::object();
-  for (const StreamRow& row : survey.streams) streams[std::string(row.name)] = row.bytes;
+  for (const auto* rows : {&survey.streams, &survey.mask_streams})
+    for (const StreamRow& row : *rows) streams[std::string(row.name)] = row.bytes;
   return {{"headers", sections.headers},
           {"page_table", sections.page_table},
           {"distance_pages", sections.distance_pages},
@@ -196,6 +197,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"content_id", content_id_text(header.content_id)},
                {"mask", mask_row_json(mask_sum(survey))},
                {"special_configurations", mask_sum(survey).special},
+               {"lists_of_blocks", survey.lists},
                {"bytes", bytes_json(parts, survey)}};
   if (model.first_set_aside != storage::kNoTriangle)
     json["first_set_aside"] = model.first_set_aside;

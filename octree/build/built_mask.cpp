@@ -8,7 +8,7 @@
 namespace planetree::octree {
 
 Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& runs,
-                              const RegionCall& done) {
+                              const BuiltTree* tree, const RegionCall& done) {
   regions_.resize(regions.all().size());
   const bool alone = regions_.size() == 1;
   const auto known = [this](std::size_t at) -> const RegionRoot* {
@@ -23,7 +23,7 @@ Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& ru
     regions_[at].built = *std::move(built);
     return done(static_cast<std::uint32_t>(at), regions_[at].built);
   };
-  auto above = build_mask(regions, runs, known, take);
+  auto above = build_mask(regions, runs, tree, known, take);
   if (!above) return above.error();
   for (std::uint32_t at = 0; at < regions_.size(); ++at)
     if (known(at) && regions.all()[at].touched) regions_[at].built = std::move(known_[at]);

@@ -43,9 +43,11 @@ class BuiltMask {
 
   /// Builds it, once, but for what was taken up.
   ///
+  /// tree    see build_mask().
   /// errors  those of build_mask(), SpillFile and `done`; kBadArgument when links of 32 bits cannot
   ///         tell so many pages apart: 2^19 of 64 KiB.
-  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs, const RegionCall& done);
+  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs, const BuiltTree* tree,
+                     const RegionCall& done);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }
   std::uint64_t cell_count() const { return cell_count_; }

@@ -31,8 +31,9 @@ Centred centred(const Triangle& triangle, const Point& lower, const Point& upper
 
 /// Whether the projections on an axis are apart; the axis has components `p` and
 /// `q` in the directions `i` and `j` and none in the third.
-bool apart(const Centred& centred, unsigned i, unsigned j, double p, double q) {
+inline bool apart(const Centred& centred, unsigned i, unsigned j, double p, double q) {
   double least = 0, greatest = 0, magnitude = 0;
+#pragma GCC unroll 3
   for (unsigned corner = 0; corner < 3; ++corner) {
     const Point& at = centred.corners[corner];
     const double along_i = p * at[i], along_j = q * at[j];
@@ -49,6 +50,7 @@ bool apart(const Centred& centred, unsigned i, unsigned j, double p, double q) {
 bool apart_along_edges(const Centred& centred, const Triangle& triangle) {
   for (unsigned corner = 0; corner < 3; ++corner) {
     const Point edge = triangle[(corner + 1) % 3] - triangle[corner];
+#pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis) {
       const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
       if (apart(centred, i, j, -edge[j], edge[i])) return true;
@@ -61,6 +63,7 @@ bool apart_along_normal(const Centred& centred, const Triangle& triangle) {
   const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const Point& at = centred.corners[0];
   double height = 0, reach = 0, magnitude = 0;
+#pragma GCC unroll 3
   for (unsigned axis = 0; axis < 3; ++axis) {
     const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
     const double left = u[i] * v[j], right = u[j] * v[i];

@@ -41,10 +41,11 @@ class DownwardSegment {
 inline unsigned octants_of_box(const BoxedTriangle& triangle, const Point& middle) {
   constexpr std::array<unsigned, 3> kUpperOctants = {0xaa, 0xcc, 0xf0};
   unsigned octants = 0xff;
+#pragma GCC unroll 3
   for (unsigned axis = 0; axis < 3; ++axis) {
     const unsigned upper = kUpperOctants[axis];
-    if (triangle.least[axis] > middle[axis]) octants &= upper;
-    if (triangle.greatest[axis] < middle[axis]) octants &= ~upper;
+    octants &= triangle.least[axis] > middle[axis] ? upper : 0xff;
+    octants &= triangle.greatest[axis] < middle[axis] ? ~upper : 0xff;
   }
   return octants;
 }

@@ -4,8 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "octree/build/block_lister.h"
 #include "octree/build/parallel.h"
 #include "octree/build/region_mask.h"
+#include "octree/build/tree_frames.h"
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
@@ -91,10 +93,37 @@ class MaskJoin {
   std::vector<bool> grey_;
 };
 
+/// Lists blocks for the cells of a region.
+class RegionBlocks {
+ public:
+  // tree  null: it lists none.
+  RegionBlocks(const BuiltTree* tree, const ClippedGrid& grid) {
+    if (!tree) return;
+    frames_.emplace(*tree);
+    facts_ = tree->facts();
+    lister_.emplace(facts_, grid);
+  }
+  RegionBlocks(const RegionBlocks&) = delete;
+  RegionBlocks& operator=(const RegionBlocks&) = delete;
+
+  bool list(const GridCell& cell, MaskBlocks& blocks) {
+    return lister_ &&
+           lister_->list(cell, frames_->reader(), blocks) == BlockLister::Outcome::kListed;
+  }
+  Result<void> state() const { return frames_ ? frames_->state() : Result<void>(); }
+
+ private:
+  TreeFacts facts_;
+  std::optional<TreeFrames> frames_;
+  std::optional<BlockLister> lister_;
+};
+
 }  // namespace
 
 RegionRoot RegionRoot::of(const MaskTree& mask, std::size_t region) {
   RegionRoot root{mask.entries[0], {}};
+  // Roots go with the cells above, whose pages hold no lists: of leaves so large few are asked.
+  if (root.entry.kind == MaskEntry::Kind::kListed) root.entry.kind = MaskEntry::Kind::kCorners;
   if (root.entry.kind == MaskEntry::Kind::kSpecial) root.special = mask.specials[0];
   if (root.entry.kind == MaskEntry::Kind::kNode) {
     root.entry.kind = MaskEntry::Kind::kRegion;
@@ -104,7 +133,8 @@ RegionRoot RegionRoot::of(const MaskTree& mask, std::size_t region) {
 }
 
 Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs,
-                            const KnownRoots& known, const RegionSink& take) {
+                            const BuiltTree* tree, const KnownRoots& known,
+                            const RegionSink& take) {
   const MaskJoin join(regions);
   std::vector<RegionRoot> roots(regions.all().size());
   const auto built = for_each_in_parallel(roots.size(), [&](std::size_t at) -> Result<void> {
@@ -116,7 +146,11 @@ Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs
     }
     const auto triangles = regions.read(at, runs);
     if (!triangles) return triangles.error();
-    const MaskTree mask = mask_of_region(regions.grid(), region.cell, join.winding(at), *triangles);
+    RegionBlocks blocks(tree, regions.grid());
+    const MaskTree mask = mask_of_region(
+        regions.grid(), region.cell, join.winding(at), *triangles,
+        [&](const GridCell& cell, MaskBlocks& list) { return blocks.list(cell, list); });
+    if (!blocks.state()) return blocks.state().error();
     roots[at] = RegionRoot::of(mask, at);
     return take(at, mask, roots[at]);
   });

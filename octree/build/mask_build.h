@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "octree/build/built_tree.h"
 #include "octree/build/mask_regions.h"
 #include "octree/build/mask_tree.h"
 #include "octree/build/triangle_runs.h"
@@ -31,15 +32,16 @@ using KnownRoots = std::function<const RegionRoot*(std::size_t region)>;
 /// edges.
 ///
 /// regions  of a watertight model, all of whose triangles were added.
+/// tree     whose blocks cells list; null: they list none.
 /// known    `take` is not given their masks.
 /// return   the cells above the regions, and the regions' roots.
-/// errors   those of reading what was spilled, and of `take`.
+/// errors   those of reading what was spilled, of TreeFrames, and of `take`.
 /// Uses the calling thread's TBB arena; the result depends on the model alone.
 ///
 /// source  white, black and grey cells: "Out-of-core real-time haptic interaction
 ///         on very large models", section 3.1; winding numbers at corners, in
 ///         place of parity along a line, are ours.
 Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs,
-                            const KnownRoots& known, const RegionSink& take);
+                            const BuiltTree* tree, const KnownRoots& known, const RegionSink& take);
 
 }  // namespace planetree::octree

@@ -47,6 +47,21 @@ class Streams {
         planes_.insert(planes_.end(), corner.begin(), corner.end());
   }
 
+  void add_listed(const MaskCorners& corners, const MaskBlocks& blocks) {
+    const std::int8_t least = *std::min_element(corners.begin(), corners.end());
+    std::uint8_t higher = 0;
+    for (unsigned corner = 0; corner < 8; ++corner)
+      higher |= static_cast<std::uint8_t>((corners[corner] - least) << corner);
+    add_kind(MaskKind::kListed);
+    least_.push_back(least);
+    higher_.push_back(higher);
+    block_counts_.push_back(blocks.count);
+    block_octants_.insert(block_octants_.end(), blocks.octants.begin(),
+                          blocks.octants.begin() + blocks.count);
+    block_links_.insert(block_links_.end(), blocks.links.begin(),
+                        blocks.links.begin() + blocks.count);
+  }
+
   void describe(MaskPageHead& head) const {
     head.record_count = static_cast<std::uint16_t>(kinds_.size());
     head.node_count = static_cast<std::uint16_t>(grey_.size());
@@ -55,6 +70,8 @@ class Streams {
     head.corners_count = static_cast<std::uint16_t>(corners_.size() / 8);
     head.special_count = static_cast<std::uint16_t>(plane_counts_.size());
     head.plane_count = static_cast<std::uint16_t>(planes_.size() / 9);
+    head.listed_count = static_cast<std::uint16_t>(block_counts_.size());
+    head.block_link_count = static_cast<std::uint16_t>(block_links_.size());
   }
 
   std::uint32_t link_count() const { return static_cast<std::uint32_t>(page_links_.size()); }
@@ -77,6 +94,11 @@ class Streams {
       writer.shuffled(planes_);
     else
       writer.shuffled(std::vector<float>(planes_.begin(), planes_.end()));
+    writer.shuffled(least_);
+    writer.shuffled(higher_);
+    writer.shuffled(block_counts_);
+    writer.shuffled(block_octants_);
+    writer.shuffled(block_links_);
     return links_at;
   }
 
@@ -86,8 +108,9 @@ class Streams {
   const MaskLinkFormat links_;
   const std::uint32_t page_;
   std::vector<std::uint8_t> kinds_, grey_, leaf_, black_, inverted_, plain_, plane_counts_;
-  std::vector<std::uint32_t> page_links_;
-  std::vector<std::int8_t> corners_, behind_, beyond_;
+  std::vector<std::uint8_t> higher_, block_counts_, block_octants_;
+  std::vector<std::uint32_t> page_links_, block_links_;
+  std::vector<std::int8_t> corners_, behind_, beyond_, least_;
   std::vector<double> planes_;
 };
 
@@ -108,6 +131,9 @@ EncodedPage MaskEncoder::encode(std::size_t page) const {
         break;
       case MaskEntry::Kind::kSpecial:
         streams.add_special(mask_.specials[entry.first]);
+        break;
+      case MaskEntry::Kind::kListed:
+        streams.add_listed(entry.corners, mask_.lists[entry.first]);
         break;
     }
   }

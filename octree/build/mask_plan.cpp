@@ -44,8 +44,11 @@ class MaskPlanner {
  private:
   std::uint32_t entry_slots(std::uint32_t at) const {
     const MaskEntry& entry = mask_.entries[at];
-    if (entry.kind != MaskEntry::Kind::kSpecial) return 1;
-    return 1 + kPlaneSlots * mask_.specials[entry.first].plane_count;
+    if (entry.kind == MaskEntry::Kind::kSpecial)
+      return 1 + kPlaneSlots * mask_.specials[entry.first].plane_count;
+    if (entry.kind == MaskEntry::Kind::kListed)
+      return 1 + list_slots(mask_.lists[entry.first].count);
+    return 1;
   }
 
   std::uint32_t family_slots(std::uint32_t node) const {

@@ -13,21 +13,23 @@ namespace planetree::octree {
 /// A grey cell of the mask.
 struct MaskEntry {
   /// kRegion is a node whose octants are in a mask of their own.
-  enum class Kind : std::uint8_t { kNode, kRegion, kCorners, kSpecial };
+  enum class Kind : std::uint8_t { kNode, kRegion, kCorners, kSpecial, kListed };
 
   Kind kind = Kind::kNode;
   /// Of a node: its octants, as in MaskNode. `first` is the entry of its first
   /// grey octant, the others follow; of a region: its number.
   std::uint8_t grey = 0, leaf = 0, black = 0, inverted = 0;
-  std::uint32_t first = 0;  ///< of a special cell: into MaskTree::specials
-  bool is_leaf() const { return kind == Kind::kCorners || kind == Kind::kSpecial; }
-  MaskCorners corners{};
+  /// Of a special cell: into MaskTree::specials; of a listed one: into MaskTree::lists.
+  std::uint32_t first = 0;
+  bool is_leaf() const { return kind != Kind::kNode && kind != Kind::kRegion; }
+  MaskCorners corners{};  ///< of a listed cell too
 };
 
 /// The mask of a watertight model.
 struct MaskTree {
   std::vector<MaskEntry> entries;  ///< 0 is the root; children come after their parent
   std::vector<SpecialCell> specials;
+  std::vector<MaskBlocks> lists;
   unsigned levels = 0;  ///< level of the finest grey cell
 
   /// Makes the entry at `place` that of a divided cell, with room for its grey octants' entries.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "octree/build/cell_overlap.h"
+#include "octree/build/edge_count.h"
 #include "octree/build/edge_crossings.h"
 #include "octree/clipped_grid.h"
 #include "octree/predicates.h"
@@ -41,7 +42,8 @@ using Octants = std::array<GreyCell, 8>;
 
 class RegionMask {
  public:
-  RegionMask(const ClippedGrid& grid, const Triangles& triangles) : grid_(grid) {
+  RegionMask(const ClippedGrid& grid, const Triangles& triangles, const ListBlocks& list)
+      : grid_(grid), list_(list) {
     triangles_.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
       triangles_.emplace_back(triangles.corners(i));
@@ -121,12 +123,13 @@ class RegionMask {
     }
     for (const std::uint32_t position : grey.triangles) {
       const BoxedTriangle& triangle = triangles_[position];
-      const unsigned near = octants_of_box(triangle, middle);
+      unsigned near = octants_of_box(triangle, middle);
       const bool alone = (near & (near - 1)) == 0;
-      for (unsigned octant = 0; octant < 8; ++octant)
-        if ((near >> octant & 1) != 0 &&
-            (alone || may_touch(triangle.corners, lower[octant], upper[octant])))
+      for (; near != 0; near &= near - 1) {
+        const auto octant = static_cast<unsigned>(std::countr_zero(near));
+        if (alone || may_touch(triangle.corners, lower[octant], upper[octant]))
           octants[octant].triangles.push_back(position);
+      }
     }
     // Along the edges between the octants' least corners.
     octants[0].winding = grey.winding;
@@ -157,16 +160,8 @@ class RegionMask {
     return corners;
   }
 
-  // From the least corner along the cell's edges.
-  std::array<std::int64_t, 8> count_corners(const std::array<Point, 8>& corners,
-                                            const GreyCell& grey) const {
-    std::array<std::int64_t, 8> winding{grey.winding};
-    for (unsigned which = 1; which < 8; ++which) {
-      const unsigned before = which & (which - 1);
-      winding[which] =
-          winding[before] + count_crossings({corners[which], corners[before]}, grey.triangles);
-    }
-    return winding;
+  EdgeCount edge_count(const std::array<Point, 8>& corners, const GreyCell& grey) const {
+    return EdgeCount(corners, grey.winding, triangles_, grey.triangles);
   }
 
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
@@ -183,7 +178,7 @@ class RegionMask {
       triangles.push_back(triangles_[position].corners);
     if (!in_few_planes(triangles)) return false;
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const auto special = special_cell(triangles, corners, count_corners(corners, grey));
+    const auto special = special_cell(triangles, corners, edge_count(corners, grey).all());
     if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
     tree.entries[place].kind = MaskEntry::Kind::kSpecial;
     tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
@@ -196,30 +191,45 @@ class RegionMask {
     entry.kind = MaskEntry::Kind::kCorners;
     entry.corners.fill(kUncounted);
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const std::array<std::int64_t, 8> winding = count_corners(corners, grey);
+    const EdgeCount count = edge_count(corners, grey);
+    const std::array<std::int64_t, 8> winding = count.all();
     const auto fits = [](std::int64_t number) {
-      return -kUncounted > number && number > kUncounted;
+      return -kListedTag > number && number > kListedTag;
     };
     if (!std::all_of(winding.begin(), winding.end(), fits)) return;
-    // Straight through the cell, past all edges; were it ever another number, the
-    // cell would be left to longer ways.
+    // Along other edges; were it ever another number, the cell would be left to longer ways.
     const bool agree =
-        winding[7] == winding[0] + count_crossings({corners[7], corners[0]}, grey.triangles);
+        winding[7] == winding[5] + count.rise(7, 5) && winding[7] == winding[3] + count.rise(7, 3);
     assert(agree);
     if (!agree) return;
     for (unsigned which = 0; which < 8; ++which)
       entry.corners[which] = static_cast<std::int8_t>(winding[which]);
+    list_blocks(grey.cell, tree, place);
+  }
+
+  // Where one bit a corner says the rest.
+  void list_blocks(const GridCell& cell, MaskTree& tree, std::size_t place) const {
+    MaskEntry& entry = tree.entries[place];
+    const auto [least, greatest] = std::minmax_element(entry.corners.begin(), entry.corners.end());
+    if (cell.level == kLevels || *greatest - *least > 1) return;
+    MaskBlocks blocks;
+    // A cell that the surface misses by less than rounding may have no octant that is touched.
+    if (!list_(cell, blocks) || blocks.count == 0) return;
+    entry.kind = MaskEntry::Kind::kListed;
+    entry.first = static_cast<std::uint32_t>(tree.lists.size());
+    tree.lists.push_back(blocks);
   }
 
   const ClippedGrid& grid_;
+  const ListBlocks& list_;
   std::vector<BoxedTriangle> triangles_;
 };
 
 }  // namespace
 
 MaskTree mask_of_region(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
-                        const Triangles& triangles) {
-  return RegionMask(grid, triangles).run(cell, winding);
+                        const Triangles& triangles, const ListBlocks& list) {
+  return RegionMask(grid, triangles, list).run(cell, winding);
 }
 
 }  // namespace planetree::octree

@@ -12,6 +12,7 @@
 #include "octree/build/build_files.h"
 #include "octree/build/build_identity.h"
 #include "octree/build/build_memory.h"
+#include "octree/build/built_tree.h"
 #include "octree/build/each_patch.h"
 #include "octree/build/edge_matching.h"
 #include "octree/build/mesh_size.h"
@@ -45,6 +46,7 @@ class TreeBuild {
     if (const auto looked = look_at_surface(); !looked) return looked.error();
     if (const auto cut = cut_out_part(); !cut) return cut.error();
     if (const auto built = build_patches(); !built) return built.error();
+    if (const auto numbered = number_pages(); !numbered) return numbered.error();
     if (const auto coloured = colour_cells(); !coloured) return coloured.error();
     part_.reset();
     whole_.reset();
@@ -72,6 +74,7 @@ class TreeBuild {
   Result<void> build_patches();
   void take_up_patches();
   Result<void> build(std::size_t number, Triangles& triangles);
+  Result<void> number_pages();
   Result<void> colour_cells();
   Result<BuildReport> write_pages();
   /// The triangles to be built.
@@ -94,6 +97,7 @@ class TreeBuild {
   std::optional<TriangleRuns> whole_;
   std::optional<TriangleRuns> part_;    // of it: what touches a region
   std::optional<MaskRegions> regions_;  // of a watertight model
+  std::optional<BuiltTree> tree_;
 };
 
 Result<void> TreeBuild::take_up_work() {
@@ -257,6 +261,12 @@ Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
   return {};
 }
 
+Result<void> TreeBuild::number_pages() {
+  tree_.emplace(model_.frame, model_.above, model_.patches, model_.shape, options_.page_bytes,
+                files_.pages());
+  return tree_->check();
+}
+
 // Only where winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
   if (!regions_) return {};
@@ -270,15 +280,14 @@ Result<void> TreeBuild::colour_cells() {
     if (kept) count.add();
     return kept;
   };
-  const auto built = model_.mask->build(*regions_, runs(), done);
+  const auto built = model_.mask->build(*regions_, runs(), &*tree_, done);
   regions_.reset();
   return built;
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
   writing_ = true;
-  const auto header =
-      write_tree(model_, files_.pages(), output_, options_, seams_.calls, progress_);
+  const auto header = write_tree(model_, *tree_, output_, options_, seams_.calls, progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
   return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_set_aside_text,

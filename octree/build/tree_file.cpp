@@ -1,9 +1,6 @@
 #include "octree/build/tree_file.h"
 
-#include "octree/build/crown.h"
 #include "octree/build/page_appender.h"
-#include "octree/build/page_numbers.h"
-#include "octree/build/tree_pages.h"
 #include "octree/strict_math.h"
 #include "storage/page_writer.h"
 
@@ -44,13 +41,11 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
   model.region_winding = built.cut.winding;
 }
 
-void describe_tree(const BuiltModel& built, const WideTree& crown, storage::ModelRecord& model) {
-  model.node_count = crown.nodes.size();
-  model.height = crown.nodes.empty() ? built.patches[0].height : crown.nodes[0].height;
-  for (const BuiltPatch& patch : built.patches) {
-    model.node_count += patch.node_count;
-    model.block_count += patch.block_count;
-  }
+void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::ModelRecord& model) {
+  model.node_count = tree.node_count();
+  model.block_count = tree.block_count();
+  model.height = static_cast<std::uint8_t>(tree.height());
+  model.root_link = tree.pages().root_link();
   if (!built.mask) return;
   model.mask_page_count = built.mask->size();
   model.mask_cell_count = built.mask->cell_count();
@@ -59,14 +54,11 @@ void describe_tree(const BuiltModel& built, const WideTree& crown, storage::Mode
 
 }  // namespace
 
-Result<storage::FileHeader> write_tree(const BuiltModel& built, const storage::SpillFile& spilled,
+Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree& tree,
                                        const std::filesystem::path& output,
                                        const BuildOptions& options, storage::FileCalls& calls,
                                        BuildProgress& progress) {
-  Crown crown = build_crown(built.above, built.patches, built.shape, options.page_bytes);
-  const PageNumbers numbers(crown, built.patches, options.page_bytes);
-  if (const auto checked = numbers.check(); !checked) return checked.error();
-  const TreePages pages(crown, built.patches, numbers, built.shape, spilled);
+  const TreePages& pages = tree.pages();
   const std::uint32_t mask_pages = built.mask ? built.mask->size() : 0;
   const std::uint32_t page_count = pages.size() + mask_pages;
   auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
@@ -82,8 +74,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const storage::S
   storage::ModelRecord model{};
   describe_mesh(built, model);
   describe_region(built, model);
-  describe_tree(built, crown.tree, model);
-  model.root_link = pages.root_link();
+  describe_tree(built, tree, model);
   return writer->finish(model, options.page_bytes);
 }
 

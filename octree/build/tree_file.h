@@ -8,6 +8,7 @@
 #include "octree/build/build_options.h"
 #include "octree/build/build_progress.h"
 #include "octree/build/built_mask.h"
+#include "octree/build/built_tree.h"
 #include "octree/build/edge_balance.h"
 #include "octree/build/model_frame.h"
 #include "octree/build/patch_build.h"
@@ -16,7 +17,6 @@
 #include "octree/frame.h"
 #include "planetree/error.h"
 #include "storage/file_layout.h"
-#include "storage/spill_file.h"
 
 namespace planetree::octree {
 
@@ -35,12 +35,12 @@ struct BuiltModel {
 
 /// Puts the parts together and writes the file, whole or not at all.
 ///
-/// pages    the patches' are in it.
+/// tree     of the model's patches.
 /// calls    the system.
 /// return   the header as written.
-/// errors   those of PageNumbers, SpillFile and PageWriter.
+/// errors   those of SpillFile and PageWriter.
 /// Uses the calling thread's TBB arena.
-Result<storage::FileHeader> write_tree(const BuiltModel& model, const storage::SpillFile& pages,
+Result<storage::FileHeader> write_tree(const BuiltModel& model, const BuiltTree& tree,
                                        const std::filesystem::path& output,
                                        const BuildOptions& options, storage::FileCalls& calls,
                                        BuildProgress& progress);

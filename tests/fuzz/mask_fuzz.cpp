@@ -44,6 +44,16 @@ bool decode(std::span<const std::byte> bytes, PageFacts facts, Frame& frame) {
   return static_cast<bool>(decode_mask_page(raw, facts, frame.bytes()));
 }
 
+void check(const MaskBlocks& blocks, const LinkFormat& links) {
+  if (blocks.count > kMostListed) std::abort();
+  for (unsigned i = 0; i < blocks.count; ++i) {
+    const std::uint32_t link = blocks.links[i];
+    if (!LinkFormat::is_leaf(link) || links.page(link) >= kFirstPage) std::abort();
+    if (i > 0 && blocks.links[i - 1] >= link) std::abort();
+    if (blocks.octants[i] == 0) std::abort();
+  }
+}
+
 void check(const MaskFinding& found, const Point& point, const MaskFacts& mask) {
   using Kind = MaskFinding::Kind;
   const auto fits = [](int number) { return -128 < number && number < 128; };
@@ -53,6 +63,9 @@ void check(const MaskFinding& found, const Point& point, const MaskFacts& mask) 
       !std::all_of(found.corners.begin(), found.corners.end(), fits))
     std::abort();
   if (found.on_surface && found.kind != Kind::kPlanes) std::abort();
+  check(found.blocks, LinkFormat(mask.page_bytes));
+  if (found.blocks.count > 0 && (found.kind != Kind::kCorners || found.cell.level == kLevels))
+    std::abort();
   const CellGrid grid(mask.lower);
   const Point upper = mask.lower + Point(2, 2, 2);
   const bool in_root =
@@ -66,7 +79,7 @@ void look_up_points(const MaskFacts& mask, Pages& pages) {
   const PageReader reader{&pages,
                           [](void* context, std::uint32_t page) noexcept -> const std::byte* {
                             const auto& both = *static_cast<Pages*>(context);
-                            if (page < kFirstPage) std::abort();
+                            if (page < kFirstPage || page >= kFirstPage + kPageCount) std::abort();
                             Frame* frame = page == kFirstPage ? both.first : both.other;
                             return frame ? frame->bytes().data() : nullptr;
                           }};

@@ -155,6 +155,9 @@ FormatStruct mask_page_head_fields() {
       .PLANETREE_FIELD(MaskPageHead, corners_count)
       .PLANETREE_FIELD(MaskPageHead, special_count)
       .PLANETREE_FIELD(MaskPageHead, plane_count)
+      .PLANETREE_FIELD(MaskPageHead, listed_count)
+      .PLANETREE_FIELD(MaskPageHead, block_link_count)
+      .PLANETREE_FIELD(MaskPageHead, reserved)
       .take();
 }
 

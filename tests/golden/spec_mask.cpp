@@ -1,5 +1,6 @@
 #include "tests/golden/spec_mask.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -13,20 +14,24 @@ struct Head {
   std::uint32_t page_number, ordinal;
   std::uint64_t octcode;
   std::uint16_t records, roots, nodes, page_links, plain, corners, special, planes;
+  std::uint16_t listed, block_links;
+  std::uint32_t reserved;
 };
-static_assert(sizeof(Head) == 32);
+static_assert(sizeof(Head) == 40);
 
 class MaskPageReader {
  public:
   MaskPageReader(std::span<const std::byte> raw, std::uint32_t number, const SpecHeader& header)
       : header_(header), number_(number), cutter_(raw) {
-    std::memcpy(&head_, cutter_.bytes(32).data(), 32);
+    std::memcpy(&head_, cutter_.bytes(40).data(), 40);
     require(head_.page_number == number, "another page");
+    require(head_.reserved == 0, "reserved bytes");
   }
 
   SpecMaskPage read() {
     cut();
-    const std::uint32_t slots = 8 + header_.page_bytes / 512 + head_.records + 9u * head_.planes;
+    std::uint32_t slots = 8 + header_.page_bytes / 512 + head_.records + 9u * head_.planes;
+    for (const unsigned count : block_counts_) slots += (count + 7) / 8 + (count + 1) / 2;
     require(slots <= header_.page_bytes / 8, "the records do not fit");
     SpecMaskPage page{head_.octcode, head_.ordinal, head_.roots, {}};
     next_family_ = head_.roots;
@@ -36,7 +41,7 @@ class MaskPageReader {
     }
     require(next_family_ == head_.records && node_ == head_.nodes && link_ == head_.page_links &&
                 plain_ == head_.plain && corners_ == head_.corners && special_ == head_.special &&
-                plane_ == head_.planes,
+                plane_ == head_.planes && listed_ == head_.listed && block_ == head_.block_links,
             "records do not add up");
     return page;
   }
@@ -53,24 +58,35 @@ class MaskPageReader {
     behind_ = cutter_.shuffled<std::int8_t>(head_.special);
     beyond_ = cutter_.shuffled<std::int8_t>(head_.special);
     coordinates_ = cutter_.either<float, double>(header_.float64, 9u * head_.planes);
+    least_ = cutter_.shuffled<std::int8_t>(head_.listed);
+    higher_ = cutter_.shuffled<std::uint8_t>(head_.listed);
+    block_counts_ = cutter_.shuffled<std::uint8_t>(head_.listed);
+    block_octants_ = cutter_.shuffled<std::uint8_t>(head_.block_links);
+    block_links_ = cutter_.shuffled<std::uint32_t>(head_.block_links);
     require(cutter_.empty(), "the page is too long");
   }
 
   SpecMaskRecord read_record(unsigned kind) {
     SpecMaskRecord record;
     record.kind = kind;
-    require(kind <= 4, "kind of a record");
+    require(kind <= 5, "kind of a record");
     if (kind < 2) read_node(record);
     if (kind == 2) {
       const unsigned bits = corner_bits_.at(plain_++);
       for (unsigned i = 0; i < 8; ++i) record.corners[i] = static_cast<int>(bits >> i & 1);
     }
-    if (kind == 3) {
-      for (unsigned i = 0; i < 8; ++i) record.corners[i] = corner_numbers_.at(8 * corners_ + i);
-      ++corners_;
-    }
+    if (kind == 3) read_corners(record);
     if (kind == 4) read_special(record);
+    if (kind == 5) read_listed(record);
     return record;
+  }
+
+  void read_corners(SpecMaskRecord& record) {
+    for (unsigned i = 0; i < 8; ++i) record.corners[i] = corner_numbers_.at(8 * corners_ + i);
+    ++corners_;
+    const auto least = std::ranges::min(record.corners),
+               greatest = std::ranges::max(record.corners);
+    require(least >= -126 || greatest == -128, "numbers of corners");
   }
 
   void read_node(SpecMaskRecord& record) {
@@ -108,17 +124,36 @@ class MaskPageReader {
     }
   }
 
+  void read_listed(SpecMaskRecord& record) {
+    const int least = least_.at(listed_);
+    require(least >= -126 && least <= 126, "numbers of corners");
+    for (unsigned i = 0; i < 8; ++i)
+      record.corners[i] = least + static_cast<int>(higher_.at(listed_) >> i & 1);
+    const unsigned count = block_counts_.at(listed_++);
+    require(count >= 1 && count <= 16, "blocks of a list");
+    for (unsigned i = 0; i < count; ++i, ++block_) {
+      const SpecListedBlock block{block_octants_.at(block_), block_links_.at(block_)};
+      require(block.octants != 0, "a block that touches nothing");
+      require(block.link >> 31 == 1, "a list of nodes");
+      require((block.link & 0x7fffffff) / (header_.page_bytes / 64) < header_.d(), "a list's page");
+      require(i == 0 || record.blocks.back().link < block.link, "order of a list");
+      record.blocks.push_back(block);
+    }
+  }
+
   const SpecHeader& header_;
   std::uint32_t number_;
   StreamCutter cutter_;
   Head head_{};
   std::vector<std::uint8_t> kinds_, corner_bits_, plane_counts_;
+  std::vector<std::uint8_t> higher_, block_counts_, block_octants_;
   std::array<std::vector<std::uint8_t>, 4> masks_;
-  std::vector<std::uint32_t> page_links_;
-  std::vector<std::int8_t> corner_numbers_, behind_, beyond_;
+  std::vector<std::uint32_t> page_links_, block_links_;
+  std::vector<std::int8_t> corner_numbers_, behind_, beyond_, least_;
   std::vector<double> coordinates_;
   std::size_t next_family_ = 0;
   std::size_t node_ = 0, link_ = 0, plain_ = 0, corners_ = 0, special_ = 0, plane_ = 0;
+  std::size_t listed_ = 0, block_ = 0;
 };
 
 }  // namespace

@@ -21,6 +21,12 @@ struct SpecCell {
 
 using SpecPlane = std::array<SpecPoint, 3>;
 
+/// Of a listed leaf.
+struct SpecListedBlock {
+  unsigned octants;
+  std::uint32_t link;  ///< to a SpecBlock
+};
+
 /// A grey cell.
 struct SpecMaskRecord {
   unsigned kind = 0;
@@ -29,8 +35,11 @@ struct SpecMaskRecord {
   std::array<int, 8> corners{};
   int behind = 0, beyond = 0;
   std::vector<SpecPlane> planes;
+  std::vector<SpecListedBlock> blocks;
 
   bool is_node() const { return kind < 2; }
+  /// What may be -128: not stated.
+  bool has_corners() const { return kind == 2 || kind == 3 || kind == 5; }
 };
 
 struct SpecMaskPage {

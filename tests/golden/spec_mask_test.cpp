@@ -75,7 +75,8 @@ TEST(SpecMaskSamples, AreOfEveryWatertightMesh) {
   }
 }
 
-TEST(SpecMaskSamples, HaveRecordsOfAllKinds) {
+// Plain leaves are where many blocks meet: see spec_lists_test.cpp.
+TEST(SpecMaskSamples, HaveRecordsOfAllKindsButPlainLeaves) {
   std::set<unsigned> kinds;
   unsigned inverted = 0;
   for (const Sample& sample : watertight_samples())
@@ -84,7 +85,7 @@ TEST(SpecMaskSamples, HaveRecordsOfAllKinds) {
           kinds.insert(record.kind);
           inverted |= record.inverted;
         });
-  EXPECT_EQ(kinds, (std::set<unsigned>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(kinds, (std::set<unsigned>{0, 1, 3, 4, 5}));
   EXPECT_NE(inverted, 0u);
 }
 
@@ -152,7 +153,7 @@ TEST_P(SpecMasks, ColoursAreWindingNumbers) {
 TEST_P(SpecMasks, CornersAreWindingNumbers) {
   std::size_t told = 0;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
-    if (record.kind != 2 && record.kind != 3) return;
+    if (!record.has_corners()) return;
     for (unsigned i = 0; i < 8; ++i) {
       const auto number = winding(mask_.corner(cell, i));
       if (!number) continue;

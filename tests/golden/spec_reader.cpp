@@ -79,7 +79,7 @@ SpecHeader read_header(Bytes header) {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 5, "another version");
+  require(get<std::uint16_t>(header, 8) == 6, "another version");
   require(get<std::uint16_t>(header, 10) == 576, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");

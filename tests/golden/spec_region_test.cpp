@@ -133,7 +133,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
         EXPECT_EQ(*number > 0, (record.black >> i & 1) != 0);
         EXPECT_EQ(*number < 0, (record.inverted >> i & 1) != 0);
         ++colours;
-      } else if (record.kind == 2 || record.kind == 3) {
+      } else if (record.has_corners()) {
         const auto number = winding(mask_.corner(cell, i));
         if (!number) continue;
         EXPECT_EQ(record.corners[i], *number);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/octree/random_mask.h"
 #include "tests/octree/sample_mask.h"
 
 namespace planetree::octree {
@@ -51,12 +52,12 @@ class ColourMapTest : public testing::Test {
 
 TEST_F(ColourMapTest, SaysWhatTheMaskSays) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
-    MaskPages pages(random_mask(10), page_bytes, 3);
+    MaskPages pages(random_mask(10), page_bytes, kRandomMaskPage);
     for (const std::size_t bytes : {std::size_t{64}, std::size_t{5000}, kMany}) {
       const ColourMap map = map_of(pages, bytes);
       std::size_t known = 0;
       for (const Point& point : points(4000)) {
-        const int winding = map.winding(point);
+        const int winding = map.look(point).winding;
         if (winding == ColourMap::kUnknown) continue;
         ++known;
         const MaskFinding found = look(pages, point);
@@ -69,7 +70,7 @@ TEST_F(ColourMapTest, SaysWhatTheMaskSays) {
 }
 
 TEST_F(ColourMapTest, KnowsAllColoursDownToItsCells) {
-  MaskPages pages(random_mask(6), 1 << 20);
+  MaskPages pages(random_mask(6), 1 << 20, kRandomMaskPage);
   ASSERT_EQ(pages.size(), 1u);
   const ColourMap map = map_of(pages, kMany);
   std::size_t known = 0;
@@ -80,10 +81,10 @@ TEST_F(ColourMapTest, KnowsAllColoursDownToItsCells) {
     const MaskFinding found = look(pages, point);
     if (found.kind != MaskFinding::Kind::kColour) continue;
     ++known;
-    if (map.winding(point) == ColourMap::kUnknown)
+    if (map.look(point).winding == ColourMap::kUnknown)
       unknown.insert(found.winding);
     else
-      ASSERT_EQ(map.winding(point), found.winding) << point.transpose();
+      ASSERT_EQ(map.look(point).winding, found.winding) << point.transpose();
   }
   EXPECT_GT(known, 500u);
   // Insides of one sign alone: both in one model are rare.
@@ -92,7 +93,7 @@ TEST_F(ColourMapTest, KnowsAllColoursDownToItsCells) {
 }
 
 TEST_F(ColourMapTest, TurnsSomePagesAndNoMore) {
-  MaskPages pages(random_mask(10), 4096, 3);
+  MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   ASSERT_GT(pages.size(), 2u);
   map_of(pages, kMany);
   const std::vector<std::uint32_t> asked = pages.take_asked();
@@ -102,36 +103,57 @@ TEST_F(ColourMapTest, TurnsSomePagesAndNoMore) {
 }
 
 TEST_F(ColourMapTest, KnowsNothingWithoutTheFirstPage) {
-  MaskPages pages(random_mask(10), 4096, 3);
+  MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   pages.withhold(0);
   const ColourMap map = map_of(pages, kMany);
-  for (const Point& point : points(100)) EXPECT_EQ(map.winding(point), ColourMap::kUnknown);
+  for (const Point& point : points(100)) EXPECT_EQ(map.look(point).winding, ColourMap::kUnknown);
+}
+
+TEST_F(ColourMapTest, SaysNothingWrongWithoutAnotherPage) {
+  MaskPages whole(random_mask(10), 4096, kRandomMaskPage);
+  const std::uint32_t count = whole.mask(lower_).page_count;
+  ASSERT_GT(count, 10u);
+  for (std::uint32_t page = 1; page < count; page += 3) {
+    MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
+    pages.withhold(page);
+    const ColourMap map = map_of(pages, kMany);
+    for (const Point& point : points(100)) {
+      const int winding = map.look(point).winding;
+      if (winding != ColourMap::kUnknown) {
+        ASSERT_EQ(winding, look(whole, point).winding) << page;
+      }
+    }
+  }
 }
 
 TEST_F(ColourMapTest, IsWhiteAroundItsCells) {
-  MaskPages pages(random_mask(10), 4096, 3);
+  MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   const ColourMap map = map_of(pages, kMany);
   for (unsigned axis = 0; axis < 3; ++axis)
-    for (const double off : {-1e-9, 2.0, 1e300, -1e300}) {
+    for (const double off : {-1e-6, 2.0, 1e300, -1e300}) {
       Point point = lower_ + size_ / 2;
       point[axis] = lower_[axis] + off;
-      EXPECT_EQ(map.winding(point), 0) << axis << " " << off;
-      EXPECT_EQ(map.spot(point).record, nullptr);
+      EXPECT_EQ(map.look(point).winding, 0) << axis << " " << off;
+      EXPECT_EQ(map.look(point).record, nullptr);
     }
+  // So near that rounding may tell another cell, there is nothing.
+  const Point beside = lower_ - Point::Constant(1e-9);
+  EXPECT_NE(std::abs(map.look(beside).winding), 1);
+  EXPECT_EQ(map.look(beside).record, nullptr);
 }
 
 TEST_F(ColourMapTest, KnowsNothingUnlessFilled) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const double at : {0.0, -1e300, 1e300, kNaN}) {
-    EXPECT_EQ(ColourMap().winding(Point::Constant(at)), ColourMap::kUnknown) << at;
-    EXPECT_EQ(ColourMap().spot(Point::Constant(at)).record, nullptr);
+    EXPECT_EQ(ColourMap().look(Point::Constant(at)).winding, ColourMap::kUnknown) << at;
+    EXPECT_EQ(ColourMap().look(Point::Constant(at)).record, nullptr);
   }
 }
 
 // On a side between two cells, and an ulp beside it, which cell a point is in is a matter of
 // rounding: the map says what the mask says, or nothing. From far away sides are coarse.
 TEST_F(ColourMapTest, SaysWhatTheMaskSaysBesideSides) {
-  MaskPages pages(random_mask(10), 65536, 3);
+  MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   for (const double far : {1.0 / 3, 1e6 + 1.0 / 3, 1e12}) {
     const Point lower = lower_ + Point::Constant(far);
     ColourMap map;
@@ -147,7 +169,7 @@ TEST_F(ColourMapTest, SaysWhatTheMaskSaysBesideSides) {
       Point point = lower + step;
       if (i % 2 != 0) point[axis] = std::nextafter(point[axis], i % 4 == 1 ? -1e300 : 1e300);
       if ((point.array() < lower.array()).any()) continue;
-      const int winding = map.winding(point);
+      const int winding = map.look(point).winding;
       if (winding == ColourMap::kUnknown) continue;
       ++known;
       TreeWork work;
@@ -161,13 +183,13 @@ TEST_F(ColourMapTest, SaysWhatTheMaskSaysBesideSides) {
 }
 
 TEST_F(ColourMapTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
-  MaskPages pages(random_mask(10), 4096, 3);
+  MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double side : {2.1, -0.1, 8589934591.0, 1e300, kInfinity, kInfinity - kInfinity}) {
     ColourMap map;
     memory_.resize(kMany);
     map.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), pages.reader(), memory_);
-    EXPECT_EQ(map.winding(lower_ + size_ / 2), ColourMap::kUnknown) << side;
+    EXPECT_EQ(map.look(lower_ + size_ / 2).winding, ColourMap::kUnknown) << side;
   }
   EXPECT_TRUE(pages.take_asked().empty());
 }
@@ -175,23 +197,32 @@ TEST_F(ColourMapTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
 // Whatever a lookup begins with, it finds the same.
 TEST_F(ColourMapTest, SparesPagesOnTheWayToTheSameCell) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
-    MaskPages pages(random_mask(10), page_bytes, 3);
+    MaskPages pages(random_mask(10), page_bytes, kRandomMaskPage);
     TreeWork from_root, from_map;
+    std::size_t leaves = 0;
     for (const std::size_t bytes : {std::size_t{64}, std::size_t{5000}, kMany}) {
       const ColourMap map = map_of(pages, bytes);
       for (const Point& point : points(4000)) {
         const MaskFacts mask = pages.mask(lower_);
         const MaskFinding expected = look_up(mask, point, 100, pages.reader(), from_root);
-        const MaskFinding found = look_up(mask, map, point, 100, pages.reader(), from_map);
+        const ColourMap::Spot spot = map.look(point);
+        const std::uint64_t turns = from_map.page_turns;
+        const MaskFinding found = look_up(mask, spot, point, 100, pages.reader(), from_map);
+        if (spot.record && ColourMap::is_leaf(*spot.record)) {
+          ++leaves;
+          ASSERT_LE(from_map.page_turns, turns + 1);
+        }
         ASSERT_EQ(found.kind, expected.kind) << point.transpose();
         ASSERT_EQ(found.winding, expected.winding);
         ASSERT_EQ(found.on_surface, expected.on_surface);
         ASSERT_EQ(found.corners, expected.corners);
+        ASSERT_TRUE(same(found.blocks, expected.blocks));
         ASSERT_EQ(found.cell.level, expected.cell.level);
         ASSERT_EQ(found.cell.at, expected.cell.at);
       }
     }
-    EXPECT_LT(from_map.page_turns, from_root.page_turns * 9 / 10);
+    EXPECT_GT(leaves, 500u);
+    EXPECT_LT(from_map.page_turns, from_root.page_turns * 19 / 20);
     EXPECT_LT(from_map.nodes, from_root.nodes * 9 / 10);
   }
 }

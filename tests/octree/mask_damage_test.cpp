@@ -5,6 +5,7 @@
 #include "octree/mask_decoder.h"
 #include "octree/mask_lookup.h"
 #include "octree/mask_streams.h"
+#include "tests/octree/random_mask.h"
 #include "tests/octree/sample_mask.h"
 
 // Mask pages of any bits at all: refused, or harmless.
@@ -13,7 +14,20 @@ namespace {
 
 class MaskDamage : public testing::TestWithParam<bool> {
  protected:
-  MaskDamage() : pages_(random_mask(10), 4096, 5, GetParam()) {}
+  MaskDamage() : pages_(random_mask(10), 4096, kRandomMaskPage, GetParam()) {}
+
+  // Whoever asks for blocks goes by this.
+  static void expect_list(const MaskFinding& found) {
+    const MaskBlocks& blocks = found.blocks;
+    ASSERT_LE(blocks.count, kMostListed);
+    for (unsigned i = 0; i < blocks.count; ++i) {
+      EXPECT_NE(blocks.octants[i], 0);
+      EXPECT_TRUE(LinkFormat::is_leaf(blocks.links[i]));
+      EXPECT_LT(LinkFormat(4096).page(blocks.links[i]), kRandomMaskPage);
+      EXPECT_TRUE(i == 0 || blocks.links[i - 1] < blocks.links[i]);
+    }
+    EXPECT_NE(found.corners[0], kListedTag);
+  }
 
   MaskPages pages_;
 };
@@ -67,7 +81,7 @@ TEST_P(MaskDamage, SurvivesAnyBit) {
       PageReader others;
       std::uint32_t number;
       const std::byte* frame;
-    } changed{pages_.reader(), 5 + page, frame.data()};
+    } changed{pages_.reader(), kRandomMaskPage + page, frame.data()};
     const PageReader reader{
         &changed, [](void* context, std::uint32_t number) noexcept -> const std::byte* {
           const auto& pages = *static_cast<Changed*>(context);
@@ -77,8 +91,10 @@ TEST_P(MaskDamage, SurvivesAnyBit) {
     for (int k = 0; k < 20; ++k) {
       const Vec3 p = noise.point(0, 2);
       TreeWork work;
-      look_up(pages_.mask(Point::Zero()), {p.x, p.y, p.z}, 100, reader, work);
+      const MaskFinding found =
+          look_up(pages_.mask(Point::Zero()), {p.x, p.y, p.z}, 100, reader, work);
       EXPECT_LE(work.nodes, kLevels);
+      expect_list(found);
     }
   }
   EXPECT_GT(refused, 100);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "tests/octree/random_mask.h"
 #include "tests/octree/sample_mask.h"
 
 namespace planetree::octree {
@@ -20,7 +21,7 @@ struct Way {
   bool colour = false;
   int winding = 0;
   std::size_t nodes(const MaskTree& tree) const {
-    return entries.size() - (tree.entries[entries.back()].kind != Kind::kNode);
+    return entries.size() - tree.entries[entries.back()].is_leaf();
   }
 };
 
@@ -67,6 +68,7 @@ void expect_same(const MaskFinding& found, const Way& way, const MaskTree& tree)
   if (way.colour) {
     EXPECT_EQ(found.kind, Found::kColour);
     EXPECT_EQ(found.winding, way.winding);
+    EXPECT_EQ(found.blocks.count, 0u);
   } else if (entry.kind == Kind::kSpecial) {
     const SpecialCell& special = tree.specials[entry.first];
     EXPECT_EQ(found.kind, Found::kPlanes);
@@ -75,13 +77,17 @@ void expect_same(const MaskFinding& found, const Way& way, const MaskTree& tree)
     EXPECT_EQ(found.kind, Found::kNothing);
   } else {
     EXPECT_EQ(found.kind, Found::kCorners);
-    EXPECT_EQ(found.corners, entry.corners);
+    const bool listed = entry.kind == Kind::kListed;
+    for (unsigned corner = 0; corner < 8; ++corner)
+      EXPECT_EQ(listed ? corner_of(found.listed, corner) : found.corners[corner],
+                entry.corners[corner]);
+    EXPECT_TRUE(same(found.blocks, listed ? tree.lists[entry.first] : MaskBlocks{}));
   }
 }
 
 class MaskLookup : public testing::Test {
  protected:
-  MaskLookup() : tree_(random_mask(10)), grid_(lower_), pages_(tree_, 4096, 3) {}
+  MaskLookup() : tree_(random_mask(10)), grid_(lower_), pages_(tree_, 4096, kRandomMaskPage) {}
 
   MaskFinding find(const Point& point, std::uint64_t max_nodes = ~std::uint64_t{0}) {
     work_ = {};
@@ -111,19 +117,23 @@ class MaskLookup : public testing::Test {
 };
 
 TEST_F(MaskLookup, FindsTheCellOfEveryPoint) {
+  std::size_t listed = 0;
   for (const Point& point : points_in(lower_, 4000)) {
     const Way way = way_of(tree_, grid_, point);
-    expect_same(find(point), way, tree_);
+    const MaskFinding found = find(point);
+    expect_same(found, way, tree_);
+    listed += found.blocks.count > 0;
     EXPECT_EQ(work_.nodes, way.nodes(tree_));
     EXPECT_LE(work_.nodes, tree_.levels);
     EXPECT_EQ(work_.blocks, 0u);
     ASSERT_FALSE(HasFailure()) << point.transpose();
   }
+  EXPECT_GT(listed, 100u);
 }
 
 TEST_F(MaskLookup, ReadsOnlyPagesOnItsWay) {
   std::size_t most = 0;
-  for (const Point& point : points_in(lower_, 500)) {
+  for (const Point& point : points_in(lower_, 3000)) {
     find(point);
     const std::vector<std::uint32_t> asked = pages_.take_asked();
     ASSERT_EQ(asked, pages_of(way_of(tree_, grid_, point))) << point.transpose();
@@ -180,6 +190,29 @@ TEST_F(MaskLookup, KnowsNothingWithoutAMask) {
   none.page_count = 0;
   EXPECT_EQ(look_up(none, lower_, 100, pages_.reader(), work_).kind, MaskFinding::Kind::kNothing);
   EXPECT_TRUE(pages_.take_asked().empty());
+}
+
+// Their octants have no number.
+TEST(MaskLookupOfLists, TakesNoneOfTheFinestCells) {
+  MaskTree tree;
+  tree.entries.resize(1);
+  for (unsigned level = 0; level < kLevels; ++level) {
+    const bool last = level + 1 == kLevels;
+    MaskEntry& node = tree.entries.back();
+    node = {.grey = 1, .leaf = static_cast<std::uint8_t>(last ? 1 : 0)};
+    node.first = static_cast<std::uint32_t>(tree.entries.size());
+    tree.entries.emplace_back();
+  }
+  tree.entries.back().kind = Kind::kListed;
+  tree.entries.back().corners = {4, 5, 5, 4, 4, 4, 4, 5};
+  tree.lists.push_back({1, {0xff}, {LinkFormat::kLeafBit}});
+  MaskPages pages(tree, 4096, kRandomMaskPage);
+  TreeWork work;
+  const MaskFinding found =
+      look_up(pages.mask(Point::Zero()), Point::Zero(), 100, pages.reader(), work);
+  EXPECT_EQ(found.cell.level, kLevels);
+  EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
+  EXPECT_EQ(found.blocks.count, 0u);
 }
 
 // A node in one page may say of another page what is not so.

@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <set>
 #include <string>
 
 #include "octree/build/mask_encoder.h"
 #include "octree/mask_decoder.h"
+#include "tests/octree/random_mask.h"
 #include "tests/octree/sample_mask.h"
 
 // Masks through their pages and back: planned, encoded, decoded.
@@ -34,6 +36,7 @@ class FrameWalk {
       EXPECT_EQ(is_node(frame(step), step.slot), entry.kind == Kind::kNode);
       if (entry.kind == Kind::kCorners) look_at_corners(step, entry);
       if (entry.kind == Kind::kSpecial) look_at_special(step, tree_.specials[entry.first]);
+      if (entry.kind == Kind::kListed) look_at_listed(step, entry);
       if (entry.kind == Kind::kNode) look_at_node(step, entry, queue);
     }
     EXPECT_EQ(visited_.size(), tree_.entries.size());
@@ -55,6 +58,24 @@ class FrameWalk {
     const auto& corners = *reinterpret_cast<const MaskCorners*>(slot_of(frame(step), step.slot));
     EXPECT_EQ(corners, entry.corners);
     EXPECT_FALSE(is_special(corners));
+    EXPECT_FALSE(is_listed(corners));
+  }
+
+  void look_at_listed(const Step& step, const MaskEntry& entry) {
+    const std::byte* record = slot_of(frame(step), step.slot);
+    const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
+    EXPECT_TRUE(is_listed(corners));
+    EXPECT_FALSE(is_special(corners));
+    const auto& found = *reinterpret_cast<const MaskListed*>(record);
+    for (unsigned i = 0; i < 8; ++i)
+      EXPECT_EQ(found.least + (found.higher >> i & 1), entry.corners[i]);
+    MaskBlocks blocks;
+    blocks.count = found.block_count;
+    const std::byte* list = slot_of(frame(step), found.list_slot);
+    std::memcpy(blocks.octants.data(), list, blocks.count);
+    list += list_octant_slots(blocks.count) * kMaskSlotBytes;
+    std::memcpy(blocks.links.data(), list, blocks.count * sizeof blocks.links[0]);
+    EXPECT_TRUE(same(blocks, tree_.lists[entry.first]));
   }
 
   void look_at_special(const Step& step, const SpecialCell& special) {
@@ -120,6 +141,7 @@ unsigned levels_of_pages(const std::map<std::uint32_t, std::set<std::uint32_t>>&
 TEST(MaskPagesTest, HoldEveryEntryAtEveryPageSize) {
   const MaskTree tree = random_mask(10);
   ASSERT_GT(tree.entries.size(), 20000u);
+  ASSERT_GT(tree.lists.size(), 500u);
   bool float64 = false;
   for (const std::uint32_t page_bytes : page_sizes()) {
     SCOPED_TRACE(std::to_string(page_bytes));
@@ -152,13 +174,16 @@ TEST(MaskPagesTest, HoldEveryEntryAtEveryPageSize) {
 TEST(MaskPagesTest, AreFilled) {
   const MaskTree tree = random_mask(10);
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
-    const MaskPages pages(tree, page_bytes);
+    const MaskPages pages(tree, page_bytes, kRandomMaskPage);
     std::size_t used = 0;
     for (std::uint32_t page = 0; page < pages.size(); ++page)
-      for (const std::uint32_t at : pages.plan().pages[page].entries)
-        used += tree.entries[at].kind == Kind::kSpecial
-                    ? 1 + kPlaneSlots * tree.specials[tree.entries[at].first].plane_count
-                    : 1;
+      for (const std::uint32_t at : pages.plan().pages[page].entries) {
+        const MaskEntry& entry = tree.entries[at];
+        used += 1;
+        if (entry.kind == Kind::kSpecial)
+          used += kPlaneSlots * tree.specials[entry.first].plane_count;
+        if (entry.kind == Kind::kListed) used += list_slots(tree.lists[entry.first].count);
+      }
     EXPECT_GT(10 * used * kMaskSlotBytes, 6u * pages.size() * page_bytes);
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/octree/each_block.h"
 #include "tests/octree/sample_tree.h"
 
 namespace planetree::octree {
@@ -11,23 +12,16 @@ namespace {
 
 // Calls check(block) for every block of a model.
 template <class Check>
-void each_block(const Soup& soup, const Check& check) {
+void each_block_of(const Soup& soup, const Check& check) {
   const SampleTree sample = build_sample(soup);
-  const SamplePages pages(sample);
-  for (std::uint32_t page = 0; page < pages.size(); ++page) {
-    const SampleFrame& frame = pages.frame(page);
-    const FrameHeader& header = frame.header();
-    const auto* starts = reinterpret_cast<const std::uint64_t*>(frame.data() + kSlotBytes);
-    for (std::uint32_t slot = header.first_block_slot; slot < 4096 / kSlotBytes; ++slot)
-      if ((starts[slot / 64] >> slot % 64 & 1) != 0)
-        check(BlockView(frame.data() + slot * kSlotBytes, sample.shape));
-  }
+  each_block(sample, SamplePages(sample),
+             [&](const BlockView& block, std::uint32_t) { check(block); });
 }
 
 // The box of one vertex, and of a point as near to it as double can name.
 TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
   for (const Soup& soup : {sphere(4), scattered(500, 0.05)})
-    each_block(soup, [&](const BlockView& block) {
+    each_block_of(soup, [&](const BlockView& block) {
       const Point vertex = block.vertex(block.header().corner[1][0]);
       const unsigned within = Outcodes(vertex, vertex).with_corner_within(block);
       EXPECT_EQ(within >> block.triangle_count(), 0u);
@@ -41,7 +35,7 @@ TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
 
 // Coordinates between floats are rounded away from the box, never into it.
 TEST(Outcodes, LeaveNothingOutThatIsInTheBox) {
-  each_block(sphere(4), [&](const BlockView& block) {
+  each_block_of(sphere(4), [&](const BlockView& block) {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       const Point vertex = block.triangle(i)[0];
       const Point nudge = Point::Constant(1e-12);

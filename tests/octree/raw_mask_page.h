@@ -23,6 +23,9 @@ struct RawMaskPage {
   std::vector<std::uint8_t> plane_counts;
   std::vector<std::int8_t> behind, beyond;
   std::vector<double> planes;
+  std::vector<std::int8_t> least;
+  std::vector<std::uint8_t> higher, block_counts, block_octants;
+  std::vector<std::uint32_t> block_links;
   bool float64 = false;
 
   /// `raw` must be a page that can be cut.
@@ -42,6 +45,11 @@ struct RawMaskPage {
                      list(s.behind),
                      list(s.beyond),
                      {},
+                     list(s.least),
+                     list(s.higher),
+                     list(s.block_counts),
+                     list(s.block_octants),
+                     list(s.block_links),
                      float64};
     for (std::size_t i = 0; i < std::size_t{9} * s.head.plane_count; ++i)
       page.planes.push_back(s.plane_coordinate(i));
@@ -66,6 +74,11 @@ struct RawMaskPage {
       writer.shuffled(planes);
     else
       writer.shuffled(std::vector<float>(planes.begin(), planes.end()));
+    writer.shuffled(least);
+    writer.shuffled(higher);
+    writer.shuffled(block_counts);
+    writer.shuffled(block_octants);
+    writer.shuffled(block_links);
     return writer.take();
   }
 };

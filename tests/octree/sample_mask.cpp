@@ -1,7 +1,6 @@
 #include "tests/octree/sample_mask.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -37,72 +36,6 @@ void add_face(const Vec3& l, const Vec3& u, unsigned axis, double at, unsigned s
       soup.push_back({place(m, n), place(m + 1, n + 1), place(m, n + 1)});
     }
 }
-
-/// Entries by chance, as build_mask() lays them out.
-class RandomMask {
- public:
-  RandomMask(unsigned levels, std::uint64_t seed) : levels_(levels), noise_(seed) {}
-
-  MaskTree take() {
-    tree_.entries.resize(1);
-    grow(0, 0);
-    return std::move(tree_);
-  }
-
- private:
-  std::int8_t number() { return static_cast<std::int8_t>(noise_.bits() % 255 - 127); }
-
-  void grow(std::uint32_t place, unsigned level) {
-    tree_.levels = std::max(tree_.levels, level);
-    MaskEntry entry;
-    const unsigned chance = noise_.bits() % 16;
-    if (level > 1 && (level == levels_ || chance < 9)) {
-      make_leaf(chance, entry);
-      tree_.entries[place] = entry;
-      return;
-    }
-    entry.grey = static_cast<std::uint8_t>(noise_.bits() | noise_.bits());
-    if (chance == 15 && level > 1) entry.grey = 0;
-    if (level < 2) entry.grey |= 0x81;
-    entry.black = static_cast<std::uint8_t>(noise_.bits() & ~unsigned{entry.grey});
-    entry.inverted =
-        static_cast<std::uint8_t>(noise_.bits() & ~unsigned{entry.grey} & ~unsigned{entry.black});
-    entry.first = static_cast<std::uint32_t>(tree_.entries.size());
-    tree_.entries.resize(entry.first + static_cast<unsigned>(std::popcount(entry.grey)));
-    std::uint32_t child = entry.first;
-    for (unsigned octant = 0; octant < 8; ++octant) {
-      if ((entry.grey >> octant & 1) == 0) continue;
-      grow(child, level + 1);
-      if (tree_.entries[child++].kind != MaskEntry::Kind::kNode)
-        entry.leaf |= static_cast<std::uint8_t>(1u << octant);
-    }
-    tree_.entries[place] = entry;
-  }
-
-  void make_leaf(unsigned chance, MaskEntry& entry) {
-    entry.kind = MaskEntry::Kind::kCorners;
-    for (std::int8_t& corner : entry.corners)
-      corner = chance < 5 ? static_cast<std::int8_t>(noise_.bits() % 2) : number();
-    if (chance == 5) entry.corners.fill(kUncounted);
-    if (chance < 7) return;
-    entry.kind = MaskEntry::Kind::kSpecial;
-    entry.first = static_cast<std::uint32_t>(tree_.specials.size());
-    SpecialCell special;
-    special.plane_count = 1 + noise_.bits() % kMaxPlanes;
-    special.behind = number();
-    special.beyond = special.behind == 127 ? -127 : special.behind + 1;
-    for (unsigned i = 0; i < special.plane_count; ++i)
-      for (Point& corner : special.planes[i]) {
-        const Vec3 at = noise_.point(0, 2);
-        corner = {at.x, at.y, at.z};
-      }
-    tree_.specials.push_back(special);
-  }
-
-  const unsigned levels_;
-  Noise noise_;
-  MaskTree tree_;
-};
 
 }  // namespace
 
@@ -229,10 +162,6 @@ void each_entry(const MaskTree& tree,
     for (unsigned octant = 0; octant < 8; ++octant)
       if ((entry.grey >> octant & 1) != 0) queue.emplace_back(cell.child(octant), child++);
   }
-}
-
-MaskTree random_mask(unsigned levels, std::uint64_t seed) {
-  return RandomMask(levels, seed).take();
 }
 
 SampleMask::SampleMask(const Soup& soup)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -53,11 +54,6 @@ class Surface {
 void each_entry(const MaskTree& tree,
                 const std::function<void(const GridCell&, std::uint32_t entry)>& look);
 
-/// A mask of no model: entries of all kinds by chance.
-///
-/// levels  of the finest grey cell.
-MaskTree random_mask(unsigned levels, std::uint64_t seed = 1);
-
 /// The mask of a soup that is watertight.
 struct SampleMask {
   explicit SampleMask(const Soup& soup);
@@ -98,6 +94,12 @@ class MaskPages {
   std::vector<bool> withheld_;
   std::vector<std::uint32_t> asked_;
 };
+
+inline bool same(const MaskBlocks& a, const MaskBlocks& b) {
+  return a.count == b.count &&
+         std::equal(a.links.begin(), a.links.begin() + a.count, b.links.begin()) &&
+         std::equal(a.octants.begin(), a.octants.begin() + a.count, b.octants.begin());
+}
 
 /// What a frame of a mask page holds.
 inline const MaskHeader& header_of(const SampleFrame& frame) {

@@ -100,16 +100,19 @@ std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_
 void put_in(MaskTree& whole, std::size_t place, MaskTree part) {
   const auto moved = static_cast<std::uint32_t>(whole.entries.size() - 1);
   const auto specials = static_cast<std::uint32_t>(whole.specials.size());
+  const auto lists = static_cast<std::uint32_t>(whole.lists.size());
   for (MaskEntry& entry : part.entries) {
     if (entry.kind == MaskEntry::Kind::kNode) entry.first += moved;
     if (entry.kind == MaskEntry::Kind::kSpecial) entry.first += specials;
+    if (entry.kind == MaskEntry::Kind::kListed) entry.first += lists;
   }
   whole.entries[place] = part.entries.front();
   whole.entries.insert(whole.entries.end(), part.entries.begin() + 1, part.entries.end());
   whole.specials.insert(whole.specials.end(), part.specials.begin(), part.specials.end());
+  whole.lists.insert(whole.lists.end(), part.lists.begin(), part.lists.end());
 }
 
-MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most) {
+MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most, const BuiltTree* tree) {
   const auto runs = runs_of(mesh);
   RegionCut cut(mesh.frame.lower(), mesh.frame.upper(), {}, nullptr);
   if (!cut.add(mesh)) std::abort();
@@ -119,7 +122,7 @@ MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most) {
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;
   MaskTree whole = *build_mask(
-      regions, *runs, [](std::size_t) { return nullptr; },
+      regions, *runs, tree, [](std::size_t) { return nullptr; },
       [&](std::size_t at, const MaskTree& part, const RegionRoot&) -> Result<void> {
         const std::lock_guard lock(mutex);
         parts[at] = part;

@@ -76,7 +76,9 @@ storage::SpillFile& spill_file();
 std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_triangles = 1000);
 
 /// The mask of a mesh that is watertight, in regions of at most `most` triangles.
-MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most = kRegionTriangles);
+/// tree  whose blocks cells list; null: they list none.
+MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most = kRegionTriangles,
+                 const BuiltTree* tree = nullptr);
 
 /// Whether a mesh closes, balanced in parts of so many triangles.
 EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles = 5000);

@@ -42,6 +42,27 @@ TEST_F(Command, InspectSaysWhatIsThere) {
   EXPECT_EQ(report["by_page"].size(), report["pages"]);
 }
 
+TEST_F(Command, InspectSaysWhatStreamsMaskPagesHave) {
+  const std::string boxes = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.ptree";
+  const Json report = Json::parse(run({"inspect", boxes, "--json", "--pages"}).output);
+  std::uint64_t raw = 0, streams = 0;
+  for (const Json& page : report["by_page"]) raw += page["raw_bytes"].get<std::uint64_t>();
+  for (const auto& [name, bytes] : report["bytes"]["within_pages"].items())
+    streams += bytes.get<std::uint64_t>();
+  EXPECT_EQ(streams, raw);
+  const std::string last = std::to_string(report["pages"].get<int>() - 1);
+  const Json page = Json::parse(run({"inspect", boxes, "--page", last, "--json"}).output);
+  EXPECT_EQ(page["streams"].size(), 1u + 17u);
+  std::uint64_t end = 0;
+  for (const Json& stream : page["streams"]) {
+    EXPECT_EQ(stream["offset"], end) << stream;
+    end += stream["bytes"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(end, page["entry"]["raw_bytes"]);
+  EXPECT_EQ(page["streams"].back()["elements"], page["head"]["block_link_count"]);
+  EXPECT_GT(report["lists_of_blocks"], 0);
+}
+
 TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
   const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
   EXPECT_EQ(open["watertight"], false);

@@ -7,77 +7,11 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/octree/sample_mask.h"
-#include "tests/tools/file_check_fixture.h"
+#include "tests/tools/mask_check_fixture.h"
 
 // What verify finds in masks: each page forged with its hashes made right.
 namespace planetree::tools {
 namespace {
-
-using octree::MaskKind;
-using octree::RawMaskPage;
-using Change = std::function<void(RawMaskPage&)>;
-
-void write_soup(const std::filesystem::path& path, const octree::Soup& soup) {
-  std::ofstream mesh(path);
-  mesh.precision(17);
-  std::uint64_t vertex = 0;
-  for (const auto& triangle : soup) {
-    for (const Vec3& p : triangle) mesh << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    mesh << "f " << vertex + 1 << ' ' << vertex + 2 << ' ' << vertex + 3 << '\n';
-    vertex += 3;
-  }
-}
-
-CheckReport check_path(const std::filesystem::path& path, bool full) {
-  auto parts = FileParts::open(path);
-  EXPECT_TRUE(parts);
-  return check_file(*parts, full);
-}
-
-class FileCheckOfMasks : public testing::Test {
- protected:
-  // With corners from -1 to 2 and special cells.
-  std::filesystem::path boxes() const {
-    return PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.ptree";
-  }
-  // With a mask of several pages.
-  std::filesystem::path sphere() {
-    const std::filesystem::path tree = folder_ / "sphere.ptree";
-    if (std::filesystem::exists(tree)) return tree;
-    write_soup(folder_ / "sphere.obj", octree::sphere(5));
-    build_sample(folder_ / "sphere.obj", tree);
-    return tree;
-  }
-  CheckReport check_forgery(const std::filesystem::path& tree, const Forgery& forgery, bool full) {
-    forge(tree, folder_ / "forged.ptree", forgery);
-    return check_path(folder_ / "forged.ptree", full);
-  }
-  // Changes the first mask page that `fits`.
-  Codes codes_of_change(const std::filesystem::path& tree,
-                        const std::function<bool(const RawMaskPage&)>& fits, const Change& change,
-                        bool full = true) {
-    bool done = false;
-    Forgery forgery;
-    forgery.mask = [&](std::uint32_t, RawMaskPage& page) {
-      if (done || !fits(page)) return;
-      change(page);
-      done = true;
-    };
-    const Codes codes = codes_of(check_forgery(tree, forgery, full));
-    EXPECT_TRUE(done) << "no page of the sample suits";
-    return codes;
-  }
-  // Found with --full, and not looked for without.
-  template <class Find>
-  void expect_found(const char* code, const Find& find, const Change& change) {
-    const auto fits = [&](const RawMaskPage& page) { return static_cast<bool>(find(page)); };
-    EXPECT_EQ(codes_of_change(boxes(), fits, change), Codes{code});
-    EXPECT_EQ(codes_of_change(boxes(), fits, change, false), Codes{});
-  }
-
-  storage::TemporaryDirectory folder_;
-};
 
 TEST_F(FileCheckOfMasks, FindsNothingWhereAllIsWell) {
   for (const auto& tree : {boxes(), sphere()})
@@ -93,7 +27,6 @@ TEST_F(FileCheckOfMasks, FindsNothingWhereAllIsWell) {
 }
 
 bool has_corners(const RawMaskPage& page) { return page.head.corners_count > 0; }
-bool has_plain(const RawMaskPage& page) { return page.head.plain_count > 0; }
 bool has_special(const RawMaskPage& page) { return page.head.special_count > 0; }
 
 TEST_F(FileCheckOfMasks, FindsCornersThatAreNot) {
@@ -105,8 +38,8 @@ TEST_F(FileCheckOfMasks, FindsCornersThatAreNot) {
     page.corners.back() = static_cast<std::int8_t>(page.corners.back() - 1);
   });
   for (const unsigned corner : {0u, 5u})
-    expect_found("MASK_CORNER", has_plain, [&](RawMaskPage& page) {
-      page.plain_corners.back() ^= static_cast<std::uint8_t>(1u << corner);
+    expect_found("MASK_CORNER", has_lists, [&](RawMaskPage& page) {
+      page.higher.back() ^= static_cast<std::uint8_t>(1u << corner);
     });
 }
 
@@ -283,7 +216,7 @@ TEST_F(FileCheckOfMasks, FindsASecondRoot) {
     ++page.head.plain_count;
     ++page.head.root_count;
   };
-  EXPECT_EQ(codes_of_change(boxes(), is_first, add_root, false), Codes{"SUBTREE_UNLINKED"});
+  EXPECT_EQ(codes_of_change(tetrahedron(), is_first, add_root, false), Codes{"SUBTREE_UNLINKED"});
 }
 
 // Twenty nodes one below the other.

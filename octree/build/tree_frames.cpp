@@ -1,0 +1,66 @@
+#include "octree/build/tree_frames.h"
+
+#include <algorithm>
+
+#include "octree/page_decoder.h"
+#include "octree/strict_math.h"
+
+namespace planetree::octree {
+
+TreeFrames::TreeFrames(const BuiltTree& tree)
+    : tree_(tree),
+      page_lines_(tree.facts_of_page(0).page_bytes / kSlotBytes),
+      most_(std::min<std::size_t>(tree.pages().size(), kBytes / kSlotBytes / page_lines_)) {
+  lines_.reserve(most_ * page_lines_);
+  frames_.reserve(most_);
+}
+
+const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
+  auto& self = *static_cast<TreeFrames*>(frames);
+  const auto place = self.places_.find(number);
+  if (place == self.places_.end()) return self.bring(number);
+  self.frames_[place->second].asked = ++self.asks_;
+  return self.bytes_of(place->second).data();
+}
+
+const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
+  auto& self = *static_cast<TreeFrames*>(frames);
+  const auto place = self.places_.find(number);
+  return place == self.places_.end() ? nullptr : self.bytes_of(place->second).data();
+}
+
+const std::byte* TreeFrames::bring(std::uint32_t number) {
+  const auto raw = tree_.pages().encode(number);
+  const std::size_t frame = free_one();
+  const std::span<std::byte> bytes = bytes_of(frame);
+  const Result<void> decoded =
+      raw ? decode_page(raw->bytes, tree_.facts_of_page(number), bytes) : raw.error();
+  if (!decoded) {
+    if (state_) state_ = decoded;
+    frames_[frame] = {};
+    return nullptr;
+  }
+  places_.emplace(number, frame);
+  frames_[frame] = {number, ++asks_};
+  return bytes.data();
+}
+
+// The one that was not asked for the longest.
+std::size_t TreeFrames::free_one() {
+  if (frames_.size() < most_) {
+    lines_.resize(lines_.size() + page_lines_);
+    frames_.emplace_back();
+    return frames_.size() - 1;
+  }
+  const auto oldest =
+      std::min_element(frames_.begin(), frames_.end(),
+                       [](const Frame& a, const Frame& b) { return a.asked < b.asked; });
+  places_.erase(oldest->page);
+  return static_cast<std::size_t>(oldest - frames_.begin());
+}
+
+std::span<std::byte> TreeFrames::bytes_of(std::size_t frame) {
+  return {lines_[frame * page_lines_].bytes, page_lines_ * kSlotBytes};
+}
+
+}  // namespace planetree::octree

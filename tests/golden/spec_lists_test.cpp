@@ -1,0 +1,182 @@
+// "Listed cells", held against the samples as the independent reader decodes them: against
+// every triangle of the tree, clipped by every octant without any error, and against sums of
+// solid angles.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/golden/samples.h"
+#include "tests/golden/spec_mask.h"
+#include "tests/golden/spec_tree.h"
+#include "tests/golden/spec_vector.h"
+#include "tests/octree/exact_overlap.h"
+#include "tests/storage/temporary_directory.h"
+
+namespace planetree::golden {
+namespace {
+
+std::vector<Sample> listing_samples() { return {sphere_sample(), boxes_sample(), region_sample()}; }
+
+octree::Point to_point(const SpecPoint& point) { return {point[0], point[1], point[2]}; }
+
+class SpecLists : public testing::TestWithParam<Sample> {
+ protected:
+  SpecLists()
+      : file_(read_file(GetParam().ptree_path())),
+        mask_(file_),
+        tree_(file_),
+        whole_(SpecFile(read_file(
+            (GetParam().box ? boxes_sample() : GetParam()).ptree_path()))),  // of a region's mesh
+        all_(whole_.triangles(whole_.header().root_link)) {
+    for (const SpecPage& page : tree_.pages())
+      blocks_.insert(page.blocks.begin(), page.blocks.end());
+  }
+
+  void each_listed(const std::function<void(const SpecCell&, const SpecMaskRecord&)>& look) const {
+    mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+      if (record.kind == 5) look(cell, record);
+    });
+  }
+
+  // Octants that the block's triangles share a point with.
+  unsigned touched(const SpecCell& cell, const SpecBlock& block) const {
+    std::vector<octree::Triangle> near;
+    for (const SpecTriangle& triangle : block.triangles) {
+      near.push_back({to_point(triangle.corners[0]), to_point(triangle.corners[1]),
+                      to_point(triangle.corners[2])});
+      if (!boxes_meet(near.back(), corner(cell, 0), corner(cell, 7))) near.pop_back();
+    }
+    unsigned octants = 0;
+    for (unsigned i = 0; i < 8 && !near.empty(); ++i) {
+      const SpecCell octant = cell.octant(i);
+      octants |= unsigned{std::ranges::any_of(near,
+                                              [&](const octree::Triangle& triangle) {
+                                                return octree::exactly_touches(
+                                                    triangle, corner(octant, 0), corner(octant, 7));
+                                              })}
+                 << i;
+    }
+    return octants;
+  }
+
+  SpecFile file_;
+  SpecMask mask_;
+  SpecTree tree_;
+  SpecTree whole_;
+  std::vector<SpecTriangle> all_;
+  std::map<std::uint32_t, SpecBlock> blocks_;
+
+ private:
+  octree::Point corner(const SpecCell& cell, unsigned number) const {
+    return to_point(mask_.corner(cell, number));
+  }
+  static bool boxes_meet(const octree::Triangle& triangle, const octree::Point& lower,
+                         const octree::Point& upper) {
+    const octree::Point least = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
+    const octree::Point greatest = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
+    return (least.array() <= upper.array()).all() && (greatest.array() >= lower.array()).all();
+  }
+};
+
+std::string name_of(const testing::TestParamInfo<Sample>& info) {
+  return std::filesystem::path(info.param.ptree).stem();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SpecLists, testing::ValuesIn(listing_samples()), name_of);
+
+TEST_P(SpecLists, LeadToBlocks) {
+  std::size_t lists = 0;
+  each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    EXPECT_LT(cell.level, 19u);
+    for (const SpecListedBlock& listed : record.blocks) EXPECT_TRUE(blocks_.contains(listed.link));
+    ++lists;
+  });
+  EXPECT_GT(lists, 0u);
+}
+
+// Too many bits are for rounding alone, and samples hardly have such places.
+TEST_P(SpecLists, HaveEveryBlockThatTouchesAnOctant) {
+  std::size_t bits = 0, needed = 0;
+  each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    std::map<std::uint32_t, unsigned> stated;
+    for (const SpecListedBlock& listed : record.blocks) {
+      stated[listed.link] = listed.octants;
+      for (unsigned i = 0; i < 8; ++i) bits += listed.octants >> i & 1;
+    }
+    for (const auto& [link, block] : blocks_) {
+      const unsigned octants = touched(cell, block);
+      EXPECT_EQ(octants & ~stated[link], 0u) << "block " << link << ", level " << cell.level;
+      for (unsigned i = 0; i < 8; ++i) needed += octants >> i & 1;
+    }
+  });
+  EXPECT_GT(needed, 0u);
+  EXPECT_LE(bits, needed + needed / 100);
+}
+
+TEST_P(SpecLists, LeaveOctantsOfOneWindingNumber) {
+  std::size_t told = 0;
+  each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    unsigned met = 0;
+    for (const SpecListedBlock& listed : record.blocks) met |= listed.octants;
+    for (unsigned i = 0; i < 8; ++i) {
+      if ((met >> i & 1) != 0) continue;
+      const SpecPoint lower = mask_.corner(cell.octant(i), 0);
+      const SpecPoint size = mask_.corner(cell.octant(i), 7) - lower;
+      EXPECT_EQ(mask_.corner(cell.octant(i), i), mask_.corner(cell, i));
+      for (int at = 0; at < 8; ++at) {
+        SpecPoint point = lower;
+        for (unsigned axis = 0; axis < 3; ++axis)
+          point[axis] += (0.07 + 0.81 * (at >> axis & 1)) * size[axis];
+        ASSERT_GT(whole_.nearest(point).distance, 0);
+        const double number = winding_number(all_, point);
+        EXPECT_NEAR(number, record.corners[i], 1e-6) << "octant " << i;
+        ++told;
+      }
+    }
+  });
+  EXPECT_GT(told, 0u);
+}
+
+// Two cones of many faces: around their tips no leaf can list all blocks.
+TEST(SpecListsOfMany, AreLeftOut) {
+  constexpr int kSides = 500;
+  const storage::TemporaryDirectory folder;
+  std::ofstream mesh(folder / "cones.obj");
+  mesh << "v 0 0 -1\nv 0 0 1\n";
+  for (int i = 0; i < kSides; ++i)
+    mesh << "v " << std::cos(0.004 * std::numbers::pi * i) << " "
+         << std::sin(0.004 * std::numbers::pi * i) << " 0\n";
+  for (int i = 0; i < kSides; ++i) {
+    const int here = i + 3, next = (i + 1) % kSides + 3;
+    mesh << "f 1 " << next << " " << here << "\nf 2 " << here << " " << next << "\n";
+  }
+  mesh.close();
+  const SpecFile file(build_bytes(folder / "cones.obj", 4096, 1));
+  const SpecTree tree(file);
+  const std::vector<SpecTriangle> all = tree.triangles(tree.header().root_link);
+  const SpecMask mask(file);
+  std::size_t plain = 0;
+  mask.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    if (record.kind != 2) return;
+    ++plain;
+    for (unsigned i = 0; i < 8; ++i) {
+      const SpecPoint corner = mask.corner(cell, i);
+      if (tree.nearest(corner).distance < 1e-9) continue;
+      EXPECT_NEAR(winding_number(all, corner), record.corners[i], 1e-5);
+    }
+  });
+  EXPECT_GT(plain, 0u);
+}
+
+}  // namespace
+}  // namespace planetree::golden

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "tests/tools/mask_check_fixture.h"
+
+// What verify finds in the lists of blocks that cells of a mask have.
+namespace planetree::tools {
+namespace {
+
+class FileCheckOfLists : public FileCheckOfMasks {};
+
+TEST_F(FileCheckOfLists, FindsBlocksThatAreNotListed) {
+  // One octant of one block too few.
+  for (const bool first : {true, false})
+    expect_found("MASK_BLOCKS", has_lists, [&](RawMaskPage& page) {
+      std::uint8_t& octants = first ? page.block_octants.front() : page.block_octants.back();
+      // That of the lowest bit, or, if it is the only one, another in its place.
+      const auto left = static_cast<std::uint8_t>(octants & (octants - 1));
+      octants = left != 0 ? left : std::rotl(octants, 1);
+    });
+  // The whole of another place's block.
+  const auto has_long_list = [](const RawMaskPage& page) {
+    return page.head.listed_count > 0 && page.block_counts[0] > 1;
+  };
+  expect_found("MASK_BLOCKS", has_long_list, [](RawMaskPage& page) {
+    --page.block_counts[0];
+    --page.head.block_link_count;
+    page.block_links.erase(page.block_links.begin());
+    page.block_octants.erase(page.block_octants.begin());
+  });
+}
+
+TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
+  // The slot behind a block's first is none's first.
+  expect_found("MASK_BLOCKS", has_lists, [](RawMaskPage& page) {
+    ++page.block_counts[page.block_counts.size() - 1];
+    ++page.head.block_link_count;
+    page.block_links.push_back(page.block_links.back() + 1);
+    page.block_octants.push_back(1);
+  });
+}
+
+TEST_F(FileCheckOfLists, AllowsOctantsThatNoTriangleTouches) {
+  const auto add = [](RawMaskPage& page) {
+    page.block_octants.assign(page.block_octants.size(), 0xff);
+  };
+  EXPECT_EQ(codes_of_change(boxes(), has_lists, add), Codes{});
+}
+
+}  // namespace
+}  // namespace planetree::tools
