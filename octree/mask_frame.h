@@ -109,8 +109,8 @@ struct MaskListed {
 static_assert(sizeof(MaskListed) == kMaskSlotBytes);
 
 /// The winding number at one of its corners.
-constexpr std::int8_t corner_of(const MaskListed& listed, unsigned corner) {
-  return static_cast<std::int8_t>(listed.least + (listed.higher >> corner & 1));
+constexpr int corner_of(const MaskListed& listed, unsigned corner) {
+  return listed.least + (listed.higher >> corner & 1);
 }
 
 /// Slots of the octants of a list, and of all of it.

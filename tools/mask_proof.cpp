@@ -87,7 +87,7 @@ void MaskProof::look_at(const GreyCell& grey) {
   if (grey.listed != nullptr) {
     octree::MaskCorners corners;
     for (unsigned corner = 0; corner < 8; ++corner)
-      corners[corner] = octree::corner_of(*grey.listed, corner);
+      corners[corner] = static_cast<std::int8_t>(octree::corner_of(*grey.listed, corner));
     check_corners(grey, corners);
     check_list(grey);
   }
