@@ -18,6 +18,14 @@ class ClippedGrid {
     return region_.clamped(grid_.corner(cell, which));
   }
   Point middle(const GridCell& cell) const { return region_.clamped(grid_.middle(cell)); }
+  /// As CellGrid::octant(), of a point in the region.
+  unsigned octant(const GridCell& cell, const Point& point) const {
+    const Point middle = this->middle(cell);
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      octant |= static_cast<unsigned>(middle[axis] <= point[axis]) << axis;
+    return octant;
+  }
 
   /// Whether some point of the region is in the cell: of others nobody asks.
   bool has_part_of(const GridCell& cell) const {

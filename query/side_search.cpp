@@ -59,11 +59,7 @@ const octree::MaskFinding& SideSearch::cell() {
 // in the octant.
 template <class Grid>
 bool SideSearch::go_within_octant(const octree::MaskFinding& found, const Grid& grid) {
-  const Point middle = grid.middle(found.cell);
-  unsigned octant = 0;
-#pragma GCC unroll 3
-  for (unsigned axis = 0; axis < 3; ++axis)
-    octant |= static_cast<unsigned>(middle[axis] <= point_[axis]) << axis;
+  const unsigned octant = grid.octant(found.cell, point_);
   std::array<std::uint32_t, octree::kMostListed> links;
   std::size_t count = 0;
   for (unsigned i = 0; i < found.blocks.count; ++i) {

@@ -5,7 +5,6 @@
 #include <bit>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "octree/box_walk.h"
 #include "octree/build/cell_overlap.h"
