@@ -20,6 +20,7 @@ class BestTriangle {
   bool found() const { return triangle_ != kNoTriangle; }
   std::uint64_t triangle() const { return triangle_; }
   const Triangle& corners() const { return corners_; }
+  bool in_sheet() const { return in_sheet_; }
   /// Its nearest point.
   NearestOnTriangle nearest() const { return place(corners_, finding_); }
 
@@ -42,10 +43,10 @@ class BestTriangle {
     refresh();
   }
 
-  /// Keeps a triangle that was evaluated if (value, index) is less; `corners()` gives its
-  /// corners.
+  /// Keeps a triangle that was evaluated if (value, index) is less; `in_sheet` is its block's,
+  /// `corners()` gives its corners.
   template <class Corners>
-  void offer(const TriangleFinding& finding, std::uint64_t index, Corners corners) {
+  void offer(const TriangleFinding& finding, std::uint64_t index, bool in_sheet, Corners corners) {
     const double squared = finding.value.squared;
     const double distance = std::sqrt(squared);
     lower_ = std::min(lower_, distance - finding.value.error);
@@ -54,6 +55,7 @@ class BestTriangle {
     if (distance > farthest_) return;
     finding_ = finding;
     triangle_ = index;
+    in_sheet_ = in_sheet;
     corners_ = corners();
     if (distance >= reach_) return;
     reach_ = distance;
@@ -81,6 +83,7 @@ class BestTriangle {
   double farthest_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
+  bool in_sheet_ = false;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   TriangleFinding finding_;
   double reach_ = farthest_;

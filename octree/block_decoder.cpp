@@ -41,9 +41,10 @@ float extent_of(const float* rows, unsigned count, unsigned stride) {
 const char* BlockDecoder::decode_next(std::byte* record) noexcept {
   auto& header = *reinterpret_cast<BlockHeader*>(record);
   header = BlockHeader{};
-  header.triangle_count = streams_.triangle_counts[block_];
+  header.triangle_count = streams_.triangle_count(block_);
   header.vertex_count = streams_.vertex_counts[block_];
   header.stride = static_cast<std::uint8_t>(BlockShape::stride(header.vertex_count));
+  header.in_sheet = streams_.in_sheet(block_) ? 1 : 0;
   Vertices vertices;
   if (const char* fault =
           collect_vertices(header.vertex_count, streams_.new_counts[block_], vertices))

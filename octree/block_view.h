@@ -18,21 +18,16 @@ class BlockView {
   unsigned triangle_count() const { return header_.triangle_count; }
 
   Point vertex(unsigned index) const {
-    const unsigned stride = header_.stride;
-    if (shape_.float64) {
-      const auto* exact = at<double>(shape_.exact_offset(stride));
-      return {exact[index], exact[stride + index], exact[2 * stride + index]};
-    }
-    const auto* local = at<float>(kSlotBytes);
-    return {local[index], local[stride + index], local[2 * stride + index]};
+    return shape_.float64 ? vertex_of(exact_vertices(), index)
+                          : vertex_of(at<float>(kSlotBytes), index);
   }
 
   /// The exact vertices, header().stride of each coordinate; null where they are no floats.
   const float* float_vertices() const { return shape_.float64 ? nullptr : at<float>(kSlotBytes); }
 
   Triangle triangle(unsigned index) const {
-    return {vertex(header_.corner[0][index]), vertex(header_.corner[1][index]),
-            vertex(header_.corner[2][index])};
+    return shape_.float64 ? triangle_of(exact_vertices(), index)
+                          : triangle_of(at<float>(kSlotBytes), index);
   }
 
   std::uint64_t id(unsigned index) const {
@@ -41,6 +36,18 @@ class BlockView {
   }
 
  private:
+  const double* exact_vertices() const { return at<double>(shape_.exact_offset(header_.stride)); }
+
+  template <class T>
+  Point vertex_of(const T* rows, unsigned index) const {
+    const unsigned stride = header_.stride;
+    return {rows[index], rows[stride + index], rows[2 * stride + index]};
+  }
+  template <class T>
+  Triangle triangle_of(const T* rows, unsigned index) const {
+    return {vertex_of(rows, header_.corner[0][index]), vertex_of(rows, header_.corner[1][index]),
+            vertex_of(rows, header_.corner[2][index])};
+  }
   template <class T>
   const T* at(std::size_t offset) const {
     return reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(&header_) + offset);

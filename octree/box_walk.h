@@ -22,8 +22,14 @@ class BoxWalk {
   /// Calls visit(BlockView, link). False as TreeWalk's.
   template <class Visit>
   bool run(std::uint64_t max_nodes, const Visit& visit) {
-    return walk_.run(max_nodes, visit,
-                     [this](const Node& node) { return children_meeting(node, box_); });
+    return run_while(max_nodes, visit, [] { return true; });
+  }
+  /// See TreeWalk.
+  template <class Visit, class GoingOn>
+  bool run_while(std::uint64_t max_nodes, const Visit& visit, const GoingOn& going_on) {
+    return walk_.run_while(
+        max_nodes, visit, [this](const Node& node) { return children_meeting(node, box_); },
+        going_on);
   }
 
  private:

@@ -16,8 +16,8 @@ class Candidates {
   std::size_t size() const { return size_; }
   bool full() const { return size_ == kMost; }
 
-  /// `squared` is the filter's value (octree/bounds.h), `extent` that of the block.
-  void add(const Triangle& corners, std::uint64_t id, float extent, float squared) {
+  /// `squared` is the filter's value (octree/bounds.h), `extent` and `in_sheet` are the block's.
+  void add(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
     // The first of a group stands in all its lanes, so that kernels need no mask.
     if (size_ % kTrianglesAtOnce == 0)
       rows_.fill(size_, corners);
@@ -25,6 +25,7 @@ class Candidates {
       rows_.set(size_, corners);
     id_[size_] = id;
     extent_[size_] = extent;
+    in_sheet_[size_] = in_sheet;
     squared_[size_++] = squared;
   }
 
@@ -45,12 +46,14 @@ class Candidates {
   /// Up to the next multiple of kTrianglesAtOnce there are triangles, of no meaning.
   const TriangleRows<kMost>& rows() const { return rows_; }
   std::uint64_t id(std::size_t at) const { return id_[at]; }
+  bool in_sheet(std::size_t at) const { return in_sheet_[at]; }
 
  private:
   void copy(std::size_t from, std::size_t to) {
     rows_.copy(from, to);
     id_[to] = id_[from];
     extent_[to] = extent_[from];
+    in_sheet_[to] = in_sheet_[from];
     squared_[to] = squared_[from];
   }
 
@@ -58,6 +61,7 @@ class Candidates {
   TriangleRows<kMost> rows_;
   std::uint64_t id_[kMost];
   float extent_[kMost];
+  bool in_sheet_[kMost];
   float squared_[kMost];
 };
 

@@ -61,6 +61,7 @@ NearestAnswer answer_of(const BestTriangle& best) {
   answer.barycentric = nearest.barycentric;
   answer.corners = best.corners();
   answer.feature = nearest.feature;
+  answer.in_sheet = best.in_sheet();
   answer.status = Status::kExact;
   return answer;
 }

@@ -11,6 +11,7 @@
 #include "octree/box_walk.h"
 #include "octree/outcodes.h"
 #include "octree/predicates.h"
+#include "octree/sheet.h"
 #include "octree/strict_math.h"
 #include "octree/vector3.h"
 
@@ -41,7 +42,8 @@ Point thin_normal(const Triangle& triangle) {
 /// it does not matter in which order they are found.
 class Fan {
  public:
-  Fan(const Point& vertex, const Point* other) : vertex_(vertex), other_(other) {}
+  Fan(const Point& query, const Point& vertex, const Point* other)
+      : sides_(query), vertex_(vertex), other_(other) {}
 
   void add(const Triangle& triangle, std::uint64_t index) {
     for (unsigned corner = 0; corner < 3; ++corner) {
@@ -50,12 +52,18 @@ class Fan {
       const Point& last = triangle[(corner + 2) % 3];
       if (other_ && next != *other_ && last != *other_) continue;
       const auto normal = face_normal(triangle);
-      if (!normal) continue;
+      if (!normal) {
+        sides_.add_unknown();
+        continue;
+      }
+      sides_.add(triangle, *normal);
       if (count_ == kSorted) sum_up();
       const double weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
       faces_[count_++] = {index, corner, weight, *normal};
     }
   }
+
+  FacingSides& sides() { return sides_; }
 
   Point normal() {
     std::sort(faces_, faces_ + count_, [](const Face& a, const Face& b) {
@@ -87,6 +95,7 @@ class Fan {
 
   static constexpr std::size_t kSorted = NearbyTriangles::kMost;
 
+  FacingSides sides_;
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
   std::size_t count_ = 0;
@@ -96,6 +105,18 @@ class Fan {
   Point first_ = Point::Zero();
   std::uint64_t first_index_ = kNoTriangle;
 };
+
+/// That of one face.
+FeatureNormal normal_of_face(const Point& query, const NearestAnswer& nearest) {
+  const auto normal = face_normal(nearest.corners);
+  if (!normal) return {};
+  const auto& [a, b, c] = nearest.corners;
+  FacingSides sides(query);
+  sides.add(nearest.corners, *normal);
+  sides.end_after(*std::min_element(nearest.barycentric.begin(), nearest.barycentric.end()) *
+                  (b - a).cross(c - a).norm());
+  return {*normal, true, nearest.in_sheet ? sides.common() : 0};
+}
 
 bool walk_to(const Point& vertex, Fan& fan, const TreeFacts& tree, std::uint64_t max_nodes,
              PageReader pages, TreeWork& work) {
@@ -126,21 +147,24 @@ std::optional<Point> face_normal(const Triangle& triangle) noexcept {
   return thin_normal(triangle);
 }
 
-FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest,
-                             const Vicinity* vicinity, std::uint64_t max_nodes, PageReader pages,
-                             TreeWork& work) noexcept {
+FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
+                             const NearestAnswer& nearest, const Vicinity* vicinity,
+                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest);
   FeatureNormal found;
-  if (nearest.feature == Feature::kFace) {
-    found.normal = face_normal(nearest.corners).value_or(Point::Zero());
-    return found;
-  }
   // The corners that the nearest point is made of: one, or two.
   const Point* ends[3] = {};
+  double shares[3] = {};
   std::size_t count = 0;
-  for (std::size_t corner = 0; corner < 3; ++corner)
-    if (nearest.barycentric[corner] > 0) ends[count++] = &nearest.corners[corner];
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    if (!(nearest.barycentric[corner] > 0)) continue;
+    shares[count] = nearest.barycentric[corner];
+    ends[count++] = &nearest.corners[corner];
+  }
   const Point& vertex = *ends[0];
-  Fan fan(vertex, nearest.feature == Feature::kEdge ? ends[1] : nullptr);
+  const bool on_edge = nearest.feature == Feature::kEdge;
+  Fan fan(query, vertex, on_edge ? ends[1] : nullptr);
+  if (on_edge) fan.sides().end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
   if (const NearbyTriangles* nearby = vicinity ? vicinity->all_at(nearest.point) : nullptr) {
     for (std::size_t i = 0; i < nearby->size(); ++i)
       if (nearby->has_corner(i, vertex)) fan.add(nearby->triangle(i), nearby->id(i));
@@ -148,6 +172,7 @@ FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest
     found.complete = walk_to(vertex, fan, tree, max_nodes, pages, work);
   }
   found.normal = fan.normal();
+  if (found.complete && nearest.in_sheet) found.side = fan.sides().common();
   // Not even the nearest triangle's own page was to be had.
   if (!found.complete && found.normal.squaredNorm() == 0)
     found.normal = face_normal(nearest.corners).value_or(Point::Zero());

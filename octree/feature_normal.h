@@ -19,6 +19,7 @@ struct FeatureNormal {
   /// Of length 1; zero where no face at the feature has an area.
   Point normal = Point::Zero();
   bool complete = true;  ///< false: pages missing or `max_nodes` spent; of what was found
+  int side = 0;  ///< FacingSides::common(), where all faces were found and one is in a sheet
 };
 
 /// The normal at a nearest point: that of the face, the sum over the faces of
@@ -26,14 +27,14 @@ struct FeatureNormal {
 /// there. Faces share an edge or a vertex where its ends are equal. Where the
 /// sum is zero, to rounding, it is that of the first face that has an area.
 ///
-/// nearest    an answer that names a triangle.
+/// query, nearest  of one answer, that names a triangle.
 /// vicinity   of that answer; where it has all faces there no page is looked at. May be null.
 /// max_nodes  most nodes and blocks to visit.
 /// threads    any; no allocation, no lock, no exception of its own.
 /// source     Baerentzen & Aanaes 2005, "Signed distance computation using the
 ///            angle weighted pseudonormal".
-FeatureNormal feature_normal(const TreeFacts& tree, const NearestAnswer& nearest,
-                             const Vicinity* vicinity, std::uint64_t max_nodes, PageReader pages,
-                             TreeWork& work) noexcept;
+FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
+                             const NearestAnswer& nearest, const Vicinity* vicinity,
+                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

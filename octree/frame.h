@@ -70,8 +70,8 @@ struct alignas(kSlotBytes) BlockHeader {
   std::uint8_t triangle_count;  ///< 1 to 16
   std::uint8_t vertex_count;    ///< 1 to 48
   std::uint8_t stride;          ///< 16, 24, 32 or 48
-  std::uint8_t reserved;
-  float extent;  ///< at least the distance of any vertex from vertex 0
+  std::uint8_t in_sheet;        ///< 1 where it is known to be (octree/sheet.h)
+  float extent;                 ///< at least the distance of any vertex from vertex 0
   std::uint8_t reserved_words[8];
   std::uint8_t corner[3][kMaxBlockTriangles];  ///< vertex of each corner, by corner
 };

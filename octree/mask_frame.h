@@ -125,6 +125,16 @@ struct MaskBlocks {
   alignas(kMaskSlotBytes)
       std::array<std::uint8_t, kMostListed> octants;  ///< the first `count`, as the links
   std::array<std::uint32_t, kMostListed> links;
+
+  /// Puts together the links of those that touch an octant. Returns how many.
+  unsigned in_octant(unsigned octant, std::array<std::uint32_t, kMostListed>& found) const {
+    unsigned size = 0;
+    for (unsigned i = 0; i < count; ++i) {
+      found[size] = links[i];
+      size += octants[i] >> octant & 1U;
+    }
+    return size;
+  }
 };
 
 /// The list of a record that a frame holds.
@@ -161,6 +171,8 @@ class MaskLinkFormat {
     return page << slot_bits_ | slot;
   }
   constexpr std::uint64_t max_pages() const { return std::uint64_t{1} << (32 - slot_bits_); }
+  /// Of a page.
+  constexpr std::uint32_t slots() const { return std::uint32_t{1} << slot_bits_; }
 
  private:
   unsigned slot_bits_;

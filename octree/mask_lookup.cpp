@@ -103,14 +103,22 @@ MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Po
   MaskFinding finding;
   finding.cell = spot.cell;
   MaskRecords records(mask, pages);
-  if (ColourMap::is_leaf(*spot.record)) {
-    const std::byte* leaf = records.record(spot.record->family, true, work);
+  const MapRecord& record = *spot.record;
+  if (record.is_listed()) {
+    // The map looked at it when it was filled; the file may have been exchanged since.
+    const MaskListed listed = record.listed(records.slot_of(record.link));
+    if (records.has_room(record.link, list_slots(listed.block_count)) &&
+        records.turn_to_page_of(record.link, work))
+      read_list(listed, records, finding);
+  } else if (record.is_leaf()) {
+    const std::byte* leaf = records.record(record.link, true, work);
     if (leaf) read_leaf(leaf, records, point, finding);
-    return finding;
+  } else {
+    const CellGrid grid(mask.lower);
+    const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
+    const MaskNode node{record.link, record.grey, record.leaf, record.black, record.inverted};
+    descend(records, node, point, max_nodes, octant_in, work, finding);
   }
-  const CellGrid grid(mask.lower);
-  const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
-  descend(records, *spot.record, point, max_nodes, octant_in, work, finding);
   return finding;
 }
 

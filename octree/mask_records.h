@@ -25,8 +25,12 @@ class MaskRecords {
   }
   bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
 
-  /// Whether a node's children are in the page of the last record.
-  bool has_family_at_hand(const MaskNode& node) const { return links_.page(node.family) == page_; }
+  /// Whether a node's children are in a page that is in memory.
+  bool has_family_at_hand(const MaskNode& node) const {
+    const std::uint32_t page = links_.page(node.family);
+    return page == page_ || (pages_.peek && page < page_count_ &&
+                             pages_.peek(pages_.context, first_page_ + page) != nullptr);
+  }
 
   /// The record of a grey octant of the last record, or of a node that was kept before there was
   /// one; null as record()'s.
@@ -49,6 +53,19 @@ class MaskRecords {
     const std::uint32_t at = links_.slot(link);
     return frame_ && holds(at, leaf) ? slot(at) : nullptr;
   }
+
+  /// Whether the page of a link can be had: then slot() is of it.
+  bool turn_to_page_of(std::uint32_t link, TreeWork& work) {
+    turn_to(links_.page(link), work);
+    return frame_ != nullptr;
+  }
+  std::uint32_t slot_of(std::uint32_t link) const { return links_.slot(link); }
+  /// Whether so many slots from a link on are in its page.
+  bool has_room(std::uint32_t link, unsigned slots) const {
+    return links_.slot(link) + slots <= links_.slots();
+  }
+  /// The link to a slot of the last record's page.
+  std::uint32_t link_to(std::uint32_t slot) const { return links_.make(page_, slot); }
 
   const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
 

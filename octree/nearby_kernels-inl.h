@@ -74,7 +74,7 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
     refine_flat(query, view, flat, findings);
   for (; near != 0; near &= near - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(near));
-    best.offer(findings.of(lane), list.id(first + lane),
+    best.offer(findings.of(lane), list.id(first + lane), list.in_sheet(first + lane),
                [&] { return list.triangle(first + lane); });
   }
 }

@@ -16,7 +16,8 @@ namespace planetree::octree {
 struct NearbyTriangle {
   Triangle corners;
   std::uint64_t id;
-  double nearest;  ///< it is no nearer to the centre than this
+  double nearest;         ///< it is no nearer to the centre than this
+  bool in_sheet = false;  ///< its block is
 };
 
 /// All triangles that reach into a ball, where they are few: queries within it look at no
@@ -80,6 +81,7 @@ class NearbyTriangles {
     return found;
   }
   std::uint64_t id(std::size_t i) const { return id_[i]; }
+  bool in_sheet(std::size_t i) const { return in_sheet_[i]; }
 
  private:
   static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
@@ -103,6 +105,7 @@ class NearbyTriangles {
     }
     exact_.set(i, found.corners);
     id_[i] = found.id;
+    in_sheet_[i] = found.in_sheet;
     return farthest2;
   }
 
@@ -122,6 +125,7 @@ class NearbyTriangles {
   alignas(kLanes * sizeof(float)) float row_[3][3][kMost];
   TriangleRows<kMost> exact_;
   std::uint64_t id_[kMost];
+  bool in_sheet_[kMost];
 };
 
 }  // namespace planetree::octree

@@ -68,7 +68,7 @@ class Descent {
   // Where something is left out that may matter, a triangle known from elsewhere helps.
   void fall_back_on(const NearestAnswer& known) {
     if (known.triangle == kNoTriangle || left_out_.unread > best_.exact_threshold()) return;
-    note(known.corners, known.triangle, 0, 0);
+    note(known.corners, known.triangle, 0, known.in_sheet, 0);
     settle();
   }
 
@@ -161,7 +161,7 @@ class Descent {
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
     const auto note_one = [&](unsigned i, float squared) {
-      note(block.triangle(i), block.id(i), header.extent, squared);
+      note(block.triangle(i), block.id(i), header.extent, header.in_sheet != 0, squared);
     };
     // Too small for float, or too far away.
     if (!filter_tells(wide_, header.extent)) {
@@ -189,12 +189,12 @@ class Descent {
     }
   }
 
-  void note(const Triangle& corners, std::uint64_t id, float extent, float squared) {
+  void note(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
     if (candidates_.full()) {
       keep_possible();
       if (candidates_.full()) settle();
     }
-    candidates_.add(corners, id, extent, squared);
+    candidates_.add(corners, id, extent, in_sheet, squared);
   }
 
   void keep_possible() {
@@ -212,7 +212,7 @@ class Descent {
       const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
       evaluate(query_, rows.view(i), count, findings);
       for (std::size_t lane = 0; lane < count; ++lane)
-        best_.offer(findings.of(lane), candidates_.id(i + lane),
+        best_.offer(findings.of(lane), candidates_.id(i + lane), candidates_.in_sheet(i + lane),
                     [&] { return rows.triangle(i + lane); });
     }
     work_.triangles += candidates_.size();

@@ -26,6 +26,7 @@ struct NearestAnswer {
   std::array<double, 3> barycentric{};
   Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< of `triangle`
   Feature feature = Feature::kFace;
+  bool in_sheet = false;  ///< `triangle` is known to be in a sheet (BlockHeader)
   Status status = Status::kBadQuery;
 };
 

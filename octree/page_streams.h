@@ -20,7 +20,7 @@
 ///   child areas      u16, a ShortFloat                      } (octree/moments.h)
 ///   child seconds    u16, a ShortFloat                      }
 ///   page links       u32 a child of kind kPage
-///   triangle counts  u8 a block
+///   triangle counts  u8 a block, and kSheetBit
 ///   vertex counts    u8 a block
 ///   new counts       u8 a block: how many of its vertices the page has not had
 ///   vertex refs      u16 a vertex the page has had; ascending, as differences
@@ -38,6 +38,9 @@ enum class ChildKind : std::uint8_t {
   kBlock = 1,  ///< the next block of this page
   kPage = 2,   ///< a node or block of another page, by a link of its own
 };
+
+/// Of a block's count of triangles: it is in a sheet (BlockHeader::in_sheet).
+inline constexpr std::uint8_t kSheetBit = 0x80;
 
 struct PageHead {
   std::uint32_t page_number;

@@ -40,10 +40,11 @@ void take_nodes(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
 }
 
 // The corner stream's length follows from the counts just taken.
-const char* take_corners(StreamCutter& cutter, RawStreams& s) {
+const char* take_corners(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
   std::size_t bytes = 0, triangles = 0;
   for (std::size_t i = 0; i < s.head.block_count; ++i) {
-    const unsigned triangle_count = s.triangle_counts[i];
+    if (s.in_sheet(i) && shape.moments) return "a surface that is not watertight has a sheet";
+    const unsigned triangle_count = s.triangle_count(i);
     const unsigned vertex_count = s.vertex_counts[i];
     if (triangle_count == 0 || triangle_count > kMaxBlockTriangles || vertex_count == 0 ||
         vertex_count > kMaxBlockVertices || s.new_counts[i] > vertex_count)
@@ -87,7 +88,7 @@ const char* RawStreams::cut(std::span<const std::byte> raw, const BlockShape& sh
   cutter.take(new_counts, head.block_count);
   cutter.take(vertex_refs, head.vertex_ref_count);
   if (!cutter.whole()) return kShort;
-  if (const char* fault = take_corners(cutter, *this)) return fault;
+  if (const char* fault = take_corners(cutter, *this, shape)) return fault;
   take_blocks(cutter, *this, shape);
   if (!cutter.whole()) return kShort;
   return cutter.empty() ? nullptr : "the page is longer than its counts say";

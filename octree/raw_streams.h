@@ -53,13 +53,19 @@ struct RawStreams {
   Shuffled<std::int8_t> child_firsts;    ///< 5 planes
   Shuffled<std::uint16_t> child_areas, child_seconds;
   Shuffled<std::uint32_t> page_links;
-  Shuffled<std::uint8_t> triangle_counts, vertex_counts, new_counts;
+  Shuffled<std::uint8_t> triangle_counts;  ///< with kSheetBit
+  Shuffled<std::uint8_t> vertex_counts, new_counts;
   Shuffled<std::uint16_t> vertex_refs;
   std::span<const std::byte> corners;
   Shuffled<float> vertices32;
   Shuffled<double> vertices64;
   Shuffled<std::uint32_t> first_ids32, id_steps32;
   Shuffled<std::uint64_t> first_ids64, id_steps64;
+
+  std::uint8_t triangle_count(std::size_t block) const {
+    return triangle_counts[block] & static_cast<std::uint8_t>(~kSheetBit);
+  }
+  bool in_sheet(std::size_t block) const { return (triangle_counts[block] & kSheetBit) != 0; }
 
   /// Cuts `raw`. Returns null, or what is wrong.
   const char* cut(std::span<const std::byte> raw, const BlockShape& shape) noexcept;

@@ -97,7 +97,10 @@ class RecordFinder {
                              : pages_.peek        ? pages_.peek(pages_.context, page)
                                                   : nullptr;
     if (!frame) return;
-    const std::byte* record = frame + links_.slot(link) * kSlotBytes;
+    const std::uint32_t slot = links_.slot(link);
+    // What says that a block starts there.
+    if (LinkFormat::is_leaf(link)) __builtin_prefetch(frame + kSlotBytes + slot / 64 * 8);
+    const std::byte* record = frame + slot * kSlotBytes;
 #pragma GCC unroll 8
     for (std::size_t line = 0; line < kLines; ++line)
       __builtin_prefetch(record + line * kSlotBytes);

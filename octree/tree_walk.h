@@ -22,12 +22,19 @@ class TreeWalk {
   /// blocks were not.
   template <class Visit, class Meeting>
   bool run(std::uint64_t max_nodes, const Visit& visit, const Meeting& meeting) {
+    return run_while(max_nodes, visit, meeting, [] { return true; });
+  }
+
+  /// The same for as long as going_on() says so: then false, too.
+  template <class Visit, class Meeting, class GoingOn>
+  bool run_while(std::uint64_t max_nodes, const Visit& visit, const Meeting& meeting,
+                 const GoingOn& going_on) {
     // An honest tree cannot be visited longer than it is; a forged one could.
     std::uint64_t left = std::min(max_nodes, tree_.record_count);
     bool complete = true;
     Link next{tree_.root_link, RecordFinder::kNoPage};
     for (bool more = true; more; --left) {
-      if (left == 0) return false;
+      if (left == 0 || !going_on()) return false;
       const std::byte* record = records_.find(next.to, work_, next.from);
       unsigned children = 0;
       if (!record) {

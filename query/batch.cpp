@@ -7,6 +7,7 @@
 #include "octree/octcode.h"
 #include "query/batch_crew.h"
 #include "query/closest_point.h"
+#include "query/containment.h"
 
 namespace planetree::query {
 namespace {

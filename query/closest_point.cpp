@@ -6,7 +6,10 @@
 #include <limits>
 #include <optional>
 
+#include "octree/feature_normal.h"
+#include "octree/sheet.h"
 #include "octree/strict_math.h"
+#include "query/ask_rules.h"
 #include "query/contact_normal.h"
 #include "query/side.h"
 
@@ -14,12 +17,6 @@ namespace planetree::query {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-inline bool makes_sense(const Vec3& query, const Ask& ask) {
-  return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z) &&
-         ask.max_error >= 0 && std::isfinite(ask.max_error) && ask.max_distance >= 0 &&
-         (ask.parts & ~kAllParts) == 0;
-}
 
 // As if no triangle was reached.
 ClosestPoint without_distance(Status status) {
@@ -40,18 +37,6 @@ octree::NearestAnswer farthest(const octree::TreeFacts& tree, const octree::Poin
   nearest.feature = Feature::kVertex;
   nearest.status = Status::kExact;
   return nearest;
-}
-
-bool is_far(const octree::Point& point) {
-  return !(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
-}
-
-// The point itself, or one that far away in its direction. `placed` is the query in the
-// model frame.
-octree::Point within_reach(const octree::Point& placed, const Vec3& query) {
-  if (!is_far(placed)) return placed;
-  const octree::Point from(query.x, query.y, query.z);
-  return from / from.cwiseAbs().maxCoeff() * octree::kFarthestQuery;
 }
 
 // In model units, where the frame's could overflow.
@@ -103,36 +88,7 @@ void fill_in(const Scale& scale, const octree::NearestAnswer& nearest, ClosestPo
   answer.status = nearest.status;
 }
 
-// What an ask comes to where it leaves things open.
-Ask with_defaults(Ask ask) {
-  if (ask.wait == Wait::kNever && ask.max_nodes == Ask::kNoLimit)
-    ask.max_nodes = Ask::kRealTimeNodes;
-  return ask;
-}
-
-// Answers of limited work depend on the way that is taken, so that asks that wait for pages
-// take the one from the root then. What is resident, answers that do not wait depend on anyway.
-bool may_remember(const Ask& ask) {
-  return ask.wait == Wait::kNever || ask.max_nodes == Ask::kNoLimit;
-}
-
-// `clear`: no surface is nearer to the point.
-Standing side_of(ProbeState& probe, const octree::Point& point, const octree::ColourMap::Spot& spot,
-                 double clear, bool remember, std::uint64_t max_nodes, PageTurner& turner,
-                 octree::TreeWork& work) {
-  if (remember)
-    return find_side(probe.model(), point, spot, clear, probe.side_memory(), max_nodes,
-                     turner.pages(), work);
-  return find_side(probe.model(), point, max_nodes, turner.pages(), work);
-}
-
-// An ask that lost something for want of pages or work.
-void note_loss(ProbeState& probe, const Vec3& query, const Ask& ask, const PageTurner& turner) {
-  if (turner.missed())
-    probe.wishes().missed.give({query, ask.max_error, ask.max_distance, ask.max_nodes, ask.parts});
-}
-
-// The parts of one ask, in the order in which they need each other.
+// The parts of one ask, each when another needs it.
 class Asking {
  public:
   /// stop    what the ask is given up for, if it waits for pages; may be null.
@@ -155,11 +111,11 @@ class Asking {
 
   void run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
-    const octree::NearestAnswer nearest =
-        (parts & kDistance) != 0 ? find_nearest() : octree::NearestAnswer{};
+    if ((parts & kDistance) != 0) find_nearest();
+    const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     Standing standing;
-    if ((parts & kSide) != 0) standing = find_side(nearest.lower);
-    if ((parts & kNormal) != 0 && answer_.triangle != kNoTriangle) find_normal(nearest, standing);
+    if ((parts & kSide) != 0) standing = find_side(with_normal);
+    if (with_normal) find_normal(standing);
     if (lost_) note_loss(probe_, query_, ask_, turner_);
     probe_.last_parts() = parts;
   }
@@ -170,37 +126,35 @@ class Asking {
     return spent < ask_.max_nodes ? ask_.max_nodes - spent : 0;
   }
 
-  octree::NearestAnswer find_nearest() {
+  void find_nearest() {
     octree::NearestLimits limits;
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
     if (ask_.wait == Wait::kNever) limits.known = &probe_.last_nearest();
-    octree::NearestAnswer nearest =
-        far_ ? farthest(model_.tree(), point_)
-             : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
-                               &probe_.vicinity());
+    nearest_ = far_ ? farthest(model_.tree(), point_)
+                    : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
+                                      &probe_.vicinity());
     // What stands for the farthest queries' nearest triangle is a vertex of it.
-    if (!far_ && limits.known && nearest.triangle != kNoTriangle) probe_.last_nearest() = nearest;
-    lost_ = nearest.status == Status::kDegraded;
+    if (!far_ && limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
+    lost_ = nearest_.status == Status::kDegraded;
     widen(model_.tree(), point_, clearance(model_.region(), point_, far_), limits.max_distance,
-          nearest);
-    fill_in(model_.scale(), nearest, answer_);
+          nearest_);
+    fill_in(model_.scale(), nearest_, answer_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
     if (answer_.status == Status::kDegraded && !lost_ &&
         answer_.upper - answer_.lower <= ask_.max_error)
       answer_.status = Status::kWithinError;
-    return nearest;
   }
 
-  // `clear`: no surface is nearer to the point.
-  Standing find_side(double clear) {
+  Standing find_side(bool with_normal) {
     octree::ColourMap::Spot spot;
-    const auto known = known_side(clear, spot);
-    const Standing standing =
-        known ? *known
-              : side_of(probe_, point_, spot, clear, remember_, nodes_left(), turner_, work_);
+    std::optional<Standing> known = known_side(spot);
+    if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
+    const Standing standing = known ? *known
+                                    : side_of(probe_, point_, spot, nearest_.lower, remember_,
+                                              nodes_left(), turner_, work_);
     answer_.side = standing.side;
     if (standing.status == Status::kDegraded) degrade();
     return standing;
@@ -208,28 +162,52 @@ class Asking {
 
   // The side where it takes no search: most often that of the ask before, if the surface is known
   // to be farther than that was.
-  std::optional<Standing> known_side(double clear, octree::ColourMap::Spot& spot) {
+  std::optional<Standing> known_side(octree::ColourMap::Spot& spot) {
     // What stands for a point that far away may be beyond another wall of a region.
     if (far_) return side_at_once(model_, placed_, look_at_colours(model_, placed_));
     if (!remember_) return {};
-    const auto before = side_as_before(model_, point_, clear, probe_.side_memory());
+    const auto before = side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
     if (before) return before;
     spot = look_at_colours(model_, point_);
     return side_at_once(model_, point_, spot);
   }
 
-  void find_normal(const octree::NearestAnswer& nearest, const Standing& standing) {
-    const ContactNormal contact = contact_normal(model_.tree(), point_, nearest, standing,
-                                                 remember_ ? &probe_.vicinity() : nullptr,
-                                                 nodes_left(), turner_.pages(), work_);
-    answer_.normal = {contact.normal.x(), contact.normal.y(), contact.normal.z()};
-    if (!contact.complete) degrade();
+  // The side by what is at the nearest point, and no look at the mask. Not of limited asks that
+  // wait: they bring the pages that others need, which may have to look there. No region with
+  // walls has sheets, whatever its file says.
+  std::optional<Standing> side_of_faces() {
+    if (!remember_ || !octree::Sheet::tells_side(nearest_) || model_.region().has_walls())
+      return {};
+    // Of a few nodes more than finding all faces of a vertex takes, the search shall have its own.
+    if (nearest_.feature != Feature::kFace && nodes_left() < kNodesForFaces) return {};
+    if (feature().side == 0) return {};
+    const bool outside = feature().side > 0;
+    const Standing standing{outside ? Side::kOutside : Side::kInside, Status::kExact,
+                            outside ? 0 : 1};
+    probe_.side_memory().note(point_, standing, true, nearest_.lower);
+    return standing;
+  }
+
+  void find_normal(const Standing& standing) {
+    const octree::Point normal = contact_normal(point_, nearest_, feature(), standing);
+    answer_.normal = {normal.x(), normal.y(), normal.z()};
+    if (!feature().complete) degrade();
+  }
+
+  const octree::FeatureNormal& feature() {
+    if (!feature_)
+      feature_ = octree::feature_normal(model_.tree(), point_, nearest_,
+                                        remember_ ? &probe_.vicinity() : nullptr, nodes_left(),
+                                        turner_.pages(), work_);
+    return *feature_;
   }
 
   void degrade() {
     lost_ = true;
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
+
+  static constexpr std::uint64_t kNodesForFaces = 512;
 
   ProbeState& probe_;
   const ModelState& model_;
@@ -242,31 +220,10 @@ class Asking {
   PageTurner turner_;
   octree::TreeWork work_;
   ClosestPoint& answer_;
-  bool lost_ = false;  // something for want of pages or work
+  octree::NearestAnswer nearest_;
+  std::optional<octree::FeatureNormal> feature_;  // at the nearest point
+  bool lost_ = false;                             // something for want of pages or work
 };
-
-// Apart from what most asks come to, which needs few registers.
-[[gnu::noinline]] Containment find_containment(ProbeState& probe, const Vec3& query, const Ask& ask,
-                                               const octree::Point& placed,
-                                               const octree::ColourMap::Spot& spot, TouchLog* log) {
-  // What stands for a point that far away may be beyond another wall of a region.
-  if (is_far(placed))
-    if (const auto known = side_at_once(probe.model(), placed, spot))
-      return {known->side, known->status};
-  const Ask limited = with_defaults(ask);
-  PageTurner turner(probe.reader(), ask.wait, probe.model().asking_terms());
-  turner.log_to(log);
-  octree::TreeWork work;
-  const Standing standing = side_of(probe, within_reach(placed, query), spot, 0, may_remember(ask),
-                                    limited.max_nodes, turner, work);
-  if (standing.status == Status::kDegraded) {
-    Ask side_alone = limited;
-    side_alone.parts = kSide;
-    note_loss(probe, query, side_alone, turner);
-    probe.model().count_degraded();
-  }
-  return {standing.side, standing.status};
-}
 
 }  // namespace
 
@@ -276,18 +233,6 @@ ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask)
   Asking(probe, query, ask, nullptr, answer).run();
   if (answer.status == Status::kDegraded) probe.model().count_degraded();
   return answer;
-}
-
-Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  if (!makes_sense(query, ask)) return {};
-  const octree::Point placed = probe.model().scale().in(query);
-  probe.last_parts() = kSide;
-  TouchLog* const log = probe.touches().begin_ask(ask.wait);
-  const octree::ColourMap::Spot spot = look_at_colours(probe.model(), placed);
-  // What most asks come to.
-  if (spot.winding != octree::ColourMap::kUnknown)
-    return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
-  return find_containment(probe, query, ask, placed, spot, log);
 }
 
 void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,

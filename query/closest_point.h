@@ -10,9 +10,6 @@ namespace planetree::query {
 /// See Probe::closest_point.
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
 
-/// See Probe::contains.
-Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept;
-
 /// Makes resident what the answer to this ask needs, which waits for pages and is of limited
 /// work: from the root down, for what the probe remembers says nothing of what is resident.
 /// stop  gives up before the next page that is missing, once true.

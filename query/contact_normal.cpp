@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "octree/feature_normal.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
 
@@ -48,18 +47,11 @@ bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
 
 }  // namespace
 
-ContactNormal contact_normal(const octree::TreeFacts& tree, const Point& query,
-                             const octree::NearestAnswer& nearest, const Standing& standing,
-                             const octree::Vicinity* vicinity, std::uint64_t max_nodes,
-                             octree::PageReader pages, octree::TreeWork& work) noexcept {
-  const octree::FeatureNormal found =
-      octree::feature_normal(tree, nearest, vicinity, max_nodes, pages, work);
-  ContactNormal contact;
-  contact.complete = found.complete;
-  if (found.normal.squaredNorm() > 0)
-    contact.normal =
-        points_inward(query, nearest, standing, found.normal) ? Point(-found.normal) : found.normal;
-  return contact;
+Point contact_normal(const Point& query, const octree::NearestAnswer& nearest,
+                     const octree::FeatureNormal& feature, const Standing& standing) noexcept {
+  if (!(feature.normal.squaredNorm() > 0)) return {0, 0, 1};
+  return points_inward(query, nearest, standing, feature.normal) ? Point(-feature.normal)
+                                                                 : feature.normal;
 }
 
 }  // namespace planetree::query

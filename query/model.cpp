@@ -145,7 +145,8 @@ Result<void> ModelState::fill_colours() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
   PageTurner turner(*reader, Wait::kForPages);
-  colours_.fill(mask_, tree_, turner.pages(), asking_.colours);
+  colours_.fill(mask_, tree_, region_.has_walls(), scale_.exponent(), turner.pages(),
+                asking_.colours);
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include "query/batch.h"
 #include "query/closest_point.h"
+#include "query/containment.h"
 #include "query/host_arithmetic.h"
 #include "query/probe_state.h"
 
@@ -31,8 +32,11 @@ ClosestPoint Probe::closest_point(Vec3 query, const Ask& ask) noexcept {
 }
 
 Containment Probe::contains(Vec3 query, const Ask& ask) noexcept {
+  // Before the register is read, which waits for what the thread computes.
+  const Containment told = query::contains_at_a_glance(*state_, query, ask);
+  if (told.side != Side::kUnknown) return told;
   const query::HostArithmetic host;
-  return query::contains(*state_, query, ask);
+  return query::contains_after_glance(*state_, query, ask);
 }
 
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {

@@ -14,7 +14,10 @@ class Scale {
  public:
   explicit Scale(int exponent)
       : in_{std::ldexp(1.0, exponent / 2), std::ldexp(1.0, exponent - exponent / 2)},
-        out_{std::ldexp(1.0, -(exponent / 2)), std::ldexp(1.0, exponent / 2 - exponent)} {}
+        out_{std::ldexp(1.0, -(exponent / 2)), std::ldexp(1.0, exponent / 2 - exponent)},
+        exponent_(exponent) {}
+
+  int exponent() const { return exponent_; }
 
   double in(double length) const { return length * in_[0] * in_[1]; }
   double out(double length) const { return length * out_[0] * out_[1]; }
@@ -40,6 +43,7 @@ class Scale {
   // Two factors, because one power of two may be outside the range of double.
   double in_[2];
   double out_[2];
+  int exponent_;
 };
 
 }  // namespace planetree::query

@@ -61,11 +61,7 @@ template <class Grid>
 bool SideSearch::go_within_octant(const octree::MaskFinding& found, const Grid& grid) {
   const unsigned octant = grid.octant(found.cell, point_);
   std::array<std::uint32_t, octree::kMostListed> links;
-  std::size_t count = 0;
-  for (unsigned i = 0; i < found.blocks.count; ++i) {
-    links[count] = found.blocks.links[i];
-    count += found.blocks.octants[i] >> octant & 1;
-  }
+  const unsigned count = found.blocks.in_octant(octant, links);
   const Point corner = grid.corner(found.cell, octant);
   const int winding = octree::corner_of(found.listed, octant);
   if (count == 0) return conclude(corner, winding, {}, SideReason::Rule::kCorner);

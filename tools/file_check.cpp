@@ -13,6 +13,7 @@
 #include "query/scale.h"
 #include "tools/geometry_check.h"
 #include "tools/mask_check.h"
+#include "tools/sheet_check.h"
 #include "tools/subtree_links.h"
 
 namespace planetree::tools {
@@ -105,7 +106,9 @@ CheckReport TreeCheck::run(const CheckProgress& progress) {
     report_whole(IssueCode::kLinkTarget, "the header's link to the root leads to no page");
   check_counts();
   if (geometry_) geometry_->finish(complete_);
-  check_mask(parts_, geometry_.has_value() && report_.issues.count() == 0, report_, progress);
+  const auto is_proving = [this] { return geometry_ && report_.issues.count() == 0; };
+  check_mask(parts_, is_proving(), report_, progress);
+  if (is_proving()) check_sheets(parts_, report_.issues);
   return std::move(report_);
 }
 

@@ -43,7 +43,7 @@ using CheckProgress = std::function<void(std::uint32_t pages_done)>;
 /// does not stop at the first that is broken. What follows from an issue
 /// already told, such as subtrees below a page that is lost, is not told again.
 ///
-/// full    also every triangle and vertex, and what the mask says of them
+/// full    also every triangle and vertex, and what mask and sheets say of them
 /// memory  one page, the links to pages not yet come, and with `full` about
 ///         2 bits for each triangle and up to 256 MiB
 CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress = {});

@@ -49,6 +49,10 @@ class Surveyor {
       return mask_.add(row.number);
     }
     row.head = add_streams<octree::RawStreams>(survey_.streams);
+    const FrameView frame = parts_.frame();
+    frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
+      survey_.sheets += frame.block(slot).header().in_sheet;
+    });
     add_levels(row.number);
   }
 

@@ -43,6 +43,7 @@ enum class IssueCode : std::uint8_t {
   kMaskColour,
   kMaskPlanes,
   kMaskBlocks,
+  kBlockSheet,
   kRegion,
 };
 inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kRegion) + 1;

@@ -22,7 +22,6 @@ using octree::GridCell;
 using octree::Point;
 using octree::Triangle;
 
-constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
 
 std::string cell_name(const GridCell& cell) {
@@ -64,20 +63,14 @@ bool has_all(const octree::MaskBlocks& said, const octree::MaskBlocks& found) {
 
 Result<std::unique_ptr<MaskProof>> MaskProof::open(const std::filesystem::path& path,
                                                    IssueList& issues) {
-  OpenOptions options;
-  options.memory_budget_bytes = kMemoryBytes;
-  options.max_probes = 1;
-  auto model = query::ModelState::open(path, options);
-  if (!model) return model.error();
-  auto reader = (*model)->claim_reader();
-  if (!reader) return reader.error();
-  return std::unique_ptr<MaskProof>(new MaskProof(std::move(*model), std::move(*reader), issues));
+  auto opened = ProofModel::open(path);
+  if (!opened) return opened.error();
+  return std::unique_ptr<MaskProof>(new MaskProof(*std::move(opened), issues));
 }
 
-MaskProof::MaskProof(std::unique_ptr<query::ModelState> model, cache::Reader reader,
-                     IssueList& issues)
-    : model_(std::move(model)),
-      reader_(std::move(reader)),
+MaskProof::MaskProof(ProofModel opened, IssueList& issues)
+    : model_(std::move(opened.model)),
+      reader_(std::move(opened.reader)),
       issues_(issues),
       grid_(model_->mask().lower, model_->region()) {}
 

@@ -189,6 +189,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"levels", model.height},
                {"nodes", model.node_count},
                {"blocks", model.block_count},
+               {"blocks_in_sheets", survey.sheets},
                {"pages", header.page_count},
                {"page_bytes", header.page_bytes},
                {"file_bytes", parts.actual_bytes()},
@@ -221,10 +222,11 @@ std::string summary_text(const std::string& name, const FileParts& parts,
                       point_text(model.box_upper));
   text += region_text(model);
   text += surface_text(model);
-  text +=
-      fmt::format("  tree        {} levels, {} nodes, {} blocks, {:.1f} triangles a block\n",
-                  model.height, grouped_count(model.node_count), grouped_count(model.block_count),
-                  share(model.triangle_count, model.block_count));
+  text += fmt::format(
+      "  tree        {} levels, {} nodes, {} blocks, {} of them in sheets, {:.1f} "
+      "triangles a block\n",
+      model.height, grouped_count(model.node_count), grouped_count(model.block_count),
+      grouped_count(survey.sheets), share(model.triangle_count, model.block_count));
   text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
       "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, "

@@ -16,6 +16,7 @@ struct FilePage {
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;
   std::vector<std::byte> bytes;
+  std::size_t blocks_at = 0;  ///< of a distance page: its blocks' counts of triangles
 };
 
 /// Makes pages side by side and appends them to a file in their order.

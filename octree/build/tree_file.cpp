@@ -1,6 +1,9 @@
 #include "octree/build/tree_file.h"
 
+#include <optional>
+
 #include "octree/build/page_appender.h"
+#include "octree/build/sheet_marks.h"
 #include "octree/strict_math.h"
 #include "storage/page_writer.h"
 
@@ -64,8 +67,16 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress, page_count);
-  const auto appended =
-      appender.append(pages.size(), [&](std::uint32_t page) { return pages.encode(page); });
+  // What is beyond a wall may touch the lines that prove a sheet.
+  const bool has_walls = built.box && built.box->region(built.frame).has_walls();
+  std::optional<SheetMarks> sheets;
+  if (built.mask && !has_walls) sheets.emplace(tree, *built.mask);
+  const auto appended = appender.append(pages.size(), [&](std::uint32_t number) {
+    auto page = pages.encode(number);
+    if (page && sheets)
+      if (const auto marked = sheets->mark(number, *page); !marked) page = marked.error();
+    return page;
+  });
   if (!appended) return appended.error();
   writer->begin_mask();
   const auto masked = appender.append(

@@ -1,16 +1,20 @@
 #include "octree/build/tree_frames.h"
 
 #include <algorithm>
+#include <new>
 
+#include "octree/mask_decoder.h"
 #include "octree/page_decoder.h"
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
 
-TreeFrames::TreeFrames(const BuiltTree& tree)
+TreeFrames::TreeFrames(const BuiltTree& tree, const BuiltMask* mask)
     : tree_(tree),
+      mask_(mask),
       page_lines_(tree.facts_of_page(0).page_bytes / kSlotBytes),
-      most_(std::min<std::size_t>(tree.pages().size(), kBytes / kSlotBytes / page_lines_)) {
+      most_(std::min<std::size_t>(tree.pages().size() + (mask ? mask->size() : 0),
+                                  kBytes / kSlotBytes / page_lines_)) {
   lines_.reserve(most_ * page_lines_);
   frames_.reserve(most_);
 }
@@ -18,9 +22,18 @@ TreeFrames::TreeFrames(const BuiltTree& tree)
 const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
   auto& self = *static_cast<TreeFrames*>(frames);
   const auto place = self.places_.find(number);
-  if (place == self.places_.end()) return self.bring(number);
-  self.frames_[place->second].asked = ++self.asks_;
-  return self.bytes_of(place->second).data();
+  if (place != self.places_.end()) {
+    self.frames_[place->second].asked = ++self.asks_;
+    return self.bytes_of(place->second).data();
+  }
+  try {
+    return self.bring(number);
+  } catch (const std::bad_alloc&) {
+    if (self.state_)
+      self.state_ = make_error(ErrorCode::kNoMemory, number, Error::kNowhere,
+                               "no memory for a page that is read again; free some and try again");
+    return nullptr;
+  }
 }
 
 const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
@@ -29,12 +42,26 @@ const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
   return place == self.places_.end() ? nullptr : self.bytes_of(place->second).data();
 }
 
+Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame) const {
+  const std::uint32_t tree_pages = tree_.pages().size();
+  const bool of_tree = number < tree_pages;
+  const auto raw =
+      of_tree ? tree_.pages().encode(number) : mask_->encode(number - tree_pages, tree_pages);
+  if (!raw) return raw.error();
+  if (of_tree) return decode_page(raw->bytes, tree_.facts_of_page(number), frame);
+  PageFacts facts = tree_.facts_of_page(0);
+  facts.first_page = tree_pages;
+  facts.page_count = mask_->size();
+  facts.page_number = number;
+  facts.octcode = raw->octcode;
+  facts.ordinal = raw->ordinal;
+  return decode_mask_page(raw->bytes, facts, frame);
+}
+
 const std::byte* TreeFrames::bring(std::uint32_t number) {
-  const auto raw = tree_.pages().encode(number);
   const std::size_t frame = free_one();
   const std::span<std::byte> bytes = bytes_of(frame);
-  const Result<void> decoded =
-      raw ? decode_page(raw->bytes, tree_.facts_of_page(number), bytes) : raw.error();
+  const Result<void> decoded = decode(number, bytes);
   if (!decoded) {
     if (state_) state_ = decoded;
     frames_[frame] = {};

@@ -6,21 +6,22 @@
 #include <unordered_map>
 #include <vector>
 
+#include "octree/build/built_mask.h"
 #include "octree/build/built_tree.h"
 #include "octree/tree_view.h"
 #include "planetree/error.h"
 
 namespace planetree::octree {
 
-/// Frames of the pages of a tree that is being built, for walks in it: the last ones that were
-/// asked for. One thread.
+/// Frames of the pages of a tree that is being built, and of its mask, for walks in them: the
+/// last ones that were asked for. One thread.
 class TreeFrames {
  public:
   /// Memory of the frames.
   static constexpr std::size_t kBytes = std::size_t{4} << 20;
 
-  /// tree  must outlive this.
-  explicit TreeFrames(const BuiltTree& tree);
+  /// tree, mask  must outlive this; without a mask there are the tree's pages alone.
+  explicit TreeFrames(const BuiltTree& tree, const BuiltMask* mask = nullptr);
   TreeFrames(const TreeFrames&) = delete;
   TreeFrames& operator=(const TreeFrames&) = delete;
 
@@ -43,10 +44,12 @@ class TreeFrames {
   static const std::byte* page(void* frames, std::uint32_t number) noexcept;
   static const std::byte* peek(void* frames, std::uint32_t number) noexcept;
   const std::byte* bring(std::uint32_t number);
+  Result<void> decode(std::uint32_t number, std::span<std::byte> frame) const;
   std::size_t free_one();
   std::span<std::byte> bytes_of(std::size_t frame);
 
   const BuiltTree& tree_;
+  const BuiltMask* const mask_;
   const std::size_t page_lines_;
   const std::size_t most_;
   std::vector<Line> lines_;

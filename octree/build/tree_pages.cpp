@@ -46,7 +46,9 @@ Result<FilePage> TreePages::encode(std::uint32_t number) const {
                       [&](std::uint32_t link) { return numbers_.link(page.patch, link); });
   if (!raw) return raw.error();
   std::memcpy(raw->data() + offsetof(PageHead, ordinal), &page.ordinal, sizeof page.ordinal);
-  return FilePage{page.octcode, page.ordinal, *std::move(raw)};
+  const SpilledPage& spilled = patches_[page.patch].pages[page.place];
+  return FilePage{page.octcode, page.ordinal, *std::move(raw),
+                  spilled.links_at + spilled.link_count * sizeof(std::uint32_t)};
 }
 
 }  // namespace planetree::octree

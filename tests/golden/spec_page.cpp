@@ -59,6 +59,12 @@ class PageReader {
 
   void cut_block_streams() {
     triangle_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
+    for (std::uint8_t& count : triangle_counts_) {
+      in_sheet_.push_back(count >> 7 != 0);
+      count &= 0x7f;
+    }
+    require((!header_.open && !header_.has_walls()) || std::ranges::count(in_sheet_, true) == 0,
+            "a sheet of an open surface or of a region with walls");
     vertex_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
     new_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
     vertex_refs_ = cutter_.shuffled<std::uint16_t>(head_.vertex_refs);
@@ -169,7 +175,7 @@ class PageReader {
     for (std::size_t i = 0; i < old_count; ++i)
       vertices.push_back((i == 0 ? 0 : vertices.back()) + vertex_refs_.at(next_ref_++));
     while (vertices.size() < vertex_counts_[block]) vertices.push_back(next_vertex_++);
-    SpecBlock read{{}, vertices.size()};
+    SpecBlock read{{}, vertices.size(), in_sheet_[block]};
     std::uint64_t id = first_ids_[block];
     for (std::size_t i = 0; i < triangle_counts_[block]; ++i) {
       if (i > 0) id += id_steps_.at(next_step_++);
@@ -204,6 +210,7 @@ class PageReader {
   std::vector<float> root_boxes_;
   std::vector<std::uint8_t> child_counts_, heights_, boxes_;
   std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
+  std::vector<bool> in_sheet_;
   std::vector<std::uint16_t> kinds_, radii_, areas_, seconds_, vertex_refs_;
   std::vector<std::int16_t> normals_, slabs_, vectors_;
   std::vector<std::int8_t> firsts_;

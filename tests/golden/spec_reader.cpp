@@ -77,9 +77,16 @@ SpecHeader read_header(Bytes header) {
 
 }  // namespace
 
+bool SpecHeader::has_walls() const {
+  bool found = false;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    found = found || std::isfinite(wall_lower[axis]) || std::isfinite(wall_upper[axis]);
+  return found;
+}
+
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 6, "another version");
+  require(get<std::uint16_t>(header, 8) == 7, "another version");
   require(get<std::uint16_t>(header, 10) == 576, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");

@@ -33,6 +33,7 @@ struct SpecHeader {
   std::uint64_t input_triangles;     ///< 0: there is no region
   SpecPoint wall_lower, wall_upper;  ///< of the region, model frame; infinite where none is
   std::int64_t region_winding;
+  bool has_walls() const;
   /// The first mask page.
   std::uint32_t d() const { return page_count - mask_pages; }
 };
@@ -75,6 +76,7 @@ struct SpecTriangle {
 struct SpecBlock {
   std::vector<SpecTriangle> triangles;
   std::size_t vertex_count;
+  bool in_sheet;
 };
 
 /// A decoded page: its records by their links, which are unique in a file.

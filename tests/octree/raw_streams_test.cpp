@@ -57,6 +57,24 @@ TEST_F(RawStreamsTest, CutAPageIntoItsStreams) {
   EXPECT_EQ(RawPage::of(raw_).bytes(), raw_);
 }
 
+TEST_F(RawStreamsTest, TellBlocksInSheetsFromTheirCounts) {
+  RawPage page = RawPage::of(raw_);
+  const std::vector<std::uint8_t> counts = page.triangle_counts;
+  const std::size_t marked = counts.size() / 2;
+  page.triangle_counts[marked] |= kSheetBit;
+  const std::vector<std::byte> raw = page.bytes();
+  RawStreams streams;
+  ASSERT_EQ(streams.cut(raw, BlockShape{}), nullptr);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    EXPECT_EQ(streams.triangle_count(i), counts[i]);
+    EXPECT_EQ(streams.in_sheet(i), i == marked);
+  }
+  for (const unsigned count : {0u, 17u, 127u}) {
+    page.triangle_counts[marked] = static_cast<std::uint8_t>(kSheetBit | count);
+    EXPECT_STREQ(streams.cut(page.bytes(), BlockShape{}), "a block's counts are out of range");
+  }
+}
+
 TEST_F(RawStreamsTest, RefuseEveryShorterPage) {
   for (std::size_t size = 0; size < raw_.size(); ++size) {
     const std::vector<std::byte> part(raw_.begin(),

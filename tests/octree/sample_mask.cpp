@@ -201,8 +201,12 @@ MaskFacts MaskPages::mask(const Point& lower) const {
 std::vector<std::uint32_t> MaskPages::take_asked() { return std::exchange(asked_, {}); }
 
 const std::byte* MaskPages::page(std::uint32_t number) {
+  asked_.push_back(number - first_page_);
+  return peek(number);
+}
+
+const std::byte* MaskPages::peek(std::uint32_t number) const {
   const std::uint32_t within = number - first_page_;
-  asked_.push_back(within);
   return within >= size() || withheld_[within] ? nullptr : frames_[within].data();
 }
 
@@ -210,6 +214,14 @@ PageReader MaskPages::reader() {
   return {this, [](void* context, std::uint32_t number) noexcept {
             return static_cast<MaskPages*>(context)->page(number);
           }};
+}
+
+PageReader MaskPages::resident_reader() {
+  PageReader reader = this->reader();
+  reader.peek = [](void* context, std::uint32_t number) noexcept {
+    return static_cast<const MaskPages*>(context)->peek(number);
+  };
+  return reader;
 }
 
 }  // namespace planetree::octree

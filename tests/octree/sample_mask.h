@@ -82,9 +82,12 @@ class MaskPages {
   /// Pages asked for since the last call, by number within the mask.
   std::vector<std::uint32_t> take_asked();
   PageReader reader();
+  /// One that finds pages in memory, all of them.
+  PageReader resident_reader();
 
  private:
   const std::byte* page(std::uint32_t number);
+  const std::byte* peek(std::uint32_t number) const;
 
   std::uint32_t first_page_;
   bool float64_;

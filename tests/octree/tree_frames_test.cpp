@@ -8,8 +8,10 @@
 #include <mutex>
 
 #include "octree/build/region_cut.h"
+#include "octree/mask_decoder.h"
 #include "tests/octree/patched_tree.h"
 #include "tests/octree/sample_mask.h"
+#include "tests/octree/sheet_model.h"
 #include "tests/storage/faulty_calls.h"
 
 namespace planetree::octree {
@@ -84,6 +86,32 @@ TEST(TreeFrames, HoldNoMoreThanTheirMemory) {
     held += holds(frames, page);
   }
   EXPECT_EQ(held, kHeld);
+}
+
+TEST(TreeFrames, AreThoseOfTheMaskToo) {
+  const SheetModel model(sphere(5));
+  const std::uint32_t first = model.mask_facts.first_page;
+  ASSERT_GT(model.mask.size(), 2u);
+  TreeFrames frames(*model.tree.tree, &model.mask);
+  for (std::uint32_t i = 0; i < model.mask.size(); ++i) {
+    const auto raw = model.mask.encode(i, first);
+    ASSERT_TRUE(raw);
+    PageFacts facts = model.tree.tree->facts_of_page(0);
+    facts.first_page = first;
+    facts.page_count = model.mask.size();
+    facts.page_number = first + i;
+    facts.octcode = raw->octcode;
+    facts.ordinal = raw->ordinal;
+    SampleFrame expected(4096);
+    ASSERT_TRUE(decode_mask_page(raw->bytes, facts, expected.bytes()));
+    const std::byte* frame = ask(frames, first + i);
+    ASSERT_NE(frame, nullptr);
+    const std::size_t records_end = header_of(expected).first_plane_slot * kMaskSlotBytes;
+    EXPECT_EQ(std::memcmp(frame, expected.data(), records_end), 0) << i;
+    // Those of the tree have their numbers still.
+    expect_page(model.tree, frames, i % first);
+  }
+  EXPECT_TRUE(frames.state());
 }
 
 class LostFrames : public testing::Test {

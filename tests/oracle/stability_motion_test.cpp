@@ -30,7 +30,7 @@ std::vector<Vec3> some_queries(const Soup& triangles, int count) {
   return queries;
 }
 
-Vec3 scaled(const Vec3& p, int exponent) {
+Vec3 by_power_of_two(const Vec3& p, int exponent) {
   return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
 }
 
@@ -41,14 +41,14 @@ TEST(StabilityMotion, ScalingByAPowerOfTwo) {
   const std::vector<Vec3> queries = some_queries(triangles, 100);
   BuiltModel original(triangles);
   for (int exponent = -40; exponent <= 40; exponent += 5) {
-    BuiltModel model(oracle::scaled(triangles, std::ldexp(1.0, exponent)));
+    BuiltModel model(scaled(triangles, std::ldexp(1.0, exponent)));
     for (const Vec3& query : queries) {
       ClosestPoint expected = original.ask(query);
       expected.distance = std::ldexp(expected.distance, exponent);
       expected.lower = std::ldexp(expected.lower, exponent);
       expected.upper = std::ldexp(expected.upper, exponent);
-      expected.point = scaled(expected.point, exponent);
-      expect_same_bits(model.ask(scaled(query, exponent)), expected);
+      expected.point = by_power_of_two(expected.point, exponent);
+      expect_same_bits(model.ask(by_power_of_two(query, exponent)), expected);
     }
   }
 }
@@ -137,10 +137,10 @@ TEST(StabilityMotion, ScalingAWatertightModelByAPowerOfTwo) {
   BuiltModel original(triangles);
   ASSERT_TRUE(original.model().info().watertight());
   for (int exponent = -40; exponent <= 40; exponent += 10) {
-    BuiltModel model(oracle::scaled(triangles, std::ldexp(1.0, exponent)));
+    BuiltModel model(scaled(triangles, std::ldexp(1.0, exponent)));
     for (const Vec3& query : queries) {
       const ClosestPoint expected = original.ask(query);
-      const ClosestPoint answer = model.ask(scaled(query, exponent));
+      const ClosestPoint answer = model.ask(by_power_of_two(query, exponent));
       EXPECT_EQ(answer.distance, std::ldexp(expected.distance, exponent));
       EXPECT_EQ(answer.side, expected.side);
       EXPECT_EQ(answer.normal.x, expected.normal.x);

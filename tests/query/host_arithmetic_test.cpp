@@ -19,7 +19,7 @@ namespace {
 class StabilityHostThread : public testing::Test {
  protected:
   StabilityHostThread()
-      : sample_(octree::sphere(3)),
+      : sample_(SampleModel::masked(octree::sphere(3))),
         model_(sample_.open()),
         queries_(random_queries(300, -1.3, 1.3)) {
     queries_.push_back({0x1p-1074, 0x1p-1060, 0});

@@ -63,6 +63,23 @@ TEST_F(Command, InspectSaysWhatStreamsMaskPagesHave) {
   EXPECT_GT(report["lists_of_blocks"], 0);
 }
 
+TEST_F(Command, InspectSaysHowManyBlocksAreInSheets) {
+  const std::string samples = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/";
+  const auto report = [&](const std::string& file) {
+    return Json::parse(run({"inspect", file, "--json"}).output);
+  };
+  const Json sphere = report(samples + "sphere.ptree");
+  EXPECT_EQ(sphere["blocks_in_sheets"], sphere["blocks"]);
+  const Json boxes = report(samples + "boxes.ptree");
+  EXPECT_GT(boxes["blocks_in_sheets"], 0);
+  EXPECT_LT(boxes["blocks_in_sheets"], boxes["blocks"]);
+  EXPECT_EQ(report("tree.ptree")["blocks_in_sheets"], 0);
+  const std::string text = run({"inspect", samples + "sphere.ptree"}).output;
+  const std::string blocks = sphere["blocks"].dump();
+  EXPECT_NE(text.find(blocks + " blocks, " + blocks + " of them in sheets"), std::string::npos)
+      << text;
+}
+
 TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
   const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
   EXPECT_EQ(open["watertight"], false);

@@ -1,0 +1,110 @@
+// "Sheets", held against the samples as the independent reader decodes them, and against sums
+// of solid angles.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "tests/golden/samples.h"
+#include "tests/golden/spec_tree.h"
+#include "tests/golden/spec_vector.h"
+
+namespace planetree::golden {
+namespace {
+
+SpecPoint sum(const SpecPoint& a, double share, const SpecPoint& b) {
+  return {a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]};
+}
+
+SpecPoint normal_of(const SpecTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  return cross(b - a, c - a);
+}
+
+struct SheetSample {
+  explicit SheetSample(const Sample& sample)
+      : tree(SpecFile(read_file(sample.ptree_path()))),
+        all(tree.triangles(tree.header().root_link)) {}
+
+  // The number of blocks that `look` is called with.
+  std::size_t each_in_sheet(const std::function<void(const SpecBlock&)>& look) const {
+    std::size_t count = 0;
+    for (const SpecPage& page : tree.pages())
+      for (const auto& [link, block] : page.blocks)
+        if (block.in_sheet) {
+          look(block);
+          ++count;
+        }
+    return count;
+  }
+
+  SpecTree tree;
+  std::vector<SpecTriangle> all;
+};
+
+TEST(SpecSheets, AreOfBlocksThatHaveTheOutsideInFrontAndTheInsideBehind) {
+  for (const Sample& sample : {sphere_sample(), boxes_sample()}) {
+    const SheetSample file(sample);
+    const std::size_t count = file.each_in_sheet([&](const SpecBlock& block) {
+      for (const SpecTriangle& triangle : block.triangles) {
+        const auto& [a, b, c] = triangle.corners;
+        const SpecPoint centre = sum(sum(sum({}, 1. / 3, a), 1. / 3, b), 1. / 3, c);
+        const SpecPoint normal = normal_of(triangle);
+        const double length = std::sqrt(dot(normal, normal));
+        ASSERT_GT(length, 0);
+        for (const double by : {1e-5, -1e-5}) {
+          const SpecPoint point = sum(centre, by / length, normal);
+          EXPECT_NEAR(winding_number(file.all, point), by > 0 ? 0 : 1, 1e-6) << triangle.id;
+        }
+      }
+    });
+    EXPECT_GT(count, 0u) << sample.mesh;
+  }
+}
+
+// The direction of the box is not told, but there is one for all triangles of the block.
+TEST(SpecSheets, RiseInOneDirection) {
+  const SheetSample file(sphere_sample());
+  file.each_in_sheet([](const SpecBlock& block) {
+    SpecPoint direction{};
+    for (const SpecTriangle& triangle : block.triangles)
+      direction = sum(direction, 1, normal_of(triangle));
+    for (const SpecTriangle& triangle : block.triangles) {
+      const SpecPoint normal = normal_of(triangle);
+      EXPECT_GE(dot(normal, direction),
+                0.0625 * std::sqrt(dot(normal, normal) * dot(direction, direction)));
+    }
+  });
+}
+
+// Most of a sphere is simple enough; and what a reader may ask there is its side.
+TEST(SpecSheets, TellTheSideByTheFaceAtANearestPoint) {
+  const SheetSample file(sphere_sample());
+  std::size_t blocks = 0, told = 0;
+  for (const SpecPage& page : file.tree.pages()) blocks += page.blocks.size();
+  const std::size_t count = file.each_in_sheet([&](const SpecBlock& block) {
+    const SpecTriangle& triangle = block.triangles.front();
+    const auto& [a, b, c] = triangle.corners;
+    const SpecPoint foot = sum(sum(sum({}, 0.5, a), 0.3, b), 0.2, c);
+    const SpecPoint normal = normal_of(triangle);
+    for (const double by : {0.02, -0.02}) {
+      const SpecPoint point = sum(foot, by / std::sqrt(dot(normal, normal)), normal);
+      if (file.tree.nearest(point).triangle != triangle.id) continue;
+      EXPECT_NEAR(winding_number(file.all, point), by > 0 ? 0 : 1, 1e-6);
+      ++told;
+    }
+  });
+  EXPECT_GT(2 * count, blocks);
+  EXPECT_GT(told, count);
+}
+
+TEST(SpecSheets, AreNotInFilesOfRegionsOrOpenSurfaces) {
+  for (const Sample& sample : {region_sample(), samples()[1]})
+    EXPECT_EQ(SheetSample(sample).each_in_sheet([](const SpecBlock&) {}), 0u) << sample.ptree;
+}
+
+}  // namespace
+}  // namespace planetree::golden

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "tests/oracle/built_model.h"
+#include "tests/oracle/closed_models.h"
+#include "tests/oracle/random.h"
+#include "tests/oracle/winding.h"
+
+// Sides that the nearest faces tell, where they are in a sheet.
+namespace planetree::oracle {
+namespace {
+
+// Off the middle of a face, by `height` times its normal's length.
+Vec3 off_middle(const Corners& face, double height) {
+  const auto [a, b, c] = face;
+  const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
+  const Vec3 normal{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+  return {(a.x + b.x + c.x) / 3 + height * normal.x, (a.y + b.y + c.y) / 3 + height * normal.y,
+          (a.z + b.z + c.z) / 3 + height * normal.z};
+}
+
+class SheetSides {
+ public:
+  explicit SheetSides(const Soup& soup)
+      : model_(soup, {.max_probes = 2}), other_(*Probe::create(model_.model())) {}
+
+  // How many of the points off faces have their side told for the pages of the distance alone,
+  // of all that are not known at a look.
+  double share_spared(double height) {
+    unsigned asked = 0, spared = 0;
+    for (const Corners& face : model_.triangles()) {
+      const Vec3 query = off_middle(face, height);
+      const std::uint64_t first = hits();
+      (void)other_.contains(query);
+      const std::uint64_t before = hits();
+      const ClosestPoint distance = other_.closest_point(query, {.parts = kDistance});
+      const std::uint64_t middle = hits();
+      const ClosestPoint all = model_.ask(query);
+      EXPECT_EQ(all.side, exact_side(query, model_.triangles()));
+      EXPECT_EQ(all.distance, distance.distance);
+      if (before == first) continue;
+      ++asked;
+      spared += hits() - middle == middle - before ? 1 : 0;
+    }
+    EXPECT_GT(asked, model_.triangles().size() / 2);
+    return double{1} * spared / asked;
+  }
+
+ private:
+  std::uint64_t hits() const { return model_.model().stats().page_hits; }
+
+  BuiltModel model_;
+  Probe other_;
+};
+
+TEST(SheetSides, TakeNoPagesBesideThoseOfDistances) {
+  SheetSides sides(ball(4));
+  EXPECT_GT(sides.share_spared(0.3), 0.9);
+  EXPECT_GT(sides.share_spared(-0.3), 0.9);
+}
+
+// Where a solid is everywhere inside twice, or inside out, no face tells a side by itself.
+TEST(SheetSides, AreLookedForWhereFacesDoNotTellThem) {
+  for (const Soup& soup : {ball(4) + ball(4), inside_out(ball(4))}) {
+    SheetSides sides(soup);
+    EXPECT_EQ(sides.share_spared(0.3), 0);
+    EXPECT_EQ(sides.share_spared(-0.3), 0);
+  }
+}
+
+}  // namespace
+}  // namespace planetree::oracle
