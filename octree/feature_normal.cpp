@@ -42,8 +42,9 @@ Point thin_normal(const Triangle& triangle) {
 /// it does not matter in which order they are found.
 class Fan {
  public:
-  Fan(const Point& query, const Point& vertex, const Point* other)
-      : sides_(query), vertex_(vertex), other_(other) {}
+  /// sides  told of every face; may be null.
+  Fan(const Point& vertex, const Point* other, FacingSides* sides)
+      : vertex_(vertex), other_(other), sides_(sides) {}
 
   void add(const Triangle& triangle, std::uint64_t index) {
     for (unsigned corner = 0; corner < 3; ++corner) {
@@ -52,18 +53,13 @@ class Fan {
       const Point& last = triangle[(corner + 2) % 3];
       if (other_ && next != *other_ && last != *other_) continue;
       const auto normal = face_normal(triangle);
-      if (!normal) {
-        sides_.add_unknown();
-        continue;
-      }
-      sides_.add(triangle, *normal);
+      if (sides_) normal ? sides_->add(triangle, *normal) : sides_->add_unknown();
+      if (!normal) continue;
       if (count_ == kSorted) sum_up();
       const double weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
       faces_[count_++] = {index, corner, weight, *normal};
     }
   }
-
-  FacingSides& sides() { return sides_; }
 
   Point normal() {
     std::sort(faces_, faces_ + count_, [](const Face& a, const Face& b) {
@@ -95,9 +91,9 @@ class Fan {
 
   static constexpr std::size_t kSorted = NearbyTriangles::kMost;
 
-  FacingSides sides_;
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
+  FacingSides* sides_;
   std::size_t count_ = 0;
   Face faces_[kSorted];
   Point sum_ = Point::Zero();
@@ -110,12 +106,13 @@ class Fan {
 FeatureNormal normal_of_face(const Point& query, const NearestAnswer& nearest) {
   const auto normal = face_normal(nearest.corners);
   if (!normal) return {};
+  if (!nearest.in_sheet) return {*normal};
   const auto& [a, b, c] = nearest.corners;
   FacingSides sides(query);
   sides.add(nearest.corners, *normal);
   sides.end_after(*std::min_element(nearest.barycentric.begin(), nearest.barycentric.end()) *
                   (b - a).cross(c - a).norm());
-  return {*normal, true, nearest.in_sheet ? sides.common() : 0};
+  return {*normal, true, sides.common()};
 }
 
 bool walk_to(const Point& vertex, Fan& fan, const TreeFacts& tree, std::uint64_t max_nodes,
@@ -163,8 +160,9 @@ FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
   }
   const Point& vertex = *ends[0];
   const bool on_edge = nearest.feature == Feature::kEdge;
-  Fan fan(query, vertex, on_edge ? ends[1] : nullptr);
-  if (on_edge) fan.sides().end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
+  FacingSides sides(query);
+  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.in_sheet ? &sides : nullptr);
+  if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
   if (const NearbyTriangles* nearby = vicinity ? vicinity->all_at(nearest.point) : nullptr) {
     for (std::size_t i = 0; i < nearby->size(); ++i)
       if (nearby->has_corner(i, vertex)) fan.add(nearby->triangle(i), nearby->id(i));
@@ -172,7 +170,7 @@ FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
     found.complete = walk_to(vertex, fan, tree, max_nodes, pages, work);
   }
   found.normal = fan.normal();
-  if (found.complete && nearest.in_sheet) found.side = fan.sides().common();
+  if (found.complete && nearest.in_sheet) found.side = sides.common();
   // Not even the nearest triangle's own page was to be had.
   if (!found.complete && found.normal.squaredNorm() == 0)
     found.normal = face_normal(nearest.corners).value_or(Point::Zero());

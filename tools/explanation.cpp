@@ -9,14 +9,13 @@
 #include "tools/answer_writer.h"
 #include "tools/coordinate_text.h"
 #include "tools/file_text.h"
+#include "tools/model_reader.h"
 
 namespace planetree::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Rule = query::SideReason::Rule;
-
-constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
 
 Json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
@@ -105,15 +104,11 @@ std::optional<Vec3> parse_point(std::string_view text) {
 }
 
 Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query) {
-  OpenOptions options;
-  options.memory_budget_bytes = kMemoryBytes;
-  options.max_probes = 1;
-  auto model = query::ModelState::open(path, options);
-  if (!model) return model.error();
-  auto reader = (*model)->claim_reader();
-  if (!reader) return reader.error();
-  query::ProbeState probe(**model, std::move(*reader));
-  const query::Scale& scale = (*model)->scale();
+  auto opened = ModelReader::open(path);
+  if (!opened) return opened.error();
+  const query::ModelState& model = *opened->model;
+  query::ProbeState probe(model, std::move(opened->reader));
+  const query::Scale& scale = model.scale();
   const octree::Point point = scale.in(query);
   Explanation result;
   result.query = query;
@@ -121,15 +116,15 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   query::PageTurner turner(probe.reader(), Wait::kForPages);
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
   result.standing =
-      query::find_side(**model, point, kAllNodes, turner.pages(), result.side_work, &result.reason);
-  result.pages_lost = (*model)->stats().quarantined_pages > 0;
-  const octree::CellGrid grid((*model)->mask().lower);
+      query::find_side(model, point, kAllNodes, turner.pages(), result.side_work, &result.reason);
+  result.pages_lost = model.stats().quarantined_pages > 0;
+  const octree::CellGrid grid(model.mask().lower);
   result.cell_lower = scale.out(grid.lower(result.reason.cell));
   result.cell_upper = scale.out(grid.upper(result.reason.cell));
   result.end = scale.out(result.reason.end);
   if (point.cwiseAbs().maxCoeff() > octree::kFarthestQuery) return result;
   const octree::NearestAnswer nearest =
-      octree::nearest((*model)->tree(), point, {}, turner.pages(), result.nearest_work);
+      octree::nearest(model.tree(), point, {}, turner.pages(), result.nearest_work);
   for (int i = 0; i < 3; ++i) result.corners[i] = scale.out(nearest.corners[i]);
   return result;
 }

@@ -63,12 +63,12 @@ bool has_all(const octree::MaskBlocks& said, const octree::MaskBlocks& found) {
 
 Result<std::unique_ptr<MaskProof>> MaskProof::open(const std::filesystem::path& path,
                                                    IssueList& issues) {
-  auto opened = ProofModel::open(path);
+  auto opened = ModelReader::open(path);
   if (!opened) return opened.error();
   return std::unique_ptr<MaskProof>(new MaskProof(*std::move(opened), issues));
 }
 
-MaskProof::MaskProof(ProofModel opened, IssueList& issues)
+MaskProof::MaskProof(ModelReader opened, IssueList& issues)
     : model_(std::move(opened.model)),
       reader_(std::move(opened.reader)),
       issues_(issues),

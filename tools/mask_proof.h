@@ -15,7 +15,7 @@
 #include "planetree/error.h"
 #include "tools/file_check.h"
 #include "tools/mask_walk.h"
-#include "tools/proof_model.h"
+#include "tools/model_reader.h"
 
 namespace planetree::tools {
 
@@ -25,7 +25,7 @@ namespace planetree::tools {
 /// to its least corner, whose number is taken from the header; and that only
 /// grey cells are touched, and only by blocks that they list, if they do.
 ///
-/// memory  that of a ProofModel, and the corners of one page
+/// memory  that of a ModelReader, and the corners of one page
 class MaskProof {
  public:
   static Result<std::unique_ptr<MaskProof>> open(const std::filesystem::path& path,
@@ -36,7 +36,7 @@ class MaskProof {
   void end_page() { counted_.clear(); }
 
  private:
-  MaskProof(ProofModel opened, IssueList& issues);
+  MaskProof(ModelReader opened, IssueList& issues);
 
   void check_octants(const GreyCell& grey);
   void check_colour(std::uint32_t page, const octree::GridCell& cell, int colour);

@@ -9,7 +9,7 @@
 #include "octree/strict_math.h"
 #include "query/model_region.h"
 #include "query/pager.h"
-#include "tools/proof_model.h"
+#include "tools/model_reader.h"
 
 namespace planetree::tools {
 namespace {
@@ -47,7 +47,7 @@ class SheetCheck {
 
   bool open() {
     if (proof_ || lost_) return !lost_;
-    auto opened = ProofModel::open(parts_.path());
+    auto opened = ModelReader::open(parts_.path());
     if (opened) {
       proof_.emplace(*std::move(opened));
     } else {
@@ -64,7 +64,7 @@ class SheetCheck {
 
   FileParts& parts_;
   IssueList& issues_;
-  std::optional<ProofModel> proof_;
+  std::optional<ModelReader> proof_;
   bool lost_ = false;
 };
 

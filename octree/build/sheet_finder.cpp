@@ -167,8 +167,8 @@ bool SheetFinder::may_be_in_sheet(const BlockView& block) {
 }
 
 bool SheetFinder::is_in_sheet(const BlockView& block, PageReader pages) const {
-  if (!may_be_in_sheet(block)) return false;
   const Prism prism(block);
+  if (!prism.is_good()) return false;
   const Point centre = prism.box_centre(), half = prism.box_half();
   const FloatPrism in_float = prism.in_float();
   const MovedSegment line = prism.middle_line();

@@ -24,19 +24,18 @@ Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
   const FrameHeader header = *reinterpret_cast<const FrameHeader*>(frame);
   desk->page.resize(header.used_bytes / kSlotBytes);
   std::memcpy(desk->page.data(), frame, header.used_bytes);
-  std::vector<BlockView> blocks;
-  std::size_t promising = 0;
-  for (std::size_t slot = header.first_block_slot; blocks.size() < header.block_count;) {
-    blocks.emplace_back(desk->page[slot].bytes, facts_.shape);
-    promising += SheetFinder::may_be_in_sheet(blocks.back()) ? 1 : 0;
-    slot += facts_.shape.slots(blocks.back().header().vertex_count);
+  std::vector<std::pair<std::size_t, BlockView>> promising;
+  std::size_t slot = header.first_block_slot;
+  for (std::size_t i = 0; i < header.block_count; ++i) {
+    const BlockView block(desk->page[slot].bytes, facts_.shape);
+    if (SheetFinder::may_be_in_sheet(block)) promising.emplace_back(i, block);
+    slot += facts_.shape.slots(block.header().vertex_count);
   }
   // Where few blocks may be, their neighbours prove most of those not to be.
-  const bool worthwhile = 2 * promising >= blocks.size();
+  if (2 * promising.size() < header.block_count) promising.clear();
   const SheetFinder finder(facts_, mask_);
-  for (std::size_t i = 0; worthwhile && i < blocks.size(); ++i)
-    if (finder.is_in_sheet(blocks[i], pages))
-      page.bytes[page.blocks_at + i] |= std::byte{kSheetBit};
+  for (const auto& [i, block] : promising)
+    if (finder.is_in_sheet(block, pages)) page.bytes[page.blocks_at + i] |= std::byte{kSheetBit};
   Result<void> state = desk->frames.state();
   give_back(std::move(desk));
   return state;

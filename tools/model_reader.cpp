@@ -1,4 +1,4 @@
-#include "tools/proof_model.h"
+#include "tools/model_reader.h"
 
 #include <cstdint>
 #include <utility>
@@ -10,7 +10,7 @@ constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
 
 }  // namespace
 
-Result<ProofModel> ProofModel::open(const std::filesystem::path& path) {
+Result<ModelReader> ModelReader::open(const std::filesystem::path& path) {
   OpenOptions options;
   options.memory_budget_bytes = kMemoryBytes;
   options.max_probes = 1;
@@ -18,7 +18,7 @@ Result<ProofModel> ProofModel::open(const std::filesystem::path& path) {
   if (!model) return model.error();
   auto reader = (*model)->claim_reader();
   if (!reader) return reader.error();
-  return ProofModel{*std::move(model), *std::move(reader)};
+  return ModelReader{*std::move(model), *std::move(reader)};
 }
 
 }  // namespace planetree::tools

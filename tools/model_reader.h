@@ -8,11 +8,11 @@
 
 namespace planetree::tools {
 
-/// A model that is opened to hold what its file says against its triangles, and who reads it.
+/// A model that is opened to look into it, below a Probe, and who reads it.
 ///
 /// memory  256 MiB of pages at most
-struct ProofModel {
-  static Result<ProofModel> open(const std::filesystem::path& path);
+struct ModelReader {
+  static Result<ModelReader> open(const std::filesystem::path& path);
 
   std::unique_ptr<query::ModelState> model;
   cache::Reader reader;
