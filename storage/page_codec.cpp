@@ -9,7 +9,7 @@
 namespace planetree::storage {
 namespace {
 
-constexpr int kCompressionLevel = 6;
+constexpr int kCompressionLevel = 4;
 // What one byte of an LZ4 block can at most stand for.
 constexpr std::uint64_t kMaxExpansion = 255;
 

@@ -2,80 +2,94 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <limits>
 #include <utility>
 
 #include "octree/box_walk.h"
-#include "octree/build/cell_overlap.h"
+#include "octree/build/octant_overlap.h"
 #include "octree/outcodes.h"
 #include "octree/strict_math.h"
 
 namespace planetree::octree {
 namespace {
 
-/// The octants of a cell.
-class Octants {
+/// The blocks near a cell, and the octants of it that they touch.
+class NearBlocks {
  public:
-  Octants(const ClippedGrid& grid, const GridCell& cell)
+  NearBlocks(const ClippedGrid& grid, const GridCell& cell)
       : lower_(grid.lower(cell)),
         upper_(grid.upper(cell)),
-        codes_(lower_, grid.middle(cell), upper_) {
-    for (unsigned octant = 0; octant < 8; ++octant)
-      boxes_[octant] = {grid.lower(cell.child(octant)), grid.upper(cell.child(octant))};
-  }
+        codes_(lower_, grid.middle(cell), upper_),
+        overlap_(lower_, grid.middle(cell), upper_) {}
 
   const Point& lower() const { return lower_; }
   const Point& upper() const { return upper_; }
 
-  /// A bit for each that some triangle of a block may touch.
-  std::uint8_t touched_by(const BlockView& block) const {
+  void look_at(const BlockView& block, std::uint32_t link) {
+    if (count_ == kRoom) drop_untouched();
+    if (count_ == kRoom) return;  // too many already
     const OctantCodes::Met met = codes_.met_by(block);
-    unsigned touched = met.with_vertex;
+    found_[count_] = {link, static_cast<std::uint8_t>(met.with_vertex)};
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
-      unsigned near = met.by_box[i] & ~touched;
+      const unsigned near = met.by_box[i] & ~met.with_vertex;
       if (near == 0) continue;
-      const Triangle triangle = block.triangle(i);
-      for (; near != 0; near &= near - 1) {
-        const auto octant = static_cast<unsigned>(std::countr_zero(near));
-        if (may_touch(triangle, boxes_[octant].first, boxes_[octant].second))
-          touched |= 1U << octant;
-      }
+      if (overlap_.full()) settle();
+      asked_by_[waiting_++] = count_;
+      overlap_.add(block.triangle(i), near);
     }
-    return static_cast<std::uint8_t>(touched);
+    ++count_;
+  }
+
+  // False: there are more than kMostListed.
+  bool list(MaskBlocks& blocks) {
+    drop_untouched();
+    if (count_ > kMostListed) return false;
+    std::sort(found_.begin(), found_.begin() + count_);
+    blocks.count = static_cast<std::uint8_t>(count_);
+    for (unsigned i = 0; i < count_; ++i) {
+      blocks.links[i] = found_[i].first;
+      blocks.octants[i] = found_[i].second;
+    }
+    return true;
   }
 
  private:
+  static constexpr unsigned kRoom = 4 * kMostListed;
+
+  void settle() {
+    const OctantOverlap::Told told = overlap_.take();
+    for (unsigned k = 0; k < told.count; ++k) found_[asked_by_[k]].second |= told.octants[k];
+    waiting_ = 0;
+  }
+  void drop_untouched() {
+    settle();
+    const auto end = found_.begin() + count_;
+    const auto untouched = [](const auto& block) { return block.second == 0; };
+    count_ = static_cast<unsigned>(std::remove_if(found_.begin(), end, untouched) - found_.begin());
+  }
+
   const Point lower_, upper_;
   const OctantCodes codes_;
-  std::array<std::pair<Point, Point>, 8> boxes_;
+  OctantOverlap overlap_;
+  std::array<std::pair<std::uint32_t, std::uint8_t>, kRoom> found_;  // links, octants
+  unsigned count_ = 0;
+  // Of the triangles in overlap_, the block's place.
+  std::array<unsigned, OctantOverlap::kAtOnce> asked_by_;
+  unsigned waiting_ = 0;
 };
 
 }  // namespace
 
 BlockLister::Outcome BlockLister::list(const GridCell& cell, PageReader pages,
                                        MaskBlocks& blocks) const {
-  const Octants octants(grid_, cell);
-  std::array<std::pair<std::uint32_t, std::uint8_t>, kMostListed> found;
-  std::size_t count = 0;
+  NearBlocks near(grid_, cell);
   TreeWork work;
-  const bool complete = BoxWalk(tree_, octants.lower(), octants.upper(), pages, work)
-                            .run(std::numeric_limits<std::uint64_t>::max(),
-                                 [&](const BlockView& block, std::uint32_t link) {
-                                   const std::uint8_t touched = octants.touched_by(block);
-                                   if (touched == 0) return;
-                                   if (count < kMostListed) found[count] = {link, touched};
-                                   ++count;
-                                 });
+  const bool complete =
+      BoxWalk(tree_, near.lower(), near.upper(), pages, work)
+          .run(std::numeric_limits<std::uint64_t>::max(),
+               [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); });
   if (!complete) return Outcome::kLost;
-  if (count > kMostListed) return Outcome::kTooMany;
-  std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
-  blocks.count = static_cast<std::uint8_t>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    blocks.links[i] = found[i].first;
-    blocks.octants[i] = found[i].second;
-  }
-  return Outcome::kListed;
+  return near.list(blocks) ? Outcome::kListed : Outcome::kTooMany;
 }
 
 }  // namespace planetree::octree

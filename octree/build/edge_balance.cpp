@@ -46,12 +46,21 @@ class EdgeTable {
  public:
   explicit EdgeTable(const Triangles& patch)
       : patch_(patch), entries_(std::bit_ceil(std::size_t{3} * patch.size() + 1)) {
-    for (std::uint32_t i = 0; i < patch.size(); ++i) {
-      const Triangle triangle = patch.corners(i);
-      for (unsigned corner = 0; corner < 3; ++corner) {
-        const HalfEdge edge = half_edge(triangle, corner);
-        if (edge.way != 0) add(edge, 4 * i + corner);
+    std::array<Pending, 3 * std::size_t{kAtOnce}> pending;
+    for (std::uint32_t first = 0; first < patch.size(); first += kAtOnce) {
+      std::size_t count = 0;
+      const std::uint32_t end = std::min(first + kAtOnce, patch.size());
+      for (std::uint32_t i = first; i < end; ++i) {
+        const Triangle triangle = patch.corners(i);
+        for (unsigned corner = 0; corner < 3; ++corner) {
+          const HalfEdge edge = half_edge(triangle, corner);
+          if (edge.way == 0) continue;
+          pending[count] = {edge, hash_of(edge.ends), 4 * i + corner};
+          __builtin_prefetch(&entry_at(pending[count].hash));
+          ++count;
+        }
       }
+      for (std::size_t k = 0; k < count; ++k) add(pending[k]);
     }
   }
 
@@ -72,19 +81,28 @@ class EdgeTable {
     std::int32_t net = 0;
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  struct Pending {
+    HalfEdge edge;
+    std::uint64_t hash;
+    std::uint32_t place;
+  };
+  // Triangles whose entries are asked of memory before the first of them is waited for.
+  static constexpr std::uint32_t kAtOnce = 16;
+
+  Entry& entry_at(std::uint64_t hash) { return entries_[hash & (entries_.size() - 1)]; }
 
   Ends ends_of(const Entry& entry) const {
     return half_edge(patch_.corners(entry.place / 4), entry.place % 4).ends;
   }
 
-  void add(const HalfEdge& edge, std::uint32_t place) {
-    for (std::size_t at = hash_of(edge.ends);; ++at) {
-      Entry& entry = entries_[at & (entries_.size() - 1)];
+  void add(const Pending& pending) {
+    for (std::uint64_t hash = pending.hash;; ++hash) {
+      Entry& entry = entry_at(hash);
       if (entry.place == kNone)
-        entry.place = place;
-      else if (ends_of(entry) != edge.ends)
+        entry.place = pending.place;
+      else if (ends_of(entry) != pending.edge.ends)
         continue;
-      entry.net += edge.way;
+      entry.net += pending.edge.way;
       return;
     }
   }

@@ -11,7 +11,7 @@ namespace planetree::octree {
 /// The winding numbers of a cell's corners, counted along its edges.
 class EdgeCount {
  public:
-  /// All must outlive this.
+  /// Corners and triangles must outlive this.
   /// winding    at the cell's least corner.
   /// triangles  of which those at `positions` are all that may touch the cell.
   EdgeCount(const std::array<Point, 8>& corners, std::int64_t winding,
@@ -26,13 +26,17 @@ class EdgeCount {
   std::int64_t rise(unsigned which, unsigned before) const;
 
  private:
-  std::uint8_t sides_crossed(const BoxedTriangle& triangle) const;
+  // A triangle that crosses the planes of two sides at least, as an edge has to.
+  struct Near {
+    std::uint32_t position;
+    unsigned sides;
+  };
+  unsigned sides_crossed(const BoxedTriangle& triangle) const;
 
   const std::array<Point, 8>& corners_;
   const std::int64_t winding_;
   const std::vector<BoxedTriangle>& triangles_;
-  const std::vector<std::uint32_t>& positions_;
-  std::vector<std::uint8_t> sides_;  // of each position
+  std::vector<Near> near_;
 };
 
 }  // namespace planetree::octree

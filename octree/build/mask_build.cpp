@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "octree/build/block_lister.h"
 #include "octree/build/parallel.h"
 #include "octree/build/region_mask.h"
@@ -93,18 +95,18 @@ class MaskJoin {
   std::vector<bool> grey_;
 };
 
-/// Lists blocks for the cells of a region.
-class RegionBlocks {
+/// Lists blocks for the cells of regions.
+class CellBlocks {
  public:
   // tree  null: it lists none.
-  RegionBlocks(const BuiltTree* tree, const ClippedGrid& grid) {
+  CellBlocks(const BuiltTree* tree, const ClippedGrid& grid) {
     if (!tree) return;
     frames_.emplace(*tree);
     facts_ = tree->facts();
     lister_.emplace(facts_, grid);
   }
-  RegionBlocks(const RegionBlocks&) = delete;
-  RegionBlocks& operator=(const RegionBlocks&) = delete;
+  CellBlocks(const CellBlocks&) = delete;
+  CellBlocks& operator=(const CellBlocks&) = delete;
 
   bool list(const GridCell& cell, MaskBlocks& blocks) {
     return lister_ &&
@@ -137,6 +139,8 @@ Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs
                             const RegionSink& take) {
   const MaskJoin join(regions);
   std::vector<RegionRoot> roots(regions.all().size());
+  tbb::enumerable_thread_specific<CellBlocks> threads(
+      [&] { return CellBlocks(tree, regions.grid()); });
   const auto built = for_each_in_parallel(roots.size(), [&](std::size_t at) -> Result<void> {
     const MaskRegions::Region& region = regions.all()[at];
     if (region.divided() || !region.touched) return {};
@@ -146,7 +150,7 @@ Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs
     }
     const auto triangles = regions.read(at, runs);
     if (!triangles) return triangles.error();
-    RegionBlocks blocks(tree, regions.grid());
+    CellBlocks& blocks = threads.local();
     const MaskTree mask = mask_of_region(
         regions.grid(), region.cell, join.winding(at), *triangles,
         [&](const GridCell& cell, MaskBlocks& list) { return blocks.list(cell, list); });

@@ -78,7 +78,11 @@ class MaskRegions::Visit {
   void add(const storage::SpillKey& key, const Triangle& triangle) {
     own_ = regions_.region_of_code(key.first);
     key_ = key;
-    touch(0, BoxedTriangle(triangle));
+    const BoxedTriangle boxed(triangle);
+    if (is_inside_own(boxed))
+      rise_of(own_);
+    else
+      touch(0, boxed);
   }
 
   // But for the visitors.
@@ -106,8 +110,22 @@ class MaskRegions::Visit {
     if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
     if (at != own_ && regions_.grid_.has_part_of(region.cell))
       visitors_.add({at, key_.second}, triangle.corners);
-    auto& rise = rises_[static_cast<std::uint32_t>(at)];
+    auto& rise = rise_of(at);
     if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, rise);
+  }
+
+  // Whether no other region is touched, nor the own one's edges.
+  bool is_inside_own(const BoxedTriangle& triangle) const {
+    const GridCell& cell = regions_.regions_[own_].cell;
+    return (triangle.least.array() > regions_.grid_.lower(cell).array()).all() &&
+           (triangle.greatest.array() < regions_.grid_.upper(cell).array()).all();
+  }
+
+  // Triangles in order mostly touch the region that the one before did.
+  std::array<std::int64_t, 8>& rise_of(std::size_t at) {
+    if (at != last_ || !last_rise_) last_rise_ = &rises_[static_cast<std::uint32_t>(at)];
+    last_ = at;
+    return *last_rise_;
   }
 
   // Edges are in sides across two axes.
@@ -124,6 +142,8 @@ class MaskRegions::Visit {
   std::size_t own_ = 0;
   storage::SpillKey key_;
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by region
+  std::size_t last_ = 0;                                        // whose rise was asked for
+  std::array<std::int64_t, 8>* last_rise_ = nullptr;
   Triangles visitors_;
 };
 
@@ -134,7 +154,8 @@ void MaskRegions::Visit::add_rise(const BoxedTriangle& triangle, const GridCell&
   for (unsigned which = 1; which < 8; ++which) {
     const unsigned before = which & (which - 1);
     const DownwardSegment edge(
-        {regions_.grid_.corner(cell, which), regions_.grid_.corner(cell, before)});
+        {regions_.grid_.corner(cell, which), regions_.grid_.corner(cell, before)},
+        axis_of_edge(which, before));
     steps[which] = steps[before] + edge.crossing(triangle);
     rise[which] += steps[which];
   }

@@ -1,6 +1,7 @@
 #include "octree/build/patch_vertices.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <span>
 
@@ -11,6 +12,8 @@ namespace planetree::octree {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
+/// Triangles whose vertices' places are asked of memory before the first of them is waited for.
+constexpr std::uint32_t kAtOnce = 16;
 
 // No coordinate is -0, so that equal positions have equal bits.
 std::uint64_t hash_of(const Point& position) {
@@ -21,18 +24,28 @@ std::uint64_t hash_of(const Point& position) {
 
 PatchVertices::PatchVertices(const Triangles& triangles) : corners_(triangles.size()) {
   std::vector<std::uint32_t> table(std::bit_ceil(std::size_t{4} * triangles.size()), kNone);
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const Triangle triangle = triangles.corners(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::size_t at = hash_of(triangle[k]) & (table.size() - 1);
-      while (table[at] != kNone && positions_[table[at]] != triangle[k])
-        at = (at + 1) & (table.size() - 1);
-      if (table[at] == kNone) {
-        table[at] = size();
-        positions_.push_back(triangle[k]);
+  const std::size_t last = table.size() - 1;
+  std::array<Triangle, kAtOnce> corners;
+  std::array<std::array<std::size_t, 3>, kAtOnce> places;
+  for (std::uint32_t first = 0; first < triangles.size(); first += kAtOnce) {
+    const std::uint32_t count = std::min(kAtOnce, triangles.size() - first);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      corners[i] = triangles.corners(first + i);
+      for (std::size_t k = 0; k < 3; ++k) {
+        places[i][k] = hash_of(corners[i][k]) & last;
+        __builtin_prefetch(&table[places[i][k]]);
       }
-      corners_[i][k] = table[at];
     }
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::size_t at = places[i][k];
+        while (table[at] != kNone && positions_[table[at]] != corners[i][k]) at = (at + 1) & last;
+        if (table[at] == kNone) {
+          table[at] = size();
+          positions_.push_back(corners[i][k]);
+        }
+        corners_[first + i][k] = table[at];
+      }
   }
 }
 

@@ -16,7 +16,7 @@ DownwardSegment way_out(const Point& from, const Point& box_lower) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Point outside = from;
   outside.x() = std::min(box_lower.x() - 1, std::nextafter(box_lower.x(), -kInfinity));
-  return DownwardSegment({from, outside});
+  return DownwardSegment({from, outside}, 0);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "octree/build/cell_overlap.h"
 #include "octree/build/edge_count.h"
 #include "octree/build/edge_crossings.h"
+#include "octree/build/octant_overlap.h"
 #include "octree/clipped_grid.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
@@ -61,15 +61,6 @@ class RegionMask {
   }
 
  private:
-  /// winding(from) - winding(to).
-  std::int64_t count_crossings(const MovedSegment& segment,
-                               const std::vector<std::uint32_t>& triangles) const {
-    const DownwardSegment down(segment);
-    std::int64_t sum = 0;
-    for (const std::uint32_t i : triangles) sum += down.crossing(triangles_[i]);
-    return sum;
-  }
-
   // Makes the entry at `place` of a cell; what is below goes to the end.
   void grow(GreyCell grey, MaskTree& tree, std::size_t place) const {
     tree.levels = std::max(tree.levels, grey.cell.level);
@@ -114,34 +105,57 @@ class RegionMask {
 
   Octants divide(const GreyCell& grey) const {
     Octants octants;
-    const Point middle = grid_.middle(grey.cell);
-    std::array<Point, 8> lower, upper;
+    std::array<Point, 8> lower;  // the corners of the first, too
     for (unsigned octant = 0; octant < 8; ++octant) {
       octants[octant].cell = grey.cell.child(octant);
       lower[octant] = grid_.lower(octants[octant].cell);
-      upper[octant] = grid_.upper(octants[octant].cell);
     }
-    for (const std::uint32_t position : grey.triangles) {
-      const BoxedTriangle& triangle = triangles_[position];
-      unsigned near = octants_of_box(triangle, middle);
-      const bool alone = (near & (near - 1)) == 0;
-      for (; near != 0; near &= near - 1) {
-        const auto octant = static_cast<unsigned>(std::countr_zero(near));
-        if (alone || may_touch(triangle.corners, lower[octant], upper[octant]))
-          octants[octant].triangles.push_back(position);
-      }
-    }
-    // Along the edges between the octants' least corners.
-    octants[0].winding = grey.winding;
-    for (unsigned octant = 1; octant < 8; ++octant) {
-      const unsigned before = octant & (octant - 1);
-      octants[octant].winding =
-          octants[before].winding +
-          count_crossings({lower[octant], lower[before]}, octants[before].triangles);
-    }
+    hand_out(grey, octants);
+    const std::array<std::int64_t, 8> winding = edge_count(lower, grey.winding, octants[0]).all();
+    for (unsigned octant = 0; octant < 8; ++octant) octants[octant].winding = winding[octant];
     for (GreyCell& octant : octants)
       if (!grid_.has_part_of(octant.cell)) octant = {octant.cell, {}};
     return octants;
+  }
+
+  // Each octant the triangles that may touch it, in order.
+  void hand_out(const GreyCell& grey, Octants& octants) const {
+    const std::vector<std::uint8_t> touched = octants_touched(grey);
+    std::array<std::size_t, 8> counts{};
+    for (unsigned left : touched)
+      for (; left != 0; left &= left - 1) ++counts[static_cast<unsigned>(std::countr_zero(left))];
+    for (unsigned octant = 0; octant < 8; ++octant)
+      octants[octant].triangles.reserve(counts[octant]);
+    for (std::size_t i = 0; i < touched.size(); ++i)
+      for (unsigned left = touched[i]; left != 0; left &= left - 1)
+        octants[static_cast<unsigned>(std::countr_zero(left))].triangles.push_back(
+            grey.triangles[i]);
+  }
+
+  // Those that each triangle may touch, a bit each.
+  std::vector<std::uint8_t> octants_touched(const GreyCell& grey) const {
+    const Point middle = grid_.middle(grey.cell);
+    std::vector<std::uint8_t> touched(grey.triangles.size());
+    OctantOverlap overlap(grid_.lower(grey.cell), middle, grid_.upper(grey.cell));
+    std::array<std::size_t, OctantOverlap::kAtOnce> places;
+    const auto settle = [&] {
+      const OctantOverlap::Told told = overlap.take();
+      for (unsigned k = 0; k < told.count; ++k) touched[places[k]] = told.octants[k];
+    };
+    unsigned waiting = 0;
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+      if (i + kAhead < touched.size()) __builtin_prefetch(&triangles_[grey.triangles[i + kAhead]]);
+      const BoxedTriangle& triangle = triangles_[grey.triangles[i]];
+      const unsigned near = octants_of_box(triangle, middle);
+      touched[i] = static_cast<std::uint8_t>(near);
+      if ((near & (near - 1)) == 0) continue;
+      places[waiting++] = i;
+      overlap.add(triangle.corners, near);
+      if (overlap.full()) settle(), waiting = 0;
+    }
+    settle();
+    return touched;
   }
 
   static void add_node(const Octants& octants, MaskTree& tree, std::size_t place) {
@@ -160,8 +174,10 @@ class RegionMask {
     return corners;
   }
 
-  EdgeCount edge_count(const std::array<Point, 8>& corners, const GreyCell& grey) const {
-    return EdgeCount(corners, grey.winding, triangles_, grey.triangles);
+  // winding  at the least of the corners, which are a grey cell's.
+  EdgeCount edge_count(const std::array<Point, 8>& corners, std::int64_t winding,
+                       const GreyCell& grey) const {
+    return EdgeCount(corners, winding, triangles_, grey.triangles);
   }
 
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
@@ -178,7 +194,8 @@ class RegionMask {
       triangles.push_back(triangles_[position].corners);
     if (!in_few_planes(triangles)) return false;
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const auto special = special_cell(triangles, corners, edge_count(corners, grey).all());
+    const auto special =
+        special_cell(triangles, corners, edge_count(corners, grey.winding, grey).all());
     if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
     tree.entries[place].kind = MaskEntry::Kind::kSpecial;
     tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
@@ -191,7 +208,7 @@ class RegionMask {
     entry.kind = MaskEntry::Kind::kCorners;
     entry.corners.fill(kUncounted);
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const EdgeCount count = edge_count(corners, grey);
+    const EdgeCount count = edge_count(corners, grey.winding, grey);
     const std::array<std::int64_t, 8> winding = count.all();
     const auto fits = [](std::int64_t number) {
       return -kListedTag > number && number > kListedTag;

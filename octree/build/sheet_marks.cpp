@@ -9,7 +9,9 @@
 namespace planetree::octree {
 
 SheetMarks::SheetMarks(const BuiltTree& tree, const BuiltMask& mask)
-    : tree_(tree), built_mask_(mask), facts_(tree.facts()) {
+    : facts_(tree.facts()), desks_([&tree, &mask] {
+        return Desk{TreeFrames(tree, &mask), {}};
+      }) {
   mask_.page_bytes = facts_.page_bytes;
   mask_.first_page = tree.pages().size();
   mask_.page_count = mask.size();
@@ -17,17 +19,17 @@ SheetMarks::SheetMarks(const BuiltTree& tree, const BuiltMask& mask)
 }
 
 Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
-  std::unique_ptr<Desk> desk = take_desk();
-  const PageReader pages = desk->frames.reader();
+  Desk& desk = desks_.local();
+  const PageReader pages = desk.frames.reader();
   const std::byte* frame = pages.page(pages.context, number);
-  if (!frame) return desk->frames.state();
+  if (!frame) return desk.frames.state();
   const FrameHeader header = *reinterpret_cast<const FrameHeader*>(frame);
-  desk->page.resize(header.used_bytes / kSlotBytes);
-  std::memcpy(desk->page.data(), frame, header.used_bytes);
+  desk.page.resize(header.used_bytes / kSlotBytes);
+  std::memcpy(desk.page.data(), frame, header.used_bytes);
   std::vector<std::pair<std::size_t, BlockView>> promising;
   std::size_t slot = header.first_block_slot;
   for (std::size_t i = 0; i < header.block_count; ++i) {
-    const BlockView block(desk->page[slot].bytes, facts_.shape);
+    const BlockView block(desk.page[slot].bytes, facts_.shape);
     if (SheetFinder::may_be_in_sheet(block)) promising.emplace_back(i, block);
     slot += facts_.shape.slots(block.header().vertex_count);
   }
@@ -36,26 +38,7 @@ Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
   const SheetFinder finder(facts_, mask_);
   for (const auto& [i, block] : promising)
     if (finder.is_in_sheet(block, pages)) page.bytes[page.blocks_at + i] |= std::byte{kSheetBit};
-  Result<void> state = desk->frames.state();
-  give_back(std::move(desk));
-  return state;
-}
-
-std::unique_ptr<SheetMarks::Desk> SheetMarks::take_desk() {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!desks_.empty()) {
-      std::unique_ptr<Desk> desk = std::move(desks_.back());
-      desks_.pop_back();
-      return desk;
-    }
-  }
-  return std::unique_ptr<Desk>(new Desk{TreeFrames(tree_, &built_mask_), {}});
-}
-
-void SheetMarks::give_back(std::unique_ptr<Desk> desk) {
-  const std::lock_guard lock(mutex_);
-  desks_.push_back(std::move(desk));
+  return desk.frames.state();
 }
 
 }  // namespace planetree::octree

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
 
 #include "octree/build/built_mask.h"
 #include "octree/build/built_tree.h"
@@ -37,15 +37,9 @@ class SheetMarks {
     std::vector<Line> page;  // a copy: walks may take its frame
   };
 
-  std::unique_ptr<Desk> take_desk();
-  void give_back(std::unique_ptr<Desk> desk);
-
-  const BuiltTree& tree_;
-  const BuiltMask& built_mask_;
   const TreeFacts facts_;
   MaskFacts mask_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Desk>> desks_;  // that nobody works at
+  tbb::enumerable_thread_specific<Desk> desks_;
 };
 
 }  // namespace planetree::octree

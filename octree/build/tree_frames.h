@@ -18,7 +18,7 @@ namespace planetree::octree {
 class TreeFrames {
  public:
   /// Memory of the frames.
-  static constexpr std::size_t kBytes = std::size_t{4} << 20;
+  static constexpr std::size_t kBytes = std::size_t{16} << 20;
 
   /// tree, mask  must outlive this; without a mask there are the tree's pages alone.
   explicit TreeFrames(const BuiltTree& tree, const BuiltMask* mask = nullptr);

@@ -5,14 +5,14 @@
 namespace planetree::octree {
 namespace {
 
-const Triangle kFace{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
+const Triangle kUpright{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
 const Point kUp(0, 0, 1);
 
 TEST(FacingSides, IsThatOfAllFaces) {
   const Point above(0.2, 0.2, 0.1), below(0.2, 0.2, -0.1);
   for (const auto& [query, side] : {std::pair(above, 1), std::pair(below, -1)}) {
     FacingSides sides(query);
-    sides.add(kFace, kUp);
+    sides.add(kUpright, kUp);
     EXPECT_EQ(sides.common(), side);
     sides.add({Point(0, 0, 0), Point(0, 1, 0), Point(-1, 0, 0)}, kUp);
     EXPECT_EQ(sides.common(), side);
@@ -28,12 +28,12 @@ TEST(FacingSides, IsNotToldByWhatRoundingMayTurn) {
   for (const double height : {0x1p-19, -0x1p-19, 0x1p-22, -0x1p-22, 0.0}) {
     const Point query(0.5, 0.25, height);
     FacingSides sides(query);
-    sides.add(kFace, kUp);
+    sides.add(kUpright, kUp);
     EXPECT_EQ(sides.common(), height > 0x1p-20 ? 1 : height < -0x1p-20 ? -1 : 0) << height;
   }
   const Point query(0, 0, 1);
   FacingSides unknown(query);
-  unknown.add(kFace, kUp);
+  unknown.add(kUpright, kUp);
   unknown.add_unknown();
   EXPECT_EQ(unknown.common(), 0);
 }
@@ -47,7 +47,7 @@ TEST(FacingSides, IsNotToldByFacesTooSmallOrTooNearTheirEnds) {
   }
   for (const double distance : {1.0, 0x1p-32, 0x1p-33, 0.0}) {
     FacingSides sides(query);
-    sides.add(kFace, kUp);
+    sides.add(kUpright, kUp);
     sides.end_after(distance);
     EXPECT_EQ(sides.common(), distance >= 0x1p-32 ? 1 : 0) << distance;
   }
