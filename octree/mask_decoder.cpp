@@ -51,6 +51,7 @@ class MaskDecoder {
   const char* decode_special(MaskSpecial& special);
   const char* decode_plane();
   const char* decode_listed(MaskListed& listed);
+  const char* decode_slab(std::size_t at, std::byte* slab) const;
   const char* decode_list(std::byte* octants, std::byte* links, unsigned count);
   const char* check_sums() const;
 
@@ -227,11 +228,25 @@ const char* MaskDecoder::decode_listed(MaskListed& listed) {
   std::byte* const octants = frame_ + next_list_slot_ * kMaskSlotBytes;
   next_list_slot_ += list_slots(listed.block_count);
   const std::size_t octant_bytes = list_octant_slots(listed.block_count) * kMaskSlotBytes;
-  return decode_list(octants, octants + octant_bytes, listed.block_count);
+  std::memset(octants, 0, list_slots(listed.block_count) * kMaskSlotBytes);
+  std::byte* const slab = octants + octant_bytes;
+  if (const char* fault = decode_slab(at, slab)) return fault;
+  return decode_list(octants, slab + sizeof(std::uint32_t), listed.block_count);
+}
+
+const char* MaskDecoder::decode_slab(std::size_t at, std::byte* slab) const {
+  CellSlab found;
+  found.direction = streams_.slab_directions[at];
+  found.lower = streams_.slab_lowers[at];
+  found.upper = streams_.slab_uppers[at];
+  if (!found.direction_is_valid()) return "a slab's direction is out of range";
+  if (found.lower > found.upper) return "a slab's planes are the wrong way round";
+  const std::uint32_t word = found.word();
+  std::memcpy(slab, &word, sizeof word);
+  return nullptr;
 }
 
 const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
-  std::memset(octants, 0, list_slots(count) * kMaskSlotBytes);
   std::uint32_t before = 0;
   for (unsigned i = 0; i < count; ++i, ++next_block_) {
     const std::uint8_t touched = streams_.block_octants[next_block_];

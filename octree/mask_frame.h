@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "octree/cell_slab.h"
+
 /// The mask says which side the cells of the octree are on: white cells are
 /// outside of the solid, black ones inside, and the surface passes through grey
 /// ones ("Out-of-core real-time haptic interaction on very large models",
@@ -104,7 +106,8 @@ struct MaskListed {
   std::int8_t least;         ///< winding number of the corners that are not `higher`
   std::uint8_t higher;       ///< corners whose winding number is `least` + 1
   std::uint32_t list_slot;   ///< in this page: for each block a u8, the octants of the cell that
-                             ///< its triangles touch; from the next whole slot on its link, a u32
+                             ///< its triangles touch; from the next whole slot on the cell's slab,
+                             ///< a u32, and for each block its link, a u32
 };
 static_assert(sizeof(MaskListed) == kMaskSlotBytes);
 
@@ -116,15 +119,16 @@ constexpr int corner_of(const MaskListed& listed, unsigned corner) {
 /// Slots of the octants of a list, and of all of it.
 constexpr unsigned list_octant_slots(unsigned block_count) { return (block_count + 7) / 8; }
 constexpr unsigned list_slots(unsigned block_count) {
-  return list_octant_slots(block_count) + (block_count + 1) / 2;
+  return list_octant_slots(block_count) + (block_count + 2) / 2;
 }
 
-/// A list of blocks by itself.
+/// A list of blocks by itself, and the slab of its cell.
 struct MaskBlocks {
   std::uint8_t count = 0;
   alignas(kMaskSlotBytes)
       std::array<std::uint8_t, kMostListed> octants;  ///< the first `count`, as the links
   std::array<std::uint32_t, kMostListed> links;
+  CellSlab slab;
 
   /// Puts together the links of those that touch an octant. Returns how many.
   unsigned in_octant(unsigned octant, std::array<std::uint32_t, kMostListed>& found) const {
@@ -141,14 +145,20 @@ struct MaskBlocks {
 inline void copy_list(const std::byte* frame, const MaskListed& listed, MaskBlocks& blocks) {
   const std::byte* list = frame + std::size_t{listed.list_slot} * kMaskSlotBytes;
   blocks.count = listed.block_count;
-  // By slots, of which both have whole ones.
-  const auto copy = [&list](auto& to, unsigned slots) {
-    auto* bytes = reinterpret_cast<std::byte*>(to.data());
-    for (; slots > 0; --slots, bytes += kMaskSlotBytes, list += kMaskSlotBytes)
-      std::memcpy(bytes, list, kMaskSlotBytes);
-  };
-  copy(blocks.octants, list_octant_slots(blocks.count));
-  copy(blocks.links, (blocks.count + 1U) / 2);
+  // By slots, of which the octants have whole ones.
+  auto* octants = reinterpret_cast<std::byte*>(blocks.octants.data());
+  for (unsigned slots = list_octant_slots(blocks.count); slots > 0; --slots) {
+    std::memcpy(octants, list, kMaskSlotBytes);
+    octants += kMaskSlotBytes;
+    list += kMaskSlotBytes;
+  }
+  std::uint32_t slab;
+  std::memcpy(&slab, list, sizeof slab);
+  blocks.slab = CellSlab::of_word(slab);
+  list += sizeof slab;
+  unsigned i = 0;
+  for (; i + 1 < blocks.count; i += 2) std::memcpy(&blocks.links[i], list + 4 * i, 8);
+  if (i < blocks.count) std::memcpy(&blocks.links[i], list + 4 * i, 4);
 }
 
 constexpr bool is_special(const MaskCorners& record) {

@@ -34,6 +34,8 @@ void read_list(const MaskListed& listed, const MaskRecords& records, MaskFinding
   finding.kind = MaskFinding::Kind::kCorners;
   finding.listed = listed;
   copy_list(records.slot(0), listed, finding.blocks);
+  // It may be no list, where the file was exchanged since a map looked at it.
+  if (!finding.blocks.slab.direction_is_valid()) finding.blocks.slab = {};
 }
 
 void read_leaf(const std::byte* record, const MaskRecords& records, const Point& point,

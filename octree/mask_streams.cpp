@@ -43,6 +43,9 @@ const char* MaskStreams::cut(std::span<const std::byte> raw, bool float64) noexc
   cutter.take(least, head.listed_count);
   cutter.take(higher, head.listed_count);
   cutter.take(block_counts, head.listed_count);
+  cutter.take(slab_directions, head.listed_count);
+  cutter.take(slab_lowers, head.listed_count);
+  cutter.take(slab_uppers, head.listed_count);
   cutter.take(block_octants, head.block_link_count);
   cutter.take(block_links, head.block_link_count);
   if (!cutter.whole()) return kShort;

@@ -9,25 +9,29 @@
 /// The raw bytes of a mask page, as format-spec/v1/spec.md states them in "Mask
 /// page": a head, then without padding
 ///
-///   record kinds    u8 a record (MaskKind)
-///   grey masks      u8 a node
-///   leaf masks      u8 a node
-///   black masks     u8 a node
-///   inverted masks  u8 a node
-///   page links      u32 a node of kind kNodeAbove
-///   corner bits     u8 a record of kind kPlainCorners
-///   corners         i8 x 8 a record of kind kCorners
-///   plane counts    u8 a special cell
-///   behind          i8 a special cell
-///   beyond          i8 a special cell
-///   planes          float32 or float64 x 9 a plane
-///   least           i8 a listed cell
-///   higher          u8 a listed cell
-///   block counts    u8 a listed cell
-///   block octants   u8 a block of a list
-///   block links     u32 a block of a list
+///   record kinds     u8 a record (MaskKind)
+///   grey masks       u8 a node
+///   leaf masks       u8 a node
+///   black masks      u8 a node
+///   inverted masks   u8 a node
+///   page links       u32 a node of kind kNodeAbove
+///   corner bits      u8 a record of kind kPlainCorners
+///   corners          i8 x 8 a record of kind kCorners
+///   plane counts     u8 a special cell
+///   behind           i8 a special cell
+///   beyond           i8 a special cell
+///   planes           float32 or float64 x 9 a plane
+///   least            i8 a listed cell
+///   higher           u8 a listed cell
+///   block counts     u8 a listed cell
+///   slab directions  u16 a listed cell
+///   slab lowers      u8 a listed cell
+///   slab uppers      u8 a listed cell
+///   block octants    u8 a block of a list
+///   block links      u32 a block of a list
 ///
-/// "Page links", "planes" and "block links" are byte-shuffled, as in octree/page_streams.h.
+/// "Page links", "planes", "slab directions" and "block links" are byte-shuffled, as in
+/// octree/page_streams.h.
 namespace planetree::octree {
 
 enum class MaskKind : std::uint8_t {
@@ -70,7 +74,9 @@ struct MaskStreams {
   Shuffled<float> planes32;
   Shuffled<double> planes64;
   Shuffled<std::int8_t> least;
-  Shuffled<std::uint8_t> higher, block_counts, block_octants;
+  Shuffled<std::uint8_t> higher, block_counts;
+  Shuffled<std::uint16_t> slab_directions;
+  Shuffled<std::uint8_t> slab_lowers, slab_uppers, block_octants;
   Shuffled<std::uint32_t> block_links;
 
   /// Cuts `raw`. Returns null, or what is wrong.

@@ -21,6 +21,7 @@ struct SideReason {
     kOutsideBox,     ///< of the model
     kColour,         ///< `cell` is white or black
     kPlanes,         ///< `cell` is special
+    kSlab,           ///< the surface in `cell` is between two planes, the point beyond one of them
     kCorner,         ///< `crossings` from a corner of `cell`, `end`, where `known` is known
     kWayOut,         ///< `crossings` from `end`, outside of the model's box, or of its region's
                      ///< least corner

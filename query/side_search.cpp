@@ -55,6 +55,21 @@ const octree::MaskFinding& SideSearch::cell() {
   return found_;
 }
 
+// What is beyond the planes of a cell has the winding number of its corner there.
+bool SideSearch::ask_slab(const octree::MaskFinding& found) {
+  const octree::CellSlab& slab = found.blocks.slab;
+  if (!slab.says_something()) return false;
+  const Point lower = octree::CellGrid(model_.mask().lower).lower(found.cell);
+  const int beyond =
+      slab.side_of(slab.height(octree::CellSlab::place_in(point_, lower, found.cell.level)));
+  if (beyond == 0) return false;
+  const unsigned highest = slab.highest_corner();
+  if (reason_) reason_->rule = SideReason::Rule::kSlab;
+  counted_ = true;
+  settle(octree::corner_of(found.listed, beyond > 0 ? highest : 7 - highest), false);
+  return true;
+}
+
 // To the corner of the octant that the point is in: past those blocks alone that have triangles
 // in the octant.
 template <class Grid>
@@ -74,7 +89,8 @@ bool SideSearch::go_to_corner(const octree::MaskFinding& found) {
   if (found.blocks.count == 0) return go_to_nearest(found);
   const Point& lower = model_.mask().lower;
   // Most often there is nothing to clip.
-  if (!model_.region().has_walls()) return go_within_octant(found, octree::CellGrid(lower));
+  if (!model_.region().has_walls())
+    return ask_slab(found) || go_within_octant(found, octree::CellGrid(lower));
   return go_within_octant(found, octree::ClippedGrid(lower, model_.region()));
 }
 

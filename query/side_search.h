@@ -50,6 +50,7 @@ class SideSearch {
   bool ask_mask();
   const octree::MaskFinding& cell();
   bool go_to_corner(const octree::MaskFinding& found);
+  bool ask_slab(const octree::MaskFinding& found);
   template <class Grid>
   bool go_within_octant(const octree::MaskFinding& found, const Grid& grid);
   bool go_to_nearest(const octree::MaskFinding& found);

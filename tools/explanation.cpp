@@ -35,6 +35,8 @@ std::string_view rule_word(Rule rule) {
       return "colour";
     case Rule::kPlanes:
       return "planes";
+    case Rule::kSlab:
+      return "slab";
     case Rule::kCorner:
       return "corner";
     case Rule::kWayOut:
@@ -70,6 +72,8 @@ std::string because(const Explanation& explanation) {
                                                         : " is inverted");
     case Rule::kPlanes:
       return cell + " is special, and the point's side of its planes says it";
+    case Rule::kSlab:
+      return cell + " is grey; the point is beyond the planes that the surface in it is between";
     case Rule::kCorner:
       return cell + " is grey; " + crossings_text(explanation);
     case Rule::kWayOut:

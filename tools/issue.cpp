@@ -39,6 +39,7 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "MASK_COLOUR",
                                                                   "MASK_PLANES",
                                                                   "MASK_BLOCKS",
+                                                                  "MASK_SLAB",
                                                                   "BLOCK_SHEET",
                                                                   "REGION"};
 static_assert(!kNames.back().empty());

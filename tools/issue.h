@@ -43,6 +43,7 @@ enum class IssueCode : std::uint8_t {
   kMaskColour,
   kMaskPlanes,
   kMaskBlocks,
+  kMaskSlab,
   kBlockSheet,
   kRegion,
 };

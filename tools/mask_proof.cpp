@@ -14,6 +14,7 @@
 #include "octree/strict_math.h"
 #include "query/pager.h"
 #include "query/ways_out.h"
+#include "tools/slab_check.h"
 
 namespace planetree::tools {
 namespace {
@@ -138,14 +139,34 @@ void MaskProof::check_list(const GreyCell& grey) {
            fmt::format("cell {} does not list all blocks that touch it", cell_name(grey.cell)));
   octree::RecordFinder records(model_->tree(), turner.pages());
   octree::TreeWork work;
+  if (model_->region().has_walls() && grey.blocks.slab.says_something())
+    report(IssueCode::kMaskSlab, grey.page,
+           fmt::format("cell {} has a slab, but the region has walls", cell_name(grey.cell)));
+  bool outside = false;
   for (unsigned i = 0; i < grey.blocks.count; ++i) {
     const std::uint32_t link = grey.blocks.links[i];
     const octree::LinkFormat links(model_->tree().page_bytes);
     // What is wrong with a page that cannot be had is said elsewhere.
-    if (!records.find(link, work) && turner.peek(links.page(link)) != nullptr)
+    if (const std::byte* record = records.find(link, work))
+      outside = outside || !keeps_to_slab(grey, octree::BlockView(record, model_->tree().shape));
+    else if (turner.peek(links.page(link)) != nullptr)
       report(IssueCode::kMaskBlocks, grey.page,
              fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
   }
+  if (outside)
+    report(IssueCode::kMaskSlab, grey.page,
+           fmt::format("the surface in cell {} is not between its slab's planes",
+                       cell_name(grey.cell)));
+}
+
+// Of a block that the cell lists.
+bool MaskProof::keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const {
+  const octree::CellSlab& slab = grey.blocks.slab;
+  if (!slab.says_something()) return true;
+  const Point lower = grid_.lower(grey.cell), upper = grid_.upper(grey.cell);
+  for (unsigned i = 0; i < block.triangle_count(); ++i)
+    if (!tools::keeps_to_slab(slab, block.triangle(i), lower, upper, grey.cell.level)) return false;
+  return true;
 }
 
 void MaskProof::check_special(const GreyCell& grey) {

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "octree/block_view.h"
 #include "octree/clipped_grid.h"
 #include "planetree/error.h"
 #include "tools/file_check.h"
@@ -23,7 +24,8 @@ namespace planetree::tools {
 /// in cells of one colour by the way straight out of the model's box, so by
 /// other triangles than those they were found with, or, of a region, by the way
 /// to its least corner, whose number is taken from the header; and that only
-/// grey cells are touched, and only by blocks that they list, if they do.
+/// grey cells are touched, and only by blocks that they list, if they do, and between their slabs'
+/// planes.
 ///
 /// memory  that of a ModelReader, and the corners of one page
 class MaskProof {
@@ -42,6 +44,7 @@ class MaskProof {
   void check_colour(std::uint32_t page, const octree::GridCell& cell, int colour);
   void check_corners(const GreyCell& grey, const octree::MaskCorners& corners);
   void check_list(const GreyCell& grey);
+  bool keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const;
   void check_special(const GreyCell& grey);
   /// Nothing if pages are missing.
   std::optional<std::int64_t> winding(const octree::GridCell& cell, unsigned corner);

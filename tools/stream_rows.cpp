@@ -70,6 +70,9 @@ std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
           row("least", kMaskLists, s.least),
           row("higher", kMaskLists, s.higher),
           row("block_counts", kMaskLists, s.block_counts),
+          row("slab_directions", kMaskLists, s.slab_directions),
+          row("slab_lowers", kMaskLists, s.slab_lowers),
+          row("slab_uppers", kMaskLists, s.slab_uppers),
           row("block_octants", kMaskLists, s.block_octants),
           row("block_links", kMaskLists, s.block_links)};
 }

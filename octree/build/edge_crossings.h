@@ -51,7 +51,7 @@ class DownwardSegment {
     return left && right;
   }
   /// Of a difference of products of differences, each rounded; and of products that underflow.
-  static constexpr double kError = 0x1p-50;
+  static constexpr double kError = 0x1p-49;
   static constexpr double kUnderflow = 0x1p-1000;
 
   MovedSegment segment_;

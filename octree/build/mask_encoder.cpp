@@ -56,6 +56,9 @@ class Streams {
     least_.push_back(least);
     higher_.push_back(higher);
     block_counts_.push_back(blocks.count);
+    slab_directions_.push_back(blocks.slab.direction);
+    slab_lowers_.push_back(blocks.slab.lower);
+    slab_uppers_.push_back(blocks.slab.upper);
     block_octants_.insert(block_octants_.end(), blocks.octants.begin(),
                           blocks.octants.begin() + blocks.count);
     block_links_.insert(block_links_.end(), blocks.links.begin(),
@@ -97,6 +100,9 @@ class Streams {
     writer.shuffled(least_);
     writer.shuffled(higher_);
     writer.shuffled(block_counts_);
+    writer.shuffled(slab_directions_);
+    writer.shuffled(slab_lowers_);
+    writer.shuffled(slab_uppers_);
     writer.shuffled(block_octants_);
     writer.shuffled(block_links_);
     return links_at;
@@ -108,7 +114,8 @@ class Streams {
   const MaskLinkFormat links_;
   const std::uint32_t page_;
   std::vector<std::uint8_t> kinds_, grey_, leaf_, black_, inverted_, plain_, plane_counts_;
-  std::vector<std::uint8_t> higher_, block_counts_, block_octants_;
+  std::vector<std::uint8_t> higher_, block_counts_, slab_lowers_, slab_uppers_, block_octants_;
+  std::vector<std::uint16_t> slab_directions_;
   std::vector<std::uint32_t> page_links_, block_links_;
   std::vector<std::int8_t> corners_, behind_, beyond_, least_;
   std::vector<double> planes_;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
+#include <iterator>
 
 #include "octree/build/cell_overlap.h"
 #include "octree/wide_floats-inl.h"
@@ -200,9 +202,19 @@ namespace planetree::octree {
 
 HWY_EXPORT(tell_octants);
 
+namespace {
+
+/// Of smaller cells, as a share of how far they are from the origin, may_touch() knows the middle
+/// by so much less than what float errs by.
+constexpr double kLeastSize = 0x1p-28;
+
+}  // namespace
+
 OctantOverlap::OctantOverlap(const Point& lower, const Point& middle, const Point& upper)
     : sides_{lower, middle, upper} {
   for (unsigned axis = 0; axis < 3; ++axis) {
+    const double farthest = std::max(std::fabs(lower[axis]), std::fabs(upper[axis]));
+    told_by_float_ = told_by_float_ && upper[axis] - lower[axis] > kLeastSize * farthest;
     seen_.lower[axis] = static_cast<float>(lower[axis] - middle[axis]);
     seen_.upper[axis] = static_cast<float>(upper[axis] - middle[axis]);
   }
@@ -220,8 +232,11 @@ void OctantOverlap::add(const Triangle& triangle, unsigned octants) {
 OctantOverlap::Told OctantOverlap::take() {
   Told told;
   if (count_ == 0) return told;
-  Sure sure;
-  HWY_DYNAMIC_DISPATCH(tell_octants)(seen_, count_, sure);
+  Sure sure{};
+  if (told_by_float_)
+    HWY_DYNAMIC_DISPATCH(tell_octants)(seen_, count_, sure);
+  else
+    std::fill(std::begin(sure.unsure), std::end(sure.unsure), std::uint8_t{0xff});
   for (unsigned at = 0; at < count_; ++at) {
     unsigned touched = octants_[at] & sure.touched[at];
     for (unsigned left = octants_[at] & sure.unsure[at]; left != 0; left &= left - 1) {

@@ -46,6 +46,7 @@ class OctantOverlap {
   bool touches(unsigned at, unsigned octant) const;
 
   const std::array<Point, 3> sides_;  // lower, middle, upper
+  bool told_by_float_ = true;
   Seen seen_;
   unsigned count_ = 0;
   std::array<Triangle, kAtOnce> triangles_;

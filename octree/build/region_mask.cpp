@@ -10,6 +10,7 @@
 #include "octree/build/edge_count.h"
 #include "octree/build/edge_crossings.h"
 #include "octree/build/octant_overlap.h"
+#include "octree/build/slab_fit.h"
 #include "octree/clipped_grid.h"
 #include "octree/predicates.h"
 #include "octree/strict_math.h"
@@ -221,17 +222,20 @@ class RegionMask {
     if (!agree) return;
     for (unsigned which = 0; which < 8; ++which)
       entry.corners[which] = static_cast<std::int8_t>(winding[which]);
-    list_blocks(grey.cell, tree, place);
+    list_blocks(grey, tree, place);
   }
 
   // Where one bit a corner says the rest.
-  void list_blocks(const GridCell& cell, MaskTree& tree, std::size_t place) const {
+  void list_blocks(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+    const GridCell& cell = grey.cell;
     MaskEntry& entry = tree.entries[place];
     const auto [least, greatest] = std::minmax_element(entry.corners.begin(), entry.corners.end());
     if (cell.level == kLevels || *greatest - *least > 1) return;
     MaskBlocks blocks;
     // A cell that the surface misses by less than rounding may have no octant that is touched.
     if (!list_(cell, blocks) || blocks.count == 0) return;
+    if (!grid_.region().has_walls())
+      blocks.slab = fit_slab(cell, grid_.lower(cell), triangles_, grey.triangles);
     entry.kind = MaskEntry::Kind::kListed;
     entry.first = static_cast<std::uint32_t>(tree.lists.size());
     tree.lists.push_back(blocks);

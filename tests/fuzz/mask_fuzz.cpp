@@ -46,6 +46,9 @@ bool decode(std::span<const std::byte> bytes, PageFacts facts, Frame& frame) {
 
 void check(const MaskBlocks& blocks, const LinkFormat& links) {
   if (blocks.count > kMostListed) std::abort();
+  if (blocks.count > 0 &&
+      (!blocks.slab.direction_is_valid() || blocks.slab.lower > blocks.slab.upper))
+    std::abort();
   for (unsigned i = 0; i < blocks.count; ++i) {
     const std::uint32_t link = blocks.links[i];
     if (!LinkFormat::is_leaf(link) || links.page(link) >= kFirstPage) std::abort();

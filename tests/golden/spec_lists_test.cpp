@@ -1,6 +1,6 @@
-// "Listed cells", held against the samples as the independent reader decodes them: against
-// every triangle of the tree, clipped by every octant without any error, and against sums of
-// solid angles.
+// "Listed cells" and their slabs, held against the samples as the independent reader decodes
+// them: against every triangle of the tree, clipped by every octant without any error, or by the
+// cell, and against sums of solid angles.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/golden/samples.h"
@@ -88,6 +89,35 @@ class SpecLists : public testing::TestWithParam<Sample> {
   }
 };
 
+// What a closed box has of a triangle: the corners of a polygon, none where they do not touch.
+std::vector<SpecPoint> clipped(const std::array<SpecPoint, 3>& triangle, const SpecPoint& lower,
+                               const SpecPoint& upper) {
+  std::vector<SpecPoint> polygon(triangle.begin(), triangle.end());
+  for (std::size_t side = 0; side < 6; ++side) {
+    const std::size_t axis = side / 2;
+    const bool least = side % 2 == 0;
+    const double limit = least ? lower[axis] : upper[axis];
+    // Negative outside of the side.
+    const auto depth = [&](const SpecPoint& point) {
+      return least ? point[axis] - limit : limit - point[axis];
+    };
+    std::vector<SpecPoint> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const SpecPoint &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+      const double here = depth(from), there = depth(to);
+      if (here >= 0) kept.push_back(from);
+      if ((here >= 0) == (there >= 0)) continue;
+      SpecPoint cut{};
+      for (std::size_t k = 0; k < 3; ++k)
+        cut[k] = from[k] + here / (here - there) * (to[k] - from[k]);
+      cut[axis] = limit;
+      kept.push_back(cut);
+    }
+    polygon = std::move(kept);
+  }
+  return polygon;
+}
+
 std::string name_of(const testing::TestParamInfo<Sample>& info) {
   return std::filesystem::path(info.param.ptree).stem();
 }
@@ -145,6 +175,62 @@ TEST_P(SpecLists, LeaveOctantsOfOneWindingNumber) {
     }
   });
   EXPECT_GT(told, 0u);
+}
+
+// In 256ths of the width, which are what bounds count in. Clipping rounds, by far less than
+// the half step that readers have to spare.
+TEST_P(SpecLists, HaveSlabsThatBoundTheSurface) {
+  constexpr double kRounding = 1e-9;
+  std::size_t bounds = 0, held = 0;
+  each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    const SpecSlab& slab = record.slab;
+    bounds += std::size_t{slab.bounds_below()} + std::size_t{slab.bounds_above()};
+    if (!slab.bounds_below() && !slab.bounds_above()) return;
+    const SpecPoint end = mask_.in_cell(cell, mask_.corner(cell, 7));
+    for (const SpecListedBlock& listed : record.blocks)
+      for (const SpecTriangle& triangle : tree_.block(listed.link).triangles) {
+        std::array<SpecPoint, 3> corners{};
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = mask_.in_cell(cell, triangle.corners[i]);
+        for (const SpecPoint& point : clipped(corners, {}, end)) {
+          const double steps = 256 * slab.height(point) / slab.width();
+          if (slab.bounds_below()) {
+            EXPECT_GE(steps, slab.lower + 0.5 - kRounding) << triangle.id;
+          }
+          if (slab.bounds_above()) {
+            EXPECT_LE(steps, slab.upper + 0.5 + kRounding) << triangle.id;
+          }
+          ++held;
+        }
+      }
+  });
+  EXPECT_EQ(bounds > 0, !file_.header().has_walls());
+  EXPECT_EQ(held > 0, !file_.header().has_walls());
+}
+
+TEST_P(SpecLists, HaveSlabsWithOneWindingNumberOnEitherSide) {
+  std::size_t above = 0, below = 0;
+  each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
+    const SpecSlab& slab = record.slab;
+    const SpecPoint lower = mask_.corner(cell, 0);
+    const SpecPoint size = mask_.corner(cell, 7) - lower;
+    for (int at = 0; at < 27; ++at) {
+      const std::array<int, 3> place = {at % 3, at / 3 % 3, at / 9};
+      SpecPoint point = lower;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        point[axis] += (0.03 + 0.46 * place[axis]) * size[axis];
+      const SpecPoint u = mask_.in_cell(cell, point);
+      const bool is_above = slab.is_above(u), is_below = slab.is_below(u);
+      ASSERT_FALSE(is_above && is_below);
+      if (!is_above && !is_below) continue;
+      ASSERT_GT(whole_.nearest(point).distance, 0);
+      const unsigned corner = is_above ? slab.top() : 7 - slab.top();
+      EXPECT_NEAR(winding_number(all_, point), record.corners[corner], 1e-6)
+          << "corner " << corner << ", level " << cell.level;
+      ++(is_above ? above : below);
+    }
+  });
+  EXPECT_EQ(above > 0, !file_.header().has_walls());
+  EXPECT_EQ(below > 0, !file_.header().has_walls());
 }
 
 // Two cones of many faces: around their tips no leaf can list all blocks.

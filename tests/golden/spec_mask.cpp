@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "tests/golden/spec_streams.h"
@@ -31,7 +32,7 @@ class MaskPageReader {
   SpecMaskPage read() {
     cut();
     std::uint32_t slots = 8 + header_.page_bytes / 512 + head_.records + 9u * head_.planes;
-    for (const unsigned count : block_counts_) slots += (count + 7) / 8 + (count + 1) / 2;
+    for (const unsigned count : block_counts_) slots += (count + 7) / 8 + (count + 2) / 2;
     require(slots <= header_.page_bytes / 8, "the records do not fit");
     SpecMaskPage page{head_.octcode, head_.ordinal, head_.roots, {}};
     next_family_ = head_.roots;
@@ -61,6 +62,9 @@ class MaskPageReader {
     least_ = cutter_.shuffled<std::int8_t>(head_.listed);
     higher_ = cutter_.shuffled<std::uint8_t>(head_.listed);
     block_counts_ = cutter_.shuffled<std::uint8_t>(head_.listed);
+    slab_directions_ = cutter_.shuffled<std::uint16_t>(head_.listed);
+    slab_lowers_ = cutter_.shuffled<std::uint8_t>(head_.listed);
+    slab_uppers_ = cutter_.shuffled<std::uint8_t>(head_.listed);
     block_octants_ = cutter_.shuffled<std::uint8_t>(head_.block_links);
     block_links_ = cutter_.shuffled<std::uint32_t>(head_.block_links);
     require(cutter_.empty(), "the page is too long");
@@ -129,6 +133,7 @@ class MaskPageReader {
     require(least >= -126 && least <= 126, "numbers of corners");
     for (unsigned i = 0; i < 8; ++i)
       record.corners[i] = least + static_cast<int>(higher_.at(listed_) >> i & 1);
+    record.slab = read_slab();
     const unsigned count = block_counts_.at(listed_++);
     require(count >= 1 && count <= 16, "blocks of a list");
     for (unsigned i = 0; i < count; ++i, ++block_) {
@@ -141,12 +146,26 @@ class MaskPageReader {
     }
   }
 
+  SpecSlab read_slab() const {
+    const unsigned direction = slab_directions_.at(listed_);
+    SpecSlab slab;
+    slab.axis = direction & 3;
+    slab.p = static_cast<int>(direction >> 2 & 0x7f) - 32;
+    slab.q = static_cast<int>(direction >> 9) - 32;
+    slab.lower = slab_lowers_.at(listed_);
+    slab.upper = slab_uppers_.at(listed_);
+    require(slab.axis < 3 && slab.p <= 32 && slab.q <= 32, "a slab's direction is out of range");
+    require(slab.lower <= slab.upper, "a slab's planes are the wrong way round");
+    return slab;
+  }
+
   const SpecHeader& header_;
   std::uint32_t number_;
   StreamCutter cutter_;
   Head head_{};
   std::vector<std::uint8_t> kinds_, corner_bits_, plane_counts_;
-  std::vector<std::uint8_t> higher_, block_counts_, block_octants_;
+  std::vector<std::uint8_t> higher_, block_counts_, block_octants_, slab_lowers_, slab_uppers_;
+  std::vector<std::uint16_t> slab_directions_;
   std::array<std::vector<std::uint8_t>, 4> masks_;
   std::vector<std::uint32_t> page_links_, block_links_;
   std::vector<std::int8_t> corner_numbers_, behind_, beyond_, least_;
@@ -162,6 +181,25 @@ SpecCell SpecCell::octant(unsigned number) const {
   SpecCell cell{level + 1, {}};
   for (unsigned axis = 0; axis < 3; ++axis) cell.at[axis] = 2 * at[axis] + (number >> axis & 1);
   return cell;
+}
+
+double SpecSlab::height(const SpecPoint& u) const {
+  return 32 * u[axis] + p * u[(axis + 1) % 3] + q * u[(axis + 2) % 3] - std::min(p, 0) -
+         std::min(q, 0);
+}
+
+double SpecSlab::width() const { return 32 + std::abs(p) + std::abs(q); }
+
+bool SpecSlab::is_above(const SpecPoint& u) const {
+  return bounds_above() && 256 * height(u) >= (upper + 1) * width();
+}
+
+bool SpecSlab::is_below(const SpecPoint& u) const {
+  return bounds_below() && 256 * height(u) <= lower * width();
+}
+
+unsigned SpecSlab::top() const {
+  return 1U << axis | unsigned{p >= 0} << (axis + 1) % 3 | unsigned{q >= 0} << (axis + 2) % 3;
 }
 
 SpecMaskPage decode_spec_mask_page(std::span<const std::byte> raw, std::uint32_t number,
@@ -194,6 +232,17 @@ SpecPoint SpecMask::corner(const SpecCell& cell, unsigned number) const {
     point[axis] = std::clamp(side, header_.wall_lower[axis], header_.wall_upper[axis]);
   }
   return point;
+}
+
+SpecPoint SpecMask::in_cell(const SpecCell& cell, const SpecPoint& point) const {
+  SpecPoint u{};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const int level = static_cast<int>(cell.level);
+    const double lower = std::ldexp(header_.box_lower[axis], header_.scale_exponent);
+    const double side = lower + std::ldexp(cell.at[axis], 1 - level);
+    u[axis] = std::ldexp(point[axis] - side, level - 1);
+  }
+  return u;
 }
 
 void SpecMask::each_grey(

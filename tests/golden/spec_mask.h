@@ -27,6 +27,22 @@ struct SpecListedBlock {
   std::uint32_t link;  ///< to a SpecBlock
 };
 
+/// "Slabs of listed cells". Points are in the cell's own measure: SpecMask::in_cell().
+struct SpecSlab {
+  unsigned axis = 0;
+  int p = 0, q = 0;  ///< slopes along the two axes after it, in 32nds
+  unsigned lower = 0, upper = 255;
+
+  bool bounds_below() const { return lower != 0; }
+  bool bounds_above() const { return upper != 255; }
+  double height(const SpecPoint& u) const;
+  double width() const;
+  bool is_above(const SpecPoint& u) const;
+  bool is_below(const SpecPoint& u) const;
+  /// A corner of the cell with the greatest height; the one opposite has the least.
+  unsigned top() const;
+};
+
 /// A grey cell.
 struct SpecMaskRecord {
   unsigned kind = 0;
@@ -36,6 +52,7 @@ struct SpecMaskRecord {
   int behind = 0, beyond = 0;
   std::vector<SpecPlane> planes;
   std::vector<SpecListedBlock> blocks;
+  SpecSlab slab;  ///< of a listed leaf
 
   bool is_node() const { return kind < 2; }
   /// What may be -128: not stated.
@@ -67,6 +84,8 @@ class SpecMask {
   const SpecMaskRecord& octant(const SpecMaskRecord& node, unsigned number) const;
   /// Corner `number` of a cell, model frame; of a region clamped to it.
   SpecPoint corner(const SpecCell& cell, unsigned number) const;
+  /// From corner 0, in sides of the cell, which is not clamped.
+  SpecPoint in_cell(const SpecCell& cell, const SpecPoint& point) const;
 
   /// Calls look(cell, record) for every grey cell.
   void each_grey(const std::function<void(const SpecCell&, const SpecMaskRecord&)>& look) const;

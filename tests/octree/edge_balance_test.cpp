@@ -21,7 +21,7 @@ Soup tetrahedron() {
   return {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
 }
 
-Soup joined(Soup left, const Soup& right) {
+Soup both(Soup left, const Soup& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
 }
@@ -29,8 +29,8 @@ Soup joined(Soup left, const Soup& right) {
 TEST(EdgeBalance, OfClosedSurfacesIsEven) {
   EXPECT_EQ(balance(tetrahedron()).open_edges, 0u);
   EXPECT_EQ(balance(sphere(5)).open_edges, 0u);
-  EXPECT_EQ(balance(joined(tetrahedron(), tetrahedron())).open_edges, 0u);
-  EXPECT_EQ(balance(joined(tetrahedron(), sphere(2))).open_edges, 0u);
+  EXPECT_EQ(balance(both(tetrahedron(), tetrahedron())).open_edges, 0u);
+  EXPECT_EQ(balance(both(tetrahedron(), sphere(2))).open_edges, 0u);
 }
 
 TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
@@ -95,7 +95,7 @@ TEST(EdgeBalance, TellsSmallEdgesApart) {
   for (auto& triangle : soup)
     for (Vec3& corner : triangle)
       corner = {corner.x * 0x1p-20, corner.y * 0x1p-20, corner.z * 0x1p-20};
-  soup = joined(soup, tetrahedron());
+  soup = both(soup, tetrahedron());
   EXPECT_EQ(balance(soup).open_edges, 0u);
   for (const std::size_t triangle : {30000, 20000, 700, 10000}) soup[triangle][0] = soup[0][0];
   const EdgeBalance found = balance(soup);

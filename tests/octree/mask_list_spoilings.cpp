@@ -56,6 +56,16 @@ std::vector<MaskSpoiling> mask_list_spoilings() {
          p.block_octants.push_back(1);
          p.block_links.push_back(0xffffffff);
        }},
+      {"a slab's direction is out of range", [](P& p, F&) { p.slab_directions[0] |= 3; }},
+      {"a slab's direction is out of range",
+       [](P& p, F&) { p.slab_directions.back() = CellSlab::make_direction(0, 33, 0); }},
+      {"a slab's direction is out of range",
+       [](P& p, F&) { p.slab_directions[0] = CellSlab::make_direction(1, -32, 33); }},
+      {"a slab's planes are the wrong way round",
+       [](P& p, F&) {
+         p.slab_lowers[0] = 8;
+         p.slab_uppers[0] = 7;
+       }},
       {"a block of a list touches nothing", [](P& p, F&) { p.block_octants[0] = 0; }},
       {"a block of a list touches nothing", [](P& p, F&) { p.block_octants.back() = 0; }},
       {"a list leads to what is no block",

@@ -205,7 +205,7 @@ TEST(MaskLookupOfLists, TakesNoneOfTheFinestCells) {
   }
   tree.entries.back().kind = Kind::kListed;
   tree.entries.back().corners = {4, 5, 5, 4, 4, 4, 4, 5};
-  tree.lists.push_back({1, {0xff}, {LinkFormat::kLeafBit}});
+  tree.lists.push_back({1, {0xff}, {LinkFormat::kLeafBit}, {}});
   MaskPages pages(tree, 4096, kRandomMaskPage);
   TreeWork work;
   const MaskFinding found =

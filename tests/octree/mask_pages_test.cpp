@@ -74,6 +74,10 @@ class FrameWalk {
     const std::byte* list = slot_of(frame(step), found.list_slot);
     std::memcpy(blocks.octants.data(), list, blocks.count);
     list += list_octant_slots(blocks.count) * kMaskSlotBytes;
+    std::uint32_t slab;
+    std::memcpy(&slab, list, sizeof slab);
+    blocks.slab = CellSlab::of_word(slab);
+    list += sizeof slab;
     std::memcpy(blocks.links.data(), list, blocks.count * sizeof blocks.links[0]);
     EXPECT_TRUE(same(blocks, tree_.lists[entry.first]));
   }

@@ -88,7 +88,8 @@ TEST(OctantOverlap, IsThatOfEachByItself) {
        {Case{"random", random_pair}, Case{"needle", needle}, Case{"of other size", of_other_size},
         Case{"tiny", tiny}, Case{"tiny at a corner", tiny_at_a_corner},
         Case{"on a lattice", on_lattice}, Case{"axis-aligned", axis_aligned},
-        Case{"barely", barely}, Case{"far away", far_away}}) {
+        Case{"barely", barely}, Case{"far away", far_away},
+        Case{"of few numbers", of_few_numbers}}) {
     SCOPED_TRACE(c.name);
     for (const bool same : on_each_target([&] {
            expect_as_one_by_one(c.make, 400);

@@ -86,7 +86,17 @@ class RandomMask {
     std::copy(links.begin(), links.end(), blocks.links.begin());
     for (unsigned i = 0; i < blocks.count; ++i)
       blocks.octants[i] = static_cast<std::uint8_t>(1 + noise_.bits() % 255);
+    blocks.slab = slab_of(blocks.links[0]);
     tree_.lists.push_back(blocks);
+  }
+
+  static CellSlab slab_of(std::uint32_t link) {
+    CellSlab slab;
+    const auto slope = [](std::uint32_t bits) { return static_cast<int>(bits % 65) - 32; };
+    slab.direction = CellSlab::make_direction(link % 3, slope(link), slope(link / 7));
+    slab.lower = static_cast<std::uint8_t>(link % 101);
+    slab.upper = static_cast<std::uint8_t>(slab.lower + link % 154);
+    return slab;
   }
 
   // Slots of the smallest pages, before kRandomMaskPage.

@@ -24,7 +24,9 @@ struct RawMaskPage {
   std::vector<std::int8_t> behind, beyond;
   std::vector<double> planes;
   std::vector<std::int8_t> least;
-  std::vector<std::uint8_t> higher, block_counts, block_octants;
+  std::vector<std::uint8_t> higher, block_counts;
+  std::vector<std::uint16_t> slab_directions;
+  std::vector<std::uint8_t> slab_lowers, slab_uppers, block_octants;
   std::vector<std::uint32_t> block_links;
   bool float64 = false;
 
@@ -48,6 +50,9 @@ struct RawMaskPage {
                      list(s.least),
                      list(s.higher),
                      list(s.block_counts),
+                     list(s.slab_directions),
+                     list(s.slab_lowers),
+                     list(s.slab_uppers),
                      list(s.block_octants),
                      list(s.block_links),
                      float64};
@@ -77,6 +82,9 @@ struct RawMaskPage {
     writer.shuffled(least);
     writer.shuffled(higher);
     writer.shuffled(block_counts);
+    writer.shuffled(slab_directions);
+    writer.shuffled(slab_lowers);
+    writer.shuffled(slab_uppers);
     writer.shuffled(block_octants);
     writer.shuffled(block_links);
     return writer.take();

@@ -99,7 +99,7 @@ class MaskPages {
 };
 
 inline bool same(const MaskBlocks& a, const MaskBlocks& b) {
-  return a.count == b.count &&
+  return a.count == b.count && a.slab == b.slab &&
          std::equal(a.links.begin(), a.links.begin() + a.count, b.links.begin()) &&
          std::equal(a.octants.begin(), a.octants.begin() + a.count, b.octants.begin());
 }

@@ -30,9 +30,8 @@ inline Point full_point(Noise& noise, double low, double high) {
 inline double sign(Noise& noise) { return noise.bits() % 2 == 0 ? 1 : -1; }
 
 inline double next(double value, int steps) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (; steps > 0; --steps) value = std::nextafter(value, kInfinity);
-  for (; steps < 0; ++steps) value = std::nextafter(value, -kInfinity);
+  const double end = std::copysign(std::numeric_limits<double>::infinity(), steps);
+  for (; steps != 0; steps += steps > 0 ? -1 : 1) value = std::nextafter(value, end);
   return value;
 }
 
@@ -139,6 +138,19 @@ inline TriangleAndBox far_away(Noise& noise) {
   for (Point& corner : pair.triangle) corner += offset;
   pair.lower += offset;
   pair.upper += offset;
+  return pair;
+}
+
+// Boxes so far away that they have few numbers between their sides.
+inline TriangleAndBox of_few_numbers(Noise& noise) {
+  const double size = std::ldexp(1.0, static_cast<int>(noise.bits() % 40));
+  const Point offset(0x1p52, -0x1p52, 0x1.8p52);
+  const auto whole = [](const Point& point) { return Point(point.array().round()); };
+  TriangleAndBox pair = barely(noise);
+  const Point from = whole(size * pair.lower);
+  for (Point& corner : pair.triangle) corner = offset + whole(size * corner);
+  pair.upper = offset + from + whole(size * (pair.upper - pair.lower)).cwiseMax(Point::Ones());
+  pair.lower = offset + from;
   return pair;
 }
 

@@ -52,7 +52,7 @@ TEST_F(Command, InspectSaysWhatStreamsMaskPagesHave) {
   EXPECT_EQ(streams, raw);
   const std::string last = std::to_string(report["pages"].get<int>() - 1);
   const Json page = Json::parse(run({"inspect", boxes, "--page", last, "--json"}).output);
-  EXPECT_EQ(page["streams"].size(), 1u + 17u);
+  EXPECT_EQ(page["streams"].size(), 1u + 20u);
   std::uint64_t end = 0;
   for (const Json& stream : page["streams"]) {
     EXPECT_EQ(stream["offset"], end) << stream;

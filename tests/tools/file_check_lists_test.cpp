@@ -42,6 +42,29 @@ TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
   });
 }
 
+TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
+  const auto has_upper = [](const RawMaskPage& page) {
+    return !page.slab_uppers.empty() && page.slab_uppers[0] > page.slab_lowers[0] + 1 &&
+           page.slab_uppers[0] != octree::CellSlab::kNoUpper;
+  };
+  const auto has_lower = [](const RawMaskPage& page) {
+    return !page.slab_lowers.empty() && page.slab_uppers.back() > page.slab_lowers.back() + 1 &&
+           page.slab_lowers.back() != octree::CellSlab::kNoLower;
+  };
+  expect_found("MASK_SLAB", has_upper,
+               [](RawMaskPage& page) { page.slab_uppers[0] = page.slab_lowers[0]; });
+  expect_found("MASK_SLAB", has_lower,
+               [](RawMaskPage& page) { page.slab_lowers.back() = page.slab_uppers.back(); });
+}
+
+TEST_F(FileCheckOfLists, AllowsSlabsThatSayLess) {
+  const auto widen = [](RawMaskPage& page) {
+    for (std::uint8_t& lower : page.slab_lowers) lower = static_cast<std::uint8_t>(lower / 2);
+    for (std::uint8_t& upper : page.slab_uppers) upper = octree::CellSlab::kNoUpper;
+  };
+  EXPECT_EQ(codes_of_change(boxes(), has_lists, widen), Codes{});
+}
+
 TEST_F(FileCheckOfLists, AllowsOctantsThatNoTriangleTouches) {
   const auto add = [](RawMaskPage& page) {
     page.block_octants.assign(page.block_octants.size(), 0xff);
