@@ -112,7 +112,8 @@ class RegionMask {
       lower[octant] = grid_.lower(octants[octant].cell);
     }
     hand_out(grey, octants);
-    const std::array<std::int64_t, 8> winding = edge_count(lower, grey.winding, octants[0]).all();
+    octants[0].winding = grey.winding;
+    const std::array<std::int64_t, 8> winding = edge_count(lower, octants[0]).all();
     for (unsigned octant = 0; octant < 8; ++octant) octants[octant].winding = winding[octant];
     for (GreyCell& octant : octants)
       if (!grid_.has_part_of(octant.cell)) octant = {octant.cell, {}};
@@ -175,10 +176,8 @@ class RegionMask {
     return corners;
   }
 
-  // winding  at the least of the corners, which are a grey cell's.
-  EdgeCount edge_count(const std::array<Point, 8>& corners, std::int64_t winding,
-                       const GreyCell& grey) const {
-    return EdgeCount(corners, winding, triangles_, grey.triangles);
+  EdgeCount edge_count(const std::array<Point, 8>& corners, const GreyCell& grey) const {
+    return EdgeCount(corners, grey.winding, triangles_, grey.triangles);
   }
 
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
@@ -195,8 +194,7 @@ class RegionMask {
       triangles.push_back(triangles_[position].corners);
     if (!in_few_planes(triangles)) return false;
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const auto special =
-        special_cell(triangles, corners, edge_count(corners, grey.winding, grey).all());
+    const auto special = special_cell(triangles, corners, edge_count(corners, grey).all());
     if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
     tree.entries[place].kind = MaskEntry::Kind::kSpecial;
     tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
@@ -209,7 +207,7 @@ class RegionMask {
     entry.kind = MaskEntry::Kind::kCorners;
     entry.corners.fill(kUncounted);
     const std::array<Point, 8> corners = corners_of(grey.cell);
-    const EdgeCount count = edge_count(corners, grey.winding, grey);
+    const EdgeCount count = edge_count(corners, grey);
     const std::array<std::int64_t, 8> winding = count.all();
     const auto fits = [](std::int64_t number) {
       return -kListedTag > number && number > kListedTag;
