@@ -34,8 +34,7 @@ class NearBlocks {
       const unsigned near = met.by_box[i] & ~met.with_vertex;
       if (near == 0) continue;
       if (overlap_.full()) settle();
-      asked_by_[waiting_++] = count_;
-      overlap_.add(block.triangle(i), near);
+      overlap_.add(block.triangle(i), near, count_);
     }
     ++count_;
   }
@@ -58,8 +57,7 @@ class NearBlocks {
 
   void settle() {
     const OctantOverlap::Told told = overlap_.take();
-    for (unsigned k = 0; k < told.count; ++k) found_[asked_by_[k]].second |= told.octants[k];
-    waiting_ = 0;
+    for (unsigned k = 0; k < told.count; ++k) found_[told.places[k]].second |= told.octants[k];
   }
   void drop_untouched() {
     settle();
@@ -70,12 +68,9 @@ class NearBlocks {
 
   const Point lower_, upper_;
   const OctantCodes codes_;
-  OctantOverlap overlap_;
+  OctantOverlap overlap_;                                            // by places among those found
   std::array<std::pair<std::uint32_t, std::uint8_t>, kRoom> found_;  // links, octants
   unsigned count_ = 0;
-  // Of the triangles in overlap_, the block's place.
-  std::array<unsigned, OctantOverlap::kAtOnce> asked_by_;
-  unsigned waiting_ = 0;
 };
 
 }  // namespace

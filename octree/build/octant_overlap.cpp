@@ -220,12 +220,13 @@ OctantOverlap::OctantOverlap(const Point& lower, const Point& middle, const Poin
   }
 }
 
-void OctantOverlap::add(const Triangle& triangle, unsigned octants) {
+void OctantOverlap::add(const Triangle& triangle, unsigned octants, std::uint32_t place) {
   assert(!full());
   for (unsigned k = 0; k < 3; ++k)
     for (unsigned axis = 0; axis < 3; ++axis)
       seen_.corner[k][axis][count_] = static_cast<float>(triangle[k][axis] - sides_[1][axis]);
   triangles_[count_] = triangle;
+  places_[count_] = place;
   octants_[count_++] = static_cast<std::uint8_t>(octants);
 }
 
@@ -246,6 +247,7 @@ OctantOverlap::Told OctantOverlap::take() {
     told.octants[at] = static_cast<std::uint8_t>(touched);
   }
   told.count = count_;
+  told.places = places_;
   count_ = 0;
   return told;
 }

@@ -21,13 +21,15 @@ class OctantOverlap {
   bool full() const { return count_ == kAtOnce; }
   /// A triangle, while not full.
   /// octants  those to be told, one bit each.
-  void add(const Triangle& triangle, unsigned octants);
+  /// place    the caller's, to know it by.
+  void add(const Triangle& triangle, unsigned octants, std::uint32_t place);
 
   /// Of the triangles since the last time, those of their octants that they may touch, in the order
   /// in which they were added: the first `count`.
   struct Told {
     unsigned count = 0;
     std::array<std::uint8_t, kAtOnce> octants;
+    std::array<std::uint32_t, kAtOnce> places;
   };
   Told take();
 
@@ -51,6 +53,7 @@ class OctantOverlap {
   unsigned count_ = 0;
   std::array<Triangle, kAtOnce> triangles_;
   std::array<std::uint8_t, kAtOnce> octants_;
+  std::array<std::uint32_t, kAtOnce> places_;
 };
 
 }  // namespace planetree::octree

@@ -139,22 +139,19 @@ class RegionMask {
     const Point middle = grid_.middle(grey.cell);
     std::vector<std::uint8_t> touched(grey.triangles.size());
     OctantOverlap overlap(grid_.lower(grey.cell), middle, grid_.upper(grey.cell));
-    std::array<std::size_t, OctantOverlap::kAtOnce> places;
     const auto settle = [&] {
       const OctantOverlap::Told told = overlap.take();
-      for (unsigned k = 0; k < told.count; ++k) touched[places[k]] = told.octants[k];
+      for (unsigned k = 0; k < told.count; ++k) touched[told.places[k]] = told.octants[k];
     };
-    unsigned waiting = 0;
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < touched.size(); ++i) {
+    constexpr std::uint32_t kAhead = 16;
+    for (std::uint32_t i = 0; i < touched.size(); ++i) {
       if (i + kAhead < touched.size()) __builtin_prefetch(&triangles_[grey.triangles[i + kAhead]]);
       const BoxedTriangle& triangle = triangles_[grey.triangles[i]];
       const unsigned near = octants_of_box(triangle, middle);
       touched[i] = static_cast<std::uint8_t>(near);
       if ((near & (near - 1)) == 0) continue;
-      places[waiting++] = i;
-      overlap.add(triangle.corners, near);
-      if (overlap.full()) settle(), waiting = 0;
+      overlap.add(triangle.corners, near, i);
+      if (overlap.full()) settle();
     }
     settle();
     return touched;

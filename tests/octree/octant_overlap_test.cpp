@@ -56,7 +56,7 @@ void expect_as_one_by_one(MakePair make, int cells) {
   for (int i = 0; i < cells && !testing::Test::HasFailure(); ++i) {
     const TriangleAndCell cell(make(noise), noise);
     OctantOverlap overlap(cell.lower, cell.middle, cell.upper);
-    std::vector<unsigned> touched, asked;
+    std::vector<unsigned> touched, asked, places;
     for (unsigned count = noise.bits() % (OctantOverlap::kAtOnce + 1); count > 0; --count) {
       TriangleAndCell other = cell;
       if (!touched.empty()) {
@@ -68,12 +68,16 @@ void expect_as_one_by_one(MakePair make, int cells) {
       touched.push_back(other.touched() & asked.back());
       some += touched.back() != 0 && touched.back() != 255;
       ASSERT_FALSE(overlap.full());
-      overlap.add(other.triangle, asked.back());
+      overlap.add(other.triangle, asked.back(), 7 * count);
+      places.push_back(7 * count);
     }
     EXPECT_EQ(overlap.full(), touched.size() == OctantOverlap::kAtOnce);
     const OctantOverlap::Told told = overlap.take();
     ASSERT_EQ(told.count, touched.size());
-    for (unsigned k = 0; k < told.count; ++k) EXPECT_EQ(told.octants[k], touched[k]);
+    for (unsigned k = 0; k < told.count; ++k) {
+      EXPECT_EQ(told.octants[k], touched[k]);
+      EXPECT_EQ(told.places[k], places[k]);
+    }
     EXPECT_EQ(overlap.take().count, 0u);
   }
   EXPECT_GT(some, 50u);
@@ -109,7 +113,7 @@ TEST(OctantOverlap, IsThatOfEachWhereFloatCannotTell) {
     for (Point& corner : cell.triangle) corner += step * any_point(noise, -1, 1);
     cell.scale(std::ldexp(1.0, static_cast<int>(noise.bits() % 121) - 60));
     OctantOverlap overlap(cell.lower, cell.middle, cell.upper);
-    overlap.add(cell.triangle, 255);
+    overlap.add(cell.triangle, 255, 0);
     const unsigned touched = cell.touched();
     EXPECT_EQ(overlap.take().octants[0], touched);
     ++(touched != 0 ? touching : apart);
