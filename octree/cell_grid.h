@@ -24,6 +24,11 @@ struct GridCell {
     const unsigned shift = level - of_level;
     return {of_level, {at[0] >> shift, at[1] >> shift, at[2] >> shift}};
   }
+  /// Which child of its parent the cell of a level above, or this one, is; of a level from 1 on.
+  constexpr unsigned octant_of(unsigned of_level) const {
+    const unsigned shift = level - of_level;
+    return (at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 | (at[2] >> shift & 1) << 2;
+  }
   /// The Morton code of the first of the finest cells in it.
   constexpr std::uint64_t first_code() const {
     const unsigned shift = kLevels - level;

@@ -65,6 +65,15 @@ struct CellSlab {
            static_cast<unsigned>(q() >= 0) << (a + 2) % 3;
   }
 
+  static constexpr unsigned kNoCorner = 8;
+  /// The corner that is beyond the same plane as a point at `u` in the cell; kNoCorner if the point
+  /// is beyond neither.
+  unsigned corner_beyond(const Point& u) const {
+    const int side = side_of(height(u));
+    if (side == 0) return kNoCorner;
+    return side > 0 ? highest_corner() : 7 - highest_corner();
+  }
+
   /// As frames hold it.
   constexpr std::uint32_t word() const {
     return std::uint32_t{direction} | std::uint32_t{lower} << 16 | std::uint32_t{upper} << 24;

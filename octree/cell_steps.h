@@ -20,7 +20,12 @@ class CellSteps {
   CellSteps() = default;
   /// Of the cells of a level, where those of level 0 have a side of 2, and of values that are
   /// 2^-scale of theirs.
-  CellSteps(unsigned level, int scale) : shift_(1055 - static_cast<int>(level) - scale) {}
+  CellSteps(unsigned level, int scale) : shift_(1057 - static_cast<int>(level) - scale) {}
+
+  /// By how much a value's digits, from the highest of 64 bits down, are to be shifted to the
+  /// right, and its exponent as it is in its bits: less than kLeastShift where Digits' is below 0.
+  std::int64_t shift() const { return shift_; }
+  static constexpr std::int64_t kLeastShift = 2;
 
   /// A value as so many digits and how far to the right they are to be shifted: below 0 if the
   /// place is 2^62 steps away or farther, or the value is no number.
@@ -35,14 +40,14 @@ class CellSteps {
     // The greatest is below 2^62: so places may be subtracted from each other.
     const auto digits = static_cast<std::int64_t>(((bits & kDigits) | (kDigits + 1)) << 9);
     const auto sign = static_cast<std::int64_t>(bits) >> 63;
-    return {(digits ^ sign) - sign, shift_ - static_cast<int>(bits >> 52 & 0x7ff)};
+    return {(digits ^ sign) - sign,
+            static_cast<int>(shift_ - kLeastShift) - static_cast<int>(bits >> 52 & 0x7ff)};
   }
 
  private:
   static constexpr std::uint64_t kDigits = (std::uint64_t{1} << 52) - 1;
 
-  // From the exponent that a double has in its bits.
-  int shift_ = 0;
+  std::int64_t shift_ = 0;
 };
 
 }  // namespace planetree::octree

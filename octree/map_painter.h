@@ -10,28 +10,26 @@
 
 namespace planetree::octree {
 
-/// Goes through the nodes of a mask's first pages, twice: to paint cells, and to fill in what is
-/// known of those that are grey.
+/// Goes through the nodes of a mask's first pages, three times: to paint cells, to paint the
+/// octants of those that are grey, and to fill in what is known of grey octants.
 class ColourMap::Painter {
  public:
   Painter(ColourMap& map, const MaskFacts& mask, PageReader pages, bool clipped)
       : map_(map), mask_(mask), pages_(pages), clipped_(clipped) {}
 
   /// Returns how many cells are listed.
-  std::uint32_t paint() {
+  std::size_t paint_cells() {
     paint_rim();
-    run(false);
-    std::uint32_t listed_before = 0;
-    for (std::size_t i = 0; i < stretches_for(cells()); ++i) {
-      map_.first_records_[i] = listed_before;
-      listed_before += count(listed_in(map_.stretches_[i]));
-    }
-    return listed_before;
+    run(Pass::kCells);
+    return map_.cells_.count_listed(MapCells::stretches_for(cells()));
   }
-  void fill_records() { run(true); }
+  void paint_octants() { run(Pass::kOctants); }
+  void fill_records() { run(Pass::kRecords); }
 
  private:
   using Place = std::array<std::uint32_t, 3>;
+  enum class Pass { kCells, kOctants, kRecords };
+  static constexpr std::uint32_t kRim = MapSteps::kRim;
 
   // Pages that are not in memory: what opening a model may take.
   static constexpr std::uint64_t kMostBrought = 1 << 12;
@@ -50,12 +48,12 @@ class ColourMap::Painter {
       for (std::uint32_t y = 0; y < end[1]; ++y) {
         const bool all = z == 0 || z + 1 == end[2] || y == 0 || y + 1 == end[1];
         for (std::uint32_t x = 0; x < end[0]; x += all ? 1 : end[0] - 1)
-          set(map_.number({x, y, z}), kWhite);
+          set({x, y, z}, MapCells::kWhite);
       }
   }
 
-  void run(bool filling) {
-    filling_ = filling;
+  void run(Pass pass) {
+    pass_ = pass;
     MaskRecords records(mask_, pages_);
     records_ = &records;
     brought_ = 0;
@@ -69,7 +67,7 @@ class ColourMap::Painter {
       const GridCell child = cell.child(octant);
       if ((node.grey >> octant & 1) != 0)
         go_to_grey(node, octant, child);
-      else if (!filling_)
+      else if (pass_ == Pass::kCells)
         paint_colour(child, (node.black >> octant & 1) - (node.inverted >> octant & 1));
     }
   }
@@ -80,18 +78,13 @@ class ColourMap::Painter {
     const bool leaf = (node.leaf >> octant & 1) != 0;
     const bool listed = child.level == map_.level_ || leaf;
     if (leaf && map_.level_ - child.level > kMostAbove) return;
-    if (listed && !filling_)
-      return each_cell(child, [&](const Place& at) { set(map_.number(at), kListed); });
+    if (listed && pass_ == Pass::kCells)
+      return each_cell(child, [&](const Place& at) { set(at, MapCells::kListed); });
     const std::byte* record = below(node, octant);
     if (!record) return;
     if (!listed) return go_below(record, child);
-    if (leaf) return fill_leaf(record, records_->child_link(node, octant), child);
-    const MaskNode divided = *reinterpret_cast<const MaskNode*>(record);
-    each_cell(child, [&](const Place& at) {
-      // A page may be had the second time alone; then its cells are not listed.
-      if (map_.code_of(map_.number(at)) == kListed)
-        fill_node(divided, child, map_.record_number(map_.number(at)));
-    });
+    if (leaf) return go_to_leaf(read_leaf(record, records_->child_link(node, octant), child));
+    go_to_listed(*reinterpret_cast<const MaskNode*>(record), child);
   }
 
   // The record of a grey octant; null where its page cannot be had, or is one too many.
@@ -102,54 +95,40 @@ class ColourMap::Painter {
   }
 
   // A cell of the map's level, which is divided.
-  void fill_node(const MaskNode node, const GridCell& cell, std::size_t number) {
-    if (node.grey == 0) return;  // forged
-    map_.records_[number] = MapRecord::of_node(node);
+  void go_to_listed(const MaskNode node, const GridCell& cell) {
+    const Place at{cell.at[0] + kRim, cell.at[1] + kRim, cell.at[2] + kRim};
     for (unsigned octant = 0; octant < 8; ++octant) {
-      if ((node.grey >> octant & 1) == 0) continue;
-      const std::byte* record = below(node, octant);
+      if ((node.grey >> octant & 1) == 0) {
+        paint(at, octant, (node.black >> octant & 1) - (node.inverted >> octant & 1));
+        continue;
+      }
+      const std::byte* record = pass_ == Pass::kRecords ? below(node, octant) : nullptr;
       if (!record) continue;
-      const GridCell child = cell.child(octant);
       if ((node.leaf >> octant & 1) != 0)
-        fill_octant(read_leaf(record, records_->child_link(node, octant), child.level), child,
-                    octant, number);
+        note(at, octant,
+             read_leaf(record, records_->child_link(node, octant), cell.child(octant)).record(0));
       else
-        fill_divided(*reinterpret_cast<const MaskNode*>(record), octant, number);
+        note(at, octant, MapRecord::of_node(*reinterpret_cast<const MaskNode*>(record)));
     }
-  }
-
-  void fill_divided(const MaskNode& node, unsigned octant, std::size_t number) {
-    if (node.grey == 0) return;  // forged
-    map_.octants_[number][octant] = MapRecord::of_node(node);
-    for (unsigned below = 0; below < 8; ++below)
-      if ((node.grey >> below & 1) == 0)
-        paint_quarter(octant, below, (node.black >> below & 1) - (node.inverted >> below & 1),
-                      number);
-  }
-
-  // A leaf of the map's level or above.
-  void fill_leaf(const std::byte* record, std::uint32_t link, const GridCell& leaf) {
-    const Leaf found = read_leaf(record, link, leaf.level);
-    each_cell(leaf, [&](const Place& at) {
-      const std::size_t number = map_.number(at);
-      if (map_.code_of(number) != kListed) return;
-      const GridCell cell{map_.level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
-      for (unsigned octant = 0; octant < 8; ++octant)
-        fill_octant(found, cell.child(octant), octant, map_.record_number(number));
-    });
   }
 
   // What is known of a leaf.
   struct Leaf {
-    unsigned level = 0;
+    GridCell cell;
     std::uint32_t link = 0;
     bool listed = false;
     MaskListed head{};
+    CellSlab slab{};
     unsigned touched = 0xff;  // octants of it
+
+    MapRecord record(unsigned above) const {
+      return listed ? MapRecord::of_list(head, link, slab, touched, above)
+                    : MapRecord::of_leaf(link, above);
+    }
   };
 
-  Leaf read_leaf(const std::byte* record, std::uint32_t link, unsigned level) const {
-    Leaf leaf{level, link};
+  Leaf read_leaf(const std::byte* record, std::uint32_t link, const GridCell& cell) const {
+    Leaf leaf{cell, link};
     const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
     if (!is_listed(corners)) return leaf;
     const auto& listed = *reinterpret_cast<const MaskListed*>(record);
@@ -160,49 +139,59 @@ class ColourMap::Painter {
     leaf.listed = true;
     leaf.head = listed;
     if (clipped_) return leaf;
+    leaf.slab = blocks.slab;
     leaf.touched = 0;
     for (unsigned i = 0; i < blocks.count; ++i) leaf.touched |= blocks.octants[i];
     return leaf;
   }
 
-  // An octant of a listed cell, which is that leaf or in it.
-  void fill_octant(const Leaf& leaf, const GridCell& cell, unsigned octant, std::size_t number) {
-    const unsigned above = cell.level - leaf.level;
-    map_.octants_[number][octant] = leaf.listed ? MapRecord::of_list(leaf.head, leaf.link, above)
-                                                : MapRecord::of_leaf(leaf.link, above);
-    for (unsigned below = 0; below < 8; ++below) {
-      const GridCell quarter = cell.child(below);
-      unsigned of_leaf = 0;
-      for (unsigned axis = 0; axis < 3; ++axis) of_leaf |= (quarter.at[axis] >> above & 1) << axis;
-      if ((leaf.touched >> of_leaf & 1) == 0)
-        paint_quarter(octant, below, corner_of(leaf.head, of_leaf), number);
-    }
+  // A leaf of the map's level or above.
+  void go_to_leaf(const Leaf& leaf) {
+    const unsigned above = map_.level_ + 1 - leaf.cell.level;
+    each_cell(leaf.cell, [&](const Place& at) {
+      const GridCell cell{map_.level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
+      for (unsigned octant = 0; octant < 8; ++octant) {
+        const unsigned of_leaf = cell.child(octant).octant_of(leaf.cell.level + 1);
+        if ((leaf.touched >> of_leaf & 1) == 0)
+          paint(at, octant, corner_of(leaf.head, of_leaf));
+        else
+          note(at, octant, leaf.record(above));
+      }
+    });
   }
 
-  void paint_quarter(unsigned octant, unsigned below, int winding, std::size_t number) {
-    if (!is_told(winding)) return;
-    unsigned place = 0;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      place |= (2 * (octant >> axis & 1) + (below >> axis & 1)) << 2 * axis;
-    const std::uint64_t bit = std::uint64_t{1} << place;
-    Quarters& quarters = map_.quarters_[number];
-    quarters.unknown &= ~bit;
-    if (winding != 0) quarters.inside |= bit;
+  void paint(const Place& at, unsigned octant, int winding) {
+    if (!is_told(winding)) return note(at, octant, MapRecord::of_colour(winding));
+    if (pass_ != Pass::kOctants || !is_listed_at(at)) return;
+    const MapCells::Octant painted = map_.cells_.octant_of(map_.steps_.number(at), octant);
+    painted.group.unknown &= ~painted.bit;
+    if (winding != 0) painted.group.inside |= painted.bit;
   }
+  void note(const Place& at, unsigned octant, const MapRecord& record) {
+    if (pass_ != Pass::kRecords || !is_listed_at(at)) return;
+    const MapCells::Octant noted = map_.cells_.octant_of(map_.steps_.number(at), octant);
+    if (noted.is_unknown()) map_.cells_.records[noted.record()] = record;
+  }
+  // A page may be had the second time alone; then its cells are not listed.
+  bool is_listed_at(const Place& at) const {
+    return map_.cells_.code_of(map_.steps_.number(at)) == MapCells::kListed;
+  }
+  void set(const Place& at, MapCells::Code code) { map_.cells_.set(map_.steps_.number(at), code); }
 
   // Insides of one sign alone: the first one's.
   bool is_told(int winding) {
     if (winding != 0 && !has_inside_) {
       has_inside_ = true;
-      map_.inside_ = winding;
+      map_.cells_.inside = winding;
     }
-    return winding == 0 || winding == map_.inside_;
+    return winding == 0 || winding == map_.cells_.inside;
   }
 
   void paint_colour(const GridCell& cell, int winding) {
     if (is_told(winding))
-      each_cell(cell,
-                [&](const Place& at) { set(map_.number(at), winding == 0 ? kWhite : kInside); });
+      each_cell(cell, [&](const Place& at) {
+        set(at, winding == 0 ? MapCells::kWhite : MapCells::kInside);
+      });
   }
   // Calls with the place of each of the map's cells that are in a cell.
   template <class Call>
@@ -217,13 +206,6 @@ class ColourMap::Painter {
       for (std::uint32_t y = first[1]; y < end[1]; ++y)
         for (std::uint32_t x = first[0]; x < end[0]; ++x) call(Place{x, y, z});
   }
-  void set(std::size_t cell, Code code) {
-    Stretch& stretch = map_.stretches_[cell / Stretch::kCells];
-    const std::uint64_t bit = std::uint64_t{1} << cell % Stretch::kCells;
-    stretch.low = (code & 1) != 0 ? stretch.low | bit : stretch.low & ~bit;
-    stretch.high = (code & 2) != 0 ? stretch.high | bit : stretch.high & ~bit;
-  }
-
   ColourMap& map_;
   const MaskFacts& mask_;
   const PageReader pages_;
@@ -231,7 +213,7 @@ class ColourMap::Painter {
   MaskRecords* records_ = nullptr;
   TreeWork work_;
   std::uint64_t brought_ = 0;
-  bool filling_ = false;
+  Pass pass_ = Pass::kCells;
   bool has_inside_ = false;
 };
 

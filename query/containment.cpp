@@ -1,23 +1,10 @@
 #include "query/containment.h"
 
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <limits>
-
 #include "octree/strict_math.h"
 #include "query/ask_rules.h"
 
 namespace planetree::query {
 namespace {
-
-// But for the query; by bits: false for some that make sense, too.
-inline bool makes_sense_at_a_glance(const Ask& ask) {
-  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  const std::uint64_t infinite = bits(std::numeric_limits<double>::infinity());
-  return bits(ask.max_error) < infinite && bits(ask.max_distance) <= infinite &&
-         (ask.parts & ~kAllParts) == 0;
-}
 
 // Apart from what most asks come to, which needs few registers.
 [[gnu::noinline]] Containment find_containment(ProbeState& probe, const Vec3& query, const Ask& ask,
@@ -44,34 +31,12 @@ inline bool makes_sense_at_a_glance(const Ask& ask) {
 
 }  // namespace
 
-Containment contains_at_a_glance(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  const ModelState& model = probe.model();
-  // What is beyond a wall of a region is not the map's to know.
-  const bool may = makes_sense_at_a_glance(ask) && !model.region().has_walls();
-  const std::array<double, 3> point{query.x, query.y, query.z};
-  const octree::ColourMap::Spot spot =
-      may ? model.colours().glance(point.data()) : octree::ColourMap::Spot{};
-  if (spot.winding == octree::ColourMap::kUnknown) {
-    probe.glanced() = spot;
-    return {};
-  }
-  probe.last_parts() = kSide;
-  probe.touches().begin_ask(ask.wait);
-  return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
-}
-
 Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  probe.glanced() = {};
-  return contains_after_glance(probe, query, ask);
-}
-
-Containment contains_after_glance(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
   if (!makes_sense(query, ask)) return {};
   const octree::Point placed = probe.model().scale().in(query);
   probe.last_parts() = kSide;
   TouchLog* const log = probe.touches().begin_ask(ask.wait);
-  octree::ColourMap::Spot spot = probe.glanced();
-  if (!spot.record) spot = look_at_colours(probe.model(), placed);
+  const octree::ColourMap::Spot spot = look_at_colours(probe.model(), placed);
   // What most asks come to.
   if (spot.winding != octree::ColourMap::kUnknown)
     return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};

@@ -10,6 +10,16 @@
 #include "query/probe_state.h"
 
 namespace planetree {
+namespace {
+
+// Apart from what most asks come to, which needs few registers.
+[[gnu::noinline]] Containment contains_computed(query::ProbeState& probe, const Vec3& query,
+                                                const Ask& ask) noexcept {
+  const query::HostArithmetic host;
+  return query::contains(probe, query, ask);
+}
+
+}  // namespace
 
 Result<Probe> Probe::create(const Model& model) {
   auto reader = model.state_->claim_reader();
@@ -34,9 +44,7 @@ ClosestPoint Probe::closest_point(Vec3 query, const Ask& ask) noexcept {
 Containment Probe::contains(Vec3 query, const Ask& ask) noexcept {
   // Before the register is read, which waits for what the thread computes.
   const Containment told = query::contains_at_a_glance(*state_, query, ask);
-  if (told.side != Side::kUnknown) return told;
-  const query::HostArithmetic host;
-  return query::contains_after_glance(*state_, query, ask);
+  return told.side != Side::kUnknown ? told : contains_computed(*state_, query, ask);
 }
 
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {

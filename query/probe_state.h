@@ -51,9 +51,6 @@ class ProbeState {
   /// The parts last asked for.
   std::uint32_t& last_parts() noexcept { return last_parts_; }
 
-  /// What the last glance at the colours saw that did not tell a side.
-  octree::ColourMap::Spot& glanced() noexcept { return glanced_; }
-
   /// For batches; null in the probes of a BatchCrew.
   BatchOrder* batch_order() noexcept { return batch_order_.get(); }
 
@@ -65,7 +62,6 @@ class ProbeState {
   SideMemory side_memory_;
   octree::NearestAnswer last_nearest_;
   std::uint32_t last_parts_ = kAllParts;
-  octree::ColourMap::Spot glanced_;
   std::unique_ptr<BatchOrder> batch_order_;
 };
 

@@ -60,13 +60,12 @@ bool SideSearch::ask_slab(const octree::MaskFinding& found) {
   const octree::CellSlab& slab = found.blocks.slab;
   if (!slab.says_something()) return false;
   const Point lower = octree::CellGrid(model_.mask().lower).lower(found.cell);
-  const int beyond =
-      slab.side_of(slab.height(octree::CellSlab::place_in(point_, lower, found.cell.level)));
-  if (beyond == 0) return false;
-  const unsigned highest = slab.highest_corner();
+  const unsigned corner =
+      slab.corner_beyond(octree::CellSlab::place_in(point_, lower, found.cell.level));
+  if (corner == octree::CellSlab::kNoCorner) return false;
   if (reason_) reason_->rule = SideReason::Rule::kSlab;
   counted_ = true;
-  settle(octree::corner_of(found.listed, beyond > 0 ? highest : 7 - highest), false);
+  settle(octree::corner_of(found.listed, corner), false);
   return true;
 }
 
