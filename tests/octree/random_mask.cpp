@@ -77,8 +77,8 @@ class RandomMask {
     entry.kind = MaskEntry::Kind::kListed;
     entry.first = static_cast<std::uint32_t>(tree_.lists.size());
     // Mostly as about a surface of one sheet.
-    const int least = noise_.bits() % 4 == 0 ? std::min<int>(number(), 126)
-                                             : -static_cast<int>(noise_.bits() % 2);
+    const int any = number();
+    const int least = any % 4 == 0 ? std::min<int>(any, 126) : -(any & 1);
     for (std::int8_t& corner : entry.corners)
       corner = static_cast<std::int8_t>(least + static_cast<int>(noise_.bits() % 2));
     MaskBlocks blocks{};
