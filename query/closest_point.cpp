@@ -150,8 +150,9 @@ class Asking {
 
   Standing find_side(bool with_normal) {
     octree::ColourMap::Spot spot;
-    std::optional<Standing> known = known_side(spot);
+    std::optional<Standing> known = side_before();
     if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
+    if (!known) known = side_at_a_look(spot);
     const Standing standing = known ? *known
                                     : side_of(probe_, point_, spot, nearest_.lower, remember_,
                                               nodes_left(), turner_, work_);
@@ -160,14 +161,17 @@ class Asking {
     return standing;
   }
 
-  // The side where it takes no search: most often that of the ask before, if the surface is known
-  // to be farther than that was.
-  std::optional<Standing> known_side(octree::ColourMap::Spot& spot) {
+  // Most often the side is that of the ask before: the surface is known to be farther than that
+  // was.
+  std::optional<Standing> side_before() {
+    if (far_ || !remember_) return {};
+    return side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
+  }
+
+  std::optional<Standing> side_at_a_look(octree::ColourMap::Spot& spot) {
     // What stands for a point that far away may be beyond another wall of a region.
     if (far_) return side_at_once(model_, placed_, look_at_colours(model_, placed_));
     if (!remember_) return {};
-    const auto before = side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
-    if (before) return before;
     spot = look_at_colours(model_, point_);
     return side_at_once(model_, point_, spot);
   }
