@@ -20,8 +20,8 @@ namespace planetree::octree {
 
 /// A mask's cells of one level side by side, with a rim of white ones about the model's box, and
 /// in the grey ones those of two levels more, and the slabs of leaves: one look tells the side of
-/// most points, and needs no page. For the rest there are records of the mask, so that a lookup need not begin at the
-/// root. Filled once; then any thread may look.
+/// most points, and needs no page. For the rest there are records of the mask, so that a lookup
+/// need not begin at the root. Filled once; then any thread may look.
 class ColourMap {
  public:
   /// Memory of the map of a model of so many triangles.
@@ -56,6 +56,16 @@ class ColourMap {
         steps_.find(point.data(), steps_.model, place) || find_among_sides(point, place);
     return told ? look_at(place, point) : Spot{};
   }
+  /// What a look sees before it reads a record, where steps tell the point's place; else nothing.
+  /// Where there is a record, it is of the cell or of one above.
+  Spot spot_of(const Point& point) const noexcept {
+    MapSteps::Place place;
+    if (!steps_.find(point.data(), steps_.model, place)) return {};
+    const std::size_t number = steps_.number(place.cell());
+    if (cells_.code_of(number) != MapCells::kListed) return {};
+    const MapCells::Found found = cells_.find_below(number, place.octant());
+    return {found.winding, octant_at(place), found.record};
+  }
   /// The winding number's sign that a look finds, of a point in the input's units, where whole
   /// numbers tell it; else kUnknown. Nothing is computed with doubles. The point may be any, and no
   /// number.
@@ -81,15 +91,18 @@ class ColourMap {
     return true;
   }
   Spot look_at(const MapSteps::Place& place, const Point& point) const {
-    const auto at = place.cell();
     const MapCells::Found found = find(steps_, cells_, place);
     if (found.winding != kUnknown) return {found.winding, {}, nullptr};
     if (!found.record || found.record->is_nothing()) return {};
-    constexpr std::uint32_t kRim = MapSteps::kRim;
-    const GridCell cell{level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
+    const GridCell octant = octant_at(place);
     const unsigned above = found.record->levels_above();
-    return ask_slab(
-        {kUnknown, cell.child(place.octant()).ancestor(level_ + 1 - above), found.record}, point);
+    return ask_slab({kUnknown, octant.ancestor(octant.level - above), found.record}, point);
+  }
+  GridCell octant_at(const MapSteps::Place& place) const {
+    constexpr std::uint32_t kRim = MapSteps::kRim;
+    const auto at = place.cell();
+    const GridCell cell{level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
+    return cell.child(place.octant());
   }
   // Of a leaf that has one.
   Spot ask_slab(const Spot& spot, const Point& point) const {

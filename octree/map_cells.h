@@ -114,10 +114,14 @@ struct MapCells {
   }
   /// In a listed cell, in octant `part` of its octant `octant`.
   Found find_below(std::size_t cell, unsigned octant, unsigned part) const {
+    const Found found = find_below(cell, octant);
+    return found.record ? Found{found.record->winding(part), found.record} : found;
+  }
+  /// The same as far as it takes no look at a record.
+  Found find_below(std::size_t cell, unsigned octant) const {
     const Octant found = octant_of(cell, octant);
     if (!found.is_unknown()) return {static_cast<int>(found.is_inside()) * inside};
-    const MapRecord& record = records[found.record()];
-    return {record.winding(part), &record};
+    return {kUnknown, &records[found.record()]};
   }
 
  private:

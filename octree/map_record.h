@@ -58,6 +58,8 @@ struct alignas(16) MapRecord {
   constexpr bool is_listed() const { return grey == 0 && (leaf & kListed) != 0; }
   constexpr bool is_nothing() const { return grey == 0 && leaf == kNothing; }
   constexpr unsigned levels_above() const { return grey != 0 ? 0 : leaf & kLevelsAbove; }
+  /// As the mask has it.
+  constexpr MaskNode node() const { return {link, grey, leaf, black, inverted}; }
   /// The leaf of a list, which is from `slot` on.
   constexpr MaskListed listed(std::uint32_t slot) const {
     return {kListedTag, black, static_cast<std::int8_t>((leaf & kLeastIsMinus1) != 0 ? -1 : 0),

@@ -118,8 +118,7 @@ MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Po
   } else {
     const CellGrid grid(mask.lower);
     const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
-    const MaskNode node{record.link, record.grey, record.leaf, record.black, record.inverted};
-    descend(records, node, point, max_nodes, octant_in, work, finding);
+    descend(records, record.node(), point, max_nodes, octant_in, work, finding);
   }
   return finding;
 }

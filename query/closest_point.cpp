@@ -111,7 +111,10 @@ class Asking {
 
   void run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
-    if ((parts & kDistance) != 0) find_nearest();
+    if ((parts & kDistance) != 0) {
+      if ((parts & kSide) != 0) look_ahead();
+      find_nearest();
+    }
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     Standing standing;
     if ((parts & kSide) != 0) standing = find_side(with_normal);
@@ -124,6 +127,15 @@ class Asking {
   std::uint64_t nodes_left() const {
     const std::uint64_t spent = work_.nodes + work_.blocks;
     return spent < ask_.max_nodes ? ask_.max_nodes - spent : 0;
+  }
+
+  // To what tells the side, if it is likely to take a search of the mask.
+  void look_ahead() {
+    if (!probe_.searched_side() || !remember_ || far_ || model_.region().has_walls() ||
+        probe_.side_memory().same_side(point_, 0))
+      return;
+    ahead_ = octree::MaskAhead(model_.mask(), model_.colours(), point_);
+    if (ahead_.goes_on()) turner_.take_along(&ahead_);
   }
 
   void find_nearest() {
@@ -152,7 +164,9 @@ class Asking {
     octree::ColourMap::Spot spot;
     std::optional<Standing> known = side_before();
     if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
-    if (!known) known = side_at_a_look(spot);
+    const bool takes_look = !known;
+    if (takes_look) known = side_at_a_look(spot);
+    probe_.searched_side() = takes_look;
     const Standing standing = known ? *known
                                     : side_of(probe_, point_, spot, nearest_.lower, remember_,
                                               nodes_left(), turner_, work_);
@@ -222,6 +236,7 @@ class Asking {
   const bool far_;
   const octree::Point point_;
   PageTurner turner_;
+  octree::MaskAhead ahead_;
   octree::TreeWork work_;
   ClosestPoint& answer_;
   octree::NearestAnswer nearest_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cache/page_cache.h"
+#include "octree/mask_ahead.h"
 #include "octree/tree_view.h"
 #include "planetree/error.h"
 #include "planetree/model.h"
@@ -87,6 +88,8 @@ class PageTurner {
   PageTurner(const PageTurner&) = delete;
   PageTurner& operator=(const PageTurner&) = delete;
 
+  /// What goes on a step with every few pages, to its end; must outlive this.
+  void take_along(octree::MaskAhead* ahead) noexcept { ahead_ = ahead; }
   /// Where to note what is looked for; null: nowhere.
   void log_to(TouchLog* log) noexcept { log_ = log; }
 
@@ -94,6 +97,7 @@ class PageTurner {
   const std::byte* page(std::uint32_t number) noexcept {
     if (++turns_ % kTurnsPerSection == 0) reader_.leave();
     begin();
+    if (ahead_ && turns_ % kTurnsPerStep == 0) go_ahead();
     if (const std::byte* frame = reader_.find(number)) {
       if (log_) log_->found(number);
       return frame;
@@ -127,13 +131,20 @@ class PageTurner {
   void begin() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
+  void go_ahead() noexcept {
+    ahead_->step(pages());
+    if (!ahead_->goes_on()) ahead_ = nullptr;
+  }
   const std::byte* fetch(std::uint32_t number) noexcept;
 
   // Evicted frames are reused only after sections that may see them end.
   static constexpr std::uint32_t kTurnsPerSection = 256;
+  // What a step asks for takes about as long to come.
+  static constexpr std::uint32_t kTurnsPerStep = 2;
   cache::Reader& reader_;
   const cache::FetchTerms terms_;
   const std::atomic<bool>* const stop_;
+  octree::MaskAhead* ahead_ = nullptr;
   TouchLog* log_ = nullptr;
   const Wait wait_;
   bool waits_;  // until it has waited long enough
