@@ -8,7 +8,7 @@
 namespace planetree::octree {
 
 MaskAhead::MaskAhead(const MaskFacts& mask, const ColourMap& colours, const Point& point)
-    : mask_(&mask), point_(point) {
+    : mask_(mask), point_(point) {
   const ColourMap::Spot spot = colours.spot_of(point);
   if (!spot.record) return;
   record_ = spot.record;
@@ -32,27 +32,27 @@ void MaskAhead::step(PageReader pages) noexcept {
   if (!record) return;
   if (now == Next::kNode) return go_below(*reinterpret_cast<const MaskNode*>(record), pages);
   if (now != Next::kLeaf || !is_listed(*reinterpret_cast<const MaskCorners*>(record))) return;
-  const MaskLinkFormat links(mask_->page_bytes);
+  const MaskLinkFormat links(mask_.page_bytes);
   const auto& listed = *reinterpret_cast<const MaskListed*>(record);
   ask_for(links.make(links.page(link_), listed.list_slot), pages);
 }
 
 void MaskAhead::go_below(const MaskNode& node, PageReader pages) {
   if (cell_.level >= kLevels) return;  // forged
-  const unsigned octant = CellGrid(mask_->lower).octant(cell_, point_);
+  const unsigned octant = CellGrid(mask_.lower).octant(cell_, point_);
   if ((node.grey >> octant & 1) == 0) return;
   cell_ = cell_.child(octant);
-  link_ = MaskRecords(*mask_, pages).child_link(node, octant);
+  link_ = MaskRecords(mask_, pages).child_link(node, octant);
   next_ = (node.leaf >> octant & 1) != 0 ? Next::kLeaf : Next::kNode;
   ask_for(link_, pages);
 }
 
 // What is at a link, asked for; null if its page is not in memory.
 const std::byte* MaskAhead::ask_for(std::uint32_t link, PageReader pages) const {
-  const MaskLinkFormat links(mask_->page_bytes);
+  const MaskLinkFormat links(mask_.page_bytes);
   const std::uint32_t page = links.page(link);
-  if (page >= mask_->page_count) return nullptr;
-  const std::byte* frame = pages.peek(pages.context, mask_->first_page + page);
+  if (page >= mask_.page_count) return nullptr;
+  const std::byte* frame = pages.peek(pages.context, mask_.first_page + page);
   if (!frame) return nullptr;
   const std::byte* record = frame + links.slot(link) * kMaskSlotBytes;
   __builtin_prefetch(record);

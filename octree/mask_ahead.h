@@ -17,7 +17,6 @@ namespace planetree::octree {
 /// than what is in memory, and no answer depends on it.
 class MaskAhead {
  public:
-  MaskAhead() = default;
   /// The first step. All but the point must outlive this.
   MaskAhead(const MaskFacts& mask, const ColourMap& colours, const Point& point);
 
@@ -32,9 +31,9 @@ class MaskAhead {
   void go_below(const MaskNode& node, PageReader pages);
   const std::byte* ask_for(std::uint32_t link, PageReader pages) const;
 
-  const MaskFacts* mask_ = nullptr;
+  const MaskFacts& mask_;
+  const Point point_;
   const MapRecord* record_ = nullptr;
-  Point point_ = Point::Zero();
   GridCell cell_;
   std::uint32_t link_ = 0;
   Next next_ = Next::kNothing;

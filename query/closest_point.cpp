@@ -134,8 +134,8 @@ class Asking {
     if (!probe_.searched_side() || !remember_ || far_ || model_.region().has_walls() ||
         probe_.side_memory().same_side(point_, 0))
       return;
-    ahead_ = octree::MaskAhead(model_.mask(), model_.colours(), point_);
-    if (ahead_.goes_on()) turner_.take_along(&ahead_);
+    ahead_.emplace(model_.mask(), model_.colours(), point_);
+    if (ahead_->goes_on()) turner_.take_along(&*ahead_);
   }
 
   void find_nearest() {
@@ -236,7 +236,7 @@ class Asking {
   const bool far_;
   const octree::Point point_;
   PageTurner turner_;
-  octree::MaskAhead ahead_;
+  std::optional<octree::MaskAhead> ahead_;
   octree::TreeWork work_;
   ClosestPoint& answer_;
   octree::NearestAnswer nearest_;

@@ -117,7 +117,6 @@ TEST_F(MaskAheadTest, GoesNoFartherThanAPageThatIsNotInMemory) {
 }
 
 TEST_F(MaskAheadTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
-  EXPECT_FALSE(MaskAhead().goes_on());
   EXPECT_FALSE(MaskAhead(mask_, ColourMap(), lower_ + Point::Constant(0.3)).goes_on());
   for (const double far : {10.0, 1e9, 1e300})
     EXPECT_FALSE(MaskAhead(mask_, colours_, lower_ + Point::Constant(far)).goes_on()) << far;
