@@ -20,28 +20,27 @@ class CellSteps {
   CellSteps() = default;
   /// Of the cells of a level, where those of level 0 have a side of 2, and of values that are
   /// 2^-scale of theirs.
-  CellSteps(unsigned level, int scale) : shift_(1057 - static_cast<int>(level) - scale) {}
+  CellSteps(unsigned level, int scale) : shift_(1055 - static_cast<int>(level) - scale) {}
 
-  /// By how much a value's digits, from the highest of 64 bits down, are to be shifted to the
-  /// right, and its exponent as it is in its bits: less than kLeastShift where Digits' is below 0.
+  /// Digits::shift of a value, and its exponent as it is in its bits.
   std::int64_t shift() const { return shift_; }
-  static constexpr std::int64_t kLeastShift = 2;
 
-  /// A value as so many digits and how far to the right they are to be shifted: below 0 if the
-  /// place is 2^62 steps away or farther, or the value is no number.
+  /// A value as its sign, 0 or -1, so many digits, and how far to the right they are to be shifted:
+  /// below 0 if the place is 2^62 steps away or farther, or the value is no number.
   struct Digits {
-    std::int64_t signed_value;
-    int shift;
+    std::int64_t sign, digits, shift;
     /// Steps from 0, less than one too few; anything below 2^62 either way of a shift below 0.
-    std::int64_t steps() const { return signed_value >> (std::min(shift, 63) & 63); }
+    std::int64_t steps() const {
+      const std::int64_t shown = digits >> (std::min(shift, std::int64_t{63}) & 63);
+      return (shown ^ sign) - sign;
+    }
   };
   Digits digits_of(double value) const {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     // The greatest is below 2^62: so places may be subtracted from each other.
     const auto digits = static_cast<std::int64_t>(((bits & kDigits) | (kDigits + 1)) << 9);
     const auto sign = static_cast<std::int64_t>(bits) >> 63;
-    return {(digits ^ sign) - sign,
-            static_cast<int>(shift_ - kLeastShift) - static_cast<int>(bits >> 52 & 0x7ff)};
+    return {sign, digits, shift_ - static_cast<std::int64_t>(bits >> 52 & 0x7ff)};
   }
 
  private:

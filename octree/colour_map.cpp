@@ -52,7 +52,6 @@ void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, bool clipped,
     measure(size, level, clipped, scale);
     const double cells = 1.0 * width_[0] * width_[1] * width_[2];
     if (cells > 3.0 * static_cast<double>(memory.size())) continue;
-    // Of which whole words.
     // Of which whole records.
     const std::size_t stretches =
         (MapCells::stretches_for(static_cast<std::uint64_t>(cells)) + 3) / 4 * 4;

@@ -44,13 +44,15 @@ HWY_INLINE unsigned bits_at(Steps steps) {
   return mask_bits(signs, hn::Lt(hn::ShiftLeft<63 - kShift>(steps), hn::Zero(signs))) & 7;
 }
 
-// MapSteps::find(), an axis a lane. The fourth lane is never in doubt where others are not.
+// MapSteps::find(), an axis a lane, of the digits of CellSteps. The fourth lane is never in doubt
+// where others are not.
 int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, double y, double z) {
   const WordTag words;
   const StepTag signs;
   const Words bits = bits_of(x, y, z);
   const Words exponent = hn::And(hn::ShiftRight<52>(bits), hn::Set(words, 0x7ff));
-  const Words digits = hn::Or(hn::ShiftLeft<11>(bits), hn::Set(words, std::uint64_t{1} << 63));
+  const Words highest = hn::Set(words, std::uint64_t{1} << 63);
+  const Words digits = hn::ShiftRight<2>(hn::Or(hn::ShiftLeft<11>(bits), highest));
   const Steps shift = hn::Sub(hn::Set(signs, steps.input.shift()), hn::BitCast(signs, exponent));
   const Words shown = digits >> hn::BitCast(words, hn::Min(shift, hn::Set(signs, 63)));
   const Steps sign = hn::BroadcastSignBit(hn::BitCast(signs, bits));
@@ -59,8 +61,8 @@ int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, dou
   const Steps step = hn::Min(hn::Max(beyond, hn::Set(signs, MapSteps::kRimMiddle)),
                              hn::Load(signs, steps.last_middle.data()));
   const Steps past_side = hn::And(step, hn::Set(signs, MapSteps::kLeast - 1));
-  const auto doubtful = hn::Or(hn::Lt(shift, hn::Set(signs, CellSteps::kLeastShift)),
-                               hn::Lt(past_side, hn::Set(signs, steps.doubtful)));
+  const auto doubtful =
+      hn::Or(hn::Lt(shift, hn::Zero(signs)), hn::Lt(past_side, hn::Set(signs, steps.doubtful)));
   if (!hn::AllFalse(signs, doubtful)) return MapCells::kUnknown;
   const std::size_t cell = weighted_sum(hn::ShiftRight<CellSteps::kBits>(hn::BitCast(words, step)),
                                         hn::Load(words, steps.stride.data()));

@@ -31,7 +31,8 @@ class ColourMap::Painter {
   enum class Pass { kCells, kOctants, kRecords };
   static constexpr std::uint32_t kRim = MapSteps::kRim;
 
-  // Pages that are not in memory: what opening a model may take.
+  // Pages that are not in memory, as often as they are brought: what opening a model may take for a
+  // level of cells.
   static constexpr std::uint64_t kMostBrought = 1 << 12;
   // Larger leaves would fill the map with their records.
   static constexpr unsigned kMostAbove = 2;
@@ -56,7 +57,6 @@ class ColourMap::Painter {
     pass_ = pass;
     MaskRecords records(mask_, pages_);
     records_ = &records;
-    brought_ = 0;
     const std::byte* root = records.root(work_);
     if (root && records.root_is_node() && map_.level_ > 0) go_below(root, {});
   }

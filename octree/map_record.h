@@ -33,7 +33,7 @@ struct alignas(16) MapRecord {
     (winding < 0 ? node.inverted : node.black) = winding != 0 ? 0xff : 0;
     return of_node(node);
   }
-  /// levels_above  the leaf is of a cell so many levels above this one, up to 4.
+  /// levels_above  the leaf is of a cell so many levels above this one, up to 7.
   static constexpr MapRecord of_leaf(std::uint32_t link, unsigned levels_above) {
     return {.link = link, .leaf = static_cast<std::uint8_t>(kLeaf | levels_above)};
   }

@@ -43,7 +43,7 @@ struct MapSteps {
     }
   };
 
-  alignas(32) Axes<std::int64_t> first{};  ///< of the rim, less half of `doubtful`
+  alignas(32) Axes<std::int64_t> first{};  ///< of the rim, less half of `doubtful`; or 0
   alignas(32) Axes<std::int64_t> last_middle{kRimMiddle, kRimMiddle, kRimMiddle, kRimMiddle};
   alignas(32) Axes<std::uint64_t> stride{};  ///< from a cell's number to its neighbour's
   CellSteps input;                           ///< of the input's units

@@ -1,5 +1,6 @@
 #include "octree/mask_ahead.h"
 
+#include <cassert>
 #include <utility>
 
 #include "octree/mask_records.h"
@@ -18,6 +19,7 @@ MaskAhead::MaskAhead(const MaskFacts& mask, const ColourMap& colours, const Poin
 }
 
 void MaskAhead::step(PageReader pages) noexcept {
+  assert(goes_on());
   const Next now = std::exchange(next_, Next::kNothing);
   if (now == Next::kMapRecord) {
     if (record_->is_node()) return go_below(record_->node(), pages);
@@ -31,7 +33,7 @@ void MaskAhead::step(PageReader pages) noexcept {
   const std::byte* record = ask_for(link_, pages);
   if (!record) return;
   if (now == Next::kNode) return go_below(*reinterpret_cast<const MaskNode*>(record), pages);
-  if (now != Next::kLeaf || !is_listed(*reinterpret_cast<const MaskCorners*>(record))) return;
+  if (!is_listed(*reinterpret_cast<const MaskCorners*>(record))) return;
   const MaskLinkFormat links(mask_.page_bytes);
   const auto& listed = *reinterpret_cast<const MaskListed*>(record);
   ask_for(links.make(links.page(link_), listed.list_slot), pages);

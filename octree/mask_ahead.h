@@ -22,6 +22,7 @@ class MaskAhead {
 
   /// Whether there is another step.
   bool goes_on() const { return next_ != Next::kNothing; }
+  /// Where there is one.
   /// pages  may be asked by `peek` alone, which it has.
   void step(PageReader pages) noexcept;
 

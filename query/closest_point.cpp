@@ -114,6 +114,7 @@ class Asking {
     if ((parts & kDistance) != 0) {
       if ((parts & kSide) != 0) look_ahead();
       find_nearest();
+      turner_.take_along(nullptr);
     }
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     Standing standing;
@@ -131,7 +132,7 @@ class Asking {
 
   // To what tells the side, if it is likely to take a search of the mask.
   void look_ahead() {
-    if (!probe_.searched_side() || !remember_ || far_ || model_.region().has_walls() ||
+    if (!probe_.looked_for_side() || !remember_ || far_ || model_.region().has_walls() ||
         probe_.side_memory().same_side(point_, 0))
       return;
     ahead_.emplace(model_.mask(), model_.colours(), point_);
@@ -164,9 +165,8 @@ class Asking {
     octree::ColourMap::Spot spot;
     std::optional<Standing> known = side_before();
     if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
-    const bool takes_look = !known;
-    if (takes_look) known = side_at_a_look(spot);
-    probe_.searched_side() = takes_look;
+    probe_.looked_for_side() = !known;
+    if (!known) known = side_at_a_look(spot);
     const Standing standing = known ? *known
                                     : side_of(probe_, point_, spot, nearest_.lower, remember_,
                                               nodes_left(), turner_, work_);
@@ -235,8 +235,8 @@ class Asking {
   const octree::Point placed_;
   const bool far_;
   const octree::Point point_;
-  PageTurner turner_;
   std::optional<octree::MaskAhead> ahead_;
+  PageTurner turner_;
   octree::TreeWork work_;
   ClosestPoint& answer_;
   octree::NearestAnswer nearest_;

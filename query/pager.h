@@ -88,7 +88,7 @@ class PageTurner {
   PageTurner(const PageTurner&) = delete;
   PageTurner& operator=(const PageTurner&) = delete;
 
-  /// What goes on a step with every few pages, to its end; must outlive this.
+  /// What goes on a step with every few pages, to its end or to the next call; null: nothing.
   void take_along(octree::MaskAhead* ahead) noexcept { ahead_ = ahead; }
   /// Where to note what is looked for; null: nowhere.
   void log_to(TouchLog* log) noexcept { log_ = log; }

@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "tests/octree/each_target.h"
 #include "tests/octree/random_mask.h"
@@ -204,6 +207,13 @@ TEST_F(ColourMapTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
   std::vector<Point> all = points(4000);
   for (const double far : {1e-300, 1e-9, 3.0, 1e9, 1e300})
     for (const Point& point : points(100)) all.push_back(far * (point - lower_ - size_ / 2));
+  // At the ends of what is in doubt about sides, in half steps of cells of some levels.
+  for (const Point& point : points(20000)) {
+    const auto turn = static_cast<int>(all.size());
+    const double off = std::ldexp(turn % 1025 - 512.5, -34 - turn % 6);
+    all.push_back(point);
+    all.back()[0] = lower_[0] + std::floor((point[0] - lower_[0]) * 256) / 256 + off;
+  }
   const auto glances = on_each_target([&] {
     const ColourMap map = map_of(pages, kMany);
     std::vector<int> found;
@@ -336,6 +346,35 @@ TEST_F(ColourMapTest, SparesPagesOnTheWayToTheSameCell) {
     EXPECT_LT(from_map.page_turns, from_root.page_turns);
     EXPECT_LT(from_map.nodes, from_root.nodes * 3 / 4);
   }
+}
+
+// What a checked allocation ends behind, and pages that are others each time they are asked for:
+// the file was exchanged.
+TEST_F(ColourMapTest, StaysInItsMemoryWhateverPagesSay) {
+  MaskPages one(random_mask(10), 4096, kRandomMaskPage);
+  MaskPages other(random_mask(10, 2), 4096, kRandomMaskPage);
+  struct Exchanged {
+    PageReader pages[2];
+    std::uint32_t pages_of_both, period, asked = 0;
+  };
+  std::size_t known = 0;
+  for (const std::size_t bytes : {1024u, 5008u, 20000u, 100000u, 1000000u})
+    for (const std::uint32_t period : {1u, 7u, 100u, 1000u, 10000u}) {
+      Exchanged exchanged{{one.reader(), other.reader()}, 0, period};
+      exchanged.pages_of_both = kRandomMaskPage + std::min(one.size(), other.size());
+      const PageReader reader{&exchanged, [](void* context, std::uint32_t number) noexcept {
+                                auto& self = *static_cast<Exchanged*>(context);
+                                const PageReader& now = self.pages[self.asked++ / self.period % 2];
+                                return number < self.pages_of_both ? now.page(now.context, number)
+                                                                   : nullptr;
+                              }};
+      const std::unique_ptr<std::byte[]> memory(new std::byte[bytes]);
+      ColourMap map;
+      map.fill(one.mask(lower_), tree_of(lower_, size_), false, 0, reader, {memory.get(), bytes});
+      for (const Point& point : points(500))
+        known += map.look(point).winding != ColourMap::kUnknown;
+    }
+  EXPECT_GT(known, 1000u);
 }
 
 TEST_F(ColourMapTest, TakesNoMoreThanItsMemory) {

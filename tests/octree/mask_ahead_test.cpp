@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <utility>
 #include <vector>
@@ -127,6 +129,20 @@ TEST_F(MaskAheadTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
     EXPECT_FALSE(MaskAhead(mask_, colours_, point).goes_on());
   }
   EXPECT_GT(told, 100u);
+}
+
+// Frames of noise, as none that was decoded is.
+TEST_F(MaskAheadTest, EndsInPagesOfAnything) {
+  Noise noise(4);
+  alignas(64) static std::array<std::uint64_t, 4096 / 8> frame;
+  for (std::uint64_t& word : frame) word = std::uint64_t{noise.bits()} << 32 | noise.bits();
+  const PageReader reader{nullptr, nullptr, [](void*, std::uint32_t) noexcept {
+                            return reinterpret_cast<const std::byte*>(frame.data());
+                          }};
+  unsigned most = 0;
+  for (const Point& point : points(3000)) most = std::max(most, go(point, reader));
+  EXPECT_GT(most, 2u);
+  EXPECT_LE(most, kLevels + 2);
 }
 
 }  // namespace
