@@ -9,83 +9,12 @@
 #include <set>
 #include <vector>
 
-#include "tests/octree/each_target.h"
-#include "tests/octree/random_mask.h"
-#include "tests/octree/sample_mask.h"
+#include "tests/octree/random_map.h"
 
 namespace planetree::octree {
 namespace {
 
-constexpr std::size_t kMany = 1 << 24;  // bytes
-
-class ColourMapTest : public testing::Test {
- protected:
-  static TreeFacts tree_of(const Point& lower, const Point& size) {
-    TreeFacts tree;
-    tree.box_lower = lower;
-    tree.box_upper = lower + size;
-    return tree;
-  }
-  ColourMap map_of(MaskPages& pages, std::size_t bytes) {
-    return map_of(pages, pages.resident_reader(), bytes);
-  }
-  ColourMap map_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
-    ColourMap map;
-    memory_.resize(bytes);
-    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
-    return map;
-  }
-  // Half of them on the sides of cells.
-  std::vector<Point> points(std::size_t count) const {
-    Noise noise(9);
-    std::vector<Point> result;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 p = noise.point(0, 1);
-      Point step = Point(p.x, p.y, p.z).cwiseProduct(size_);
-      if (i % 2 == 0)
-        for (double& value : step) value = std::floor(value * 32) / 32;
-      result.push_back(lower_ + step);
-    }
-    return result;
-  }
-  static int glance(const ColourMap& map, const Point& point) {
-    return map.glance(point.x(), point.y(), point.z());
-  }
-  MaskFinding look(MaskPages& pages, const Point& point) const {
-    return look(pages, lower_, point);
-  }
-  static MaskFinding look(MaskPages& pages, const Point& lower, const Point& point) {
-    TreeWork work;
-    return look_up(pages.mask(lower), point, ~std::uint64_t{0}, pages.reader(), work);
-  }
-  // The sign of the winding number, where the mask tells it by itself: also in octants of leaves
-  // that none of the listed blocks touch, and beyond leaves' slabs.
-  static std::optional<int> told(MaskPages& pages, const Point& lower, const Point& point) {
-    const MaskFinding found = look(pages, lower, point);
-    if (found.kind == MaskFinding::Kind::kColour) return found.winding;
-    if (found.kind != MaskFinding::Kind::kCorners || found.blocks.count == 0) return {};
-    const CellGrid grid(lower);
-    unsigned corner = grid.octant(found.cell, point), touched = 0;
-    for (unsigned i = 0; i < found.blocks.count; ++i) touched |= found.blocks.octants[i];
-    if ((touched >> corner & 1) != 0) {
-      const Point place = CellSlab::place_in(point, grid.lower(found.cell), found.cell.level);
-      corner = found.blocks.slab.corner_beyond(place);
-      if (corner == CellSlab::kNoCorner) return {};
-    }
-    const int winding = corner_of(found.listed, corner);
-    return (winding > 0) - (winding < 0);
-  }
-
-  // Lists of which a map keeps no more than where they are.
-  static bool has_rare_corners(const MaskFinding& found) {
-    return found.kind == MaskFinding::Kind::kCorners && found.blocks.count > 0 &&
-           !MapRecord::has(found.listed);
-  }
-
-  const Point lower_{-0.25, 3, 1.0 / 3};
-  const Point size_{1.2, 1.9, 0.7};
-  std::vector<std::byte> memory_;  // of the last map
-};
+using ColourMapTest = RandomMap;
 
 TEST_F(ColourMapTest, SaysWhatTheMaskSays) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
@@ -179,70 +108,6 @@ TEST_F(ColourMapTest, IsWhiteAroundItsCells) {
   const Point beside = lower_ - Point::Constant(1e-9);
   EXPECT_NE(std::abs(map.look(beside).winding), 1);
   EXPECT_EQ(map.look(beside).record, nullptr);
-}
-
-// Also in the input's units, wherever it is not left to rounding.
-TEST_F(ColourMapTest, TellsAtAGlanceWhatALookTells) {
-  MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
-  for (const int scale : {0, 3, -200, 900, -900}) {
-    ColourMap map;
-    memory_.resize(kMany);
-    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
-    std::size_t known = 0, told = 0;
-    for (const Point& point : points(4000)) {
-      const Point input = point * std::ldexp(1.0, -scale);
-      const int winding = map.look(point).winding, glanced = glance(map, input);
-      known += winding != ColourMap::kUnknown;
-      told += glanced != ColourMap::kUnknown;
-      ASSERT_TRUE(glanced == ColourMap::kUnknown || glanced == winding) << point.transpose();
-    }
-    // Half of the points are on sides.
-    EXPECT_GT(told, known * 2 / 5) << scale;
-    EXPECT_LT(told, known) << scale;
-  }
-}
-
-TEST_F(ColourMapTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
-  MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
-  std::vector<Point> all = points(4000);
-  for (const double far : {1e-300, 1e-9, 3.0, 1e9, 1e300})
-    for (const Point& point : points(100)) all.push_back(far * (point - lower_ - size_ / 2));
-  // At the ends of what is in doubt about sides, in half steps of cells of some levels.
-  for (const Point& point : points(20000)) {
-    const auto turn = static_cast<int>(all.size());
-    const double off = std::ldexp(turn % 1025 - 512.5, -34 - turn % 6);
-    all.push_back(point);
-    all.back()[0] = lower_[0] + std::floor((point[0] - lower_[0]) * 256) / 256 + off;
-  }
-  const auto glances = on_each_target([&] {
-    const ColourMap map = map_of(pages, kMany);
-    std::vector<int> found;
-    for (const Point& point : all) found.push_back(glance(map, point));
-    return found;
-  });
-  for (const std::vector<int>& found : glances) {
-    EXPECT_EQ(found, glances[0]);
-    // Outside, inside, unknown.
-    EXPECT_EQ(std::set<int>(found.begin(), found.end()).size(), 3u);
-  }
-}
-
-TEST_F(ColourMapTest, TellsNothingAtAGlanceOfWhatHasNoPlace) {
-  MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const int scale : {0, 901, -901}) {
-    ColourMap map;
-    memory_.resize(kMany);
-    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
-    for (const double value : {kInfinity, -kInfinity, kInfinity - kInfinity, 1e300, -1e300})
-      for (unsigned axis = 0; axis < 3; ++axis) {
-        Point point = lower_ + size_ / 2;
-        point[axis] = value;
-        EXPECT_EQ(glance(map, point), ColourMap::kUnknown) << value;
-      }
-    for (const Point& point : points(scale == 0 ? 0 : 100))
-      EXPECT_EQ(glance(map, point), ColourMap::kUnknown) << scale;
-  }
 }
 
 // Octants of cells at a region's wall are not halves.
