@@ -132,7 +132,7 @@ class Asking {
 
   // To what tells the side, if it is likely to take a search of the mask.
   void look_ahead() {
-    if (!probe_.looked_for_side() || !remember_ || far_ || model_.region().has_walls() ||
+    if (!probe_.searched_side() || !remember_ || far_ || model_.region().has_walls() ||
         probe_.side_memory().same_side(point_, 0))
       return;
     ahead_.emplace(model_.mask(), model_.colours(), point_);
@@ -164,9 +164,12 @@ class Asking {
   Standing find_side(bool with_normal) {
     octree::ColourMap::Spot spot;
     std::optional<Standing> known = side_before();
+    // Faces tell most sides near the surface, colours those of other places.
+    const bool looks_first = probe_.glances();
+    if (!known && looks_first) known = side_at_a_look(spot);
     if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
-    probe_.looked_for_side() = !known;
-    if (!known) known = side_at_a_look(spot);
+    if (!known && !looks_first) known = side_at_a_look(spot);
+    probe_.searched_side() = !known;
     const Standing standing = known ? *known
                                     : side_of(probe_, point_, spot, nearest_.lower, remember_,
                                               nodes_left(), turner_, work_);
@@ -187,6 +190,7 @@ class Asking {
     if (far_) return side_at_once(model_, placed_, look_at_colours(model_, placed_));
     if (!remember_) return {};
     spot = look_at_colours(model_, point_);
+    probe_.glances() = spot.winding != octree::ColourMap::kUnknown;
     return side_at_once(model_, point_, spot);
   }
 

@@ -19,11 +19,11 @@ inline bool makes_sense_at_a_glance(const Ask& ask) noexcept {
 }
 
 /// What contains() would answer, if a look at what is known of the place is enough, as it is for
-/// most points; else kUnknown. Computes nothing with doubles: the thread may round as it likes,
-/// and trap.
+/// most points; else kUnknown, as where it was not enough the last time: contains() looks, too.
+/// Computes nothing with doubles: the thread may round as it likes, and trap.
 inline Containment contains_at_a_glance(ProbeState& probe, const Vec3& query,
                                         const Ask& ask) noexcept {
-  if (!makes_sense_at_a_glance(ask)) return {};
+  if (!probe.glances() || !makes_sense_at_a_glance(ask)) return {};
   const int winding = probe.model().colours().glance(query.x, query.y, query.z);
   if (winding == octree::ColourMap::kUnknown) return {};
   probe.last_parts() = kSide;

@@ -51,8 +51,10 @@ class ProbeState {
   /// The parts last asked for.
   std::uint32_t& last_parts() noexcept { return last_parts_; }
 
-  /// Whether neither the ask before the last one nor faces told the side of that.
-  bool& looked_for_side() noexcept { return looked_for_side_; }
+  /// Whether the last look at the colours told a side, so that the next may.
+  bool& glances() noexcept { return glances_; }
+  /// Whether the last side that came with a distance took a search of the mask.
+  bool& searched_side() noexcept { return searched_side_; }
 
   /// For batches; null in the probes of a BatchCrew.
   BatchOrder* batch_order() noexcept { return batch_order_.get(); }
@@ -65,7 +67,8 @@ class ProbeState {
   SideMemory side_memory_;
   octree::NearestAnswer last_nearest_;
   std::uint32_t last_parts_ = kAllParts;
-  bool looked_for_side_ = false;
+  bool glances_ = true;
+  bool searched_side_ = false;
   std::unique_ptr<BatchOrder> batch_order_;
 };
 
