@@ -27,7 +27,7 @@ namespace planetree::cache {
 struct FillRequest {
   std::uint32_t page;
   std::uint32_t owner;         ///< 0 ... max_readers; no two at the same time are of one owner
-  bool may_wait;               ///< for a disk
+  bool may_wait;               ///< for a disk, longer than a moment
   std::span<std::byte> frame;  ///< frame_bytes long, old bytes in it
 };
 enum class Filled : std::uint8_t { kFilled, kWouldWait };

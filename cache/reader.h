@@ -17,8 +17,8 @@ class PageCache;
 struct FetchTerms {
   static constexpr std::chrono::milliseconds kNoLimit = std::chrono::milliseconds::max();
 
-  /// Reads it; else only what can be had without waiting for a disk, and for the rest waits for
-  /// a helper: a thread that calls Reader::help().
+  /// Reads it; else only what a disk gives in a moment, and for the rest waits for a helper: a
+  /// thread that calls Reader::help().
   bool reads_itself = true;
   /// How long to wait for a page that another reads.
   std::chrono::milliseconds wait_limit = kNoLimit;

@@ -36,6 +36,10 @@ ssize_t FileCalls::preadv2(int descriptor, const iovec* parts, int part_count, o
   return ::preadv2(descriptor, parts, part_count, offset, flags);
 }
 
+int FileCalls::posix_fadvise(int descriptor, off_t offset, off_t bytes, int advice) noexcept {
+  return ::posix_fadvise(descriptor, offset, bytes, advice);
+}
+
 ssize_t FileCalls::pwrite(int descriptor, const void* in, std::size_t bytes,
                           off_t offset) noexcept {
   return ::pwrite(descriptor, in, bytes, offset);

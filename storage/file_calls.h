@@ -26,6 +26,7 @@ class FileCalls {
   virtual ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept;
   virtual ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
                           int flags) noexcept;
+  virtual int posix_fadvise(int descriptor, off_t offset, off_t bytes, int advice) noexcept;
   virtual ssize_t pwrite(int descriptor, const void* in, std::size_t bytes, off_t offset) noexcept;
   virtual int fsync(int descriptor) noexcept;
   virtual int fdatasync(int descriptor) noexcept;

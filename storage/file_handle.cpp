@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <thread>
 #include <utility>
 
 #include "storage/file_error.h"
@@ -63,10 +64,26 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
   return {};
 }
 
+bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
+                           unsigned looks) const noexcept {
+  if (read_at_once(offset, out)) return true;
+  if (errno != EAGAIN) return false;
+  calls_->posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(out.size()),
+                        POSIX_FADV_WILLNEED);
+  for (; looks > 0; --looks) {
+    std::this_thread::yield();
+    if (read_at_once(offset, out)) return true;
+    if (errno != EAGAIN) return false;
+  }
+  return false;
+}
+
+// Else errno says why not: EAGAIN where more of it may come.
 bool FileHandle::read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept {
   const iovec part{out.data(), out.size()};
   const ssize_t count =
       calls_->preadv2(descriptor_, &part, 1, static_cast<off_t>(offset), RWF_NOWAIT);
+  if (count >= 0) errno = EAGAIN;
   return count >= 0 && static_cast<std::size_t>(count) == out.size();
 }
 

@@ -36,9 +36,11 @@ class FileHandle {
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out,
                        const char* what = "read the file") const noexcept;
 
-  /// Fills `out` from `offset` if the system has the bytes in memory. False where it would have
-  /// to wait for a device, cannot tell, or fails: read_at() says why. `out` is lost then.
-  bool read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+  /// Fills `out` from `offset` if the system has the bytes in memory. Else it is told to get them,
+  /// and looked for them `looks` times more, with other threads running in between: for devices
+  /// that answer sooner than a thread is put to sleep and woken. False where it takes longer,
+  /// cannot be told, or fails: read_at() says why. `out` is lost then.
+  bool read_soon(std::uint64_t offset, std::span<std::byte> out, unsigned looks) const noexcept;
 
   /// Writes all of `bytes` at `offset`, through interruptions and short writes.
   /// what    is tried, as file_error() has it.
@@ -59,6 +61,8 @@ class FileHandle {
   Result<void> sync_data() const noexcept;
 
  private:
+  bool read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+
   FileCalls* calls_ = nullptr;
   int descriptor_ = -1;
 };

@@ -32,6 +32,9 @@ Result<std::uint64_t> length_of(const FileHandle& file) noexcept {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
+// For a page that a device is to give: a look takes a microsecond.
+constexpr unsigned kLooks = 256;
+
 Error placed(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
   error.offset = offset;
@@ -118,14 +121,14 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
   return unpack(page, stored, raw_out);
 }
 
-Result<bool> PageFile::read_page_at_once(std::uint32_t page, std::span<std::byte> stored_scratch,
-                                         std::span<std::byte> raw_out) const noexcept {
+Result<bool> PageFile::read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
+                                      std::span<std::byte> raw_out) const noexcept {
   if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
     return checked.error();
   }
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (!file_.read_at_once(entry.offset, stored)) return false;
+  if (!file_.read_soon(entry.offset, stored, kLooks)) return false;
   if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
     return unpacked.error();
   }

@@ -54,10 +54,11 @@ class PageFile {
   Result<void> read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                          std::span<std::byte> raw_out) const noexcept;
 
-  /// The same of a page that the system has in memory. False where reading it would have to wait
-  /// for a device, or fails in a way that read_page() tells.
-  Result<bool> read_page_at_once(std::uint32_t page, std::span<std::byte> stored_scratch,
-                                 std::span<std::byte> raw_out) const noexcept;
+  /// The same of a page that the system has in memory, or gets from a device so soon that no
+  /// thread would be put to sleep for it: in some tenths of a millisecond. False where reading it
+  /// takes longer, or fails in a way that read_page() tells.
+  Result<bool> read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
+                              std::span<std::byte> raw_out) const noexcept;
 
  private:
   PageFile() noexcept = default;

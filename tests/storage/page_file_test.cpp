@@ -1,5 +1,6 @@
 #include "storage/page_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -81,40 +82,95 @@ TEST(PageFile, ReadsWithoutAllocating) {
   if (allocation_count != before + 1) GTEST_SKIP() << "a sanitizer keeps allocations to itself";
 }
 
-/// A system that would have to wait, or has a part of what is asked for in memory.
+/// A system that has bytes in memory only when they have been looked for often enough.
 class ForgetfulCalls final : public FileCalls {
  public:
-  enum class Has { kAll, kPart, kNothing } has = Has::kAll;
+  int looks_in_vain = 0;
+  int errno_of_those = EAGAIN;  ///< 0: they find all bytes but the last
+  int looks = 0, told = 0;
+  off_t told_offset = 0, told_bytes = 0;
+
   ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
                   int flags) noexcept override {
     EXPECT_EQ(flags, RWF_NOWAIT);
-    if (has == Has::kNothing) {
-      errno = EAGAIN;
+    EXPECT_EQ(part_count, 1);
+    const bool in_vain = looks++ < looks_in_vain;
+    if (in_vain && errno_of_those != 0) {
+      errno = errno_of_those;
       return -1;
     }
     const ssize_t count = FileCalls::pread(descriptor, parts->iov_base, parts->iov_len, offset);
-    EXPECT_EQ(part_count, 1);
-    return has == Has::kAll ? count : count - 1;
+    return in_vain ? count - 1 : count;
+  }
+  int posix_fadvise(int, off_t offset, off_t bytes, int advice) noexcept override {
+    EXPECT_EQ(advice, POSIX_FADV_WILLNEED);
+    EXPECT_EQ(looks, 1);
+    ++told;
+    told_offset = offset;
+    told_bytes = bytes;
+    return 0;
   }
 };
 
-TEST(PageFile, ReadsAtOnceWhatTheSystemHasAndNothingElse) {
-  const TemporaryDirectory directory;
-  const SampleFile sample;
-  ASSERT_TRUE(sample.write(directory / "a.ptree"));
-  ForgetfulCalls calls;
-  const Result<PageFile> file = PageFile::open(directory / "a.ptree", calls);
-  ASSERT_TRUE(file);
-  Bytes stored(file->header().max_stored_bytes), raw(file->entries()[1].raw_bytes);
-  const auto read = [&] { return file->read_page_at_once(1, stored, raw); };
-  using Has = ForgetfulCalls::Has;
-  for (const Has has : {Has::kPart, Has::kNothing, Has::kAll}) {
-    calls.has = has;
-    ASSERT_TRUE(read());
-    EXPECT_EQ(*read(), has == Has::kAll);
+/// Page 1 of a file read where the first looks are in vain.
+struct PageSoon {
+  explicit PageSoon(int looks_in_vain, int errno_of_those = EAGAIN) {
+    const TemporaryDirectory directory;
+    const SampleFile sample;
+    EXPECT_TRUE(sample.write(directory / "a.ptree"));
+    const Result<PageFile> file = PageFile::open(directory / "a.ptree", calls);
+    if (!file) return;
+    entry = file->entries()[1];
+    calls.looks_in_vain = looks_in_vain;
+    calls.errno_of_those = errno_of_those;
+    Bytes stored(file->header().max_stored_bytes), raw(entry.raw_bytes);
+    const Result<bool> read = file->read_page_soon(1, stored, raw);
+    had = read && *read;
+    EXPECT_TRUE(read);
+    EXPECT_EQ(had, raw == sample.raw(1));
+    EXPECT_FALSE(file->read_page_soon(file->page_count(), stored, raw));
   }
-  EXPECT_EQ(raw, sample.raw(1));
-  EXPECT_FALSE(file->read_page_at_once(file->page_count(), stored, raw));
+
+  ForgetfulCalls calls;
+  PageEntry entry{};
+  bool had = false;
+};
+
+TEST(PageFile, ReadsWhatTheSystemHasWithNoOtherCall) {
+  const PageSoon page(0);
+  EXPECT_TRUE(page.had);
+  EXPECT_EQ(page.calls.looks, 1);
+  EXPECT_EQ(page.calls.told, 0);
+}
+
+TEST(PageFile, ReadsWhatTheSystemHasSoonAfterItWasTold) {
+  for (const int errno_of_those : {EAGAIN, 0})
+    for (const int in_vain : {1, 2, 100}) {
+      const PageSoon page(in_vain, errno_of_those);
+      EXPECT_TRUE(page.had);
+      EXPECT_EQ(page.calls.looks, in_vain + 1);
+      EXPECT_EQ(page.calls.told, 1);
+      EXPECT_EQ(page.calls.told_offset, static_cast<off_t>(page.entry.offset));
+      EXPECT_EQ(page.calls.told_bytes, static_cast<off_t>(page.entry.stored_bytes));
+    }
+}
+
+TEST(PageFile, DoesNotLookForEverForWhatTheSystemHasLate) {
+  for (const int errno_of_those : {EAGAIN, 0}) {
+    const PageSoon page(1 << 20, errno_of_those);
+    EXPECT_FALSE(page.had);
+    EXPECT_EQ(page.calls.looks, 257);
+    EXPECT_EQ(page.calls.told, 1);
+  }
+}
+
+TEST(PageFile, LooksOnceWhereTheSystemCannotTellOrFails) {
+  for (const int errno_of_those : {EOPNOTSUPP, EIO}) {
+    const PageSoon page(1 << 20, errno_of_those);
+    EXPECT_FALSE(page.had);
+    EXPECT_EQ(page.calls.looks, 1);
+    EXPECT_EQ(page.calls.told, 0);
+  }
 }
 
 TEST(PageFile, ServesThreadsAtOnce) {
