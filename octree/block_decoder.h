@@ -9,45 +9,49 @@
 
 namespace planetree::octree {
 
-/// Unpacks the triangle blocks of one page, in their order, into records of
-/// the serving layout. The counts in `streams` have been checked; everything
-/// else is checked here. Each fault is one sentence's end, or null.
+/// Unpacks the triangle blocks of one page into records of the serving layout. The counts in
+/// `streams` have been checked; everything else is checked here. Each fault is one sentence's
+/// end, or null.
+///
+/// From the last block to the first: the coordinates of all vertices stand, vertex by vertex, where
+/// the records will be. A record is longer than the vertices that its block brings, so it ends up
+/// behind those of the blocks before, which are all that these need.
 class BlockDecoder {
  public:
   BlockDecoder(const RawStreams& streams, const BlockShape& shape)
       : streams_(streams), shape_(shape) {}
 
-  /// Unpacks the next block to `record`, which has the slots it needs.
-  const char* decode_next(std::byte* record) noexcept;
+  /// Before any block.
+  ///
+  /// records  of all blocks, one behind the other: room for them; must stay.
+  const char* start(std::byte* records) noexcept;
 
-  /// After the last block: whether every stream was used up.
-  const char* finish() const noexcept;
+  /// Unpacks the last block that has not been unpacked to `record`, its place in `records`.
+  const char* decode_last(std::byte* record) noexcept;
 
  private:
-  // Vertices of a block: some that the page has had, ascending, then the page's next ones.
-  struct Vertices {
-    unsigned old_count = 0;
-    std::array<std::uint32_t, kMaxBlockVertices> old;
-    std::size_t first_new = 0;
-  };
+  // Where a block's vertices are among those of the page: some that blocks before have, ascending,
+  // then new ones, then the first again up to the block's stride.
+  using Places = std::array<std::uint32_t, kMaxBlockVertices>;
 
-  const char* collect_vertices(unsigned count, unsigned new_count, Vertices& vertices);
+  const char* find_vertices(const BlockHeader& header, Places& places);
   const char* store_corners(BlockHeader& header);
-  const char* store_vertices(BlockHeader& header, const Vertices& vertices);
-  template <class T>
-  static bool store_rows(const Shuffled<T>& page, const Vertices& vertices, unsigned count,
-                         unsigned stride, T* rows);
-  const char* store_ids(BlockHeader& header);
+  void store_vertices(BlockHeader& header, const Places& places, std::byte* record) const;
+  void store_float64_vertices(BlockHeader& header, const Places& places, std::byte* record) const;
+  const char* store_ids(const BlockHeader& header, std::byte* record);
   template <class Id>
-  bool store_ids(const Shuffled<Id>& firsts, const Shuffled<Id>& steps, unsigned count, Id* ids);
+  bool store_ids(const Shuffled<Id>& firsts, const Shuffled<Id>& steps, unsigned count,
+                 Id* ids) const;
 
   const RawStreams& streams_;
   const BlockShape& shape_;
+  const std::byte* vertices_ = nullptr;
+  // What the blocks that are left have: all of it is behind these.
   std::size_t block_ = 0;
-  std::size_t next_ref_ = 0;
-  std::size_t next_vertex_ = 0;
-  std::size_t next_corner_byte_ = 0;
-  std::size_t next_id_step_ = 0;
+  std::size_t refs_ = 0;
+  std::size_t new_vertices_ = 0;
+  std::size_t corner_bytes_ = 0;
+  std::size_t id_steps_ = 0;
 };
 
 }  // namespace planetree::octree

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstring>
-#include <limits>
 
 #include "octree/child_bounds.h"
 #include "octree/frame.h"
 
-/// Writing nodes in the serving layout, child by child.
+/// Nodes of the serving layout on their way there.
 namespace planetree::octree {
 
 /// Leaves a node's own box in its place until the node itself is written:
@@ -21,27 +21,19 @@ inline FloatBox staged_box(const Node& node) {
   return box;
 }
 
-/// Every child absent: at infinity, so that no query ever comes near it.
-inline void clear_node(Node& node) {
-  std::memset(static_cast<void*>(&node), 0, sizeof node);
-  for (unsigned child = 0; child < kFanOut; ++child) {
-    for (int axis = 0; axis < 3; ++axis) {
-      node.lower[axis][child] = std::numeric_limits<float>::infinity();
-      node.upper[axis][child] = std::numeric_limits<float>::infinity();
-    }
-    node.normal[2][child] = 1;
-  }
+/// What stands between boxes and discs: no links yet.
+inline void clear_links(Node& node) {
+  constexpr std::size_t first = offsetof(Node, link), behind = offsetof(Node, normal);
+  std::memset(reinterpret_cast<std::byte*>(&node) + first, 0, behind - first);
 }
 
-inline void store_child(Node& node, std::size_t child, const FloatBox& box, const Disc& disc) {
-  for (int axis = 0; axis < 3; ++axis) {
-    node.lower[axis][child] = box.lower[axis];
-    node.upper[axis][child] = box.upper[axis];
-    node.normal[axis][child] = disc.normal[axis];
+inline FloatBox child_box(const Node& node, std::size_t child) {
+  FloatBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = node.lower[axis][child];
+    box.upper[axis] = node.upper[axis][child];
   }
-  node.slab_lower[child] = disc.slab_lower;
-  node.slab_upper[child] = disc.slab_upper;
-  node.radius[child] = disc.radius;
+  return box;
 }
 
 }  // namespace planetree::octree

@@ -1,5 +1,6 @@
 #include "octree/page_decoder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "octree/child_bounds.h"
 #include "octree/moments.h"
 #include "octree/node_store.h"
+#include "octree/node_unpacking.h"
 #include "octree/raw_streams.h"
 #include "octree/strict_math.h"
 
@@ -43,9 +45,11 @@ class PageDecoder {
   void write_header();
   const char* decode_nodes();
   const char* decode_node(std::size_t index);
-  const char* decode_child(Node& node, std::size_t child, const FloatBox& box, ChildKind kind);
+  void copy_children(const std::byte* plane, std::size_t count, PackedChildren::Bytes& bytes) const;
+  const char* decode_bounds(Node& node, std::size_t count, const FloatBox& box) const;
+  const char* decode_child(Node& node, std::size_t child, ChildKind kind);
   const char* decode_moments(Node& node, std::size_t child);
-  const char* link_to_node(Node& node, std::size_t child, const FloatBox& child_box);
+  const char* link_to_node(Node& node, std::size_t child);
   const char* link_to_block(Node& node, std::size_t child);
   const char* link_to_page(Node& node, std::size_t child);
   const char* decode_blocks();
@@ -136,43 +140,61 @@ const char* PageDecoder::decode_node(std::size_t index) {
   if (count > streams_.head.child_count - next_child_) return "its children do not add up";
   const std::uint8_t height = streams_.heights[index];
   if (height == 0 || height > kMaxHeight) return "a node's height is out of range";
-  clear_node(target);
+  const float gate = box.diagonal_squared() * (1.0f / 64.0f);
+  if (!std::isfinite(gate)) return "a node's box is too large";
+  if (const char* fault = decode_bounds(target, count, box)) return fault;
+  clear_links(target);
   if (facts_.shape.moments) std::memset(static_cast<void*>(&target + 1), 0, sizeof(NodeMoments));
   target.child_count = static_cast<std::uint8_t>(count);
   target.height = height;
-  target.gate = box.diagonal_squared() * (1.0f / 64.0f);
-  if (!std::isfinite(target.gate)) return "a node's box is too large";
+  target.gate = gate;
   const std::uint16_t kinds = streams_.child_kinds[index];
   if (count < kFanOut && kinds >> (2 * count) != 0) return "an absent child has a kind";
   for (std::size_t child = 0; child < count; ++child, ++next_child_) {
     const auto kind = static_cast<ChildKind>(kinds >> (2 * child) & 3);
-    if (const char* fault = decode_child(target, child, box, kind)) return fault;
+    if (const char* fault = decode_child(target, child, kind)) return fault;
   }
   return nullptr;
 }
 
-const char* PageDecoder::decode_child(Node& parent, std::size_t child, const FloatBox& box,
-                                      ChildKind kind) {
-  const std::size_t count = streams_.head.child_count;
-  PackedChild packed;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    packed.lower[axis] = streams_.child_boxes[axis * count + next_child_];
-    packed.upper[axis] = streams_.child_boxes[(3 + axis) * count + next_child_];
-    if (packed.lower[axis] > packed.upper[axis]) return "a child's box is not a box";
-  }
-  packed.normal = {streams_.child_normals[next_child_],
-                   streams_.child_normals[count + next_child_]};
-  packed.slab_lower = streams_.child_slabs[next_child_];
-  packed.slab_upper = streams_.child_slabs[count + next_child_];
-  packed.radius = streams_.child_radii[next_child_];
-  if (packed.slab_lower > packed.slab_upper) return "a child's planes are crossed";
-  const FloatBox child_box = unpack_box(box, packed);
-  store_child(parent, child, child_box, unpack_disc(child_box, packed));
+// The bytes of a plane that are of the next children.
+void PageDecoder::copy_children(const std::byte* plane, std::size_t count,
+                                PackedChildren::Bytes& bytes) const {
+  if (next_child_ + kFanOut <= streams_.head.child_count)
+    std::memcpy(bytes.data(), plane + next_child_, kFanOut);
+  else
+    std::memcpy(bytes.data(), plane + next_child_, count);
+  if (count < kFanOut) std::fill(bytes.begin() + count, bytes.end(), std::uint8_t{0});
+}
+
+const char* PageDecoder::decode_bounds(Node& parent, std::size_t count, const FloatBox& box) const {
+  const std::size_t all = streams_.head.child_count;
+  PackedChildren packed;
+  for (std::size_t plane = 0; plane < packed.box.size(); ++plane)
+    copy_children(streams_.child_boxes.bytes() + plane * all, count, packed.box[plane]);
+  // All words of the first plane, then of the others; low bytes, then high ones.
+  const auto copy_words = [&](const auto& stream, std::size_t plane, PackedChildren::Words& words) {
+    const std::byte* bytes = stream.bytes() + plane * all;
+    copy_children(bytes, count, words.low);
+    copy_children(bytes + stream.size(), count, words.high);
+  };
+  copy_words(streams_.child_normals, 0, packed.u);
+  copy_words(streams_.child_normals, 1, packed.v);
+  copy_words(streams_.child_slabs, 0, packed.slab_lower);
+  copy_words(streams_.child_slabs, 1, packed.slab_upper);
+  copy_words(streams_.child_radii, 0, packed.radius);
+  const ChildFaults faults = unpack_children(packed, static_cast<unsigned>(count), box, parent);
+  if (faults.no_box) return "a child's box is not a box";
+  if (faults.crossed) return "a child's planes are crossed";
+  return nullptr;
+}
+
+const char* PageDecoder::decode_child(Node& parent, std::size_t child, ChildKind kind) {
   if (facts_.shape.moments)
     if (const char* fault = decode_moments(parent, child)) return fault;
   switch (kind) {
     case ChildKind::kNode:
-      return link_to_node(parent, child, child_box);
+      return link_to_node(parent, child);
     case ChildKind::kBlock:
       return link_to_block(parent, child);
     case ChildKind::kPage:
@@ -201,12 +223,12 @@ const char* PageDecoder::decode_moments(Node& parent, std::size_t child) {
   return nullptr;
 }
 
-const char* PageDecoder::link_to_node(Node& parent, std::size_t child, const FloatBox& child_box) {
+const char* PageDecoder::link_to_node(Node& parent, std::size_t child) {
   if (next_node_ >= streams_.head.node_count) return "its children do not add up";
   if (streams_.heights[next_node_] >= parent.height) return "a node is higher than its parent";
   const std::size_t slot = node_slot(next_node_);
   parent.link[child] = links_.make(false, facts_.page_number, static_cast<std::uint32_t>(slot));
-  stage_box(*node(next_node_), child_box);
+  stage_box(*node(next_node_), child_box(parent, child));
   ++next_node_;
   return nullptr;
 }
@@ -232,14 +254,15 @@ const char* PageDecoder::link_to_page(Node& parent, std::size_t child) {
 
 const char* PageDecoder::decode_blocks() {
   BlockDecoder blocks(streams_, facts_.shape);
-  std::size_t slot = plan_.first_block_slot;
+  if (const char* fault = blocks.start(frame_ + plan_.first_block_slot * kSlotBytes)) return fault;
+  std::size_t slot = plan_.used_bytes / kSlotBytes;
   auto* starts = reinterpret_cast<std::uint64_t*>(frame_ + kSlotBytes);
-  for (std::size_t i = 0; i < streams_.head.block_count; ++i) {
+  for (std::size_t i = streams_.head.block_count; i-- > 0;) {
+    slot -= facts_.shape.slots(streams_.vertex_counts[i]);
     starts[slot / 64] |= std::uint64_t{1} << slot % 64;
-    if (const char* fault = blocks.decode_next(frame_ + slot * kSlotBytes)) return fault;
-    slot += facts_.shape.slots(streams_.vertex_counts[i]);
+    if (const char* fault = blocks.decode_last(frame_ + slot * kSlotBytes)) return fault;
   }
-  return blocks.finish();
+  return nullptr;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ class Shuffled {
   Shuffled(const std::byte* bytes, std::size_t count) : bytes_(bytes), count_(count) {}
   static constexpr std::size_t bytes_for(std::size_t count) { return count * sizeof(T); }
   std::size_t size() const { return count_; }
+  const std::byte* bytes() const { return bytes_; }
 
   T operator[](std::size_t index) const {
     using Bits = std::conditional_t<

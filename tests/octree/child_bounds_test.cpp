@@ -7,7 +7,6 @@
 
 #include "octree/bounds.h"
 #include "octree/build/float_rounding.h"
-#include "octree/node_store.h"
 #include "octree/plane.h"
 #include "tests/octree/sample_tree.h"
 
@@ -158,25 +157,6 @@ TEST(Bounds, CertifyNoMoreThanTheyPruneAt) {
   for (const double distance : {1e-3, 0.7, 1e5}) {
     const float above = std::nextafter(prune_threshold(query, distance), 1e38f);
     EXPECT_GE(certified(query, above), distance);
-  }
-}
-
-TEST(NodeStore, KeepsABoxInANodesPlace) {
-  Node node;
-  const FloatBox box{{1, 2, 3}, {4, 5, 6}};
-  stage_box(node, box);
-  EXPECT_EQ(staged_box(node).lower, box.lower);
-  EXPECT_EQ(staged_box(node).upper, box.upper);
-}
-
-TEST(NodeStore, LeavesAbsentChildrenAtInfinity) {
-  Node node;
-  clear_node(node);
-  store_child(node, 0, {{0, 0, 0}, {1, 1, 1}}, Disc{});
-  EXPECT_EQ(node.lower[0][0], 0.0f);
-  for (unsigned child = 1; child < kFanOut; ++child) {
-    EXPECT_TRUE(std::isinf(node.lower[0][child]));
-    EXPECT_EQ(node.normal[2][child], 1.0f);
   }
 }
 

@@ -22,12 +22,22 @@ struct Case {
   std::uint64_t first_index = 0;
 };
 
+// No two triangles have a vertex in common.
+Soup rounded(Soup soup) {
+  for (auto& triangle : soup)
+    for (Vec3& corner : triangle)
+      corner = {double{static_cast<float>(corner.x)}, double{static_cast<float>(corner.y)},
+                double{static_cast<float>(corner.z)}};
+  return soup;
+}
+
 std::vector<Case> cases() {
   return {{"sphere in small pages", sphere(4), 4096},
           {"sphere in large pages", sphere(4), 262144},
           {"one triangle", repeated(1), 4096},
           {"one block", repeated(16), 4096},
           {"a triangle many times", repeated(700), 4096},
+          {"scattered", rounded(scattered(900, 0.05)), 4096},
           {"scattered float64", scattered(900, 0.05), 4096},
           {"scattered float64 in 16 KiB", scattered(900, 0.05), 16384},
           {"wide ids", sphere(3), 4096, std::uint64_t{5} << 32},

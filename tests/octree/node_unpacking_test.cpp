@@ -1,0 +1,133 @@
+#include "octree/node_unpacking.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "octree/node_store.h"
+#include "tests/octree/each_target.h"
+
+namespace planetree::octree {
+namespace {
+
+void put(PackedChildren::Words& words, std::size_t child, std::uint16_t word) {
+  words.low[child] = static_cast<std::uint8_t>(word);
+  words.high[child] = static_cast<std::uint8_t>(word >> 8);
+}
+
+void put(PackedChildren& children, std::size_t child, const PackedChild& packed) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    children.box[axis][child] = packed.lower[axis];
+    children.box[3 + axis][child] = packed.upper[axis];
+  }
+  put(children.u, child, static_cast<std::uint16_t>(packed.normal.u));
+  put(children.v, child, static_cast<std::uint16_t>(packed.normal.v));
+  put(children.slab_lower, child, static_cast<std::uint16_t>(packed.slab_lower));
+  put(children.slab_upper, child, static_cast<std::uint16_t>(packed.slab_upper));
+  put(children.radius, child, packed.radius);
+}
+
+class UnpackChildren : public testing::Test {
+ protected:
+  // Often at the ends of ranges.
+  std::uint16_t word() {
+    constexpr std::uint16_t kEnds[] = {0, 1, 0x7fff, 0x8000, 0x8001, 0xffff};
+    return random_() % 3 == 0 ? kEnds[random_() % std::size(kEnds)]
+                              : static_cast<std::uint16_t>(random_());
+  }
+
+  PackedChild child() {
+    PackedChild packed;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::uint8_t>(random_() % 4 == 0 ? 0 : random_());
+      const auto b = static_cast<std::uint8_t>(random_() % 4 == 0 ? 255 : random_());
+      packed.lower[axis] = std::min(a, b);
+      packed.upper[axis] = std::max(a, b);
+    }
+    packed.normal = {static_cast<std::int16_t>(word()), static_cast<std::int16_t>(word())};
+    const auto a = static_cast<std::int16_t>(word()), b = static_cast<std::int16_t>(word());
+    packed.slab_lower = std::min(a, b);
+    packed.slab_upper = std::max(a, b);
+    packed.radius = word();
+    return packed;
+  }
+
+  FloatBox box() {
+    FloatBox box;
+    const float size = std::ldexp(1.0f, static_cast<int>(random_() % 60) - 30);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = size * (static_cast<float>(random_() % 2001) - 1000) / 300;
+      const bool flat = random_() % 8 == 0;
+      box.upper[axis] = box.lower[axis] + (flat ? 0 : size * static_cast<float>(random_() % 100));
+    }
+    return box;
+  }
+
+  std::mt19937_64 random_{1};
+};
+
+// As one child by itself, to the last bit, on every instruction set; and no other is near.
+TEST_F(UnpackChildren, HasTheBitsOfEachUnpackedByItself) {
+  for (int round = 0; round < 2000; ++round) {
+    const unsigned count = 1 + static_cast<unsigned>(random_() % kFanOut);
+    const FloatBox parent = box();
+    PackedChildren children;
+    Node expected{};
+    for (unsigned i = 0; i < kFanOut; ++i) {
+      const bool there = i < count;
+      const PackedChild packed = there ? child() : PackedChild{};
+      if (there) put(children, i, packed);
+      const FloatBox own = unpack_box(parent, packed);
+      const Disc disc = there ? unpack_disc(own, packed) : Disc{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        expected.lower[axis][i] = there ? own.lower[axis] : INFINITY;
+        expected.upper[axis][i] = there ? own.upper[axis] : INFINITY;
+        expected.normal[axis][i] = disc.normal[axis];
+      }
+      expected.slab_lower[i] = disc.slab_lower;
+      expected.slab_upper[i] = disc.slab_upper;
+      expected.radius[i] = disc.radius;
+    }
+    for (const Node& node : on_each_target([&] {
+           Node node{};
+           const ChildFaults faults = unpack_children(children, count, parent, node);
+           EXPECT_FALSE(faults.no_box || faults.crossed);
+           return node;
+         }))
+      ASSERT_EQ(std::memcmp(&node, &expected, sizeof node), 0) << round;
+  }
+}
+
+TEST_F(UnpackChildren, TellsOfSidesThatAreCrossedWhateverTheChild) {
+  for (unsigned crossed = 0; crossed < kFanOut; ++crossed)
+    for (int what = 0; what < 4; ++what) {
+      PackedChildren children;
+      for (unsigned i = 0; i < kFanOut; ++i) {
+        PackedChild packed = child();
+        const bool this_one = i == crossed;
+        if (what < 3 && this_one) packed.lower[what] = 8, packed.upper[what] = 7;
+        if (what == 3 && this_one) packed.slab_lower = -3, packed.slab_upper = -4;
+        put(children, i, packed);
+      }
+      for (const ChildFaults& faults : on_each_target([&] {
+             Node node;
+             return unpack_children(children, kFanOut, box(), node);
+           })) {
+        ASSERT_EQ(faults.no_box, what < 3);
+        ASSERT_EQ(faults.crossed, what == 3);
+      }
+    }
+}
+
+TEST(NodeStore, KeepsABoxInANodesPlace) {
+  Node node;
+  const FloatBox box{{1, 2, 3}, {4, 5, 6}};
+  stage_box(node, box);
+  EXPECT_EQ(staged_box(node).lower, box.lower);
+  EXPECT_EQ(staged_box(node).upper, box.upper);
+}
+
+}  // namespace
+}  // namespace planetree::octree
