@@ -227,9 +227,10 @@ const char* MaskDecoder::decode_listed(MaskListed& listed) {
     return "a corner's winding number is out of range";
   std::byte* const octants = frame_ + next_list_slot_ * kMaskSlotBytes;
   next_list_slot_ += list_slots(listed.block_count);
-  const std::size_t octant_bytes = list_octant_slots(listed.block_count) * kMaskSlotBytes;
-  std::memset(octants, 0, list_slots(listed.block_count) * kMaskSlotBytes);
-  std::byte* const slab = octants + octant_bytes;
+  std::byte* const slab = octants + list_octant_slots(listed.block_count) * kMaskSlotBytes;
+  // Whatever is not written stands in the last slots.
+  std::memset(slab - kMaskSlotBytes, 0, kMaskSlotBytes);
+  std::memset(frame_ + (next_list_slot_ - 1) * kMaskSlotBytes, 0, kMaskSlotBytes);
   if (const char* fault = decode_slab(at, slab)) return fault;
   return decode_list(octants, slab + sizeof(std::uint32_t), listed.block_count);
 }
@@ -246,20 +247,29 @@ const char* MaskDecoder::decode_slab(std::size_t at, std::byte* slab) const {
   return nullptr;
 }
 
+// By copies that no byte written can change, as far as the compiler knows.
 const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
+  const Shuffled<std::uint8_t> all_octants = streams_.block_octants;
+  const Shuffled<std::uint32_t> all_links = streams_.block_links;
+  const LinkFormat format = block_links_;
+  const std::uint32_t page_count = facts_.first_page;
+  const std::size_t first = next_block_;
+  next_block_ += count;
+  bool all_touch = true, all_lead = true, ascend = true;
   std::uint32_t before = 0;
-  for (unsigned i = 0; i < count; ++i, ++next_block_) {
-    const std::uint8_t touched = streams_.block_octants[next_block_];
-    const std::uint32_t link = streams_.block_links[next_block_];
-    if (touched == 0) return "a block of a list touches nothing";
-    if (!LinkFormat::is_leaf(link) || block_links_.page(link) >= facts_.first_page)
-      return "a list leads to what is no block";
-    if (i > 0 && link <= before) return "the blocks of a list are not in order";
+  for (unsigned i = 0; i < count; ++i) {
+    const std::uint8_t touched = all_octants[first + i];
+    const std::uint32_t link = all_links[first + i];
+    all_touch &= touched != 0;
+    all_lead &= LinkFormat::is_leaf(link) & (format.page(link) < page_count);
+    ascend &= link > before;
     before = link;
     std::memcpy(octants + i, &touched, sizeof touched);
     std::memcpy(links + i * sizeof link, &link, sizeof link);
   }
-  return nullptr;
+  if (!all_touch) return "a block of a list touches nothing";
+  if (!all_lead) return "a list leads to what is no block";
+  return ascend ? nullptr : "the blocks of a list are not in order";
 }
 
 const char* MaskDecoder::check_sums() const {
