@@ -89,7 +89,7 @@ class ColourMap::Painter {
 
   // The record of a grey octant; null where its page cannot be had, or is one too many.
   const std::byte* below(const MaskNode& node, unsigned octant) {
-    if (!records_->has_family_at_hand(node) && ++brought_ > kMostBrought) return nullptr;
+    if (!records_->peek(node.family) && ++brought_ > kMostBrought) return nullptr;
     const bool leaf = (node.leaf >> octant & 1) != 0;
     return records_->record(records_->child_link(node, octant), leaf, work_);
   }

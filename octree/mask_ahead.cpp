@@ -51,13 +51,8 @@ void MaskAhead::go_below(const MaskNode& node, PageReader pages) {
 
 // What is at a link, asked for; null if its page is not in memory.
 const std::byte* MaskAhead::ask_for(std::uint32_t link, PageReader pages) const {
-  const MaskLinkFormat links(mask_.page_bytes);
-  const std::uint32_t page = links.page(link);
-  if (page >= mask_.page_count) return nullptr;
-  const std::byte* frame = pages.peek(pages.context, mask_.first_page + page);
-  if (!frame) return nullptr;
-  const std::byte* record = frame + links.slot(link) * kMaskSlotBytes;
-  __builtin_prefetch(record);
+  const std::byte* record = MaskRecords(mask_, pages).peek(link);
+  if (record) __builtin_prefetch(record);
   return record;
 }
 

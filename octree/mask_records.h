@@ -25,11 +25,14 @@ class MaskRecords {
   }
   bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
 
-  /// Whether a node's children are in a page that is in memory.
-  bool has_family_at_hand(const MaskNode& node) const {
-    const std::uint32_t page = links_.page(node.family);
-    return page == page_ || (pages_.peek && page < page_count_ &&
-                             pages_.peek(pages_.context, first_page_ + page) != nullptr);
+  /// What is at a link, if its page is in memory; else null.
+  const std::byte* peek(std::uint32_t link) const {
+    const std::uint32_t page = links_.page(link);
+    const std::byte* frame = frame_;
+    if (page != page_)
+      frame = pages_.peek && page < page_count_ ? pages_.peek(pages_.context, first_page_ + page)
+                                                : nullptr;
+    return frame ? frame + links_.slot(link) * kMaskSlotBytes : nullptr;
   }
 
   /// The record of a grey octant of the last record, or of a node that was kept before there was
