@@ -221,7 +221,7 @@ bool unpack_vertices(const Shuffled<float>& shuffled, float* vertices) noexcept 
   bool good = true;
   const std::size_t whole = HWY_DYNAMIC_DISPATCH(vertices_on_target)(
       shuffled.bytes(), shuffled.size() / 3, vertices, good);
-  return good & unpack_one_by_one(shuffled, whole, vertices);
+  return good && unpack_one_by_one(shuffled, whole, vertices);
 }
 
 bool unpack_vertices(const Shuffled<double>& shuffled, double* vertices) noexcept {

@@ -261,7 +261,8 @@ const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsig
     const std::uint8_t touched = all_octants[first + i];
     const std::uint32_t link = all_links[first + i];
     all_touch &= touched != 0;
-    all_lead &= LinkFormat::is_leaf(link) & (format.page(link) < page_count);
+    all_lead &= LinkFormat::is_leaf(link);
+    all_lead &= format.page(link) < page_count;
     ascend &= link > before;
     before = link;
     std::memcpy(octants + i, &touched, sizeof touched);
