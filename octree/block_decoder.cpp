@@ -94,8 +94,9 @@ void BlockDecoder::store_vertices(BlockHeader& header, const Places& places,
   const auto* all = reinterpret_cast<const float*>(vertices_);
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
   const std::size_t length = 3 * std::size_t{header.stride};
-  const float* behind = all + 3 * (new_vertices_ + streams_.new_counts[block_]) + 1;
-  if (behind <= rows) {
+  // One float more is read.
+  const float* end_read = all + 3 * (new_vertices_ + streams_.new_counts[block_]) + 1;
+  if (end_read <= rows) {
     header.extent = extent_of(unpack_rows(all, places.data(), header.stride, rows));
   } else {
     std::array<float, 3 * kMaxBlockVertices> apart;

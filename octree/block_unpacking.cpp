@@ -76,12 +76,14 @@ std::size_t vertices_on_target(const std::byte*, std::size_t, float*, bool&) { r
 
 #endif
 
+constexpr std::uint64_t low_bits(unsigned count) { return (std::uint64_t{1} << count) - 1; }
+
 // Fields of so many bits, each to a byte of its own: eight from each word of as many bytes.
 template <unsigned kBits>
 HWY_INLINE void spread_fields(const std::byte* packed, std::uint8_t* fields) {
-  constexpr auto ones = [](unsigned count) { return (std::uint64_t{1} << count) - 1; };
-  constexpr std::uint64_t kHalf = ones(4 * kBits), kQuarters = ones(2 * kBits) * 0x0000000100000001;
-  constexpr std::uint64_t kEighths = ones(kBits) * 0x0001000100010001;
+  constexpr std::uint64_t kHalf = low_bits(4 * kBits);
+  constexpr std::uint64_t kQuarters = low_bits(2 * kBits) * 0x0000000100000001;
+  constexpr std::uint64_t kEighths = low_bits(kBits) * 0x0001000100010001;
   for (unsigned first = 0; first < 3 * kMaxBlockTriangles; first += 8) {
     std::uint64_t word;
     std::memcpy(&word, packed + first / 8 * kBits, sizeof word);

@@ -23,8 +23,8 @@ inline FloatBox staged_box(const Node& node) {
 
 /// What stands between boxes and discs: no links yet.
 inline void clear_links(Node& node) {
-  constexpr std::size_t first = offsetof(Node, link), behind = offsetof(Node, normal);
-  std::memset(reinterpret_cast<std::byte*>(&node) + first, 0, behind - first);
+  constexpr std::size_t kFirst = offsetof(Node, link), kBehind = offsetof(Node, normal);
+  std::memset(reinterpret_cast<std::byte*>(&node) + kFirst, 0, kBehind - kFirst);
 }
 
 inline FloatBox child_box(const Node& node, std::size_t child) {
