@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "octree/block_numbers.h"
 #include "octree/block_unpacking.h"
 #include "octree/strict_math.h"
 
@@ -62,18 +63,10 @@ const char* BlockDecoder::find_vertices(const BlockHeader& header, Places& place
   const unsigned old_count = header.vertex_count - new_count;
   new_vertices_ -= new_count;
   refs_ -= old_count;
-  std::uint32_t vertex = 0;
-  for (unsigned i = 0; i < old_count; ++i) {
-    const std::uint32_t step = streams_.vertex_refs[refs_ + i];
-    if (i > 0 && step == 0) return "a block names a vertex twice";
-    vertex += step;
-    if (vertex >= new_vertices_) return "a block names a vertex the page has not had";
-    places[i] = vertex;
-  }
-  std::iota(places.begin() + old_count, places.begin() + header.vertex_count,
-            static_cast<std::uint32_t>(new_vertices_));
-  std::fill(places.begin() + header.vertex_count, places.begin() + header.stride, places[0]);
-  return nullptr;
+  const BlockVertices block{refs_, old_count, new_vertices_, header.vertex_count};
+  return unpack_places(streams_.vertex_refs, block, header.stride, places.data())
+             ? nullptr
+             : "a block names a vertex twice, or one the page has not had";
 }
 
 const char* BlockDecoder::store_corners(BlockHeader& header) {
@@ -118,7 +111,7 @@ void BlockDecoder::store_float64_vertices(BlockHeader& header, const Places& pla
       local[3 * i + axis] = static_cast<float>(value - exact[axis * stride]);
     }
   Places in_turn;
-  std::iota(in_turn.begin(), in_turn.end(), 0U);
+  std::iota(in_turn.begin(), in_turn.end(), std::uint16_t{0});
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
   header.extent = extent_of(unpack_rows(local.data(), in_turn.data(), stride, rows));
   std::memcpy(record + shape_.exact_offset(stride), exact.data(), 3 * stride * sizeof(double));
@@ -126,29 +119,14 @@ void BlockDecoder::store_float64_vertices(BlockHeader& header, const Places& pla
 
 const char* BlockDecoder::store_ids(const BlockHeader& header, std::byte* record) {
   std::byte* ids = record + shape_.id_offset(header.stride);
-  id_steps_ -= header.triangle_count - 1U;
+  const unsigned count = header.triangle_count;
+  id_steps_ -= count - 1;
   const bool ascend = shape_.wide_ids
-                          ? store_ids(streams_.first_ids64, streams_.id_steps64,
-                                      header.triangle_count, reinterpret_cast<std::uint64_t*>(ids))
-                          : store_ids(streams_.first_ids32, streams_.id_steps32,
-                                      header.triangle_count, reinterpret_cast<std::uint32_t*>(ids));
+                          ? unpack_ids(streams_.first_ids64[block_], streams_.id_steps64, id_steps_,
+                                       count, reinterpret_cast<std::uint64_t*>(ids))
+                          : unpack_ids(streams_.first_ids32[block_], streams_.id_steps32, id_steps_,
+                                       count, reinterpret_cast<std::uint32_t*>(ids));
   return ascend ? nullptr : "triangle indices do not ascend";
-}
-
-template <class Id>
-bool BlockDecoder::store_ids(const Shuffled<Id>& firsts, const Shuffled<Id>& steps, unsigned count,
-                             Id* ids) const {
-  Id id = firsts[block_];
-  ids[0] = id;
-  bool ascend = true;
-  for (unsigned i = 1; i < count; ++i) {
-    const Id last = id;
-    id = static_cast<Id>(id + steps[id_steps_ + i - 1]);
-    ascend &= id > last;  // nor does a sum that overflows
-    ids[i] = id;
-  }
-  std::fill(ids + count, ids + kMaxBlockTriangles, id);
-  return ascend;
 }
 
 }  // namespace planetree::octree

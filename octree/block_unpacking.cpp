@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 
 #include "octree/page_streams.h"
+#include "octree/shuffled_lanes-inl.h"
 #include "octree/strict_math.h"
 #include "octree/wide_floats-inl.h"
 
@@ -19,50 +20,32 @@ namespace HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
 
-using ByteTag = hn::FixedTag<std::uint8_t, 16>;
-using PairTag = hn::Repartition<std::uint16_t, ByteTag>;
-using QuadTag = hn::Repartition<std::uint32_t, ByteTag>;
 using FourTag = hn::Repartition<float, ByteTag>;
 using Four = hn::Vec<FourTag>;
-
-// Sixteen floats of a shuffled array, from an index on.
-HWY_INLINE void load_sixteen(const std::byte* shuffled, std::size_t count, std::size_t first,
-                             Four (&floats)[4]) {
-  const ByteTag bytes;
-  const PairTag pairs;
-  const QuadTag quads;
-  const FourTag four;
-  const auto plane = [&](std::size_t k) {
-    return hn::LoadU(bytes, reinterpret_cast<const std::uint8_t*>(shuffled) + k * count + first);
-  };
-  const auto b0 = plane(0), b1 = plane(1), b2 = plane(2), b3 = plane(3);
-  const auto low0 = hn::BitCast(pairs, hn::InterleaveLower(bytes, b0, b1));
-  const auto low1 = hn::BitCast(pairs, hn::InterleaveUpper(bytes, b0, b1));
-  const auto high0 = hn::BitCast(pairs, hn::InterleaveLower(bytes, b2, b3));
-  const auto high1 = hn::BitCast(pairs, hn::InterleaveUpper(bytes, b2, b3));
-  const auto join = [&](auto quad) { return hn::BitCast(four, hn::BitCast(quads, quad)); };
-  floats[0] = join(hn::InterleaveLower(pairs, low0, high0));
-  floats[1] = join(hn::InterleaveUpper(pairs, low0, high0));
-  floats[2] = join(hn::InterleaveLower(pairs, low1, high1));
-  floats[3] = join(hn::InterleaveUpper(pairs, low1, high1));
-}
 
 // Of whole sixteens of the vertices; how many those are.
 std::size_t vertices_on_target(const std::byte* shuffled, std::size_t vertex_count, float* vertices,
                                bool& good) {
   const FourTag four;
+  const Quads sign = hn::Set(QuadTag(), 0x80000000U);
   const std::size_t whole = vertex_count / 16 * 16;
   auto greatest = hn::Zero(QuadTag());
   for (std::size_t first = 0; first < whole; first += 16) {
-    Four x[4], y[4], z[4];
-    load_sixteen(shuffled, 3 * vertex_count, first, x);
-    load_sixteen(shuffled, 3 * vertex_count, first + vertex_count, y);
-    load_sixteen(shuffled, 3 * vertex_count, first + 2 * vertex_count, z);
+    Quads x[4], y[4], z[4];
+    const auto load = [&](std::size_t at, Quads(&floats)[4]) {
+      Bytes planes[4];
+      load_sixteen(shuffled, 3 * vertex_count, at, planes);
+      join_planes(planes, floats);
+    };
+    load(first, x);
+    load(first + vertex_count, y);
+    load(first + 2 * vertex_count, z);
     for (std::size_t i = 0; i < 4; ++i) {
-      hn::StoreInterleaved3(x[i], y[i], z[i], four, vertices + 3 * (first + 4 * i));
+      hn::StoreInterleaved3(hn::BitCast(four, x[i]), hn::BitCast(four, y[i]),
+                            hn::BitCast(four, z[i]), four, vertices + 3 * (first + 4 * i));
       // The bits of what is no number are greater than those of any.
-      for (const Four& row : {x[i], y[i], z[i]})
-        greatest = hn::Max(greatest, hn::BitCast(QuadTag(), hn::Abs(row)));
+      for (const Quads& row : {x[i], y[i], z[i]})
+        greatest = hn::Max(greatest, hn::AndNot(sign, row));
     }
   }
   const auto most = hn::BitCast(QuadTag(), hn::Set(four, static_cast<float>(kFarthestVertex)));
@@ -76,63 +59,92 @@ std::size_t vertices_on_target(const std::byte*, std::size_t, float*, bool&) { r
 
 #endif
 
-constexpr std::uint64_t low_bits(unsigned count) { return (std::uint64_t{1} << count) - 1; }
-
-// Fields of so many bits, each to a byte of its own: eight from each word of as many bytes.
-template <unsigned kBits>
-HWY_INLINE void spread_fields(const std::byte* packed, std::uint8_t* fields) {
-  constexpr std::uint64_t kHalf = low_bits(4 * kBits);
-  constexpr std::uint64_t kQuarters = low_bits(2 * kBits) * 0x0000000100000001;
-  constexpr std::uint64_t kEighths = low_bits(kBits) * 0x0001000100010001;
-  for (unsigned first = 0; first < 3 * kMaxBlockTriangles; first += 8) {
-    std::uint64_t word;
-    std::memcpy(&word, packed + first / 8 * kBits, sizeof word);
-    word = (word & kHalf) | (word >> 4 * kBits & kHalf) << 32;
-    word = (word & kQuarters) | (word >> 2 * kBits & kQuarters) << 16;
-    word = (word & kEighths) | (word >> kBits & kEighths) << 8;
-    std::memcpy(fields + first, &word, sizeof word);
-  }
-}
-
-// The corners of each triangle in turn.
-HWY_INLINE void spread_corners(const std::byte* packed, unsigned vertex_count,
-                               std::uint8_t (&fields)[3 * kMaxBlockTriangles]) {
-  switch (corner_bits(vertex_count)) {
-    case 4:
-      return spread_fields<4>(packed, fields);
-    case 5:
-      return spread_fields<5>(packed, fields);
-    default:
-      return spread_fields<6>(packed, fields);
-  }
-}
-
 #if HWY_TARGET != HWY_SCALAR
 
-bool corners_on_target(const std::byte* packed, unsigned triangle_count, unsigned vertex_count,
+// How to take one corner of eight triangles out of as many bytes as these have: a pair of bytes for
+// each corner, and what moves it up to the pair's end.
+struct Extraction {
+  alignas(16) std::uint8_t byte[16];
+  alignas(16) std::uint16_t factor[8];
+};
+
+template <unsigned kBits>
+constexpr Extraction extraction(unsigned corner) {
+  Extraction taken{};
+  for (unsigned i = 0; i < 8; ++i) {
+    const unsigned bit = (3 * i + corner) * kBits;
+    taken.byte[2 * i] = static_cast<std::uint8_t>(bit / 8);
+    taken.byte[2 * i + 1] = static_cast<std::uint8_t>(bit / 8 + 1);
+    taken.factor[i] = static_cast<std::uint16_t>(1U << (16 - kBits - bit % 8));
+  }
+  return taken;
+}
+
+// One corner of each of sixteen triangles. Sixteen bytes hold those of eight.
+template <unsigned kBits, unsigned kCorner>
+HWY_INLINE Bytes take_corner(Bytes lower, Bytes upper) {
+  static_assert((3 * 7 + kCorner + 1) * kBits <= 128);
+  constexpr Extraction kTaken = extraction<kBits>(kCorner);
+  const ByteTag bytes;
+  const PairTag pairs;
+  const auto take = [&](Bytes packed) {
+    const Pairs found =
+        hn::BitCast(pairs, hn::TableLookupBytes(packed, hn::Load(bytes, kTaken.byte)));
+    return hn::BitCast(bytes,
+                       hn::ShiftRight<16 - kBits>(hn::Mul(found, hn::Load(pairs, kTaken.factor))));
+  };
+  return hn::ConcatEven(bytes, take(upper), take(lower));
+}
+
+template <unsigned kBits>
+HWY_INLINE void take_corners(const std::uint8_t* packed, Bytes (&corners)[3]) {
+  const ByteTag bytes;
+  const Bytes lower = hn::LoadU(bytes, packed), upper = hn::LoadU(bytes, packed + 3 * kBits);
+  corners[0] = take_corner<kBits, 0>(lower, upper);
+  corners[1] = take_corner<kBits, 1>(lower, upper);
+  corners[2] = take_corner<kBits, 2>(lower, upper);
+}
+
+// Fields of six bits: eight from each word of as many bytes.
+HWY_INLINE void take_long_corners(const std::uint8_t* packed, Bytes (&corners)[3]) {
+  alignas(16) std::uint8_t fields[3 * kMaxBlockTriangles];
+  for (unsigned first = 0; first < 3 * kMaxBlockTriangles; first += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, packed + first / 8 * 6, sizeof word);
+    for (unsigned i = 0; i < 8; ++i)
+      fields[first + i] = static_cast<std::uint8_t>(word >> 6 * i & 63);
+  }
+  hn::LoadInterleaved3(ByteTag(), fields, corners[0], corners[1], corners[2]);
+}
+
+bool corners_on_target(const std::uint8_t* packed, unsigned triangle_count, unsigned vertex_count,
                        std::uint8_t (&corners)[3][kMaxBlockTriangles]) {
   const ByteTag bytes;
-  alignas(16) std::uint8_t fields[3 * kMaxBlockTriangles];
-  spread_corners(packed, vertex_count, fields);
-  hn::Vec<ByteTag> first, second, third;
-  hn::LoadInterleaved3(bytes, fields, first, second, third);
-  const auto used = hn::FirstN(bytes, triangle_count);
-  const auto most = hn::Set(bytes, static_cast<std::uint8_t>(vertex_count - 1));
-  const std::uint8_t* last = fields + 3 * (triangle_count - 1);
-  auto greatest = hn::Zero(bytes);
-  const auto store = [&](hn::Vec<ByteTag> of_all, std::uint8_t of_last, std::uint8_t* to) {
-    const auto lanes = hn::IfThenElse(used, of_all, hn::Set(bytes, of_last));
-    greatest = hn::Max(greatest, lanes);
-    hn::StoreU(lanes, bytes, to);
-  };
-  store(first, last[0], corners[0]);
-  store(second, last[1], corners[1]);
-  store(third, last[2], corners[2]);
-  return hn::AllTrue(bytes, hn::Eq(hn::Max(greatest, most), most));
+  Bytes of_all[3];
+  switch (corner_bits(vertex_count)) {
+    case 4:
+      take_corners<4>(packed, of_all);
+      break;
+    case 5:
+      take_corners<5>(packed, of_all);
+      break;
+    default:
+      take_long_corners(packed, of_all);
+  }
+  const Bytes last = hn::Set(bytes, static_cast<std::uint8_t>(triangle_count - 1));
+  const Bytes lanes = hn::Min(hn::Iota(bytes, 0), last);
+  const Bytes most = hn::Set(bytes, static_cast<std::uint8_t>(vertex_count - 1));
+  Bytes greatest = most;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Bytes of_used = hn::TableLookupBytes(of_all[k], lanes);
+    greatest = hn::Max(greatest, of_used);
+    hn::StoreU(of_used, bytes, corners[k]);
+  }
+  return hn::AllTrue(bytes, hn::Eq(greatest, most));
 }
 
 // Four vertices at a time: a row of each coordinate.
-float rows_on_target(const float* vertices, const std::uint32_t* places, unsigned stride,
+float rows_on_target(const float* vertices, const std::uint16_t* places, unsigned stride,
                      float* rows) {
   const FourTag four;
   const hn::Repartition<std::uint64_t, FourTag> two;
@@ -163,21 +175,22 @@ float rows_on_target(const float* vertices, const std::uint32_t* places, unsigne
 
 #else
 
-bool corners_on_target(const std::byte* packed, unsigned triangle_count, unsigned vertex_count,
+bool corners_on_target(const std::uint8_t* packed, unsigned triangle_count, unsigned vertex_count,
                        std::uint8_t (&corners)[3][kMaxBlockTriangles]) {
-  std::uint8_t fields[3 * kMaxBlockTriangles];
-  spread_corners(packed, vertex_count, fields);
+  const unsigned bits = corner_bits(vertex_count);
   bool good = true;
   for (unsigned lane = 0; lane < kMaxBlockTriangles; ++lane)
     for (unsigned corner = 0; corner < 3; ++corner) {
-      const std::uint8_t vertex = fields[3 * std::min(lane, triangle_count - 1) + corner];
+      const unsigned bit = (3 * std::min(lane, triangle_count - 1) + corner) * bits;
+      const unsigned pair = packed[bit / 8] | unsigned{packed[bit / 8 + 1]} << 8;
+      const unsigned vertex = pair >> bit % 8 & ((1U << bits) - 1);
       good &= vertex < vertex_count;
-      corners[corner][lane] = vertex;
+      corners[corner][lane] = static_cast<std::uint8_t>(vertex);
     }
   return good;
 }
 
-float rows_on_target(const float* vertices, const std::uint32_t* places, unsigned stride,
+float rows_on_target(const float* vertices, const std::uint16_t* places, unsigned stride,
                      float* rows) {
   float greatest = 0;
   for (unsigned i = 0; i < stride; ++i) {
@@ -233,7 +246,7 @@ bool unpack_vertices(const Shuffled<double>& shuffled, double* vertices) noexcep
 bool unpack_corners(std::span<const std::byte> packed, unsigned triangle_count,
                     unsigned vertex_count,
                     std::uint8_t (&corners)[3][kMaxBlockTriangles]) noexcept {
-  // Whole words are read, whatever follows.
+  // Whole words and registers are read, whatever follows.
   std::array<std::byte, corner_bytes(kMaxBlockTriangles, kMaxBlockVertices) + 8> padded;
   const std::byte* bytes = packed.data();
   if (packed.size() < padded.size()) {
@@ -241,10 +254,11 @@ bool unpack_corners(std::span<const std::byte> packed, unsigned triangle_count,
     std::copy(packed.begin(), packed.end(), padded.begin());
     bytes = padded.data();
   }
-  return HWY_DYNAMIC_DISPATCH(corners_on_target)(bytes, triangle_count, vertex_count, corners);
+  return HWY_DYNAMIC_DISPATCH(corners_on_target)(reinterpret_cast<const std::uint8_t*>(bytes),
+                                                 triangle_count, vertex_count, corners);
 }
 
-float unpack_rows(const float* vertices, const std::uint32_t* places, unsigned stride,
+float unpack_rows(const float* vertices, const std::uint16_t* places, unsigned stride,
                   float* rows) noexcept {
   return HWY_DYNAMIC_DISPATCH(rows_on_target)(vertices, places, stride, rows);
 }

@@ -39,7 +39,7 @@ bool unpack_corners(std::span<const std::byte> packed, unsigned triangle_count,
 /// stride    a multiple of 8.
 /// rows      room for `stride` x, as many y, as many z; apart from `vertices` up to the last place.
 /// return    the greatest square of a distance from the first.
-float unpack_rows(const float* vertices, const std::uint32_t* places, unsigned stride,
+float unpack_rows(const float* vertices, const std::uint16_t* places, unsigned stride,
                   float* rows) noexcept;
 
 }  // namespace planetree::octree

@@ -4,12 +4,21 @@
 #include <sys/stat.h>
 
 #include <cerrno>
-#include <thread>
 #include <utility>
 
 #include "storage/file_error.h"
 
 namespace planetree::storage {
+namespace {
+
+// Not by giving up the processor: whoever gets it may keep it for milliseconds.
+void pause_a_little() noexcept {
+#if defined(__SSE2__)
+  for (int i = 0; i < 8; ++i) __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
 
 FileHandle::FileHandle(FileHandle&& other) noexcept
     : calls_(other.calls_), descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -65,26 +74,28 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
 }
 
 bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
-                           unsigned looks) const noexcept {
-  if (read_at_once(offset, out)) return true;
-  if (errno != EAGAIN) return false;
+                           std::chrono::microseconds most) const noexcept {
+  Look look = read_at_once(offset, out);
+  if (look != Look::kNotYet) return look == Look::kAll;
+  const auto end = std::chrono::steady_clock::now() + most;
   calls_->posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(out.size()),
                         POSIX_FADV_WILLNEED);
-  for (; looks > 0; --looks) {
-    std::this_thread::yield();
-    if (read_at_once(offset, out)) return true;
-    if (errno != EAGAIN) return false;
-  }
-  return false;
+  do {
+    pause_a_little();
+    look = read_at_once(offset, out);
+  } while (look == Look::kNotYet && std::chrono::steady_clock::now() < end);
+  return look == Look::kAll;
 }
 
-// Else errno says why not: EAGAIN where more of it may come.
-bool FileHandle::read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept {
+FileHandle::Look FileHandle::read_at_once(std::uint64_t offset,
+                                          std::span<std::byte> out) const noexcept {
   const iovec part{out.data(), out.size()};
   const ssize_t count =
       calls_->preadv2(descriptor_, &part, 1, static_cast<off_t>(offset), RWF_NOWAIT);
-  if (count >= 0) errno = EAGAIN;
-  return count >= 0 && static_cast<std::size_t>(count) == out.size();
+  if (count < 0) return errno == EAGAIN ? Look::kNotYet : Look::kNever;
+  if (static_cast<std::size_t>(count) == out.size()) return Look::kAll;
+  // Where nothing is left the file is at its end.
+  return count > 0 ? Look::kNotYet : Look::kNever;
 }
 
 Result<void> FileHandle::write_at(std::uint64_t offset, std::span<const std::byte> bytes,

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,10 +38,11 @@ class FileHandle {
                        const char* what = "read the file") const noexcept;
 
   /// Fills `out` from `offset` if the system has the bytes in memory. Else it is told to get them,
-  /// and looked for them `looks` times more, with other threads running in between: for devices
-  /// that answer sooner than a thread is put to sleep and woken. False where it takes longer,
-  /// cannot be told, or fails: read_at() says why. `out` is lost then.
-  bool read_soon(std::uint64_t offset, std::span<std::byte> out, unsigned looks) const noexcept;
+  /// and looked for them again and again for as long as `most`, without giving up the processor:
+  /// for devices that answer sooner than a thread is put to sleep and woken. False where it takes
+  /// longer, cannot be told, or fails: read_at() says why. `out` is lost then.
+  bool read_soon(std::uint64_t offset, std::span<std::byte> out,
+                 std::chrono::microseconds most) const noexcept;
 
   /// Writes all of `bytes` at `offset`, through interruptions and short writes.
   /// what    is tried, as file_error() has it.
@@ -61,7 +63,8 @@ class FileHandle {
   Result<void> sync_data() const noexcept;
 
  private:
-  bool read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+  enum class Look { kAll, kNotYet, kNever };
+  Look read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
 
   FileCalls* calls_ = nullptr;
   int descriptor_ = -1;

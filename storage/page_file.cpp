@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cinttypes>
 #include <new>
 #include <utility>
@@ -32,8 +33,8 @@ Result<std::uint64_t> length_of(const FileHandle& file) noexcept {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-// For a page that a device is to give: a look takes a microsecond.
-constexpr unsigned kLooks = 256;
+// For a page that a device is to give.
+constexpr std::chrono::microseconds kSoon{300};
 
 Error placed(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
@@ -128,7 +129,7 @@ Result<bool> PageFile::read_page_soon(std::uint32_t page, std::span<std::byte> s
   }
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (!file_.read_soon(entry.offset, stored, kLooks)) return false;
+  if (!file_.read_soon(entry.offset, stored, kSoon)) return false;
   if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
     return unpacked.error();
   }

@@ -54,9 +54,9 @@ class PageFile {
   Result<void> read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                          std::span<std::byte> raw_out) const noexcept;
 
-  /// The same of a page that the system has in memory, or gets from a device so soon that no
-  /// thread would be put to sleep for it: in some tenths of a millisecond. False where reading it
-  /// takes longer, or fails in a way that read_page() tells.
+  /// The same of a page that the system has in memory, or gets from a device sooner than a thread
+  /// is put to sleep for it and woken: in less than 0.3 ms, during which the caller keeps its
+  /// processor. False where reading it takes longer, or fails in a way that read_page() tells.
   Result<bool> read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
                               std::span<std::byte> raw_out) const noexcept;
 

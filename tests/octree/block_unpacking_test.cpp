@@ -162,8 +162,8 @@ TEST(UnpackRows, LaysVerticesOutAndTellsHowFarTheyGo) {
   std::vector<float> vertices(3 * 100 + 1);
   for (float& value : vertices) value = coordinate(random);
   for (const unsigned stride : {16U, 24U, 32U, 48U}) {
-    std::vector<std::uint32_t> places(stride);
-    for (std::uint32_t& place : places) place = static_cast<std::uint32_t>(random() % 100);
+    std::vector<std::uint16_t> places(stride);
+    for (std::uint16_t& place : places) place = static_cast<std::uint16_t>(random() % 100);
     std::vector<float> expected(3 * stride);
     float square = 0;
     for (unsigned i = 0; i < stride; ++i) {

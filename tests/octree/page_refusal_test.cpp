@@ -213,13 +213,13 @@ std::vector<Spoiling> block_spoilings() {
          ++p.head.vertex_ref_count;
          p.vertex_refs.push_back(1);
        }},
-      {"a block names a vertex twice", From::kWhole,
+      {"a block names a vertex twice, or one the page has not had", From::kWhole,
        [](P& p, F&) {
          const std::size_t block = find_block(
              p, [&](std::size_t i) { return p.vertex_counts[i] - p.new_counts[i] >= 2; });
          p.vertex_refs[ref_offset(p, block) + 1] = 0;
        }},
-      {"a block names a vertex the page has not had", From::kWhole,
+      {"a block names a vertex twice, or one the page has not had", From::kWhole,
        [](P& p, F&) { p.vertex_refs[0] = 0xffff; }},
       {"a corner names a vertex its block has not", From::kWhole,
        [](P& p, F&) {

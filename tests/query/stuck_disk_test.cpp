@@ -27,9 +27,15 @@ class MoodyDisk final : public storage::FileCalls {
   std::atomic<bool> is_in_memory{false};
   std::atomic<int> waiting{0};
   std::atomic<int> reads{0};
+  std::atomic<int> looks{0};  ///< and calls that tell what will be wanted
 
+  int posix_fadvise(int, off_t, off_t, int) noexcept override {
+    ++looks;
+    return 0;
+  }
   ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
                   int flags) noexcept override {
+    ++looks;
     if (is_in_memory) return FileCalls::preadv2(descriptor, parts, part_count, offset, flags);
     errno = EAGAIN;
     return -1;
@@ -92,6 +98,8 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   disk_.stands_still = false;
   EXPECT_TRUE(
       eventually([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
+  // Asks that do not wait leave even that to others, who wait in any case.
+  EXPECT_EQ(disk_.looks, 0);
 }
 
 TEST_F(StuckDisk, HoldsUpThoseThatWait) {
@@ -104,6 +112,7 @@ TEST_F(StuckDisk, HoldsUpThoseThatWait) {
     answered = true;
   });
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
+  EXPECT_GT(disk_.looks, 2);
   EXPECT_GT(ask_all(hasty), 0u);
   EXPECT_FALSE(answered);
   disk_.stands_still = false;

@@ -6,12 +6,14 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
 #include <thread>
 
+#include "storage/file_handle.h"
 #include "tests/storage/sample_file.h"
 #include "tests/storage/temporary_directory.h"
 
@@ -86,7 +88,9 @@ TEST(PageFile, ReadsWithoutAllocating) {
 class ForgetfulCalls final : public FileCalls {
  public:
   int looks_in_vain = 0;
-  int errno_of_those = EAGAIN;  ///< 0: they find all bytes but the last
+  int errno_of_those = EAGAIN;  ///< 0: they find all bytes but the last; kEnd: the file's end
+  static constexpr int kEnd = -1;
+  std::chrono::milliseconds time_of_those{0};
   int looks = 0, told = 0;
   off_t told_offset = 0, told_bytes = 0;
 
@@ -95,6 +99,8 @@ class ForgetfulCalls final : public FileCalls {
     EXPECT_EQ(flags, RWF_NOWAIT);
     EXPECT_EQ(part_count, 1);
     const bool in_vain = looks++ < looks_in_vain;
+    if (in_vain && time_of_those.count() > 0) std::this_thread::sleep_for(time_of_those);
+    if (in_vain && errno_of_those == kEnd) return 0;
     if (in_vain && errno_of_those != 0) {
       errno = errno_of_those;
       return -1;
@@ -114,7 +120,8 @@ class ForgetfulCalls final : public FileCalls {
 
 /// Page 1 of a file read where the first looks are in vain.
 struct PageSoon {
-  explicit PageSoon(int looks_in_vain, int errno_of_those = EAGAIN) {
+  explicit PageSoon(int looks_in_vain, int errno_of_those = EAGAIN,
+                    std::chrono::milliseconds time_of_those = {}) {
     const TemporaryDirectory directory;
     const SampleFile sample;
     EXPECT_TRUE(sample.write(directory / "a.ptree"));
@@ -123,6 +130,7 @@ struct PageSoon {
     entry = file->entries()[1];
     calls.looks_in_vain = looks_in_vain;
     calls.errno_of_those = errno_of_those;
+    calls.time_of_those = time_of_those;
     Bytes stored(file->header().max_stored_bytes), raw(entry.raw_bytes);
     const Result<bool> read = file->read_page_soon(1, stored, raw);
     had = read && *read;
@@ -144,33 +152,48 @@ TEST(PageFile, ReadsWhatTheSystemHasWithNoOtherCall) {
 }
 
 TEST(PageFile, ReadsWhatTheSystemHasSoonAfterItWasTold) {
-  for (const int errno_of_those : {EAGAIN, 0})
-    for (const int in_vain : {1, 2, 100}) {
-      const PageSoon page(in_vain, errno_of_those);
-      EXPECT_TRUE(page.had);
-      EXPECT_EQ(page.calls.looks, in_vain + 1);
-      EXPECT_EQ(page.calls.told, 1);
-      EXPECT_EQ(page.calls.told_offset, static_cast<off_t>(page.entry.offset));
-      EXPECT_EQ(page.calls.told_bytes, static_cast<off_t>(page.entry.stored_bytes));
-    }
+  for (const int errno_of_those : {EAGAIN, 0}) {
+    const PageSoon page(1, errno_of_those);
+    EXPECT_TRUE(page.had);
+    EXPECT_EQ(page.calls.looks, 2);
+    EXPECT_EQ(page.calls.told, 1);
+    EXPECT_EQ(page.calls.told_offset, static_cast<off_t>(page.entry.offset));
+    EXPECT_EQ(page.calls.told_bytes, static_cast<off_t>(page.entry.stored_bytes));
+  }
 }
 
-TEST(PageFile, DoesNotLookForEverForWhatTheSystemHasLate) {
+// However long a look takes: not as often as it likes, but as long.
+TEST(PageFile, DoesNotLookForLongForWhatTheSystemHasLate) {
   for (const int errno_of_those : {EAGAIN, 0}) {
-    const PageSoon page(1 << 20, errno_of_those);
+    const PageSoon page(1 << 20, errno_of_those, std::chrono::milliseconds(1));
     EXPECT_FALSE(page.had);
-    EXPECT_EQ(page.calls.looks, 257);
+    EXPECT_EQ(page.calls.looks, 2);
     EXPECT_EQ(page.calls.told, 1);
   }
 }
 
-TEST(PageFile, LooksOnceWhereTheSystemCannotTellOrFails) {
-  for (const int errno_of_those : {EOPNOTSUPP, EIO}) {
+TEST(PageFile, LooksOnceWhereTheSystemCannotTellOrFailsOrTheFileEnds) {
+  for (const int errno_of_those : {EOPNOTSUPP, EIO, ForgetfulCalls::kEnd}) {
     const PageSoon page(1 << 20, errno_of_those);
     EXPECT_FALSE(page.had);
     EXPECT_EQ(page.calls.looks, 1);
     EXPECT_EQ(page.calls.told, 0);
   }
+}
+
+TEST(FileHandle, LooksAgainAndAgainAsLongAsItMay) {
+  const TemporaryDirectory directory;
+  const SampleFile sample;
+  ASSERT_TRUE(sample.write(directory / "a.ptree"));
+  ForgetfulCalls calls;
+  calls.looks_in_vain = 100;
+  const FileHandle file =
+      FileHandle::open(calls, AT_FDCWD, (directory / "a.ptree").c_str(), O_RDONLY);
+  ASSERT_TRUE(file.is_open());
+  Bytes bytes(64);
+  EXPECT_TRUE(file.read_soon(0, bytes, std::chrono::minutes(10)));
+  EXPECT_EQ(calls.looks, 101);
+  EXPECT_EQ(calls.told, 1);
 }
 
 TEST(PageFile, ServesThreadsAtOnce) {
