@@ -62,6 +62,23 @@ TEST_P(MaskDamage, TakesNoPageOfNoise) {
   }
 }
 
+// Up to where a page's records end; nothing behind that is written.
+TEST_P(MaskDamage, DoesNotCareWhatTheFrameHeldBefore) {
+  for (std::uint32_t page = 0; page < pages_.size(); ++page) {
+    SampleFrame zeros(4096), ones(4096);
+    std::ranges::fill(zeros.bytes(), std::byte{0});
+    std::ranges::fill(ones.bytes(), std::byte{0xff});
+    ASSERT_TRUE(decode_mask_page(pages_.raw(page), pages_.facts(page), zeros.bytes()));
+    ASSERT_TRUE(decode_mask_page(pages_.raw(page), pages_.facts(page), ones.bytes()));
+    const auto [end, same_end] = std::ranges::mismatch(zeros.bytes(), ones.bytes());
+    EXPECT_GT(end - zeros.bytes().begin(), 0);
+    EXPECT_TRUE(
+        std::all_of(end, zeros.bytes().end(), [](std::byte b) { return b == std::byte{0}; }));
+    EXPECT_TRUE(std::all_of(same_end, ones.bytes().end(),
+                            [](std::byte b) { return b == std::byte{0xff}; }));
+  }
+}
+
 // What changed bits leave of a mask is refused or can be asked.
 TEST_P(MaskDamage, SurvivesAnyBit) {
   Noise noise(7);
