@@ -94,7 +94,7 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   if (request.may_wait) {
     if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
   } else {
-    const auto read = file_.read_page_soon(request.page, stored, raw);
+    const auto read = file_.read_page_soon(request.page, stored, raw, request.frame);
     if (!read) return read.error();
     if (!*read) return cache::Filled::kWouldWait;
   }

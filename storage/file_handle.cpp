@@ -11,6 +11,8 @@
 namespace planetree::storage {
 namespace {
 
+constexpr std::size_t kLineBytes = 64;  // of the processor's memory
+
 // Not by giving up the processor: whoever gets it may keep it for milliseconds.
 void pause_a_little() noexcept {
 #if defined(__SSE2__)
@@ -74,12 +76,16 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
 }
 
 bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
-                           std::chrono::microseconds most) const noexcept {
+                           std::chrono::microseconds most,
+                           std::span<const std::byte> soon_written) const noexcept {
   Look look = read_at_once(offset, out);
   if (look != Look::kNotYet) return look == Look::kAll;
   const auto end = std::chrono::steady_clock::now() + most;
   calls_->posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(out.size()),
                         POSIX_FADV_WILLNEED);
+  // Not by a function, which would be one of no effect to the compiler, and left out.
+  for (std::size_t at = 0; at < soon_written.size(); at += kLineBytes)
+    __builtin_prefetch(&soon_written[at], 1);
   do {
     pause_a_little();
     look = read_at_once(offset, out);

@@ -41,8 +41,10 @@ class FileHandle {
   /// and looked for them again and again for as long as `most`, without giving up the processor:
   /// for devices that answer sooner than a thread is put to sleep and woken. False where it takes
   /// longer, cannot be told, or fails: read_at() says why. `out` is lost then.
-  bool read_soon(std::uint64_t offset, std::span<std::byte> out,
-                 std::chrono::microseconds most) const noexcept;
+  ///
+  /// soon_written  what the caller writes next: brought near the processor while the device works.
+  bool read_soon(std::uint64_t offset, std::span<std::byte> out, std::chrono::microseconds most,
+                 std::span<const std::byte> soon_written = {}) const noexcept;
 
   /// Writes all of `bytes` at `offset`, through interruptions and short writes.
   /// what    is tried, as file_error() has it.

@@ -123,13 +123,14 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
 }
 
 Result<bool> PageFile::read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
-                                      std::span<std::byte> raw_out) const noexcept {
+                                      std::span<std::byte> raw_out,
+                                      std::span<const std::byte> soon_written) const noexcept {
   if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
     return checked.error();
   }
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (!file_.read_soon(entry.offset, stored, kSoon)) return false;
+  if (!file_.read_soon(entry.offset, stored, kSoon, soon_written)) return false;
   if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
     return unpacked.error();
   }
