@@ -2,7 +2,9 @@
 // usage: page_bench MODEL.ptree [Google Benchmark's flags]
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -13,48 +15,73 @@
 namespace planetree::bench {
 namespace {
 
+constexpr std::uint32_t kLeastPages = 10'000;
+
 struct alignas(octree::kSlotBytes) FrameSlot {
   std::byte bytes[octree::kSlotBytes];
 };
 
-// The pages of a file one after the other, and room for one.
+// Those of the tree, or of the mask.
+struct Pages {
+  std::uint32_t first, count;
+};
+
+// Pages of a file one after the other, to frames in turn, of which there are more than a processor
+// keeps near, as of a model's.
 class PageWalk {
  public:
-  explicit PageWalk(const storage::PageFile& file)
+  PageWalk(const storage::PageFile& file, const Pages& pages)
       : file_(file),
+        pages_(pages),
         stored_(file.header().max_stored_bytes),
         raw_(file.header().max_raw_bytes),
-        frame_(file.header().page_bytes / sizeof(FrameSlot)) {}
+        slots_(file.header().page_bytes / sizeof(FrameSlot) * kFrames) {}
 
-  void advance() { page_ = (page_ + 1) % file_.page_count(); }
+  void advance() { at_ = (at_ + 1) % (std::size_t{pages_.count} * kFrames); }
 
-  bool read() { return bool(file_.read_page(page_, stored_, {raw_.data(), entry().raw_bytes})); }
+  bool read() { return bool(file_.read_page(page(), stored_, {raw_.data(), entry().raw_bytes})); }
 
   bool decode() {
-    return bool(query::decode_frame(file_.header(), entry(), page_,
-                                    {raw_.data(), entry().raw_bytes},
-                                    std::as_writable_bytes(std::span(frame_))));
+    const std::size_t bytes = file_.header().page_bytes;
+    return bool(query::decode_frame(
+        file_.header(), entry(), page(), {raw_.data(), entry().raw_bytes},
+        std::as_writable_bytes(std::span(slots_)).subspan(at_ % kFrames * bytes, bytes)));
   }
 
  private:
-  const storage::PageEntry& entry() const { return file_.entries()[page_]; }
+  static constexpr std::size_t kFrames = 512;
+
+  std::uint32_t page() const {
+    return pages_.first + static_cast<std::uint32_t>(at_ % pages_.count);
+  }
+  const storage::PageEntry& entry() const { return file_.entries()[page()]; }
 
   const storage::PageFile& file_;
+  const Pages pages_;
   std::vector<std::byte> stored_, raw_;
-  std::vector<FrameSlot> frame_;
-  std::uint32_t page_ = 0;
+  std::vector<FrameSlot> slots_;
+  std::size_t at_ = 0;
 };
 
-void read_pages(benchmark::State& state, const storage::PageFile& file) {
-  PageWalk walk(file);
+// So that the system has them in memory.
+bool read_once(const storage::PageFile& file, const Pages& pages) {
+  PageWalk walk(file, pages);
+  for (std::uint32_t i = 0; i < pages.count; ++i, walk.advance())
+    if (!walk.read()) return false;
+  return true;
+}
+
+void read_pages(benchmark::State& state, const storage::PageFile& file, const Pages& pages) {
+  if (!read_once(file, pages)) return state.SkipWithError("a page cannot be read");
+  PageWalk walk(file, pages);
   for (auto _ : state) {
     if (!walk.read()) return state.SkipWithError("a page cannot be read");
     walk.advance();
   }
 }
 
-void bring_pages(benchmark::State& state, const storage::PageFile& file) {
-  PageWalk walk(file);
+void bring_pages(benchmark::State& state, const storage::PageFile& file, const Pages& pages) {
+  PageWalk walk(file, pages);
   for (auto _ : state) {
     if (!walk.read() || !walk.decode()) return state.SkipWithError("a page is damaged");
     walk.advance();
@@ -67,11 +94,19 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "page_bench: %s\n", file.error().text);
     return 1;
   }
-  const auto add = [&](const char* name, auto measure) {
-    benchmark::RegisterBenchmark(name, [&file, measure](auto& state) { measure(state, *file); });
+  // All pages as often as each other: they are not of one size.
+  const auto add = [&](const char* name, const Pages& pages, auto measure) {
+    if (pages.count == 0) return;
+    benchmark::RegisterBenchmark(name, [&file, pages, measure](auto& state) {
+      measure(state, *file, pages);
+    })->Iterations(pages.count * (1 + kLeastPages / pages.count));
   };
-  add("read and verify", read_pages);
-  add("read, verify and unpack", bring_pages);
+  const Pages tree{0, file->header().first_mask_page()};
+  const Pages mask{tree.count, file->page_count() - tree.count};
+  add("tree: read and verify", tree, read_pages);
+  add("tree: read, verify and unpack", tree, bring_pages);
+  add("mask: read and verify", mask, read_pages);
+  add("mask: read, verify and unpack", mask, bring_pages);
   int flags = argc - 1;
   benchmark::Initialize(&flags, argv + 1);
   benchmark::RunSpecifiedBenchmarks();
