@@ -295,7 +295,7 @@ int run(int count, char** arguments) {
               "status distance interval triangle ties sides paging; error/allowed, MiB at 32 MiB");
   bool good = true;
   for (const std::string& name : names) good &= check_mesh(folders, name);
-  std::printf(good ? "all answers are right\n" : "some answers are wrong\n");
+  std::printf(good ? "all answers are right\n" : "some answers are wrong, or meshes missing\n");
   return good ? 0 : 1;
 }
 
