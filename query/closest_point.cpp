@@ -165,7 +165,7 @@ class Asking {
     octree::ColourMap::Spot spot;
     std::optional<Standing> known = side_before();
     // Faces tell most sides near the surface, colours those of other places.
-    const bool looks_first = probe_.glances();
+    const bool looks_first = probe_.colours_told();
     if (!known && looks_first) known = side_at_a_look(spot);
     if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
     if (!known && !looks_first) known = side_at_a_look(spot);
@@ -190,7 +190,7 @@ class Asking {
     if (far_) return side_at_once(model_, placed_, look_at_colours(model_, placed_));
     if (!remember_) return {};
     spot = look_at_colours(model_, point_);
-    probe_.glances() = spot.winding != octree::ColourMap::kUnknown;
+    probe_.colours_told() = spot.winding != octree::ColourMap::kUnknown;
     return side_at_once(model_, point_, spot);
   }
 

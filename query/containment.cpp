@@ -38,8 +38,9 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   TouchLog* const log = probe.touches().begin_ask(ask.wait);
   const octree::ColourMap::Spot spot = look_at_colours(probe.model(), placed);
   // What most asks come to.
-  probe.glances() = spot.winding != octree::ColourMap::kUnknown;
-  if (probe.glances()) return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+  probe.colours_told() = spot.winding != octree::ColourMap::kUnknown;
+  if (probe.colours_told())
+    return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
   return find_containment(probe, query, ask, placed, spot, log);
 }
 

@@ -23,7 +23,7 @@ inline bool makes_sense_at_a_glance(const Ask& ask) noexcept {
 /// Computes nothing with doubles: the thread may round as it likes, and trap.
 inline Containment contains_at_a_glance(ProbeState& probe, const Vec3& query,
                                         const Ask& ask) noexcept {
-  if (!probe.glances() || !makes_sense_at_a_glance(ask)) return {};
+  if (!probe.colours_told() || !makes_sense_at_a_glance(ask)) return {};
   const int winding = probe.model().colours().glance(query.x, query.y, query.z);
   if (winding == octree::ColourMap::kUnknown) return {};
   probe.last_parts() = kSide;

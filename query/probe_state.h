@@ -52,7 +52,7 @@ class ProbeState {
   std::uint32_t& last_parts() noexcept { return last_parts_; }
 
   /// Whether the last look at the colours told a side, so that the next may.
-  bool& glances() noexcept { return glances_; }
+  bool& colours_told() noexcept { return colours_told_; }
   /// Whether the last side that came with a distance took a search of the mask.
   bool& searched_side() noexcept { return searched_side_; }
 
@@ -67,7 +67,7 @@ class ProbeState {
   SideMemory side_memory_;
   octree::NearestAnswer last_nearest_;
   std::uint32_t last_parts_ = kAllParts;
-  bool glances_ = true;
+  bool colours_told_ = true;
   bool searched_side_ = false;
   std::unique_ptr<BatchOrder> batch_order_;
 };
