@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/child_box.h"
 #include "octree/frame.h"
 #include "octree/triangle_distance.h"
 
@@ -67,21 +68,15 @@ struct FloatQuery {
 
 /// No surface point in a box is farther than this from a query, which is relative to the
 /// model's centre as the box is.
-inline double farthest_in_box(const std::array<float, 3>& lower, const std::array<float, 3>& upper,
-                              const Point& query) {
+inline double farthest_in_box(const FloatBox& box, const Point& query) {
   double squared = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double at = query[axis];
-    const double farther = std::max(std::fabs(at - static_cast<double>(lower[axis])),
-                                    std::fabs(at - static_cast<double>(upper[axis])));
+    const double farther = std::max(std::fabs(at - static_cast<double>(box.lower[axis])),
+                                    std::fabs(at - static_cast<double>(box.upper[axis])));
     squared += farther * farther;
   }
   return std::sqrt(squared) * (1 + 0x1p-40) + kAbsoluteSlack;
-}
-/// The same of a child's box.
-inline double farthest_in_box(const Node& node, unsigned child, const Point& query) {
-  return farthest_in_box({node.lower[0][child], node.lower[1][child], node.lower[2][child]},
-                         {node.upper[0][child], node.upper[1][child], node.upper[2][child]}, query);
 }
 
 /// Rounds up to float; at least the least normal float, so that squares which

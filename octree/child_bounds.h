@@ -1,65 +1,44 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
+#include "octree/float_box.h"
 #include "octree/plane.h"
 
-/// What a node knows of one child, as stored: a box in 256ths of the node's
+/// What a node knows of one child, as stored: a box in 255ths of the node's
 /// own decoded box, and the bounding planes relative to the child's decoded
 /// box. Decoding is the one truth that builder, reader and verifier share.
 namespace planetree::octree {
 
-/// An axis-aligned box relative to the model's centre.
-struct FloatBox {
-  std::array<float, 3> lower{};
-  std::array<float, 3> upper{};
-
-  std::array<float, 3> centre() const {
-    return {(lower[0] + upper[0]) * 0.5f, (lower[1] + upper[1]) * 0.5f,
-            (lower[2] + upper[2]) * 0.5f};
-  }
-  float plane_step() const {
-    return octree::plane_step(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
-  }
-  bool holds(const FloatBox& other) const {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(lower[axis] <= other.lower[axis] && other.upper[axis] <= upper[axis])) return false;
-    return true;
-  }
-  float diagonal_squared() const {
-    const float dx = upper[0] - lower[0], dy = upper[1] - lower[1], dz = upper[2] - lower[2];
-    return dx * dx + dy * dy + dz * dz;
-  }
-};
-
 struct PackedChild {
-  std::array<std::uint8_t, 3> lower{};
-  std::array<std::uint8_t, 3> upper{};
+  std::array<std::uint8_t, 3> lower{};  ///< steps from the node's lower sides
+  std::array<std::uint8_t, 3> upper{};  ///< from its upper ones, back
   PackedNormal normal;
   std::int16_t slab_lower = 0;
   std::int16_t slab_upper = 0;
   std::uint16_t radius = 0;
 };
 
-/// Coordinate `steps` 255ths of the way from `lower` to `upper`, never beyond.
-inline float unpack_coordinate(float lower, float upper, std::uint8_t steps) {
-  const float step = (upper - lower) * (1.0f / 255.0f);
-  return std::min(lower + static_cast<float>(steps) * step, upper);
-}
+/// Steps from one side of a box to the other; a child's two counts have no more together.
+inline constexpr int kBoxSteps = 255;
 
-inline FloatBox unpack_box(const FloatBox& parent, const PackedChild& child) {
+/// What the sides of a box's children are counted in, along one axis.
+inline float box_step(float lower, float upper) { return (upper - lower) * (1.0f / kBoxSteps); }
+
+/// The box of a child whose sides are so many steps within its parent's.
+inline FloatBox unpack_box(const FloatBox& parent, const std::array<std::uint8_t, 3>& lower,
+                           const std::array<std::uint8_t, 3>& upper) {
   FloatBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = unpack_coordinate(parent.lower[axis], parent.upper[axis], child.lower[axis]);
-    // 255 means the parent's own side: 255 steps may round below it.
-    box.upper[axis] =
-        child.upper[axis] == 255
-            ? parent.upper[axis]
-            : unpack_coordinate(parent.lower[axis], parent.upper[axis], child.upper[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float step = box_step(parent.lower[axis], parent.upper[axis]);
+    box.lower[axis] = parent.lower[axis] + static_cast<float>(lower[axis]) * step;
+    box.upper[axis] = parent.upper[axis] - static_cast<float>(upper[axis]) * step;
   }
   return box;
+}
+inline FloatBox unpack_box(const FloatBox& parent, const PackedChild& child) {
+  return unpack_box(parent, child.lower, child.upper);
 }
 
 /// A decoded slab with its tangential extent, about the centre of its box.

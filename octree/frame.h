@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "octree/float_box.h"
+
 /// The serving layout: what a decoded page looks like in its frame. Nothing
 /// here is ever stored; format-spec/v1/spec.md, "Distance page", states what is.
 ///
 ///   slot 0            FrameHeader
 ///   slot 1 ...        block starts, one bit a slot
-///   first node slot   nodes, 7 slots each, subtree roots first, then breadth first; 9 where
+///   first node slot   nodes, 5 slots each, subtree roots first, then breadth first; 7 where
 ///                     each is followed by its moments (octree/moments.h)
 ///   ...               blocks, in the order their parents name them
 ///
@@ -41,24 +43,27 @@ static_assert(sizeof(FrameHeader) == kSlotBytes);
 
 /// Up to eight children, field by field, so that one vector holds one field of
 /// all of them. Boxes and planes are relative to the model's centre. The first
-/// four lines answer near queries; the last three, the discs, are read only
+/// two lines answer near queries; the last three, the discs, are read only
 /// where they can pay (see octree/bounds.h).
 struct alignas(kSlotBytes) Node {
-  float lower[3][kFanOut];  ///< box; unused children are +infinity
-  float upper[3][kFanOut];
-  std::uint32_t link[kFanOut];
+  FloatBox box;              ///< its own, of which its children's are parts
+  float step[3];             ///< that their sides are counted in: box_step()
   float gate;                ///< discs pay where this node's own bound^2 is larger
   std::uint8_t child_count;  ///< 1 to 8
   std::uint8_t height;       ///< nodes below and including this one on the longest path
-  std::uint8_t reserved[26];
+  std::uint8_t reserved[6];
+  std::uint8_t lower[3][kFanOut];  ///< as in PackedChild; of unused children 0
+  std::uint8_t upper[3][kFanOut];
+  std::uint32_t link[kFanOut];
   float normal[3][kFanOut];   ///< of the slab; unit to a few ulps
   float slab_lower[kFanOut];  ///< normal . (x - box centre) of all surface points x
   float slab_upper[kFanOut];
   float radius[kFanOut];  ///< greatest distance of a surface point from the slab's axis
 };
-static_assert(sizeof(Node) == 7 * kSlotBytes);
-static_assert(offsetof(Node, normal) == 4 * kSlotBytes);
+static_assert(sizeof(Node) == 5 * kSlotBytes);
+static_assert(offsetof(Node, normal) == 2 * kSlotBytes);
 inline constexpr unsigned kNodeSlots = sizeof(Node) / kSlotBytes;
+inline constexpr unsigned kNearNodeSlots = offsetof(Node, normal) / kSlotBytes;  ///< no discs
 inline constexpr unsigned kMomentSlots = 2;
 
 /// Head of a triangle block. Behind it, each array on a slot of its own:

@@ -77,8 +77,9 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
                                            std::size_t child) const {
   double gap2 = 0, extent2 = 0;
   Point way;
+  const FloatBox box = child_box(node, child);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const float low = node.lower[axis][child], high = node.upper[axis][child];
+    const float low = box.lower[axis], high = box.upper[axis];
     const double lower = static_cast<double>(low), upper = static_cast<double>(high);
     const auto i = static_cast<Eigen::Index>(axis);
     const double middle = static_cast<double>((low + high) * 0.5f);

@@ -22,9 +22,10 @@ class NearbySubtrees {
   bool has_room() const { return size_ + kFanOut <= kMost; }
   /// A child of a node, while there is room.
   void add(const Node& node, unsigned child) {
+    const FloatBox box = child_box(node, child);
     for (unsigned axis = 0; axis < 3; ++axis) {
-      lower_[axis][size_] = node.lower[axis][child];
-      upper_[axis][size_] = node.upper[axis][child];
+      lower_[axis][size_] = box.lower[axis];
+      upper_[axis][size_] = box.upper[axis];
     }
     link_[size_++] = node.link[child];
   }
@@ -43,8 +44,9 @@ class NearbySubtrees {
   std::uint32_t link(std::size_t i) const { return link_[i]; }
   /// No surface point in one is farther from a query than this; see farthest_in_box().
   double farthest(std::size_t i, const Point& query) const {
-    return farthest_in_box({lower_[0][i], lower_[1][i], lower_[2][i]},
-                           {upper_[0][i], upper_[1][i], upper_[2][i]}, query);
+    return farthest_in_box(
+        {{lower_[0][i], lower_[1][i], lower_[2][i]}, {upper_[0][i], upper_[1][i], upper_[2][i]}},
+        query);
   }
   /// A side of each box; up to the next multiple of sixteen there are numbers, of no meaning.
   const float* lower(std::size_t axis) const { return lower_[axis]; }

@@ -120,8 +120,8 @@ class Descent {
     if (entry.from == RecordFinder::kNoPage) return leave_out_listed(entry.link);
     const RecordFinder::Child child = records_.find_parent(entry.link, entry.from);
     if (!child.node) return;
-    left_out_.within = std::min(left_out_.within,
-                                farthest_in_box(*child.node, child.place, query_ - tree_.centre));
+    const FloatBox box = child_box(*child.node, child.place);
+    left_out_.within = std::min(left_out_.within, farthest_in_box(box, query_ - tree_.centre));
   }
 
   // A subtree that a ball holds; or the root, of whose box nothing is said here.
@@ -150,6 +150,7 @@ class Descent {
       for (unsigned i = 0; i < std::min(near, kPrefetched); ++i)
         records_.prefetch<kNodeSlots>(group.link[i]);
     } else {
+      if (near > 0) records_.prefetch(node.link[children.child()]);
       for (unsigned i = 1; i < std::min(near, kPrefetched); ++i) records_.prefetch(group.link[i]);
     }
     const bool at_once = !far && near > 0;

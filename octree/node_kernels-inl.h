@@ -14,7 +14,7 @@
 #include <limits>
 
 #include "octree/bounds.h"
-#include "octree/child_bounds.h"
+#include "octree/child_sides-inl.h"
 #include "octree/frontier.h"
 #include "octree/wide_floats-inl.h"
 
@@ -26,10 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Squared lower bounds of a node's children from `i` on, see octree/bounds.h.
 HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std::size_t i) {
   const FloatTag d;
-  const Wide3 lower{hn::Load(d, node.lower[0] + i), hn::Load(d, node.lower[1] + i),
-                    hn::Load(d, node.lower[2] + i)};
-  const Wide3 upper{hn::Load(d, node.upper[0] + i), hn::Load(d, node.upper[1] + i),
-                    hn::Load(d, node.upper[2] + i)};
+  const Wide3 lower{lower_sides(node, 0, i), lower_sides(node, 1, i), lower_sides(node, 2, i)};
+  const Wide3 upper{upper_sides(node, 0, i), upper_sides(node, 1, i), upper_sides(node, 2, i)};
   const Wide3 gap{outside(lower.x, upper.x, p.x), outside(lower.y, upper.y, p.y),
                   outside(lower.z, upper.z, p.z)};
   const Floats bound = dot(gap, gap);
@@ -59,10 +57,8 @@ HWY_INLINE unsigned meeting_children(const Node& node, const FloatBox& box) {
     auto apart = hn::FirstN(d, 0);
 #pragma GCC unroll 3
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto lower = hn::Load(d, node.lower[axis] + i);
-      const auto upper = hn::Load(d, node.upper[axis] + i);
-      apart = hn::Or(apart, hn::Gt(lower, hn::Set(d, box.upper[axis])));
-      apart = hn::Or(apart, hn::Lt(upper, hn::Set(d, box.lower[axis])));
+      apart = hn::Or(apart, hn::Gt(lower_sides(node, axis, i), hn::Set(d, box.upper[axis])));
+      apart = hn::Or(apart, hn::Lt(upper_sides(node, axis, i), hn::Set(d, box.lower[axis])));
     }
     found |= mask_bits(d, hn::Not(apart)) << i;
   }

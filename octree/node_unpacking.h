@@ -6,18 +6,17 @@
 #include "octree/child_bounds.h"
 #include "octree/frame.h"
 
-/// A node's children as stored, unpacked all at once where the processor can. The same bits on
-/// every instruction set, and as unpack_box() and unpack_disc() have them.
+/// The discs of a node's children, unpacked all at once where the processor can. The same bits on
+/// every instruction set, and as unpack_disc() has them.
 namespace planetree::octree {
 
-/// Of the children of one node side by side, 0 past the last.
-struct PackedChildren {
+/// As stored, of the children of one node side by side, 0 past the last.
+struct PackedDiscs {
   using Bytes = std::array<std::uint8_t, kFanOut>;
   struct Words {
     Bytes low{}, high{};
   };
 
-  std::array<Bytes, 6> box{};    ///< lower x y z, upper x y z
   Words u, v;                    ///< of normals; i16
   Words slab_lower, slab_upper;  ///< i16
   Words radius;                  ///< u16
@@ -29,11 +28,8 @@ struct ChildFaults {
   bool crossed = false;  ///< one's planes have
 };
 
-/// Writes the boxes and discs of `node`. Those of absent children are at infinity, so that no
-/// query ever comes near them.
-///
-/// box  of the node; its diagonal is finite.
-ChildFaults unpack_children(const PackedChildren& packed, unsigned count, const FloatBox& box,
-                            Node& node) noexcept;
+/// Writes the discs of `node`, which has its box, the step, and what is counted in it of the
+/// children's boxes.
+ChildFaults unpack_discs(const PackedDiscs& packed, unsigned count, Node& node) noexcept;
 
 }  // namespace planetree::octree

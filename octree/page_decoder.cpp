@@ -6,9 +6,8 @@
 #include <limits>
 
 #include "octree/block_decoder.h"
-#include "octree/child_bounds.h"
+#include "octree/child_box.h"
 #include "octree/moments.h"
-#include "octree/node_store.h"
 #include "octree/node_unpacking.h"
 #include "octree/raw_streams.h"
 #include "octree/strict_math.h"
@@ -45,8 +44,9 @@ class PageDecoder {
   void write_header();
   const char* decode_nodes();
   const char* decode_node(std::size_t index);
-  void copy_children(const std::byte* plane, std::size_t count, PackedChildren::Bytes& bytes) const;
-  const char* decode_bounds(Node& node, std::size_t count, const FloatBox& box) const;
+  template <class Bytes>
+  void copy_children(const std::byte* plane, std::size_t count, Bytes& bytes) const;
+  const char* decode_bounds(Node& node, std::size_t count) const;
   const char* decode_child(Node& node, std::size_t child, ChildKind kind);
   const char* decode_moments(Node& node, std::size_t child);
   const char* link_to_node(Node& node, std::size_t child);
@@ -120,7 +120,7 @@ const char* PageDecoder::decode_nodes() {
           box.lower[axis] > box.upper[axis])
         return "a subtree's box is not a box";
     }
-    stage_box(*node(i), box);
+    node(i)->box = box;
   }
   for (std::size_t i = 0; i < head.node_count; ++i) {
     if (i >= next_node_) return "a node has no parent";
@@ -134,16 +134,16 @@ const char* PageDecoder::decode_nodes() {
 
 const char* PageDecoder::decode_node(std::size_t index) {
   Node& target = *node(index);
-  const FloatBox box = staged_box(target);
   const std::size_t count = streams_.child_counts[index];
   if (count == 0 || count > kFanOut) return "a node's child count is out of range";
   if (count > streams_.head.child_count - next_child_) return "its children do not add up";
   const std::uint8_t height = streams_.heights[index];
   if (height == 0 || height > kMaxHeight) return "a node's height is out of range";
-  const float gate = box.diagonal_squared() * (1.0f / 64.0f);
+  const float gate = target.box.diagonal_squared() * (1.0f / 64.0f);
   if (!std::isfinite(gate)) return "a node's box is too large";
-  if (const char* fault = decode_bounds(target, count, box)) return fault;
-  clear_links(target);
+  if (const char* fault = decode_bounds(target, count)) return fault;
+  std::memset(target.link, 0, sizeof target.link);
+  std::memset(target.reserved, 0, sizeof target.reserved);
   if (facts_.shape.moments) std::memset(static_cast<void*>(&target + 1), 0, sizeof(NodeMoments));
   target.child_count = static_cast<std::uint8_t>(count);
   target.height = height;
@@ -158,22 +158,26 @@ const char* PageDecoder::decode_node(std::size_t index) {
 }
 
 // The bytes of a plane that are of the next children.
-void PageDecoder::copy_children(const std::byte* plane, std::size_t count,
-                                PackedChildren::Bytes& bytes) const {
+template <class Bytes>
+void PageDecoder::copy_children(const std::byte* plane, std::size_t count, Bytes& bytes) const {
+  static_assert(sizeof bytes == kFanOut);
   if (next_child_ + kFanOut <= streams_.head.child_count)
-    std::memcpy(bytes.data(), plane + next_child_, kFanOut);
+    std::memcpy(std::data(bytes), plane + next_child_, kFanOut);
   else
-    std::memcpy(bytes.data(), plane + next_child_, count);
-  if (count < kFanOut) std::fill(bytes.begin() + count, bytes.end(), std::uint8_t{0});
+    std::memcpy(std::data(bytes), plane + next_child_, count);
+  if (count < kFanOut) std::fill(std::begin(bytes) + count, std::end(bytes), std::uint8_t{0});
 }
 
-const char* PageDecoder::decode_bounds(Node& parent, std::size_t count, const FloatBox& box) const {
+const char* PageDecoder::decode_bounds(Node& parent, std::size_t count) const {
   const std::size_t all = streams_.head.child_count;
-  PackedChildren packed;
-  for (std::size_t plane = 0; plane < packed.box.size(); ++plane)
-    copy_children(streams_.child_boxes.bytes() + plane * all, count, packed.box[plane]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    parent.step[axis] = box_step(parent.box.lower[axis], parent.box.upper[axis]);
+    copy_children(streams_.child_boxes.bytes() + axis * all, count, parent.lower[axis]);
+    copy_children(streams_.child_boxes.bytes() + (3 + axis) * all, count, parent.upper[axis]);
+  }
+  PackedDiscs packed;
   // All words of the first plane, then of the others; low bytes, then high ones.
-  const auto copy_words = [&](const auto& stream, std::size_t plane, PackedChildren::Words& words) {
+  const auto copy_words = [&](const auto& stream, std::size_t plane, PackedDiscs::Words& words) {
     const std::byte* bytes = stream.bytes() + plane * all;
     copy_children(bytes, count, words.low);
     copy_children(bytes + stream.size(), count, words.high);
@@ -183,7 +187,7 @@ const char* PageDecoder::decode_bounds(Node& parent, std::size_t count, const Fl
   copy_words(streams_.child_slabs, 0, packed.slab_lower);
   copy_words(streams_.child_slabs, 1, packed.slab_upper);
   copy_words(streams_.child_radii, 0, packed.radius);
-  const ChildFaults faults = unpack_children(packed, static_cast<unsigned>(count), box, parent);
+  const ChildFaults faults = unpack_discs(packed, static_cast<unsigned>(count), parent);
   if (faults.no_box) return "a child's box is not a box";
   if (faults.crossed) return "a child's planes are crossed";
   return nullptr;
@@ -228,7 +232,7 @@ const char* PageDecoder::link_to_node(Node& parent, std::size_t child) {
   if (streams_.heights[next_node_] >= parent.height) return "a node is higher than its parent";
   const std::size_t slot = node_slot(next_node_);
   parent.link[child] = links_.make(false, facts_.page_number, static_cast<std::uint32_t>(slot));
-  stage_box(*node(next_node_), child_box(parent, child));
+  node(next_node_)->box = child_box(parent, child);
   ++next_node_;
   return nullptr;
 }

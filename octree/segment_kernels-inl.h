@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "octree/child_sides-inl.h"
 #include "octree/corner_codes-inl.h"
 #include "octree/float_segment.h"
 #include "octree/frame.h"
@@ -26,10 +27,8 @@ HWY_INLINE unsigned children_met(const Node& node, const FloatSegment& segment) 
   const FloatTag d;
   unsigned found = 0;
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
-    const Floats first =
-        hn::Max(hn::Load(d, node.lower[segment.axis] + i), hn::Set(d, segment.lower));
-    const Floats last =
-        hn::Min(hn::Load(d, node.upper[segment.axis] + i), hn::Set(d, segment.upper));
+    const Floats first = hn::Max(lower_sides(node, segment.axis, i), hn::Set(d, segment.lower));
+    const Floats last = hn::Min(upper_sides(node, segment.axis, i), hn::Set(d, segment.upper));
     auto apart = hn::Gt(first, last);
 #pragma GCC unroll 2
     for (const FloatSegment::Aside& aside : segment.aside) {
@@ -37,8 +36,8 @@ HWY_INLINE unsigned children_met(const Node& node, const FloatSegment& segment) 
       const Floats a = hn::Mul(slope, first), b = hn::Mul(slope, last);
       const Floats least = hn::Add(hn::Min(a, b), hn::Set(d, aside.least));
       const Floats most = hn::Add(hn::Max(a, b), hn::Set(d, aside.most));
-      apart = hn::Or(apart, hn::Gt(hn::Load(d, node.lower[aside.axis] + i), most));
-      apart = hn::Or(apart, hn::Lt(hn::Load(d, node.upper[aside.axis] + i), least));
+      apart = hn::Or(apart, hn::Gt(lower_sides(node, aside.axis, i), most));
+      apart = hn::Or(apart, hn::Lt(upper_sides(node, aside.axis, i), least));
     }
     found |= mask_bits(d, hn::Not(apart)) << i;
   }

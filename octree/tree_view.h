@@ -88,25 +88,35 @@ class RecordFinder {
     return {};
   }
 
-  /// Asks for the record's first cache lines, as far as it is in memory. No answer depends
-  /// on it.
-  template <std::size_t kLines = 4>
-  void prefetch(std::uint32_t link) const {
+  /// Asks for the record's first cache lines, as far as it is in memory: of a node those that near
+  /// queries look at, unless other numbers are asked for. No answer depends on it.
+  template <std::size_t kNodeLines = kNearNodeSlots, std::size_t kBlockLines = 4>
+  [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
     const std::uint32_t page = links_.page(link);
     const std::byte* frame = page == page_number_ ? frame_
                              : pages_.peek        ? pages_.peek(pages_.context, page)
                                                   : nullptr;
     if (!frame) return;
     const std::uint32_t slot = links_.slot(link);
-    // What says that a block starts there.
-    if (LinkFormat::is_leaf(link)) __builtin_prefetch(frame + kSlotBytes + slot / 64 * 8);
     const std::byte* record = frame + slot * kSlotBytes;
+    if (LinkFormat::is_leaf(link)) {
+      // What says that a block starts there.
+      __builtin_prefetch(frame + kSlotBytes + slot / 64 * 8);
+      prefetch_lines<kBlockLines>(record);
+    } else {
+      prefetch_lines<kNodeLines>(record);
+    }
+  }
+
+ private:
+  // Inline: the compiler leaves out calls of functions that have no effect it knows of.
+  template <std::size_t kLines>
+  [[gnu::always_inline]] static void prefetch_lines(const std::byte* record) {
 #pragma GCC unroll 8
     for (std::size_t line = 0; line < kLines; ++line)
       __builtin_prefetch(record + line * kSlotBytes);
   }
 
- private:
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
     if (LinkFormat::is_leaf(link)) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "octree/block_view.h"
-#include "octree/child_bounds.h"
+#include "octree/child_box.h"
 #include "octree/frame.h"
 #include "octree/moments.h"
 
@@ -55,15 +55,6 @@ class FrameView {
   const std::byte* frame_;
   octree::BlockShape shape_;
 };
-
-inline octree::FloatBox child_box(const octree::Node& node, unsigned child) {
-  octree::FloatBox box;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = node.lower[axis][child];
-    box.upper[axis] = node.upper[axis][child];
-  }
-  return box;
-}
 
 inline octree::Disc child_disc(const octree::Node& node, unsigned child) {
   return {{node.normal[0][child], node.normal[1][child], node.normal[2][child]},

@@ -82,26 +82,25 @@ class Openings {
   std::vector<std::array<float, kMostShare>> least_;  // of surface, by share
 };
 
-// The least steps from a side of the parent that decode to a box around the
-// true one.
+// The most steps, counted by `at`, that do not go beyond the true side, of at most `most`.
+template <class Holds>
+std::uint8_t most_steps(float distance, float step, int most, const Holds& holds) {
+  const float guess = step > 0 ? distance / step : 0.0f;
+  int steps = std::min(static_cast<int>(std::clamp(guess, 0.0f, 254.0f)) + 1, most);
+  while (steps > 0 && !holds(static_cast<float>(steps) * step)) --steps;
+  return static_cast<std::uint8_t>(steps);
+}
+
+// The most steps from the sides of the parent that decode to a box around the true one.
 void pack_box(const FloatBox& parent, WideChild& child) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float low = parent.lower[axis], high = parent.upper[axis];
-    const float step = (high - low) * (1.0f / 255.0f);
-    const auto guess = [&](float value) {
-      const float steps = step > 0 ? (value - low) / step : 0.0f;
-      return static_cast<int>(std::clamp(steps, 0.0f, 255.0f));
-    };
-    int lower = std::min(guess(child.true_box.lower[axis]) + 1, 254);
-    while (lower > 0 && unpack_coordinate(low, high, static_cast<std::uint8_t>(lower)) >
-                            child.true_box.lower[axis])
-      --lower;
-    int upper = std::max(guess(child.true_box.upper[axis]) - 1, lower);
-    while (upper < 255 && unpack_coordinate(low, high, static_cast<std::uint8_t>(upper)) <
-                              child.true_box.upper[axis])
-      ++upper;
-    child.packed.lower[axis] = static_cast<std::uint8_t>(lower);
-    child.packed.upper[axis] = static_cast<std::uint8_t>(upper);
+    const float lower = child.true_box.lower[axis], upper = child.true_box.upper[axis];
+    const float step = box_step(low, high);
+    child.packed.lower[axis] =
+        most_steps(lower - low, step, kBoxSteps - 1, [&](float way) { return low + way <= lower; });
+    child.packed.upper[axis] = most_steps(high - upper, step, kBoxSteps - child.packed.lower[axis],
+                                          [&](float way) { return high - way >= upper; });
   }
   child.box = unpack_box(parent, child.packed);
 }

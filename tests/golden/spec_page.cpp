@@ -90,7 +90,7 @@ class PageReader {
   void place_records() {
     const std::uint32_t slots = header_.page_bytes / 64;
     std::uint32_t slot = 1 + (header_.page_bytes + 32767) / 32768;
-    for (std::size_t i = 0; i < head_.nodes; ++i, slot += header_.open ? 9 : 7)
+    for (std::size_t i = 0; i < head_.nodes; ++i, slot += header_.open ? 7 : 5)
       node_links_.push_back(number_ * slots + slot);
     for (std::size_t j = 0; j < head_.blocks; ++j) {
       block_links_.push_back(0x80000000 | (number_ * slots + slot));
@@ -235,9 +235,8 @@ SpecBox decode_box(const SpecBox& parent, const std::array<std::uint8_t, 3>& low
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float low = parent.lower[axis], high = parent.upper[axis];
     const float step = (high - low) * (1.0f / 255);
-    box.lower[axis] = std::min(low + static_cast<float>(lower[axis]) * step, high);
-    box.upper[axis] = std::min(low + static_cast<float>(upper[axis]) * step, high);
-    if (upper[axis] == 255) box.upper[axis] = high;
+    box.lower[axis] = low + static_cast<float>(lower[axis]) * step;
+    box.upper[axis] = high - static_cast<float>(upper[axis]) * step;
   }
   return box;
 }

@@ -64,10 +64,9 @@ TEST(PackedChild, DecodesToBoxesInsideTheParents) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double low = noise.uniform(-1, 1);
       parent.lower[axis] = static_cast<float>(low);
-      parent.upper[axis] = static_cast<float>(low + noise.uniform(0, 1e-3));
-      child.lower[axis] = static_cast<std::uint8_t>(noise.bits() % 256);
-      child.upper[axis] =
-          static_cast<std::uint8_t>(child.lower[axis] + noise.bits() % (256u - child.lower[axis]));
+      parent.upper[axis] = static_cast<float>(low + noise.uniform(1e-5, 1e-3));
+      child.lower[axis] = static_cast<std::uint8_t>(noise.bits() % kBoxSteps);
+      child.upper[axis] = static_cast<std::uint8_t>(noise.bits() % (kBoxSteps - child.lower[axis]));
     }
     const FloatBox box = unpack_box(parent, child);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -78,13 +77,21 @@ TEST(PackedChild, DecodesToBoxesInsideTheParents) {
   }
 }
 
-TEST(PackedChild, OfAllStepsIsTheParentItself) {
+TEST(PackedChild, OfNoStepsIsTheParentItself) {
   const FloatBox parent{{-0.1f, 0.3f, 1e-7f}, {0.7f, 0.9f, 3e-7f}};
-  PackedChild child;
-  child.upper = {255, 255, 255};
-  const FloatBox box = unpack_box(parent, child);
+  const FloatBox box = unpack_box(parent, PackedChild{});
   EXPECT_EQ(box.lower, parent.lower);
   EXPECT_EQ(box.upper, parent.upper);
+}
+
+TEST(PackedChild, CountsStepsFromBothSides) {
+  const FloatBox parent{{0, -255, 510}, {255, 255, 765}};
+  PackedChild child;
+  child.lower = {1, 2, 3};
+  child.upper = {10, 20, 30};
+  const FloatBox box = unpack_box(parent, child);
+  EXPECT_EQ(box.lower, (std::array<float, 3>{1, -251, 513}));
+  EXPECT_EQ(box.upper, (std::array<float, 3>{245, 215, 735}));
 }
 
 TEST(Disc, CountsOffsetsInStepsOfTheBox) {

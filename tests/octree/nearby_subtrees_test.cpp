@@ -13,8 +13,8 @@ namespace {
 Node parent_of(float x, std::uint32_t link) {
   Node node{};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    node.lower[axis][3] = x;
-    node.upper[axis][3] = x + 1;
+    node.box.lower[axis] = x;
+    node.box.upper[axis] = x + 1;
   }
   node.link[3] = link;
   return node;

@@ -6,30 +6,39 @@
 #include <cstring>
 #include <random>
 
-#include "octree/node_store.h"
+#include "octree/child_box.h"
 #include "tests/octree/each_target.h"
 
 namespace planetree::octree {
 namespace {
 
-void put(PackedChildren::Words& words, std::size_t child, std::uint16_t word) {
+void put(PackedDiscs::Words& words, std::size_t child, std::uint16_t word) {
   words.low[child] = static_cast<std::uint8_t>(word);
   words.high[child] = static_cast<std::uint8_t>(word >> 8);
 }
 
-void put(PackedChildren& children, std::size_t child, const PackedChild& packed) {
+// A child of a node whose other streams are in `discs`.
+void put(Node& node, PackedDiscs& discs, std::size_t child, const PackedChild& packed) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    children.box[axis][child] = packed.lower[axis];
-    children.box[3 + axis][child] = packed.upper[axis];
+    node.lower[axis][child] = packed.lower[axis];
+    node.upper[axis][child] = packed.upper[axis];
   }
-  put(children.u, child, static_cast<std::uint16_t>(packed.normal.u));
-  put(children.v, child, static_cast<std::uint16_t>(packed.normal.v));
-  put(children.slab_lower, child, static_cast<std::uint16_t>(packed.slab_lower));
-  put(children.slab_upper, child, static_cast<std::uint16_t>(packed.slab_upper));
-  put(children.radius, child, packed.radius);
+  put(discs.u, child, static_cast<std::uint16_t>(packed.normal.u));
+  put(discs.v, child, static_cast<std::uint16_t>(packed.normal.v));
+  put(discs.slab_lower, child, static_cast<std::uint16_t>(packed.slab_lower));
+  put(discs.slab_upper, child, static_cast<std::uint16_t>(packed.slab_upper));
+  put(discs.radius, child, packed.radius);
 }
 
-class UnpackChildren : public testing::Test {
+Node node_of(const FloatBox& box) {
+  Node node{};
+  node.box = box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    node.step[axis] = box_step(box.lower[axis], box.upper[axis]);
+  return node;
+}
+
+class UnpackDiscs : public testing::Test {
  protected:
   // Often at the ends of ranges.
   std::uint16_t word() {
@@ -44,7 +53,7 @@ class UnpackChildren : public testing::Test {
       const auto a = static_cast<std::uint8_t>(random_() % 4 == 0 ? 0 : random_());
       const auto b = static_cast<std::uint8_t>(random_() % 4 == 0 ? 255 : random_());
       packed.lower[axis] = std::min(a, b);
-      packed.upper[axis] = std::max(a, b);
+      packed.upper[axis] = static_cast<std::uint8_t>(kBoxSteps - std::max(a, b));
     }
     packed.normal = {static_cast<std::int16_t>(word()), static_cast<std::int16_t>(word())};
     const auto a = static_cast<std::int16_t>(word()), b = static_cast<std::int16_t>(word());
@@ -68,22 +77,25 @@ class UnpackChildren : public testing::Test {
   std::mt19937_64 random_{1};
 };
 
-// As one child by itself, to the last bit, on every instruction set; and no other is near.
-TEST_F(UnpackChildren, HasTheBitsOfEachUnpackedByItself) {
+// As one child by itself, to the last bit, on every instruction set.
+TEST_F(UnpackDiscs, HasTheBitsOfEachUnpackedByItself) {
   for (int round = 0; round < 2000; ++round) {
     const unsigned count = 1 + static_cast<unsigned>(random_() % kFanOut);
     const FloatBox parent = box();
-    PackedChildren children;
-    Node expected{};
+    const Node start = node_of(parent);
+    Node expected = start, packed_node = start;
+    PackedDiscs discs;
     for (unsigned i = 0; i < kFanOut; ++i) {
       const bool there = i < count;
       const PackedChild packed = there ? child() : PackedChild{};
-      if (there) put(children, i, packed);
+      if (there) put(packed_node, discs, i, packed);
       const FloatBox own = unpack_box(parent, packed);
+      EXPECT_EQ(child_box(packed_node, i).lower, own.lower);
+      EXPECT_EQ(child_box(packed_node, i).upper, own.upper);
       const Disc disc = there ? unpack_disc(own, packed) : Disc{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        expected.lower[axis][i] = there ? own.lower[axis] : INFINITY;
-        expected.upper[axis][i] = there ? own.upper[axis] : INFINITY;
+        expected.lower[axis][i] = packed.lower[axis];
+        expected.upper[axis][i] = packed.upper[axis];
         expected.normal[axis][i] = disc.normal[axis];
       }
       expected.slab_lower[i] = disc.slab_lower;
@@ -91,42 +103,35 @@ TEST_F(UnpackChildren, HasTheBitsOfEachUnpackedByItself) {
       expected.radius[i] = disc.radius;
     }
     for (const Node& node : on_each_target([&] {
-           Node node{};
-           const ChildFaults faults = unpack_children(children, count, parent, node);
+           Node unpacked = packed_node;
+           const ChildFaults faults = unpack_discs(discs, count, unpacked);
            EXPECT_FALSE(faults.no_box || faults.crossed);
-           return node;
+           return unpacked;
          }))
       ASSERT_EQ(std::memcmp(&node, &expected, sizeof node), 0) << round;
   }
 }
 
-TEST_F(UnpackChildren, TellsOfSidesThatAreCrossedWhateverTheChild) {
+TEST_F(UnpackDiscs, TellsOfSidesThatAreCrossedWhateverTheChild) {
   for (unsigned crossed = 0; crossed < kFanOut; ++crossed)
     for (int what = 0; what < 4; ++what) {
-      PackedChildren children;
+      Node packed_node = node_of(box());
+      PackedDiscs discs;
       for (unsigned i = 0; i < kFanOut; ++i) {
         PackedChild packed = child();
         const bool this_one = i == crossed;
-        if (what < 3 && this_one) packed.lower[what] = 8, packed.upper[what] = 7;
+        if (what < 3 && this_one) packed.lower[what] = 8, packed.upper[what] = kBoxSteps - 7;
         if (what == 3 && this_one) packed.slab_lower = -3, packed.slab_upper = -4;
-        put(children, i, packed);
+        put(packed_node, discs, i, packed);
       }
       for (const ChildFaults& faults : on_each_target([&] {
-             Node node;
-             return unpack_children(children, kFanOut, box(), node);
+             Node node = packed_node;
+             return unpack_discs(discs, kFanOut, node);
            })) {
         ASSERT_EQ(faults.no_box, what < 3);
         ASSERT_EQ(faults.crossed, what == 3);
       }
     }
-}
-
-TEST(NodeStore, KeepsABoxInANodesPlace) {
-  Node node;
-  const FloatBox box{{1, 2, 3}, {4, 5, 6}};
-  stage_box(node, box);
-  EXPECT_EQ(staged_box(node).lower, box.lower);
-  EXPECT_EQ(staged_box(node).upper, box.upper);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "octree/block_view.h"
+#include "octree/child_box.h"
 #include "octree/nearest.h"
 #include "tests/octree/raw_page.h"
 #include "tests/octree/sample_tree.h"
@@ -70,7 +71,9 @@ class Walk {
     ++nodes;
     EXPECT_LT(node.height, parent_height);
     for (unsigned child = 0; child < node.child_count; ++child) {
-      EXPECT_LE(node.lower[0][child], node.upper[0][child]);
+      const FloatBox box = child_box(node, child);
+      EXPECT_TRUE(node.box.holds(box));
+      EXPECT_LE(box.lower[0], box.upper[0]);
       follow(node.link[child], node.height);
     }
   }

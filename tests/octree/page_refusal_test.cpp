@@ -170,7 +170,7 @@ std::vector<Spoiling> node_spoilings() {
       {"a child's box is not a box", From::kWhole,
        [](P& p, F&) {
          p.child_boxes[0] = 9;
-         p.child_boxes[3u * p.head.child_count] = 8;
+         p.child_boxes[3u * p.head.child_count] = 247;
        }},
       {"a child's planes are crossed", From::kWhole,
        [](P& p, F&) {

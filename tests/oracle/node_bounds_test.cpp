@@ -39,9 +39,10 @@ FloatQuery float_query(const TreePages& pages, const Point& query) {
 // A child's box and disc hold every corner below it. Stored numbers are taken
 // as they are; corners may miss them by the rounding of the centre alone.
 void expect_encloses(const Node& node, unsigned child, const Point& from_centre, double slack) {
-  for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_LE(node.lower[axis][child], from_centre[axis] + slack);
-    EXPECT_GE(node.upper[axis][child], from_centre[axis] - slack);
+  const octree::FloatBox box = child_box(node, child);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_LE(box.lower[axis], from_centre[static_cast<int>(axis)] + slack);
+    EXPECT_GE(box.upper[axis], from_centre[static_cast<int>(axis)] - slack);
   }
 }
 
@@ -132,7 +133,8 @@ TEST(NodeBounds, HoldInBoxesOfFewUlps) {
     int tested = 0;
     pages.each_node([&](const Node& node) {
       for (unsigned child = 0; child < node.child_count; ++child) {
-        if (node.upper[0][child] - node.lower[0][child] > 8 * kUlp) continue;
+        const octree::FloatBox box = child_box(node, child);
+        if (box.upper[0] - box.lower[0] > 8 * kUlp) continue;
         if (!octree::LinkFormat::is_leaf(node.link[child])) continue;
         if (++tested % 16 != 0) continue;
         const Soup soup = below(pages, node.link[child]);

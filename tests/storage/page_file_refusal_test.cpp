@@ -80,7 +80,7 @@ TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported, "version 8");
+  expect_refused(image, ErrorCode::kUnsupported, "version 10");
 }
 
 TEST_F(PageFileRefusal, NotUnknownCompatibleFeatures) {

@@ -1,0 +1,103 @@
+#include "octree/child_tests.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "octree/child_box.h"
+#include "tests/octree/each_target.h"
+
+namespace planetree::octree {
+namespace {
+
+class ChildTests : public testing::Test {
+ protected:
+  float coordinate() { return static_cast<float>(static_cast<int>(random_() % 2001) - 1000) / 700; }
+
+  Node node() {
+    Node node{};
+    node.child_count = static_cast<std::uint8_t>(1 + random_() % kFanOut);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float a = coordinate(), b = coordinate();
+      node.box.lower[axis] = std::min(a, b);
+      node.box.upper[axis] = std::max(a, b);
+      node.step[axis] = box_step(node.box.lower[axis], node.box.upper[axis]);
+      for (unsigned i = 0; i < node.child_count; ++i) {
+        node.lower[axis][i] = static_cast<std::uint8_t>(random_() % (kBoxSteps + 1));
+        node.upper[axis][i] =
+            static_cast<std::uint8_t>(random_() % (kBoxSteps + 1u - node.lower[axis][i]));
+      }
+    }
+    return node;
+  }
+
+  std::mt19937 random_{1};
+};
+
+bool meet(const FloatBox& a, const FloatBox& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (a.lower[axis] > b.upper[axis] || a.upper[axis] < b.lower[axis]) return false;
+  return true;
+}
+
+float next(float value, float towards) { return std::nextafter(value, towards); }
+
+// Boxes that begin just where a child's ends, or an ulp behind.
+TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (int round = 0; round < 500; ++round) {
+    const Node at = node();
+    const FloatBox child = child_box(at, random_() % at.child_count);
+    FloatBox other{{-9, -9, -9}, {9, 9, 9}};
+    const std::size_t axis = random_() % 3;
+    switch (random_() % 4) {
+      case 0:
+        other.upper[axis] = child.lower[axis];
+        break;
+      case 1:
+        other.upper[axis] = next(child.lower[axis], -kInfinity);
+        break;
+      case 2:
+        other.lower[axis] = child.upper[axis];
+        break;
+      default:
+        other.lower[axis] = next(child.upper[axis], kInfinity);
+        break;
+    }
+    unsigned expected = 0;
+    for (unsigned i = 0; i < at.child_count; ++i)
+      expected |= unsigned{meet(child_box(at, i), other)} << i;
+    for (const unsigned met : on_each_target([&] { return children_meeting(at, other); }))
+      ASSERT_EQ(met, expected) << round;
+  }
+}
+
+// Thresholds that are just a child's squared distance, or an ulp below.
+TEST_F(ChildTests, BoundTheDistanceToTheBitsOfEachChilds) {
+  for (int round = 0; round < 500; ++round) {
+    const Node at = node();
+    FloatQuery query;
+    query.x = coordinate(), query.y = coordinate(), query.z = coordinate();
+    const std::array<float, 3> p{query.x, query.y, query.z};
+    const auto squared = [&](unsigned i) {
+      const FloatBox box = child_box(at, i);
+      std::array<float, 3> gap;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        gap[axis] = std::max({box.lower[axis] - p[axis], p[axis] - box.upper[axis], 0.0f});
+      return gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+    };
+    float threshold = squared(static_cast<unsigned>(random_() % at.child_count));
+    if (random_() % 2 == 0) threshold = next(threshold, 0);
+    unsigned expected = 0;
+    for (unsigned i = 0; i < at.child_count; ++i)
+      expected |= unsigned{squared(i) <= threshold} << i;
+    for (const unsigned near :
+         on_each_target([&] { return children_within(at, query, threshold); }))
+      ASSERT_EQ(near, expected) << round;
+  }
+}
+
+}  // namespace
+}  // namespace planetree::octree
