@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "octree/bounds.h"
 #include "octree/child_bounds.h"
 #include "octree/child_tests.h"
+#include "octree/nearby_subtrees.h"
 #include "octree/tree_walk.h"
 
 namespace planetree::octree {
@@ -18,6 +20,13 @@ class BoxWalk {
   BoxWalk(const TreeFacts& tree, const Point& lower, const Point& upper, PageReader pages,
           TreeWork& work)
       : box_(rounded_outward(lower, upper, tree.centre)), walk_(tree, pages, work) {}
+
+  /// Begins with those of some subtrees that meet the box, where one does, and not with the root.
+  void begin_with(const NearbySubtrees& subtrees) {
+    std::uint64_t meeting = subtrees_meeting(subtrees, box_);
+    for (; meeting != 0; meeting &= meeting - 1)
+      walk_.begin_with(subtrees.link(static_cast<std::size_t>(std::countr_zero(meeting))));
+  }
 
   /// Calls visit(BlockView, link). False as TreeWalk's.
   template <class Visit>

@@ -15,6 +15,22 @@ unsigned meeting_on_target(const Node& node, const FloatBox& box) {
   return meeting_children(node, box);
 }
 
+std::uint64_t subtrees_on_target(const NearbySubtrees& list, const FloatBox& box) {
+  const TriangleTag d;
+  std::uint64_t found = 0;
+  for (std::size_t i = 0; i < list.size(); i += hn::Lanes(d)) {
+    auto apart = hn::FirstN(d, 0);
+#pragma GCC unroll 3
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      apart = hn::Or(apart, hn::Gt(hn::Load(d, list.lower(axis) + i), hn::Set(d, box.upper[axis])));
+      apart = hn::Or(apart, hn::Lt(hn::Load(d, list.upper(axis) + i), hn::Set(d, box.lower[axis])));
+    }
+    found |= std::uint64_t{mask_bits(d, hn::Not(apart))} << i;
+  }
+  return list.size() < NearbySubtrees::kMost ? found & ((std::uint64_t{1} << list.size()) - 1)
+                                             : found;
+}
+
 unsigned within_on_target(const Node& node, const FloatQuery& query, float threshold) {
   const FloatTag d;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
@@ -32,10 +48,15 @@ HWY_AFTER_NAMESPACE();
 namespace planetree::octree {
 
 HWY_EXPORT(meeting_on_target);
+HWY_EXPORT(subtrees_on_target);
 HWY_EXPORT(within_on_target);
 
 unsigned children_meeting(const Node& node, const FloatBox& box) noexcept {
   return HWY_DYNAMIC_DISPATCH(meeting_on_target)(node, box);
+}
+
+std::uint64_t subtrees_meeting(const NearbySubtrees& list, const FloatBox& box) noexcept {
+  return HWY_DYNAMIC_DISPATCH(subtrees_on_target)(list, box);
 }
 
 unsigned children_within(const Node& node, const FloatQuery& query, float threshold) noexcept {

@@ -13,6 +13,7 @@
 #include "octree/predicates.h"
 #include "octree/sheet.h"
 #include "octree/strict_math.h"
+#include "octree/triangle_tests.h"
 #include "octree/vector3.h"
 
 namespace planetree::octree {
@@ -55,11 +56,17 @@ class Fan {
       const auto normal = face_normal(triangle);
       if (sides_) normal ? sides_->add(triangle, *normal) : sides_->add_unknown();
       if (!normal) continue;
-      if (count_ == kSorted) sum_up();
+      if (count_ == kSorted) {
+        sorted_ = false;
+        sum_up();
+      }
       const double weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
       faces_[count_++] = {index, corner, weight, *normal};
     }
   }
+
+  /// Whether normal() does not depend on the order in which faces were found.
+  bool is_sorted() const { return sorted_; }
 
   Point normal() {
     std::sort(faces_, faces_ + count_, [](const Face& a, const Face& b) {
@@ -94,6 +101,7 @@ class Fan {
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
   FacingSides* sides_;
+  bool sorted_ = true;
   std::size_t count_ = 0;
   Face faces_[kSorted];
   Point sum_ = Point::Zero();
@@ -115,17 +123,27 @@ FeatureNormal normal_of_face(const Point& query, const NearestAnswer& nearest) {
   return {*normal, true, sides.common()};
 }
 
-bool walk_to(const Point& vertex, Fan& fan, const TreeFacts& tree, std::uint64_t max_nodes,
-             PageReader pages, TreeWork& work) {
+void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) {
+  const ListedBits around = triangles_with_corner(triangles, vertex);
+  for (std::size_t word = 0; word < around.size(); ++word)
+    for (std::uint64_t bits = around[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
+      fan.add(triangles.triangle(i), triangles.id(i));
+    }
+}
+
+// From some subtrees down, or from the root.
+bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, const TreeFacts& tree,
+             std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
   const Outcodes outcodes(vertex, vertex);
-  return BoxWalk(tree, vertex, vertex, pages, work)
-      .run(max_nodes, [&](const BlockView& block, std::uint32_t) {
-        for (unsigned around = outcodes.with_corner_within(block); around != 0;
-             around &= around - 1) {
-          const auto i = static_cast<unsigned>(std::countr_zero(around));
-          fan.add(block.triangle(i), block.id(i));
-        }
-      });
+  BoxWalk walk(tree, vertex, vertex, pages, work);
+  if (subtrees) walk.begin_with(*subtrees);
+  return walk.run(max_nodes, [&](const BlockView& block, std::uint32_t) {
+    for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(around));
+      fan.add(block.triangle(i), block.id(i));
+    }
+  });
 }
 
 }  // namespace
@@ -163,11 +181,17 @@ FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
   FacingSides sides(query);
   Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.in_sheet ? &sides : nullptr);
   if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
-  if (const NearbyTriangles* nearby = vicinity ? vicinity->all_at(nearest.point) : nullptr) {
-    for (std::size_t i = 0; i < nearby->size(); ++i)
-      if (nearby->has_corner(i, vertex)) fan.add(nearby->triangle(i), nearby->id(i));
+  const bool nearby = vicinity && vicinity->has_all_at(nearest.point);
+  if (nearby && vicinity->triangles().complete()) {
+    add_faces(vertex, vicinity->triangles(), fan);
   } else {
-    found.complete = walk_to(vertex, fan, tree, max_nodes, pages, work);
+    const std::uint64_t before = work.nodes + work.blocks;
+    const NearbySubtrees* subtrees = nearby ? &vicinity->subtrees() : nullptr;
+    found.complete = walk_to(vertex, subtrees, fan, tree, max_nodes, pages, work);
+    // So many are summed up as the tree has them.
+    if (subtrees && !fan.is_sorted())
+      return feature_normal(tree, query, nearest, nullptr,
+                            max_nodes - (work.nodes + work.blocks - before), pages, work);
   }
   found.normal = fan.normal();
   if (found.complete && nearest.in_sheet) found.side = sides.common();

@@ -28,7 +28,8 @@ struct FeatureNormal {
 /// sum is zero, to rounding, it is that of the first face that has an area.
 ///
 /// query, nearest  of one answer, that names a triangle.
-/// vicinity   of that answer; where it has all faces there no page is looked at. May be null.
+/// vicinity   of that answer; where it has all faces there no page is looked at, and where it has
+///            the subtrees that they are in no other. May be null.
 /// max_nodes  most nodes and blocks to visit.
 /// threads    any; no allocation, no lock, no exception of its own.
 /// source     Baerentzen & Aanaes 2005, "Signed distance computation using the

@@ -73,13 +73,6 @@ class NearbyTriangles {
   const TriangleRows<kMost>& exact() const { return exact_; }
 
   Triangle triangle(std::size_t i) const { return exact_.triangle(i); }
-  bool has_corner(std::size_t i, const Point& point) const {
-    bool found = false;
-    for (const auto& corner : exact_.at)
-      found = found ||
-              (corner[0][i] == point.x() && corner[1][i] == point.y() && corner[2][i] == point.z());
-    return found;
-  }
   std::uint64_t id(std::size_t i) const { return id_[i]; }
   bool in_sheet(std::size_t i) const { return in_sheet_[i]; }
 

@@ -17,6 +17,10 @@ class TreeWalk {
   TreeWalk(const TreeFacts& tree, PageReader pages, TreeWork& work)
       : tree_(tree), work_(work), records_(tree, pages) {}
 
+  /// Begins with this record, and others so named, in place of the root; a list of
+  /// NearbySubtrees at most.
+  void begin_with(std::uint32_t link) { links_[size_++] = {link, RecordFinder::kNoPage}; }
+
   /// Calls meeting(Node) for a bit for each child to go to, and visit(BlockView, link). False where
   /// pages are missing or there was more than `max_nodes` nodes and blocks to visit: some
   /// blocks were not.
@@ -32,7 +36,8 @@ class TreeWalk {
     // An honest tree cannot be visited longer than it is; a forged one could.
     std::uint64_t left = std::min(max_nodes, tree_.record_count);
     bool complete = true;
-    Link next{tree_.root_link, RecordFinder::kNoPage};
+    if (size_ == 0) begin_with(tree_.root_link);
+    Link next = links_[--size_];
     for (bool more = true; more; --left) {
       if (left == 0 || !going_on()) return false;
       const std::byte* record = records_.find(next.to, work_, next.from);

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "octree/block_view.h"
 #include "octree/bounds.h"
 #include "octree/frame.h"
+#include "octree/nearby_triangles.h"
 #include "octree/triangle_distance.h"
 
-/// Which of a block's triangles are where: a bit for each.
+/// Which triangles of a block, or of a list, are where: a bit for each.
 namespace planetree::octree {
 
 /// Those that may be as near to a point as `distance`; the others are farther. Fills in how near
@@ -14,5 +18,10 @@ namespace planetree::octree {
 /// wide  the point as float has it, see FloatQuery::from().
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
                           double distance, double (&nearest)[kMaxBlockTriangles]) noexcept;
+
+/// Those that may have this corner, by one coordinate in float; the others do not. Sixty-four a
+/// word.
+using ListedBits = std::array<std::uint64_t, NearbyTriangles::kMost / 64>;
+ListedBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept;
 
 }  // namespace planetree::octree

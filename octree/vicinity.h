@@ -42,10 +42,10 @@ class Vicinity {
   /// Those of them that reach into the ball, if these are few.
   const NearbyTriangles& triangles() const { return triangles_; }
 
-  /// The triangles, if all that touch a point are among them; else null.
-  const NearbyTriangles* all_at(const Point& point) const {
-    const bool within = ((point - centre_).norm() + rounding(point)) * (1 + kSlack) < radius_;
-    return within && triangles_.complete() ? &triangles_ : nullptr;
+  /// Whether all triangles that touch a point, of rounded coordinates, are in subtrees(); then they
+  /// are in triangles() too, where these are complete.
+  bool has_all_at(const Point& point) const {
+    return ((point - centre_).norm() + rounding(point)) * (1 + kSlack) < radius_;
   }
 
   /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to

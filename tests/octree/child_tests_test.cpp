@@ -7,6 +7,7 @@
 #include <random>
 
 #include "octree/child_box.h"
+#include "octree/nearby_subtrees.h"
 #include "tests/octree/each_target.h"
 
 namespace planetree::octree {
@@ -70,6 +71,34 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
     for (unsigned i = 0; i < at.child_count; ++i)
       expected |= unsigned{meet(child_box(at, i), other)} << i;
     for (const unsigned met : on_each_target([&] { return children_meeting(at, other); }))
+      ASSERT_EQ(met, expected) << round;
+  }
+}
+
+// Of nodes beside each other: boxes as above, and as many subtrees as there is room for, or fewer.
+TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
+  for (int round = 0; round < 300; ++round) {
+    NearbySubtrees list;
+    const std::size_t most = 1 + random_() % NearbySubtrees::kMost;
+    while (list.size() < most) {
+      const Node at = node();
+      for (unsigned i = 0; i < at.child_count && list.size() < most; ++i) list.add(at, i);
+    }
+    const auto box_of = [&](std::size_t i) {
+      FloatBox box;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = list.lower(axis)[i];
+        box.upper[axis] = list.upper(axis)[i];
+      }
+      return box;
+    };
+    FloatBox other = box_of(random_() % most);
+    const std::size_t axis = random_() % 3;
+    other.lower[axis] = other.upper[axis];
+    if (random_() % 2 == 0) other.lower[axis] = other.upper[axis] = next(other.upper[axis], 9);
+    std::uint64_t expected = 0;
+    for (std::size_t i = 0; i < most; ++i) expected |= std::uint64_t{meet(box_of(i), other)} << i;
+    for (const std::uint64_t met : on_each_target([&] { return subtrees_meeting(list, other); }))
       ASSERT_EQ(met, expected) << round;
   }
 }

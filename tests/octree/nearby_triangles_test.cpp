@@ -4,6 +4,9 @@
 
 #include <vector>
 
+#include "octree/triangle_tests.h"
+#include "tests/octree/each_target.h"
+
 namespace planetree::octree {
 namespace {
 
@@ -59,6 +62,30 @@ TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
   }
   EXPECT_LT(list.count_within(0.25), found.size() / 2);
   EXPECT_EQ(list.count_within(1), found.size());
+}
+
+// A grid, whose corners have coordinates in common with others.
+TEST(NearbyTriangles, AreFoundByACornerAmongFewOthers) {
+  for (const unsigned count : {1u, 15u, 16u, 63u, 64u, 65u, 130u, 192u}) {
+    std::vector<NearbyTriangle> found;
+    for (unsigned i = 0; i < count; ++i) {
+      Triangle at = triangle_at(i % 24 / 4.0);
+      for (Point& corner : at) corner.y() += i / 24;
+      at[2].x() += 2;
+      found.push_back({at, i, 0});
+    }
+    const auto list = listed(found, Point(0.3, 0, 0));
+    for (const NearbyTriangle& one : found)
+      for (const Point& corner : one.corners) {
+        ListedBits expected{};
+        for (std::size_t i = 0; i < count; ++i)
+          for (const Point& other : list.triangle(i))
+            if (other.x() == corner.x()) expected[i / 64] |= std::uint64_t{1} << i % 64;
+        for (const ListedBits& bits :
+             on_each_target([&] { return triangles_with_corner(list, corner); }))
+          ASSERT_EQ(bits, expected) << count;
+      }
+  }
 }
 
 TEST(NearbyTriangles, KnowsWhereAllAreAsNearAsTheBallReaches) {
