@@ -70,7 +70,7 @@ TEST(NearbyTriangles, AreFoundByACornerAmongFewOthers) {
     std::vector<NearbyTriangle> found;
     for (unsigned i = 0; i < count; ++i) {
       Triangle at = triangle_at(i % 24 / 4.0);
-      for (Point& corner : at) corner.y() += i / 24;
+      for (Point& corner : at) corner.y() += static_cast<double>(i) * 0.125;
       at[2].x() += 2;
       found.push_back({at, i, 0});
     }

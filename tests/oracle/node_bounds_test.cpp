@@ -47,12 +47,12 @@ void expect_encloses(const Node& node, unsigned child, const Point& from_centre,
 }
 
 void expect_enclosing_nodes(const TreePages& pages) {
-  constexpr double slack = 0x1p-50;
+  constexpr double kSlack = 0x1p-50;
   pages.each_node([&](const Node& node) {
     for (unsigned child = 0; child < node.child_count; ++child)
       for (const Triangle& triangle : pages.triangles(node.link[child]))
         for (const Point& corner : triangle)
-          expect_encloses(node, child, corner - pages.centre(), slack);
+          expect_encloses(node, child, corner - pages.centre(), kSlack);
   });
 }
 
