@@ -82,7 +82,7 @@ class Openings {
   std::vector<std::array<float, kMostShare>> least_;  // of surface, by share
 };
 
-// The most steps, counted by `at`, that do not go beyond the true side, of at most `most`.
+// The most steps, `most` or fewer, after which holds(way) says that the true side is not passed.
 template <class Holds>
 std::uint8_t most_steps(float distance, float step, int most, const Holds& holds) {
   const float guess = step > 0 ? distance / step : 0.0f;
