@@ -12,7 +12,9 @@ namespace planetree::octree {
 class BlockView {
  public:
   BlockView(const std::byte* record, const BlockShape& shape)
-      : header_(*reinterpret_cast<const BlockHeader*>(record)), shape_(shape) {}
+      : BlockView(*reinterpret_cast<const BlockHeader*>(record), shape) {}
+  /// The rest of the block is behind its header.
+  BlockView(const BlockHeader& header, const BlockShape& shape) : header_(header), shape_(shape) {}
 
   const BlockHeader& header() const { return header_; }
   unsigned triangle_count() const { return header_.triangle_count; }

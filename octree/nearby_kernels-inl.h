@@ -17,6 +17,7 @@
 #include "octree/bounds.h"
 #include "octree/nearby_subtrees.h"
 #include "octree/nearby_triangles.h"
+#include "octree/node_kernels-inl.h"
 #include "octree/triangle_filter-inl.h"
 #include "octree/triangle_kernels-inl.h"
 
@@ -25,44 +26,63 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Subtrees of a list with bounds of theirs. Squared bounds are not negative, so that their bits
-// order as they do.
-struct SubtreeKeys {
-  std::uint64_t at[NearbySubtrees::kMost];  // the bound's bits, then the place in the list
+// Subtrees of a list, nearest first, with bounds of theirs. Squared bounds are not negative, so
+// that their bits order as they do; the last of these tell the place in the list instead.
+class SubtreeKeys {
+ public:
+  static constexpr std::int32_t kPlaceBits = NearbySubtrees::kMost - 1;
+  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
 
-  std::size_t place(std::size_t i) const { return static_cast<std::uint32_t>(at[i]); }
-  float bound(std::size_t i) const {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(at[i] >> 32));
+  std::size_t size() const { return size_; }
+  std::size_t place(std::size_t i) const { return static_cast<std::size_t>(at_[i] & kPlaceBits); }
+  float bound(std::size_t i) const { return std::bit_cast<float>(at_[i] & ~kPlaceBits); }
+
+  // Those of a vector's keys that are near.
+  template <class Keys, class Near>
+  HWY_INLINE void add(Keys keys, Near near) {
+    const hn::DFromV<Keys> d;
+    hn::StoreU(hn::Compress(keys, near), d, at_ + size_);
+    size_ += hn::CountTrue(d, near);
   }
-  // The place of the least of the first `count`, of which there are some.
-  std::size_t least(std::size_t count) const {
-    return static_cast<std::size_t>(std::min_element(at, at + count) - at);
+
+  HWY_INLINE void sort() {
+#if PLANETREE_EIGHT_LANES
+    if (size_ <= kFanOut) {
+      const IntTag d;
+      const auto used = hn::FirstN(d, size_);
+      const Ints keys = hn::IfThenElse(used, hn::Load(d, at_), hn::Set(d, kNone));
+      return hn::Store(sort_lanes(keys), d, at_);
+    }
+#endif
+    std::sort(at_, at_ + size_);
   }
+
+ private:
+  std::size_t size_ = 0;
+  // A vector may be written behind the last.
+  HWY_ALIGN std::int32_t at_[NearbySubtrees::kMost + kMaxBlockTriangles];
 };
 
-// Finds the subtrees whose boxes come as near as a threshold, and returns how many.
-HWY_INLINE std::size_t near_subtrees(const NearbySubtrees& list, const FloatQuery& query,
-                                     float threshold, SubtreeKeys& keys) {
+// Finds the subtrees whose boxes come as near as a threshold.
+HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, float threshold,
+                          SubtreeKeys& found) {
   const TriangleTag d;
+  const hn::RebindToSigned<TriangleTag> di;
   const TriangleVectors p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
-  std::size_t count = 0;
   for (std::size_t i = 0; i < list.size(); i += hn::Lanes(d)) {
     const auto gap = [&](std::size_t axis, TriangleFloats at) {
       return outside(hn::Load(d, list.lower(axis) + i), hn::Load(d, list.upper(axis) + i), at);
     };
     const TriangleVectors gaps{gap(0, p.x), gap(1, p.y), gap(2, p.z)};
     const TriangleFloats squared = dot(gaps, gaps);
-    HWY_ALIGN std::uint32_t bits[hn::MaxLanes(d)];
-    hn::Store(hn::BitCast(hn::RebindToUnsigned<TriangleTag>(), squared),
-              hn::RebindToUnsigned<TriangleTag>(), bits);
-    unsigned near = bits_not_above(squared, threshold);
-    if (list.size() - i < hn::Lanes(d)) near &= (1u << (list.size() - i)) - 1;
-    for (; near != 0; near &= near - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(near));
-      keys.at[count++] = std::uint64_t{bits[lane]} << 32 | (i + lane);
-    }
+    const auto keys =
+        hn::Or(hn::AndNot(hn::Set(di, SubtreeKeys::kPlaceBits), hn::BitCast(di, squared)),
+               hn::Iota(di, static_cast<std::int32_t>(i)));
+    const auto near =
+        hn::AndNot(hn::Gt(squared, hn::Set(d, threshold)), hn::FirstN(d, list.size() - i));
+    found.add(keys, hn::RebindMask(di, near));
   }
-  return count;
+  found.sort();
 }
 
 // Evaluates four of a list, and offers those of them that `near` has a bit for.

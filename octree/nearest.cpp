@@ -14,6 +14,7 @@
 #include "octree/bounds.h"
 #include "octree/candidates.h"
 #include "octree/conclusion.h"
+#include "octree/filtered_blocks-inl.h"
 #include "octree/frontier.h"
 #include "octree/nearby_kernels-inl.h"
 #include "octree/node_kernels-inl.h"
@@ -42,27 +43,23 @@ class Descent {
   void run_from_root() {
     go_down({.bound = 0, .link = tree_.root_link, .from = RecordFinder::kNoPage});
     finish_frontier();
-    settle();
+    finish();
   }
   // From the subtrees that a ball holds, nearest first.
   void run_from(const Vicinity& vicinity) {
     subtrees_ = &vicinity.subtrees();
     if (limits_.max_error == 0 && wide_.usable) best_.promise(vicinity.nearest_of(query_));
     SubtreeKeys keys;
-    std::size_t count = near_subtrees(*subtrees_, wide_, best_.exact_threshold(), keys);
-    while (count > 0) {
-      const std::size_t least = keys.least(count);
-      const FrontierEntry entry{keys.bound(least), subtrees_->link(keys.place(least)),
-                                RecordFinder::kNoPage};
-      if (entry.bound > best_.threshold()) {
-        left_out_.pruned = std::min(left_out_.pruned, entry.bound);
+    find_near(*subtrees_, wide_, best_.exact_threshold(), keys);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (keys.bound(i) > best_.threshold()) {
+        left_out_.pruned = std::min(left_out_.pruned, keys.bound(i));
         break;
       }
-      keys.at[least] = keys.at[--count];
-      go_down(entry);
+      go_down({keys.bound(i), subtrees_->link(keys.place(i)), RecordFinder::kNoPage});
       finish_frontier();
     }
-    settle();
+    finish();
   }
 
   // Where something is left out that may matter, a triangle known from elsewhere helps.
@@ -99,6 +96,8 @@ class Descent {
       return false;
     }
     --visits_left_;
+    // Another page may take the place of theirs.
+    if (!blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
       leave_out(entry);
@@ -161,35 +160,34 @@ class Descent {
 
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
-    const auto note_one = [&](unsigned i, float squared) {
-      note(block.triangle(i), block.id(i), header.extent, header.in_sheet != 0, squared);
-    };
     // Too small for float, or too far away.
     if (!filter_tells(wide_, header.extent)) {
-      for (unsigned i = 0; i < header.triangle_count; ++i) note_one(i, 0);
+      for (unsigned i = 0; i < header.triangle_count; ++i) note(block, i, 0);
       return;
     }
+    if (blocks_.full()) note_blocks();
     const FloatOffset from(query_, block.vertex(0));
-    filter(header.triangle_count, header.extent, note_one,
-           [&](float limit, auto& filtered) { filter_block(header, from.at, limit, filtered); });
-  }
-
-  // Notes those of some triangles that float cannot rule out. run_filter(limit, filtered)
-  // looks at them.
-  template <class Note, class RunFilter>
-  HWY_INLINE void filter(std::size_t count, float extent, const Note& note_one,
-                         const RunFilter& run_filter) {
-    FilteredTriangles filtered;
-    run_filter(filter_threshold(wide_, best_.reach(), extent), filtered);
+    FilteredTriangles& filtered = blocks_.next();
+    filter_block(header, from.at, limit_of(header.extent), filtered);
     if (filtered.near == 0) return;
-    best_.promise(filter_upper(filtered.least_upper, extent));
-    const float limit = filter_threshold(wide_, best_.reach(), extent);
-    for (unsigned near = near_triangles(filtered, count, limit); near != 0; near &= near - 1) {
-      const auto index = static_cast<unsigned>(std::countr_zero(near));
-      note_one(index, filtered.squared[index]);
-    }
+    blocks_.add(header);
+    best_.promise(filter_upper(filtered.least_upper, header.extent));
   }
 
+  // Of the values that the filter has for the triangles of a block.
+  float limit_of(float extent) const { return filter_threshold(wide_, best_.reach(), extent); }
+
+  // Notes those triangles of the blocks so far that float cannot rule out.
+  void note_blocks() {
+    blocks_.note_near(
+        tree_.shape, [&](const BlockHeader& header) { return limit_of(header.extent); },
+        [&](const BlockView& block, unsigned i, float squared) { note(block, i, squared); });
+  }
+
+  void note(const BlockView& block, unsigned i, float squared) {
+    note(block.triangle(i), block.id(i), block.header().extent, block.header().in_sheet != 0,
+         squared);
+  }
   void note(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
     if (candidates_.full()) {
       keep_possible();
@@ -199,14 +197,18 @@ class Descent {
   }
 
   void keep_possible() {
-    candidates_.keep_if([&](float squared, float extent) {
-      return squared <= filter_threshold(wide_, best_.reach(), extent);
-    });
+    candidates_.keep_if([&](float squared, float extent) { return squared <= limit_of(extent); });
+  }
+
+  void finish() {
+    note_blocks();
+    settle();
   }
 
   // Evaluates what may be best.
   void settle() {
-    keep_possible();
+    // As many as are evaluated at once take as long as one.
+    if (candidates_.size() > kTrianglesAtOnce) keep_possible();
     const auto& rows = candidates_.rows();
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
       TriangleFindings findings;
@@ -229,6 +231,7 @@ class Descent {
   TreeWork& work_;
   RecordFinder records_;
   BestTriangle best_;
+  FilteredBlocks blocks_;  // all of the page that was found last
   Candidates candidates_;
   Frontier frontier_;
   Frontier::Order order_ = Frontier::Order::kLast;

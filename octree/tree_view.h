@@ -65,6 +65,8 @@ class RecordFinder {
     if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
     return frame_ + slot * kSlotBytes;
   }
+  /// Whether the record is on the page that was found last.
+  bool is_at_hand(std::uint32_t link) const { return links_.page(link) == page_number_ && frame_; }
   /// The page of the last record.
   std::uint32_t page() const { return page_number_; }
 
