@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "octree/child_tests.cpp"
 #include <hwy/foreach_target.h>
 
+#include <cassert>
+
 #include "octree/node_kernels-inl.h"
 #include "octree/strict_math.h"
 
@@ -31,13 +33,23 @@ std::uint64_t subtrees_on_target(const NearbySubtrees& list, const FloatBox& box
                                              : found;
 }
 
-unsigned within_on_target(const Node& node, const FloatQuery& query, float threshold) {
+void add_within_on_target(const Node& node, const FloatQuery& query, float threshold,
+                          NearbySubtrees& list) {
   const FloatTag d;
+  const hn::RebindToUnsigned<FloatTag> du;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
-  unsigned found = 0;
-  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
-    found |= bits_not_above(child_bounds(node, p, false, i), threshold) << i;
-  return found & ((1U << node.child_count) - 1);
+  for (std::size_t i = 0; i < node.child_count; i += hn::Lanes(d)) {
+    const auto beyond = hn::Gt(child_bounds(node, p, false, i), hn::Set(d, threshold));
+    const auto near = hn::AndNot(beyond, hn::FirstN(d, node.child_count - i));
+#pragma GCC unroll 3
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      hn::StoreU(hn::Compress(lower_sides(node, axis, i), near), d, list.next_lower(axis));
+      hn::StoreU(hn::Compress(upper_sides(node, axis, i), near), d, list.next_upper(axis));
+    }
+    const auto links = hn::Compress(hn::Load(du, node.link + i), hn::RebindMask(du, near));
+    hn::StoreU(links, du, list.next_link());
+    list.add(hn::CountTrue(d, near));
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -49,7 +61,7 @@ namespace planetree::octree {
 
 HWY_EXPORT(meeting_on_target);
 HWY_EXPORT(subtrees_on_target);
-HWY_EXPORT(within_on_target);
+HWY_EXPORT(add_within_on_target);
 
 unsigned children_meeting(const Node& node, const FloatBox& box) noexcept {
   return HWY_DYNAMIC_DISPATCH(meeting_on_target)(node, box);
@@ -59,8 +71,10 @@ std::uint64_t subtrees_meeting(const NearbySubtrees& list, const FloatBox& box) 
   return HWY_DYNAMIC_DISPATCH(subtrees_on_target)(list, box);
 }
 
-unsigned children_within(const Node& node, const FloatQuery& query, float threshold) noexcept {
-  return HWY_DYNAMIC_DISPATCH(within_on_target)(node, query, threshold);
+void add_children_within(const Node& node, const FloatQuery& query, float threshold,
+                         NearbySubtrees& list) noexcept {
+  assert(list.has_room());
+  HWY_DYNAMIC_DISPATCH(add_within_on_target)(node, query, threshold, list);
 }
 
 }  // namespace planetree::octree

@@ -7,14 +7,16 @@
 #include "octree/frame.h"
 #include "octree/nearby_subtrees.h"
 
-/// Which of a node's children, or of the subtrees of a list, are where: a bit for each.
+/// Which of a node's children, or of the subtrees of a list, are where.
 namespace planetree::octree {
 
-/// Those whose boxes meet a box.
+/// A bit for each whose box meets a box.
 unsigned children_meeting(const Node& node, const FloatBox& box) noexcept;
 std::uint64_t subtrees_meeting(const NearbySubtrees& list, const FloatBox& box) noexcept;
 
-/// Those whose boxes are not farther from the query than a threshold, see prune_threshold().
-unsigned children_within(const Node& node, const FloatQuery& query, float threshold) noexcept;
+/// Adds those of a node's children to a list that has room whose boxes are not farther from the
+/// query than a threshold, see prune_threshold().
+void add_children_within(const Node& node, const FloatQuery& query, float threshold,
+                         NearbySubtrees& list) noexcept;
 
 }  // namespace planetree::octree

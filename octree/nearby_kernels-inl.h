@@ -88,10 +88,8 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
 // Evaluates four of a list, and offers those of them that `near` has a bit for.
 HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsigned near,
                            const Point& query, BestTriangle& best) {
-  const TriangleView view = list.exact().view(first);
   TriangleFindings findings;
-  if (const unsigned flat = evaluate_triangles(view.at, view.stride, query, findings) & near)
-    refine_flat(query, view, flat, findings);
+  evaluate_some(list.exact().view(first), near, query, findings);
   for (; near != 0; near &= near - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(near));
     best.offer(findings.of(lane), list.id(first + lane), list.in_sheet(first + lane),

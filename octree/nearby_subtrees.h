@@ -20,15 +20,12 @@ class NearbySubtrees {
 
   /// Whether the children of any node find room.
   bool has_room() const { return size_ + kFanOut <= kMost; }
-  /// A child of a node, while there is room.
-  void add(const Node& node, unsigned child) {
-    const FloatBox box = child_box(node, child);
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      lower_[axis][size_] = box.lower[axis];
-      upper_[axis][size_] = box.upper[axis];
-    }
-    link_[size_++] = node.link[child];
-  }
+  /// Where more of them go while has_room(): to each a vector of kFanOut numbers may be written, of
+  /// which add() counts the first ones in.
+  float* next_lower(std::size_t axis) { return lower_[axis] + size_; }
+  float* next_upper(std::size_t axis) { return upper_[axis] + size_; }
+  std::uint32_t* next_link() { return link_ + size_; }
+  void add(std::size_t count) { size_ += count; }
   /// The last one takes the place of another.
   void remove(std::size_t at) {
     --size_;

@@ -213,7 +213,7 @@ class Descent {
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
       TriangleFindings findings;
       const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
-      evaluate(query_, rows.view(i), count, findings);
+      evaluate_some(rows.view(i), (1U << count) - 1, query_, findings);
       for (std::size_t lane = 0; lane < count; ++lane)
         best_.offer(findings.of(lane), candidates_.id(i + lane), candidates_.in_sheet(i + lane),
                     [&] { return rows.triangle(i + lane); });

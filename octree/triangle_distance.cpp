@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-unsigned evaluate_on_target(const TriangleView& triangles, const Point& query,
-                            TriangleFindings& findings) {
-  return evaluate_triangles(triangles.at, triangles.stride, query, findings);
+void evaluate_on_target(const Point& query, const TriangleView& triangles,
+                        TriangleFindings& findings) {
+  evaluate_some(triangles, 1, query, findings);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -99,12 +99,6 @@ void refine_face(const Point& query, const Triangle& triangle, TriangleFindings&
 
 }  // namespace
 
-void evaluate(const Point& query, const TriangleView& triangles, std::size_t count,
-              TriangleFindings& findings) noexcept {
-  const unsigned flat = HWY_DYNAMIC_DISPATCH(evaluate_on_target)(triangles, query, findings);
-  refine_flat(query, triangles, flat & ((1U << count) - 1), findings);
-}
-
 void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
                  TriangleFindings& findings) noexcept {
   for (; flat != 0; flat &= flat - 1) {
@@ -142,7 +136,7 @@ NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triang
   TriangleRows<kTrianglesAtOnce> rows;
   rows.fill(0, triangle);
   TriangleFindings findings;
-  evaluate(query, rows.view(0), 1, findings);
+  HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), findings);
   return place(triangle, findings.of(0));
 }
 

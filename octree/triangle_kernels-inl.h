@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "octree/triangle_distance.h"
+#include "octree/triangle_rows.h"
 #include "octree/wide_floats-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -158,7 +159,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
 }
 
 // Evaluates kTrianglesAtOnce triangles of TriangleRows, from the one that `rows` points to.
-// A bit for each whose face is too flat for double: evaluate() looks at it again.
+// A bit for each whose face is too flat for double: refine_flat() looks at it again.
 HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::size_t stride,
                                        const Point& query, TriangleFindings& findings) {
   const DoubleTag d;
@@ -167,6 +168,13 @@ HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::siz
   for (std::size_t lane = 0; lane < kTrianglesAtOnce; lane += hn::Lanes(d))
     flat |= evaluate_vector(rows + lane, stride, q, findings, lane) << lane;
   return flat;
+}
+
+// Evaluates kTrianglesAtOnce triangles, of which those have a meaning that `some` has a bit for.
+HWY_INLINE void evaluate_some(const TriangleView& triangles, unsigned some, const Point& query,
+                              TriangleFindings& findings) {
+  const unsigned flat = evaluate_triangles(triangles.at, triangles.stride, query, findings) & some;
+  if (flat != 0) refine_flat(query, triangles, flat, findings);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -53,11 +53,6 @@ struct TriangleRows {
   }
 };
 
-/// Evaluates kTrianglesAtOnce triangles, of which the first `count` have a meaning; see
-/// nearest_on_triangle().
-void evaluate(const Point& query, const TriangleView& triangles, std::size_t count,
-              TriangleFindings& findings) noexcept;
-
 /// Looks again, with 113 bits, at those that `flat` has a bit for: evaluate_triangles() found
 /// their faces too flat for double.
 void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,

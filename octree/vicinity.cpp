@@ -46,9 +46,11 @@ class Ball {
         query_(FloatQuery::from(centre, tree.centre)),
         threshold_(prune_threshold(query_, radius)) {}
 
-  // A bit for each child that reaches into it.
-  unsigned reached_by(const Node& node) const { return children_within(node, query_, threshold_); }
-  // The same for triangles; see triangles_within().
+  // Adds the children that reach into it.
+  void add_children(const Node& node, NearbySubtrees& found) const {
+    add_children_within(node, query_, threshold_, found);
+  }
+  // A bit for each triangle that does; see triangles_within().
   unsigned reached_by(const BlockView& block, double (&nearest)[kMaxBlockTriangles]) const {
     return triangles_within(block, centre_, query_, radius_, nearest);
   }
@@ -72,7 +74,7 @@ class SubtreeSearch {
     found_.clear();
     const Node* root = node(root_link);
     if (!root) return false;
-    add_children(*root);
+    ball_.add_children(*root, found_);
     while (open_level()) {
     }
     return found_.size() > 0;
@@ -86,7 +88,7 @@ class SubtreeSearch {
       const Node* opening = node(found_.link(i));
       if (!opening) continue;
       found_.remove(i);
-      add_children(*opening);
+      ball_.add_children(*opening, found_);
       opened = true;
     }
     return opened;
@@ -95,11 +97,6 @@ class SubtreeSearch {
   // Null where it is a block, its page is lost, or no more may be visited.
   const Node* node(std::uint32_t link) {
     return LinkFormat::is_leaf(link) ? nullptr : reinterpret_cast<const Node*>(records_.find(link));
-  }
-
-  void add_children(const Node& node) {
-    for (unsigned near = ball_.reached_by(node); near != 0; near &= near - 1)
-      found_.add(node, static_cast<unsigned>(std::countr_zero(near)));
   }
 
   const Ball& ball_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "octree/child_box.h"
 #include "octree/nearby_subtrees.h"
@@ -13,6 +14,26 @@
 namespace planetree::octree {
 namespace {
 
+// Writes one child behind the last of a list.
+void list_child(const Node& node, unsigned child, NearbySubtrees& list) {
+  const FloatBox box = child_box(node, child);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    *list.next_lower(axis) = box.lower[axis];
+    *list.next_upper(axis) = box.upper[axis];
+  }
+  *list.next_link() = node.link[child];
+  list.add(1);
+}
+
+void expect_child(const NearbySubtrees& list, std::size_t at, const Node& node, unsigned child) {
+  const FloatBox box = child_box(node, child);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(list.lower(axis)[at], box.lower[axis]);
+    EXPECT_EQ(list.upper(axis)[at], box.upper[axis]);
+  }
+  EXPECT_EQ(list.link(at), node.link[child]);
+}
+
 class ChildTests : public testing::Test {
  protected:
   float coordinate() { return static_cast<float>(static_cast<int>(random_() % 2001) - 1000) / 700; }
@@ -20,6 +41,8 @@ class ChildTests : public testing::Test {
   Node node() {
     Node node{};
     node.child_count = static_cast<std::uint8_t>(1 + random_() % kFanOut);
+    for (unsigned i = 0; i < node.child_count; ++i)
+      node.link[i] = static_cast<std::uint32_t>(random_());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float a = coordinate(), b = coordinate();
       node.box.lower[axis] = std::min(a, b);
@@ -82,7 +105,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
     const std::size_t most = 1 + random_() % NearbySubtrees::kMost;
     while (list.size() < most) {
       const Node at = node();
-      for (unsigned i = 0; i < at.child_count && list.size() < most; ++i) list.add(at, i);
+      list_child(at, static_cast<unsigned>(random_() % at.child_count), list);
     }
     const auto box_of = [&](std::size_t i) {
       FloatBox box;
@@ -104,7 +127,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
 }
 
 // Thresholds that are just a child's squared distance, or an ulp below.
-TEST_F(ChildTests, BoundTheDistanceToTheBitsOfEachChilds) {
+TEST_F(ChildTests, ListThoseThatAreNearByTheBitsOfEachChilds) {
   for (int round = 0; round < 500; ++round) {
     const Node at = node();
     FloatQuery query;
@@ -119,12 +142,23 @@ TEST_F(ChildTests, BoundTheDistanceToTheBitsOfEachChilds) {
     };
     float threshold = squared(static_cast<unsigned>(random_() % at.child_count));
     if (random_() % 2 == 0) threshold = next(threshold, 0);
-    unsigned expected = 0;
+    std::vector<unsigned> expected;
     for (unsigned i = 0; i < at.child_count; ++i)
-      expected |= unsigned{squared(i) <= threshold} << i;
-    for (const unsigned near :
-         on_each_target([&] { return children_within(at, query, threshold); }))
-      ASSERT_EQ(near, expected) << round;
+      if (squared(i) <= threshold) expected.push_back(i);
+    // Behind others, as many as leave room for a node's children.
+    NearbySubtrees before;
+    const std::size_t others = random_() % (NearbySubtrees::kMost - kFanOut + 1);
+    while (before.size() < others) list_child(at, 0, before);
+    for (const NearbySubtrees& list : on_each_target([&] {
+           NearbySubtrees list = before;
+           add_children_within(at, query, threshold, list);
+           return list;
+         })) {
+      ASSERT_EQ(list.size(), others + expected.size()) << round;
+      for (std::size_t i = 0; i < others; ++i) expect_child(list, i, at, 0);
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        expect_child(list, others + i, at, expected[i]);
+    }
   }
 }
 

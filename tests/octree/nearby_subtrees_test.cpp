@@ -9,15 +9,14 @@
 namespace planetree::octree {
 namespace {
 
-// One child, between x and x + 1 of each axis.
-Node parent_of(float x, std::uint32_t link) {
-  Node node{};
+// A subtree between x and x + 1 of each axis.
+void add(NearbySubtrees& list, float x, std::uint32_t link) {
   for (unsigned axis = 0; axis < 3; ++axis) {
-    node.box.lower[axis] = x;
-    node.box.upper[axis] = x + 1;
+    *list.next_lower(axis) = x;
+    *list.next_upper(axis) = x + 1;
   }
-  node.link[3] = link;
-  return node;
+  *list.next_link() = link;
+  list.add(1);
 }
 
 constexpr LinkFormat kLinks(65536);
@@ -26,7 +25,7 @@ constexpr std::uint32_t kToBlock = kLinks.make(true, 1, 40), kToNode = kLinks.ma
 TEST(NearbySubtrees, KeepsBoxesAndLinks) {
   NearbySubtrees list;
   list.clear();
-  list.add(parent_of(2, kToBlock), 3);
+  add(list, 2, kToBlock);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list.link(0), kToBlock);
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -40,7 +39,7 @@ TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
   alignas(NearbySubtrees) unsigned char memory[sizeof(NearbySubtrees)];
   std::memset(memory, 0xff, sizeof memory);
   auto& list = *new (memory) NearbySubtrees;
-  list.add(parent_of(2, kToBlock), 3);
+  add(list, 2, kToBlock);
   for (std::size_t i = 1; i < 16; ++i)
     for (unsigned axis = 0; axis < 3; ++axis) {
       EXPECT_FALSE(std::isnan(list.lower(axis)[i])) << i;
@@ -50,15 +49,14 @@ TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
 
 TEST(NearbySubtrees, HasRoomForANodesChildrenWhileItSaysSo) {
   NearbySubtrees list;
-  while (list.has_room()) list.add(parent_of(0, kToBlock), 3);
+  while (list.has_room()) add(list, 0, kToBlock);
   EXPECT_LT(NearbySubtrees::kMost - kFanOut, list.size());
   EXPECT_LE(list.size(), NearbySubtrees::kMost);
 }
 
 TEST(NearbySubtrees, PutsTheLastInThePlaceOfOneThatGoes) {
   NearbySubtrees list;
-  for (std::uint32_t i = 0; i < 3; ++i)
-    list.add(parent_of(static_cast<float>(10 * i), kToBlock + i), 3);
+  for (std::uint32_t i = 0; i < 3; ++i) add(list, static_cast<float>(10 * i), kToBlock + i);
   list.remove(0);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list.link(0), kToBlock + 2);
@@ -71,9 +69,9 @@ TEST(NearbySubtrees, PutsTheLastInThePlaceOfOneThatGoes) {
 
 TEST(NearbySubtrees, KnowsWhetherAllAreBlocks) {
   NearbySubtrees list;
-  list.add(parent_of(0, kToBlock), 3);
+  add(list, 0, kToBlock);
   EXPECT_TRUE(list.are_blocks());
-  list.add(parent_of(0, kToNode), 3);
+  add(list, 0, kToNode);
   EXPECT_FALSE(list.are_blocks());
   list.clear();
   EXPECT_EQ(list.size(), 0u);
@@ -81,7 +79,7 @@ TEST(NearbySubtrees, KnowsWhetherAllAreBlocks) {
 
 TEST(NearbySubtrees, IsNowhereFartherThanSaid) {
   NearbySubtrees list;
-  list.add(parent_of(1, kToBlock), 3);
+  add(list, 1, kToBlock);
   const double farthest = list.farthest(0, Point(0, 0, 2));
   EXPECT_GE(farthest, 3);
   EXPECT_LE(farthest, 3.0001);
