@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "octree/node_kernels-inl.h"
+#include "octree/packed_lanes-inl.h"
 #include "octree/strict_math.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,15 +41,14 @@ void add_within_on_target(const Node& node, const FloatQuery& query, float thres
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
   for (std::size_t i = 0; i < node.child_count; i += hn::Lanes(d)) {
     const auto beyond = hn::Gt(child_bounds(node, p, false, i), hn::Set(d, threshold));
-    const auto near = hn::AndNot(beyond, hn::FirstN(d, node.child_count - i));
+    const PackedLanes near(d, hn::AndNot(beyond, hn::FirstN(d, node.child_count - i)));
 #pragma GCC unroll 3
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      hn::StoreU(hn::Compress(lower_sides(node, axis, i), near), d, list.next_lower(axis));
-      hn::StoreU(hn::Compress(upper_sides(node, axis, i), near), d, list.next_upper(axis));
+      near.store(lower_sides(node, axis, i), list.next_lower(axis));
+      near.store(upper_sides(node, axis, i), list.next_upper(axis));
     }
-    const auto links = hn::Compress(hn::Load(du, node.link + i), hn::RebindMask(du, near));
-    hn::StoreU(links, du, list.next_link());
-    list.add(hn::CountTrue(d, near));
+    near.store(hn::Load(du, node.link + i), list.next_link());
+    list.add(near.count());
   }
 }
 

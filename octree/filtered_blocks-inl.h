@@ -30,13 +30,13 @@ class FilteredBlocks {
   void add(const BlockHeader& block) { block_[size_++] = &block; }
 
   // Calls note(block, i, squared) for each triangle whose lower bound is not above
-  // limit_of(block), and forgets all. The blocks must still be there.
+  // limit_of(extent of the block), and forgets all. The blocks must still be there.
   template <class LimitOf, class Note>
   HWY_INLINE void note_near(const BlockShape& shape, const LimitOf& limit_of, const Note& note) {
     for (unsigned at = 0; at < size_; ++at) {
       const BlockView block(*block_[at], shape);
       const FilteredTriangles& filtered = triangles_[at];
-      const float limit = limit_of(block.header());
+      const float limit = limit_of(block.header().extent);
       unsigned near = near_triangles(filtered, block.triangle_count(), limit);
       for (; near != 0; near &= near - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(near));

@@ -18,6 +18,7 @@
 #include "octree/nearby_subtrees.h"
 #include "octree/nearby_triangles.h"
 #include "octree/node_kernels-inl.h"
+#include "octree/packed_lanes-inl.h"
 #include "octree/triangle_filter-inl.h"
 #include "octree/triangle_kernels-inl.h"
 
@@ -31,18 +32,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 class SubtreeKeys {
  public:
   static constexpr std::int32_t kPlaceBits = NearbySubtrees::kMost - 1;
-  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
 
   std::size_t size() const { return size_; }
   std::size_t place(std::size_t i) const { return static_cast<std::size_t>(at_[i] & kPlaceBits); }
   float bound(std::size_t i) const { return std::bit_cast<float>(at_[i] & ~kPlaceBits); }
 
-  // Those of a vector's keys that are near.
-  template <class Keys, class Near>
-  HWY_INLINE void add(Keys keys, Near near) {
-    const hn::DFromV<Keys> d;
-    hn::StoreU(hn::Compress(keys, near), d, at_ + size_);
-    size_ += hn::CountTrue(d, near);
+  // Those of a register's keys that are near.
+  template <class Near, class Keys>
+  HWY_INLINE void add(const Near& near, Keys keys) {
+    near.store(keys, at_ + size_);
+    size_ += near.count();
   }
 
   HWY_INLINE void sort() {
@@ -50,7 +49,7 @@ class SubtreeKeys {
     if (size_ <= kFanOut) {
       const IntTag d;
       const auto used = hn::FirstN(d, size_);
-      const Ints keys = hn::IfThenElse(used, hn::Load(d, at_), hn::Set(d, kNone));
+      const Ints keys = hn::IfThenElse(used, hn::Load(d, at_), hn::Set(d, kNoKey));
       return hn::Store(sort_lanes(keys), d, at_);
     }
 #endif
@@ -67,7 +66,6 @@ class SubtreeKeys {
 HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, float threshold,
                           SubtreeKeys& found) {
   const TriangleTag d;
-  const hn::RebindToSigned<TriangleTag> di;
   const TriangleVectors p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
   for (std::size_t i = 0; i < list.size(); i += hn::Lanes(d)) {
     const auto gap = [&](std::size_t axis, TriangleFloats at) {
@@ -75,12 +73,9 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
     };
     const TriangleVectors gaps{gap(0, p.x), gap(1, p.y), gap(2, p.z)};
     const TriangleFloats squared = dot(gaps, gaps);
-    const auto keys =
-        hn::Or(hn::AndNot(hn::Set(di, SubtreeKeys::kPlaceBits), hn::BitCast(di, squared)),
-               hn::Iota(di, static_cast<std::int32_t>(i)));
-    const auto near =
-        hn::AndNot(hn::Gt(squared, hn::Set(d, threshold)), hn::FirstN(d, list.size() - i));
-    found.add(keys, hn::RebindMask(di, near));
+    const auto beyond = hn::Gt(squared, hn::Set(d, threshold));
+    const PackedLanes near(d, hn::AndNot(beyond, hn::FirstN(d, list.size() - i)));
+    found.add(near, bound_keys(squared, SubtreeKeys::kPlaceBits, i));
   }
   found.sort();
 }

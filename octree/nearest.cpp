@@ -180,7 +180,7 @@ class Descent {
   // Notes those triangles of the blocks so far that float cannot rule out.
   void note_blocks() {
     blocks_.note_near(
-        tree_.shape, [&](const BlockHeader& header) { return limit_of(header.extent); },
+        tree_.shape, [&](float extent) { return limit_of(extent); },
         [&](const BlockView& block, unsigned i, float squared) { note(block, i, squared); });
   }
 

@@ -65,16 +65,23 @@ HWY_INLINE unsigned meeting_children(const Node& node, const FloatBox& box) {
   return found & ((1U << node.child_count) - 1);
 }
 
+// Squared bounds with numbers in place of their last bits, in an order that all targets agree on:
+// the bounds are not negative, so that their bits order as they do. Numbers count up from
+// `first`, which has none of its lanes' bits.
+template <class Lanes>
+HWY_INLINE auto bound_keys(Lanes bounds, std::int32_t number_bits, std::size_t first) {
+  const hn::RebindToSigned<hn::DFromV<Lanes>> d;
+  return hn::Or(hn::AndNot(hn::Set(d, number_bits), hn::BitCast(d, bounds)),
+                hn::Iota(d, static_cast<std::int32_t>(first)));
+}
+inline constexpr std::int32_t kNoKey = std::numeric_limits<std::int32_t>::max();
+
 // Bits of a bound that name the child instead.
 inline constexpr std::int32_t kChildBits = kFanOut - 1;
-inline constexpr std::int32_t kNoChild = std::numeric_limits<std::int32_t>::max();
 
-// A child's bound and its number, in an order that all targets agree on.
+// A child's bound and its number.
 HWY_INLINE Ints child_keys(const Node& node, const Wide3& p, bool discs, std::size_t i) {
-  const IntTag d;
-  const Ints bits = hn::BitCast(d, child_bounds(node, p, discs, i));
-  return hn::Or(hn::AndNot(hn::Set(d, kChildBits), bits),
-                hn::Iota(d, static_cast<std::int32_t>(i)));
+  return bound_keys(child_bounds(node, p, discs, i), kChildBits, i);
 }
 
 #if PLANETREE_EIGHT_LANES
@@ -120,7 +127,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
 #if PLANETREE_EIGHT_LANES
   const hn::RebindToUnsigned<IntTag> du;
   const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
-  const Ints unsorted = hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoChild));
+  const Ints unsorted = hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoKey));
   // By itself: where the descent goes next need not wait for the order of the others.
   const std::int32_t nearest = hn::GetLane(hn::MinOfLanes(di, unsorted));
   const Ints keys = sort_lanes(unsorted);
@@ -141,7 +148,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
     group.link[i] = node.link[keys[i] & kChildBits];
     count += keys[i] <= most ? 1 : 0;
   }
-  return {count, node.child_count > 0 ? keys[0] : kNoChild};
+  return {count, node.child_count > 0 ? keys[0] : kNoKey};
 #endif
 }
 

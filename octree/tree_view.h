@@ -55,7 +55,7 @@ class RecordFinder {
   const std::byte* find(std::uint32_t link, TreeWork& work, std::uint32_t from = kNoPage) {
     const std::uint32_t page = links_.page(link);
     const std::uint32_t slot = links_.slot(link);
-    if (page != page_number_ || !frame_) {
+    if (!is_at_hand(link)) {
       ++work.page_turns;
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
