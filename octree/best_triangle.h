@@ -21,8 +21,8 @@ class BestTriangle {
   std::uint64_t triangle() const { return triangle_; }
   const Triangle& corners() const { return corners_; }
   bool in_sheet() const { return in_sheet_; }
-  /// Its nearest point.
-  NearestOnTriangle nearest() const { return place(corners_, finding_); }
+  /// Writes its nearest point.
+  void place_nearest(NearestOnTriangle& nearest) const { place(corners_, finding_, nearest); }
 
   /// Nothing farther than this is of interest.
   double reach() const { return reach_; }
@@ -44,7 +44,7 @@ class BestTriangle {
   }
 
   /// Keeps a triangle that was evaluated if (value, index) is less; `in_sheet` is its block's,
-  /// `corners()` gives its corners.
+  /// `corners(to)` writes its corners.
   template <class Corners>
   void offer(const TriangleFinding& finding, std::uint64_t index, bool in_sheet, Corners corners) {
     const double squared = finding.value.squared;
@@ -56,7 +56,7 @@ class BestTriangle {
     finding_ = finding;
     triangle_ = index;
     in_sheet_ = in_sheet;
-    corners_ = corners();
+    corners(corners_);
     if (distance >= reach_) return;
     reach_ = distance;
     bounded_ = true;

@@ -17,7 +17,7 @@ namespace planetree::octree {
 class BoxWalk {
  public:
   /// lower, upper  model frame.
-  BoxWalk(const TreeFacts& tree, const Point& lower, const Point& upper, PageReader pages,
+  BoxWalk(const TreeFacts& tree, const Point& lower, const Point& upper, const PageReader& pages,
           TreeWork& work)
       : box_(rounded_outward(lower, upper, tree.centre)), walk_(tree, pages, work) {}
 

@@ -40,7 +40,7 @@ void ColourMap::measure(const Point& size, unsigned level, bool clipped, int sca
 }
 
 void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, bool clipped, int scale,
-                     PageReader pages, std::span<std::byte> memory) noexcept {
+                     const PageReader& pages, std::span<std::byte> memory) noexcept {
   // A forged header may tell of a box that does not fit the root.
   const Point size = tree.box_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();

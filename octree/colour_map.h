@@ -39,8 +39,8 @@ class ColourMap {
   /// clipped  by the walls of a region, so that cells' octants may be others than halves.
   /// scale    model frame's units are 2^scale of the input's.
   /// memory   where the map is to be, on a boundary of 16 bytes; must outlive this.
-  void fill(const MaskFacts& mask, const TreeFacts& tree, bool clipped, int scale, PageReader pages,
-            std::span<std::byte> memory) noexcept;
+  void fill(const MaskFacts& mask, const TreeFacts& tree, bool clipped, int scale,
+            const PageReader& pages, std::span<std::byte> memory) noexcept;
 
   static constexpr int kUnknown = MapCells::kUnknown;
 
@@ -131,6 +131,6 @@ class ColourMap {
 /// Finds the cell of the mask that a point is in, from where a map of the mask's colours has found
 /// `spot` for it.
 MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
-                    std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+                    std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

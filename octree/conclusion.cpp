@@ -50,20 +50,15 @@ bool may_matter(float bound, const BestTriangle& best) {
   return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
 }
 
-NearestAnswer answer_of(const BestTriangle& best) {
-  const NearestOnTriangle nearest = best.nearest();
-  NearestAnswer answer;
-  answer.distance = std::sqrt(nearest.value.squared);
+void answer_with(const BestTriangle& best, NearestAnswer& answer) {
+  best.place_nearest(answer);
+  answer.distance = std::sqrt(answer.value.squared);
   answer.lower = down(best.lower());
-  answer.upper = up(answer.distance + nearest.value.error);
-  answer.point = nearest.point;
+  answer.upper = up(answer.distance + answer.value.error);
   answer.triangle = best.triangle();
-  answer.barycentric = nearest.barycentric;
   answer.corners = best.corners();
-  answer.feature = nearest.feature;
   answer.in_sheet = best.in_sheet();
   answer.status = Status::kExact;
-  return answer;
 }
 
 }  // namespace
@@ -71,24 +66,30 @@ NearestAnswer answer_of(const BestTriangle& best) {
 NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& wide,
                        const LeftOut& left_out) noexcept {
-  const auto [pruned, unread, within] = left_out;
-  const bool spent = may_matter(unread, best);
+  // One answer, made where the caller wants it.
+  NearestAnswer answer;
+  const bool spent = may_matter(left_out.unread, best);
   const auto bound_of = [&](float squared) {
     return std::max(distance_to_box(tree, query), certified(wide, squared));
   };
-  if (!best.found() && !spent) return beyond(limits);
-  if (!best.found())
-    return nothing_read(tree, query, std::min(limits.max_distance, bound_of(unread)), within);
-  NearestAnswer answer = answer_of(best);
-  if (may_matter(pruned, best)) {
-    answer.lower = std::min(answer.lower, bound_of(pruned));
+  if (!best.found()) {
+    answer =
+        spent ? nothing_read(tree, query, std::min(limits.max_distance, bound_of(left_out.unread)),
+                             left_out.within)
+              : beyond(limits);
+    return answer;
+  }
+  answer_with(best, answer);
+  if (may_matter(left_out.pruned, best)) {
+    answer.lower = std::min(answer.lower, bound_of(left_out.pruned));
     answer.status = Status::kWithinError;
   }
   // Only now: what max_error left out may be nearer than what was found.
-  if (answer.lower > limits.max_distance && !spent) return beyond(limits);
-  if (spent) {
-    answer.lower = std::min(answer.lower, bound_of(unread));
-    answer.upper = std::min(answer.upper, up(within));
+  if (answer.lower > limits.max_distance && !spent) {
+    answer = beyond(limits);
+  } else if (spent) {
+    answer.lower = std::min(answer.lower, bound_of(left_out.unread));
+    answer.upper = std::min(answer.upper, up(left_out.within));
     answer.status = Status::kDegraded;
   }
   return answer;

@@ -106,7 +106,7 @@ class BlockCrossings {
 };
 
 Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
+                          std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) {
   const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
   BlockCrossings crossings(tree, segment, work);
   const auto visit = [&](const BlockView& block, std::uint32_t)
@@ -118,7 +118,7 @@ Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
 
 Crossings count_in_blocks_on_target(const TreeFacts& tree, const MovedSegment& segment,
                                     std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
-                                    PageReader pages, TreeWork& work) {
+                                    const PageReader& pages, TreeWork& work) {
   if (blocks.size() > max_nodes) return {.complete = false};
   RecordFinder records(tree, pages);
   for (const std::uint32_t link : blocks) records.prefetch<kNearNodeSlots, 6>(link);
@@ -145,13 +145,14 @@ HWY_EXPORT(count_on_target);
 HWY_EXPORT(count_in_blocks_on_target);
 
 Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+                          std::uint64_t max_nodes, const PageReader& pages,
+                          TreeWork& work) noexcept {
   return HWY_DYNAMIC_DISPATCH(count_on_target)(tree, segment, max_nodes, pages, work);
 }
 
 Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
                           std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
-                          PageReader pages, TreeWork& work) noexcept {
+                          const PageReader& pages, TreeWork& work) noexcept {
   return HWY_DYNAMIC_DISPATCH(count_in_blocks_on_target)(tree, segment, blocks, max_nodes, pages,
                                                          work);
 }

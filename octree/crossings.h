@@ -26,13 +26,14 @@ struct Crossings {
 ///            section 3.3, counts crossings to a cell corner of known colour; signed
 ///            ones, so that doubled and overlapping surfaces are right, are ours.
 Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+                          std::uint64_t max_nodes, const PageReader& pages,
+                          TreeWork& work) noexcept;
 
 /// The same, of the triangles of some blocks alone.
 ///
 /// blocks  links that need not be right: what leads to no block counts as missing.
 Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
                           std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
-                          PageReader pages, TreeWork& work) noexcept;
+                          const PageReader& pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

@@ -134,7 +134,7 @@ void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) 
 
 // From some subtrees down, or from the root.
 bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, const TreeFacts& tree,
-             std::uint64_t max_nodes, PageReader pages, TreeWork& work) {
+             std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) {
   const Outcodes outcodes(vertex, vertex);
   BoxWalk walk(tree, vertex, vertex, pages, work);
   if (subtrees) walk.begin_with(*subtrees);
@@ -164,7 +164,8 @@ std::optional<Point> face_normal(const Triangle& triangle) noexcept {
 
 FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
                              const NearestAnswer& nearest, const Vicinity* vicinity,
-                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+                             std::uint64_t max_nodes, const PageReader& pages,
+                             TreeWork& work) noexcept {
   if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest);
   FeatureNormal found;
   // The corners that the nearest point is made of: one, or two.

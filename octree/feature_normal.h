@@ -36,6 +36,7 @@ struct FeatureNormal {
 ///            angle weighted pseudonormal".
 FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
                              const NearestAnswer& nearest, const Vicinity* vicinity,
-                             std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept;
+                             std::uint64_t max_nodes, const PageReader& pages,
+                             TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

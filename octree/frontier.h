@@ -50,6 +50,14 @@ class Frontier {
   /// Takes a child within `threshold`. `dropped` becomes the least bound of those that are
   /// not, if less. False when nothing is left.
   bool pop(Order order, float threshold, FrontierEntry& entry, float& dropped) {
+    float least_dropped = dropped;
+    const bool found = pop_near(order, threshold, entry, least_dropped);
+    dropped = least_dropped;
+    return found;
+  }
+
+ private:
+  bool pop_near(Order order, float threshold, FrontierEntry& entry, float& dropped) {
     while (size_ > 0) {
       const bool nearest = order == Order::kNearest && size_ <= kMostToOrder;
       const std::size_t at = nearest ? nearest_group() : size_ - 1;
@@ -69,7 +77,6 @@ class Frontier {
     return false;
   }
 
- private:
   struct Cursor {
     std::uint32_t from;
     std::uint8_t next, end;  // of the group's entries

@@ -14,7 +14,7 @@ namespace planetree::octree {
 /// octants of those that are grey, and to fill in what is known of grey octants.
 class ColourMap::Painter {
  public:
-  Painter(ColourMap& map, const MaskFacts& mask, PageReader pages, bool clipped)
+  Painter(ColourMap& map, const MaskFacts& mask, const PageReader& pages, bool clipped)
       : map_(map), mask_(mask), pages_(pages), clipped_(clipped) {}
 
   /// Returns how many cells are listed.

@@ -18,7 +18,7 @@ MaskAhead::MaskAhead(const MaskFacts& mask, const ColourMap& colours, const Poin
   __builtin_prefetch(record_);
 }
 
-void MaskAhead::step(PageReader pages) noexcept {
+void MaskAhead::step(const PageReader& pages) noexcept {
   assert(goes_on());
   const Next now = std::exchange(next_, Next::kNothing);
   if (now == Next::kMapRecord) {
@@ -39,7 +39,7 @@ void MaskAhead::step(PageReader pages) noexcept {
   ask_for(links.make(links.page(link_), listed.list_slot), pages);
 }
 
-void MaskAhead::go_below(const MaskNode& node, PageReader pages) {
+void MaskAhead::go_below(const MaskNode& node, const PageReader& pages) {
   if (cell_.level >= kLevels) return;  // forged
   const unsigned octant = CellGrid(mask_.lower).octant(cell_, point_);
   if ((node.grey >> octant & 1) == 0) return;
@@ -50,7 +50,7 @@ void MaskAhead::go_below(const MaskNode& node, PageReader pages) {
 }
 
 // What is at a link, asked for; null if its page is not in memory.
-const std::byte* MaskAhead::ask_for(std::uint32_t link, PageReader pages) const {
+const std::byte* MaskAhead::ask_for(std::uint32_t link, const PageReader& pages) const {
   const std::byte* record = MaskRecords(mask_, pages).peek(link);
   if (record) __builtin_prefetch(record);
   return record;

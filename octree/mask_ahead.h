@@ -24,13 +24,13 @@ class MaskAhead {
   bool goes_on() const { return next_ != Next::kNothing; }
   /// Where there is one.
   /// pages  may be asked by `peek` alone, which it has.
-  void step(PageReader pages) noexcept;
+  void step(const PageReader& pages) noexcept;
 
  private:
   enum class Next : std::uint8_t { kNothing, kMapRecord, kNode, kLeaf };
 
-  void go_below(const MaskNode& node, PageReader pages);
-  const std::byte* ask_for(std::uint32_t link, PageReader pages) const;
+  void go_below(const MaskNode& node, const PageReader& pages);
+  const std::byte* ask_for(std::uint32_t link, const PageReader& pages) const;
 
   const MaskFacts& mask_;
   const Point point_;

@@ -80,7 +80,7 @@ void descend(MaskRecords& records, const MaskNode& from, const Point& point,
 }  // namespace
 
 MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
-                    PageReader pages, TreeWork& work) noexcept {
+                    const PageReader& pages, TreeWork& work) noexcept {
   MaskFinding finding;
   if (mask.page_count == 0 || max_nodes == 0) return finding;
   MaskRecords records(mask, pages);
@@ -100,7 +100,7 @@ MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max
 }
 
 MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
-                    std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+                    std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
   if (!spot.record || max_nodes == 0) return look_up(mask, point, max_nodes, pages, work);
   MaskFinding finding;
   finding.cell = spot.cell;

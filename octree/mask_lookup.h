@@ -46,6 +46,6 @@ struct MaskFinding {
 /// max_nodes  most nodes to visit; no more than kLevels are needed.
 /// threads    any; no allocation, no lock, no exception.
 MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
-                    PageReader pages, TreeWork& work) noexcept;
+                    const PageReader& pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

@@ -12,7 +12,7 @@ namespace planetree::octree {
 /// Link to record of a mask, by way of its page. Looks a page up only where the page changes.
 class MaskRecords {
  public:
-  MaskRecords(const MaskFacts& mask, PageReader pages)
+  MaskRecords(const MaskFacts& mask, const PageReader& pages)
       : links_(mask.page_bytes),
         first_page_(mask.first_page),
         page_count_(mask.page_count),
@@ -91,7 +91,7 @@ class MaskRecords {
   const MaskLinkFormat links_;
   const std::uint32_t first_page_;
   const std::uint32_t page_count_;
-  const PageReader pages_;
+  const PageReader& pages_;
   std::uint32_t page_ = kNoPage;
   const std::byte* frame_ = nullptr;
 };

@@ -88,7 +88,7 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
   for (; near != 0; near &= near - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(near));
     best.offer(findings.of(lane), list.id(first + lane), list.in_sheet(first + lane),
-               [&] { return list.triangle(first + lane); });
+               [&](Triangle& to) { list.exact().view(0).copy_triangle(first + lane, to); });
   }
 }
 

@@ -29,8 +29,8 @@ namespace HWY_NAMESPACE {
 // One descent; the parts that touch nodes and blocks are compiled per target.
 class Descent {
  public:
-  Descent(const TreeFacts& tree, const Point& query, const NearestLimits& limits, PageReader pages,
-          TreeWork& work)
+  Descent(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
+          const PageReader& pages, TreeWork& work)
       : tree_(tree),
         query_(query),
         wide_(FloatQuery::from(query, tree.centre)),
@@ -216,7 +216,7 @@ class Descent {
       evaluate_some(rows.view(i), (1U << count) - 1, query_, findings);
       for (std::size_t lane = 0; lane < count; ++lane)
         best_.offer(findings.of(lane), candidates_.id(i + lane), candidates_.in_sheet(i + lane),
-                    [&] { return rows.triangle(i + lane); });
+                    [&](Triangle& to) { rows.view(0).copy_triangle(i + lane, to); });
     }
     work_.triangles += candidates_.size();
     candidates_.clear();
@@ -251,8 +251,8 @@ NearestAnswer nearest_of_list(const TreeFacts& tree, const Point& query,
 }
 
 NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
-                                const NearestLimits& limits, PageReader pages, TreeWork& work,
-                                Vicinity* vicinity) {
+                                const NearestLimits& limits, const PageReader& pages,
+                                TreeWork& work, Vicinity* vicinity) {
   const std::uint64_t before = work.nodes + work.blocks;
   const double reach = vicinity ? vicinity->reach_of(query) : 0;
   const bool held = vicinity && vicinity->holds(reach);
@@ -300,7 +300,7 @@ namespace planetree::octree {
 HWY_EXPORT(nearest_on_target);
 
 NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      PageReader pages, TreeWork& work, Vicinity* vicinity) noexcept {
+                      const PageReader& pages, TreeWork& work, Vicinity* vicinity) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
   // Limited work and errors depend on the way that is taken.
   const bool any_way =

@@ -16,16 +16,13 @@ namespace planetree::octree {
 /// and the nearest triangle is the one of least index.
 inline constexpr double kFarthestQuery = 0x1p300;
 
-/// An answer in the model frame.
-struct NearestAnswer {
+/// An answer in the model frame: the nearest point of a triangle, and what is known of others.
+struct NearestAnswer : NearestOnTriangle {
   double distance = 0;
   double lower = 0;
   double upper = 0;
-  Point point = Point::Zero();
   std::uint64_t triangle = kNoTriangle;
-  std::array<double, 3> barycentric{};
   Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< of `triangle`
-  Feature feature = Feature::kFace;
   bool in_sheet = false;  ///< `triangle` is known to be in a sheet (BlockHeader)
   Status status = Status::kBadQuery;
 };
@@ -54,6 +51,7 @@ struct NearestLimits {
 /// threads any; no allocation, no lock, no exception of its own.
 /// source  descent and float filter are ours; bounds in octree/bounds.h.
 NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      PageReader pages, TreeWork& work, Vicinity* vicinity = nullptr) noexcept;
+                      const PageReader& pages, TreeWork& work,
+                      Vicinity* vicinity = nullptr) noexcept;
 
 }  // namespace planetree::octree

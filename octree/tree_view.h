@@ -10,7 +10,8 @@
 namespace planetree::octree {
 
 /// Page number to frame. `page` returns the decoded frame, or null where the
-/// page cannot be had; the pointer is good until the next call.
+/// page cannot be had; the pointer is good until the next call. Handed on by reference:
+/// whoever keeps one must not outlive it.
 struct PageReader {
   void* context = nullptr;
   const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
@@ -43,7 +44,7 @@ struct TreeWork {
 /// changes.
 class RecordFinder {
  public:
-  RecordFinder(const TreeFacts& tree, PageReader pages)
+  RecordFinder(const TreeFacts& tree, const PageReader& pages)
       : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
 
   /// No page has this number.
@@ -135,7 +136,7 @@ class RecordFinder {
 
   const LinkFormat links_;
   const unsigned node_slots_;
-  const PageReader pages_;
+  const PageReader& pages_;
   std::uint32_t page_number_ = kNoPage;
   const std::byte* frame_ = nullptr;
 };

@@ -14,7 +14,7 @@ namespace planetree::octree {
 /// the tree and the test alone. No allocation, no lock.
 class TreeWalk {
  public:
-  TreeWalk(const TreeFacts& tree, PageReader pages, TreeWork& work)
+  TreeWalk(const TreeFacts& tree, const PageReader& pages, TreeWork& work)
       : tree_(tree), work_(work), records_(tree, pages) {}
 
   /// Begins with this record, and others so named, in place of the root; a list of

@@ -107,9 +107,10 @@ void refine_flat(const Point& query, const TriangleView& triangles, unsigned fla
   }
 }
 
-NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding) noexcept {
-  NearestOnTriangle nearest;
+void place(const Triangle& triangle, const TriangleFinding& finding,
+           NearestOnTriangle& nearest) noexcept {
   nearest.value = finding.value;
+  nearest.barycentric = {};
   const auto order = lexicographic_order(triangle);
   const auto number = static_cast<std::size_t>(finding.number);
   const std::size_t first = order[kFirst[number]], second = order[kSecond[number]];
@@ -121,7 +122,7 @@ NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding
     nearest.point = a == 0 ? u : a == 1 ? v : Point(u + a * (v - u));
     nearest.barycentric[first] = 1 - a;
     nearest.barycentric[second] = a;
-    return nearest;
+    return;
   }
   const Point& apex = triangle[order[number]];
   nearest.feature = Feature::kFace;
@@ -129,7 +130,6 @@ NearestOnTriangle place(const Triangle& triangle, const TriangleFinding& finding
   nearest.barycentric[order[number]] = std::max((1 - a) - b, kLeastShare);
   nearest.barycentric[first] = std::max(a, kLeastShare);
   nearest.barycentric[second] = std::max(b, kLeastShare);
-  return nearest;
 }
 
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
@@ -137,7 +137,9 @@ NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triang
   rows.fill(0, triangle);
   TriangleFindings findings;
   HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), findings);
-  return place(triangle, findings.of(0));
+  NearestOnTriangle nearest;
+  place(triangle, findings.of(0), nearest);
+  return nearest;
 }
 
 }  // namespace planetree::octree

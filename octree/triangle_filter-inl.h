@@ -116,53 +116,65 @@ class BlockTriangles {
  public:
   // `query` is relative to vertex 0.
   HWY_INLINE BlockTriangles(const BlockHeader& block, const float (&query)[3]) : block_(block) {
-    const hn::CappedTag<float, kStride % kMaxBlockTriangles == 0 ? kMaxBlockTriangles : kFanOut> d;
+    const RowTag d;
     const float* HWY_RESTRICT local = reinterpret_cast<const float*>(&block + 1);
+#pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis, local += kStride) {
       const auto first = hn::Set(d, local[0]);
       const auto q = hn::Set(d, query[axis]);
-#pragma GCC unroll 6
-      for (unsigned i = 0; i < kStride; i += static_cast<unsigned>(hn::Lanes(d)))
-        hn::Store(hn::Sub(hn::Sub(hn::Load(d, local + i), first), q), d, row_[axis] + i);
+#pragma GCC unroll 12
+      for (unsigned i = 0; i < kVectors; ++i)
+        keep(axis, i, hn::Sub(hn::Sub(hn::LoadU(d, local + i * kLanes), first), q));
     }
   }
 
   // Corner `k` of the triangles from `first` on.
   HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t first) const {
-    const TriangleTag d;
     const hn::RebindToSigned<TriangleTag> di;
     const hn::Rebind<std::uint8_t, decltype(di)> bytes;
     const auto index = hn::PromoteTo(di, hn::LoadU(bytes, block_.corner[k] + first));
-#if PLANETREE_EIGHT_LANES
-    // A gather costs more than looking each vector of a row up in registers, which minds the
-    // last bits alone.
-    constexpr int kLanes = static_cast<int>(hn::MaxLanes(TriangleTag()));
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, kLanes - 1)));
-    const auto look_up = [&](unsigned axis, unsigned i) {
-      return hn::TableLookupLanes(hn::Load(d, row_[axis] + i), lane);
-    };
-    TriangleVectors found{look_up(0, 0), look_up(1, 0), look_up(2, 0)};
-#pragma GCC unroll 5
-    for (unsigned i = kLanes; i < kStride; i += kLanes) {
-      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, static_cast<int>(i) - 1)));
-      found.x = hn::IfThenElse(here, look_up(0, i), found.x);
-      found.y = hn::IfThenElse(here, look_up(1, i), found.y);
-      found.z = hn::IfThenElse(here, look_up(2, i), found.z);
-    }
-    return found;
-#else
-    return {hn::GatherIndex(d, row_[0], index), hn::GatherIndex(d, row_[1], index),
-            hn::GatherIndex(d, row_[2], index)};
-#endif
+    return {look_up(0, index), look_up(1, index), look_up(2, index)};
   }
 
  private:
-  // Whole vectors: of what is behind the vertices nothing is used.
-  static constexpr unsigned kRow =
-      (kStride + kMaxBlockTriangles - 1) / kMaxBlockTriangles * kMaxBlockTriangles;
+  // Whole vectors: of what is behind the vertices nothing is used. Ids are behind all rows, so
+  // that the last may be read beyond its end.
+  using RowTag = TriangleTag;
+  static constexpr unsigned kLanes = static_cast<unsigned>(hn::MaxLanes(RowTag()));
+  static constexpr unsigned kVectors = (kStride + kLanes - 1) / kLanes;
 
+#if PLANETREE_EIGHT_LANES
+  HWY_INLINE void keep(unsigned axis, unsigned i, TriangleFloats row) { row_[axis][i] = row; }
+
+  // A gather costs more than looking each vector of a row up in registers, which minds the
+  // last bits alone.
+  template <class Index>
+  HWY_INLINE TriangleFloats look_up(unsigned axis, Index index) const {
+    const TriangleTag d;
+    const hn::DFromV<Index> di;
+    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, int{kLanes - 1})));
+    TriangleFloats found = hn::TableLookupLanes(row_[axis][0], lane);
+#pragma GCC unroll 5
+    for (unsigned i = 1; i < kVectors; ++i) {
+      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, int(i * kLanes) - 1)));
+      found = hn::IfThenElse(here, hn::TableLookupLanes(row_[axis][i], lane), found);
+    }
+    return found;
+  }
+
+  TriangleFloats row_[3][kVectors];
+#else
+  HWY_INLINE void keep(unsigned axis, unsigned i, TriangleFloats row) {
+    hn::Store(row, RowTag(), row_[axis] + i * kLanes);
+  }
+  template <class Index>
+  HWY_INLINE TriangleFloats look_up(unsigned axis, Index index) const {
+    return hn::GatherIndex(TriangleTag(), row_[axis], index);
+  }
+
+  HWY_ALIGN float row_[3][kVectors * kLanes];
+#endif
   const BlockHeader& block_;
-  HWY_ALIGN float row_[3][kRow];
 };
 
 // The way from a point to the query.
@@ -225,21 +237,25 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
   filtered.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
+// A block's, of so many vertices.
+template <unsigned kStride>
+void filter_block_of(const BlockHeader& block, const float (&query)[3], float limit,
+                     FilteredTriangles& filtered) {
+  filter_triangles(BlockTriangles<kStride>(block, query), block.triangle_count, limit, filtered);
+}
+
 // A block's. `query` is relative to vertex 0.
 HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], float limit,
                              FilteredTriangles& filtered) {
-  const auto filter = [&](const auto& triangles) {
-    filter_triangles(triangles, block.triangle_count, limit, filtered);
-  };
   switch (block.stride) {
     case 16:
-      return filter(BlockTriangles<16>(block, query));
+      return filter_block_of<16>(block, query, limit, filtered);
     case 24:
-      return filter(BlockTriangles<24>(block, query));
+      return filter_block_of<24>(block, query, limit, filtered);
     case 32:
-      return filter(BlockTriangles<32>(block, query));
+      return filter_block_of<32>(block, query, limit, filtered);
     default:
-      return filter(BlockTriangles<kMaxBlockVertices>(block, query));
+      return filter_block_of<kMaxBlockVertices>(block, query, limit, filtered);
   }
 }
 

@@ -15,10 +15,13 @@ struct TriangleView {
 
   Triangle triangle(std::size_t i) const {
     Triangle corners;
+    copy_triangle(i, corners);
+    return corners;
+  }
+  void copy_triangle(std::size_t i, Triangle& corners) const {
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t axis = 0; axis < 3; ++axis)
         corners[k][static_cast<Eigen::Index>(axis)] = at[(3 * k + axis) * stride + i];
-    return corners;
   }
 };
 

@@ -16,7 +16,7 @@ namespace {
 // Records by their links, up to so many: a forged tree could lead to one again and again.
 class LimitedFinder {
  public:
-  LimitedFinder(const TreeFacts& tree, std::uint64_t most, PageReader pages, TreeWork& work)
+  LimitedFinder(const TreeFacts& tree, std::uint64_t most, const PageReader& pages, TreeWork& work)
       : records_(tree, pages), work_(work), left_(std::min(most, tree.record_count)) {}
 
   // Null where it cannot be had, or no more may be visited.
@@ -146,7 +146,7 @@ class TriangleSearch {
 }  // namespace
 
 void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
-                     std::uint64_t max_nodes, PageReader pages, TreeWork& work) noexcept {
+                     std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
   const double diagonal = (tree.box_upper - tree.box_lower).norm();
   const double radius = wanted_radius(query, distance, diagonal);
   if (!(radius > 0)) return;

@@ -51,7 +51,7 @@ class Vicinity {
   /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to
   /// be worth its while. `distance` is the answer to it. Visits at most so many nodes and blocks.
   void renew(const TreeFacts& tree, const Point& query, double distance, std::uint64_t max_nodes,
-             PageReader pages, TreeWork& work) noexcept;
+             const PageReader& pages, TreeWork& work) noexcept;
 
   /// An exact answer.
   void note(const Point& query, const Point& nearest) {

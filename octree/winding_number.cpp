@@ -57,7 +57,7 @@ class Openings {
 
 class WindingSum {
  public:
-  WindingSum(const TreeFacts& tree, const Point& point, PageReader pages, TreeWork& work)
+  WindingSum(const TreeFacts& tree, const Point& point, const PageReader& pages, TreeWork& work)
       : tree_(tree),
         point_(point),
         work_(work),
@@ -180,7 +180,7 @@ class WindingSum {
 }  // namespace
 
 WindingNumber winding_number(const TreeFacts& tree, const Point& point, std::uint64_t max_nodes,
-                             PageReader pages, TreeWork& work) noexcept {
+                             const PageReader& pages, TreeWork& work) noexcept {
   return WindingSum(tree, point, pages, work).run(max_nodes);
 }
 

@@ -35,6 +35,6 @@ struct WindingNumber {
 ///            numbers for soups and clouds". Certain intervals and the order of
 ///            opening are ours.
 WindingNumber winding_number(const TreeFacts& tree, const Point& point, std::uint64_t max_nodes,
-                             PageReader pages, TreeWork& work) noexcept;
+                             const PageReader& pages, TreeWork& work) noexcept;
 
 }  // namespace planetree::octree

@@ -18,12 +18,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// As if no triangle was reached.
-ClosestPoint without_distance(Status status) {
-  ClosestPoint answer;
+// As if no triangle was reached; `answer` is new.
+void begin(ClosestPoint& answer, Status status) {
   answer.distance = answer.upper = kInfinity;
   answer.status = status;
-  return answer;
 }
 
 // Beyond octree::kFarthestQuery all triangles are equally far in double; `from`
@@ -45,7 +43,8 @@ void measure_far(const Vec3& query, const Ask& ask, ClosestPoint& answer) {
   const double x = query.x / largest, y = query.y / largest, z = query.z / largest;
   answer.distance = largest * std::sqrt(x * x + y * y + z * z);
   if (answer.distance > ask.max_distance) {
-    answer = without_distance(Status::kBeyondMaxDistance);
+    answer = {};
+    begin(answer, Status::kBeyondMaxDistance);
     answer.lower = ask.max_distance;
     return;
   }
@@ -111,15 +110,13 @@ class Asking {
 
   void run() {
     const std::uint32_t parts = (ask_.parts & kNormal) != 0 ? kAllParts : ask_.parts;
-    if ((parts & kDistance) != 0) {
-      if ((parts & kSide) != 0) look_ahead();
-      find_nearest();
-      turner_.take_along(nullptr);
-    }
+    octree::NearestAnswer nearest =
+        (parts & kDistance) != 0 ? find_nearest((parts & kSide) != 0) : octree::NearestAnswer();
+    if ((parts & kDistance) != 0) tell(nearest);
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     Standing standing;
-    if ((parts & kSide) != 0) standing = find_side(with_normal);
-    if (with_normal) find_normal(standing);
+    if ((parts & kSide) != 0) standing = find_side(nearest, with_normal);
+    if (with_normal) find_normal(nearest, standing);
     if (lost_) note_loss(probe_, query_, ask_, turner_);
     probe_.last_parts() = parts;
   }
@@ -139,21 +136,27 @@ class Asking {
     if (ahead_->goes_on()) turner_.take_along(&*ahead_);
   }
 
-  void find_nearest() {
+  octree::NearestAnswer find_nearest(bool with_side) {
+    if (far_) return farthest(model_.tree(), point_);
+    if (with_side) look_ahead();
     octree::NearestLimits limits;
     limits.max_error = model_.scale().in(ask_.max_error);
     limits.max_distance = model_.scale().in(ask_.max_distance);
     limits.max_nodes = ask_.max_nodes;
     if (ask_.wait == Wait::kNever) limits.known = &probe_.last_nearest();
-    nearest_ = far_ ? farthest(model_.tree(), point_)
-                    : octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
-                                      &probe_.vicinity());
+    return octree::nearest(model_.tree(), point_, limits, turner_.pages(), work_,
+                           &probe_.vicinity());
+  }
+
+  void tell(octree::NearestAnswer& nearest) {
+    turner_.take_along(nullptr);
     // What stands for the farthest queries' nearest triangle is a vertex of it.
-    if (!far_ && limits.known && nearest_.triangle != kNoTriangle) probe_.last_nearest() = nearest_;
-    lost_ = nearest_.status == Status::kDegraded;
-    widen(model_.tree(), point_, clearance(model_.region(), point_, far_), limits.max_distance,
-          nearest_);
-    fill_in(model_.scale(), nearest_, answer_);
+    if (!far_ && ask_.wait == Wait::kNever && nearest.triangle != kNoTriangle)
+      probe_.last_nearest() = nearest;
+    lost_ = nearest.status == Status::kDegraded;
+    widen(model_.tree(), point_, clearance(model_.region(), point_, far_),
+          model_.scale().in(ask_.max_distance), nearest);
+    fill_in(model_.scale(), nearest, answer_);
     if (far_) measure_far(query_, ask_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = ask_.max_distance;
     if (answer_.status == Status::kDegraded && !lost_ &&
@@ -161,17 +164,18 @@ class Asking {
       answer_.status = Status::kWithinError;
   }
 
-  Standing find_side(bool with_normal) {
+  Standing find_side(const octree::NearestAnswer& nearest, bool with_normal) {
     octree::ColourMap::Spot spot;
-    std::optional<Standing> known = side_before();
+    std::optional<Standing> known = side_before(nearest);
     // Faces tell most sides near the surface, colours those of other places.
     const bool looks_first = probe_.colours_told();
     if (!known && looks_first) known = side_at_a_look(spot);
-    if (!known && (with_normal || nearest_.feature == Feature::kFace)) known = side_of_faces();
+    if (!known && (with_normal || nearest.feature == Feature::kFace))
+      known = side_of_faces(nearest);
     if (!known && !looks_first) known = side_at_a_look(spot);
     probe_.searched_side() = !known;
     const Standing standing = known ? *known
-                                    : side_of(probe_, point_, spot, nearest_.lower, remember_,
+                                    : side_of(probe_, point_, spot, nearest.lower, remember_,
                                               nodes_left(), turner_, work_);
     answer_.side = standing.side;
     if (standing.status == Status::kDegraded) degrade();
@@ -180,9 +184,9 @@ class Asking {
 
   // Most often the side is that of the ask before: the surface is known to be farther than that
   // was.
-  std::optional<Standing> side_before() {
+  std::optional<Standing> side_before(const octree::NearestAnswer& nearest) {
     if (far_ || !remember_) return {};
-    return side_as_before(model_, point_, nearest_.lower, probe_.side_memory());
+    return side_as_before(model_, point_, nearest.lower, probe_.side_memory());
   }
 
   std::optional<Standing> side_at_a_look(octree::ColourMap::Spot& spot) {
@@ -197,28 +201,27 @@ class Asking {
   // The side by what is at the nearest point, and no look at the mask. Not of limited asks that
   // wait: they bring the pages that others need, which may have to look there. No region with
   // walls has sheets, whatever its file says.
-  std::optional<Standing> side_of_faces() {
-    if (!remember_ || !octree::Sheet::tells_side(nearest_) || model_.region().has_walls())
-      return {};
+  std::optional<Standing> side_of_faces(const octree::NearestAnswer& nearest) {
+    if (!remember_ || !octree::Sheet::tells_side(nearest) || model_.region().has_walls()) return {};
     // Of a few nodes more than finding all faces of a vertex takes, the search shall have its own.
-    if (nearest_.feature != Feature::kFace && nodes_left() < kNodesForFaces) return {};
-    if (feature().side == 0) return {};
-    const bool outside = feature().side > 0;
+    if (nearest.feature != Feature::kFace && nodes_left() < kNodesForFaces) return {};
+    if (feature(nearest).side == 0) return {};
+    const bool outside = feature(nearest).side > 0;
     const Standing standing{outside ? Side::kOutside : Side::kInside, Status::kExact,
                             outside ? 0 : 1};
-    probe_.side_memory().note(point_, standing, true, nearest_.lower);
+    probe_.side_memory().note(point_, standing, true, nearest.lower);
     return standing;
   }
 
-  void find_normal(const Standing& standing) {
-    const octree::Point normal = contact_normal(point_, nearest_, feature(), standing);
+  void find_normal(const octree::NearestAnswer& nearest, const Standing& standing) {
+    const octree::Point normal = contact_normal(point_, nearest, feature(nearest), standing);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
-    if (!feature().complete) degrade();
+    if (!feature(nearest).complete) degrade();
   }
 
-  const octree::FeatureNormal& feature() {
+  const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {
     if (!feature_)
-      feature_ = octree::feature_normal(model_.tree(), point_, nearest_,
+      feature_ = octree::feature_normal(model_.tree(), point_, nearest,
                                         remember_ ? &probe_.vicinity() : nullptr, nodes_left(),
                                         turner_.pages(), work_);
     return *feature_;
@@ -243,7 +246,6 @@ class Asking {
   PageTurner turner_;
   octree::TreeWork work_;
   ClosestPoint& answer_;
-  octree::NearestAnswer nearest_;
   std::optional<octree::FeatureNormal> feature_;  // at the nearest point
   bool lost_ = false;                             // something for want of pages or work
 };
@@ -251,9 +253,11 @@ class Asking {
 }  // namespace
 
 ClosestPoint closest_point(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  if (!makes_sense(query, ask)) return without_distance(Status::kBadQuery);
-  ClosestPoint answer = without_distance(Status::kExact);
-  Asking(probe, query, ask, nullptr, answer).run();
+  // One answer, made where the caller wants it.
+  ClosestPoint answer;
+  const bool sensible = makes_sense(query, ask);
+  begin(answer, sensible ? Status::kExact : Status::kBadQuery);
+  if (sensible) Asking(probe, query, ask, nullptr, answer).run();
   if (answer.status == Status::kDegraded) probe.model().count_degraded();
   return answer;
 }
@@ -262,7 +266,8 @@ void bring_pages(ProbeState& probe, const Vec3& query, const Ask& ask,
                  const std::atomic<bool>& stop) noexcept {
   assert(ask.wait == Wait::kForPages && !may_remember(ask));
   if (!makes_sense(query, ask)) return;
-  ClosestPoint unused = without_distance(Status::kExact);
+  ClosestPoint unused;
+  begin(unused, Status::kExact);
   Asking(probe, query, ask, &stop, unused).run();
 }
 

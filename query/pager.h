@@ -73,6 +73,8 @@ class Pager {
 ///
 /// An ask that has waited for a page as long as it may waits for no other.
 ///
+/// It stays where it is made: pages() leads to it.
+///
 /// wait   kNever: what is not resident cannot be had, and the system is not called.
 /// terms  how pages are waited for.
 /// stop   of a fetch thread, which reads for others in between: once true, what is not resident
@@ -117,22 +119,14 @@ class PageTurner {
     return reader_.peek(number);
   }
 
-  octree::PageReader pages() noexcept {
-    return {this,
-            [](void* context, std::uint32_t number) noexcept {
-              return static_cast<PageTurner*>(context)->page(number);
-            },
-            [](void* context, std::uint32_t number) noexcept {
-              return static_cast<PageTurner*>(context)->peek(number);
-            }};
-  }
+  const octree::PageReader& pages() const noexcept { return pages_; }
 
  private:
   void begin() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
   void go_ahead() noexcept {
-    ahead_->step(pages());
+    ahead_->step(pages_);
     if (!ahead_->goes_on()) ahead_ = nullptr;
   }
   const std::byte* fetch(std::uint32_t number) noexcept;
@@ -141,6 +135,14 @@ class PageTurner {
   static constexpr std::uint32_t kTurnsPerSection = 256;
   // What a step asks for takes about as long to come.
   static constexpr std::uint32_t kTurnsPerStep = 2;
+
+  const octree::PageReader pages_{this,
+                                  [](void* context, std::uint32_t number) noexcept {
+                                    return static_cast<PageTurner*>(context)->page(number);
+                                  },
+                                  [](void* context, std::uint32_t number) noexcept {
+                                    return static_cast<PageTurner*>(context)->peek(number);
+                                  }};
   cache::Reader& reader_;
   const cache::FetchTerms terms_;
   const std::atomic<bool>* const stop_;

@@ -16,7 +16,7 @@ namespace {
 using octree::Point;
 
 Standing by_crossings(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-                      octree::PageReader pages, octree::TreeWork& work, SideReason* reason) {
+                      const octree::PageReader& pages, octree::TreeWork& work, SideReason* reason) {
   if (outside_box(model.tree(), point)) {
     if (reason) reason->rule = SideReason::Rule::kOutsideBox;
     return {Side::kOutside};
@@ -38,7 +38,7 @@ std::int64_t rounded(double value) {
 }
 
 Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
-                           std::uint64_t max_nodes, octree::PageReader pages,
+                           std::uint64_t max_nodes, const octree::PageReader& pages,
                            octree::TreeWork& work, SideReason* reason) {
   if (reason) reason->rule = SideReason::Rule::kWindingNumber;
   // From so far away all triangles together are less than a point.
@@ -60,7 +60,8 @@ Standing by_winding_number(const octree::TreeFacts& tree, const Point& point,
 }  // namespace
 
 Standing find_side(const ModelState& model, const Point& point, std::uint64_t max_nodes,
-                   octree::PageReader pages, octree::TreeWork& work, SideReason* reason) noexcept {
+                   const octree::PageReader& pages, octree::TreeWork& work,
+                   SideReason* reason) noexcept {
   if (reason) *reason = {};
   if (is_untold(model, point)) {
     if (reason) reason->rule = SideReason::Rule::kRegion;
@@ -91,7 +92,7 @@ std::optional<Standing> side_as_before(const ModelState& model, const Point& poi
 
 Standing find_side(const ModelState& model, const Point& point, const octree::ColourMap::Spot& spot,
                    double clear, SideMemory& memory, std::uint64_t max_nodes,
-                   octree::PageReader pages, octree::TreeWork& work) noexcept {
+                   const octree::PageReader& pages, octree::TreeWork& work) noexcept {
   if (!model.info().watertight() || !model.region().holds(point) ||
       outside_box(model.tree(), point))
     return find_side(model, point, max_nodes, pages, work);

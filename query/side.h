@@ -45,7 +45,7 @@ struct SideReason {
 /// return     kUnknown where degraded, and where the winding number of a model
 ///            that is not watertight is one half to rounding.
 Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
-                   octree::PageReader pages, octree::TreeWork& work,
+                   const octree::PageReader& pages, octree::TreeWork& work,
                    SideReason* reason = nullptr) noexcept;
 
 /// What octree::ColourMap knows of a point, as far as the file knows it. The point may be any.
@@ -72,7 +72,7 @@ std::optional<Standing> side_as_before(const ModelState& model, const octree::Po
 /// spot  what look_at_colours() says.
 Standing find_side(const ModelState& model, const octree::Point& point,
                    const octree::ColourMap::Spot& spot, double clear, SideMemory& memory,
-                   std::uint64_t max_nodes, octree::PageReader pages,
+                   std::uint64_t max_nodes, const octree::PageReader& pages,
                    octree::TreeWork& work) noexcept;
 
 }  // namespace planetree::query

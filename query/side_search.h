@@ -25,7 +25,7 @@ class SideSearch {
  public:
   /// All must outlive this; `reason` may be null.
   SideSearch(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
-             octree::PageReader pages, octree::TreeWork& work, SideReason* reason,
+             const octree::PageReader& pages, octree::TreeWork& work, SideReason* reason,
              const Remembered& remembered = {})
       : model_(model),
         point_(point),
@@ -62,7 +62,7 @@ class SideSearch {
   const ModelState& model_;
   const octree::Point& point_;
   const std::uint64_t max_nodes_;
-  const octree::PageReader pages_;
+  const octree::PageReader& pages_;
   octree::TreeWork& work_;
   SideReason* const reason_;  // null where nobody asks why
   SideMemory* const memory_;  // null where nothing is remembered

@@ -75,7 +75,7 @@ class NearBlocks {
 
 }  // namespace
 
-BlockLister::Outcome BlockLister::list(const GridCell& cell, PageReader pages,
+BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& pages,
                                        MaskBlocks& blocks) const {
   NearBlocks near(grid_, cell);
   TreeWork work;

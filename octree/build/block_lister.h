@@ -24,7 +24,7 @@ class BlockLister {
   ///
   /// cell    of a level above kLevels.
   /// blocks  undefined unless kListed.
-  Outcome list(const GridCell& cell, PageReader pages, MaskBlocks& blocks) const;
+  Outcome list(const GridCell& cell, const PageReader& pages, MaskBlocks& blocks) const;
 
  private:
   const TreeFacts& tree_;

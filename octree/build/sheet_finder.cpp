@@ -139,7 +139,8 @@ bool all_suit(const BlockView& block, const Prism& prism, const PrismTriangles& 
 /// The winding number of a point that no triangle touches; nothing where the mask does not tell
 /// it, or too little.
 std::optional<std::int64_t> winding_at(const TreeFacts& tree, const MaskFacts& mask,
-                                       const Point& point, PageReader pages, TreeWork& work) {
+                                       const Point& point, const PageReader& pages,
+                                       TreeWork& work) {
   if ((point.array() < tree.box_lower.array()).any() ||
       (point.array() > tree.box_upper.array()).any())
     return 0;
@@ -166,7 +167,7 @@ bool SheetFinder::may_be_in_sheet(const BlockView& block) {
          all_suit(block, prism, look_at_triangles(block, prism.in_float(), prism.origin()));
 }
 
-bool SheetFinder::is_in_sheet(const BlockView& block, PageReader pages) const {
+bool SheetFinder::is_in_sheet(const BlockView& block, const PageReader& pages) const {
   const Prism prism(block);
   if (!prism.is_good()) return false;
   const Point centre = prism.box_centre(), half = prism.box_half();

@@ -22,7 +22,7 @@ class SheetFinder {
   /// block   need not be in a frame of `pages`.
   /// pages   those of the tree and of the mask.
   /// return  false where it cannot be proven, and where pages are missing.
-  bool is_in_sheet(const BlockView& block, PageReader pages) const;
+  bool is_in_sheet(const BlockView& block, const PageReader& pages) const;
 
  private:
   const TreeFacts& tree_;
