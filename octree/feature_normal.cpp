@@ -53,15 +53,19 @@ class Fan {
       const Point& next = triangle[(corner + 1) % 3];
       const Point& last = triangle[(corner + 2) % 3];
       if (other_ && next != *other_ && last != *other_) continue;
-      const auto normal = face_normal(triangle);
-      if (sides_) normal ? sides_->add(triangle, *normal) : sides_->add_unknown();
-      if (!normal) continue;
       if (count_ == kSorted) {
         sorted_ = false;
         sum_up();
       }
-      const double weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
-      faces_[count_++] = {index, corner, weight, *normal};
+      Face& face = faces_[count_];
+      double area2 = 0;
+      const bool has_area = face_normal(triangle, face.normal, area2);
+      if (sides_) has_area ? sides_->add(triangle, face.normal, area2) : sides_->add_unknown();
+      if (!has_area) continue;
+      face.index = index;
+      face.corner = corner;
+      face.weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
+      ++count_;
     }
   }
 
@@ -111,16 +115,18 @@ class Fan {
 };
 
 /// That of one face.
-FeatureNormal normal_of_face(const Point& query, const NearestAnswer& nearest) {
-  const auto normal = face_normal(nearest.corners);
-  if (!normal) return {};
-  if (!nearest.in_sheet) return {*normal};
-  const auto& [a, b, c] = nearest.corners;
+void normal_of_face(const Point& query, const NearestAnswer& nearest, FeatureNormal& found) {
+  double area2 = 0;
+  if (!face_normal(nearest.corners, found.normal, area2)) {
+    found.normal = Point::Zero();
+    return;
+  }
+  if (!nearest.in_sheet) return;
   FacingSides sides(query);
-  sides.add(nearest.corners, *normal);
+  sides.add(nearest.corners, found.normal, area2);
   sides.end_after(*std::min_element(nearest.barycentric.begin(), nearest.barycentric.end()) *
-                  (b - a).cross(c - a).norm());
-  return {*normal, true, sides.common()};
+                  std::sqrt(area2));
+  found.side = sides.common();
 }
 
 void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) {
@@ -148,26 +154,28 @@ bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, cons
 
 }  // namespace
 
-std::optional<Point> face_normal(const Triangle& triangle) noexcept {
+bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept {
   const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const Point normal = u.cross(v);
-  const double normal2 = normal.squaredNorm();
+  area2 = normal.squaredNorm();
   const bool short_edge = std::min(u.squaredNorm(), v.squaredNorm()) < kShortEdge * kShortEdge;
-  if (!short_edge && normal2 > kThinSine2 * u.squaredNorm() * v.squaredNorm())
-    return Point(normal / std::sqrt(normal2));
+  if (!short_edge && area2 > kThinSine2 * u.squaredNorm() * v.squaredNorm()) {
+    unit = normal / std::sqrt(area2);
+    return true;
+  }
   bool flat = true;
   for (unsigned axis = 0; axis < 3; ++axis)
     flat = flat && normal_sign(triangle[0], triangle[1], triangle[2], axis) == 0;
-  if (flat) return std::nullopt;
-  return thin_normal(triangle);
+  if (!flat) unit = thin_normal(triangle);
+  return !flat;
 }
 
-FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
-                             const NearestAnswer& nearest, const Vicinity* vicinity,
-                             std::uint64_t max_nodes, const PageReader& pages,
-                             TreeWork& work) noexcept {
-  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest);
-  FeatureNormal found;
+void feature_normal(const TreeFacts& tree, const Point& query, const NearestAnswer& nearest,
+                    const Vicinity* vicinity, std::uint64_t max_nodes, const PageReader& pages,
+                    TreeWork& work, FeatureNormal& found) noexcept {
+  found.complete = true;
+  found.side = 0;
+  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, found);
   // The corners that the nearest point is made of: one, or two.
   const Point* ends[3] = {};
   double shares[3] = {};
@@ -192,14 +200,15 @@ FeatureNormal feature_normal(const TreeFacts& tree, const Point& query,
     // So many are summed up as the tree has them.
     if (subtrees && !fan.is_sorted())
       return feature_normal(tree, query, nearest, nullptr,
-                            max_nodes - (work.nodes + work.blocks - before), pages, work);
+                            max_nodes - (work.nodes + work.blocks - before), pages, work, found);
   }
   found.normal = fan.normal();
   if (found.complete && nearest.in_sheet) found.side = sides.common();
   // Not even the nearest triangle's own page was to be had.
-  if (!found.complete && found.normal.squaredNorm() == 0)
-    found.normal = face_normal(nearest.corners).value_or(Point::Zero());
-  return found;
+  double area2 = 0;
+  if (!found.complete && found.normal.squaredNorm() == 0 &&
+      !face_normal(nearest.corners, found.normal, area2))
+    found.normal = Point::Zero();
 }
 
 }  // namespace planetree::octree

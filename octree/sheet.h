@@ -46,12 +46,11 @@ class FacingSides {
  public:
   explicit FacingSides(const Point& query) : query_(query) {}
 
-  /// A face by its unit normal, right within 2^-26.
-  void add(const Triangle& face, const Point& normal) {
+  /// A face by its unit normal, right within 2^-26, and twice its area, squared.
+  void add(const Triangle& face, const Point& normal, double area2) {
     const Point way = query_ - face[0];
     const double height = way.dot(normal);
     const double error = kHeightError * way.norm() + kLeastHeight;
-    const double area2 = (face[1] - face[0]).cross(face[2] - face[0]).squaredNorm();
     const bool told = std::fabs(height) > error && area2 >= kLeastArea * kLeastArea;
     in_front_ = in_front_ && told && height > 0;
     behind_ = behind_ && told && height < 0;

@@ -114,8 +114,7 @@ class Asking {
         (parts & kDistance) != 0 ? find_nearest((parts & kSide) != 0) : octree::NearestAnswer();
     if ((parts & kDistance) != 0) tell(nearest);
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
-    Standing standing;
-    if ((parts & kSide) != 0) standing = find_side(nearest, with_normal);
+    const Standing& standing = (parts & kSide) != 0 ? find_side(nearest, with_normal) : standing_;
     if (with_normal) find_normal(nearest, standing);
     if (lost_) note_loss(probe_, query_, ask_, turner_);
     probe_.last_parts() = parts;
@@ -164,53 +163,66 @@ class Asking {
       answer_.status = Status::kWithinError;
   }
 
-  Standing find_side(const octree::NearestAnswer& nearest, bool with_normal) {
-    octree::ColourMap::Spot spot;
-    std::optional<Standing> known = side_before(nearest);
-    // Faces tell most sides near the surface, colours those of other places.
-    const bool looks_first = probe_.colours_told();
-    if (!known && looks_first) known = side_at_a_look(spot);
-    if (!known && (with_normal || nearest.feature == Feature::kFace))
-      known = side_of_faces(nearest);
-    if (!known && !looks_first) known = side_at_a_look(spot);
-    probe_.searched_side() = !known;
-    const Standing standing = known ? *known
-                                    : side_of(probe_, point_, spot, nearest.lower, remember_,
-                                              nodes_left(), turner_, work_);
+  const Standing& find_side(const octree::NearestAnswer& nearest, bool with_normal) {
+    const Standing& standing = stand(nearest, with_normal);
     answer_.side = standing.side;
     if (standing.status == Status::kDegraded) degrade();
     return standing;
   }
 
-  // Most often the side is that of the ask before: the surface is known to be farther than that
-  // was.
-  std::optional<Standing> side_before(const octree::NearestAnswer& nearest) {
-    if (far_ || !remember_) return {};
-    return side_as_before(model_, point_, nearest.lower, probe_.side_memory());
+  // By whatever is quickest to tell.
+  const Standing& stand(const octree::NearestAnswer& nearest, bool with_normal) {
+    probe_.searched_side() = false;
+    const Standing& remembered = probe_.side_memory().standing();
+    if (is_side_as_before(nearest)) return remembered;
+    octree::ColourMap::Spot spot;
+    // Faces tell most sides near the surface, colours those of other places.
+    const bool looks_first = probe_.colours_told();
+    if (looks_first && tell_side_at_a_look(spot)) return standing_;
+    if ((with_normal || nearest.feature == Feature::kFace) && faces_tell_side(nearest))
+      return remembered;
+    if (!looks_first && tell_side_at_a_look(spot)) return standing_;
+    probe_.searched_side() = true;
+    standing_ =
+        side_of(probe_, point_, spot, nearest.lower, remember_, nodes_left(), turner_, work_);
+    return standing_;
   }
 
-  std::optional<Standing> side_at_a_look(octree::ColourMap::Spot& spot) {
-    // What stands for a point that far away may be beyond another wall of a region.
-    if (far_) return side_at_once(model_, placed_, look_at_colours(model_, placed_));
-    if (!remember_) return {};
-    spot = look_at_colours(model_, point_);
-    probe_.colours_told() = spot.winding != octree::ColourMap::kUnknown;
-    return side_at_once(model_, point_, spot);
+  // Most often the side is that of the ask before: the surface is known to be farther than that
+  // was.
+  bool is_side_as_before(const octree::NearestAnswer& nearest) {
+    return !far_ && remember_ &&
+           query::is_side_as_before(model_, point_, nearest.lower, probe_.side_memory());
+  }
+
+  bool tell_side_at_a_look(octree::ColourMap::Spot& spot) {
+    std::optional<Standing> known;
+    if (far_) {
+      // What stands for a point that far away may be beyond another wall of a region.
+      known = side_at_once(model_, placed_, look_at_colours(model_, placed_));
+    } else if (remember_) {
+      spot = look_at_colours(model_, point_);
+      probe_.colours_told() = spot.winding != octree::ColourMap::kUnknown;
+      known = side_at_once(model_, point_, spot);
+    }
+    if (known) standing_ = *known;
+    return known.has_value();
   }
 
   // The side by what is at the nearest point, and no look at the mask. Not of limited asks that
   // wait: they bring the pages that others need, which may have to look there. No region with
   // walls has sheets, whatever its file says.
-  std::optional<Standing> side_of_faces(const octree::NearestAnswer& nearest) {
-    if (!remember_ || !octree::Sheet::tells_side(nearest) || model_.region().has_walls()) return {};
+  bool faces_tell_side(const octree::NearestAnswer& nearest) {
+    if (!remember_ || !octree::Sheet::tells_side(nearest) || model_.region().has_walls())
+      return false;
     // Of a few nodes more than finding all faces of a vertex takes, the search shall have its own.
-    if (nearest.feature != Feature::kFace && nodes_left() < kNodesForFaces) return {};
-    if (feature(nearest).side == 0) return {};
-    const bool outside = feature(nearest).side > 0;
-    const Standing standing{outside ? Side::kOutside : Side::kInside, Status::kExact,
-                            outside ? 0 : 1};
+    if (nearest.feature != Feature::kFace && nodes_left() < kNodesForFaces) return false;
+    const int side = feature(nearest).side;
+    if (side == 0) return false;
+    const Standing standing{side > 0 ? Side::kOutside : Side::kInside, Status::kExact,
+                            side > 0 ? 0 : 1};
     probe_.side_memory().note(point_, standing, true, nearest.lower);
-    return standing;
+    return true;
   }
 
   void find_normal(const octree::NearestAnswer& nearest, const Standing& standing) {
@@ -220,11 +232,12 @@ class Asking {
   }
 
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {
-    if (!feature_)
-      feature_ = octree::feature_normal(model_.tree(), point_, nearest,
-                                        remember_ ? &probe_.vicinity() : nullptr, nodes_left(),
-                                        turner_.pages(), work_);
-    return *feature_;
+    if (!has_feature_)
+      octree::feature_normal(model_.tree(), point_, nearest,
+                             remember_ ? &probe_.vicinity() : nullptr, nodes_left(),
+                             turner_.pages(), work_, feature_);
+    has_feature_ = true;
+    return feature_;
   }
 
   void degrade() {
@@ -246,8 +259,10 @@ class Asking {
   PageTurner turner_;
   octree::TreeWork work_;
   ClosestPoint& answer_;
-  std::optional<octree::FeatureNormal> feature_;  // at the nearest point
-  bool lost_ = false;                             // something for want of pages or work
+  octree::FeatureNormal feature_;  // at the nearest point, once it was asked for
+  bool has_feature_ = false;
+  Standing standing_;  // where the probe need not remember it
+  bool lost_ = false;  // something for want of pages or work
 };
 
 }  // namespace

@@ -83,11 +83,11 @@ std::optional<Standing> side_at_once(const ModelState& model, const Point& point
   return {};
 }
 
-std::optional<Standing> side_as_before(const ModelState& model, const Point& point, double clear,
-                                       SideMemory& memory) noexcept {
-  if (!model.region().holds(point) || !memory.same_side(point, clear)) return {};
-  memory.note(point, memory.standing(), memory.counted(), clear);
-  return memory.standing();
+bool is_side_as_before(const ModelState& model, const Point& point, double clear,
+                       SideMemory& memory) noexcept {
+  if (!model.region().holds(point) || !memory.same_side(point, clear)) return false;
+  memory.go_to(point, clear);
+  return true;
 }
 
 Standing find_side(const ModelState& model, const Point& point, const octree::ColourMap::Spot& spot,
@@ -96,7 +96,7 @@ Standing find_side(const ModelState& model, const Point& point, const octree::Co
   if (!model.info().watertight() || !model.region().holds(point) ||
       outside_box(model.tree(), point))
     return find_side(model, point, max_nodes, pages, work);
-  if (const auto before = side_as_before(model, point, clear, memory)) return *before;
+  if (is_side_as_before(model, point, clear, memory)) return memory.standing();
   SideSearch search(model, point, max_nodes, pages, work, nullptr, {&memory, &spot});
   const Standing standing = search.run();
   if (standing.status == Status::kExact) memory.note(point, standing, search.counted(), clear);

@@ -61,10 +61,10 @@ inline octree::ColourMap::Spot look_at_colours(const ModelState& model,
 std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point,
                                      const octree::ColourMap::Spot& spot) noexcept;
 
-/// The same where the point cannot but stand where the last one that `memory` knows does, which it
-/// then remembers. No surface is nearer to the point than `clear`.
-std::optional<Standing> side_as_before(const ModelState& model, const octree::Point& point,
-                                       double clear, SideMemory& memory) noexcept;
+/// Whether the point cannot but stand where the last one that `memory` knows does, which then is
+/// what it knows of this one. No surface is nearer to the point than `clear`.
+bool is_side_as_before(const ModelState& model, const octree::Point& point, double clear,
+                       SideMemory& memory) noexcept;
 
 /// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
 /// limited, or pages are missing, what is told depends on the asks before. No surface is nearer

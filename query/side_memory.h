@@ -50,10 +50,14 @@ class SideMemory {
 
   /// A point's side; no surface is nearer to it than `clear`, which may be 0.
   void note(const octree::Point& point, const Standing& standing, bool counted, double clear) {
-    const bool off_surface = standing.side == Side::kInside || standing.side == Side::kOutside;
-    point_ = point;
     standing_ = standing;
     counted_ = counted;
+    go_to(point, clear);
+  }
+  /// The same of a point that stands where the last one does.
+  void go_to(const octree::Point& point, double clear) {
+    const bool off_surface = standing_.side == Side::kInside || standing_.side == Side::kOutside;
+    point_ = point;
     clear_ = off_surface ? clear : 0;
   }
 

@@ -41,10 +41,9 @@ struct Path {
       at += Point(by.x, by.y, by.z);
       TreeWork unused;
       const NearestAnswer nearest_there = nearest(tree, at, {}, pages.reader(), unused, &vicinity);
-      const FeatureNormal before =
-          feature_normal(tree, at, nearest_there, nullptr, kAll, pages.reader(), alone);
-      const FeatureNormal found =
-          feature_normal(tree, at, nearest_there, &vicinity, kAll, pages.reader(), along);
+      FeatureNormal before, found;
+      feature_normal(tree, at, nearest_there, nullptr, kAll, pages.reader(), alone, before);
+      feature_normal(tree, at, nearest_there, &vicinity, kAll, pages.reader(), along, found);
       EXPECT_EQ(found.normal, before.normal) << i;
       EXPECT_EQ(found.side, before.side) << i;
       EXPECT_TRUE(found.complete);
