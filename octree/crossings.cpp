@@ -121,7 +121,7 @@ Crossings count_in_blocks_on_target(const TreeFacts& tree, const MovedSegment& s
                                     const PageReader& pages, TreeWork& work) {
   if (blocks.size() > max_nodes) return {.complete = false};
   RecordFinder records(tree, pages);
-  for (const std::uint32_t link : blocks) records.prefetch<kNearNodeSlots, 6>(link);
+  for (const std::uint32_t link : blocks) records.prefetch(link);
   BlockCrossings crossings(tree, segment, work);
   bool complete = true;
   for (const std::uint32_t link : blocks) {

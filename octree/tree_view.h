@@ -93,7 +93,7 @@ class RecordFinder {
 
   /// Asks for the record's first cache lines, as far as it is in memory: of a node those that near
   /// queries look at, unless other numbers are asked for. No answer depends on it.
-  template <std::size_t kNodeLines = kNearNodeSlots, std::size_t kBlockLines = 4>
+  template <std::size_t kNodeLines = kNearNodeSlots, std::size_t kBlockLines = 6>
   [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
     const std::uint32_t page = links_.page(link);
     const std::byte* frame = page == page_number_ ? frame_
