@@ -50,6 +50,7 @@ class Frontier {
   /// Takes a child within `threshold`. `dropped` becomes the least bound of those that are
   /// not, if less. False when nothing is left.
   bool pop(Order order, float threshold, FrontierEntry& entry, float& dropped) {
+    // In a register: from memory each that is dropped would wait for the one before.
     float least_dropped = dropped;
     const bool found = pop_near(order, threshold, entry, least_dropped);
     dropped = least_dropped;

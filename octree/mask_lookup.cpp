@@ -77,32 +77,26 @@ void descend(MaskRecords& records, const MaskNode& from, const Point& point,
   }
 }
 
-}  // namespace
-
-MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
-                    const PageReader& pages, TreeWork& work) noexcept {
-  MaskFinding finding;
-  if (mask.page_count == 0 || max_nodes == 0) return finding;
+// From the root down.
+void look_from_root(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
+                    const PageReader& pages, TreeWork& work, MaskFinding& finding) {
+  if (mask.page_count == 0 || max_nodes == 0) return;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
-  if (!record) return finding;
-  if (!records.root_is_node()) {
-    read_leaf(record, records, point, finding);
-    return finding;
-  }
+  if (!record) return;
+  if (!records.root_is_node()) return read_leaf(record, records, point, finding);
   const std::uint64_t octants = CellGrid(mask.lower).finest(point).first_code();
   const auto octant_in = [octants](const GridCell& cell) {
     return static_cast<unsigned>(octants >> 3 * (kLevels - cell.level - 1) & 7);
   };
   descend(records, *reinterpret_cast<const MaskNode*>(record), point, max_nodes, octant_in, work,
           finding);
-  return finding;
 }
 
-MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
-                    std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
-  if (!spot.record || max_nodes == 0) return look_up(mask, point, max_nodes, pages, work);
-  MaskFinding finding;
+// From where the map has led.
+void look_from(const ColourMap::Spot& spot, const MaskFacts& mask, const Point& point,
+               std::uint64_t max_nodes, const PageReader& pages, TreeWork& work,
+               MaskFinding& finding) {
   finding.cell = spot.cell;
   MaskRecords records(mask, pages);
   const MapRecord& record = *spot.record;
@@ -120,6 +114,24 @@ MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Po
     const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
     descend(records, record.node(), point, max_nodes, octant_in, work, finding);
   }
+}
+
+}  // namespace
+
+MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
+                    const PageReader& pages, TreeWork& work) noexcept {
+  MaskFinding finding;
+  look_from_root(mask, point, max_nodes, pages, work, finding);
+  return finding;
+}
+
+MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
+                    std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
+  MaskFinding finding;
+  if (spot.record && max_nodes > 0)
+    look_from(spot, mask, point, max_nodes, pages, work, finding);
+  else
+    look_from_root(mask, point, max_nodes, pages, work, finding);
   return finding;
 }
 

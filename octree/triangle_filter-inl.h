@@ -137,13 +137,15 @@ class BlockTriangles {
   }
 
  private:
-  // Whole vectors: of what is behind the vertices nothing is used. Ids are behind all rows, so
-  // that the last may be read beyond its end.
+  // Whole vectors: of what is behind the vertices nothing is used. There is more of the block
+  // behind its last row, so that this may be read beyond its end.
   using RowTag = TriangleTag;
   static constexpr unsigned kLanes = static_cast<unsigned>(hn::MaxLanes(RowTag()));
   static constexpr unsigned kVectors = (kStride + kLanes - 1) / kLanes;
 
 #if PLANETREE_EIGHT_LANES
+  static constexpr std::int32_t kLaneBits = std::int32_t{kLanes} - 1;
+
   HWY_INLINE void keep(unsigned axis, unsigned i, TriangleFloats row) { row_[axis][i] = row; }
 
   // A gather costs more than looking each vector of a row up in registers, which minds the
@@ -152,11 +154,12 @@ class BlockTriangles {
   HWY_INLINE TriangleFloats look_up(unsigned axis, Index index) const {
     const TriangleTag d;
     const hn::DFromV<Index> di;
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, int{kLanes - 1})));
+    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, kLaneBits)));
     TriangleFloats found = hn::TableLookupLanes(row_[axis][0], lane);
 #pragma GCC unroll 5
     for (unsigned i = 1; i < kVectors; ++i) {
-      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, int(i * kLanes) - 1)));
+      const auto last = static_cast<std::int32_t>(i * kLanes) - 1;
+      const auto here = hn::RebindMask(d, hn::Gt(index, hn::Set(di, last)));
       found = hn::IfThenElse(here, hn::TableLookupLanes(row_[axis][i], lane), found);
     }
     return found;
@@ -237,7 +240,7 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
   filtered.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-// A block's, of so many vertices.
+// A block's, of so many vertices; called, so that these are in registers and nowhere else.
 template <unsigned kStride>
 void filter_block_of(const BlockHeader& block, const float (&query)[3], float limit,
                      FilteredTriangles& filtered) {

@@ -26,7 +26,21 @@ Standing SideSearch::run() {
 
 bool SideSearch::ask_mask() {
   using Kind = octree::MaskFinding::Kind;
-  const octree::MaskFinding& found = cell();
+  if (memory_)
+    if (const octree::MaskFinding* last = memory_->cell_with(point_)) return go_from(*last);
+  // What is resident, answers that remember depend on anyway. Lists are long: made where it stays.
+  const octree::MaskFinding found =
+      spot_ ? octree::look_up(model_.mask(), *spot_, point_, nodes_left(), pages_, work_)
+            : octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+  // What a special cell knows is of this point alone.
+  const bool of_all = found.kind == Kind::kColour || found.kind == Kind::kCorners;
+  if (memory_ && of_all && memory_->is_near(point_, model_.tree()))
+    memory_->note_cell(model_.mask(), found);
+  return go_from(found);
+}
+
+bool SideSearch::go_from(const octree::MaskFinding& found) {
+  using Kind = octree::MaskFinding::Kind;
   if (reason_) {
     reason_->in_mask = model_.mask().page_count > 0;
     reason_->cell = found.cell;
@@ -39,20 +53,6 @@ bool SideSearch::ask_mask() {
   counted_ = found.kind == Kind::kPlanes || found.winding == 0;
   settle(found.winding, found.on_surface);
   return true;
-}
-
-const octree::MaskFinding& SideSearch::cell() {
-  if (memory_)
-    if (const octree::MaskFinding* last = memory_->cell_with(point_)) return *last;
-  // What is resident, answers that remember depend on anyway.
-  found_ = spot_ ? octree::look_up(model_.mask(), *spot_, point_, nodes_left(), pages_, work_)
-                 : octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
-  // What a special cell knows is of this point alone.
-  const bool of_all = found_.kind == octree::MaskFinding::Kind::kColour ||
-                      found_.kind == octree::MaskFinding::Kind::kCorners;
-  if (memory_ && of_all && memory_->is_near(point_, model_.tree()))
-    memory_->note_cell(model_.mask(), found_);
-  return found_;
 }
 
 // What is beyond the planes of a cell has the winding number of its corner there.

@@ -48,7 +48,7 @@ class SideSearch {
     return spent < max_nodes_ ? max_nodes_ - spent : 0;
   }
   bool ask_mask();
-  const octree::MaskFinding& cell();
+  bool go_from(const octree::MaskFinding& found);
   bool go_to_corner(const octree::MaskFinding& found);
   bool ask_slab(const octree::MaskFinding& found);
   template <class Grid>
@@ -68,7 +68,6 @@ class SideSearch {
   SideMemory* const memory_;  // null where nothing is remembered
   const octree::ColourMap::Spot* const spot_;
   const std::uint64_t before_;
-  octree::MaskFinding found_;
   Standing standing_;
   bool counted_ = false;
 };
