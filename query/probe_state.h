@@ -63,13 +63,14 @@ class ProbeState {
   const ModelState& model_;
   cache::Reader reader_;
   TouchLog touches_;
-  octree::Vicinity vicinity_;
-  SideMemory side_memory_;
-  octree::NearestAnswer last_nearest_;
+  // Where there is room before what begins on a cache line.
+  std::unique_ptr<BatchOrder> batch_order_;
   std::uint32_t last_parts_ = kAllParts;
   bool colours_told_ = true;
   bool searched_side_ = false;
-  std::unique_ptr<BatchOrder> batch_order_;
+  octree::Vicinity vicinity_;
+  SideMemory side_memory_;
+  octree::NearestAnswer last_nearest_;
 };
 
 }  // namespace planetree::query
