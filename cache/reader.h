@@ -75,6 +75,11 @@ class Reader {
     return frame == kNoFrame ? nullptr : at(frame);
   }
 
+  /// Where pages are: good as long as the cache is, for looks at what may change meanwhile.
+  const PageMap& map() const noexcept { return map_; }
+  const std::byte* frames() const noexcept { return frames_; }
+  std::uint64_t stride_bytes() const noexcept { return stride_bytes_; }
+
   /// Inside a section: ends it, makes the page resident, begins another and
   /// returns the page's frame; nullptr if the page is unreadable. All pointers
   /// found before are invalid.

@@ -51,10 +51,15 @@ class ColourMap {
     const MapRecord* record = nullptr;  ///< this is of; null where the map has none
   };
   Spot look(const Point& point) const noexcept {
+    return look(point, [](const MapRecord&) {});
+  }
+  /// Calls ahead(record) as soon as there is a record that may be wanted.
+  template <class Ahead>
+  Spot look(const Point& point, const Ahead& ahead) const noexcept {
     MapSteps::Place place;
     const bool told =
         steps_.find(point.data(), steps_.model, place) || find_among_sides(point, place);
-    return told ? look_at(place, point) : Spot{};
+    return told ? look_at(place, point, ahead) : Spot{};
   }
   /// What a look sees before it reads a record, where steps tell the point's place; else nothing.
   /// Where there is a record, it is of the cell or of one above.
@@ -90,10 +95,12 @@ class ColourMap {
     }
     return true;
   }
-  Spot look_at(const MapSteps::Place& place, const Point& point) const {
+  template <class Ahead>
+  Spot look_at(const MapSteps::Place& place, const Point& point, const Ahead& ahead) const {
     const MapCells::Found found = find(steps_, cells_, place);
     if (found.winding != kUnknown) return {found.winding, {}, nullptr};
     if (!found.record || found.record->is_nothing()) return {};
+    ahead(*found.record);
     const GridCell octant = octant_at(place);
     const unsigned above = found.record->levels_above();
     return ask_slab({kUnknown, octant.ancestor(octant.level - above), found.record}, point);

@@ -35,6 +35,17 @@ class MaskRecords {
     return frame ? frame + links_.slot(link) * kMaskSlotBytes : nullptr;
   }
 
+  /// Asks for the first lines of what is at a link, as far as it is in memory.
+  static void prefetch(const MaskFacts& mask, std::uint32_t link, const FrameTable& frames) {
+    const MaskLinkFormat links(mask.page_bytes);
+    const std::uint32_t page = links.page(link);
+    if (!frames.cells || page >= mask.page_count) return;
+    const std::byte* at =
+        frames.frame_of(mask.first_page + page) + links.slot(link) * kMaskSlotBytes;
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+  }
+
   /// The record of a grey octant of the last record, or of a node that was kept before there was
   /// one; null as record()'s.
   const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {

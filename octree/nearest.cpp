@@ -37,12 +37,19 @@ class Descent {
         limits_(limits),
         visits_left_(std::min<std::uint64_t>(limits.max_nodes, tree.record_count)),
         work_(work),
+        keeper_(pages.keeper),
         records_(tree, pages),
-        best_(wide_, limits_) {}
+        best_(wide_, limits_) {
+    if (keeper_) *keeper_ = {this, &let_go};
+  }
+  ~Descent() {
+    if (keeper_) *keeper_ = {};
+  }
+  Descent(const Descent&) = delete;
+  Descent& operator=(const Descent&) = delete;
 
   void run_from_root() {
-    go_down({.bound = 0, .link = tree_.root_link, .from = RecordFinder::kNoPage});
-    finish_frontier();
+    search(0, tree_.root_link);
     finish();
   }
   // From the subtrees that a ball holds, nearest first.
@@ -56,8 +63,7 @@ class Descent {
         left_out_.pruned = std::min(left_out_.pruned, keys.bound(i));
         break;
       }
-      go_down({keys.bound(i), subtrees_->link(keys.place(i)), RecordFinder::kNoPage});
-      finish_frontier();
+      search(keys.bound(i), subtrees_->link(keys.place(i)));
     }
     finish();
   }
@@ -78,15 +84,14 @@ class Descent {
 
   static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
 
-  void finish_frontier() {
-    FrontierEntry entry;
-    while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned)) go_down(entry);
-  }
-
-  // From nearest child to nearest child, as long as nodes are near.
-  HWY_INLINE void go_down(FrontierEntry entry) {
-    while (visit(entry)) {
-    }
+  // All of a subtree that is near. Compiled once: there is much of it.
+  HWY_NOINLINE void search(float bound, std::uint32_t link) {
+    FrontierEntry entry{bound, link, RecordFinder::kNoPage};
+    do {
+      // From nearest child to nearest child, as long as nodes are near.
+      while (visit(entry)) {
+      }
+    } while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned));
   }
 
   // Whether to go on with a child, which `entry` then is.
@@ -97,7 +102,7 @@ class Descent {
     }
     --visits_left_;
     // Another page may take the place of theirs.
-    if (!blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
+    if (!keeper_ && !blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
       leave_out(entry);
@@ -142,20 +147,31 @@ class Descent {
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
     const NearChildren children = sorted_children(node, wide_, far, best_.threshold(), group);
     const unsigned near = children.count;
-    if (near < node.child_count) left_out_.pruned = std::min(left_out_.pruned, group.bound(near));
+    // By no branch.
+    const float first_left = group.bound(near % kFanOut);
+    left_out_.pruned =
+        std::min(left_out_.pruned,
+                 near < node.child_count ? first_left : std::numeric_limits<float>::infinity());
     // The nearest child is visited at once, unless from afar another is nearer; the last
     // lines of a node are looked at from afar alone.
-    if (far) {
-      for (unsigned i = 0; i < std::min(near, kPrefetched); ++i)
-        records_.prefetch<kNodeSlots>(group.link[i]);
-    } else {
-      if (near > 0) records_.prefetch(node.link[children.child()]);
-      for (unsigned i = 1; i < std::min(near, kPrefetched); ++i) records_.prefetch(group.link[i]);
+    if (near > 0) {
+      const std::uint32_t nearest = node.link[children.child()];
+      far ? prefetch<kNodeSlots>(nearest, group, near)
+          : prefetch<kNearNodeSlots>(nearest, group, near);
     }
     const bool at_once = !far && near > 0;
     frontier_.push(at_once ? 1 : 0, near, page);
     if (at_once) entry = {children.bound(), node.link[children.child()], page};
     return at_once;
+  }
+
+  // The nearest of the children that are near, the same again where there are fewer: by no branch.
+  template <std::size_t kNodeLines>
+  HWY_INLINE void prefetch(std::uint32_t nearest, const FrontierGroup& group, unsigned near) {
+    records_.prefetch<kNodeLines>(nearest);
+#pragma GCC unroll 4
+    for (unsigned i = 1; i < kPrefetched; ++i)
+      records_.prefetch<kNodeLines>(i < near ? group.link[i] : nearest);
   }
 
   HWY_INLINE void visit_block(const BlockView& block) {
@@ -200,6 +216,9 @@ class Descent {
     candidates_.keep_if([&](float squared, float extent) { return squared <= limit_of(extent); });
   }
 
+  // Blocks whose frames may go are noted by what is known so far.
+  static void let_go(void* descent) noexcept { static_cast<Descent*>(descent)->note_blocks(); }
+
   void finish() {
     note_blocks();
     settle();
@@ -229,9 +248,10 @@ class Descent {
   // An honest tree cannot be visited longer than it is; a forged one could.
   std::uint64_t visits_left_;
   TreeWork& work_;
+  FrameKeeper* const keeper_;
   RecordFinder records_;
   BestTriangle best_;
-  FilteredBlocks blocks_;  // all of the page that was found last
+  FilteredBlocks blocks_;  // without a keeper, all of the page that was found last
   Candidates candidates_;
   Frontier frontier_;
   Frontier::Order order_ = Frontier::Order::kLast;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,14 +10,36 @@
 /// A tree as its readers see it: facts of the whole, and records by link.
 namespace planetree::octree {
 
+/// Where frames are, for whoever asks for lines of theirs ahead: nothing is read there, so that it
+/// does not matter if a page goes meanwhile.
+struct FrameTable {
+  const std::atomic<std::uint32_t>* cells = nullptr;  ///< a page's frame + 1; 0: not resident
+  const std::byte* frames = nullptr;
+  std::uint64_t stride_bytes = 0;  ///< from frame to frame
+
+  /// By no branch; of a page that is not resident another's.
+  const std::byte* frame_of(std::uint32_t page) const {
+    const std::uint32_t cell = cells[page].load(std::memory_order_relaxed);
+    return frames + stride_bytes * (cell - static_cast<std::uint32_t>(cell != 0));
+  }
+};
+
+/// Whoever keeps pointers to frames from call to call: told before these may go.
+struct FrameKeeper {
+  void* who = nullptr;
+  void (*let_go)(void* who) noexcept = nullptr;
+};
+
 /// Page number to frame. `page` returns the decoded frame, or null where the
-/// page cannot be had; the pointer is good until the next call. Handed on by reference:
-/// whoever keeps one must not outlive it.
+/// page cannot be had; the pointer is good until the next call, or until a keeper is told.
+/// Handed on by reference: whoever keeps one must not outlive it.
 struct PageReader {
   void* context = nullptr;
   const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
   /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
   const std::byte* (*peek)(void* context, std::uint32_t number) noexcept = nullptr;
+  FrameTable frames{};            ///< without cells: nothing is asked for ahead
+  FrameKeeper* keeper = nullptr;  ///< one at a time; null: frames may go with each call
 };
 
 /// What a descent must know of a tree; lengths are in the model frame.
@@ -93,32 +116,25 @@ class RecordFinder {
 
   /// Asks for the record's first cache lines, as far as it is in memory: of a node those that near
   /// queries look at, unless other numbers are asked for. No answer depends on it.
-  template <std::size_t kNodeLines = kNearNodeSlots, std::size_t kBlockLines = 6>
+  ///
+  /// By no branch that depends on the link: those would be mispredicted.
+  template <std::size_t kNodeLines = kNearNodeSlots>
   [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
-    const std::uint32_t page = links_.page(link);
-    const std::byte* frame = page == page_number_ ? frame_
-                             : pages_.peek        ? pages_.peek(pages_.context, page)
-                                                  : nullptr;
-    if (!frame) return;
+    if (!pages_.frames.cells) return;
+    const std::byte* frame = pages_.frames.frame_of(links_.page(link));
     const std::uint32_t slot = links_.slot(link);
-    const std::byte* record = frame + slot * kSlotBytes;
-    if (LinkFormat::is_leaf(link)) {
-      // What says that a block starts there.
-      __builtin_prefetch(frame + kSlotBytes + slot / 64 * 8);
-      prefetch_lines<kBlockLines>(record);
-    } else {
-      prefetch_lines<kNodeLines>(record);
-    }
+    const std::size_t leaf = link >> 31;
+    const std::byte* line = frame + slot * kSlotBytes;
+#pragma GCC unroll 8
+    for (std::size_t i = 0; i < kNodeLines; ++i, line += kSlotBytes) __builtin_prefetch(line);
+    const std::size_t step = leaf * kSlotBytes;
+    line += step - kSlotBytes;
+#pragma GCC unroll 8
+    for (std::size_t i = kNodeLines; i < kBlockLines; ++i, line += step) __builtin_prefetch(line);
   }
 
  private:
-  // Inline: the compiler leaves out calls of functions that have no effect it knows of.
-  template <std::size_t kLines>
-  [[gnu::always_inline]] static void prefetch_lines(const std::byte* record) {
-#pragma GCC unroll 8
-    for (std::size_t line = 0; line < kLines; ++line)
-      __builtin_prefetch(record + line * kSlotBytes);
-  }
+  static constexpr std::size_t kBlockLines = 6;  // all of most
 
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);

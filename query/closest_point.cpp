@@ -199,9 +199,10 @@ class Asking {
     std::optional<Standing> known;
     if (far_) {
       // What stands for a point that far away may be beyond another wall of a region.
-      known = side_at_once(model_, placed_, look_at_colours(model_, placed_));
+      known = side_at_once(model_, placed_,
+                           look_at_colours(model_, placed_, frames_of(probe_.reader())));
     } else if (remember_) {
-      spot = look_at_colours(model_, point_);
+      spot = look_at_colours(model_, point_, frames_of(probe_.reader()));
       probe_.colours_told() = spot.winding != octree::ColourMap::kUnknown;
       known = side_at_once(model_, point_, spot);
     }

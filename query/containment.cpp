@@ -36,7 +36,8 @@ Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexc
   const octree::Point placed = probe.model().scale().in(query);
   probe.last_parts() = kSide;
   TouchLog* const log = probe.touches().begin_ask(ask.wait);
-  const octree::ColourMap::Spot spot = look_at_colours(probe.model(), placed);
+  const octree::ColourMap::Spot spot =
+      look_at_colours(probe.model(), placed, frames_of(probe.reader()));
   // What most asks come to.
   probe.colours_told() = spot.winding != octree::ColourMap::kUnknown;
   if (probe.colours_told())

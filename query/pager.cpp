@@ -107,6 +107,7 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
 // other's.
 const std::byte* PageTurner::fetch(std::uint32_t number) noexcept {
   if (log_) log_->fetched(number);
+  let_frames_go();
   if (stop_) {
     reader_.leave();
     reader_.help();

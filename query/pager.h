@@ -68,6 +68,11 @@ class Pager {
   bool asking_is_locked_ = false;
 };
 
+/// Where pages are, for asking ahead.
+inline octree::FrameTable frames_of(const cache::Reader& reader) noexcept {
+  return {reader.map().cells(), reader.frames(), reader.stride_bytes()};
+}
+
 /// One probe's way to pages during one ask: a section of the cache, begun where a page is
 /// first looked for, for that is an exchange with memory, and ended with this object.
 ///
@@ -83,7 +88,12 @@ class PageTurner {
  public:
   PageTurner(cache::Reader& reader, Wait wait, const cache::FetchTerms& terms = {},
              const std::atomic<bool>* stop = nullptr) noexcept
-      : reader_(reader), terms_(terms), stop_(stop), wait_(wait), waits_(wait == Wait::kForPages) {}
+      : pages_(pages_of(reader)),
+        reader_(reader),
+        terms_(terms),
+        stop_(stop),
+        wait_(wait),
+        waits_(wait == Wait::kForPages) {}
   ~PageTurner() {
     if (reader_.inside()) reader_.leave();
   }
@@ -97,7 +107,10 @@ class PageTurner {
 
   /// The page's frame, good until the next call; null if it cannot be had.
   const std::byte* page(std::uint32_t number) noexcept {
-    if (++turns_ % kTurnsPerSection == 0) reader_.leave();
+    if (++turns_ % kTurnsPerSection == 0) {
+      let_frames_go();
+      reader_.leave();
+    }
     begin();
     if (ahead_ && turns_ % kTurnsPerStep == 0) go_ahead();
     if (const std::byte* frame = reader_.find(number)) {
@@ -125,6 +138,10 @@ class PageTurner {
   void begin() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
+  // Before a section ends of which there are pointers.
+  void let_frames_go() noexcept {
+    if (keeper_.let_go) keeper_.let_go(keeper_.who);
+  }
   void go_ahead() noexcept {
     ahead_->step(pages_);
     if (!ahead_->goes_on()) ahead_ = nullptr;
@@ -136,16 +153,22 @@ class PageTurner {
   // What a step asks for takes about as long to come.
   static constexpr std::uint32_t kTurnsPerStep = 2;
 
-  const octree::PageReader pages_{this,
-                                  [](void* context, std::uint32_t number) noexcept {
-                                    return static_cast<PageTurner*>(context)->page(number);
-                                  },
-                                  [](void* context, std::uint32_t number) noexcept {
-                                    return static_cast<PageTurner*>(context)->peek(number);
-                                  }};
+  octree::PageReader pages_of(const cache::Reader& reader) noexcept {
+    return {this,
+            [](void* context, std::uint32_t number) noexcept {
+              return static_cast<PageTurner*>(context)->page(number);
+            },
+            [](void* context, std::uint32_t number) noexcept {
+              return static_cast<PageTurner*>(context)->peek(number);
+            },
+            frames_of(reader), &keeper_};
+  }
+
+  const octree::PageReader pages_;
   cache::Reader& reader_;
   const cache::FetchTerms terms_;
   const std::atomic<bool>* const stop_;
+  octree::FrameKeeper keeper_;
   octree::MaskAhead* ahead_ = nullptr;
   TouchLog* log_ = nullptr;
   const Wait wait_;

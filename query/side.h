@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "octree/cell_grid.h"
+#include "octree/mask_records.h"
 #include "octree/tree_view.h"
 #include "planetree/types.h"
 #include "query/model_state.h"
@@ -50,10 +51,13 @@ Standing find_side(const ModelState& model, const octree::Point& point, std::uin
 
 /// What octree::ColourMap knows of a point, as far as the file knows it. The point may be any.
 /// Models that are not watertight have no colours.
-inline octree::ColourMap::Spot look_at_colours(const ModelState& model,
-                                               const octree::Point& point) noexcept {
+inline octree::ColourMap::Spot look_at_colours(const ModelState& model, const octree::Point& point,
+                                               const octree::FrameTable& frames) noexcept {
   const bool known = !model.region().has_walls() || model.region().holds(point);
-  return known ? model.colours().look(point) : octree::ColourMap::Spot{};
+  const auto ahead = [&](const octree::MapRecord& record) {
+    octree::MaskRecords::prefetch(model.mask(), record.link, frames);
+  };
+  return known ? model.colours().look(point, ahead) : octree::ColourMap::Spot{};
 }
 
 /// The same as find_side() where one look tells: beyond a wall of a region, outside of a
