@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cinttypes>
@@ -15,6 +16,8 @@ namespace {
 static_assert(sizeof(std::size_t) == sizeof(std::uint64_t), "budgets are 64-bit sizes");
 
 constexpr std::uint64_t kHugePageBytes = std::uint64_t{2} << 20;
+/// As much is worth a huge page.
+constexpr std::uint64_t kNearlyHugeBytes = kHugePageBytes / 4 * 3;
 
 std::uint64_t system_page_bytes() noexcept {
   static const auto bytes = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -72,7 +75,8 @@ std::uint64_t ClaimedMemory::claimed_bytes(std::uint64_t bytes) noexcept {
   const std::uint64_t last = system_page_bytes() - 1;
   // Saturates instead of wrapping to a small number.
   if (bytes > std::numeric_limits<std::uint64_t>::max() - last) return bytes;
-  return (bytes + last) & ~last;
+  const std::uint64_t rounded = (bytes + last) & ~last;
+  return rounded >= kNearlyHugeBytes ? std::max(rounded, kHugePageBytes) : rounded;
 }
 
 Result<ClaimedMemory> ClaimedMemory::claim(std::uint64_t bytes) noexcept {

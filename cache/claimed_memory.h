@@ -15,7 +15,8 @@ class ClaimedMemory {
   /// Claims at least `bytes`, which must not be 0. Fails with kNoMemory.
   static Result<ClaimedMemory> claim(std::uint64_t bytes) noexcept;
 
-  /// What claim(bytes) really takes: `bytes` rounded up to system pages.
+  /// What claim(bytes) really takes: `bytes` rounded up to system pages, and to a huge page where
+  /// little is missing.
   static std::uint64_t claimed_bytes(std::uint64_t bytes) noexcept;
 
   ClaimedMemory(ClaimedMemory&& other) noexcept;

@@ -66,9 +66,9 @@ class ColourMap {
   Spot spot_of(const Point& point) const noexcept {
     MapSteps::Place place;
     if (!steps_.find(point.data(), steps_.model, place)) return {};
-    const std::size_t number = steps_.number(place.cell());
-    if (cells_.code_of(number) != MapCells::kListed) return {};
-    const MapCells::Found found = cells_.find_below(number, place.octant());
+    const MapCells::Cell cell = steps_.cell_at(place.cell());
+    if (cells_.code_of(cell) != MapCells::kListed) return {};
+    const MapCells::Found found = cells_.find_below(cell, place.octant());
     return {found.winding, octant_at(place), found.record};
   }
   /// The winding number's sign that a look finds, of a point in the input's units, where whole
@@ -124,7 +124,12 @@ class ColourMap {
   double side(unsigned axis, std::int64_t at) const {
     return lower_[axis] + least_side_ * static_cast<double>(at);
   }
+  std::uint32_t blocks_along(unsigned axis) const {
+    return ((width_[axis] - 1) >> MapCells::kBlockBits) + 1;
+  }
   void measure(const Point& size, unsigned level, bool clipped, int scale);
+  bool fill_cells(const MaskFacts& mask, const PageReader& pages, bool clipped,
+                  std::span<std::byte> memory);
 
   MapSteps steps_;
   MapCells cells_;

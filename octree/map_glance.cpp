@@ -44,6 +44,14 @@ HWY_INLINE unsigned bits_at(Steps steps) {
   return mask_bits(signs, hn::Lt(hn::ShiftLeft<63 - kShift>(steps), hn::Zero(signs))) & 7;
 }
 
+// Of which the compiler is told nothing: gcc 12, where it sees that a function leaves vectors
+// alone, calls it and returns with their upper halves in use, for which whatever comes next then
+// waits.
+[[gnu::noipa]] int winding_below(const MapCells& cells, MapCells::Cell cell, unsigned octant,
+                                 unsigned part) {
+  return cells.find_below(cell, octant, part).winding;
+}
+
 // MapSteps::find(), an axis a lane, of the digits of CellSteps. The fourth lane is never in doubt
 // where others are not.
 int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, double y, double z) {
@@ -64,13 +72,15 @@ int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, dou
   const auto doubtful =
       hn::Or(hn::Lt(shift, hn::Zero(signs)), hn::Lt(past_side, hn::Set(signs, steps.doubtful)));
   if (!hn::AllFalse(signs, doubtful)) return MapCells::kUnknown;
-  const std::size_t cell = weighted_sum(hn::ShiftRight<CellSteps::kBits>(hn::BitCast(words, step)),
-                                        hn::Load(words, steps.stride.data()));
+  constexpr int kBlockShift = CellSteps::kBits + int{MapCells::kBlockBits};
+  const MapCells::Cell cell{
+      weighted_sum(hn::ShiftRight<kBlockShift>(hn::BitCast(words, step)),
+                   hn::Load(words, steps.stride.data())),
+      bits_at<CellSteps::kBits + 1>(step) << 3 | bits_at<CellSteps::kBits>(step)};
   const unsigned code = cells.code_of(cell);
   if (code != MapCells::kListed) return cells.find_by_code(code).winding;
-  return cells
-      .find_below(cell, bits_at<MapSteps::kOctantBits>(step), bits_at<MapSteps::kLeastBits>(step))
-      .winding;
+  return winding_below(cells, cell, bits_at<MapSteps::kOctantBits>(step),
+                       bits_at<MapSteps::kLeastBits>(step));
 }
 
 #else

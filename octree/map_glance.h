@@ -10,7 +10,7 @@ namespace planetree::octree {
 /// What is known of a place.
 inline MapCells::Found find(const MapSteps& steps, const MapCells& cells,
                             const MapSteps::Place& place) {
-  const std::size_t cell = steps.number(place.cell());
+  const MapCells::Cell cell = steps.cell_at(place.cell());
   const unsigned code = cells.code_of(cell);
   return code == MapCells::kListed ? cells.find_below(cell, place.octant(), place.part())
                                    : cells.find_by_code(code);

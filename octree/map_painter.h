@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "octree/colour_map.h"
 #include "octree/mask_records.h"
@@ -14,14 +15,14 @@ namespace planetree::octree {
 /// octants of those that are grey, and to fill in what is known of grey octants.
 class ColourMap::Painter {
  public:
-  Painter(ColourMap& map, const MaskFacts& mask, const PageReader& pages, bool clipped)
-      : map_(map), mask_(mask), pages_(pages), clipped_(clipped) {}
+  /// cells  the codes of blocks, to be painted; of no use when these are laid out.
+  Painter(ColourMap& map, std::span<MapCells::Codes> cells, const MaskFacts& mask,
+          const PageReader& pages, bool clipped)
+      : map_(map), cells_(cells), mask_(mask), pages_(pages), clipped_(clipped) {}
 
-  /// Returns how many cells are listed.
-  std::size_t paint_cells() {
+  void paint_cells() {
     paint_rim();
     run(Pass::kCells);
-    return map_.cells_.count_listed(MapCells::stretches_for(cells()));
   }
   void paint_octants() { run(Pass::kOctants); }
   void fill_records() { run(Pass::kRecords); }
@@ -37,19 +38,20 @@ class ColourMap::Painter {
   // Larger leaves would fill the map with their records.
   static constexpr unsigned kMostAbove = 2;
 
-  std::uint64_t cells() const {
-    return std::uint64_t{map_.width_[0]} * map_.width_[1] * map_.width_[2];
-  }
   // Without the rim.
   std::uint32_t width(unsigned axis) const { return map_.width_[axis] - 2 * kRim; }
 
+  // As far as blocks go.
   void paint_rim() {
-    const auto& end = map_.width_;
-    for (std::uint32_t z = 0; z < end[2]; ++z)
-      for (std::uint32_t y = 0; y < end[1]; ++y) {
-        const bool all = z == 0 || z + 1 == end[2] || y == 0 || y + 1 == end[1];
-        for (std::uint32_t x = 0; x < end[0]; x += all ? 1 : end[0] - 1)
-          set({x, y, z}, MapCells::kWhite);
+    const auto in_rim = [&](unsigned axis, std::uint32_t at) {
+      return at < kRim || at >= width(axis) + kRim;
+    };
+    const auto end = [&](unsigned axis) { return map_.blocks_along(axis) << MapCells::kBlockBits; };
+    for (std::uint32_t z = 0; z < end(2); ++z)
+      for (std::uint32_t y = 0; y < end(1); ++y) {
+        const bool all = in_rim(2, z) || in_rim(1, y);
+        for (std::uint32_t x = 0; x < end(0); ++x)
+          if (all || in_rim(0, x)) set({x, y, z}, MapCells::kWhite);
       }
   }
 
@@ -163,20 +165,23 @@ class ColourMap::Painter {
   void paint(const Place& at, unsigned octant, int winding) {
     if (!is_told(winding)) return note(at, octant, MapRecord::of_colour(winding));
     if (pass_ != Pass::kOctants || !is_listed_at(at)) return;
-    const MapCells::Octant painted = map_.cells_.octant_of(map_.steps_.number(at), octant);
+    const MapCells::Octant painted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
     painted.group.unknown &= ~painted.bit;
     if (winding != 0) painted.group.inside |= painted.bit;
   }
   void note(const Place& at, unsigned octant, const MapRecord& record) {
     if (pass_ != Pass::kRecords || !is_listed_at(at)) return;
-    const MapCells::Octant noted = map_.cells_.octant_of(map_.steps_.number(at), octant);
+    const MapCells::Octant noted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
     if (noted.is_unknown()) map_.cells_.records[noted.record()] = record;
   }
   // A page may be had the second time alone; then its cells are not listed.
   bool is_listed_at(const Place& at) const {
-    return map_.cells_.code_of(map_.steps_.number(at)) == MapCells::kListed;
+    return map_.cells_.code_of(map_.steps_.cell_at(at)) == MapCells::kListed;
   }
-  void set(const Place& at, MapCells::Code code) { map_.cells_.set(map_.steps_.number(at), code); }
+  void set(const Place& at, MapCells::Code code) {
+    const MapCells::Cell cell = map_.steps_.cell_at(at);
+    cells_[cell.block].set(cell.at, code);
+  }
 
   // Insides of one sign alone: the first one's.
   bool is_told(int winding) {
@@ -207,6 +212,7 @@ class ColourMap::Painter {
         for (std::uint32_t x = first[0]; x < end[0]; ++x) call(Place{x, y, z});
   }
   ColourMap& map_;
+  const std::span<MapCells::Codes> cells_;
   const MaskFacts& mask_;
   const PageReader pages_;
   const bool clipped_;

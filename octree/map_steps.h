@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "octree/cell_steps.h"
+#include "octree/map_cells.h"
 
 namespace planetree::octree {
 
@@ -45,7 +46,7 @@ struct MapSteps {
 
   alignas(32) Axes<std::int64_t> first{};  ///< of the rim, less half of `doubtful`; or 0
   alignas(32) Axes<std::int64_t> last_middle{kRimMiddle, kRimMiddle, kRimMiddle, kRimMiddle};
-  alignas(32) Axes<std::uint64_t> stride{};  ///< from a cell's number to its neighbour's
+  alignas(32) Axes<std::uint64_t> stride{};  ///< from a block's number to its neighbour's
   CellSteps input;                           ///< of the input's units
   CellSteps model;
   /// Steps about a side where a place is left to rounding, half of them before it; so many that
@@ -67,8 +68,14 @@ struct MapSteps {
     }
     return doubt >= 0;
   }
-  std::size_t number(const std::array<std::uint32_t, 3>& cell) const {
-    return cell[2] * stride[2] + cell[1] * stride[1] + cell[0];
+  /// The cell that is so many cells from the first along each axis.
+  MapCells::Cell cell_at(const std::array<std::uint32_t, 3>& at) const {
+    constexpr unsigned kBits = MapCells::kBlockBits;
+    const auto bits = [&](unsigned bit) {
+      return (at[0] >> bit & 1) | (at[1] >> bit & 1) << 1 | (at[2] >> bit & 1) << 2;
+    };
+    return {(at[2] >> kBits) * stride[2] + (at[1] >> kBits) * stride[1] + (at[0] >> kBits),
+            bits(1) << 3 | bits(0)};
   }
 };
 
