@@ -31,8 +31,9 @@ TEST(ClaimedMemory, GivesWhatItSaysInZeros) {
     EXPECT_EQ(memory->bytes(), ClaimedMemory::claimed_bytes(bytes));
     EXPECT_TRUE(std::all_of(memory->data(), memory->data() + memory->bytes(),
                             [](std::byte byte) { return byte == std::byte{0}; }));
-    if (memory->bytes() >= kHuge)
+    if (memory->bytes() >= kHuge) {
       EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory->data()) % kHuge, 0u);
+    }
   }
 }
 
