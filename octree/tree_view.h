@@ -124,13 +124,14 @@ class RecordFinder {
     const std::byte* frame = pages_.frames.frame_of(links_.page(link));
     const std::uint32_t slot = links_.slot(link);
     const std::size_t leaf = link >> 31;
-    const std::byte* line = frame + slot * kSlotBytes;
+    const std::byte* record = frame + slot * kSlotBytes;
 #pragma GCC unroll 8
-    for (std::size_t i = 0; i < kNodeLines; ++i, line += kSlotBytes) __builtin_prefetch(line);
-    const std::size_t step = leaf * kSlotBytes;
-    line += step - kSlotBytes;
+    for (std::size_t i = 0; i < kNodeLines; ++i) __builtin_prefetch(record + i * kSlotBytes);
+    // Of a node its last line again.
+    const std::byte* last = record + (kNodeLines - 1) * kSlotBytes;
 #pragma GCC unroll 8
-    for (std::size_t i = kNodeLines; i < kBlockLines; ++i, line += step) __builtin_prefetch(line);
+    for (std::size_t i = kNodeLines; i < kBlockLines; ++i)
+      __builtin_prefetch(last += leaf * kSlotBytes);
   }
 
  private:
