@@ -171,7 +171,7 @@ class Descent {
     records_.prefetch<kNodeLines>(nearest);
 #pragma GCC unroll 4
     for (unsigned i = 1; i < kPrefetched; ++i)
-      records_.prefetch<kNodeLines>(i < near ? group.link[i] : nearest);
+      records_.prefetch<kNodeLines>(group.link[i < near ? i : 0]);
   }
 
   HWY_INLINE void visit_block(const BlockView& block) {
