@@ -5,6 +5,8 @@
 #include <memory>
 #include <set>
 
+#include "octree/octcode.h"
+
 namespace planetree::query {
 namespace {
 
@@ -18,6 +20,23 @@ TEST(BatchOrder, GoesByCode) {
   EXPECT_EQ(order->query(1), 3u);
   EXPECT_EQ(order->query(2), 2u);
   EXPECT_EQ(order->query(3), 0u);
+}
+
+TEST(BatchOrder, TellsPlacesApartThatAreAllInOneCorner) {
+  const auto order = std::make_unique<BatchOrder>();
+  const std::size_t count = 1000;
+  const auto code = [](std::size_t i) { return kCodes / 3 * 2 + i * 7 % count; };
+  order->sort(count, code);
+  for (std::size_t i = 1; i < count; ++i)
+    EXPECT_LT(code(order->query(i - 1)), code(order->query(i)));
+}
+
+TEST(BatchOrder, GoesByTheFirstBitsThatDiffer) {
+  const auto order = std::make_unique<BatchOrder>();
+  const auto code = [](std::size_t i) { return i * i * 7919 * 104729 % kCodes; };
+  order->sort(BatchOrder::kMost, code);
+  for (std::size_t i = 1; i < BatchOrder::kMost; ++i)
+    EXPECT_LE(code(order->query(i - 1)) >> 40, code(order->query(i)) >> 40);
 }
 
 TEST(BatchOrder, NamesEachQueryOnce) {
