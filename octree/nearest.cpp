@@ -26,6 +26,11 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
+// Limited work and errors depend on the way that is taken, which what is resident must not steer.
+inline bool takes_any_way(const NearestLimits& limits) {
+  return limits.max_error == 0 && limits.max_nodes == std::numeric_limits<std::uint32_t>::max();
+}
+
 // One descent; the parts that touch nodes and blocks are compiled per target.
 class Descent {
  public:
@@ -37,7 +42,7 @@ class Descent {
         limits_(limits),
         visits_left_(std::min<std::uint64_t>(limits.max_nodes, tree.record_count)),
         work_(work),
-        keeper_(pages.keeper),
+        keeper_(takes_any_way(limits) ? pages.keeper : nullptr),
         records_(tree, pages),
         best_(wide_, limits_) {
     if (keeper_) *keeper_ = {this, &let_go};

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <vector>
 
 #include "planetree/probe.h"
 #include "tests/query/answer_bits.h"
@@ -219,6 +221,25 @@ TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
   for (std::size_t i = queries.size(); i-- > 0;)
     EXPECT_EQ(bits_of(of_small.closest_point(queries[i])), forward[i]);
   EXPECT_GT(small.stats().pages_evicted, 100u);
+}
+
+// Where very many triangles are nearly as near, so that more of them are noted than are kept.
+TEST(ClosestPoint, DoesNotDependOnMemoryWhereErrorsAndWorkAreAllowed) {
+  const SampleModel sample(octree::sphere(6));
+  const Model large = sample.open(), small = sample.open(sample.least_budget());
+  Probe of_large = make_probe(large), of_small = make_probe(small);
+  std::set<Status> seen;
+  for (const double aside : {0.0, 1e-6, 1e-5, 1e-3})
+    for (const Vec3& query : random_queries(60, -aside, aside, 13))
+      for (const double max_error : {1e-6, 1e-4, 1e-3, 1e-2})
+        for (const std::uint32_t max_nodes : {Ask::kNoLimit, 500u, 3000u}) {
+          const Ask ask{.parts = kDistance, .max_error = max_error, .max_nodes = max_nodes};
+          const ClosestPoint expected = of_large.closest_point(query, ask);
+          EXPECT_EQ(bits_of(of_small.closest_point(query, ask)), bits_of(expected));
+          seen.insert(expected.status);
+        }
+  EXPECT_GT(small.stats().pages_evicted, 100u);
+  EXPECT_TRUE(seen.contains(Status::kWithinError));
 }
 
 }  // namespace
