@@ -9,6 +9,7 @@
 
 #include "octree/crossing_kernels-inl.h"
 #include "octree/float_segment.h"
+#include "octree/record_finder.h"
 #include "octree/segment_kernels-inl.h"
 #include "octree/strict_math.h"
 #include "octree/tree_walk.h"

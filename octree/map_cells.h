@@ -30,7 +30,6 @@ struct MapCells {
     unsigned at;
   };
   static constexpr unsigned kBlockBits = 2;  ///< cells along a block's side, as a power of 2
-  static constexpr unsigned kBlockCells = 64;
 
   /// The codes of a block's cells, a bit of each in either word.
   struct Codes {

@@ -36,6 +36,12 @@ struct NearestLimits {
   /// triangle, not its distance, counts. Limited work, too, may then start from what the last
   /// query left, so that answers that are not exact depend on the queries before. May be null.
   const NearestAnswer* known = nullptr;
+
+  /// Limited work and errors depend on the way that is taken, which neither what is resident nor
+  /// the query before may steer, unless `known` lets them.
+  bool allow_any_way() const {
+    return max_error == 0 && max_nodes == std::numeric_limits<std::uint32_t>::max();
+  }
 };
 
 /// Nearest surface point to `query`, by a descent that takes the nearest child first: of the

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "octree/block_view.h"
+#include "octree/record_finder.h"
 #include "octree/tree_view.h"
 
 namespace planetree::octree {

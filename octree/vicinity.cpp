@@ -7,6 +7,7 @@
 #include "octree/block_view.h"
 #include "octree/bounds.h"
 #include "octree/child_tests.h"
+#include "octree/record_finder.h"
 #include "octree/strict_math.h"
 #include "octree/triangle_tests.h"
 

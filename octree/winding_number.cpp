@@ -8,6 +8,7 @@
 #include "octree/block_view.h"
 #include "octree/certain_sum.h"
 #include "octree/multipole.h"
+#include "octree/record_finder.h"
 #include "octree/solid_angle.h"
 #include "octree/strict_math.h"
 

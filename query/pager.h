@@ -105,7 +105,8 @@ class PageTurner {
   /// Where to note what is looked for; null: nowhere.
   void log_to(TouchLog* log) noexcept { log_ = log; }
 
-  /// The page's frame, good until the next call; null if it cannot be had.
+  /// The page's frame, good until the next call, or until the keeper that pages() names is told;
+  /// null if it cannot be had.
   const std::byte* page(std::uint32_t number) noexcept {
     if (++turns_ % kTurnsPerSection == 0) {
       let_frames_go();

@@ -11,6 +11,7 @@
 #include "octree/build/special_cell.h"
 #include "octree/crossings.h"
 #include "octree/mask_lookup.h"
+#include "octree/record_finder.h"
 #include "octree/strict_math.h"
 #include "query/pager.h"
 #include "query/ways_out.h"

@@ -7,6 +7,7 @@
 
 #include "octree/box_walk.h"
 #include "octree/build/tree_frames.h"
+#include "octree/record_finder.h"
 #include "tests/octree/patched_tree.h"
 #include "tests/octree/sample_mask.h"
 
