@@ -16,6 +16,7 @@
 #include "octree/block_view.h"
 #include "octree/bounds.h"
 #include "octree/candidates.h"
+#include "octree/child_box.h"
 #include "octree/conclusion.h"
 #include "octree/filtered_blocks-inl.h"
 #include "octree/frontier.h"
@@ -23,6 +24,7 @@
 #include "octree/node_kernels-inl.h"
 #include "octree/record_finder.h"
 #include "octree/triangle_filter-inl.h"
+#include "octree/triangle_kernels-inl.h"
 #include "octree/vicinity.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -84,7 +86,6 @@ class Descent {
 
  private:
   static constexpr unsigned kPrefetched = 3;  // children, nearest first
-
   static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
 
   // All of a subtree that is near. Compiled once: there is much of it.
@@ -169,6 +170,7 @@ class Descent {
   }
 
   // The nearest of the children that are near, the same again where there are fewer: by no branch.
+  // The very nearest is known before all are in order.
   template <std::size_t kNodeLines>
   HWY_INLINE void prefetch(std::uint32_t nearest, const FrontierGroup& group, unsigned near) {
     records_.prefetch<kNodeLines>(nearest);

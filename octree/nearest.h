@@ -37,8 +37,8 @@ struct NearestLimits {
   /// query left, so that answers that are not exact depend on the queries before. May be null.
   const NearestAnswer* known = nullptr;
 
-  /// Limited work and errors depend on the way that is taken, which neither what is resident nor
-  /// the query before may steer, unless `known` lets them.
+  /// Whether all ways lead to the same answer. Limited work and errors depend on the way, which
+  /// what is resident must not steer, and what was asked before only where there is a `known`.
   bool allow_any_way() const {
     return max_error == 0 && max_nodes == std::numeric_limits<std::uint32_t>::max();
   }

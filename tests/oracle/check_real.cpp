@@ -295,14 +295,11 @@ int run(int count, char** arguments) {
   std::printf("%-28s %9s %6s %8s %6s | misses: %s\n", "mesh", "triangles", "thin", "queries",
               "sides",
               "status distance interval triangle ties sides paging; error/allowed, MiB at 32 MiB");
-  int right = 0, wrong = 0, missing = 0;
-  for (const std::string& name : names) {
-    const Verdict verdict = check_mesh(folders, name);
-    ++(verdict == Verdict::kRight ? right : verdict == Verdict::kWrong ? wrong : missing);
-  }
-  std::printf("meshes with all answers right %d, with wrong ones %d, missing %d\n", right, wrong,
-              missing);
-  return wrong + missing == 0 ? 0 : 1;
+  int meshes[3] = {};  // by Verdict
+  for (const std::string& name : names) ++meshes[static_cast<int>(check_mesh(folders, name))];
+  std::printf("meshes with all answers right %d, with wrong ones %d, missing %d\n", meshes[0],
+              meshes[1], meshes[2]);
+  return meshes[1] + meshes[2] == 0 ? 0 : 1;
 }
 
 }  // namespace
