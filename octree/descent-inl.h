@@ -90,12 +90,28 @@ class Descent {
 
   // All of a subtree that is near. Compiled once: there is much of it.
   HWY_NOINLINE void search(float bound, std::uint32_t link) {
-    FrontierEntry entry{bound, link, RecordFinder::kNoPage};
+    FrontierEntry entry{bound, link, RecordFinder::kNoPage}, second{};
+    bool has_second = false;
     do {
       // From nearest child to nearest child, as long as nodes are near.
       while (visit(entry)) {
       }
-    } while (frontier_.pop(order_, best_.threshold(), entry, left_out_.pruned));
+    } while (take_next(entry, second, has_second));
+  }
+
+  // Far away, the two nearest at a time: the second need not wait for the first one's children,
+  // few of which are nearer.
+  HWY_INLINE bool take_next(FrontierEntry& entry, FrontierEntry& second, bool& has_second) {
+    if (has_second) {
+      entry = second;
+      has_second = false;
+      return true;
+    }
+    const Frontier::Order order = order_;
+    if (!frontier_.pop(order, best_.threshold(), entry, left_out_.pruned)) return false;
+    if (order == Frontier::Order::kNearest && frontier_.is_ordered())
+      has_second = frontier_.pop(order, best_.threshold(), second, left_out_.pruned);
+    return true;
   }
 
   // Whether to go on with a child, which `entry` then is.

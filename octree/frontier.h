@@ -32,10 +32,13 @@ struct alignas(kSlotBytes) FrontierGroup {
 class Frontier {
  public:
   enum class Order { kNearest, kLast };
-  /// From more groups only the last is taken, so that depth bounds how many are added.
-  static constexpr std::size_t kMostToOrder = 16;
+  /// From more groups only the last is taken, so that depth bounds how many are added. Few asks
+  /// have as many at once.
+  static constexpr std::size_t kMostToOrder = 48;
 
   bool has_room() const { return size_ < kMaxGroups; }
+  /// Whether the nearest of all is taken, where that is asked for.
+  bool is_ordered() const { return size_ <= kMostToOrder; }
 
   /// Where the next group is to be written; push() then counts it in.
   FrontierGroup& next() { return groups_[size_]; }
@@ -60,7 +63,7 @@ class Frontier {
  private:
   bool pop_near(Order order, float threshold, FrontierEntry& entry, float& dropped) {
     while (size_ > 0) {
-      const bool nearest = order == Order::kNearest && size_ <= kMostToOrder;
+      const bool nearest = order == Order::kNearest && is_ordered();
       const std::size_t at = nearest ? nearest_group() : size_ - 1;
       Cursor& cursor = cursors_[at];
       const FrontierGroup& group = groups_[at];
@@ -82,7 +85,8 @@ class Frontier {
     std::uint32_t from;
     std::uint8_t next, end;  // of the group's entries
   };
-  static constexpr std::size_t kMaxGroups = kMostToOrder + kMaxHeight + 1;
+  // Two are taken at a time as long as groups are ordered; the way down from each adds one a level.
+  static constexpr std::size_t kMaxGroups = kMostToOrder + std::size_t{2} * (kMaxHeight + 1);
 
   // A group's least bound, and its place, so that the last of equals comes first.
   void set_key(std::size_t at, std::int32_t bound_bits) {

@@ -82,14 +82,15 @@ TEST(FrontierTest, TellsTheLeastOfWhatItDrops) {
   }
 }
 
-// However the way down leads, there is room for it, and nothing is lost.
+// However the ways down from two nodes lead, there is room for them, and nothing is lost.
 TEST(FrontierTest, ManyGroupsAreTakenFromTheLast) {
   Frontier frontier;
   std::size_t pushed = 0, taken = 0;
   FrontierEntry entry;
   float dropped = kInfinity;
-  for (std::uint32_t level = 0; level < Frontier::kMostToOrder + kMaxHeight; ++level) {
+  for (std::uint32_t level = 0; level < Frontier::kMostToOrder + 2 * kMaxHeight; ++level) {
     ASSERT_TRUE(frontier.has_room());
+    EXPECT_EQ(frontier.is_ordered(), level <= Frontier::kMostToOrder);
     push(frontier, level, {1, 2, 3});
     pushed += 3;
     ASSERT_TRUE(frontier.pop(Order::kNearest, 100, entry, dropped));
