@@ -18,6 +18,14 @@ float extent_of(float square) {
   return std::sqrt(square) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
 }
 
+// See BlockHeader::corner_bit().
+std::uint64_t pack_corners(const std::uint8_t (&corners)[kMaxBlockTriangles]) {
+  std::uint64_t packed = 0;
+  for (unsigned i = 0; i < kMaxBlockTriangles; ++i)
+    packed |= std::uint64_t{corners[i]} << BlockHeader::corner_bit(i);
+  return packed;
+}
+
 }  // namespace
 
 const char* BlockDecoder::start(std::byte* records) noexcept {
@@ -50,9 +58,9 @@ const char* BlockDecoder::decode_last(std::byte* record) noexcept {
       __builtin_prefetch(record - (kAhead + line) * kSlotBytes, 1);
   BlockHeader header{};
   header.triangle_count = streams_.triangle_count(block_);
-  header.vertex_count = streams_.vertex_counts[block_];
-  header.stride = static_cast<std::uint8_t>(BlockShape::stride(header.vertex_count));
-  header.in_sheet = streams_.in_sheet(block_) ? 1 : 0;
+  header.form = streams_.vertex_counts[block_];
+  if (streams_.in_sheet(block_)) header.form |= BlockHeader::kInSheet;
+  if (streams_.compact(block_)) header.form |= BlockHeader::kCompact;
   Places places;
   if (const char* fault = find_vertices(header, places)) return fault;
   if (const char* fault = store_corners(header)) return fault;
@@ -60,28 +68,35 @@ const char* BlockDecoder::decode_last(std::byte* record) noexcept {
     store_float64_vertices(header, places, record);
   else
     store_vertices(header, places, record);
+  const char* fault = store_ids(header, record);
   std::memcpy(record, &header, sizeof header);
-  return store_ids(header, record);
+  return fault;
 }
 
 const char* BlockDecoder::find_vertices(const BlockHeader& header, Places& places) {
   const unsigned new_count = streams_.new_counts[block_];
-  const unsigned old_count = header.vertex_count - new_count;
+  const unsigned old_count = header.vertex_count() - new_count;
   new_vertices_ -= new_count;
   refs_ -= old_count;
-  const BlockVertices block{refs_, old_count, new_vertices_, header.vertex_count};
-  return unpack_places(streams_.vertex_refs, block, header.stride, places.data())
+  const BlockVertices block{refs_, old_count, new_vertices_, header.vertex_count()};
+  return unpack_places(streams_.vertex_refs, block, header.stride(), places.data())
              ? nullptr
              : "a block names a vertex twice, or one the page has not had";
 }
 
 const char* BlockDecoder::store_corners(BlockHeader& header) {
-  corner_bytes_ -= corner_bytes(header.triangle_count, header.vertex_count);
+  corner_bytes_ -= corner_bytes(header.triangle_count, header.vertex_count());
   const auto packed = streams_.corners.subspan(corner_bytes_);
-  if (!unpack_corners(packed, header.triangle_count, header.vertex_count, header.corner))
+  std::uint8_t corners[3][kMaxBlockTriangles];
+  if (!unpack_corners(packed, header.triangle_count, header.vertex_count(), corners))
     return "a corner names a vertex its block has not";
+  for (std::size_t k = 0; k < 3; ++k)
+    if (header.compact())
+      header.packed_corners[k] = pack_corners(corners[k]);
+    else
+      std::memcpy(header.corner_row(k), corners[k], sizeof corners[k]);
   const std::size_t bits =
-      std::size_t{3} * header.triangle_count * corner_bits(header.vertex_count);
+      std::size_t{3} * header.triangle_count * corner_bits(header.vertex_count());
   if (bits % 8 != 0 && std::to_integer<unsigned>(packed[bits / 8]) >> bits % 8 != 0)
     return "padding is not zero";
   return nullptr;
@@ -92,14 +107,14 @@ void BlockDecoder::store_vertices(BlockHeader& header, const Places& places,
                                   std::byte* record) const {
   const auto* all = reinterpret_cast<const float*>(vertices_);
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
-  const std::size_t length = 3 * std::size_t{header.stride};
+  const std::size_t length = 3 * std::size_t{header.stride()};
   // One float more is read.
   const float* end_read = all + 3 * (new_vertices_ + streams_.new_counts[block_]) + 1;
   if (end_read <= rows) {
-    header.extent = extent_of(unpack_rows(all, places.data(), header.stride, rows));
+    header.extent = extent_of(unpack_rows(all, places.data(), header.stride(), rows));
   } else {
     std::array<float, 3 * kMaxBlockVertices> apart;
-    header.extent = extent_of(unpack_rows(all, places.data(), header.stride, apart.data()));
+    header.extent = extent_of(unpack_rows(all, places.data(), header.stride(), apart.data()));
     std::copy_n(apart.data(), length, rows);
   }
 }
@@ -107,7 +122,7 @@ void BlockDecoder::store_vertices(BlockHeader& header, const Places& places,
 void BlockDecoder::store_float64_vertices(BlockHeader& header, const Places& places,
                                           std::byte* record) const {
   const auto* all = reinterpret_cast<const double*>(vertices_);
-  const unsigned stride = header.stride;
+  const unsigned stride = header.stride();
   std::array<double, 3 * kMaxBlockVertices> exact;
   std::array<float, 3 * kMaxBlockVertices + 1> local{};
   for (unsigned i = 0; i < stride; ++i)
@@ -123,16 +138,30 @@ void BlockDecoder::store_float64_vertices(BlockHeader& header, const Places& pla
   std::memcpy(record + shape_.exact_offset(stride), exact.data(), 3 * stride * sizeof(double));
 }
 
-const char* BlockDecoder::store_ids(const BlockHeader& header, std::byte* record) {
-  std::byte* ids = record + shape_.id_offset(header.stride);
+const char* BlockDecoder::store_ids(BlockHeader& header, std::byte* record) {
+  constexpr const char* kNotAscending = "triangle indices do not ascend";
   const unsigned count = header.triangle_count;
   id_steps_ -= count - 1;
-  const bool ascend = shape_.wide_ids
-                          ? unpack_ids(streams_.first_ids64[block_], streams_.id_steps64, id_steps_,
-                                       count, reinterpret_cast<std::uint64_t*>(ids))
-                          : unpack_ids(streams_.first_ids32[block_], streams_.id_steps32, id_steps_,
-                                       count, reinterpret_cast<std::uint32_t*>(ids));
-  return ascend ? nullptr : "triangle indices do not ascend";
+  if (shape_.wide_ids) {
+    auto* ids = reinterpret_cast<std::uint64_t*>(record + shape_.id_offset(header.stride()));
+    const bool ascend =
+        unpack_ids(streams_.first_ids64[block_], streams_.id_steps64, id_steps_, count, ids);
+    return ascend ? nullptr : kNotAscending;
+  }
+  std::uint32_t ids[kMaxBlockTriangles];
+  if (!unpack_ids(streams_.first_ids32[block_], streams_.id_steps32, id_steps_, count, ids))
+    return kNotAscending;
+  const bool near = ids[count - 1] - ids[0] <= BlockHeader::kMostCompactSpan;
+  if (header.compact() != (near && shape_.may_be_compact(header.vertex_count())))
+    return "a block is not as compact as its indices are";
+  if (!header.compact()) {
+    std::memcpy(record + shape_.id_offset(header.stride()), ids, sizeof ids);
+    return nullptr;
+  }
+  header.first_id = ids[0];
+  for (unsigned i = 1; i < kMaxBlockTriangles; ++i)
+    header.id_step[i - 1] = static_cast<std::uint16_t>(ids[i] - ids[0]);
+  return nullptr;
 }
 
 }  // namespace planetree::octree

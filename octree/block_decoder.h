@@ -38,7 +38,7 @@ class BlockDecoder {
   const char* store_corners(BlockHeader& header);
   void store_vertices(BlockHeader& header, const Places& places, std::byte* record) const;
   void store_float64_vertices(BlockHeader& header, const Places& places, std::byte* record) const;
-  const char* store_ids(const BlockHeader& header, std::byte* record);
+  const char* store_ids(BlockHeader& header, std::byte* record);
 
   const RawStreams& streams_;
   const BlockShape& shape_;

@@ -222,8 +222,7 @@ class Descent {
   }
 
   void note(const BlockView& block, unsigned i, float squared) {
-    note(block.triangle(i), block.id(i), block.header().extent, block.header().in_sheet != 0,
-         squared);
+    note(block.triangle(i), block.id(i), block.header().extent, block.header().in_sheet(), squared);
   }
   void note(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
     if (candidates_.full()) {

@@ -70,17 +70,54 @@ inline constexpr unsigned kMomentSlots = 2;
 ///   float  local[3][stride]     float32 models: the exact vertices
 ///                               float64 models: vertices minus `origin`, rounded
 ///   double exact[3][stride]     float64 models only
-///   uint32 or uint64 ids[16]    triangle indices, ascending
+///   uint32 or uint64 ids[16]    triangle indices, ascending; not of compact blocks
+/// A compact block has its ids in its head, and four bits a corner: of most float32 models nine
+/// blocks in ten are.
 struct alignas(kSlotBytes) BlockHeader {
-  std::uint8_t triangle_count;  ///< 1 to 16
-  std::uint8_t vertex_count;    ///< 1 to 48
-  std::uint8_t stride;          ///< 16, 24, 32 or 48
-  std::uint8_t in_sheet;        ///< 1 where it is known to be (octree/sheet.h)
+  static constexpr unsigned kMostCompactVertices = 16;
+  static constexpr std::uint32_t kMostCompactSpan = 0xffff;  ///< last index less the first
+
   float extent;                 ///< at least the distance of any vertex from vertex 0
-  std::uint8_t reserved_words[8];
-  std::uint8_t corner[3][kMaxBlockTriangles];  ///< vertex of each corner, by corner
+  std::uint8_t triangle_count;  ///< 1 to 16
+  std::uint8_t form;            ///< vertices, 1 to 48; kInSheet, kCompact
+  // Of compact blocks; others have corner_row() here.
+  std::uint16_t id_step[kMaxBlockTriangles - 1];  ///< index less the first, from the second on
+  std::uint32_t first_id;
+  std::uint64_t packed_corners[3];  ///< vertex of each corner, by corner: bits at corner_bit()
+
+  static constexpr std::uint8_t kInSheet = 0x40;  ///< known to be in one (octree/sheet.h)
+  static constexpr std::uint8_t kCompact = 0x80;
+
+  unsigned vertex_count() const { return form & 0x3fU; }
+  bool in_sheet() const { return (form & kInSheet) != 0; }
+  bool compact() const { return (form & kCompact) != 0; }
+  /// From one coordinate of the vertices to the next: 16, 24, 32 or 48.
+  unsigned stride() const;
+
+  /// Where a triangle's corner begins among the bits of packed_corners: so that a register with
+  /// these in each pair of lanes needs but shift them.
+  static constexpr unsigned corner_bit(unsigned triangle) {
+    return 32 * (triangle % 2) + 4 * (triangle / 2);
+  }
+  /// The vertex of each triangle's corner, of a block that is not compact.
+  const std::uint8_t* corner_row(std::size_t corner) const {
+    return reinterpret_cast<const std::uint8_t*>(this) + 16 + kMaxBlockTriangles * corner;
+  }
+  std::uint8_t* corner_row(std::size_t corner) {
+    return reinterpret_cast<std::uint8_t*>(this) + 16 + kMaxBlockTriangles * corner;
+  }
+  /// Of one triangle.
+  std::array<unsigned, 3> corners(unsigned triangle) const {
+    if (!compact())
+      return {corner_row(0)[triangle], corner_row(1)[triangle], corner_row(2)[triangle]};
+    const auto at = [&](std::uint64_t packed) {
+      return static_cast<unsigned>(packed >> corner_bit(triangle)) & 15U;
+    };
+    return {at(packed_corners[0]), at(packed_corners[1]), at(packed_corners[2])};
+  }
 };
 static_assert(sizeof(BlockHeader) == kSlotBytes);
+static_assert(offsetof(BlockHeader, packed_corners) == 40);
 
 /// How records of one file are laid out; a function of three header fields.
 struct BlockShape {
@@ -99,8 +136,12 @@ struct BlockShape {
   constexpr std::size_t id_offset(unsigned stride) const {
     return exact_offset(stride) + (float64 ? align(3 * stride * sizeof(double)) : 0);
   }
-  constexpr unsigned slots(unsigned vertex_count) const {
-    const std::size_t ids = kMaxBlockTriangles * (wide_ids ? 8 : 4);
+  /// Whether a block may be compact, if its indices are near enough to each other.
+  constexpr bool may_be_compact(unsigned vertex_count) const {
+    return !float64 && !wide_ids && vertex_count <= BlockHeader::kMostCompactVertices;
+  }
+  constexpr unsigned slots(unsigned vertex_count, bool compact) const {
+    const std::size_t ids = compact ? 0 : kMaxBlockTriangles * (wide_ids ? 8 : 4);
     return static_cast<unsigned>((id_offset(stride(vertex_count)) + ids) / kSlotBytes);
   }
 
@@ -109,6 +150,8 @@ struct BlockShape {
     return (bytes + kSlotBytes - 1) / kSlotBytes * kSlotBytes;
   }
 };
+
+inline unsigned BlockHeader::stride() const { return BlockShape::stride(vertex_count()); }
 
 /// A child's address in 32 bits: [leaf 1][page 31 - s][slot s], where s is
 /// log2(page bytes / 64).

@@ -36,16 +36,16 @@ void float_codes(const float* HWY_RESTRICT vertices, unsigned stride, const floa
 CornerCodes float_corner_codes(const BlockHeader& block, const float* vertices,
                                const float (&lower)[3], const float (&upper)[3]) {
   HWY_ALIGN std::uint8_t codes[kMaxBlockVertices];
-  float_codes(vertices, block.stride, lower, upper, codes);
+  float_codes(vertices, block.stride(), lower, upper, codes);
   return corner_codes(block, codes);
 }
 
 void float_octants(const BlockHeader& block, const float* vertices, const float (&box)[2][3],
                    const float (&middle)[2][3], OctantCodes::Met& met) {
   HWY_ALIGN std::uint8_t outcodes[kMaxBlockVertices], codes[kMaxBlockVertices];
-  float_codes(vertices, block.stride, box[0], box[1], outcodes);
-  float_codes(vertices, block.stride, middle[0], middle[1], codes);
-  for (unsigned i = 0; i < block.stride; ++i)
+  float_codes(vertices, block.stride(), box[0], box[1], outcodes);
+  float_codes(vertices, block.stride(), middle[0], middle[1], codes);
+  for (unsigned i = 0; i < block.stride(); ++i)
     met.with_vertex |= outcodes[i] == 0 ? OctantCodes::kOctants[codes[i]] : 0U;
   shared_codes(block, codes, met.by_box);
   const unsigned apart = corner_codes(block, outcodes).shared;

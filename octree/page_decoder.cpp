@@ -41,6 +41,9 @@ class PageDecoder {
 
  private:
   const char* plan();
+  unsigned block_slots(std::size_t block) const {
+    return facts_.shape.slots(streams_.vertex_counts[block], streams_.compact(block));
+  }
   void write_header();
   const char* decode_nodes();
   const char* decode_node(std::size_t index);
@@ -79,8 +82,11 @@ const char* PageDecoder::plan() {
   plan_.first_node_slot = static_cast<std::uint16_t>(slots);
   slots += std::size_t{facts_.shape.node_slots()} * head.node_count;
   const std::size_t first_block_slot = slots;
-  for (std::size_t i = 0; i < head.block_count; ++i)
-    slots += facts_.shape.slots(streams_.vertex_counts[i]);
+  for (std::size_t i = 0; i < head.block_count; ++i) {
+    if (streams_.compact(i) && !facts_.shape.may_be_compact(streams_.vertex_counts[i]))
+      return "a block is compact that cannot be";
+    slots += block_slots(i);
+  }
   if (slots * kSlotBytes > facts_.page_bytes) return "its records do not fit a page";
   plan_.first_block_slot = static_cast<std::uint16_t>(first_block_slot);
   plan_.used_bytes = static_cast<std::uint32_t>(slots * kSlotBytes);
@@ -109,8 +115,7 @@ const char* PageDecoder::decode_nodes() {
   const PageHead& head = streams_.head;
   next_node_ = head.root_node_count;
   next_block_ = head.root_block_count;
-  for (std::size_t i = 0; i < head.root_block_count; ++i)
-    next_block_slot_ += facts_.shape.slots(streams_.vertex_counts[i]);
+  for (std::size_t i = 0; i < head.root_block_count; ++i) next_block_slot_ += block_slots(i);
   for (std::size_t i = 0; i < head.root_node_count; ++i) {
     FloatBox box;
     for (int axis = 0; axis < 3; ++axis) {
@@ -241,7 +246,7 @@ const char* PageDecoder::link_to_block(Node& parent, std::size_t child) {
   if (next_block_ >= streams_.head.block_count) return "its children do not add up";
   parent.link[child] =
       links_.make(true, facts_.page_number, static_cast<std::uint32_t>(next_block_slot_));
-  next_block_slot_ += facts_.shape.slots(streams_.vertex_counts[next_block_]);
+  next_block_slot_ += block_slots(next_block_);
   ++next_block_;
   return nullptr;
 }
@@ -262,7 +267,7 @@ const char* PageDecoder::decode_blocks() {
   std::size_t slot = plan_.used_bytes / kSlotBytes;
   auto* starts = reinterpret_cast<std::uint64_t*>(frame_ + kSlotBytes);
   for (std::size_t i = streams_.head.block_count; i-- > 0;) {
-    slot -= facts_.shape.slots(streams_.vertex_counts[i]);
+    slot -= block_slots(i);
     starts[slot / 64] |= std::uint64_t{1} << slot % 64;
     if (const char* fault = blocks.decode_last(frame_ + slot * kSlotBytes)) return fault;
   }

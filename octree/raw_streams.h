@@ -54,7 +54,7 @@ struct RawStreams {
   Shuffled<std::int8_t> child_firsts;    ///< 5 planes
   Shuffled<std::uint16_t> child_areas, child_seconds;
   Shuffled<std::uint32_t> page_links;
-  Shuffled<std::uint8_t> triangle_counts;  ///< with kSheetBit
+  Shuffled<std::uint8_t> triangle_counts;  ///< with kSheetBit, kCompactBit
   Shuffled<std::uint8_t> vertex_counts, new_counts;
   Shuffled<std::uint16_t> vertex_refs;
   std::span<const std::byte> corners;
@@ -64,9 +64,10 @@ struct RawStreams {
   Shuffled<std::uint64_t> first_ids64, id_steps64;
 
   std::uint8_t triangle_count(std::size_t block) const {
-    return triangle_counts[block] & static_cast<std::uint8_t>(~kSheetBit);
+    return triangle_counts[block] & static_cast<std::uint8_t>(~(kSheetBit | kCompactBit));
   }
   bool in_sheet(std::size_t block) const { return (triangle_counts[block] & kSheetBit) != 0; }
+  bool compact(std::size_t block) const { return (triangle_counts[block] & kCompactBit) != 0; }
 
   /// Cuts `raw`. Returns null, or what is wrong.
   const char* cut(std::span<const std::byte> raw, const BlockShape& shape) noexcept;

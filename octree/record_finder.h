@@ -80,7 +80,7 @@ class RecordFinder {
   }
 
  private:
-  static constexpr std::size_t kBlockLines = 6;  // all of most
+  static constexpr std::size_t kBlockLines = 4;  // all of most
 
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);

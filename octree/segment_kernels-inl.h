@@ -100,7 +100,7 @@ class SegmentSides {
 HWY_INLINE unsigned triangles_met(const BlockHeader& block, const float* vertices,
                                   const FloatSegment& segment) {
   HWY_ALIGN std::uint8_t codes[kMaxBlockVertices];
-  SegmentSides(segment).write_codes(vertices, block.stride, codes);
+  SegmentSides(segment).write_codes(vertices, block.stride(), codes);
   return ~corner_codes(block, codes).shared & ((1U << block.triangle_count) - 1);
 }
 

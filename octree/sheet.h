@@ -10,7 +10,7 @@
 
 /// Parts of a watertight surface that are simple enough for a nearest triangle to tell a side.
 ///
-/// About a block in a sheet (BlockHeader::in_sheet) there is a direction such that every line
+/// About a block in a sheet (BlockHeader::in_sheet()) there is a direction such that every line
 /// along it, within a box that goes on for kRim on all sides of the block, crosses the surface
 /// once: from the outside of the solid to its inside. All triangles in the box rise in that
 /// direction and are no needles.

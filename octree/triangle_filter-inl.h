@@ -111,7 +111,7 @@ HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVec
 }
 
 // A block's vertices, seen from the query; `kStride` of each coordinate.
-template <unsigned kStride>
+template <unsigned kStride, bool kCompact = false>
 class BlockTriangles {
  public:
   // `query` is relative to vertex 0.
@@ -130,13 +130,33 @@ class BlockTriangles {
 
   // Corner `k` of the triangles from `first` on.
   HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t first) const {
-    const hn::RebindToSigned<TriangleTag> di;
-    const hn::Rebind<std::uint8_t, decltype(di)> bytes;
-    const auto index = hn::PromoteTo(di, hn::LoadU(bytes, block_.corner[k] + first));
+    const auto index = vertices(k, first);
     return {look_up(0, index), look_up(1, index), look_up(2, index)};
   }
 
  private:
+  HWY_INLINE hn::Vec<hn::RebindToSigned<TriangleTag>> vertices(std::size_t k,
+                                                               std::size_t first) const {
+    const hn::RebindToSigned<TriangleTag> di;
+    if constexpr (!kCompact) {
+      const hn::Rebind<std::uint8_t, decltype(di)> bytes;
+      return hn::PromoteTo(di, hn::LoadU(bytes, block_.corner_row(k) + first));
+    } else {
+#if HWY_TARGET == HWY_SCALAR
+      return hn::Set(di,
+                     static_cast<std::int32_t>(block_.corners(static_cast<unsigned>(first))[k]));
+#else
+      // The bits of each are shifted to where they are wanted.
+      const hn::RebindToUnsigned<decltype(di)> du;
+      const hn::Repartition<std::uint64_t, decltype(di)> words;
+      const auto packed = hn::BitCast(du, hn::Set(words, block_.packed_corners[k] >> 2 * first));
+      const auto lane = hn::Iota(du, 0);
+      const auto shift = hn::ShiftLeft<1>(hn::AndNot(hn::Set(du, 1), lane));
+      return hn::BitCast(di, hn::And(hn::Shr(packed, shift), hn::Set(du, 15)));
+#endif
+    }
+  }
+
   // Whole vectors: of what is behind the vertices nothing is used. There is more of the block
   // behind its last row, so that this may be read beyond its end.
   using RowTag = TriangleTag;
@@ -241,16 +261,18 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
 }
 
 // A block's, of so many vertices; called, so that these are in registers and nowhere else.
-template <unsigned kStride>
+template <unsigned kStride, bool kCompact = false>
 void filter_block_of(const BlockHeader& block, const float (&query)[3], float limit,
                      FilteredTriangles& filtered) {
-  filter_triangles(BlockTriangles<kStride>(block, query), block.triangle_count, limit, filtered);
+  filter_triangles(BlockTriangles<kStride, kCompact>(block, query), block.triangle_count, limit,
+                   filtered);
 }
 
 // A block's. `query` is relative to vertex 0.
 HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], float limit,
                              FilteredTriangles& filtered) {
-  switch (block.stride) {
+  if (block.compact()) return filter_block_of<16, true>(block, query, limit, filtered);
+  switch (block.stride()) {
     case 16:
       return filter_block_of<16>(block, query, limit, filtered);
     case 24:

@@ -133,7 +133,7 @@ class TriangleSearch {
     if (count_ + static_cast<unsigned>(std::popcount(near)) > found_.size()) return false;
     for (; near != 0; near &= near - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(near));
-      found_[count_++] = {block.triangle(i), block.id(i), nearest[i], block.header().in_sheet != 0};
+      found_[count_++] = {block.triangle(i), block.id(i), nearest[i], block.header().in_sheet()};
     }
     return true;
   }

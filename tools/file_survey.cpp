@@ -51,7 +51,7 @@ class Surveyor {
     row.head = add_streams<octree::RawStreams>(survey_.streams);
     const FrameView frame = parts_.frame();
     frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-      survey_.sheets += frame.block(slot).header().in_sheet;
+      survey_.sheets += frame.block(slot).header().in_sheet() ? 1 : 0;
     });
     add_levels(row.number);
   }

@@ -44,7 +44,7 @@ class FrameView {
     std::uint32_t slot = header().first_block_slot;
     for (std::uint32_t i = 0; i < header().block_count; ++i) {
       visit(i, slot);
-      slot += shape_.slots(block(slot).header().vertex_count);
+      slot += block(slot).slots();
     }
   }
 

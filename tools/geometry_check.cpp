@@ -71,7 +71,7 @@ void GeometryCheck::report(IssueCode code, std::uint32_t page, std::string messa
 
 void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, const Bounds* bounds) {
   add_ids(block, page);
-  for (unsigned i = 0; i < block.header().vertex_count; ++i) {
+  for (unsigned i = 0; i < block.header().vertex_count(); ++i) {
     lower_ = lower_.cwiseMin(block.vertex(i));
     upper_ = upper_.cwiseMax(block.vertex(i));
   }
@@ -118,7 +118,7 @@ void GeometryCheck::look_for_sample(const octree::BlockView& block, unsigned tri
 void GeometryCheck::check_vertices(const octree::BlockView& block, std::uint32_t page,
                                    const Bounds& bounds) {
   bool in_box = true, in_planes = true;
-  for (unsigned i = 0; i < block.header().vertex_count; ++i) {
+  for (unsigned i = 0; i < block.header().vertex_count(); ++i) {
     const Point point = block.vertex(i) - point_of(model_.centre);
     in_box = in_box && is_inside(bounds.box, point);
     for (const Bounds* each = &bounds; each != nullptr; each = each->above.get())

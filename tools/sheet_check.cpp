@@ -25,7 +25,7 @@ class SheetCheck {
       if (issue) return issues_.add(*std::move(issue));
       const FrameView frame = parts_.frame();
       frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-        if (frame.block(slot).header().in_sheet != 0) check(page, slot, frame.block(slot));
+        if (frame.block(slot).header().in_sheet()) check(page, slot, frame.block(slot));
       });
       if (lost_) return;
     }

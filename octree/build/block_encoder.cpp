@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "octree/build/block_slots.h"
+
 namespace planetree::octree {
 namespace {
 
@@ -67,7 +69,10 @@ void BlockEncoder::add(const WideBlock& block) {
     vertex_refs_.push_back(static_cast<std::uint16_t>(vertex - previous));
     previous = vertex;
   }
-  triangle_counts_.push_back(static_cast<std::uint8_t>(positions.size()));
+  const bool compact =
+      is_compact(mesh_, keys_, block, static_cast<unsigned>(vertices.size()), shape_);
+  triangle_counts_.push_back(
+      static_cast<std::uint8_t>(positions.size() | (compact ? kCompactBit : 0U)));
   vertex_counts_.push_back(static_cast<std::uint8_t>(vertices.size()));
   new_counts_.push_back(static_cast<std::uint8_t>(vertices_.size() - had));
   add_corners(corners, positions.size(), vertices);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "octree/build/binary_tree.h"
+#include "octree/build/block_slots.h"
 #include "octree/build/disc_fit.h"
 #include "octree/build/morton_order.h"
 #include "octree/build/page_encoder.h"
@@ -50,12 +51,9 @@ Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
     patch.sums = moments.root;
   }
   describe(triangles, tree, patch);
-  std::vector<std::uint8_t> block_slots;
-  for (std::uint32_t block = 0; block < tree.blocks.size(); ++block) {
-    const auto count = static_cast<unsigned>(vertices.of_block(block).size());
-    block_slots.push_back(static_cast<std::uint8_t>(shape.slots(count)));
-  }
-  const auto plan = plan_pages(tree, keys, {shape.node_slots(), block_slots}, page_bytes);
+  const std::vector<std::uint8_t> of_blocks =
+      block_slots(triangles, vertices, keys, tree.blocks, shape);
+  const auto plan = plan_pages(tree, keys, {shape.node_slots(), of_blocks}, page_bytes);
   if (!plan) return plan.error();
   patch.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
   const PageEncoder encoder(triangles, vertices, keys, tree, *plan, shape);

@@ -103,7 +103,8 @@ PrismTriangles look_on_target(const BlockHeader& block, const FloatPrism& prism,
                               const float (&origin)[3], float error) {
   const PrismLanes lanes(prism, error);
   const unsigned count = block.triangle_count;
-  switch (block.stride) {
+  if (block.compact()) return lanes.look_at(BlockTriangles<16, true>(block, origin), count);
+  switch (block.stride()) {
     case 16:
       return lanes.look_at(BlockTriangles<16>(block, origin), count);
     case 24:

@@ -49,7 +49,7 @@ class Prism {
     const Point across = Point::Unit(least).cross(normals).normalized();
     turned_.row(0) = across;
     turned_.row(1) = normals.cross(across) / length;
-    for (unsigned i = 1; i < block.header().vertex_count; ++i) {
+    for (unsigned i = 1; i < block.header().vertex_count(); ++i) {
       const Point at = turned(block.vertex(i));
       lower_ = lower_.cwiseMin(at);
       upper_ = upper_.cwiseMax(at);

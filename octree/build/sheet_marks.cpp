@@ -31,7 +31,7 @@ Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
   for (std::size_t i = 0; i < header.block_count; ++i) {
     const BlockView block(desk.page[slot].bytes, facts_.shape);
     if (SheetFinder::may_be_in_sheet(block)) promising.emplace_back(i, block);
-    slot += facts_.shape.slots(block.header().vertex_count);
+    slot += block.slots();
   }
   // Where few blocks may be, their neighbours prove most of those not to be.
   if (2 * promising.size() < header.block_count) promising.clear();

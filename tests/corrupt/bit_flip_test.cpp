@@ -45,7 +45,7 @@ class Patient {
 class StabilityBitFlip : public testing::Test {
  protected:
   StabilityBitFlip()
-      : sample_(octree::sheet(10)),
+      : sample_(octree::sheet(12)),
         budget_(sample_.least_budget()),
         queries_(query::random_queries(3, -0.5, 1.5)) {
     const Model model = sample_.open(budget_);

@@ -61,7 +61,8 @@ class PageReader {
     triangle_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
     for (std::uint8_t& count : triangle_counts_) {
       in_sheet_.push_back(count >> 7 != 0);
-      count &= 0x7f;
+      compact_.push_back((count >> 6 & 1) != 0);
+      count &= 0x3f;
     }
     require((!header_.open && !header_.has_walls()) || std::ranges::count(in_sheet_, true) == 0,
             "a sheet of an open surface or of a region with walls");
@@ -84,7 +85,7 @@ class PageReader {
     const unsigned v = vertex_counts_[block];
     const std::size_t row = v <= 16 ? 0 : v <= 24 ? 1 : v <= 32 ? 2 : 3;
     constexpr std::uint32_t kSlots[4][2] = {{5, 11}, {7, 16}, {8, 20}, {11, 29}};
-    return kSlots[row][header_.float64] + (header_.wide_ids ? 1 : 0);
+    return kSlots[row][header_.float64] + (header_.wide_ids ? 1 : 0) - (compact_[block] ? 1 : 0);
   }
 
   void place_records() {
@@ -188,6 +189,9 @@ class PageReader {
       }
       read.triangles.push_back(triangle);
     }
+    const bool compact = !header_.float64 && !header_.wide_ids && vertex_counts_[block] <= 16 &&
+                         id - first_ids_[block] <= 65535;
+    require(compact_[block] == compact, "a block that is compact, or the bit that says so");
     return read;
   }
 
@@ -210,7 +214,7 @@ class PageReader {
   std::vector<float> root_boxes_;
   std::vector<std::uint8_t> child_counts_, heights_, boxes_;
   std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
-  std::vector<bool> in_sheet_;
+  std::vector<bool> in_sheet_, compact_;
   std::vector<std::uint16_t> kinds_, radii_, areas_, seconds_, vertex_refs_;
   std::vector<std::int16_t> normals_, slabs_, vectors_;
   std::vector<std::int8_t> firsts_;

@@ -86,7 +86,7 @@ bool SpecHeader::has_walls() const {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 9, "another version");
+  require(get<std::uint16_t>(header, 8) == 10, "another version");
   require(get<std::uint16_t>(header, 10) == 576, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");

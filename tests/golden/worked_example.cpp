@@ -135,7 +135,7 @@ std::string list_page(std::span<const std::byte> raw) {
   };
   const std::size_t counts = listing.at();
   const std::size_t corners = sum_from_here([&](std::size_t i) {
-    const auto triangle_count = static_cast<std::size_t>(raw[counts + i] & std::byte{0x7f});
+    const auto triangle_count = static_cast<std::size_t>(raw[counts + i] & std::byte{0x3f});
     const auto vertex_count = static_cast<std::size_t>(raw[counts + blocks + i]);
     return (3 * triangle_count * (vertex_count <= 16 ? 4 : vertex_count <= 32 ? 5 : 6) + 7) / 8;
   });

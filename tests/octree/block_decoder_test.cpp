@@ -26,7 +26,8 @@ class LonelyBlocks {
       first_new_.push_back(vertex_count_);
       vertex_count_ += vertex_count(i);
     }
-    one_each_.assign(blocks, std::byte{1});
+    for (std::size_t i = 0; i < blocks; ++i)
+      counts_.push_back(is_compact(i) ? std::byte{kCompactBit | 1} : std::byte{1});
     ids_.resize(4 * blocks);
     vertices_.resize(std::size_t{12} * vertex_count_);
     for (std::size_t i = 0; i < 3 * std::size_t{vertex_count_}; ++i) {
@@ -41,6 +42,7 @@ class LonelyBlocks {
   unsigned vertex_count(std::size_t block) const {
     return std::to_integer<unsigned>(vertex_counts_[block]);
   }
+  bool is_compact(std::size_t block) const { return vertex_count(block) <= 16; }
   float coordinate(std::size_t block, unsigned vertex, unsigned axis) const {
     return coordinates_[axis * vertex_count_ + first_new_[block] + vertex];
   }
@@ -51,7 +53,7 @@ class LonelyBlocks {
     streams.head.block_count = static_cast<std::uint16_t>(blocks);
     streams.head.triangle_count = streams.head.block_count;
     streams.head.vertex_count = static_cast<std::uint16_t>(vertex_count_);
-    streams.triangle_counts = {one_each_.data(), blocks};
+    streams.triangle_counts = {counts_.data(), blocks};
     streams.vertex_counts = streams.new_counts = {vertex_counts_.data(), blocks};
     streams.corners = corners_;
     streams.vertices32 = {vertices_.data(), 3 * std::size_t{vertex_count_}};
@@ -63,7 +65,7 @@ class LonelyBlocks {
   std::uint32_t vertex_count_ = 0;
   std::vector<std::uint32_t> first_new_;
   std::vector<float> coordinates_;
-  std::vector<std::byte> vertex_counts_, one_each_, corners_, vertices_, ids_;
+  std::vector<std::byte> vertex_counts_, counts_, corners_, vertices_, ids_;
 };
 
 // As many that stand in their own vertices' place as do not.
@@ -74,7 +76,7 @@ TEST(BlockDecoder, LosesNoVertexToTheRecordsThatTakeTheirPlace) {
     const RawStreams streams = blocks.streams();
     std::vector<std::size_t> slot{0};
     for (std::size_t i = 0; i < blocks.size(); ++i)
-      slot.push_back(slot[i] + kShape.slots(blocks.vertex_count(i)));
+      slot.push_back(slot[i] + kShape.slots(blocks.vertex_count(i), blocks.is_compact(i)));
     struct alignas(kSlotBytes) Slot {
       std::byte bytes[kSlotBytes];
     };
@@ -89,7 +91,7 @@ TEST(BlockDecoder, LosesNoVertexToTheRecordsThatTakeTheirPlace) {
     for (const std::vector<Slot>& slots : all)
       for (std::size_t i = 0; i < blocks.size(); ++i) {
         const BlockView block(slots[slot[i]].bytes, kShape);
-        for (unsigned vertex = 0; vertex < block.header().stride; ++vertex)
+        for (unsigned vertex = 0; vertex < block.header().stride(); ++vertex)
           for (unsigned axis = 0; axis < 3; ++axis)
             ASSERT_EQ(block.vertex(vertex)[axis],
                       blocks.coordinate(i, vertex < blocks.vertex_count(i) ? vertex : 0, axis))

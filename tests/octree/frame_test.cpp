@@ -46,11 +46,16 @@ TEST(BlockShape, TakesTheSlotsTheFormatStates) {
   constexpr Row kRows[] = {{1, 5, 11},  {16, 5, 11}, {17, 7, 16},  {24, 7, 16},
                            {25, 8, 20}, {32, 8, 20}, {33, 11, 29}, {48, 11, 29}};
   for (const Row& row : kRows) {
-    EXPECT_EQ((BlockShape{false, false}.slots(row.vertices)), row.narrow);
-    EXPECT_EQ((BlockShape{true, false}.slots(row.vertices)), row.wide);
-    EXPECT_EQ((BlockShape{false, true}.slots(row.vertices)), row.narrow + 1);
-    EXPECT_EQ((BlockShape{true, true}.slots(row.vertices)), row.wide + 1);
+    EXPECT_EQ((BlockShape{false, false}.slots(row.vertices, false)), row.narrow);
+    EXPECT_EQ((BlockShape{true, false}.slots(row.vertices, false)), row.wide);
+    EXPECT_EQ((BlockShape{false, true}.slots(row.vertices, false)), row.narrow + 1);
+    EXPECT_EQ((BlockShape{true, true}.slots(row.vertices, false)), row.wide + 1);
   }
+  EXPECT_EQ(BlockShape{}.slots(16, true), 4u);
+  EXPECT_TRUE(BlockShape{}.may_be_compact(16));
+  EXPECT_FALSE(BlockShape{}.may_be_compact(17));
+  EXPECT_FALSE((BlockShape{true, false}.may_be_compact(16)));
+  EXPECT_FALSE((BlockShape{false, true}.may_be_compact(16)));
 }
 
 TEST(BlockShape, KeepsItsArraysApart) {

@@ -22,7 +22,7 @@ void each_block_of(const Soup& soup, const Check& check) {
 TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
   for (const Soup& soup : {sphere(4), scattered(500, 0.05)})
     each_block_of(soup, [&](const BlockView& block) {
-      const Point vertex = block.vertex(block.header().corner[1][0]);
+      const Point vertex = block.vertex(block.header().corners(0)[1]);
       const unsigned within = Outcodes(vertex, vertex).with_corner_within(block);
       EXPECT_EQ(within >> block.triangle_count(), 0u);
       for (unsigned i = 0; i < block.triangle_count(); ++i) {

@@ -85,7 +85,7 @@ class Walk {
       auto& corners = found[block.id(i)];
       for (std::size_t k = 0; k < 3; ++k) {
         corners[k] = {triangle[k].x(), triangle[k].y(), triangle[k].z()};
-        EXPECT_LE((block.vertex(block.header().corner[k][i]) - block.vertex(0)).norm(),
+        EXPECT_LE((block.vertex(block.header().corners(i)[k]) - block.vertex(0)).norm(),
                   double{block.header().extent});
       }
       if (i > 0) {
@@ -94,8 +94,7 @@ class Walk {
     }
     // What the wide kernels read beyond the last triangle is that triangle.
     for (unsigned i = block.triangle_count(); i < kMaxBlockTriangles; ++i)
-      for (const auto& corner : block.header().corner)
-        EXPECT_EQ(corner[i], corner[block.triangle_count() - 1]);
+      EXPECT_EQ(block.header().corners(i), block.header().corners(block.triangle_count() - 1));
   }
 
   const SampleTree& sample_;

@@ -41,7 +41,7 @@ void turn_kinds(RawPage& page, std::size_t node, unsigned from, unsigned to) {
 std::size_t corner_offset(const RawPage& page, std::size_t block) {
   std::size_t offset = 0;
   for (std::size_t i = 0; i < block; ++i)
-    offset += corner_bytes(page.triangle_counts[i], page.vertex_counts[i]);
+    offset += corner_bytes(page.triangle_counts[i] & 0x3fU, page.vertex_counts[i]);
   return offset;
 }
 
@@ -58,6 +58,11 @@ std::size_t find_block(const RawPage& page, const std::function<bool(std::size_t
     if (holds(i)) return i;
   ADD_FAILURE() << "no block of the sample suits";
   return 0;
+}
+
+std::size_t compact_block(const RawPage& page) {
+  return find_block(page,
+                    [&](std::size_t i) { return page.triangle_counts[i] > (kCompactBit | 1); });
 }
 
 enum class From { kWhole, kUpper };
@@ -188,11 +193,11 @@ std::vector<Spoiling> node_spoilings() {
 std::vector<Spoiling> block_spoilings() {
   return {
       {"a block's counts are out of range", From::kWhole,
-       [](P& p, F&) { p.triangle_counts[0] = 0; }},
+       [](P& p, F&) { p.triangle_counts[0] &= kCompactBit; }},
       {"a block's counts are out of range", From::kWhole,
-       [](P& p, F&) { p.triangle_counts[0] = 17; }},
+       [](P& p, F&) { p.triangle_counts[0] = kCompactBit | 17; }},
       {"a block's counts are out of range", From::kWhole,
-       [](P& p, F&) { p.triangle_counts[0] |= kSheetBit >> 1; }},
+       [](P& p, F&) { p.triangle_counts[0] |= kCompactBit >> 1; }},
       {"a surface that is not watertight has a sheet", From::kWhole,
        [](P& p, F&) { p.triangle_counts.back() |= kSheetBit; }},
       {"a block's counts are out of range", From::kWhole, [](P& p, F&) { p.vertex_counts[0] = 0; }},
@@ -231,13 +236,28 @@ std::vector<Spoiling> block_spoilings() {
       {"padding is not zero", From::kWhole,
        [](P& p, F&) {
          const std::size_t block = find_block(p, [&](std::size_t i) {
-           return 3u * p.triangle_counts[i] * corner_bits(p.vertex_counts[i]) % 8 != 0;
+           return 3u * (p.triangle_counts[i] & 0x3fU) * corner_bits(p.vertex_counts[i]) % 8 != 0;
          });
          p.corners[corner_offset(p, block + 1) - 1] |= std::byte{0x80};
        }},
       {"a vertex is out of range", From::kWhole, [](P& p, F&) { p.vertices[4] = kNaN; }},
       {"a vertex is out of range", From::kWhole, [](P& p, F&) { p.vertices.back() = -kInfinity; }},
       {"a vertex is out of range", From::kWhole, [](P& p, F&) { p.vertices[1] = kHuge; }},
+      {"a block is compact that cannot be", From::kWhole,
+       [](P& p, F&) {
+         const std::size_t block =
+             find_block(p, [&](std::size_t i) { return p.vertex_counts[i] > 16; });
+         p.triangle_counts[block] |= kCompactBit;
+       }},
+      {"a block is not as compact as its indices are", From::kWhole,
+       [](P& p, F&) { p.triangle_counts[compact_block(p)] &= 0x3f; }},
+      {"a block is not as compact as its indices are", From::kWhole,
+       [](P& p, F&) {
+         const std::size_t block = compact_block(p);
+         std::size_t step = 0;
+         for (std::size_t i = 0; i < block; ++i) step += (p.triangle_counts[i] & 0x3fU) - 1;
+         p.id_steps[step] = 0x10000;
+       }},
       {"triangle indices do not ascend", From::kWhole, [](P& p, F&) { p.id_steps[0] = 0; }},
       {"triangle indices do not ascend", From::kWhole,
        [](P& p, F&) { p.first_ids[0] = 0xffffffff; }},

@@ -114,7 +114,7 @@ struct Told {
 
 double reach_of(const BlockView& block) {
   double reach = 0;
-  for (unsigned i = 1; i < block.header().vertex_count; ++i)
+  for (unsigned i = 1; i < block.header().vertex_count(); ++i)
     reach = std::max(reach, (block.vertex(i) - block.vertex(0)).norm());
   return reach;
 }
@@ -129,7 +129,7 @@ Told expect_no_lies(const Soup& soup) {
       const double size = reach_of(block) * std::ldexp(1, 2 - static_cast<int>(noise.bits() % 8));
       const Triangle near = block.triangle(noise.bits() % block.triangle_count());
       TestPrism prism = random_prism(noise, near, size);
-      bring_to(block.vertex(noise.bits() % block.header().vertex_count), noise, prism);
+      bring_to(block.vertex(noise.bits() % block.header().vertex_count()), noise, prism);
       const PrismTriangles found = look_at_triangles(block, prism.in_float(), prism.origin);
       EXPECT_EQ((found.met | found.rising | found.middle) >> block.triangle_count(), 0u);
       for (unsigned i = 0; i < block.triangle_count(); ++i) {

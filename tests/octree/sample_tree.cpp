@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 
+#include "octree/build/block_slots.h"
 #include "octree/build/disc_fit.h"
 #include "octree/build/mesh_intake.h"
 #include "octree/build/moment_sums.h"
@@ -172,9 +173,8 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_
     sample.tree.moments =
         sum_moments(sample.mesh, sample.centre, sample.keys, sample.tree, sample.binary[0].box)
             .nodes;
-  for (std::uint32_t block = 0; block < sample.tree.blocks.size(); ++block)
-    sample.block_slots.push_back(static_cast<std::uint8_t>(
-        sample.shape.slots(static_cast<unsigned>(sample.vertices.of_block(block).size()))));
+  sample.block_slots =
+      block_slots(sample.mesh, sample.vertices, sample.keys, sample.tree.blocks, sample.shape);
   sample.plan = *plan_pages(sample.tree, sample.keys,
                             {sample.shape.node_slots(), sample.block_slots}, page_bytes);
   return sample;

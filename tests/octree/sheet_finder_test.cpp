@@ -133,7 +133,7 @@ TEST(SheetFinder, FindsNoneWithNeedlesOrTrianglesOfNoArea) {
     const SheetModel model(squeezed(even, 0.5, 0.53125, part));
     const Marks marks = each_mark(model, [&](const BlockView& block, bool marked) {
       bool left = false, right = false;
-      for (unsigned i = 0; i < block.header().vertex_count; ++i) {
+      for (unsigned i = 0; i < block.header().vertex_count(); ++i) {
         left = left || block.vertex(i).x() <= upper;
         right = right || block.vertex(i).x() >= 0.5;
       }

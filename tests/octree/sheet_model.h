@@ -43,7 +43,7 @@ struct SheetModel {
       for (std::size_t i = 0; i < frame.header().block_count; ++i) {
         const BlockView block(frame.data() + slot * kSlotBytes, facts.shape);
         look(block, page);
-        slot += facts.shape.slots(block.header().vertex_count);
+        slot += block.slots();
       }
     }
   }

@@ -76,7 +76,7 @@ inline Codes codes_of(const CheckReport& report) {
 
 class FileCheck : public testing::Test {
  protected:
-  static constexpr unsigned kSide = 14;
+  static constexpr unsigned kSide = 16;
 
   void SetUp() override {
     write_mesh(folder_ / "mesh.obj", kSide);

@@ -48,7 +48,7 @@ TEST_F(FileCheck, FindsNothingInAFileThatIsWell) {
 // neither the check nor the survey may stumble over it.
 TEST(FileCheckOfDamage, FindsEverySingleBit) {
   storage::TemporaryDirectory folder;
-  write_mesh(folder / "mesh.obj", 10);
+  write_mesh(folder / "mesh.obj", 12);
   build_sample(folder / "mesh.obj", folder / "tree.ptree");
   Bytes bytes = storage::read_bytes(folder / "tree.ptree");
   ASSERT_GT(storage::FileImage(bytes).header().page_count, 2u);

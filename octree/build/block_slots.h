@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/build/morton_order.h"
+#include "octree/build/patch_vertices.h"
+#include "octree/build/triangles.h"
+#include "octree/build/wide_tree.h"
+#include "octree/frame.h"
+
+namespace planetree::octree {
+
+/// Whether a block of so many vertices is compact (BlockHeader): its indices near to each other.
+bool is_compact(const Triangles& triangles, const std::vector<MortonKey>& keys,
+                const WideBlock& block, unsigned vertex_count, const BlockShape& shape);
+
+/// The slots that each block's record takes. The vertices of blocks must have been listed.
+std::vector<std::uint8_t> block_slots(const Triangles& triangles, const PatchVertices& vertices,
+                                      const std::vector<MortonKey>& keys,
+                                      const std::vector<WideBlock>& blocks,
+                                      const BlockShape& shape);
+
+}  // namespace planetree::octree
