@@ -1,6 +1,7 @@
 #include "tests/query/asking_costs.h"
 
 #include <fcntl.h>
+#include <link.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 #include <thread>
 
 #include "tests/cache/allocation_count.h"
@@ -74,6 +76,21 @@ constexpr std::size_t kStackBytes = std::size_t{1} << 17;
   for (std::size_t at = 0; at < sizeof stack; at += 64) stack[at] = std::byte{};
 }
 
+// Code that no ask before has run is not mapped yet: as a thread does that locks its memory.
+void touch_code() noexcept {
+  using Header = ElfW(Phdr);
+  const auto touch = [](dl_phdr_info* object, std::size_t, void*) {
+    for (const Header& part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
+      if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
+      const auto* bytes =
+          reinterpret_cast<const volatile std::byte*>(object->dlpi_addr + part.p_vaddr);
+      for (std::size_t at = 0; at < part.p_memsz; at += 4096) (void)bytes[at];
+    }
+    return 0;
+  };
+  ::dl_iterate_phdr(touch, nullptr);
+}
+
 std::uint64_t ask(Probe& probe, std::span<const Vec3> places, std::uint64_t asks) noexcept {
   constexpr Ask kNow{.wait = Wait::kNever};
   std::uint64_t degraded = 0;
@@ -107,6 +124,7 @@ AskingCosts measure_asking(const Model& model, Probe& probe, std::span<const Vec
   std::atomic<pid_t> id{0};
   std::thread thread([&] {
     id = ::gettid();
+    touch_code();
     touch_stack();
     (void)ask(probe, places, warm_up);
     costs.calls_are_counted = set_call_trap();
