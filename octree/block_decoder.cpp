@@ -68,9 +68,9 @@ const char* BlockDecoder::decode_last(std::byte* record) noexcept {
     store_float64_vertices(header, places, record);
   else
     store_vertices(header, places, record);
-  const char* fault = store_ids(header, record);
+  if (const char* fault = store_ids(header, record)) return fault;
   std::memcpy(record, &header, sizeof header);
-  return fault;
+  return nullptr;
 }
 
 const char* BlockDecoder::find_vertices(const BlockHeader& header, Places& places) {
@@ -151,8 +151,7 @@ const char* BlockDecoder::store_ids(BlockHeader& header, std::byte* record) {
   std::uint32_t ids[kMaxBlockTriangles];
   if (!unpack_ids(streams_.first_ids32[block_], streams_.id_steps32, id_steps_, count, ids))
     return kNotAscending;
-  const bool near = ids[count - 1] - ids[0] <= BlockHeader::kMostCompactSpan;
-  if (header.compact() != (near && shape_.may_be_compact(header.vertex_count())))
+  if (header.compact() != shape_.is_compact(header.vertex_count(), ids[count - 1] - ids[0]))
     return "a block is not as compact as its indices are";
   if (!header.compact()) {
     std::memcpy(record + shape_.id_offset(header.stride()), ids, sizeof ids);

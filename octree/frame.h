@@ -99,12 +99,12 @@ struct alignas(kSlotBytes) BlockHeader {
   static constexpr unsigned corner_bit(unsigned triangle) {
     return 32 * (triangle % 2) + 4 * (triangle / 2);
   }
-  /// The vertex of each triangle's corner, of a block that is not compact.
+  /// The vertex of each triangle's corner, of a block that is not compact: the head's last bytes.
   const std::uint8_t* corner_row(std::size_t corner) const {
-    return reinterpret_cast<const std::uint8_t*>(this) + 16 + kMaxBlockTriangles * corner;
+    return reinterpret_cast<const std::uint8_t*>(this + 1) - kMaxBlockTriangles * (3 - corner);
   }
   std::uint8_t* corner_row(std::size_t corner) {
-    return reinterpret_cast<std::uint8_t*>(this) + 16 + kMaxBlockTriangles * corner;
+    return reinterpret_cast<std::uint8_t*>(this + 1) - kMaxBlockTriangles * (3 - corner);
   }
   /// Of one triangle.
   std::array<unsigned, 3> corners(unsigned triangle) const {
@@ -136,7 +136,11 @@ struct BlockShape {
   constexpr std::size_t id_offset(unsigned stride) const {
     return exact_offset(stride) + (float64 ? align(3 * stride * sizeof(double)) : 0);
   }
-  /// Whether a block may be compact, if its indices are near enough to each other.
+  /// Whether a block is compact, of which the last index is so much above the first.
+  constexpr bool is_compact(unsigned vertex_count, std::uint64_t span) const {
+    return may_be_compact(vertex_count) && span <= BlockHeader::kMostCompactSpan;
+  }
+  /// Whether it is if its indices are near enough to each other.
   constexpr bool may_be_compact(unsigned vertex_count) const {
     return !float64 && !wide_ids && vertex_count <= BlockHeader::kMostCompactVertices;
   }

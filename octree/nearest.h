@@ -45,7 +45,8 @@ struct NearestLimits {
 };
 
 /// Nearest surface point to `query`, by a descent that takes the nearest child first: of the
-/// last node near the surface, of all nodes far from it; or of each subtree that a ball holds.
+/// last node near the surface; far from it of all nodes, two at a time; or of each subtree that a
+/// ball holds.
 ///
 /// query   model frame, no coordinate beyond kFarthestQuery.
 /// return  the triangle of least (value, index), value being that of

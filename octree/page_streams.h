@@ -43,6 +43,8 @@ enum class ChildKind : std::uint8_t {
 inline constexpr std::uint8_t kSheetBit = 0x80;
 /// And it is compact: of up to 16 vertices, its indices no more than 65,535 above the first.
 inline constexpr std::uint8_t kCompactBit = 0x40;
+/// What is left of the count.
+inline constexpr std::uint8_t kCountBits = 0x3f;
 
 struct PageHead {
   std::uint32_t page_number;

@@ -64,7 +64,7 @@ struct RawStreams {
   Shuffled<std::uint64_t> first_ids64, id_steps64;
 
   std::uint8_t triangle_count(std::size_t block) const {
-    return triangle_counts[block] & static_cast<std::uint8_t>(~(kSheetBit | kCompactBit));
+    return triangle_counts[block] & kCountBits;
   }
   bool in_sheet(std::size_t block) const { return (triangle_counts[block] & kSheetBit) != 0; }
   bool compact(std::size_t block) const { return (triangle_counts[block] & kCompactBit) != 0; }

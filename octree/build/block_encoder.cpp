@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "octree/build/block_slots.h"
-
 namespace planetree::octree {
 namespace {
 
@@ -70,7 +68,8 @@ void BlockEncoder::add(const WideBlock& block) {
     previous = vertex;
   }
   const bool compact =
-      is_compact(mesh_, keys_, block, static_cast<unsigned>(vertices.size()), shape_);
+      shape_.is_compact(static_cast<unsigned>(vertices.size()),
+                        mesh_.index(positions.back()) - mesh_.index(positions.front()));
   triangle_counts_.push_back(
       static_cast<std::uint8_t>(positions.size() | (compact ? kCompactBit : 0U)));
   vertex_counts_.push_back(static_cast<std::uint8_t>(vertices.size()));

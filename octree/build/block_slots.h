@@ -11,10 +11,6 @@
 
 namespace planetree::octree {
 
-/// Whether a block of so many vertices is compact (BlockHeader): its indices near to each other.
-bool is_compact(const Triangles& triangles, const std::vector<MortonKey>& keys,
-                const WideBlock& block, unsigned vertex_count, const BlockShape& shape);
-
 /// The slots that each block's record takes. The vertices of blocks must have been listed.
 std::vector<std::uint8_t> block_slots(const Triangles& triangles, const PatchVertices& vertices,
                                       const std::vector<MortonKey>& keys,

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "octree/triangle_filter-inl.h"
+#include "octree/block_triangles-inl.h"
 
 #include "octree/strict_math.h"
 
@@ -103,17 +103,9 @@ PrismTriangles look_on_target(const BlockHeader& block, const FloatPrism& prism,
                               const float (&origin)[3], float error) {
   const PrismLanes lanes(prism, error);
   const unsigned count = block.triangle_count;
-  if (block.compact()) return lanes.look_at(BlockTriangles<16, true>(block, origin), count);
-  switch (block.stride()) {
-    case 16:
-      return lanes.look_at(BlockTriangles<16>(block, origin), count);
-    case 24:
-      return lanes.look_at(BlockTriangles<24>(block, origin), count);
-    case 32:
-      return lanes.look_at(BlockTriangles<32>(block, origin), count);
-    default:
-      return lanes.look_at(BlockTriangles<kMaxBlockVertices>(block, origin), count);
-  }
+  return by_layout(block, [&]<unsigned kStride, bool kCompact>() {
+    return lanes.look_at(BlockTriangles<kStride, kCompact>(block, origin), count);
+  });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -41,7 +41,7 @@ void turn_kinds(RawPage& page, std::size_t node, unsigned from, unsigned to) {
 std::size_t corner_offset(const RawPage& page, std::size_t block) {
   std::size_t offset = 0;
   for (std::size_t i = 0; i < block; ++i)
-    offset += corner_bytes(page.triangle_counts[i] & 0x3fU, page.vertex_counts[i]);
+    offset += corner_bytes(page.triangle_counts[i] & kCountBits, page.vertex_counts[i]);
   return offset;
 }
 
@@ -236,7 +236,8 @@ std::vector<Spoiling> block_spoilings() {
       {"padding is not zero", From::kWhole,
        [](P& p, F&) {
          const std::size_t block = find_block(p, [&](std::size_t i) {
-           return 3u * (p.triangle_counts[i] & 0x3fU) * corner_bits(p.vertex_counts[i]) % 8 != 0;
+           return 3u * (p.triangle_counts[i] & kCountBits) * corner_bits(p.vertex_counts[i]) % 8 !=
+                  0;
          });
          p.corners[corner_offset(p, block + 1) - 1] |= std::byte{0x80};
        }},
@@ -245,17 +246,16 @@ std::vector<Spoiling> block_spoilings() {
       {"a vertex is out of range", From::kWhole, [](P& p, F&) { p.vertices[1] = kHuge; }},
       {"a block is compact that cannot be", From::kWhole,
        [](P& p, F&) {
-         const std::size_t block =
-             find_block(p, [&](std::size_t i) { return p.vertex_counts[i] > 16; });
-         p.triangle_counts[block] |= kCompactBit;
+         p.triangle_counts[find_block(p, [&](auto i) { return p.vertex_counts[i] > 16; })] |=
+             kCompactBit;
        }},
       {"a block is not as compact as its indices are", From::kWhole,
-       [](P& p, F&) { p.triangle_counts[compact_block(p)] &= 0x3f; }},
+       [](P& p, F&) { p.triangle_counts[compact_block(p)] &= kCountBits; }},
       {"a block is not as compact as its indices are", From::kWhole,
        [](P& p, F&) {
          const std::size_t block = compact_block(p);
          std::size_t step = 0;
-         for (std::size_t i = 0; i < block; ++i) step += (p.triangle_counts[i] & 0x3fU) - 1;
+         for (std::size_t i = 0; i < block; ++i) step += (p.triangle_counts[i] & kCountBits) - 1;
          p.id_steps[step] = 0x10000;
        }},
       {"triangle indices do not ascend", From::kWhole, [](P& p, F&) { p.id_steps[0] = 0; }},
