@@ -68,11 +68,16 @@ class Vicinity {
 
   void forget() { radius_ = 0; }
 
+  /// How queries go on: along a path, that leads away from where a ball was made; or along a curve
+  /// that fills space, so that it stays near for as many steps.
+  enum class Course { kPath, kCurve };
+  void follow(Course course) { steps_ = course == Course::kPath ? kPathSteps : kCurveSteps; }
+
  private:
   double step_to(const Point& query) const { return (query - last_).norm(); }
-  // That lasts for kSteps, about a query `distance` away from the surface.
-  static double radius_for(double step, double distance) {
-    return distance + kSteps * std::max(step, distance * kLeastStep);
+  // That lasts for a while, about a query `distance` away from the surface.
+  double radius_for(double step, double distance) const {
+    return distance + steps_ * std::max(step, distance * kLeastStep);
   }
 
   // How far a nearest point may be from the surface, for it is rounded as its coordinates are:
@@ -82,12 +87,14 @@ class Vicinity {
   static constexpr double kSlack = 0x1p-24;       ///< far above what bounds and sums may err
   static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
   static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
-  static constexpr double kSteps = 24;            ///< that a ball is to last
-  static constexpr double kTooWide = 16;          ///< so many times what is wanted
+  static constexpr double kPathSteps = 24;        ///< that a ball's radius is wider than wanted
+  static constexpr double kCurveSteps = 3;
+  static constexpr double kTooWide = 16;  ///< so many times what is wanted
 
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());
   double radius_ = 0;
+  double steps_ = kPathSteps;
   Point last_nearest_ = Point::Zero();
   NearbySubtrees subtrees_;
   NearbyTriangles triangles_;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <type_traits>
 
 #include "octree/octcode.h"
 #include "query/batch_crew.h"
@@ -36,16 +39,42 @@ struct Window {
   Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
+    probe.vicinity().follow(octree::Vicinity::Course::kCurve);
     for (std::size_t i = first; i < end; ++i) {
       const std::size_t at = order.query(i);
-      answers[at] = answer(probe, queries[at], ask);
+      // What was there may have been keys.
+      ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at], ask));
     }
+    probe.vicinity().follow(octree::Vicinity::Course::kPath);
   }
   static void run_piece(const void* window, ProbeState& probe, std::size_t first,
                         std::size_t end) noexcept {
     static_cast<const Window*>(window)->run(probe, first, end);
   }
 };
+
+// How many of a batch's first queries are put in order together. Of many, the last answers' memory
+// takes the keys: those are asked once the others are answered.
+template <class Answer>
+std::size_t window_size(std::size_t count) {
+  constexpr std::size_t kKeysPerAnswer = sizeof(Answer) / sizeof(std::uint64_t);
+  if (count <= BatchRoom::kMost) return count;
+  if (kKeysPerAnswer == 0) return BatchRoom::kMost;
+  return count - (count / (kKeysPerAnswer + 1) + 1);
+}
+
+// Memory of answers for keys instead, until new ones are made there.
+template <class Answer>
+std::span<std::uint64_t> keys_in(std::span<Answer> answers, std::size_t count) {
+  static_assert(std::is_trivially_destructible_v<Answer>);
+  static_assert(alignof(Answer) >= alignof(std::uint64_t) ||
+                sizeof(Answer) < sizeof(std::uint64_t));
+  assert(answers.size_bytes() >= count * sizeof(std::uint64_t));
+  void* const memory = answers.data();
+  auto* const keys = static_cast<std::uint64_t*>(memory);
+  std::uninitialized_default_construct_n(keys, count);
+  return {keys, count};
+}
 
 // Asks every query, in an order that turns pages seldom.
 template <class Answer>
@@ -55,10 +84,12 @@ void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<An
   assert(queries.size() == answers.size());
   // Crews take locks and wait for each other.
   BatchCrew* const crew = ask.wait == Wait::kNever ? nullptr : probe.model().crew();
-  BatchOrder& order = *probe.batch_order();
   while (!queries.empty()) {
-    const std::size_t count = std::min(queries.size(), BatchOrder::kMost);
-    order.sort(count, [&](std::size_t i) { return place(probe.model(), queries[i]); });
+    const std::size_t count = window_size<Answer>(queries.size());
+    BatchOrder order(count <= BatchRoom::kMost ? std::span(probe.batch_room()->keys).first(count)
+                                               : keys_in(answers.subspan(count), count));
+    order.sort(probe.batch_room()->sorter,
+               [&](std::size_t i) { return place(probe.model(), queries[i]); });
     const Window<Answer> window{order, queries.first(count), answers.first(count), ask, answer};
     if (!crew || !crew->run(&window, count, &Window<Answer>::run_piece))
       window.run(probe, 0, count);

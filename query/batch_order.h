@@ -1,43 +1,53 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+
+#include <hwy/contrib/sort/vqsort.h>
 
 namespace planetree::query {
 
+/// What a probe has to put batches in order with.
+struct BatchRoom {
+  static constexpr std::size_t kMost = 16384;
+
+  hwy::Sorter sorter;  // here, for where registers have no fixed size it allocates
+  std::array<std::uint64_t, kMost> keys{};  // so that none is touched for the first time later
+};
+
 /// The order in which queries of a batch are asked: by their places on a curve. Neighbours
-/// there look at the same nodes: at 7 million triangles, uniform points take three quarters of
-/// the time once 32,768 are in order, and little less with more.
+/// there look at the same nodes and blocks: at 7 million triangles, a million uniform points take
+/// 5 % less time where 131,072 at once are in order, and 12 % less where all are.
 class BatchOrder {
  public:
-  static constexpr std::size_t kMost = 32768;
+  /// keys  one for each query; used as long as this is.
+  explicit BatchOrder(std::span<std::uint64_t> keys) noexcept
+      : keys_(keys), index_bits_((std::uint64_t{1} << std::bit_width(keys.size())) - 1) {}
 
-  /// `code(i)` is the Morton code of query i; `count` is at most kMost. Codes count as far as their
-  /// first bits go that are not the same of all: neighbours nearer than that are asked in any
-  /// order.
+  /// `code(i)` is the Morton code of query i. Codes count as far as their first bits go that are
+  /// not the same of all, less those that an index takes: neighbours nearer than that are asked
+  /// in the caller's order. No allocation.
   template <class Code>
-  void sort(std::size_t count, const Code& code) noexcept {
-    const std::uint64_t first = count > 0 ? code(0) : 0;
+  void sort(const hwy::Sorter& sorter, const Code& code) noexcept {
     std::uint64_t differing = 0;
-    for (std::size_t i = 1; i < count; ++i) differing |= code(i) ^ first;
-    const auto bits = static_cast<unsigned>(std::bit_width(differing));
-    const unsigned dropped = bits > kCodeBits ? bits - kCodeBits : 0;
-    for (std::size_t i = 0; i < count; ++i)
-      keys_[i] = static_cast<std::uint32_t>(code(i) >> dropped << kIndexBits | i);
-    std::sort(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      keys_[i] = code(i);
+      differing |= keys_[i] ^ keys_[0];
+    }
+    const int same = std::countl_zero(differing | 1);
+    for (std::size_t i = 0; i < keys_.size(); ++i) keys_[i] = (keys_[i] << same & ~index_bits_) | i;
+    sorter(keys_.data(), keys_.size(), hwy::SortAscending());
   }
 
   /// The query that comes i-th.
-  std::size_t query(std::size_t i) const noexcept { return keys_[i] & (kMost - 1); }
+  std::size_t query(std::size_t i) const noexcept { return keys_[i] & index_bits_; }
 
  private:
-  static constexpr unsigned kIndexBits = 15, kCodeBits = 32 - kIndexBits;
-  static_assert(std::size_t{1} << kIndexBits == kMost);
-
-  std::array<std::uint32_t, kMost> keys_{};  // so that none is touched for the first time later
+  const std::span<std::uint64_t> keys_;
+  const std::uint64_t index_bits_;
 };
 
 }  // namespace planetree::query

@@ -101,7 +101,7 @@ Pager::Limits limits_of(const OpenOptions& options, const ModelSeams& seams) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
-  limits.probe_bytes = sizeof(BatchOrder);
+  limits.probe_bytes = sizeof(BatchRoom);
   limits.crew_probes = crew_probes(options);
   limits.crew_bytes = limits.crew_probes * sizeof(ProbeState) +
                       options.fetch_threads * FetchCrew::kThreadBytes +

@@ -24,11 +24,11 @@ namespace {
 Result<Probe> Probe::create(const Model& model) {
   auto reader = model.state_->claim_reader();
   if (!reader) return reader.error();
-  std::unique_ptr<query::BatchOrder> order(new (std::nothrow) query::BatchOrder);
-  if (!order)
+  std::unique_ptr<query::BatchRoom> room(new (std::nothrow) query::BatchRoom);
+  if (!room)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for a probe; free some and try again");
-  return Probe(query::ProbeState::create(*model.state_, std::move(*reader), std::move(order)));
+  return Probe(query::ProbeState::create(*model.state_, std::move(*reader), std::move(room)));
 }
 
 Probe::Probe(std::unique_ptr<query::ProbeState> state) noexcept : state_(std::move(state)) {}

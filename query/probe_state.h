@@ -18,10 +18,10 @@ class ProbeState {
  public:
   /// In the room that the reader's place has.
   static std::unique_ptr<ProbeState> create(const ModelState& model, cache::Reader reader,
-                                            std::unique_ptr<BatchOrder> batch_order = nullptr) {
+                                            std::unique_ptr<BatchRoom> batch_room = nullptr) {
     void* room = model.probe_room(reader.place());
     return std::unique_ptr<ProbeState>(
-        ::new (room) ProbeState(model, std::move(reader), std::move(batch_order)));
+        ::new (room) ProbeState(model, std::move(reader), std::move(batch_room)));
   }
   static void* operator new(std::size_t) = delete;
   // The reader goes last: with it, the room is another's.
@@ -30,11 +30,11 @@ class ProbeState {
   }
 
   ProbeState(const ModelState& model, cache::Reader reader,
-             std::unique_ptr<BatchOrder> batch_order = nullptr) noexcept
+             std::unique_ptr<BatchRoom> batch_room = nullptr) noexcept
       : model_(model),
         reader_(std::move(reader)),
         touches_(model.touch_log(reader_.place())),
-        batch_order_(std::move(batch_order)) {}
+        batch_room_(std::move(batch_room)) {}
 
   const ModelState& model() const noexcept { return model_; }
   cache::Reader& reader() noexcept { return reader_; }
@@ -57,14 +57,14 @@ class ProbeState {
   bool& searched_side() noexcept { return searched_side_; }
 
   /// For batches; null in the probes of a BatchCrew.
-  BatchOrder* batch_order() noexcept { return batch_order_.get(); }
+  BatchRoom* batch_room() noexcept { return batch_room_.get(); }
 
  private:
   const ModelState& model_;
   cache::Reader reader_;
   TouchLog touches_;
   // Where there is room before what begins on a cache line.
-  std::unique_ptr<BatchOrder> batch_order_;
+  std::unique_ptr<BatchRoom> batch_room_;
   std::uint32_t last_parts_ = kAllParts;
   bool colours_told_ = true;
   bool searched_side_ = false;

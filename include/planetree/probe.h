@@ -54,8 +54,8 @@ class Probe {
   /// One answer per query, the same bits as one by one, asked in an order that
   /// turns pages seldom, by OpenOptions::batch_threads threads. With Wait::kNever
   /// by the caller's alone, and by what is resident then. The spans are
-  /// equally long and do not overlap. More than one thread are oneTBB's, which
-  /// may allocate.
+  /// equally long and do not overlap; until the call returns, anything may be in
+  /// the answers'. More than one thread are oneTBB's, which may allocate.
   void closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                       const Ask& ask = {}) noexcept;
   void contains(std::span<const Vec3> queries, std::span<Containment> answers,

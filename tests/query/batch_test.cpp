@@ -16,9 +16,9 @@ namespace {
 
 class Batch : public testing::Test {
  protected:
-  static constexpr std::size_t kWindow = BatchOrder::kMost;
+  static constexpr std::size_t kWindow = BatchRoom::kMost;
 
-  // More than the probe puts in order at once, some of them odd.
+  // More than the probe has room for, some of them odd.
   Batch() : sample_(octree::sphere(4)), queries_(random_queries(kWindow + 900, -1.5, 1.5)) {
     queries_[3] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     queries_[kWindow - 1] = {1e300, -1e300, 0};
@@ -111,6 +111,19 @@ TEST_F(Batch, MayBeOfAnySize) {
   }
 }
 
+// The memory of the last answers takes the order of the others, again and again.
+TEST_F(Batch, MayBeSoLargeThatWhatIsLeftIsLargeToo) {
+  const SampleModel small(octree::sphere(0));
+  const Model model = small.open();
+  Probe probe = make_probe(model);
+  const std::vector<Vec3> queries = random_queries(17 * kWindow + 1, -1.5, 1.5);
+  std::vector<ClosestPoint> answers(queries.size());
+  const Ask ask{.parts = kDistance};
+  probe.closest_points(queries, answers, ask);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries[i], ask))) << i;
+}
+
 TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
   const std::uint64_t budget = sample_.least_budget() + sample_.page_count() / 3 * 4096;
   const Model one = sample_.open(budget), batch = sample_.open(budget);
@@ -120,6 +133,23 @@ TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
   for (const Vec3& query : queries_) of_one.closest_point(query);
   of_batch.closest_points(queries_, answers);
   EXPECT_LT(batch.stats().pages_read * 2, one.stats().pages_read);
+}
+
+// Put in order all together, and not as many at a time as a probe has room for.
+TEST_F(Batch, TurnsFewerPagesTheLargerItIs) {
+  const std::uint64_t budget = sample_.least_budget() + sample_.page_count() / 3 * 4096;
+  const std::vector<Vec3> queries = random_queries(8 * kWindow, -1.5, 1.5);
+  std::vector<ClosestPoint> answers(queries.size());
+  const auto pages_read = [&](std::size_t size) {
+    const Model model = sample_.open(budget);
+    Probe probe = make_probe(model);
+    for (std::size_t first = 0; first < queries.size(); first += size)
+      probe.closest_points(std::span(queries).subspan(first, size),
+                           std::span(answers).subspan(first, size), {.parts = kDistance});
+    return model.stats().pages_read;
+  };
+  const std::uint64_t at_once = pages_read(queries.size()), in_parts = pages_read(kWindow);
+  EXPECT_LT(at_once * 4, in_parts * 3);
 }
 
 }  // namespace
