@@ -45,7 +45,7 @@ const std::vector<Layer>& layers() {
       {"octree/build/", with_system({"octree/build/", "octree/", "storage/", "planetree/", "Eigen",
                                      "boost/multiprecision", "hwy", "oneapi/tbb", "tbb"})},
       {"query/", with_system({"query/", "octree/build/", "octree/", "cache/", "storage/",
-                              "planetree/", "Eigen", "tbb"})},
+                              "planetree/", "Eigen", "hwy/contrib/sort", "tbb"})},
       // inspect and verify look into damaged files, below what the queries see.
       {"tools/", with_system({"tools/", "query/", "octree/build/", "octree/", "storage/",
                               "planetree/", "CLI", "fmt", "nlohmann", "openssl/evp.h", "png.h"})},
