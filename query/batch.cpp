@@ -57,7 +57,8 @@ struct Window {
 // takes the keys: those are asked once the others are answered.
 template <class Answer>
 std::size_t window_size(std::size_t count) {
-  constexpr std::size_t kKeysPerAnswer = sizeof(Answer) / sizeof(std::uint64_t);
+  constexpr std::size_t kAnswerBytes = sizeof(Answer), kKeyBytes = sizeof(std::uint64_t);
+  constexpr std::size_t kKeysPerAnswer = kAnswerBytes / kKeyBytes;  // 0 where sides are asked
   if (count <= BatchRoom::kMost) return count;
   if (kKeysPerAnswer == 0) return BatchRoom::kMost;
   return count - (count / (kKeysPerAnswer + 1) + 1);
