@@ -22,22 +22,29 @@ struct Arguments {
   std::size_t points = 1'000'000;
   std::size_t rounds = 3;
   unsigned threads = 2;
+  std::uint64_t memory_mib = std::uint64_t{64} << 10;
 };
 
 using Answers = std::vector<ClosestPoint>;
 
-// One way of asking, and its nanoseconds a point by the clock on the wall, for threads count.
+// One way of asking, and its nanoseconds a point by the clock on the wall, for threads count; and
+// how many pages it read a point when it last ran.
 struct Way {
   std::string name;
+  const Model& model;
   std::function<void(Answers&)> ask;
   Answers answers;
   std::vector<double> times{};
+  double pages = 0;
 
   void run() {
+    const auto points = static_cast<double>(answers.size());
+    const std::uint64_t before = model.stats().pages_read;
     const auto start = std::chrono::steady_clock::now();
     ask(answers);
     const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-    times.push_back(time.count() / static_cast<double>(answers.size()));
+    times.push_back(time.count() / points);
+    pages = static_cast<double>(model.stats().pages_read - before) / points;
   }
   double median() {
     std::sort(times.begin(), times.end());
@@ -56,7 +63,7 @@ bool same_answer(const ClosestPoint& a, const ClosestPoint& b) {
 }
 
 int run(const Arguments& arguments) {
-  OpenOptions options{.memory_budget_bytes = std::uint64_t{64} << 30};
+  OpenOptions options{.memory_budget_bytes = arguments.memory_mib << 20};
   const auto alone = Model::open(arguments.model, options);
   options.batch_threads = arguments.threads;
   const auto crew = alone ? Model::open(arguments.model, options) : alone.error();
@@ -65,8 +72,8 @@ int run(const Arguments& arguments) {
   if (!probe || !crew_probe) return std::cerr << "batch_bench: no probe\n", 1;
 
   const ModelInfo& info = alone->info();
-  fmt::print("{} triangles, batches of {} points\n{:<10}{:<24}{:>10}{:>8}{:>12}\n", info.triangles,
-             arguments.points, "points", "", "ns", "times", "other bits");
+  fmt::print("{} triangles, batches of {} points\n{:<10}{:<24}{:>10}{:>8}{:>8}{:>12}\n",
+             info.triangles, arguments.points, "points", "", "ns", "times", "pages", "other bits");
   constexpr Ask kDistanceAlone{.parts = kDistance};
   for (const Workload workload : {Workload::kUniform, Workload::kNear}) {
     const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
@@ -74,15 +81,15 @@ int run(const Arguments& arguments) {
         make_queries(workload, {info.box_lower, info.box_upper}, surface, arguments.points, 1);
     const Answers room(points.size());
     std::vector<Way> ways{
-        {"one by one",
+        {"one by one", *alone,
          [&](Answers& answers) {
            for (std::size_t i = 0; i < points.size(); ++i)
              answers[i] = probe->closest_point(points[i], kDistanceAlone);
          },
          room},
-        {"a batch",
+        {"a batch", *alone,
          [&](Answers& answers) { probe->closest_points(points, answers, kDistanceAlone); }, room},
-        {fmt::format("a batch, {} threads", arguments.threads),
+        {fmt::format("a batch, {} threads", arguments.threads), *crew,
          [&](Answers& answers) { crew_probe->closest_points(points, answers, kDistanceAlone); },
          room}};
     for (Way& way : ways) way.run();  // to warm up
@@ -93,8 +100,8 @@ int run(const Arguments& arguments) {
       std::size_t other = 0;
       for (std::size_t i = 0; i < points.size(); ++i)
         other += same_answer(way.answers[i], ways[0].answers[i]) ? 0 : 1;
-      fmt::print("{:<10}{:<24}{:>10.0f}{:>8.2f}{:>12}\n", name_of(workload), way.name, way.median(),
-                 ways[0].median() / way.median(), other);
+      fmt::print("{:<10}{:<24}{:>10.0f}{:>8.2f}{:>8.3f}{:>12}\n", name_of(workload), way.name,
+                 way.median(), ways[0].median() / way.median(), way.pages, other);
     }
   }
   return 0;
@@ -112,6 +119,8 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--threads", arguments.threads, "Threads of the last way")->capture_default_str();
+  app.add_option("--memory-mib", arguments.memory_mib, "Memory budget of the model, of each of two")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }
