@@ -18,8 +18,8 @@ class Batch : public testing::Test {
  protected:
   static constexpr std::size_t kWindow = BatchRoom::kMost;
 
-  // More than the probe has room for, some of them odd.
-  Batch() : sample_(octree::sphere(4)), queries_(random_queries(kWindow + 900, -1.5, 1.5)) {
+  // So many more than the probe has room for that the last answers lend theirs; some of them odd.
+  Batch() : sample_(octree::sphere(4)), queries_(random_queries(kWindow * 5 / 4, -1.5, 1.5)) {
     queries_[3] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     queries_[kWindow - 1] = {1e300, -1e300, 0};
     queries_[kWindow] = {0, std::numeric_limits<double>::infinity(), 0};
