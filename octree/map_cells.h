@@ -98,7 +98,12 @@ struct MapCells {
   const Codes& codes_of(std::size_t block) const {
     return *reinterpret_cast<const Codes*>(words + first_word[block]);
   }
-  Code code_of(Cell cell) const { return codes_of(cell.block).of(cell.at); }
+  /// Asks for the line behind the codes, too: a listed cell's group is most likely there.
+  Code code_of(Cell cell) const {
+    const std::uint64_t* const codes = words + first_word[cell.block];
+    __builtin_prefetch(codes + kLineWords);
+    return reinterpret_cast<const Codes*>(codes)->of(cell.at);
+  }
 
   /// An octant of a listed cell.
   struct Octant {
@@ -139,6 +144,7 @@ struct MapCells {
   }
 
  private:
+  static constexpr std::size_t kLineWords = 64 / sizeof(std::uint64_t);
   static constexpr std::size_t kGroupWords = sizeof(Group) / sizeof(std::uint64_t);
 
   // Behind the words that there are; returns how many there are then.

@@ -39,6 +39,20 @@ template <class T>
   __builtin_prefetch(bytes + sizeof(T) - 1);
 }
 
+// What a probe's queries follow meanwhile.
+class CurveCourse {
+ public:
+  explicit CurveCourse(octree::Vicinity& vicinity) noexcept : vicinity_(vicinity) {
+    vicinity_.follow(octree::Vicinity::Course::kCurve);
+  }
+  ~CurveCourse() { vicinity_.follow(octree::Vicinity::Course::kPath); }
+  CurveCourse(const CurveCourse&) = delete;
+  CurveCourse& operator=(const CurveCourse&) = delete;
+
+ private:
+  octree::Vicinity& vicinity_;
+};
+
 // As many queries as are put in order together, and where their answers go.
 template <class Answer>
 struct Window {
@@ -49,14 +63,13 @@ struct Window {
   Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
-    probe.vicinity().follow(octree::Vicinity::Course::kCurve);
+    const CurveCourse course(probe.vicinity());
     for (std::size_t i = first; i < end; ++i) {
       if (i + kAhead < end) prefetch_for(order.query(i + kAhead));
       const std::size_t at = order.query(i);
       // What was there may have been keys.
       ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at], ask));
     }
-    probe.vicinity().follow(octree::Vicinity::Course::kPath);
   }
   // In order of the curve, queries and answers are anywhere in memory.
   [[gnu::always_inline]] void prefetch_for(std::size_t at) const noexcept {
@@ -70,28 +83,37 @@ struct Window {
   }
 };
 
+// What keys find room in an answer's memory; 0 where sides are asked.
+template <class Answer>
+constexpr std::size_t kKeysPerAnswer = sizeof(Answer) / sizeof(std::uint64_t);
+
 // How many of a batch's first queries are put in order together. Of many, the last answers' memory
 // takes the keys: those are asked once the others are answered.
 template <class Answer>
 std::size_t window_size(std::size_t count) {
-  constexpr std::size_t kAnswerBytes = sizeof(Answer), kKeyBytes = sizeof(std::uint64_t);
-  constexpr std::size_t kKeysPerAnswer = kAnswerBytes / kKeyBytes;  // 0 where sides are asked
   if (count <= BatchRoom::kMost) return count;
-  if (kKeysPerAnswer == 0) return BatchRoom::kMost;
-  return count - (count / (kKeysPerAnswer + 1) + 1);
+  if (kKeysPerAnswer<Answer> == 0) return BatchRoom::kMost;
+  return std::max(BatchRoom::kMost, count - (count / (kKeysPerAnswer<Answer> + 1) + 1));
 }
 
 // Memory of answers for keys instead, until new ones are made there.
 template <class Answer>
 std::span<std::uint64_t> keys_in(std::span<Answer> answers, std::size_t count) {
   static_assert(std::is_trivially_destructible_v<Answer>);
-  static_assert(alignof(Answer) >= alignof(std::uint64_t) ||
-                sizeof(Answer) < sizeof(std::uint64_t));
+  static_assert(alignof(Answer) >= alignof(std::uint64_t));
   assert(answers.size_bytes() >= count * sizeof(std::uint64_t));
   void* const memory = answers.data();
   auto* const keys = static_cast<std::uint64_t*>(memory);
   std::uninitialized_default_construct_n(keys, count);
   return {keys, count};
+}
+
+// For the first `count` of the queries of these answers.
+template <class Answer>
+std::span<std::uint64_t> keys_for(BatchRoom& room, std::span<Answer> answers, std::size_t count) {
+  if constexpr (kKeysPerAnswer < Answer >> 0)
+    if (count > BatchRoom::kMost) return keys_in(answers.subspan(count), count);
+  return std::span(room.keys).first(count);
 }
 
 // Asks every query, in an order that turns pages seldom.
@@ -104,8 +126,7 @@ void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<An
   BatchCrew* const crew = ask.wait == Wait::kNever ? nullptr : probe.model().crew();
   while (!queries.empty()) {
     const std::size_t count = window_size<Answer>(queries.size());
-    BatchOrder order(count <= BatchRoom::kMost ? std::span(probe.batch_room()->keys).first(count)
-                                               : keys_in(answers.subspan(count), count));
+    BatchOrder order(keys_for(*probe.batch_room(), answers, count));
     order.sort(probe.batch_room()->sorter,
                [&](std::size_t i) { return place(probe.model(), queries[i]); });
     const Window<Answer> window{order, queries.first(count), answers.first(count), ask, answer};

@@ -25,7 +25,7 @@ class BatchOrder {
  public:
   /// keys  one for each query; used as long as this is.
   explicit BatchOrder(std::span<std::uint64_t> keys) noexcept
-      : keys_(keys), index_bits_((std::uint64_t{1} << std::bit_width(keys.size())) - 1) {}
+      : keys_(keys), index_mask_((std::uint64_t{1} << std::bit_width(keys.size())) - 1) {}
 
   /// `code(i)` is the Morton code of query i. Codes count as far as their first bits go that are
   /// not the same of all, less those that an index takes: neighbours nearer than that are asked
@@ -38,16 +38,16 @@ class BatchOrder {
       differing |= keys_[i] ^ keys_[0];
     }
     const int same = std::countl_zero(differing | 1);
-    for (std::size_t i = 0; i < keys_.size(); ++i) keys_[i] = (keys_[i] << same & ~index_bits_) | i;
+    for (std::size_t i = 0; i < keys_.size(); ++i) keys_[i] = (keys_[i] << same & ~index_mask_) | i;
     sorter(keys_.data(), keys_.size(), hwy::SortAscending());
   }
 
   /// The query that comes i-th.
-  std::size_t query(std::size_t i) const noexcept { return keys_[i] & index_bits_; }
+  std::size_t query(std::size_t i) const noexcept { return keys_[i] & index_mask_; }
 
  private:
   const std::span<std::uint64_t> keys_;
-  const std::uint64_t index_bits_;
+  const std::uint64_t index_mask_;
 };
 
 }  // namespace planetree::query

@@ -19,7 +19,7 @@ namespace planetree::octree {
 namespace {
 
 /// Cells that fewer touch are not divided further.
-constexpr std::size_t kFewTriangles = 48;
+constexpr std::size_t kFewTriangles = 64;
 /// Unless they touch so few octants.
 constexpr int kFewOctants = 2;
 /// Nor are those whose triangles have been listed so many times over, in octants
