@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "tests/tools/mask_check_fixture.h"
@@ -43,18 +44,24 @@ TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
 }
 
 TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
-  const auto has_upper = [](const RawMaskPage& page) {
-    return !page.slab_uppers.empty() && page.slab_uppers[0] > page.slab_lowers[0] + 1 &&
-           page.slab_uppers[0] != octree::CellSlab::kNoUpper;
+  // The first that has two planes, neither of them at the other's place; or there is none.
+  const auto with_both = [](const RawMaskPage& page) {
+    std::size_t i = 0;
+    while (i < page.slab_uppers.size() && (page.slab_lowers[i] == octree::CellSlab::kNoLower ||
+                                           page.slab_uppers[i] == octree::CellSlab::kNoUpper ||
+                                           page.slab_uppers[i] <= page.slab_lowers[i] + 1))
+      ++i;
+    return i;
   };
-  const auto has_lower = [](const RawMaskPage& page) {
-    return !page.slab_lowers.empty() && page.slab_uppers.back() > page.slab_lowers.back() + 1 &&
-           page.slab_lowers.back() != octree::CellSlab::kNoLower;
+  const auto has_both = [&](const RawMaskPage& page) {
+    return with_both(page) < page.slab_uppers.size();
   };
-  expect_found("MASK_SLAB", has_upper,
-               [](RawMaskPage& page) { page.slab_uppers[0] = page.slab_lowers[0]; });
-  expect_found("MASK_SLAB", has_lower,
-               [](RawMaskPage& page) { page.slab_lowers.back() = page.slab_uppers.back(); });
+  expect_found("MASK_SLAB", has_both, [&](RawMaskPage& page) {
+    page.slab_uppers[with_both(page)] = page.slab_lowers[with_both(page)];
+  });
+  expect_found("MASK_SLAB", has_both, [&](RawMaskPage& page) {
+    page.slab_lowers[with_both(page)] = page.slab_uppers[with_both(page)];
+  });
 }
 
 TEST_F(FileCheckOfLists, AllowsSlabsThatSayLess) {
