@@ -98,10 +98,13 @@ struct MapCells {
   const Codes& codes_of(std::size_t block) const {
     return *reinterpret_cast<const Codes*>(words + first_word[block]);
   }
-  /// Asks for the line behind the codes, too: a listed cell's group is most likely there.
+  /// Asks for the lines behind the codes, too, so many: if the cell is listed, its group is there.
+  template <std::size_t kLines = 1>
   Code code_of(Cell cell) const {
     const std::uint64_t* const codes = words + first_word[cell.block];
-    __builtin_prefetch(codes + kLineWords);
+#pragma GCC unroll 4
+    for (std::size_t line = 1; line <= kLines; ++line)
+      __builtin_prefetch(codes + line * kLineWords);
     return reinterpret_cast<const Codes*>(codes)->of(cell.at);
   }
 
