@@ -98,7 +98,8 @@ struct MapCells {
   const Codes& codes_of(std::size_t block) const {
     return *reinterpret_cast<const Codes*>(words + first_word[block]);
   }
-  /// Asks for the lines behind the codes, too, so many: if the cell is listed, its group is there.
+  /// Asks for so many lines behind the codes', too, where groups of listed cells are: the first two
+  /// at least are in one, nearly all in three.
   template <std::size_t kLines = 1>
   Code code_of(Cell cell) const {
     const std::uint64_t* const codes = words + first_word[cell.block];

@@ -77,7 +77,8 @@ int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, dou
       weighted_sum(hn::ShiftRight<kBlockShift>(hn::BitCast(words, step)),
                    hn::Load(words, steps.stride.data())),
       bits_at<CellSteps::kBits + 1>(step) << 3 | bits_at<CellSteps::kBits>(step)};
-  // Points that a glance is enough for are seldom in the block of the one before.
+  // Points that a glance is enough for are seldom in the block of the one before, so that none of
+  // its lines is likely to be near.
   const unsigned code = cells.code_of<3>(cell);
   if (code != MapCells::kListed) return cells.find_by_code(code).winding;
   return winding_below(cells, cell, bits_at<MapSteps::kOctantBits>(step),

@@ -30,7 +30,7 @@ std::uint64_t place(const ModelState& model, const Vec3& query) {
   return octree::morton_code(coordinate(from.x()), coordinate(from.y()), coordinate(from.z()));
 }
 
-// Asks for all cache lines of an object. Inline: gcc 12 leaves out calls of what does nothing else.
+// Asks for all cache lines of an object. Inline, for gcc 12 drops calls of what does nothing else.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(const T& object) noexcept {
   constexpr std::size_t kLineBytes = 64;
@@ -39,7 +39,7 @@ template <class T>
   __builtin_prefetch(bytes + sizeof(T) - 1);
 }
 
-// What a probe's queries follow meanwhile.
+// While it lives, a probe's queries follow a curve; then paths again.
 class CurveCourse {
  public:
   explicit CurveCourse(octree::Vicinity& vicinity) noexcept : vicinity_(vicinity) {
@@ -83,12 +83,12 @@ struct Window {
   }
 };
 
-// What keys find room in an answer's memory; 0 where sides are asked.
+// How many keys find room in an answer's memory; 0 where sides are asked.
 template <class Answer>
 constexpr std::size_t kKeysPerAnswer = sizeof(Answer) / sizeof(std::uint64_t);
 
-// How many of a batch's first queries are put in order together. Of many, the last answers' memory
-// takes the keys: those are asked once the others are answered.
+// How many of a batch's first queries are put in order together: as many as the probe has room for,
+// or more, whose keys the last answers' memory takes. Those are asked once the others are answered.
 template <class Answer>
 std::size_t window_size(std::size_t count) {
   if (count <= BatchRoom::kMost) return count;
@@ -111,7 +111,7 @@ std::span<std::uint64_t> keys_in(std::span<Answer> answers, std::size_t count) {
 // For the first `count` of the queries of these answers.
 template <class Answer>
 std::span<std::uint64_t> keys_for(BatchRoom& room, std::span<Answer> answers, std::size_t count) {
-  if constexpr (kKeysPerAnswer < Answer >> 0)
+  if constexpr (kKeysPerAnswer<Answer> != 0)
     if (count > BatchRoom::kMost) return keys_in(answers.subspan(count), count);
   return std::span(room.keys).first(count);
 }

@@ -18,7 +18,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Cells that fewer touch are not divided further.
+/// Cells that no more touch are not divided further.
 constexpr std::size_t kFewTriangles = 64;
 /// Unless they touch so few octants.
 constexpr int kFewOctants = 2;

@@ -147,7 +147,7 @@ TEST_P(SpecMasks, ColoursAreWindingNumbers) {
       ++told;
     }
   });
-  EXPECT_EQ(told == 0, triangles_.size() < 48);
+  EXPECT_EQ(told == 0, triangles_.size() <= 64);
 }
 
 TEST_P(SpecMasks, CornersAreWindingNumbers) {

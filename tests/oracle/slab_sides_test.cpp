@@ -39,7 +39,7 @@ double share_told_by_the_mask(const Soup& soup, double reach) {
 
 TEST(SlabSides, TakeNoPageOfTheTree) {
   const double share = share_told_by_the_mask(ball(4), 0.05);
-  EXPECT_GT(share, 0.4);
+  EXPECT_GT(share, 0.4);  // 0.48; 0.31 if slabs told nothing
 }
 
 TEST(SlabSides, AreThoseOfEveryKindOfSurface) {

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "tests/tools/mask_check_fixture.h"
 
@@ -44,23 +45,24 @@ TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
 }
 
 TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
-  // The first that has two planes, neither of them at the other's place; or there is none.
+  // Those that have two planes, neither of them at the other's place.
   const auto with_both = [](const RawMaskPage& page) {
-    std::size_t i = 0;
-    while (i < page.slab_uppers.size() && (page.slab_lowers[i] == octree::CellSlab::kNoLower ||
-                                           page.slab_uppers[i] == octree::CellSlab::kNoUpper ||
-                                           page.slab_uppers[i] <= page.slab_lowers[i] + 1))
-      ++i;
-    return i;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < page.slab_uppers.size(); ++i)
+      if (page.slab_lowers[i] != octree::CellSlab::kNoLower &&
+          page.slab_uppers[i] != octree::CellSlab::kNoUpper &&
+          page.slab_uppers[i] > page.slab_lowers[i] + 1)
+        found.push_back(i);
+    return found;
   };
-  const auto has_both = [&](const RawMaskPage& page) {
-    return with_both(page) < page.slab_uppers.size();
-  };
+  const auto has_both = [&](const RawMaskPage& page) { return !with_both(page).empty(); };
   expect_found("MASK_SLAB", has_both, [&](RawMaskPage& page) {
-    page.slab_uppers[with_both(page)] = page.slab_lowers[with_both(page)];
+    const std::size_t first = with_both(page).front();
+    page.slab_uppers[first] = page.slab_lowers[first];
   });
   expect_found("MASK_SLAB", has_both, [&](RawMaskPage& page) {
-    page.slab_lowers[with_both(page)] = page.slab_uppers[with_both(page)];
+    const std::size_t last = with_both(page).back();
+    page.slab_lowers[last] = page.slab_uppers[last];
   });
 }
 
