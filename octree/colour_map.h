@@ -67,7 +67,7 @@ class ColourMap {
     MapSteps::Place place;
     if (!steps_.find(point.data(), steps_.model, place)) return {};
     const MapCells::Cell cell = steps_.cell_at(place.cell());
-    if (cells_.code_of(cell) != MapCells::kListed) return {};
+    if (cells_.code_of<1>(cell) != MapCells::kListed) return {};
     const MapCells::Found found = cells_.find_below(cell, place.octant());
     return {found.winding, octant_at(place), found.record};
   }

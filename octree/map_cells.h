@@ -100,13 +100,12 @@ struct MapCells {
   }
   /// Asks for so many lines behind the codes', too, where groups of listed cells are: the first two
   /// at least are in one, nearly all in three.
-  template <std::size_t kLines = 1>
+  template <std::size_t kLines = 0>
   Code code_of(Cell cell) const {
-    const std::uint64_t* const codes = words + first_word[cell.block];
-#pragma GCC unroll 4
+    const Codes& codes = codes_of(cell.block);
     for (std::size_t line = 1; line <= kLines; ++line)
-      __builtin_prefetch(codes + line * kLineWords);
-    return reinterpret_cast<const Codes*>(codes)->of(cell.at);
+      __builtin_prefetch(reinterpret_cast<const std::byte*>(&codes) + line * kLineBytes);
+    return codes.of(cell.at);
   }
 
   /// An octant of a listed cell.
@@ -148,7 +147,7 @@ struct MapCells {
   }
 
  private:
-  static constexpr std::size_t kLineWords = 64 / sizeof(std::uint64_t);
+  static constexpr std::size_t kLineBytes = 64;
   static constexpr std::size_t kGroupWords = sizeof(Group) / sizeof(std::uint64_t);
 
   // Behind the words that there are; returns how many there are then.

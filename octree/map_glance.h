@@ -11,7 +11,7 @@ namespace planetree::octree {
 inline MapCells::Found find(const MapSteps& steps, const MapCells& cells,
                             const MapSteps::Place& place) {
   const MapCells::Cell cell = steps.cell_at(place.cell());
-  const unsigned code = cells.code_of(cell);
+  const unsigned code = cells.code_of<1>(cell);
   return code == MapCells::kListed ? cells.find_below(cell, place.octant(), place.part())
                                    : cells.find_by_code(code);
 }

@@ -39,20 +39,6 @@ template <class T>
   __builtin_prefetch(bytes + sizeof(T) - 1);
 }
 
-// While it lives, a probe's queries follow a curve; then paths again.
-class CurveCourse {
- public:
-  explicit CurveCourse(octree::Vicinity& vicinity) noexcept : vicinity_(vicinity) {
-    vicinity_.follow(octree::Vicinity::Course::kCurve);
-  }
-  ~CurveCourse() { vicinity_.follow(octree::Vicinity::Course::kPath); }
-  CurveCourse(const CurveCourse&) = delete;
-  CurveCourse& operator=(const CurveCourse&) = delete;
-
- private:
-  octree::Vicinity& vicinity_;
-};
-
 // As many queries as are put in order together, and where their answers go.
 template <class Answer>
 struct Window {
@@ -63,20 +49,20 @@ struct Window {
   Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
-    const CurveCourse course(probe.vicinity());
+    constexpr std::size_t kAhead = 2;  // asks
+    probe.vicinity().follow(octree::Vicinity::Course::kCurve);
     for (std::size_t i = first; i < end; ++i) {
-      if (i + kAhead < end) prefetch_for(order.query(i + kAhead));
+      // In order of the curve, queries and answers are anywhere in memory.
+      if (i + kAhead < end) {
+        prefetch(queries[order.query(i + kAhead)]);
+        prefetch(answers[order.query(i + kAhead)]);
+      }
       const std::size_t at = order.query(i);
       // What was there may have been keys.
       ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at], ask));
     }
+    probe.vicinity().follow(octree::Vicinity::Course::kPath);
   }
-  // In order of the curve, queries and answers are anywhere in memory.
-  [[gnu::always_inline]] void prefetch_for(std::size_t at) const noexcept {
-    prefetch(queries[at]);
-    prefetch(answers[at]);
-  }
-  static constexpr std::size_t kAhead = 2;  // asks
   static void run_piece(const void* window, ProbeState& probe, std::size_t first,
                         std::size_t end) noexcept {
     static_cast<const Window*>(window)->run(probe, first, end);

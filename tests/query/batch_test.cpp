@@ -106,7 +106,7 @@ TEST_F(Batch, MayBeOfAnySize) {
   std::vector<ClosestPoint> expected;
   for (const Vec3& query : queries_) expected.push_back(probe.closest_point(query));
   // From one of these on, answers lend memory, as little as there may be.
-  const std::size_t lent = kWindow + kWindow / 15;
+  const std::size_t lent = kWindow + kWindow / (sizeof(ClosestPoint) / sizeof(std::uint64_t));
   for (const std::size_t size : {std::size_t{1}, std::size_t{2}, kWindow - 1, kWindow, kWindow + 1,
                                  lent, lent + 1, lent + 2, lent + 3}) {
     std::vector<ClosestPoint> answers(size);

@@ -45,23 +45,31 @@ TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
 }
 
 TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
-  // Those that have two planes, neither of them at the other's place.
-  const auto with_both = [](const RawMaskPage& page) {
+  // That say something, and of which has(page, i).
+  const auto slabs = [](const RawMaskPage& page, const auto& has) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < page.slab_uppers.size(); ++i)
-      if (page.slab_lowers[i] != octree::CellSlab::kNoLower &&
-          page.slab_uppers[i] != octree::CellSlab::kNoUpper &&
-          page.slab_uppers[i] > page.slab_lowers[i] + 1)
-        found.push_back(i);
+      if (page.slab_uppers[i] > page.slab_lowers[i] + 1 && has(page, i)) found.push_back(i);
     return found;
   };
-  const auto has_both = [&](const RawMaskPage& page) { return !with_both(page).empty(); };
-  expect_found("MASK_SLAB", has_both, [&](RawMaskPage& page) {
-    const std::size_t first = with_both(page).front();
+  const auto with_upper = [&](const RawMaskPage& page) {
+    return slabs(page, [](const RawMaskPage& of, std::size_t i) {
+      return of.slab_uppers[i] != octree::CellSlab::kNoUpper;
+    });
+  };
+  const auto with_lower = [&](const RawMaskPage& page) {
+    return slabs(page, [](const RawMaskPage& of, std::size_t i) {
+      return of.slab_lowers[i] != octree::CellSlab::kNoLower;
+    });
+  };
+  const auto has_upper = [&](const RawMaskPage& page) { return !with_upper(page).empty(); };
+  const auto has_lower = [&](const RawMaskPage& page) { return !with_lower(page).empty(); };
+  expect_found("MASK_SLAB", has_upper, [&](RawMaskPage& page) {
+    const std::size_t first = with_upper(page).front();
     page.slab_uppers[first] = page.slab_lowers[first];
   });
-  expect_found("MASK_SLAB", has_both, [&](RawMaskPage& page) {
-    const std::size_t last = with_both(page).back();
+  expect_found("MASK_SLAB", has_lower, [&](RawMaskPage& page) {
+    const std::size_t last = with_lower(page).back();
     page.slab_lowers[last] = page.slab_uppers[last];
   });
 }
