@@ -1,5 +1,7 @@
 #include "cache/clock_policy.h"
 
+#include <algorithm>
+
 namespace planetree::cache {
 
 std::uint32_t ClockPolicy::advance() noexcept {
@@ -9,17 +11,21 @@ std::uint32_t ClockPolicy::advance() noexcept {
 }
 
 std::uint32_t ClockPolicy::choose_victim(const FrameStates& states) noexcept {
-  // After kMaxScore rounds every score is 0 unless readers raised it again
+  // After so many rounds every score is 0 unless readers raised it again
   // meanwhile. They could do so for ever, so after these rounds the score no
   // longer counts, and one more round finds any evictable frame there is.
-  const std::uint64_t patient_steps = std::uint64_t{kMaxScore} * scores_.size();
+  constexpr unsigned kPatientRounds = kUse * kMaxUses;
+  const std::uint64_t patient_steps = std::uint64_t{kPatientRounds} * scores_.size();
   const std::uint64_t most_steps = patient_steps + scores_.size();
+  const bool patient_with_upper = upper_count_ <= scores_.size() / 2;
   for (std::uint64_t step = 0; step < most_steps; ++step) {
     const std::uint32_t frame = advance();
     if (states.of(frame) != FrameStates::State::kEvictable) continue;
     const std::uint8_t score = scores_[frame].load(std::memory_order_relaxed);
-    if (score == 0 || step >= patient_steps) return frame;
-    scores_[frame].store(static_cast<std::uint8_t>(score - 1), std::memory_order_relaxed);
+    if ((score & kScoreBits) == 0 || step >= patient_steps) return frame;
+    const std::uint8_t loss = is_upper(score) && patient_with_upper ? 1 : kUse;
+    const std::uint8_t lost = std::min<std::uint8_t>(loss, score & kScoreBits);
+    scores_[frame].store(static_cast<std::uint8_t>(score - lost), std::memory_order_relaxed);
   }
   return kNoFrame;
 }

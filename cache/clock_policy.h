@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -9,20 +10,26 @@
 
 namespace planetree::cache {
 
-/// Which page has to go: CLOCK with scores of two bits.
+/// Pages of a tree: an upper one is on the way to others.
+enum class PageRank : std::uint8_t { kLower, kUpper };
+
+/// Which page has to go: CLOCK with scores.
 ///
-/// A hand goes round the frames, taking one from each score it passes, and
-/// stops at the first frame whose score is 0 already. Readers raise the score
-/// of what they use, up to 3. A page just installed has score 2: it was wanted,
-/// but one that is wanted again and again outlives it.
+/// A hand goes round the frames, lowers each score that it passes, and stops at the first frame
+/// whose score is 0 already. Readers raise the score of what they use, up to kMaxUses. A page just
+/// installed has the score of kInstallUses: it was wanted, but one that is wanted again and again
+/// outlives it. An upper page loses a use in kUse rounds, not in one: whoever comes this way again
+/// wants it, whichever page below. But not where upper pages have more than half of the frames:
+/// of those below, all that an ask needs must find room.
 ///
 /// A view of memory that PageCache owns. Only mark() may be called by readers.
 class ClockPolicy {
  public:
   using Score = std::atomic<std::uint8_t>;
 
-  static constexpr std::uint8_t kMaxScore = 3;
-  static constexpr std::uint8_t kInstallScore = 2;
+  static constexpr std::uint8_t kUse = 4;
+  static constexpr std::uint8_t kMaxUses = 3;
+  static constexpr std::uint8_t kInstallUses = 2;
 
   /// `scores` has one element per frame, all 0.
   explicit ClockPolicy(std::span<Score> scores) noexcept : scores_(scores) {}
@@ -33,23 +40,34 @@ class ClockPolicy {
   /// not store at the top, so that hot frames' scores stay in every cache.
   static void mark(Score& score) noexcept {
     const std::uint8_t now = score.load(std::memory_order_relaxed);
-    if (now < kMaxScore) {
-      score.store(static_cast<std::uint8_t>(now + 1), std::memory_order_relaxed);
+    if ((now & kScoreBits) <= kUse * (kMaxUses - 1)) {
+      score.store(static_cast<std::uint8_t>(now + kUse), std::memory_order_relaxed);
     }
   }
 
-  void install(std::uint32_t frame) noexcept {
-    scores_[frame].store(kInstallScore, std::memory_order_relaxed);
+  void install(std::uint32_t frame, PageRank rank) noexcept {
+    constexpr std::uint8_t kScore = kUse * kInstallUses;
+    const bool upper = rank == PageRank::kUpper;
+    if (upper) ++upper_count_;
+    scores_[frame].store(upper ? kUpperBit | kScore : kScore, std::memory_order_relaxed);
+  }
+  void remove(std::uint32_t frame) noexcept {
+    if (is_upper(scores_[frame].load(std::memory_order_relaxed))) --upper_count_;
   }
 
   /// An evictable frame; kNoFrame if there is none.
   std::uint32_t choose_victim(const FrameStates& states) noexcept;
 
  private:
+  static constexpr std::uint8_t kUpperBit = 0x80;
+  static constexpr std::uint8_t kScoreBits = 0x7f;
+
+  static bool is_upper(std::uint8_t score) noexcept { return (score & kUpperBit) != 0; }
   std::uint32_t advance() noexcept;
 
   std::span<Score> scores_;
   std::uint32_t hand_ = 0;
+  std::size_t upper_count_ = 0;
 };
 
 static_assert(ClockPolicy::Score::is_always_lock_free);

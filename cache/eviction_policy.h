@@ -59,17 +59,20 @@ class EvictionPolicy {
   State state(std::uint32_t frame) const noexcept { return states_.of(frame); }
   void pin(std::uint32_t frame) noexcept { states_.pin(frame); }
   void hold(std::uint32_t frame) noexcept { states_.hold(frame); }
-  void remove(std::uint32_t frame) noexcept { states_.remove(frame); }
+  void remove(std::uint32_t frame) noexcept {
+    states_.remove(frame);
+    if (kind_ == Policy::kClock) clock_.remove(frame);
+  }
   void let_go(std::uint32_t frame) noexcept {
     states_.let_go(frame);
     if (kind_ == Policy::kLru) lru_.let_go(frame);
   }
-  void install(std::uint32_t frame) noexcept {
+  void install(std::uint32_t frame, PageRank rank = PageRank::kLower) noexcept {
     states_.install(frame);
     if (kind_ == Policy::kLru) {
       lru_.install(frame);
     } else {
-      clock_.install(frame);
+      clock_.install(frame, rank);
     }
   }
   /// An evictable frame, which stays evictable until removed; kNoFrame if there is none.

@@ -30,7 +30,11 @@ struct FillRequest {
   bool may_wait;               ///< for a disk, longer than a moment
   std::span<std::byte> frame;  ///< frame_bytes long, old bytes in it
 };
-enum class Filled : std::uint8_t { kFilled, kWouldWait };
+enum class Filled : std::uint8_t {
+  kFilled,
+  kFilledUpper,  ///< with a page through which others are reached
+  kWouldWait,
+};
 
 /// Fills a frame with the decoded page. Called by any number of threads at once, without the
 /// cache's mutex and outside the thread's section. Must not throw and must not call the cache.

@@ -114,7 +114,7 @@ PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t owner, std::ui
     return Outcome::kWouldWait;
   }
   tables_.pages[frame] = page;
-  policy_.install(frame);
+  policy_.install(frame, *filled == Filled::kFilledUpper ? PageRank::kUpper : PageRank::kLower);
   map_.publish(page, frame);
   add_one(counts_.fills);
   if (errands_.serve(page, frame, wake_waiting) > 0) policy_.hold(frame);

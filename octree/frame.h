@@ -37,7 +37,8 @@ struct FrameHeader {
   std::uint16_t root_block_count;
   std::uint16_t first_node_slot;
   std::uint16_t first_block_slot;
-  std::uint8_t reserved[32];
+  std::uint16_t page_link_count;  ///< to other pages
+  std::uint8_t reserved[30];
 };
 static_assert(sizeof(FrameHeader) == kSlotBytes);
 

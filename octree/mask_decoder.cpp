@@ -92,6 +92,7 @@ const char* MaskDecoder::write_header() {
   header.root_count = head().root_count;
   header.first_record_slot = static_cast<std::uint16_t>(first_record_slot_);
   header.first_plane_slot = static_cast<std::uint16_t>(first_plane_slot_);
+  header.page_link_count = head().page_link_count;
   std::memcpy(frame_, &header, sizeof header);
   return nullptr;
 }

@@ -37,7 +37,8 @@ struct MaskHeader {
   std::uint16_t root_count;
   std::uint16_t first_record_slot;
   std::uint16_t first_plane_slot;
-  std::uint8_t reserved[40];
+  std::uint16_t page_link_count;  ///< to other pages
+  std::uint8_t reserved[38];
 };
 static_assert(sizeof(MaskHeader) == 64);
 

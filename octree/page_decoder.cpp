@@ -108,6 +108,7 @@ void PageDecoder::write_header() {
   header.root_block_count = head.root_block_count;
   header.first_node_slot = plan_.first_node_slot;
   header.first_block_slot = plan_.first_block_slot;
+  header.page_link_count = head.page_link_count;
   std::memcpy(frame_, &header, sizeof header);
 }
 

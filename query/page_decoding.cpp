@@ -1,6 +1,8 @@
 #include "query/page_decoding.h"
 
+#include "octree/frame.h"
 #include "octree/mask_decoder.h"
+#include "octree/mask_frame.h"
 #include "octree/page_decoder.h"
 
 namespace planetree::query {
@@ -28,6 +30,14 @@ Result<void> decode_frame(const storage::FileHeader& header, const storage::Page
   facts.ordinal = entry.ordinal;
   return mask ? octree::decode_mask_page(raw, facts, frame)
               : octree::decode_page(raw, facts, frame);
+}
+
+bool leads_to_pages(const storage::FileHeader& header, std::uint32_t page,
+                    std::span<const std::byte> frame) noexcept {
+  const std::byte* head = frame.data();
+  return page < header.first_mask_page()
+             ? reinterpret_cast<const octree::FrameHeader*>(head)->page_link_count > 0
+             : reinterpret_cast<const octree::MaskHeader*>(head)->page_link_count > 0;
 }
 
 }  // namespace planetree::query

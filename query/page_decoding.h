@@ -23,4 +23,8 @@ Result<void> decode_frame(const storage::FileHeader& header, const storage::Page
                           std::uint32_t page, std::span<const std::byte> raw,
                           std::span<std::byte> frame) noexcept;
 
+/// Whether other pages are reached through the one in a frame that decode_frame() has filled.
+bool leads_to_pages(const storage::FileHeader& header, std::uint32_t page,
+                    std::span<const std::byte> frame) noexcept;
+
 }  // namespace planetree::query

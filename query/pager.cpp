@@ -100,7 +100,8 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   }
   if (const auto decoded = decode_frame(header, entry, request.page, raw, request.frame); !decoded)
     return decoded.error();
-  return cache::Filled::kFilled;
+  return leads_to_pages(header, request.page, request.frame) ? cache::Filled::kFilledUpper
+                                                             : cache::Filled::kFilled;
 }
 
 // Pages of asks come first, one for each that this thread wants: neither waits for all of the

@@ -31,21 +31,68 @@ TEST(ClockPolicy, TakesUnusedFramesInTurn) {
   EXPECT_EQ(frames.evict(), kNoFrame);
 }
 
-TEST(ClockPolicy, ScoreStopsAtThree) {
+TEST(ClockPolicy, ScoreStopsAtThreeUses) {
   ClockPolicy::Score score{0};
-  for (const int expected : {1, 2, 3, 3, 3}) {
+  for (const int uses : {1, 2, 3, 3, 3}) {
     ClockPolicy::mark(score);
-    EXPECT_EQ(score.load(), expected);
+    EXPECT_EQ(score.load(), uses * ClockPolicy::kUse);
   }
 }
 
-TEST(ClockPolicy, InstalledFramesStartAtTwo) {
+TEST(ClockPolicy, InstalledFramesStartAtTwoUses) {
   Frames<2> frames;
-  EXPECT_EQ(frames.scores[0].load(), 2);
+  EXPECT_EQ(frames.scores[0].load(), 2 * ClockPolicy::kUse);
   // Marked once from 0, frame 1 would go before frame 0; it starts higher.
-  frames.scores[0].store(1);
+  frames.scores[0].store(ClockPolicy::kUse);
   EXPECT_EQ(frames.evict(), 0u);
-  EXPECT_EQ(frames.scores[1].load(), 1);
+  EXPECT_EQ(frames.scores[1].load(), ClockPolicy::kUse);
+}
+
+// Pages that frame 1 is given, one after another, before the page in frame 0 goes.
+unsigned outlived_by(PageRank rank) {
+  Frames<2> frames;
+  EXPECT_EQ(frames.evict(), 0u);
+  frames.clock.install(0, rank);
+  unsigned outlived = 0;
+  for (; frames.evict() == 1; ++outlived) frames.clock.install(1);
+  return outlived;
+}
+
+TEST(ClockPolicy, UpperPagesKeepAUseForMoreRounds) {
+  EXPECT_EQ(outlived_by(PageRank::kLower), 1u);
+  EXPECT_EQ(outlived_by(PageRank::kUpper), 3u);
+}
+
+TEST(ClockPolicy, UpperPagesOfMoreThanHalfTheFramesAreAsOthers) {
+  for (const std::uint32_t upper : {1u, 2u}) {
+    Frames<3> frames;
+    for (std::uint32_t frame = 0; frame < 3; ++frame) {
+      EXPECT_EQ(frames.evict(), frame);
+      frames.clock.install(frame, frame < upper ? PageRank::kUpper : PageRank::kLower);
+      frames.mark(frame, 5);
+    }
+    EXPECT_EQ(frames.evict(), upper == 1 ? 1u : 0u);
+  }
+}
+
+TEST(ClockPolicy, UpperPagesGoInTheEnd) {
+  Frames<2> frames;
+  for (std::uint32_t frame = 0; frame < 2; ++frame) {
+    EXPECT_EQ(frames.evict(), frame);
+    frames.clock.install(frame, PageRank::kUpper);
+    frames.mark(frame, 5);
+  }
+  EXPECT_EQ(frames.evict(), 0u);
+  EXPECT_EQ(frames.evict(), 1u);
+}
+
+TEST(ClockPolicy, UpperPagesStopAtThreeUsesToo) {
+  Frames<1> frames;
+  EXPECT_EQ(frames.evict(), 0u);
+  frames.clock.install(0, PageRank::kUpper);
+  const unsigned two_uses = frames.scores[0].load();
+  frames.mark(0, 5);
+  EXPECT_EQ(frames.scores[0].load(), two_uses + ClockPolicy::kUse);
 }
 
 TEST(ClockPolicy, UsedFramesOutliveUnusedOnes) {

@@ -40,6 +40,8 @@ class FrameWalk {
       if (entry.kind == Kind::kNode) look_at_node(step, entry, queue);
     }
     EXPECT_EQ(visited_.size(), tree_.entries.size());
+    for (std::uint32_t page = 0; page < pages_.size(); ++page)
+      EXPECT_EQ(header_of(pages_.frame(page)).page_link_count, links_out_of_[page]) << page;
   }
 
   /// By page, but the first.
@@ -113,6 +115,7 @@ class FrameWalk {
     EXPECT_EQ(first, page != step.page);
     if (page != step.page) {
       EXPECT_GT(page, step.page);
+      ++links_out_of_[step.page];
       parents_[page].insert(step.page);
       const auto key = keys_.try_emplace(page, step.cell.octcode()).first;
       key->second = std::min(key->second, step.cell.octcode());
@@ -130,6 +133,7 @@ class FrameWalk {
   std::set<std::pair<std::uint32_t, std::uint32_t>> visited_;
   std::map<std::uint32_t, std::set<std::uint32_t>> parents_;
   std::map<std::uint32_t, std::uint64_t> keys_ = {{0, 0}};
+  std::map<std::uint32_t, unsigned> links_out_of_;
 };
 
 unsigned levels_of_pages(const std::map<std::uint32_t, std::set<std::uint32_t>>& parents) {

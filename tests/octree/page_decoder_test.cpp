@@ -135,9 +135,26 @@ TEST(PageDecoder, CoversFloat64WideIdsAndManyPages) {
   EXPECT_TRUE(float64 && wide_ids && many_pages);
 }
 
+// To other pages, as planned.
+std::size_t links_out_of(const SampleTree& sample, std::uint32_t page) {
+  const LinkFormat links(sample.plan.page_bytes);
+  std::size_t count = 0;
+  for (const std::uint32_t at : sample.plan.pages[page].nodes) {
+    const WideNode& node = sample.tree.nodes[at];
+    for (unsigned i = 0; i < node.child_count; ++i) {
+      const WideChild& child = node.children[i];
+      const auto& of_kind = child.block ? sample.plan.block_links : sample.plan.node_links;
+      if (links.page(of_kind[child.index]) != page) ++count;
+    }
+  }
+  return count;
+}
+
 TEST(PageDecoder, SaysInTheHeaderWhatIsInTheFrame) {
   const SampleTree sample = build_sample(sphere(4), 4096);
   const SamplePages pages(sample);
+  EXPECT_GT(pages.frame(0).header().page_link_count, 0);
+  EXPECT_EQ(pages.frame(static_cast<std::uint32_t>(pages.size() - 1)).header().page_link_count, 0);
   for (std::uint32_t page = 0; page < pages.size(); ++page) {
     const FrameHeader& header = pages.frame(page).header();
     const PlannedPage& planned = sample.plan.pages[page];
@@ -146,6 +163,7 @@ TEST(PageDecoder, SaysInTheHeaderWhatIsInTheFrame) {
     EXPECT_EQ(header.ordinal, planned.ordinal);
     EXPECT_EQ(header.node_count, planned.nodes.size());
     EXPECT_EQ(header.block_count, planned.blocks.size());
+    EXPECT_EQ(header.page_link_count, links_out_of(sample, page));
     EXPECT_LE(header.used_bytes, sample.plan.page_bytes);
   }
 }

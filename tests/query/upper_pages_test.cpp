@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "planetree/probe.h"
+#include "query/model_state.h"
+#include "tests/query/sample_model.h"
+
+// Pages on the way to others stay where memory is short.
+namespace planetree::query {
+namespace {
+
+constexpr std::uint32_t kPageBytes = 16384;
+
+std::uint64_t pages_read(const SampleModel& sample, cache::Policy policy) {
+  OpenOptions options;
+  options.memory_budget_bytes = sample.least_budget() + sample.page_count() / 8 * kPageBytes;
+  options.max_probes = 1;
+  const auto model =
+      ModelState::open_model(sample.path(), options, {.starts_fetching = false, .policy = policy});
+  if (!model) std::abort();
+  Probe probe = make_probe(*model);
+  octree::Noise noise(1);
+  for (int i = 0; i < 4000; ++i) (void)probe.closest_point(noise.point(-1.5, 1.5));
+  return model->stats().pages_read;
+}
+
+// LRU knows no upper pages; where all are lower ones, CLOCK reads as many as it does.
+TEST(UpperPages, StayWhereMemoryIsShort) {
+  const SampleModel sample(octree::sphere(6), kPageBytes);
+  const std::uint64_t clock = pages_read(sample, cache::Policy::kClock);
+  const std::uint64_t lru = pages_read(sample, cache::Policy::kLru);
+  EXPECT_LT(clock, lru * 93 / 100);
+}
+
+}  // namespace
+}  // namespace planetree::query
