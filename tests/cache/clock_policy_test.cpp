@@ -86,6 +86,19 @@ TEST(ClockPolicy, UpperPagesGoInTheEnd) {
   EXPECT_EQ(frames.evict(), 1u);
 }
 
+TEST(ClockPolicy, WhatIsLeftOfAnUpperPagesUseIsLostWholeWhereOthersAreToo) {
+  Frames<2> frames;
+  EXPECT_EQ(frames.evict(), 0u);
+  frames.clock.install(0, PageRank::kUpper);
+  EXPECT_EQ(frames.evict(), 1u);
+  frames.clock.install(1);
+  // Takes from the upper page less than a use.
+  EXPECT_EQ(frames.evict(), 1u);
+  frames.clock.install(1, PageRank::kUpper);
+  EXPECT_EQ(frames.evict(), 0u);
+  EXPECT_EQ(frames.evict(), 1u);
+}
+
 TEST(ClockPolicy, UpperPagesStopAtThreeUsesToo) {
   Frames<1> frames;
   EXPECT_EQ(frames.evict(), 0u);
