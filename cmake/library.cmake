@@ -24,7 +24,8 @@ list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree
 target_sources(planetree PUBLIC FILE_SET HEADERS
   BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${planetree_headers})
 target_link_libraries(planetree PRIVATE
-  PkgConfig::liblz4 PkgConfig::libxxhash hwy::hwy_contrib hwy::hwy TBB::tbb Threads::Threads)
+  PkgConfig::liblz4 PkgConfig::liburing PkgConfig::libxxhash
+  hwy::hwy_contrib hwy::hwy TBB::tbb Threads::Threads)
 target_compile_features(planetree PUBLIC cxx_std_20)
 # Before 1.0 a minor version may change the interface.
 set_target_properties(planetree PROPERTIES

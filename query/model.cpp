@@ -107,6 +107,7 @@ Pager::Limits limits_of(const OpenOptions& options, const ModelSeams& seams) {
                       options.fetch_threads * FetchCrew::kThreadBytes +
                       limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
+  limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
   limits.trace_touches = options.trace_touches;
   limits.policy = seams.policy;
   return limits;

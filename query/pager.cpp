@@ -1,5 +1,6 @@
 #include "query/pager.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <new>
 #include <utility>
@@ -51,8 +52,12 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.max_readers = limits.readers();
   // pin() is one more.
   const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;
+  most_waited_ = std::min(limits.wait_limit, kMostWaited);
+  wait_count_ = std::min(owner_count, kMostWaits);
+  constexpr std::uint64_t kWaitBytes = sizeof(storage::ReadWait) + storage::ReadWait::kMappedBytes;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + owner_count * scratch_bytes() +
-                                sizeof(Pager) + AskingMemory::bytes(needs) +
+                                wait_count_ * kWaitBytes + sizeof(Pager) +
+                                AskingMemory::bytes(needs) +
                                 limits.probe_bytes * limits.max_probes + limits.crew_bytes;
   const auto fill = [](void* context, const cache::FillRequest& request) {
     return static_cast<Pager*>(context)->fill(request);
@@ -65,7 +70,8 @@ Result<void> Pager::claim(const Limits& limits) {
   asking_.emplace(*std::move(asking));
   if (const auto locked = lock(limits.locking); !locked) return locked;
   scratch_.reset(new (std::nothrow) std::byte[owner_count * scratch_bytes()]);
-  if (!scratch_)
+  waits_.reset(new (std::nothrow) storage::ReadWait[wait_count_]);
+  if (!scratch_ || !waits_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
   return {};
@@ -94,7 +100,7 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   if (request.may_wait) {
     if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
   } else {
-    const auto read = file_.read_page_soon(request.page, stored, raw, request.frame);
+    const auto read = file_.read_page_soon(request.page, stored, raw, soon_terms(request));
     if (!read) return read.error();
     if (!*read) return cache::Filled::kWouldWait;
   }
@@ -102,6 +108,14 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
     return decoded.error();
   return leads_to_pages(header, request.page, request.frame) ? cache::Filled::kFilledUpper
                                                              : cache::Filled::kFilled;
+}
+
+storage::SoonTerms Pager::soon_terms(const cache::FillRequest& request) noexcept {
+  storage::SoonTerms terms;
+  terms.wait = request.owner < wait_count_ ? &waits_[request.owner] : nullptr;
+  terms.most_waited = most_waited_;
+  terms.soon_written = request.frame;
+  return terms;
 }
 
 // Pages of asks come first, one for each that this thread wants: neither waits for all of the

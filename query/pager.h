@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "planetree/types.h"
 #include "query/asking_memory.h"
 #include "storage/page_file.h"
+#include "storage/read_wait.h"
 
 namespace planetree::query {
 
@@ -30,6 +32,7 @@ class Pager {
     std::uint64_t crew_bytes = 0;  ///< the same of the probes of the model's own threads,
     unsigned crew_probes = 0;      ///< all together
     Locking locking = Locking::kTry;
+    std::chrono::milliseconds wait_limit{};  ///< of an ask, for one page
     std::uint32_t trace_touches = 0;
     cache::Policy policy = cache::Policy::kClock;
 
@@ -60,9 +63,18 @@ class Pager {
     return file_.header().max_stored_bytes <= file_.header().page_bytes;
   }
   Result<cache::Filled> fill(const cache::FillRequest& request) noexcept;
+  storage::SoonTerms soon_terms(const cache::FillRequest& request) noexcept;
 
   storage::PageFile file_;
-  std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() of each owner of the cache
+  // Each takes a descriptor while its model is open; owners beyond look for what they wait for.
+  static constexpr std::uint64_t kMostWaits = 16;
+  // Longer than disks take that move; others are left to a thread that gets pages.
+  static constexpr std::chrono::milliseconds kMostWaited{20};
+
+  std::unique_ptr<std::byte[]> scratch_;        // scratch_bytes() of each owner of the cache
+  std::unique_ptr<storage::ReadWait[]> waits_;  // of the first wait_count_ owners
+  std::uint64_t wait_count_ = 0;
+  std::chrono::milliseconds most_waited_{};
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<AskingMemory> asking_;
   bool asking_is_locked_ = false;

@@ -1,6 +1,7 @@
 #include "storage/file_calls.h"
 
 #include <fcntl.h>
+#include <liburing.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -87,6 +88,17 @@ int FileCalls::munmap(void* address, std::size_t bytes) noexcept {
 int FileCalls::madvise(void* address, std::size_t bytes, int advice) noexcept {
   return ::madvise(address, bytes, advice);
 }
+
+int FileCalls::io_uring_queue_init(unsigned entries, io_uring* ring, unsigned flags) noexcept {
+  return ::io_uring_queue_init(entries, ring, flags);
+}
+
+int FileCalls::io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion,
+                                                unsigned count, __kernel_timespec* most) noexcept {
+  return ::io_uring_submit_and_wait_timeout(ring, completion, count, most, nullptr);
+}
+
+void FileCalls::io_uring_queue_exit(io_uring* ring) noexcept { ::io_uring_queue_exit(ring); }
 
 FileCalls& FileCalls::real() noexcept {
   static FileCalls calls;

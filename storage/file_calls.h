@@ -7,6 +7,10 @@
 
 #include <cstddef>
 
+struct io_uring;
+struct io_uring_cqe;
+struct __kernel_timespec;
+
 /// The system calls storage makes, so that tests can make any of them fail.
 ///
 /// Each does what the call of its name does: it sets errno and returns what
@@ -42,6 +46,12 @@ class FileCalls {
                      off_t offset) noexcept;
   virtual int munmap(void* address, std::size_t bytes) noexcept;
   virtual int madvise(void* address, std::size_t bytes, int advice) noexcept;
+
+  /// As liburing has them: what went wrong is returned, negated.
+  virtual int io_uring_queue_init(unsigned entries, io_uring* ring, unsigned flags) noexcept;
+  virtual int io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion,
+                                               unsigned count, __kernel_timespec* most) noexcept;
+  virtual void io_uring_queue_exit(io_uring* ring) noexcept;
 
   /// The system itself; lives as long as the program.
   static FileCalls& real() noexcept;

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t kLineBytes = 64;  // of the processor's memory
 
+// Of a page that comes in parts, as a device may give it.
+constexpr unsigned kMostWaits = 4;
+
 // Not by giving up the processor: whoever gets it may keep it for milliseconds.
 void pause_a_little() noexcept {
 #if defined(__SSE2__)
@@ -76,32 +79,48 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
 }
 
 bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
-                           std::chrono::microseconds most,
-                           std::span<const std::byte> soon_written) const noexcept {
-  Look look = read_at_once(offset, out);
-  if (look != Look::kNotYet) return look == Look::kAll;
-  const auto end = std::chrono::steady_clock::now() + most;
+                           const SoonTerms& terms) const noexcept {
+  Look look = look_once(offset, out);
+  if (look.found != Found::kPart) return look.found == Found::kAll;
   calls_->posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(out.size()),
                         POSIX_FADV_WILLNEED);
   // Not by a function, which would be one of no effect to the compiler, and left out.
-  for (std::size_t at = 0; at < soon_written.size(); at += kLineBytes)
-    __builtin_prefetch(&soon_written[at], 1);
-  do {
-    pause_a_little();
-    look = read_at_once(offset, out);
-  } while (look == Look::kNotYet && std::chrono::steady_clock::now() < end);
-  return look == Look::kAll;
+  for (std::size_t at = 0; at < terms.soon_written.size(); at += kLineBytes)
+    __builtin_prefetch(&terms.soon_written[at], 1);
+  // What lies last mostly comes last.
+  std::size_t awaited = out.size() - 1;
+  for (unsigned i = 0; terms.wait != nullptr && i < kMostWaits; ++i) {
+    const auto waited =
+        terms.wait->wait_for(*calls_, descriptor_, offset + awaited, terms.most_waited);
+    if (waited == ReadWait::Outcome::kLate) return false;
+    if (waited == ReadWait::Outcome::kRefused) break;
+    look = look_once(offset, out);
+    if (look.found != Found::kPart) return look.found == Found::kAll;
+    awaited = look.bytes;
+  }
+  return look_until(std::chrono::steady_clock::now() + terms.most_looked, offset, out);
 }
 
-FileHandle::Look FileHandle::read_at_once(std::uint64_t offset,
-                                          std::span<std::byte> out) const noexcept {
+bool FileHandle::look_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,
+                            std::span<std::byte> out) const noexcept {
+  Look look{};
+  do {
+    pause_a_little();
+    look = look_once(offset, out);
+  } while (look.found == Found::kPart && std::chrono::steady_clock::now() < end);
+  return look.found == Found::kAll;
+}
+
+FileHandle::Look FileHandle::look_once(std::uint64_t offset,
+                                       std::span<std::byte> out) const noexcept {
   const iovec part{out.data(), out.size()};
   const ssize_t count =
       calls_->preadv2(descriptor_, &part, 1, static_cast<off_t>(offset), RWF_NOWAIT);
-  if (count < 0) return errno == EAGAIN ? Look::kNotYet : Look::kNever;
-  if (static_cast<std::size_t>(count) == out.size()) return Look::kAll;
+  if (count < 0) return {errno == EAGAIN ? Found::kPart : Found::kNever, 0};
+  const auto bytes = static_cast<std::size_t>(count);
+  if (bytes == out.size()) return {Found::kAll, bytes};
   // Where nothing is left the file is at its end.
-  return count > 0 ? Look::kNotYet : Look::kNever;
+  return {bytes > 0 ? Found::kPart : Found::kNever, bytes};
 }
 
 Result<void> FileHandle::write_at(std::uint64_t offset, std::span<const std::byte> bytes,

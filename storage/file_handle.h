@@ -9,8 +9,20 @@
 
 #include "planetree/error.h"
 #include "storage/file_calls.h"
+#include "storage/read_wait.h"
 
 namespace planetree::storage {
+
+/// How a thread goes about bytes that a device is to give.
+struct SoonTerms {
+  /// How long it may look for them: about as long as it takes to be put to sleep and woken.
+  std::chrono::microseconds most_looked{300};
+  /// The thread's, and how long it may wait by it; null: it only looks.
+  ReadWait* wait = nullptr;
+  std::chrono::microseconds most_waited{0};
+  /// What it writes next: brought near the processor while the device works.
+  std::span<const std::byte> soon_written{};
+};
 
 /// An open file, closed with the handle. Reads and writes name their offset,
 /// so that any number of threads may share one.
@@ -38,13 +50,11 @@ class FileHandle {
                        const char* what = "read the file") const noexcept;
 
   /// Fills `out` from `offset` if the system has the bytes in memory. Else it is told to get them,
-  /// and looked for them again and again for as long as `most`, without giving up the processor:
-  /// for devices that answer sooner than a thread is put to sleep and woken. False where it takes
-  /// longer, cannot be told, or fails: read_at() says why. `out` is lost then.
-  ///
-  /// soon_written  what the caller writes next: brought near the processor while the device works.
-  bool read_soon(std::uint64_t offset, std::span<std::byte> out, std::chrono::microseconds most,
-                 std::span<const std::byte> soon_written = {}) const noexcept;
+  /// and they are waited for or, where that is refused, looked for again and again without giving
+  /// up the processor. False where that takes longer than the terms allow, the system cannot be
+  /// told, or reading fails: read_at() says why. `out` is lost then.
+  bool read_soon(std::uint64_t offset, std::span<std::byte> out,
+                 const SoonTerms& terms) const noexcept;
 
   /// Writes all of `bytes` at `offset`, through interruptions and short writes.
   /// what    is tried, as file_error() has it.
@@ -65,8 +75,14 @@ class FileHandle {
   Result<void> sync_data() const noexcept;
 
  private:
-  enum class Look { kAll, kNotYet, kNever };
-  Look read_at_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+  enum class Found : std::uint8_t { kAll, kPart, kNever };  // part: perhaps nothing, as yet
+  struct Look {
+    Found found;
+    std::size_t bytes;  // from the first
+  };
+  Look look_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+  bool look_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,
+                  std::span<std::byte> out) const noexcept;
 
   FileCalls* calls_ = nullptr;
   int descriptor_ = -1;

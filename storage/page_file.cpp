@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cinttypes>
 #include <new>
 #include <utility>
@@ -32,9 +31,6 @@ Result<std::uint64_t> length_of(const FileHandle& file) noexcept {
   }
   return static_cast<std::uint64_t>(status.st_size);
 }
-
-// For a page that a device is to give.
-constexpr std::chrono::microseconds kSoon{300};
 
 Error placed(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
@@ -124,13 +120,13 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
 
 Result<bool> PageFile::read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
                                       std::span<std::byte> raw_out,
-                                      std::span<const std::byte> soon_written) const noexcept {
+                                      const SoonTerms& terms) const noexcept {
   if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
     return checked.error();
   }
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (!file_.read_soon(entry.offset, stored, kSoon, soon_written)) return false;
+  if (!file_.read_soon(entry.offset, stored, terms)) return false;
   if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
     return unpacked.error();
   }

@@ -54,14 +54,11 @@ class PageFile {
   Result<void> read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                          std::span<std::byte> raw_out) const noexcept;
 
-  /// The same of a page that the system has in memory, or gets from a device sooner than a thread
-  /// is put to sleep for it and woken: in less than 0.3 ms, during which the caller keeps its
-  /// processor. False where reading it takes longer, or fails in a way that read_page() tells.
-  ///
-  /// soon_written  as FileHandle::read_soon() has it.
+  /// The same of a page that the system has in memory, or that a device gives as soon as `terms`
+  /// want it. False where that takes longer, or reading fails in a way that read_page() tells.
   Result<bool> read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
                               std::span<std::byte> raw_out,
-                              std::span<const std::byte> soon_written = {}) const noexcept;
+                              const SoonTerms& terms = {}) const noexcept;
 
  private:
   PageFile() noexcept = default;

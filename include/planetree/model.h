@@ -29,9 +29,9 @@ struct OpenOptions {
   /// do. Nothing grows afterwards.
   std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
   /// Threads that get what asks of Wait::kNever miss, what probes are moving to, and the pages
-  /// of asks that wait where the disk takes longer than 0.3 ms; 1 to
-  /// kMostFetchThreads. Started at open, as ordinary threads whatever the caller's is. Each
-  /// serves some of the probes, and reads one page at a time.
+  /// of asks that wait where the disk takes longer than 20 ms; 1 to kMostFetchThreads. Started
+  /// at open, as ordinary threads whatever the caller's is. Each serves some of the probes, and
+  /// reads one page at a time.
   unsigned fetch_threads = 1;
   /// Threads that answer a batch together (Probe::closest_points over spans), the caller's
   /// among them; 1 to kMostBatchThreads. Probes for them are claimed at open. One batch at a
@@ -45,8 +45,10 @@ struct OpenOptions {
   /// are noted. 16 bytes each or, as the next power of two of them are claimed, up to 32.
   std::uint32_t trace_touches = 0;
 
-  /// Longest that an ask of Wait::kForPages waits for a thread to get one page, in milliseconds;
-  /// before that it tells the disk and looks for the page itself, for up to 0.3 ms more.
+  /// Longest that an ask of Wait::kForPages waits for a thread to get one page, in milliseconds.
+  /// Before that it waits for the disk itself, as long but for no more than 20 ms: by io_uring, of
+  /// which the model's first 16 probes and threads may have one each, with a descriptor. Where
+  /// there is none it looks for the page again and again instead, for 0.3 ms.
   /// Then it waits for no other, and ends as kDegraded with an interval that holds; the next ask
   /// tries again.
   /// Opening and closing a model wait for as long as the disk takes.

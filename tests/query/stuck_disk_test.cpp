@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "query/model_state.h"
 #include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"
+#include "tests/storage/ring_calls.h"
 
 namespace planetree::query {
 namespace {
@@ -28,6 +31,10 @@ class MoodyDisk final : public storage::FileCalls {
   std::atomic<int> waiting{0};
   std::atomic<int> reads{0};
   std::atomic<int> looks{0};  ///< and calls that tell what will be wanted
+  std::atomic<bool> gives_what_is_waited_for{false};
+  std::atomic<int> rings{0};
+  std::atomic<int> waits{0};  ///< by rings
+  std::atomic<std::int64_t> longest_wait_ns{0};
 
   int posix_fadvise(int, off_t, off_t, int) noexcept override {
     ++looks;
@@ -36,7 +43,8 @@ class MoodyDisk final : public storage::FileCalls {
   ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
                   int flags) noexcept override {
     ++looks;
-    if (is_in_memory) return FileCalls::preadv2(descriptor, parts, part_count, offset, flags);
+    if (is_in_memory || came_.exchange(false))
+      return FileCalls::preadv2(descriptor, parts, part_count, offset, flags);
     errno = EAGAIN;
     return -1;
   }
@@ -51,6 +59,22 @@ class MoodyDisk final : public storage::FileCalls {
     }
     return FileCalls::pread(descriptor, out, bytes, offset);
   }
+  int io_uring_queue_init(unsigned entries, io_uring* ring, unsigned flags) noexcept override {
+    ++rings;
+    return FileCalls::io_uring_queue_init(entries, ring, flags);
+  }
+  int io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion, unsigned count,
+                                       __kernel_timespec* most) noexcept override {
+    ++waits;
+    longest_wait_ns =
+        std::max<std::int64_t>(longest_wait_ns, most->tv_sec * 1'000'000'000 + most->tv_nsec);
+    if (stands_still) return -ETIME;
+    came_ = gives_what_is_waited_for.load();
+    return FileCalls::io_uring_submit_and_wait_timeout(ring, completion, count, most);
+  }
+
+ private:
+  std::atomic<bool> came_{false};
 };
 
 class StuckDisk : public testing::Test {
@@ -58,10 +82,10 @@ class StuckDisk : public testing::Test {
   StuckDisk()
       : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(60, -1.4, 1.4)) {}
 
-  Model open(std::uint64_t budget_bytes, unsigned wait_limit_ms = 60'000) {
+  Model open(std::uint64_t budget_bytes, unsigned wait_limit_ms = 60'000, unsigned max_probes = 4) {
     OpenOptions options;
     options.memory_budget_bytes = budget_bytes;
-    options.max_probes = 4;
+    options.max_probes = max_probes;
     options.wait_limit_ms = wait_limit_ms;
     auto model = ModelState::open_model(sample_.path(), options, {disk_});
     EXPECT_TRUE(model);
@@ -112,12 +136,51 @@ TEST_F(StuckDisk, HoldsUpThoseThatWait) {
     answered = true;
   });
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
-  EXPECT_GT(disk_.looks, 2);
+  EXPECT_GE(disk_.looks, 2);
   EXPECT_GT(ask_all(hasty), 0u);
   EXPECT_FALSE(answered);
   disk_.stands_still = false;
   waiting.join();
   EXPECT_TRUE(answered);
+}
+
+// No other thread reads what the disk gives in time.
+TEST_F(StuckDisk, IsWaitedForByTheAskItself) {
+  if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
+  const Model model = open(std::uint64_t{64} << 20);
+  Probe probe = make_probe(model);
+  disk_.gives_what_is_waited_for = true;
+  const std::uint64_t read = model.stats().pages_read;
+  const int reads = disk_.reads;
+  for (const Vec3& query : queries_) EXPECT_EQ(probe.closest_point(query).status, Status::kExact);
+  EXPECT_GT(model.stats().pages_read, read + 10);
+  EXPECT_EQ(disk_.waits, static_cast<int>(model.stats().pages_read - read));
+  EXPECT_EQ(disk_.reads, reads);
+  EXPECT_EQ(disk_.rings, 1);
+}
+
+// Descriptors are not the model's alone.
+TEST_F(StuckDisk, IsWaitedForByFewAtATime) {
+  if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
+  constexpr unsigned kProbes = 20;
+  const Model model = open(sample_.least_budget(kProbes), 60'000, kProbes);
+  std::vector<Probe> probes;
+  while (probes.size() < kProbes) probes.push_back(make_probe(model));
+  for (std::size_t i = 0; i < queries_.size(); ++i)
+    EXPECT_EQ(probes[i % kProbes].closest_point(queries_[i]).status, Status::kExact);
+  EXPECT_EQ(disk_.rings, 15);  // and one is the fetch thread's, which has no use for it
+}
+
+TEST_F(StuckDisk, IsWaitedForNoLongerThanTheLimit) {
+  if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
+  for (const unsigned limit_ms : {3u, 60'000u}) {
+    const Model model = open(std::uint64_t{64} << 20, limit_ms);
+    Probe probe = make_probe(model);
+    disk_.longest_wait_ns = 0;
+    EXPECT_TRUE(sample_.interval_holds(probe.closest_point(queries_[0]), queries_[0]));
+    EXPECT_GT(disk_.longest_wait_ns, 1'000'000);
+    EXPECT_LE(disk_.longest_wait_ns, std::min(limit_ms, 20u) * std::int64_t{1'000'000});
+  }
 }
 
 TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {

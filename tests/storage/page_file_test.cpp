@@ -1,19 +1,15 @@
 #include "storage/page_file.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <atomic>
-#include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
 #include <thread>
 
-#include "storage/file_handle.h"
 #include "tests/storage/sample_file.h"
 #include "tests/storage/temporary_directory.h"
 
@@ -82,118 +78,6 @@ TEST(PageFile, ReadsWithoutAllocating) {
   EXPECT_EQ(allocation_count, before);
   ::operator delete(::operator new(1));
   if (allocation_count != before + 1) GTEST_SKIP() << "a sanitizer keeps allocations to itself";
-}
-
-/// A system that has bytes in memory only when they have been looked for often enough.
-class ForgetfulCalls final : public FileCalls {
- public:
-  int looks_in_vain = 0;
-  int errno_of_those = EAGAIN;  ///< 0: they find all bytes but the last; kEnd: the file's end
-  static constexpr int kEnd = -1;
-  std::chrono::milliseconds time_of_those{0};
-  int looks = 0, told = 0;
-  off_t told_offset = 0, told_bytes = 0;
-
-  ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
-                  int flags) noexcept override {
-    EXPECT_EQ(flags, RWF_NOWAIT);
-    EXPECT_EQ(part_count, 1);
-    const bool in_vain = looks++ < looks_in_vain;
-    if (in_vain && time_of_those.count() > 0) std::this_thread::sleep_for(time_of_those);
-    if (in_vain && errno_of_those == kEnd) return 0;
-    if (in_vain && errno_of_those != 0) {
-      errno = errno_of_those;
-      return -1;
-    }
-    const ssize_t count = FileCalls::pread(descriptor, parts->iov_base, parts->iov_len, offset);
-    return in_vain ? count - 1 : count;
-  }
-  int posix_fadvise(int, off_t offset, off_t bytes, int advice) noexcept override {
-    EXPECT_EQ(advice, POSIX_FADV_WILLNEED);
-    EXPECT_EQ(looks, 1);
-    ++told;
-    told_offset = offset;
-    told_bytes = bytes;
-    return 0;
-  }
-};
-
-/// Page 1 of a file read where the first looks are in vain.
-struct PageSoon {
-  explicit PageSoon(int looks_in_vain, int errno_of_those = EAGAIN,
-                    std::chrono::milliseconds time_of_those = {}) {
-    const TemporaryDirectory directory;
-    const SampleFile sample;
-    EXPECT_TRUE(sample.write(directory / "a.ptree"));
-    const Result<PageFile> file = PageFile::open(directory / "a.ptree", calls);
-    if (!file) return;
-    entry = file->entries()[1];
-    calls.looks_in_vain = looks_in_vain;
-    calls.errno_of_those = errno_of_those;
-    calls.time_of_those = time_of_those;
-    Bytes stored(file->header().max_stored_bytes), raw(entry.raw_bytes);
-    const Result<bool> read = file->read_page_soon(1, stored, raw);
-    had = read && *read;
-    EXPECT_TRUE(read);
-    EXPECT_EQ(had, raw == sample.raw(1));
-    EXPECT_FALSE(file->read_page_soon(file->page_count(), stored, raw));
-  }
-
-  ForgetfulCalls calls;
-  PageEntry entry{};
-  bool had = false;
-};
-
-TEST(PageFile, ReadsWhatTheSystemHasWithNoOtherCall) {
-  const PageSoon page(0);
-  EXPECT_TRUE(page.had);
-  EXPECT_EQ(page.calls.looks, 1);
-  EXPECT_EQ(page.calls.told, 0);
-}
-
-TEST(PageFile, ReadsWhatTheSystemHasSoonAfterItWasTold) {
-  for (const int errno_of_those : {EAGAIN, 0}) {
-    const PageSoon page(1, errno_of_those);
-    EXPECT_TRUE(page.had);
-    EXPECT_EQ(page.calls.looks, 2);
-    EXPECT_EQ(page.calls.told, 1);
-    EXPECT_EQ(page.calls.told_offset, static_cast<off_t>(page.entry.offset));
-    EXPECT_EQ(page.calls.told_bytes, static_cast<off_t>(page.entry.stored_bytes));
-  }
-}
-
-// However long a look takes: not as often as it likes, but as long.
-TEST(PageFile, DoesNotLookForLongForWhatTheSystemHasLate) {
-  for (const int errno_of_those : {EAGAIN, 0}) {
-    const PageSoon page(1 << 20, errno_of_those, std::chrono::milliseconds(1));
-    EXPECT_FALSE(page.had);
-    EXPECT_EQ(page.calls.looks, 2);
-    EXPECT_EQ(page.calls.told, 1);
-  }
-}
-
-TEST(PageFile, LooksOnceWhereTheSystemCannotTellOrFailsOrTheFileEnds) {
-  for (const int errno_of_those : {EOPNOTSUPP, EIO, ForgetfulCalls::kEnd}) {
-    const PageSoon page(1 << 20, errno_of_those);
-    EXPECT_FALSE(page.had);
-    EXPECT_EQ(page.calls.looks, 1);
-    EXPECT_EQ(page.calls.told, 0);
-  }
-}
-
-TEST(FileHandle, LooksAgainAndAgainAsLongAsItMay) {
-  const TemporaryDirectory directory;
-  const SampleFile sample;
-  ASSERT_TRUE(sample.write(directory / "a.ptree"));
-  ForgetfulCalls calls;
-  calls.looks_in_vain = 100;
-  const FileHandle file =
-      FileHandle::open(calls, AT_FDCWD, (directory / "a.ptree").c_str(), O_RDONLY);
-  ASSERT_TRUE(file.is_open());
-  Bytes bytes(64);
-  EXPECT_TRUE(file.read_soon(0, bytes, std::chrono::minutes(10)));
-  EXPECT_EQ(calls.looks, 101);
-  EXPECT_EQ(calls.told, 1);
 }
 
 TEST(PageFile, ServesThreadsAtOnce) {
