@@ -18,14 +18,6 @@ float extent_of(float square) {
   return std::sqrt(square) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
 }
 
-// See BlockHeader::corner_bit().
-std::uint64_t pack_corners(const std::uint8_t (&corners)[kMaxBlockTriangles]) {
-  std::uint64_t packed = 0;
-  for (unsigned i = 0; i < kMaxBlockTriangles; ++i)
-    packed |= std::uint64_t{corners[i]} << BlockHeader::corner_bit(i);
-  return packed;
-}
-
 }  // namespace
 
 const char* BlockDecoder::start(std::byte* records) noexcept {
@@ -86,18 +78,18 @@ const char* BlockDecoder::find_vertices(const BlockHeader& header, Places& place
 
 const char* BlockDecoder::store_corners(BlockHeader& header) {
   corner_bytes_ -= corner_bytes(header.triangle_count, header.vertex_count());
-  const auto packed = streams_.corners.subspan(corner_bytes_);
-  std::uint8_t corners[3][kMaxBlockTriangles];
-  if (!unpack_corners(packed, header.triangle_count, header.vertex_count(), corners))
+  const auto stored = streams_.corners.subspan(corner_bytes_);
+  BlockCorners corners;
+  if (!unpack_corners(stored, header.triangle_count, header.vertex_count(), corners))
     return "a corner names a vertex its block has not";
-  for (std::size_t k = 0; k < 3; ++k)
-    if (header.compact())
-      header.packed_corners[k] = pack_corners(corners[k]);
-    else
-      std::memcpy(header.corner_row(k), corners[k], sizeof corners[k]);
+  if (header.compact())
+    std::memcpy(header.packed_corners, corners.packed, sizeof corners.packed);
+  else
+    for (std::size_t k = 0; k < 3; ++k)
+      std::memcpy(header.corner_row(k), corners.row[k], sizeof corners.row[k]);
   const std::size_t bits =
       std::size_t{3} * header.triangle_count * corner_bits(header.vertex_count());
-  if (bits % 8 != 0 && std::to_integer<unsigned>(packed[bits / 8]) >> bits % 8 != 0)
+  if (bits % 8 != 0 && std::to_integer<unsigned>(stored[bits / 8]) >> bits % 8 != 0)
     return "padding is not zero";
   return nullptr;
 }

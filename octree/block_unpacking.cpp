@@ -117,19 +117,32 @@ HWY_INLINE void take_long_corners(const std::uint8_t* packed, Bytes (&corners)[3
   hn::LoadInterleaved3(ByteTag(), fields, corners[0], corners[1], corners[2]);
 }
 
-bool corners_on_target(const std::uint8_t* packed, unsigned triangle_count, unsigned vertex_count,
-                       std::uint8_t (&corners)[3][kMaxBlockTriangles]) {
+// Four bits of each: those of triangles 0, 2, ... to 14, then of the others.
+HWY_INLINE std::uint64_t pack_corners(Bytes row) {
+  const ByteTag bytes;
+  const QuadTag quads;
+  const hn::Repartition<std::uint64_t, ByteTag> words;
+  // Of four triangles the first and third share a byte then, the second and fourth the next.
+  const Quads four = hn::BitCast(quads, row);
+  const Bytes joined = hn::BitCast(bytes, hn::Or(four, hn::ShiftRight<12>(four)));
+  alignas(16) static constexpr std::uint8_t kByte[] = {0, 4, 8, 12, 1, 5, 9, 13,
+                                                       0, 4, 8, 12, 1, 5, 9, 13};
+  return hn::GetLane(hn::BitCast(words, hn::TableLookupBytes(joined, hn::Load(bytes, kByte))));
+}
+
+bool corners_on_target(const std::uint8_t* stored, unsigned triangle_count, unsigned vertex_count,
+                       BlockCorners& corners) {
   const ByteTag bytes;
   Bytes of_all[3];
   switch (corner_bits(vertex_count)) {
     case 4:
-      take_corners<4>(packed, of_all);
+      take_corners<4>(stored, of_all);
       break;
     case 5:
-      take_corners<5>(packed, of_all);
+      take_corners<5>(stored, of_all);
       break;
     default:
-      take_long_corners(packed, of_all);
+      take_long_corners(stored, of_all);
   }
   const Bytes last = hn::Set(bytes, static_cast<std::uint8_t>(triangle_count - 1));
   const Bytes lanes = hn::Min(hn::Iota(bytes, 0), last);
@@ -138,7 +151,8 @@ bool corners_on_target(const std::uint8_t* packed, unsigned triangle_count, unsi
   for (std::size_t k = 0; k < 3; ++k) {
     const Bytes of_used = hn::TableLookupBytes(of_all[k], lanes);
     greatest = hn::Max(greatest, of_used);
-    hn::StoreU(of_used, bytes, corners[k]);
+    hn::StoreU(of_used, bytes, corners.row[k]);
+    corners.packed[k] = pack_corners(of_used);
   }
   return hn::AllTrue(bytes, hn::Eq(greatest, most));
 }
@@ -175,17 +189,19 @@ float rows_on_target(const float* vertices, const std::uint16_t* places, unsigne
 
 #else
 
-bool corners_on_target(const std::uint8_t* packed, unsigned triangle_count, unsigned vertex_count,
-                       std::uint8_t (&corners)[3][kMaxBlockTriangles]) {
+bool corners_on_target(const std::uint8_t* stored, unsigned triangle_count, unsigned vertex_count,
+                       BlockCorners& corners) {
   const unsigned bits = corner_bits(vertex_count);
   bool good = true;
+  for (std::uint64_t& packed : corners.packed) packed = 0;
   for (unsigned lane = 0; lane < kMaxBlockTriangles; ++lane)
     for (unsigned corner = 0; corner < 3; ++corner) {
       const unsigned bit = (3 * std::min(lane, triangle_count - 1) + corner) * bits;
-      const unsigned pair = packed[bit / 8] | unsigned{packed[bit / 8 + 1]} << 8;
+      const unsigned pair = stored[bit / 8] | unsigned{stored[bit / 8 + 1]} << 8;
       const unsigned vertex = pair >> bit % 8 & ((1U << bits) - 1);
       good &= vertex < vertex_count;
-      corners[corner][lane] = static_cast<std::uint8_t>(vertex);
+      corners.row[corner][lane] = static_cast<std::uint8_t>(vertex);
+      corners.packed[corner] |= std::uint64_t{vertex & 15} << BlockHeader::corner_bit(lane);
     }
   return good;
 }
@@ -243,15 +259,14 @@ bool unpack_vertices(const Shuffled<double>& shuffled, double* vertices) noexcep
   return unpack_one_by_one(shuffled, 0, vertices);
 }
 
-bool unpack_corners(std::span<const std::byte> packed, unsigned triangle_count,
-                    unsigned vertex_count,
-                    std::uint8_t (&corners)[3][kMaxBlockTriangles]) noexcept {
+bool unpack_corners(std::span<const std::byte> stored, unsigned triangle_count,
+                    unsigned vertex_count, BlockCorners& corners) noexcept {
   // Whole words and registers are read, whatever follows.
   std::array<std::byte, corner_bytes(kMaxBlockTriangles, kMaxBlockVertices) + 8> padded;
-  const std::byte* bytes = packed.data();
-  if (packed.size() < padded.size()) {
+  const std::byte* bytes = stored.data();
+  if (stored.size() < padded.size()) {
     padded.fill(std::byte{0});
-    std::copy(packed.begin(), packed.end(), padded.begin());
+    std::copy(stored.begin(), stored.end(), padded.begin());
     bytes = padded.data();
   }
   return HWY_DYNAMIC_DISPATCH(corners_on_target)(reinterpret_cast<const std::uint8_t*>(bytes),

@@ -23,14 +23,20 @@ inline constexpr double kFarthestVertex = 0x1p60;
 bool unpack_vertices(const Shuffled<float>& shuffled, float* vertices) noexcept;
 bool unpack_vertices(const Shuffled<double>& shuffled, double* vertices) noexcept;
 
+/// The vertices of a block's corners, as either form of a block's head has them.
+struct BlockCorners {
+  std::uint8_t row[3][kMaxBlockTriangles];
+  std::uint64_t packed[3];  ///< of a block with more than 16 vertices: nothing of use
+};
+
 /// Unpacks the corners of a block. Those of lanes past the last triangle are the last triangle's,
 /// so that kernels need no mask.
 ///
-/// packed          begins with the block's corners.
+/// stored          begins with the block's corners.
 /// triangle_count  1 to kMaxBlockTriangles; vertex_count  1 to kMaxBlockVertices.
 /// return          false if one is not below vertex_count.
-bool unpack_corners(std::span<const std::byte> packed, unsigned triangle_count,
-                    unsigned vertex_count, std::uint8_t (&corners)[3][kMaxBlockTriangles]) noexcept;
+bool unpack_corners(std::span<const std::byte> stored, unsigned triangle_count,
+                    unsigned vertex_count, BlockCorners& corners) noexcept;
 
 /// Lays vertices of a page out as a block has them.
 ///

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <linux/time_types.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/types.h>
@@ -9,7 +10,6 @@
 
 struct io_uring;
 struct io_uring_cqe;
-struct __kernel_timespec;
 
 /// The system calls storage makes, so that tests can make any of them fail.
 ///

@@ -29,16 +29,16 @@ std::vector<std::byte> packed(const Corners& corners, unsigned triangle_count,
   return bytes;
 }
 
-/// What became of some corners: 48 of them, and whether they are good.
+/// What became of some corners, and whether they are good.
 struct UnpackedCorners {
-  std::uint8_t corner[3][kMaxBlockTriangles];
+  BlockCorners corners;
   bool good;
 };
 
 UnpackedCorners unpack(const std::vector<std::byte>& bytes, unsigned triangle_count,
                        unsigned vertex_count) {
   UnpackedCorners unpacked{};
-  unpacked.good = unpack_corners(bytes, triangle_count, vertex_count, unpacked.corner);
+  unpacked.good = unpack_corners(bytes, triangle_count, vertex_count, unpacked.corners);
   return unpacked;
 }
 
@@ -66,8 +66,12 @@ TEST_P(CornersTest, ComeBackAndThoseOfTheLastTriangleOnAndOn) {
       for (const UnpackedCorners& one : unpacked) {
         EXPECT_TRUE(one.good);
         for (unsigned lane = 0; lane < kMaxBlockTriangles; ++lane)
-          for (unsigned k = 0; k < 3; ++k)
-            ASSERT_EQ(one.corner[k][lane], corners[std::min(lane, triangles - 1)][k]);
+          for (unsigned k = 0; k < 3; ++k) {
+            const unsigned corner = corners[std::min(lane, triangles - 1)][k];
+            ASSERT_EQ(one.corners.row[k][lane], corner);
+            if (vertex_count_ > BlockHeader::kMostCompactVertices) continue;
+            ASSERT_EQ(one.corners.packed[k] >> BlockHeader::corner_bit(lane) & 15, corner);
+          }
       }
     }
 }
