@@ -103,7 +103,7 @@ TEST(RandomModels, AnswerAlikeWithHardlyAnyMemoryAndInBatches) {
     Random random(5);
     const Soup triangles = family.make(random);
     BuiltModel roomy(triangles, {4096});
-    BuiltModel cramped(triangles, {4096, std::uint64_t{300} << 10, 1});
+    BuiltModel cramped(triangles, {4096, std::uint64_t{340} << 10, 1});
     std::vector<Vec3> queries;
     for (int k = 0; k < kQueriesPerModel; ++k) queries.push_back(nasty_query(random, triangles, 1));
     std::vector<ClosestPoint> answers(queries.size());
