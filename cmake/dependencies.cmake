@@ -3,7 +3,7 @@
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(liblz4 REQUIRED IMPORTED_TARGET liblz4)
-pkg_check_modules(liburing REQUIRED IMPORTED_TARGET liburing)
+pkg_check_modules(liburing REQUIRED IMPORTED_TARGET liburing>=2.2)
 pkg_check_modules(libxxhash REQUIRED IMPORTED_TARGET libxxhash)
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)

@@ -18,7 +18,7 @@ install(FILES
 
 # An archive leaves its own needs to the program that links it; a shared object
 # brings them along.
-set(pkgconfig_requires "liblz4 liburing libxxhash libhwy-contrib libhwy tbb")
+set(pkgconfig_requires "liblz4 liburing >= 2.2 libxxhash libhwy-contrib libhwy tbb")
 set(pkgconfig_pthread " -pthread")
 if(BUILD_SHARED_LIBS)
   set(pkgconfig_requires "")

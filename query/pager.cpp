@@ -53,11 +53,11 @@ Result<void> Pager::claim(const Limits& limits) {
   // pin() is one more.
   const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;
   most_waited_ = std::min(limits.wait_limit, kMostWaited);
-  wait_count_ = std::min(owner_count, kMostWaits);
-  constexpr std::uint64_t kWaitBytes = sizeof(storage::ReadWait) + storage::ReadWait::kMappedBytes;
+  const std::uint64_t wait_bytes =
+      owner_count * sizeof(OwnWait) +
+      std::min(owner_count, kMostWaits) * storage::ReadWait::kMappedBytes;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + owner_count * scratch_bytes() +
-                                wait_count_ * kWaitBytes + sizeof(Pager) +
-                                AskingMemory::bytes(needs) +
+                                wait_bytes + sizeof(Pager) + AskingMemory::bytes(needs) +
                                 limits.probe_bytes * limits.max_probes + limits.crew_bytes;
   const auto fill = [](void* context, const cache::FillRequest& request) {
     return static_cast<Pager*>(context)->fill(request);
@@ -70,7 +70,7 @@ Result<void> Pager::claim(const Limits& limits) {
   asking_.emplace(*std::move(asking));
   if (const auto locked = lock(limits.locking); !locked) return locked;
   scratch_.reset(new (std::nothrow) std::byte[owner_count * scratch_bytes()]);
-  waits_.reset(new (std::nothrow) storage::ReadWait[wait_count_]);
+  waits_.reset(new (std::nothrow) OwnWait[owner_count]);
   if (!scratch_ || !waits_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
@@ -112,10 +112,17 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
 
 storage::SoonTerms Pager::soon_terms(const cache::FillRequest& request) noexcept {
   storage::SoonTerms terms;
-  terms.wait = request.owner < wait_count_ ? &waits_[request.owner] : nullptr;
+  if (most_waited_.count() > 0) terms.wait = wait_of(request.owner);
   terms.most_waited = most_waited_;
   terms.soon_written = request.frame;
   return terms;
+}
+
+storage::ReadWait* Pager::wait_of(std::uint32_t owner) noexcept {
+  OwnWait& own = waits_[owner];
+  if (!own.is_given && waits_given_.load(std::memory_order_relaxed) < kMostWaits)
+    own.is_given = waits_given_.fetch_add(1, std::memory_order_relaxed) < kMostWaits;
+  return own.is_given ? &own.wait : nullptr;
 }
 
 // Pages of asks come first, one for each that this thread wants: neither waits for all of the

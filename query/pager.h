@@ -64,16 +64,22 @@ class Pager {
   }
   Result<cache::Filled> fill(const cache::FillRequest& request) noexcept;
   storage::SoonTerms soon_terms(const cache::FillRequest& request) noexcept;
+  storage::ReadWait* wait_of(std::uint32_t owner) noexcept;
 
   storage::PageFile file_;
-  // Each takes a descriptor while its model is open; owners beyond look for what they wait for.
+  // Each takes a descriptor while its model is open, and is given to who first needs one; owners
+  // without look for what they wait for.
   static constexpr std::uint64_t kMostWaits = 16;
   // Longer than disks take that move; others are left to a thread that gets pages.
   static constexpr std::chrono::milliseconds kMostWaited{20};
 
-  std::unique_ptr<std::byte[]> scratch_;        // scratch_bytes() of each owner of the cache
-  std::unique_ptr<storage::ReadWait[]> waits_;  // of the first wait_count_ owners
-  std::uint64_t wait_count_ = 0;
+  std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() of each owner of the cache
+  struct OwnWait {
+    storage::ReadWait wait;
+    bool is_given = false;
+  };
+  std::unique_ptr<OwnWait[]> waits_;  // of each owner, who may use it if it is given
+  std::atomic<std::uint64_t> waits_given_{0};
   std::chrono::milliseconds most_waited_{};
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<AskingMemory> asking_;

@@ -87,15 +87,15 @@ bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
   // Not by a function, which would be one of no effect to the compiler, and left out.
   for (std::size_t at = 0; at < terms.soon_written.size(); at += kLineBytes)
     __builtin_prefetch(&terms.soon_written[at], 1);
+  const auto end = std::chrono::steady_clock::now() + terms.most_waited;
   // What lies last mostly comes last.
   std::size_t awaited = out.size() - 1;
   for (unsigned i = 0; terms.wait != nullptr && i < kMostWaits; ++i) {
-    const auto waited =
-        terms.wait->wait_for(*calls_, descriptor_, offset + awaited, terms.most_waited);
-    if (waited == ReadWait::Outcome::kLate) return false;
+    const auto waited = terms.wait->wait_until(*calls_, descriptor_, offset + awaited, end);
     if (waited == ReadWait::Outcome::kRefused) break;
     look = look_once(offset, out);
     if (look.found != Found::kPart) return look.found == Found::kAll;
+    if (waited == ReadWait::Outcome::kLate) return false;
     awaited = look.bytes;
   }
   return look_until(std::chrono::steady_clock::now() + terms.most_looked, offset, out);

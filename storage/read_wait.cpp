@@ -21,8 +21,7 @@ void ReadWait::open(FileCalls& calls) noexcept {
   state_ = State::kIdle;
   // Without it a limit would be a second thing to be read.
   if ((ring_.features & IORING_FEAT_EXT_ARG) != 0) return;
-  calls.io_uring_queue_exit(&ring_);
-  state_ = State::kRefused;
+  give_up();
 }
 
 void ReadWait::start(int descriptor, std::uint64_t offset) noexcept {
@@ -30,17 +29,16 @@ void ReadWait::start(int descriptor, std::uint64_t offset) noexcept {
   state_ = State::kReading;
 }
 
-ReadWait::Outcome ReadWait::wait_for(FileCalls& calls, int descriptor, std::uint64_t offset,
-                                     std::chrono::microseconds most) noexcept {
+ReadWait::Outcome ReadWait::wait_until(FileCalls& calls, int descriptor, std::uint64_t offset,
+                                       Clock::time_point end) noexcept {
   if (state_ == State::kNew) open(calls);
+  if (state_ == State::kReading && finish(end) == Outcome::kLate) return Outcome::kLate;
   if (state_ == State::kRefused) return Outcome::kRefused;
-  const auto end = Clock::now() + most;
-  if (state_ == State::kReading && wait_until(end) == Outcome::kLate) return Outcome::kLate;
   start(descriptor, offset);
-  return wait_until(end);
+  return finish(end);
 }
 
-ReadWait::Outcome ReadWait::wait_until(Clock::time_point end) noexcept {
+ReadWait::Outcome ReadWait::finish(Clock::time_point end) noexcept {
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
     if (left.count() <= 0) return Outcome::kLate;
@@ -48,14 +46,24 @@ ReadWait::Outcome ReadWait::wait_until(Clock::time_point end) noexcept {
     __kernel_timespec most{left.count() / kSecond, left.count() % kSecond};
     io_uring_cqe* completion = nullptr;
     const int outcome = calls_->io_uring_submit_and_wait_timeout(&ring_, &completion, 1, &most);
-    if (outcome == -EINTR) continue;
+    if (completion != nullptr) {
+      const int count = completion->res;
+      io_uring_cqe_seen(&ring_, completion);
+      state_ = State::kIdle;
+      return count < 0 ? Outcome::kRefused : Outcome::kCame;
+    }
     // What was not told, or has not come, is in the ring, and the next wait is for it.
-    if (outcome < 0 || completion == nullptr) return Outcome::kLate;
-    const int count = completion->res;
-    io_uring_cqe_seen(&ring_, completion);
-    state_ = State::kIdle;
-    return count < 0 ? Outcome::kRefused : Outcome::kCame;
+    if (outcome == -ETIME || outcome == -EAGAIN || outcome == -EBUSY) return Outcome::kLate;
+    // A signal; one that comes after the read was told is not called so.
+    if (outcome == -EINTR || outcome >= 0) continue;
+    give_up();
+    return Outcome::kRefused;
   }
+}
+
+void ReadWait::give_up() noexcept {
+  calls_->io_uring_queue_exit(&ring_);
+  state_ = State::kRefused;
 }
 
 }  // namespace planetree::storage

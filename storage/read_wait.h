@@ -17,7 +17,8 @@ namespace planetree::storage {
 /// what lies about the byte.
 ///
 /// Made when it is first needed, of a descriptor and kMappedBytes; where the system refuses, it
-/// never waits. For one thread at a time; a moved-on thread may be another.
+/// never waits. For one thread at a time; that may be now this one, now that. Where a read comes
+/// late, a call of the system that the thread makes then may end with EINTR.
 class ReadWait {
  public:
   enum class Outcome : std::uint8_t {
@@ -26,7 +27,7 @@ class ReadWait {
     kRefused,  ///< cannot be waited for, or cannot be read
   };
 
-  /// Of memory that the system gives, in pages of 4 KiB.
+  /// Of memory that the system maps, where its pages have 4 KiB.
   static constexpr std::uint64_t kMappedBytes = 2 * 4096;
 
   ReadWait() noexcept = default;
@@ -36,8 +37,8 @@ class ReadWait {
 
   /// Until the byte at `offset` is in memory. While an earlier one is late, for that one first.
   /// calls   the system, each time the same; must outlive this.
-  Outcome wait_for(FileCalls& calls, int descriptor, std::uint64_t offset,
-                   std::chrono::microseconds most) noexcept;
+  Outcome wait_until(FileCalls& calls, int descriptor, std::uint64_t offset,
+                     std::chrono::steady_clock::time_point end) noexcept;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -45,7 +46,8 @@ class ReadWait {
 
   void open(FileCalls& calls) noexcept;
   void start(int descriptor, std::uint64_t offset) noexcept;
-  Outcome wait_until(Clock::time_point end) noexcept;
+  Outcome finish(Clock::time_point end) noexcept;
+  void give_up() noexcept;
 
   FileCalls* calls_ = nullptr;
   io_uring ring_{};

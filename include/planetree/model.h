@@ -26,7 +26,8 @@ enum class Locking : std::uint8_t {
 struct OpenOptions {
   /// Hard ceiling for all that the model holds in memory, its probes included.
   /// Claimed at open: the pages of the whole model if they fit, else as many as
-  /// do. Nothing grows afterwards.
+  /// do. Nothing grows afterwards but by 8 KiB for each probe that first waits by io_uring (see
+  /// wait_limit_ms), which are kept back.
   std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
   /// Threads that get what asks of Wait::kNever miss, what probes are moving to, and the pages
   /// of asks that wait where the disk takes longer than 20 ms; 1 to kMostFetchThreads. Started
@@ -47,8 +48,8 @@ struct OpenOptions {
 
   /// Longest that an ask of Wait::kForPages waits for a thread to get one page, in milliseconds.
   /// Before that it waits for the disk itself, as long but for no more than 20 ms: by io_uring, of
-  /// which the model's first 16 probes and threads may have one each, with a descriptor. Where
-  /// there is none it looks for the page again and again instead, for 0.3 ms.
+  /// which the first 16 probes that need one have one each, with a descriptor. Where there is none
+  /// it looks for the page again and again instead, for 0.3 ms.
   /// Then it waits for no other, and ends as kDegraded with an interval that holds; the next ask
   /// tries again.
   /// Opening and closing a model wait for as long as the disk takes.

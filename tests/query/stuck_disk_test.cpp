@@ -168,7 +168,7 @@ TEST_F(StuckDisk, IsWaitedForByFewAtATime) {
   while (probes.size() < kProbes) probes.push_back(make_probe(model));
   for (std::size_t i = 0; i < queries_.size(); ++i)
     EXPECT_EQ(probes[i % kProbes].closest_point(queries_[i]).status, Status::kExact);
-  EXPECT_EQ(disk_.rings, 15);  // and one is the fetch thread's, which has no use for it
+  EXPECT_EQ(disk_.rings, 16);
 }
 
 TEST_F(StuckDisk, IsWaitedForNoLongerThanTheLimit) {

@@ -144,10 +144,13 @@ class ReadSoonByAWait : public testing::Test {
   void SetUp() override {
     if (!RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
   }
-  ReadWait wait_;
-  const SoonTerms terms_{.most_looked = std::chrono::minutes(10),
-                         .wait = &wait_,
-                         .most_waited = std::chrono::minutes(10)};
+  // The calls outlive what waits by them.
+  static bool read(ForgetfulCalls& calls,
+                   std::chrono::milliseconds most_waited = std::chrono::minutes(10)) {
+    ReadWait wait;
+    return PageSoon(calls).read(
+        {.most_looked = std::chrono::minutes(10), .wait = &wait, .most_waited = most_waited});
+  }
 };
 
 TEST_F(ReadSoonByAWait, LooksOnceMoreAfterEachWait) {
@@ -164,7 +167,7 @@ TEST_F(ReadSoonByAWait, LooksOnceMoreAfterEachWait) {
 
 TEST_F(ReadSoonByAWait, LooksForWhatComesLater) {
   ForgetfulCalls calls(100);
-  EXPECT_TRUE(PageSoon(calls).read(terms_));
+  EXPECT_TRUE(read(calls));
   EXPECT_EQ(calls.looks, 101);
   EXPECT_EQ(calls.waits, 4);
 }
@@ -172,17 +175,27 @@ TEST_F(ReadSoonByAWait, LooksForWhatComesLater) {
 TEST_F(ReadSoonByAWait, LooksWhereWaitingIsRefused) {
   ForgetfulCalls calls(100);
   calls.refuses = true;
-  EXPECT_TRUE(PageSoon(calls).read(terms_));
+  EXPECT_TRUE(read(calls));
   EXPECT_EQ(calls.looks, 101);
   EXPECT_EQ(calls.waits, 0);
 }
 
-TEST_F(ReadSoonByAWait, DoesNotLookForWhatItHasWaitedForInVain) {
-  ForgetfulCalls calls(1);
-  calls.stands_still = true;
-  EXPECT_FALSE(PageSoon(calls).read(terms_));
-  EXPECT_EQ(calls.looks, 1);
-  EXPECT_EQ(calls.waits, 1);
+TEST_F(ReadSoonByAWait, LooksOnceForWhatItHasWaitedForInVain) {
+  for (const int looks_in_vain : {1, 2}) {
+    ForgetfulCalls calls(looks_in_vain);
+    calls.stands_still = true;
+    EXPECT_EQ(read(calls), looks_in_vain == 1);
+    EXPECT_EQ(calls.looks, 2);
+    EXPECT_EQ(calls.waits, 1);
+  }
+}
+
+// However many waits there are: of as long, three.
+TEST_F(ReadSoonByAWait, WaitsNoLongerThanTheLimitInAll) {
+  ForgetfulCalls calls(1 << 20);
+  calls.time_of_waits = std::chrono::milliseconds(30);
+  EXPECT_FALSE(read(calls, std::chrono::milliseconds(40)));
+  EXPECT_LE(calls.waits, 2);
 }
 
 }  // namespace

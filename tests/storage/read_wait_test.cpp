@@ -19,6 +19,10 @@ using Outcome = ReadWait::Outcome;
 constexpr std::chrono::minutes kLong{10};
 constexpr std::chrono::milliseconds kShort{2};
 
+std::chrono::steady_clock::time_point in(std::chrono::microseconds most) {
+  return std::chrono::steady_clock::now() + most;
+}
+
 /// What a read of waits until somebody writes.
 struct Pipe {
   Pipe() { EXPECT_EQ(::pipe(ends), 0); }
@@ -43,10 +47,10 @@ class AReadWait : public testing::Test {
         FileHandle::open(FileCalls::real(), AT_FDCWD, (directory_ / "a.ptree").c_str(), O_RDONLY);
   }
   Outcome wait_for_the_file(std::uint64_t offset = 0) {
-    return wait_->wait_for(calls_, file_.descriptor(), offset, kLong);
+    return wait_->wait_until(calls_, file_.descriptor(), offset, in(kLong));
   }
   Outcome wait_for(const Pipe& pipe, std::chrono::microseconds most) {
-    return wait_->wait_for(calls_, pipe.ends[0], 0, most);
+    return wait_->wait_until(calls_, pipe.ends[0], 0, in(most));
   }
 
   const TemporaryDirectory directory_;
@@ -88,7 +92,7 @@ TEST_F(AReadWait, IsRefusedWhereThereAreNoLimits) {
 }
 
 TEST_F(AReadWait, IsRefusedForWhatCannotBeRead) {
-  EXPECT_EQ(wait_->wait_for(calls_, -1, 0, kLong), Outcome::kRefused);
+  EXPECT_EQ(wait_->wait_until(calls_, -1, 0, in(kLong)), Outcome::kRefused);
   EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
 }
 
@@ -96,6 +100,22 @@ TEST_F(AReadWait, GoesOnAfterSignals) {
   calls_.interruptions = 3;
   EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
   EXPECT_EQ(calls_.waits, 4);
+}
+
+// Of a call that has told the system something, a signal ends the wait with no error.
+TEST_F(AReadWait, GoesOnAfterSignalsThatAreNotCalledSo) {
+  calls_.silent_interruptions = 3;
+  EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
+  EXPECT_EQ(calls_.waits, 4);
+}
+
+TEST_F(AReadWait, IsRefusedForGoodWhereTheSystemRefusesLater) {
+  EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
+  calls_.refuses_to_wait = true;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(wait_for_the_file(), Outcome::kRefused);
+  EXPECT_EQ(calls_.waits, 2);
+  wait_.reset();
+  EXPECT_EQ(calls_.rings_gone, 1);
 }
 
 TEST_F(AReadWait, IsNeverLongerThanItsLimit) {
@@ -108,7 +128,7 @@ TEST_F(AReadWait, IsNeverLongerThanItsLimit) {
 TEST_F(AReadWait, IsForALateReadBeforeTheNext) {
   const Pipe pipe;
   EXPECT_EQ(wait_for(pipe, kShort), Outcome::kLate);
-  EXPECT_EQ(wait_->wait_for(calls_, file_.descriptor(), 0, kShort), Outcome::kLate);
+  EXPECT_EQ(wait_->wait_until(calls_, file_.descriptor(), 0, in(kShort)), Outcome::kLate);
   pipe.write_byte();
   EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
   // Of the pipe one read was started, and it took the byte.

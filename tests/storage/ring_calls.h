@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <thread>
 
 #include "storage/file_calls.h"
 
@@ -16,6 +17,9 @@ class RingCalls : public FileCalls {
   bool knows_no_limits = false;  ///< as systems before 5.11
   bool stands_still = false;     ///< time goes by, and nothing comes
   int interruptions = 0;         ///< by signals, before anything comes
+  int silent_interruptions = 0;  ///< likewise, that say nothing of signals
+  bool refuses_to_wait = false;
+  std::chrono::milliseconds time_of_waits{0};
   int rings = 0, rings_gone = 0, waits = 0;
   std::chrono::nanoseconds longest_wait{0};  ///< that was asked for
 
@@ -32,7 +36,13 @@ class RingCalls : public FileCalls {
     const std::chrono::nanoseconds asked =
         std::chrono::seconds(most->tv_sec) + std::chrono::nanoseconds(most->tv_nsec);
     if (asked > longest_wait) longest_wait = asked;
+    if (time_of_waits.count() > 0) std::this_thread::sleep_for(time_of_waits);
+    if (refuses_to_wait) return -EPERM;
     if (stands_still) return -ETIME;
+    if (silent_interruptions > 0) {
+      --silent_interruptions;
+      return 0;
+    }
     if (interruptions > 0) {
       --interruptions;
       return -EINTR;
