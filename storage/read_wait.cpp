@@ -11,7 +11,7 @@ char unread_byte;
 }  // namespace
 
 ReadWait::~ReadWait() {
-  if (state_ == State::kIdle || state_ == State::kReading) calls_->io_uring_queue_exit(&ring_);
+  if (state_ == State::kIdle || state_ == State::kReading) give_up();
 }
 
 void ReadWait::open(FileCalls& calls) noexcept {
