@@ -15,7 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/peer_kinds.h"
-#include "octree/build/tree_builder.h"
+#include "octree/builder/tree_builder.h"
 
 namespace planetree::bench {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "query/page_decoding.h"
-#include "storage/page_file.h"
+#include "query/serve/page_decoding.h"
+#include "storage/file/page_file.h"
 
 namespace planetree::bench {
 namespace {

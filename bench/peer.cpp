@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "bench/peer_kinds.h"
-#include "octree/build/mesh_reader.h"
+#include "octree/builder/mesh/mesh_reader.h"
 
 namespace planetree::bench {
 namespace {

@@ -17,8 +17,8 @@
 #include "cache/reader_slot.h"
 #include "planetree/probe.h"
 #include "query/model_state.h"
-#include "tools/real_time.h"
-#include "tools/touch_path.h"
+#include "tools/session/real_time.h"
+#include "tools/session/session_path.h"
 
 namespace planetree::bench {
 namespace {

@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "storage/page_file.h"
+#include "storage/file/page_file.h"
 
 namespace planetree::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "cache/cache_tables.h"
-#include "cache/claimed_memory.h"
 #include "cache/frame_pool.h"
 #include "cache/page_cache.h"
+#include "cache/prefaulted_memory.h"
 
 namespace planetree::cache {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "cache/cutter.h"
+#include "cache/arena_layout.h"
 
 namespace planetree::cache {
 namespace {

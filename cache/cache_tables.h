@@ -4,11 +4,11 @@
 #include <span>
 
 #include "cache/cache_limits.h"
-#include "cache/claimed_memory.h"
-#include "cache/errands.h"
 #include "cache/eviction_policy.h"
+#include "cache/in_flight_reads.h"
 #include "cache/limbo.h"
 #include "cache/page_map.h"
+#include "cache/prefaulted_memory.h"
 #include "cache/reader_slot.h"
 
 namespace planetree::cache {

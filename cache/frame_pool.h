@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cache/claimed_memory.h"
+#include "cache/prefaulted_memory.h"
 #include "planetree/error.h"
 
 namespace planetree::cache {

@@ -12,12 +12,12 @@
 
 #include "cache/cache_limits.h"
 #include "cache/cache_tables.h"
-#include "cache/claimed_memory.h"
-#include "cache/errands.h"
 #include "cache/eviction_policy.h"
 #include "cache/frame_pool.h"
+#include "cache/in_flight_reads.h"
 #include "cache/limbo.h"
 #include "cache/page_map.h"
+#include "cache/prefaulted_memory.h"
 #include "cache/reader.h"
 #include "planetree/error.h"
 

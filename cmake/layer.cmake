@@ -1,11 +1,20 @@
-# planetree_add_layer(NAME [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...])
+# planetree_add_layer(NAME [EXCEPT files...] [DEPENDS targets...] [HEADERS headers...]
+#                     [HEADERS_OF target])
 #
 # A static library, for use inside this project only, of the sources in the
-# current folder. A folder without a source yet becomes an interface library.
-# HEADERS, large ones of other libraries, are compiled once for all sources.
+# current folder. A folder without sources becomes an interface library.
+#
+# DEPENDS      the folders and the libraries that it may include; tests/layering holds the
+#              sources to the same rows.
+# HEADERS      large headers of other libraries, compiled once for all its sources.
+# HEADERS_OF   a layer whose compiled headers it uses too.
 function(planetree_add_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "EXCEPT;DEPENDS;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "HEADERS_OF" "EXCEPT;DEPENDS;HEADERS;SUBFOLDERS")
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
+  foreach(sub IN LISTS layer_SUBFOLDERS)
+    file(GLOB more CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${sub}/*.cpp)
+    list(APPEND sources ${more})
+  endforeach()
   list(REMOVE_ITEM sources ${layer_EXCEPT})
   set(kind STATIC)
   set(scope PUBLIC)
@@ -19,8 +28,13 @@ function(planetree_add_layer name)
   target_link_libraries(${name} ${scope} ${layer_DEPENDS})
   if(layer_HEADERS)
     target_precompile_headers(${name} PRIVATE ${layer_HEADERS})
+  elseif(layer_HEADERS_OF AND sources)
+    target_precompile_headers(${name} REUSE_FROM ${layer_HEADERS_OF})
   endif()
   if(PLANETREE_BUILD_FUZZERS AND sources)
-    target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)  # fuzzers see their way
+    target_compile_options(${name} PRIVATE -fsanitize=fuzzer-no-link)  # so that fuzzers see coverage
   endif()
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
+    OUTPUT_VARIABLE folder)
+  set_property(GLOBAL APPEND PROPERTY planetree_layers "${name}|${folder}|${layer_DEPENDS}")
 endfunction()

@@ -1,5 +1,5 @@
 # The installed library: the layers in one archive, or in one shared object with
-# BUILD_SHARED_LIBS. Trees are built by the command, so octree/build stays outside.
+# BUILD_SHARED_LIBS. Trees are built by the command, so octree/builder stays outside.
 
 # tests/layering fails when a header of include/planetree is not named here.
 set(planetree_headers
@@ -13,7 +13,8 @@ set(planetree_headers
 
 add_library(planetree)
 add_library(planetree::planetree ALIAS planetree)
-foreach(layer error storage cache octree query)
+foreach(layer error storage_system storage_file cache geometry page traversal nearest winding mask
+        query)
   get_target_property(kind planetree_${layer} TYPE)
   if(kind STREQUAL STATIC_LIBRARY)
     target_sources(planetree PRIVATE $<TARGET_OBJECTS:planetree_${layer}>)

@@ -1,7 +1,7 @@
-# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [EXCEPT files...] [DEPENDS targets...])
+# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [EXCEPT beginnings...] [DEPENDS targets...])
 #
-# One program of the sources in the current folder; each test in it is a test
-# of ctest with this label. Nothing happens in a folder without a *_test.cpp.
+# One program of the sources in the current folder and below it; each test in it is a test
+# of ctest with this label.
 # GEOMETRY: the tests compute much, with the headers that this takes. TOGETHER:
 # compile several files at once; their names without a namespace must differ.
 find_package(GTest REQUIRED)
@@ -29,12 +29,10 @@ planetree_share_headers(geometry_test_headers
 
 function(planetree_add_tests label)
   cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY;TOGETHER" "" "EXCEPT;DEPENDS")
-  file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
-  if(NOT tests)
-    return()
-  endif()
-  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
-  list(REMOVE_ITEM sources ${test_EXCEPT})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
+  foreach(pattern IN LISTS test_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "^${pattern}")
+  endforeach()
   set(headers test_headers)
   if(test_GEOMETRY)
     set(headers geometry_test_headers)

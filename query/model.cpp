@@ -5,15 +5,15 @@
 #include <new>
 #include <utility>
 
-#include "octree/octcode.h"
-#include "octree/self_test.h"
-#include "query/batch_crew.h"
-#include "query/fetch_crew.h"
-#include "query/host_arithmetic.h"
-#include "query/model_region.h"
+#include "octree/geometry/octcode.h"
+#include "octree/geometry/startup_check.h"
+#include "query/answer/model_region.h"
 #include "query/model_state.h"
-#include "query/page_decoding.h"
 #include "query/probe_state.h"
+#include "query/serve/batch_threads.h"
+#include "query/serve/fetch_threads.h"
+#include "query/serve/fp_environment.h"
+#include "query/serve/page_decoding.h"
 
 namespace planetree {
 namespace query {

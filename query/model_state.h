@@ -8,18 +8,18 @@
 #include <new>
 #include <span>
 
-#include "octree/colour_map.h"
-#include "octree/mask_lookup.h"
-#include "octree/nearest.h"
-#include "octree/region.h"
+#include "octree/geometry/region.h"
+#include "octree/mask/mask_lookup.h"
+#include "octree/mask/side_grid.h"
+#include "octree/nearest/nearest.h"
 #include "planetree/error.h"
 #include "planetree/model.h"
 #include "planetree/stats.h"
-#include "query/asking_memory.h"
-#include "query/pager.h"
-#include "query/scale.h"
-#include "query/wishes.h"
-#include "storage/file_calls.h"
+#include "query/answer/scale.h"
+#include "query/serve/fetch_requests.h"
+#include "query/serve/pager.h"
+#include "query/serve/query_arena.h"
+#include "storage/system/file_calls.h"
 
 namespace planetree::query {
 

@@ -3,11 +3,11 @@
 #include <new>
 #include <utility>
 
-#include "query/batch.h"
-#include "query/closest_point.h"
-#include "query/containment.h"
-#include "query/host_arithmetic.h"
+#include "query/answer/closest_point.h"
+#include "query/answer/containment.h"
 #include "query/probe_state.h"
+#include "query/serve/batch.h"
+#include "query/serve/fp_environment.h"
 
 namespace planetree {
 namespace {

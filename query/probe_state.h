@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "cache/reader.h"
-#include "query/batch_order.h"
+#include "query/answer/side_cache.h"
 #include "query/model_state.h"
-#include "query/side_memory.h"
-#include "query/wishes.h"
+#include "query/serve/batch_order.h"
+#include "query/serve/fetch_requests.h"
 
 namespace planetree::query {
 

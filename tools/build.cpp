@@ -14,14 +14,14 @@
 #include <string>
 #include <system_error>
 
-#include "octree/build/mesh_text.h"
-#include "storage/file_error.h"
-#include "tools/coordinate_text.h"
-#include "tools/file_digest.h"
-#include "tools/file_text.h"
-#include "tools/progress.h"
-#include "tools/size_text.h"
-#include "tools/verb_options.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "storage/system/file_error.h"
+#include "tools/cli/coordinate_text.h"
+#include "tools/cli/file_digest.h"
+#include "tools/cli/file_text.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand_options.h"
 
 namespace planetree::tools {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "octree/build/tree_builder.h"
-#include "tools/verb.h"
+#include "octree/builder/tree_builder.h"
+#include "tools/cli/subcommand.h"
 
 namespace CLI {
 class App;

@@ -8,7 +8,7 @@
 #include <new>
 #include <string>
 
-#include "octree/build/mesh_text.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/build.h"
 #include "tools/generate.h"
 #include "tools/inspect.h"

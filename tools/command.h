@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/verb.h"
+#include "tools/cli/subcommand.h"
 
 namespace planetree::tools {
 

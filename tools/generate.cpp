@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/generate_file.h"
-#include "tools/generate_ply.h"
-#include "tools/progress.h"
-#include "tools/size_text.h"
-#include "tools/verb_options.h"
+#include "tools/cli/output_file.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand_options.h"
+#include "tools/shapes/generate_ply.h"
 
 namespace planetree::tools {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "tools/shape_model.h"
-#include "tools/verb.h"
+#include "tools/cli/subcommand.h"
+#include "tools/shapes/shape_model.h"
 
 namespace CLI {
 class App;

@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tools/explanation.h"
-#include "tools/file_parts.h"
-#include "tools/file_survey.h"
-#include "tools/open_model.h"
-#include "tools/page_report.h"
-#include "tools/progress.h"
-#include "tools/summary_report.h"
-#include "tools/verb_options.h"
+#include "tools/check/file_parts.h"
+#include "tools/cli/open_model.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/subcommand_options.h"
+#include "tools/report/explanation.h"
+#include "tools/report/file_survey.h"
+#include "tools/report/page_report.h"
+#include "tools/report/summary_report.h"
 
 namespace planetree::tools {
 namespace {

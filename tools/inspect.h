@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "planetree/types.h"
-#include "tools/file_text.h"
-#include "tools/slice_image.h"
-#include "tools/verb.h"
+#include "tools/cli/file_text.h"
+#include "tools/cli/subcommand.h"
+#include "tools/report/slice_image.h"
 
 namespace CLI {
 class App;

@@ -13,11 +13,11 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
-#include "tools/open_model.h"
-#include "tools/point_reader.h"
-#include "tools/progress.h"
-#include "tools/size_text.h"
-#include "tools/verb_options.h"
+#include "tools/cli/open_model.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand_options.h"
+#include "tools/points/point_reader.h"
 
 namespace planetree::tools {
 namespace {

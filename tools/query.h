@@ -7,8 +7,8 @@
 
 #include "planetree/model.h"
 #include "planetree/types.h"
-#include "tools/answer_writer.h"
-#include "tools/verb.h"
+#include "tools/cli/subcommand.h"
+#include "tools/points/answer_writer.h"
 
 namespace CLI {
 class App;

@@ -13,13 +13,13 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
-#include "tools/generate_file.h"
-#include "tools/open_model.h"
-#include "tools/touch_report.h"
-#include "tools/touch_session.h"
-#include "tools/touch_ticks.h"
-#include "tools/touch_trace.h"
-#include "tools/verb_options.h"
+#include "tools/cli/open_model.h"
+#include "tools/cli/output_file.h"
+#include "tools/cli/subcommand_options.h"
+#include "tools/session/session.h"
+#include "tools/session/session_report.h"
+#include "tools/session/session_ticks.h"
+#include "tools/session/session_trace.h"
 
 namespace planetree::tools {
 namespace {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tools/file_check.h"
-#include "tools/file_parts.h"
-#include "tools/progress.h"
-#include "tools/size_text.h"
-#include "tools/verb_options.h"
+#include "tools/check/file_check.h"
+#include "tools/check/file_parts.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand_options.h"
 
 namespace planetree::tools {
 namespace {

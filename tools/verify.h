@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "tools/verb.h"
+#include "tools/cli/subcommand.h"
 
 namespace CLI {
 class App;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cache/errands.h"
+#include "cache/in_flight_reads.h"
 #include "tests/cache/explored_cache.h"
 #include "tests/cache/explorer/program.h"
 

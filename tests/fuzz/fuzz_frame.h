@@ -6,7 +6,7 @@
 #include <cstring>
 #include <span>
 
-#include "octree/frame.h"
+#include "octree/page/frame.h"
 
 namespace planetree::octree {
 

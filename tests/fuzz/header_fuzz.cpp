@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "storage/page_file.h"
-#include "tests/storage/file_image.h"
+#include "storage/file/page_file.h"
+#include "tests/storage/file/file_image.h"
 
 /// Opens any bytes as a .ptree file and reads every page.
 ///

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "octree/mask_decoder.h"
-#include "octree/mask_lookup.h"
-#include "octree/mask_streams.h"
+#include "octree/mask/mask_lookup.h"
+#include "octree/page/mask_decoder.h"
+#include "octree/page/mask_streams.h"
 #include "tests/fuzz/fuzz_frame.h"
 
 /// Decodes any bytes as the pages of a small mask and looks points up in it.

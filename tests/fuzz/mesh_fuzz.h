@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string>
 
-#include "octree/build/mesh_reader.h"
+#include "octree/builder/mesh/mesh_reader.h"
 
 /// What the mesh readers' fuzzers share.
 namespace planetree::octree {

@@ -1,6 +1,6 @@
-#include "octree/build/obj_reader.h"
+#include "octree/builder/mesh/obj_reader.h"
 
-#include "octree/build/mesh_file.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
 
 /// Any bytes, read as OBJ: a file in memory has no name that ends in .obj.

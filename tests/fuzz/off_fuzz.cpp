@@ -1,6 +1,6 @@
-#include "octree/build/off_reader.h"
+#include "octree/builder/mesh/off_reader.h"
 
-#include "octree/build/mesh_file.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
 
 /// Any bytes, read as OFF: with a keyword, or as if the name ended in .off.

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "octree/nearest.h"
-#include "octree/page_decoder.h"
-#include "octree/page_streams.h"
-#include "octree/winding_number.h"
+#include "octree/nearest/nearest.h"
+#include "octree/page/page_decoder.h"
+#include "octree/page/page_streams.h"
+#include "octree/winding/winding_number.h"
 #include "tests/fuzz/fuzz_frame.h"
 
 /// Decodes any bytes as the pages of a small file and asks the tree they make.

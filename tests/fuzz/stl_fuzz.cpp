@@ -1,5 +1,5 @@
-#include "octree/build/mesh_file.h"
-#include "octree/build/stl_reader.h"
+#include "octree/builder/mesh/stl_reader.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "octree/child_bounds.h"
-#include "octree/plane.h"
+#include "octree/geometry/child_bounds.h"
+#include "octree/geometry/plane.h"
 #include "tests/golden/spec_reader.h"
 #include "tests/golden/spec_text.h"
 

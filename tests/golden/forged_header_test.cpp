@@ -6,10 +6,10 @@
 #include <string>
 
 #include "planetree/planetree.h"
-#include "storage/file_layout.h"
+#include "storage/file/file_layout.h"
 #include "tests/golden/samples.h"
-#include "tests/storage/file_image.h"
-#include "tests/storage/temporary_directory.h"
+#include "tests/storage/file/file_image.h"
+#include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::golden {
 namespace {

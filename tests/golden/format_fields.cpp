@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "octree/mask_streams.h"
-#include "octree/page_streams.h"
-#include "storage/file_layout.h"
+#include "octree/page/mask_streams.h"
+#include "octree/page/page_streams.h"
+#include "storage/file/file_layout.h"
 
 namespace planetree::golden {
 namespace {

@@ -11,8 +11,8 @@
 #include "planetree/planetree.h"
 #include "tests/golden/samples.h"
 #include "tests/golden/spec_tree.h"
-#include "tests/storage/file_image.h"
-#include "tests/storage/temporary_directory.h"
+#include "tests/storage/file/file_image.h"
+#include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::golden {
 namespace {

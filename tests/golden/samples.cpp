@@ -3,9 +3,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "octree/build/mesh_reader.h"
-#include "octree/build/tree_builder.h"
-#include "tests/storage/temporary_directory.h"
+#include "octree/builder/mesh/mesh_reader.h"
+#include "octree/builder/tree_builder.h"
+#include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::golden {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "octree/build/region_box.h"
+#include "octree/builder/job/region_box.h"
 #include "planetree/types.h"
 
 /// The files in format-spec/v1/samples: each a mesh and the .ptree made of it.

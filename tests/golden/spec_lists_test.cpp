@@ -20,8 +20,8 @@
 #include "tests/golden/spec_mask.h"
 #include "tests/golden/spec_tree.h"
 #include "tests/golden/spec_vector.h"
-#include "tests/octree/exact_overlap.h"
-#include "tests/storage/temporary_directory.h"
+#include "tests/octree/support/exact_overlap.h"
+#include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::golden {
 namespace {

@@ -8,9 +8,9 @@
 #include <regex>
 #include <string>
 
-#include "octree/octcode.h"
-#include "octree/page_streams.h"
-#include "storage/file_layout.h"
+#include "octree/geometry/octcode.h"
+#include "octree/page/page_streams.h"
+#include "storage/file/file_layout.h"
 #include "tests/golden/format_fields.h"
 #include "tests/golden/spec_text.h"
 
@@ -82,8 +82,8 @@ std::vector<std::string> coded_streams(const std::string& header) {
 SpecTable stream_table(const std::string& heading) { return spec_tables(heading).at(1); }
 
 TEST(SpecTables, StateTheStreamsInTheirOrder) {
-  const std::vector<std::string> distance = coded_streams("octree/page_streams.h");
-  const std::vector<std::string> mask = coded_streams("octree/mask_streams.h");
+  const std::vector<std::string> distance = coded_streams("octree/page/page_streams.h");
+  const std::vector<std::string> mask = coded_streams("octree/page/mask_streams.h");
   EXPECT_EQ(distance.size(), 21u);
   EXPECT_EQ(mask.size(), 20u);
   EXPECT_EQ(stream_table("Distance page").column("stream"), distance);

@@ -10,7 +10,7 @@
 
 #include "tests/golden/samples.h"
 #include "tests/golden/spec_tree.h"
-#include "tests/storage/temporary_directory.h"
+#include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::golden {
 namespace {

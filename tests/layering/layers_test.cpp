@@ -25,32 +25,32 @@ TEST(SourceText, TellsTheStandardLibraryFromTheRest) {
 
 TEST(Layers, AllowWhatLiesBelow) {
   EXPECT_EQ(forbidden_in("octree/build/merge.cpp",
-                         "#include \"storage/page_writer.h\"\n"
-                         "#include \"octree/plane.h\"\n"
+                         "#include \"storage/file/page_writer.h\"\n"
+                         "#include \"octree/geometry/plane.h\"\n"
                          "#include <oneapi/tbb/parallel_for.h>\n"),
             Lines{});
-  EXPECT_EQ(forbidden_in("storage/page_codec.cpp", "#include <lz4.h>\n#include <vector>\n"),
+  EXPECT_EQ(forbidden_in("storage/file/page_codec.cpp", "#include <lz4.h>\n#include <vector>\n"),
             Lines{});
 }
 
 TEST(Layers, RefuseWhatLiesAboveOrBeside) {
   EXPECT_EQ(forbidden_in("storage/a.cpp", "#include \"cache/limbo.h\"\n"),
             Lines{"storage/a.cpp may not include cache/limbo.h"});
-  EXPECT_EQ(forbidden_in("cache/a.h", "#include \"storage/page_file.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("cache/a.h", "#include \"storage/file/page_file.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("octree/a.cpp", "#include \"octree/build/merge.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("octree/build/a.cpp", "#include \"cache/limbo.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("query/a.cpp", "#include \"tools/progress.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("query/a.cpp", "#include \"tools/cli/progress.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("storage/a.h", "#include \"planetree/types.h\"\n").size(), 1u);
 }
 
 TEST(Layers, RefuseIncludesRelativeToTheIncluder) {
   EXPECT_EQ(forbidden_in("cache/a.h", "#include \"limbo.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("cache/a.h", "#include \"../storage/mapping.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("cache/a.h", "#include \"../storage/system/mapping.h\"\n").size(), 1u);
 }
 
 TEST(Layers, KeepLibrariesToTheirSoleIncluders) {
-  EXPECT_EQ(forbidden_in("storage/page_file.cpp", "#include <lz4.h>\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("storage/page_codec.cpp", "#include <xxhash.h>\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("storage/file/page_file.cpp", "#include <lz4.h>\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("storage/file/page_codec.cpp", "#include <xxhash.h>\n").size(), 1u);
   EXPECT_EQ(forbidden_in("include/planetree/a.h", "#include <Eigen/Core>\n").size(), 1u);
   EXPECT_EQ(forbidden_in("include/planetree/a.h", "#include <hwy/highway.h>\n").size(), 1u);
   EXPECT_EQ(forbidden_in("tests/octree/a_test.cpp", "#include <CGAL/AABB_tree.h>\n").size(), 1u);

@@ -22,7 +22,7 @@ struct SourceText {
 /// folders are passed over.
 std::vector<SourceText> read_sources(const std::filesystem::path& root);
 
-/// What the #include lines of `text` name, in order: "storage/mapping.h",
+/// What the #include lines of `text` name, in order: "storage/system/mapping.h",
 /// "vector". Lines inside a block comment count too.
 std::vector<std::string> includes_of(std::string_view text);
 

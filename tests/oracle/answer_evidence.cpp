@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "octree/triangle_distance.h"
+#include "octree/geometry/triangle_distance.h"
 #include "tests/oracle/interval_oracle.h"
 #include "tests/oracle/ray_crossing.h"
 

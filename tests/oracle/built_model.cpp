@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "octree/build/tree_builder.h"
-#include "storage/page_file.h"
+#include "octree/builder/tree_builder.h"
+#include "storage/file/page_file.h"
 
 namespace planetree::oracle {
 namespace {

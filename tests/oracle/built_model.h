@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "octree/build/build_options.h"
+#include "octree/builder/job/build_options.h"
 #include "planetree/model.h"
 #include "planetree/probe.h"
 #include "tests/oracle/brute_force.h"
-#include "tests/storage/temporary_directory.h"
+#include "tests/storage/system/temporary_directory.h"
 
 namespace planetree::oracle {
 

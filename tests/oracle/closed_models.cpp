@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/octree/divided_octahedron.h"
+#include "tests/octree/support/divided_octahedron.h"
 
 namespace planetree::oracle {
 namespace {

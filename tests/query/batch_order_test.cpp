@@ -1,4 +1,4 @@
-#include "query/batch_order.h"
+#include "query/serve/batch_order.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "octree/octcode.h"
+#include "octree/geometry/octcode.h"
 
 namespace planetree::query {
 namespace {

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "planetree/probe.h"
-#include "query/batch_order.h"
-#include "tests/octree/odd_arithmetic.h"
+#include "query/serve/batch_order.h"
+#include "tests/octree/support/odd_arithmetic.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "planetree/probe.h"
-#include "query/side.h"
-#include "tests/octree/sample_mask.h"
+#include "query/answer/side.h"
+#include "tests/octree/support/sample_mask.h"
 #include "tests/query/sample_model.h"
-#include "tests/storage/file_image.h"
+#include "tests/storage/file/file_image.h"
 
 // Sides of models with a mask: what it spares, and that nothing depends on it.
 namespace planetree::query {

@@ -1,6 +1,6 @@
 // Real time without threads or clocks: who does what when follows from a seed.
 
-#include "query/fetch_worker.h"
+#include "query/serve/fetch_worker.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "planetree/probe.h"
-#include "query/fetch_worker.h"
 #include "query/model_state.h"
+#include "query/serve/fetch_worker.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"

@@ -11,7 +11,7 @@
 #include "planetree/probe.h"
 #include "tests/query/answer_bits.h"
 #include "tests/query/sample_model.h"
-#include "tests/storage/file_image.h"
+#include "tests/storage/file/file_image.h"
 
 namespace planetree::query {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <string>
 
-#include "octree/build/edge_balance.h"
-#include "octree/build/mask_encoder.h"
-#include "storage/page_writer.h"
+#include "octree/builder/mask/mask_encoder.h"
+#include "octree/builder/surface/edge_balance.h"
+#include "storage/file/page_writer.h"
 
 namespace planetree::query {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
-#include "tests/octree/sample_tree.h"
-#include "tests/storage/temporary_directory.h"
+#include "tests/octree/support/sample_tree.h"
+#include "tests/storage/system/temporary_directory.h"
 
 /// Small models in files, and what is true of them.
 namespace planetree::query {

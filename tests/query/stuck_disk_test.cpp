@@ -14,7 +14,7 @@
 #include "query/model_state.h"
 #include "tests/query/eventually.h"
 #include "tests/query/sample_model.h"
-#include "tests/storage/ring_calls.h"
+#include "tests/storage/system/ring_calls.h"
 
 namespace planetree::query {
 namespace {

@@ -1,0 +1,107 @@
+#include "cache/prefaulted_memory.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cinttypes>
+#include <limits>
+#include <utility>
+
+namespace planetree::cache {
+namespace {
+
+static_assert(sizeof(std::size_t) == sizeof(std::uint64_t), "budgets are 64-bit sizes");
+
+constexpr std::uint64_t kHugePageBytes = std::uint64_t{2} << 20;
+/// As much is worth a huge page.
+constexpr std::uint64_t kNearlyHugeBytes = kHugePageBytes / 4 * 3;
+
+std::uint64_t system_page_bytes() noexcept {
+  static const auto bytes = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return bytes;
+}
+
+std::byte* map_anonymous(std::uint64_t bytes) noexcept {
+  void* address =
+      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  return address == MAP_FAILED ? nullptr : static_cast<std::byte*>(address);
+}
+
+/// The kernel backs only aligned 2 MiB stretches by huge pages, and older
+/// kernels do not align mappings: map more than asked and cut off both ends.
+std::byte* map_huge_aligned(std::uint64_t bytes) noexcept {
+  if (bytes > std::numeric_limits<std::uint64_t>::max() - kHugePageBytes) return nullptr;
+  std::byte* start = map_anonymous(bytes + kHugePageBytes);
+  if (start == nullptr) return nullptr;
+  const std::uint64_t past = reinterpret_cast<std::uintptr_t>(start) % kHugePageBytes;
+  const std::uint64_t skipped = past == 0 ? 0 : kHugePageBytes - past;
+  if (skipped != 0) ::munmap(start, skipped);
+  ::munmap(start + skipped + bytes, kHugePageBytes - skipped);
+  // Only a wish: where huge pages are switched off, small ones do.
+  ::madvise(start + skipped, bytes, MADV_HUGEPAGE);
+  return start + skipped;
+}
+
+/// Backs every page now. Returns false if the system has no memory for it.
+bool populate(std::byte* data, std::uint64_t bytes) noexcept {
+#ifdef MADV_POPULATE_WRITE
+  int outcome = 0;
+  do {
+    outcome = ::madvise(data, bytes, MADV_POPULATE_WRITE);
+  } while (outcome != 0 && errno == EINTR);
+  if (outcome == 0) return true;
+  if (errno != EINVAL) return false;
+#endif
+  // Kernels before 5.14 do not know the request: touch each page instead.
+  for (std::uint64_t at = 0; at < bytes; at += system_page_bytes()) {
+    *static_cast<volatile std::byte*>(data + at) = std::byte{0};
+  }
+  return true;
+}
+
+Error refused(std::uint64_t bytes) noexcept {
+  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                    "the system refused %" PRIu64
+                    " bytes of memory: lower the memory budget or free memory",
+                    bytes);
+}
+
+}  // namespace
+
+std::uint64_t ClaimedMemory::claimed_bytes(std::uint64_t bytes) noexcept {
+  const std::uint64_t last = system_page_bytes() - 1;
+  // Saturates instead of wrapping to a small number.
+  if (bytes > std::numeric_limits<std::uint64_t>::max() - last) return bytes;
+  const std::uint64_t rounded = (bytes + last) & ~last;
+  return rounded >= kNearlyHugeBytes ? std::max(rounded, kHugePageBytes) : rounded;
+}
+
+Result<ClaimedMemory> ClaimedMemory::claim(std::uint64_t bytes) noexcept {
+  assert(bytes != 0);
+  const std::uint64_t rounded = claimed_bytes(bytes);
+  std::byte* data = rounded >= kHugePageBytes ? map_huge_aligned(rounded) : map_anonymous(rounded);
+  if (data == nullptr) return refused(rounded);
+  ClaimedMemory memory(data, rounded);
+  if (!populate(data, rounded)) return refused(rounded);
+  return memory;
+}
+
+bool ClaimedMemory::lock() const noexcept { return ::mlock(data_, bytes_) == 0; }
+
+ClaimedMemory::ClaimedMemory(ClaimedMemory&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+
+ClaimedMemory& ClaimedMemory::operator=(ClaimedMemory&& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+ClaimedMemory::~ClaimedMemory() {
+  if (data_ != nullptr) ::munmap(data_, bytes_);
+}
+
+}  // namespace planetree::cache

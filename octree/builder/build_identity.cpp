@@ -1,0 +1,96 @@
+#include "octree/builder/build_identity.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <tuple>
+#include <vector>
+
+#include "storage/system/file_error.h"
+#include "storage/system/file_handle.h"
+
+namespace planetree::octree {
+namespace {
+
+/// To be raised with every change of the records or of what trees are made of.
+constexpr int kWorkVersion = 2;
+
+constexpr std::uint64_t kSampleBlocks = 64;
+constexpr std::uint64_t kBlockBytes = 4096;
+
+std::string version_text() {
+  return PLANETREE_VERSION " " + std::to_string(storage::kFormatVersion) + " " +
+         std::to_string(kWorkVersion);
+}
+
+Error input_error(const char* what) {
+  return storage::file_error(errno, storage::FileAction::kRead, what);
+}
+
+// From the first byte to the last; of a small file all.
+Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_t file_bytes) {
+  storage::Hasher128 hasher;
+  std::vector<std::byte> block(kBlockBytes);
+  const std::uint64_t last = file_bytes - std::min(file_bytes, kBlockBytes);
+  std::uint64_t next = 0;  // bytes before it are in the sample
+  for (std::uint64_t i = 0; i < kSampleBlocks; ++i) {
+    const bool at_end = i + 1 == kSampleBlocks;
+    const std::uint64_t from = std::max(next, at_end ? last : last / (kSampleBlocks - 1) * i);
+    const std::uint64_t to = std::min(from + kBlockBytes, file_bytes);
+    if (to <= from) continue;
+    const std::span<std::byte> bytes = std::span(block).first(to - from);
+    if (const auto read = file.read_at(from, bytes); !read) return read.error();
+    hasher.add(bytes);
+    next = to;
+  }
+  return hasher.value();
+}
+
+}  // namespace
+
+Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
+                                        const BuildOptions& options, const BuildSeams& seams) {
+  // O_NONBLOCK only so that a FIFO without a writer is refused, not waited for.
+  const auto file =
+      storage::FileHandle::open(seams.calls, AT_FDCWD, input.c_str(), O_RDONLY | O_NONBLOCK);
+  if (!file.is_open()) return input_error("open the file");
+  struct stat status;
+  if (seams.calls.fstat(file.descriptor(), &status) != 0) return input_error("examine the file");
+  if (!S_ISREG(status.st_mode))
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                      "not a regular file; a mesh is read out of order, so copy it into a file");
+  BuildIdentity identity;
+  identity.version = version_text();
+  identity.input_bytes = static_cast<std::uint64_t>(status.st_size);
+  identity.input_number = status.st_ino;
+  identity.changed_seconds = status.st_ctim.tv_sec;
+  identity.changed_nanoseconds = status.st_ctim.tv_nsec;
+  const auto sample = sample_of(file, identity.input_bytes);
+  if (!sample) return sample.error();
+  identity.sample_low = sample->low;
+  identity.sample_high = sample->high;
+  identity.page_bytes = options.page_bytes;
+  identity.strict = options.strict;
+  identity.patch_triangles = seams.patch_triangles;
+  identity.region_triangles = seams.region_triangles;
+  if (options.box) {
+    const auto& [lower, upper] = *options.box;
+    identity.box = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  }
+  return identity;
+}
+
+const char* BuildIdentity::change_since(const BuildIdentity& earlier) const {
+  if (*this == earlier) return nullptr;
+  if (version != earlier.version) return "it is another version's";
+  const auto input = [](const BuildIdentity& i) {
+    return std::tie(i.input_bytes, i.input_number, i.changed_seconds, i.changed_nanoseconds,
+                    i.sample_low, i.sample_high);
+  };
+  if (input(*this) != input(earlier)) return "the input has changed";
+  return "its options were others";
+}
+
+}  // namespace planetree::octree

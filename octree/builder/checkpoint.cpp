@@ -1,0 +1,163 @@
+#include "octree/builder/checkpoint.h"
+
+#include <utility>
+
+namespace planetree::octree {
+namespace {
+
+template <class... Values>
+bool read_record(std::span<const std::byte> payload, Values&... values) {
+  RecordReader record(payload);
+  record(values...);
+  return record.fits();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<KeptWork>> KeptWork::open(const std::filesystem::path& path,
+                                                 const BuildIdentity& identity,
+                                                 storage::FileCalls& calls) {
+  auto directory = storage::WorkDirectory::open(path, calls);
+  if (!directory) return directory.error();
+  auto journal = directory->open_file("journal");
+  if (!journal) return journal.error();
+  const auto journal_bytes = journal->size_bytes();
+  if (!journal_bytes) return journal_bytes.error();
+  std::unique_ptr<KeptWork> work(new KeptWork(*std::move(directory), *std::move(journal)));
+  work->removable_ = *journal_bytes == 0;
+  if (const auto taken = work->take_up(identity, *journal_bytes); !taken) return taken.error();
+  return work;
+}
+
+// The journal is cut before the file it speaks of is.
+Result<void> KeptWork::take_up(const BuildIdentity& identity, std::uint64_t journal_bytes) {
+  auto file = directory_.open_file("spill");
+  if (!file) return file.error();
+  const auto file_bytes = file->size_bytes();
+  if (!file_bytes) return file_bytes.error();
+  SpillExtent extent(*file_bytes);
+  if (journal_bytes > 0) refusal_ = "its journal is damaged";
+  const auto replayed =
+      journal_.replay([&](std::uint32_t kind, std::span<const std::byte> payload) {
+        if (identified_) {
+          SpillExtent with_it = extent;
+          const bool taken = restore(static_cast<Kind>(kind), payload, with_it);
+          if (taken) extent = with_it;
+          return taken;
+        }
+        return kind == static_cast<std::uint32_t>(Kind::kIdentity) &&
+               restore_identity(identity, payload);
+      });
+  if (!replayed) return replayed;
+  removable_ = !mesh_;
+  taken_up_bytes_ = extent.bytes();
+  if (*file_bytes > extent.end())
+    if (const auto cut = file->truncate(extent.end()); !cut) return cut;
+  spill_.emplace(*std::move(file), extent.end());
+  if (identified_) return {};
+  if (const auto begun = append(Kind::kIdentity, identity); !begun) return begun;
+  return directory_.sync_names();
+}
+
+bool KeptWork::restore_identity(const BuildIdentity& identity, std::span<const std::byte> payload) {
+  BuildIdentity earlier;
+  if (!read_record(payload, earlier)) earlier = {};
+  refusal_ = identity.change_since(earlier);
+  identified_ = refusal_ == nullptr;
+  page_bytes_ = identity.page_bytes;
+  return identified_;
+}
+
+bool KeptWork::restore(Kind kind, std::span<const std::byte> payload, SpillExtent& extent) {
+  refusal_ = "its files do not fit each other";
+  if (kind == Kind::kMesh && !mesh_) {
+    OrderedMesh mesh;
+    if (!read_record(payload, mesh) || !extent.take(mesh)) return false;
+    mesh_ = std::move(mesh);
+    return true;
+  }
+  if (kind == Kind::kSurface && mesh_ && !surface_) return restore_surface(payload, extent);
+  if (!surface_) return false;
+  return kind == Kind::kPatch    ? restore_patch(payload, extent)
+         : kind == Kind::kRegion ? restore_region(payload, extent)
+                                 : false;
+}
+
+bool KeptWork::restore_surface(std::span<const std::byte> payload, SpillExtent& extent) {
+  SurfaceWork surface;
+  if (!read_record(payload, surface) || !extent.take(surface, mesh_->frame.float64)) return false;
+  surface_ = std::move(surface);
+  return true;
+}
+
+bool KeptWork::restore_patch(std::span<const std::byte> payload, SpillExtent& extent) {
+  std::uint32_t number = 0;
+  PatchWork patch;
+  if (!read_record(payload, number, patch) ||
+      !extent.take(patch, mesh_->frame.float64, LinkFormat(page_bytes_)))
+    return false;
+  patches_.insert_or_assign(number, std::move(patch));
+  return true;
+}
+
+bool KeptWork::restore_region(std::span<const std::byte> payload, SpillExtent& extent) {
+  std::uint32_t number = 0;
+  BuiltRegion region;
+  if (!read_record(payload, number, region) ||
+      !extent.take(number, region, MaskLinkFormat(page_bytes_)))
+    return false;
+  regions_.insert_or_assign(number, std::move(region));
+  return true;
+}
+
+KeptWork::~KeptWork() {
+  // Whoever has it next would only begin; and an error that got us here says more than ours.
+  if (removable_) (void)remove();
+}
+
+std::string KeptWork::start() const {
+  if (!regions_.empty())
+    return "going on after colouring " + std::to_string(regions_.size()) + " parts";
+  if (mesh_ && !surface_) return "going on after ordering";
+  if (mesh_ && patches_.empty()) return "going on after matching edges";
+  if (mesh_) return "going on after bounding " + std::to_string(patches_.size()) + " parts";
+  if (refusal_ == nullptr) return "no earlier work to go on with; building from the start";
+  return std::string("earlier work is of no use, ") + refusal_ + "; building from the start";
+}
+
+std::optional<PatchWork> KeptWork::take_patch(std::uint32_t number) {
+  const auto found = patches_.find(number);
+  if (found == patches_.end()) return {};
+  return std::move(found->second);
+}
+
+template <class... Values>
+Result<void> KeptWork::append(Kind kind, const Values&... values) {
+  RecordWriter record;
+  record(values...);
+  if (const auto synced = spill_->sync(); !synced) return synced;
+  return journal_.append(static_cast<std::uint32_t>(kind), record.bytes());
+}
+
+Result<void> KeptWork::keep(const OrderedMesh& mesh) {
+  auto kept = append(Kind::kMesh, mesh);
+  if (kept) removable_ = false;
+  return kept;
+}
+
+Result<void> KeptWork::keep(const SurfaceWork& surface) { return append(Kind::kSurface, surface); }
+
+Result<void> KeptWork::keep(std::uint32_t number, const PatchWork& patch) {
+  return append(Kind::kPatch, number, patch);
+}
+
+Result<void> KeptWork::keep(std::uint32_t number, const BuiltRegion& region) {
+  return append(Kind::kRegion, number, region);
+}
+
+Result<void> KeptWork::remove() {
+  removable_ = false;
+  return directory_.remove();
+}
+
+}  // namespace planetree::octree

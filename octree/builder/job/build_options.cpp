@@ -1,0 +1,37 @@
+#include "octree/builder/job/build_options.h"
+
+#include <cstdio>
+#include <span>
+#include <string>
+#include <system_error>
+
+#include "storage/file/checksum.h"
+
+namespace planetree::octree {
+
+std::filesystem::path BuildOptions::output_directory(const std::filesystem::path& output) {
+  return output.has_parent_path() ? output.parent_path() : ".";
+}
+
+std::filesystem::path BuildOptions::spill_directory(const std::filesystem::path& output) const {
+  return temp_directory.empty() ? output_directory(output) : temp_directory;
+}
+
+// In a directory that other outputs may share, the name tells apart those of one name.
+std::filesystem::path BuildOptions::work_directory(const std::filesystem::path& output) const {
+  std::filesystem::path name = output.filename();
+  if (!temp_directory.empty()) {
+    std::error_code ignored;
+    const std::string whole =
+        (std::filesystem::weakly_canonical(output_directory(output), ignored) / name).string();
+    char digits[20];
+    std::snprintf(digits, sizeof digits, "-%016llx",
+                  static_cast<unsigned long long>(
+                      storage::hash64(std::as_bytes(std::span(whole.data(), whole.size())))));
+    name += digits;
+  }
+  name += ".work";
+  return (temp_directory.empty() ? output.parent_path() : temp_directory) / name;
+}
+
+}  // namespace planetree::octree

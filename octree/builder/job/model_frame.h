@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "octree/geometry/triangle_distance.h"
+#include "storage/file/file_layout.h"
+
+namespace planetree::octree {
+
+/// What is known of a mesh once it was read: its box, its scale and its counts.
+///
+/// The model frame is the input's scaled by a power of two, so that the longest edge of the
+/// box lies in [1, 2).
+struct ModelFrame {
+  std::uint64_t triangle_count = 0;
+  bool float64 = false;    ///< some coordinate of the model frame is no float32
+  int scale_exponent = 0;  ///< from the input to the model frame
+  Point input_lower = Point::Zero(), input_upper = Point::Zero();  ///< box, the input's units
+  Point input_sample = Point::Zero();  ///< corner 0 of the first triangle, the input's units
+  std::uint64_t sample_triangle = 0;   ///< its index
+  std::uint64_t set_aside_count = 0;   ///< triangle indices of records that could not be used
+  std::uint64_t first_set_aside = kNoTriangle;
+  std::string first_set_aside_text;
+
+  /// Box in the model frame.
+  Point lower() const { return scaled(input_lower); }
+  Point upper() const { return scaled(input_upper); }
+  Point centre() const { return (lower() + upper()) * 0.5; }
+
+  /// From the input to the model frame. What underflows is +0.
+  Point scaled(const Point& point) const;
+};
+
+}  // namespace planetree::octree

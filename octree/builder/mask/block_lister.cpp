@@ -1,0 +1,90 @@
+#include "octree/builder/mask/block_lister.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "octree/builder/mask/octant_overlap.h"
+#include "octree/geometry/strict_math.h"
+#include "octree/traversal/box_walk.h"
+#include "octree/traversal/outcodes.h"
+
+namespace planetree::octree {
+namespace {
+
+/// The blocks near a cell, and the octants of it that they touch.
+class NearBlocks {
+ public:
+  NearBlocks(const ClippedGrid& grid, const GridCell& cell)
+      : lower_(grid.lower(cell)),
+        upper_(grid.upper(cell)),
+        codes_(lower_, grid.middle(cell), upper_),
+        overlap_(lower_, grid.middle(cell), upper_) {}
+
+  const Point& lower() const { return lower_; }
+  const Point& upper() const { return upper_; }
+
+  void look_at(const BlockView& block, std::uint32_t link) {
+    if (count_ == kRoom) drop_untouched();
+    if (count_ == kRoom) return;  // too many already
+    const OctantCodes::Met met = codes_.met_by(block);
+    found_[count_] = {link, static_cast<std::uint8_t>(met.with_vertex)};
+    for (unsigned i = 0; i < block.triangle_count(); ++i) {
+      const unsigned near = met.by_box[i] & ~met.with_vertex;
+      if (near == 0) continue;
+      if (overlap_.full()) settle();
+      overlap_.add(block.triangle(i), near, count_);
+    }
+    ++count_;
+  }
+
+  // False: there are more than kMostListed.
+  bool list(MaskBlocks& blocks) {
+    drop_untouched();
+    if (count_ > kMostListed) return false;
+    std::sort(found_.begin(), found_.begin() + count_);
+    blocks.count = static_cast<std::uint8_t>(count_);
+    for (unsigned i = 0; i < count_; ++i) {
+      blocks.links[i] = found_[i].first;
+      blocks.octants[i] = found_[i].second;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr unsigned kRoom = 4 * kMostListed;
+
+  void settle() {
+    const OctantOverlap::Told told = overlap_.take();
+    for (unsigned k = 0; k < told.count; ++k) found_[told.places[k]].second |= told.octants[k];
+  }
+  void drop_untouched() {
+    settle();
+    const auto end = found_.begin() + count_;
+    const auto untouched = [](const auto& block) { return block.second == 0; };
+    count_ = static_cast<unsigned>(std::remove_if(found_.begin(), end, untouched) - found_.begin());
+  }
+
+  const Point lower_, upper_;
+  const OctantCodes codes_;
+  OctantOverlap overlap_;                                            // by places among those found
+  std::array<std::pair<std::uint32_t, std::uint8_t>, kRoom> found_;  // links, octants
+  unsigned count_ = 0;
+};
+
+}  // namespace
+
+BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& pages,
+                                       MaskBlocks& blocks) const {
+  NearBlocks near(grid_, cell);
+  TreeWork work;
+  const bool complete =
+      BoxWalk(tree_, near.lower(), near.upper(), pages, work)
+          .run(std::numeric_limits<std::uint64_t>::max(),
+               [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); });
+  if (!complete) return Outcome::kLost;
+  return near.list(blocks) ? Outcome::kListed : Outcome::kTooMany;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "octree/geometry/clipped_grid.h"
+#include "octree/page/mask_frame.h"
+#include "octree/traversal/tree_view.h"
+
+namespace planetree::octree {
+
+/// Finds the blocks of a tree that have triangles in a cell of its mask, and in which octants of
+/// the cell: so that who comes to the cell need not go down the tree to them.
+class BlockLister {
+ public:
+  /// Both must outlive this.
+  BlockLister(const TreeFacts& tree, const ClippedGrid& grid) : tree_(tree), grid_(grid) {}
+
+  enum class Outcome {
+    kListed,
+    kTooMany,  ///< more than kMostListed
+    kLost,     ///< a page could not be had
+  };
+  /// The blocks in the order of their links.
+  ///
+  /// cell    of a level above kLevels.
+  /// blocks  undefined unless kListed.
+  Outcome list(const GridCell& cell, const PageReader& pages, MaskBlocks& blocks) const;
+
+ private:
+  const TreeFacts& tree_;
+  const ClippedGrid& grid_;
+};
+
+}  // namespace planetree::octree

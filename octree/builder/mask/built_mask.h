@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "octree/builder/mask/mask_build.h"
+#include "octree/builder/mask/mask_plan.h"
+#include "octree/builder/tree/page_appender.h"
+#include "octree/builder/tree/spilled_page.h"
+#include "planetree/error.h"
+#include "storage/spill/spill_file.h"
+
+namespace planetree::octree {
+
+/// The mask of a region, its pages put away.
+struct BuiltRegion {
+  std::vector<SpilledPage> pages;
+  std::uint32_t family = 0;  ///< link to the root's, by the place of its page
+  std::uint64_t cell_count = 0;
+  unsigned levels = 0;
+  RegionRoot root;
+};
+
+/// The pages of a mask: those of its regions as they were put away, and those of the cells
+/// above. A mask of one region has that region's alone.
+class BuiltMask {
+ public:
+  /// float64  planes are stored as vertices are.
+  /// file     takes the regions' pages; must outlive this.
+  BuiltMask(std::uint32_t page_bytes, bool float64, storage::SpillFile& file)
+      : page_bytes_(page_bytes), float64_(float64), file_(file) {}
+
+  /// Takes a region that was built before, its pages being in the file; before build().
+  void take_up(std::uint32_t number, BuiltRegion region) {
+    known_.insert_or_assign(number, std::move(region));
+  }
+
+  /// Given each region that triangles touch once it is built; on any thread.
+  using RegionCall = std::function<Result<void>(std::uint32_t number, const BuiltRegion& region)>;
+
+  /// Builds it, once, but for what was taken up.
+  ///
+  /// tree    see build_mask().
+  /// errors  those of build_mask(), SpillFile and `done`; kBadArgument when links of 32 bits cannot
+  ///         tell so many pages apart: 2^19 of 64 KiB.
+  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs, const BuiltTree* tree,
+                     const RegionCall& done);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }
+  std::uint64_t cell_count() const { return cell_count_; }
+  unsigned levels() const { return levels_; }
+
+  /// A page by its number within the mask; any number of threads.
+  /// first_page  of the mask in its file.
+  Result<FilePage> encode(std::uint32_t number, std::uint32_t first_page) const;
+
+ private:
+  static constexpr std::uint32_t kAbove = ~std::uint32_t{0};
+  struct Region {
+    BuiltRegion built;
+    std::vector<std::uint32_t> numbers;  // of its pages
+  };
+  struct Page {
+    std::uint64_t octcode = 0;
+    std::uint32_t region = kAbove;
+    std::uint32_t place = 0;  // among the region's
+  };
+
+  Result<BuiltRegion> put_region_away(const MaskTree& mask, const MaskRoot& root);
+  void count_cells();
+  void number_pages();
+  void link_regions();
+  std::uint32_t link(const Region& region, std::uint32_t link) const;
+
+  const std::uint32_t page_bytes_;
+  const bool float64_;
+  storage::SpillFile& file_;
+  std::map<std::uint32_t, BuiltRegion> known_;
+  std::vector<Region> regions_;
+  MaskTree above_;
+  MaskPlan above_plan_;
+  std::vector<Page> pages_;
+  std::uint64_t cell_count_ = 0;
+  unsigned levels_ = 0;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,44 @@
+#include "octree/builder/mask/height_field_marks.h"
+
+#include <cstring>
+#include <utility>
+
+#include "octree/geometry/strict_math.h"
+#include "octree/page/page_streams.h"
+
+namespace planetree::octree {
+
+SheetMarks::SheetMarks(const BuiltTree& tree, const BuiltMask& mask)
+    : facts_(tree.facts()), desks_([&tree, &mask] {
+        return Desk{TreeFrames(tree, &mask), {}};
+      }) {
+  mask_.page_bytes = facts_.page_bytes;
+  mask_.first_page = tree.pages().size();
+  mask_.page_count = mask.size();
+  mask_.lower = facts_.box_lower;
+}
+
+Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
+  Desk& desk = desks_.local();
+  const PageReader pages = desk.frames.reader();
+  const std::byte* frame = pages.page(pages.context, number);
+  if (!frame) return desk.frames.state();
+  const FrameHeader header = *reinterpret_cast<const FrameHeader*>(frame);
+  desk.page.resize(header.used_bytes / kSlotBytes);
+  std::memcpy(desk.page.data(), frame, header.used_bytes);
+  std::vector<std::pair<std::size_t, BlockView>> promising;
+  std::size_t slot = header.first_block_slot;
+  for (std::size_t i = 0; i < header.block_count; ++i) {
+    const BlockView block(desk.page[slot].bytes, facts_.shape);
+    if (SheetFinder::may_be_in_sheet(block)) promising.emplace_back(i, block);
+    slot += block.slots();
+  }
+  // Where few blocks may be, their neighbours prove most of those not to be.
+  if (2 * promising.size() < header.block_count) promising.clear();
+  const SheetFinder finder(facts_, mask_);
+  for (const auto& [i, block] : promising)
+    if (finder.is_in_sheet(block, pages)) page.bytes[page.blocks_at + i] |= std::byte{kSheetBit};
+  return desk.frames.state();
+}
+
+}  // namespace planetree::octree

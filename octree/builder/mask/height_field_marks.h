@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "octree/builder/mask/built_mask.h"
+#include "octree/builder/mask/height_field_finder.h"
+#include "octree/builder/mask/tree_frames.h"
+#include "octree/builder/tree/built_tree.h"
+#include "octree/builder/tree/page_appender.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// Marks the blocks that are in sheets in the pages of a watertight model, all of which is built
+/// but not written. What is marked depends on the model alone.
+/// threads  any number.
+class SheetMarks {
+ public:
+  /// Both must outlive this.
+  SheetMarks(const BuiltTree& tree, const BuiltMask& mask);
+
+  /// Marks those of a distance page, by its number.
+  /// errors  those of TreeFrames.
+  Result<void> mark(std::uint32_t number, FilePage& page);
+
+ private:
+  struct Line {
+    alignas(kSlotBytes) std::byte bytes[kSlotBytes];
+  };
+  // What one thread works with.
+  struct Desk {
+    TreeFrames frames;
+    std::vector<Line> page;  // a copy: walks may take its frame
+  };
+
+  const TreeFacts facts_;
+  MaskFacts mask_;
+  tbb::enumerable_thread_specific<Desk> desks_;
+};
+
+}  // namespace planetree::octree

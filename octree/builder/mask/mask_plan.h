@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/mask/mask_tree.h"
+#include "octree/geometry/cell_grid.h"
+
+namespace planetree::octree {
+
+/// What one mask page holds: entries of a MaskTree, in the order of the frame.
+struct PlannedMaskPage {
+  std::uint32_t number = 0;            ///< within the mask
+  std::uint64_t octcode = 0;           ///< key: the coarsest cell that a root family divides
+  std::uint32_t ordinal = 0;           ///< always: such cells are distinct
+  std::uint32_t root_count = 0;        ///< first entries: families of nodes in other pages
+  std::vector<std::uint32_t> entries;  ///< roots, then families in the order of their nodes
+};
+
+struct MaskPlan {
+  std::uint32_t page_bytes = 0;         ///< of every frame
+  std::vector<PlannedMaskPage> pages;   ///< by their keys
+  std::vector<std::uint32_t> families;  ///< link to the family of each entry that is a node
+};
+
+/// Of which cell a mask is, and whether the root's own entry is in another mask's page.
+struct MaskRoot {
+  GridCell cell;
+  bool apart = false;
+};
+
+/// Packs a mask into pages of `page_bytes`. Families that hang from one page
+/// share pages, whole subtrees where they fit, and no others: so a page is read
+/// only after its one parent page.
+///
+MaskPlan plan_mask(const MaskTree& mask, std::uint32_t page_bytes, const MaskRoot& root = {});
+
+}  // namespace planetree::octree

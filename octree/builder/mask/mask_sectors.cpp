@@ -1,0 +1,239 @@
+#include "octree/builder/mask/mask_sectors.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "octree/builder/sort/morton_order.h"
+#include "octree/builder/surface/edge_crossings.h"
+#include "octree/geometry/cell_overlap.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Cells are not divided any more where that has so many times over left more than half of
+/// the triangles together: their centres coincide.
+constexpr unsigned kMostWasted = 3;
+
+}  // namespace
+
+Result<void> MaskRegions::divide(const TriangleRuns& runs, std::uint64_t most) {
+  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, most, 0);
+}
+
+Result<void> MaskRegions::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
+                                 std::uint64_t most, unsigned wasted) {
+  if (stretch.size <= most || wasted > kMostWasted || regions_[at].cell.level == kLevels ||
+      !grid_.has_part_of(regions_[at].cell))
+    return {};
+  const auto octants = octants_of(at, stretch, runs);
+  if (!octants) return octants.error();
+  const std::size_t first = regions_.size();
+  regions_[at].first_octant = static_cast<std::uint32_t>(first);
+  bool all_asked_for = true;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    regions_.push_back({regions_[at].cell.child(octant)});
+    all_asked_for = all_asked_for && grid_.has_part_of(regions_.back().cell);
+  }
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    const Stretch& part = (*octants)[octant];
+    // Around what is asked for all centres are in one octant however far apart they are.
+    const bool told_apart = part.size <= stretch.size / 2 || !all_asked_for;
+    const auto divided = divide(first + octant, part, runs, most, told_apart ? 0 : wasted + 1);
+    if (!divided) return divided;
+  }
+  return {};
+}
+
+Result<std::array<MaskRegions::Stretch, 8>> MaskRegions::octants_of(
+    std::size_t at, const Stretch& stretch, const TriangleRuns& runs) const {
+  std::array<Stretch, 8> octants;
+  octants[0].from = stretch.from;
+  for (unsigned octant = 1; octant < 8; ++octant) {
+    auto cut = runs.cut(regions_[at].cell.child(octant).first_code());
+    if (!cut) return cut.error();
+    octants[octant - 1].to = *cut;
+    octants[octant].from = *std::move(cut);
+  }
+  octants[7].to = stretch.to;
+  for (Stretch& octant : octants) octant.size = TriangleRuns::count(octant.from, octant.to);
+  return octants;
+}
+
+std::size_t MaskRegions::region_of_code(std::uint64_t code) const {
+  std::size_t at = 0;
+  while (regions_[at].divided()) {
+    const unsigned shift = 3 * (kLevels - regions_[at].cell.level - 1);
+    at = regions_[at].first_octant + (code >> shift & 7);
+  }
+  return at;
+}
+
+/// What one part of the model adds to the regions.
+class MaskRegions::Visit {
+ public:
+  explicit Visit(const MaskRegions& regions) : regions_(regions), visitors_(regions.float64_) {}
+
+  void add(const storage::SpillKey& key, const Triangle& triangle) {
+    own_ = regions_.region_of_code(key.first);
+    key_ = key;
+    const BoxedTriangle boxed(triangle);
+    if (is_inside_own(boxed))
+      rise_of(own_);
+    else
+      touch(0, boxed);
+  }
+
+  // But for the visitors.
+  Part part() const {
+    Part part;
+    for (const auto& [at, rise] : rises_) part.rises.push_back({at, rise});
+    return part;
+  }
+  std::vector<std::byte> take_visitors() {
+    visitors_.sort();
+    return visitors_.take_records();
+  }
+
+ private:
+  void touch(std::size_t at, const BoxedTriangle& triangle) {
+    const Region& region = regions_.regions_[at];
+    if (region.divided()) {
+      const unsigned near = octants_of_box(triangle, regions_.grid_.middle(region.cell));
+      for (unsigned octant = 0; octant < 8; ++octant)
+        if ((near >> octant & 1) != 0) touch(region.first_octant + octant, triangle);
+      return;
+    }
+    const Point lower = regions_.grid_.lower(region.cell),
+                upper = regions_.grid_.upper(region.cell);
+    if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
+    if (at != own_ && regions_.grid_.has_part_of(region.cell))
+      visitors_.add({at, key_.second}, triangle.corners);
+    auto& rise = rise_of(at);
+    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, rise);
+  }
+
+  // Whether no other region is touched, nor the own one's edges.
+  bool is_inside_own(const BoxedTriangle& triangle) const {
+    const GridCell& cell = regions_.regions_[own_].cell;
+    return (triangle.least.array() > regions_.grid_.lower(cell).array()).all() &&
+           (triangle.greatest.array() < regions_.grid_.upper(cell).array()).all();
+  }
+
+  // Triangles in order mostly touch the region that the one before did.
+  std::array<std::int64_t, 8>& rise_of(std::size_t at) {
+    if (at != last_ || !last_rise_) last_rise_ = &rises_[static_cast<std::uint32_t>(at)];
+    last_ = at;
+    return *last_rise_;
+  }
+
+  // Edges are in sides across two axes.
+  static bool may_cross_edges(const BoxedTriangle& triangle, const Point& lower,
+                              const Point& upper) {
+    return (triangle.least.array() <= lower.array() || triangle.greatest.array() >= upper.array())
+               .count() >= 2;
+  }
+
+  void add_rise(const BoxedTriangle& triangle, const GridCell& cell,
+                std::array<std::int64_t, 8>& rise) const;
+
+  const MaskRegions& regions_;
+  std::size_t own_ = 0;
+  storage::SpillKey key_;
+  std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by region
+  std::size_t last_ = 0;                                        // whose rise was asked for
+  std::array<std::int64_t, 8>* last_rise_ = nullptr;
+  Triangles visitors_;
+};
+
+// Crossings along the cell's edges, each from the corner before it on the way from the least.
+void MaskRegions::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
+                                  std::array<std::int64_t, 8>& rise) const {
+  std::array<std::int64_t, 8> steps{};
+  for (unsigned which = 1; which < 8; ++which) {
+    const unsigned before = which & (which - 1);
+    const DownwardSegment edge(
+        {regions_.grid_.corner(cell, which), regions_.grid_.corner(cell, before)},
+        axis_of_edge(which, before));
+    steps[which] = steps[before] + edge.crossing(triangle);
+    rise[which] += steps[which];
+  }
+}
+
+void MaskRegions::sum_up(const Part& part) {
+  const std::lock_guard lock(mutex_);
+  for (const Rise& rise : part.rises) {
+    Region& region = regions_[rise.region];
+    region.touched = grid_.has_part_of(region.cell);
+    for (unsigned which = 0; which < 8; ++which) region.rise[which] += rise.corners[which];
+  }
+}
+
+Result<MaskRegions::Part> MaskRegions::add(const Triangles& triangles) {
+  Visit visit(*this);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    visit.add(triangles.key(i), triangles.corners(i));
+  const auto visitors = visitors_.add(visit.take_visitors());
+  if (!visitors) return visitors.error();
+  Part part = visit.part();
+  part.visitors = *visitors;
+  sum_up(part);
+  return part;
+}
+
+bool MaskRegions::add_placed(const Part& part) {
+  for (const Rise& rise : part.rises)
+    if (rise.region >= regions_.size() || regions_[rise.region].divided()) return false;
+  visitors_.add_placed(part.visitors);
+  sum_up(part);
+  return true;
+}
+
+Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) const {
+  const GridCell& cell = regions_[at].cell;
+  const auto from = runs.cut(cell.first_code());
+  if (!from) return from.error();
+  // The codes of a cell are as many as the finest cells in it.
+  const auto to = runs.cut(cell.first_code() + (std::uint64_t{1} << 3 * (kLevels - cell.level)));
+  if (!to) return to.error();
+  const auto own = runs.read(*from, *to);
+  if (!own) return own.error();
+  const auto first = visitors_.cut({at, 0}), last = visitors_.cut({at + 1, 0});
+  if (!first) return first.error();
+  if (!last) return last.error();
+  auto records = visitors_.read(*first, *last);
+  if (!records) return records.error();
+  Triangles visitors(*std::move(records), float64_);
+  for (std::uint32_t i = 0; i < visitors.size(); ++i) {
+    const Triangle triangle = visitors.corners(i);
+    visitors.set(i, {morton_code_of(triangle, lower_), visitors.index(i)}, triangle);
+  }
+  visitors.sort();
+  return joined(*own, visitors, at);
+}
+
+// By key; of a region's own triangles those that touch it.
+Triangles MaskRegions::joined(const Triangles& own, const Triangles& visitors,
+                              std::size_t region) const {
+  const GridCell& cell = regions_[region].cell;
+  const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
+  Triangles all(float64_);
+  all.reserve(std::size_t{own.size()} + visitors.size());
+  std::uint32_t next = 0;
+  const auto add_visitors_before = [&](const storage::SpillKey& key) {
+    for (; next < visitors.size() && visitors.key(next) < key; ++next)
+      all.add(visitors.key(next), visitors.corners(next));
+  };
+  for (std::uint32_t i = 0; i < own.size(); ++i) {
+    const Triangle triangle = own.corners(i);
+    if (region != 0 && !may_touch(triangle, lower, upper)) continue;
+    add_visitors_before(own.key(i));
+    all.add(own.key(i), triangle);
+  }
+  constexpr std::uint64_t kLast = ~std::uint64_t{0};
+  add_visitors_before({kLast, kLast});
+  return all;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/mask/special_cell.h"
+#include "octree/page/mask_frame.h"
+
+namespace planetree::octree {
+
+/// A grey cell of the mask.
+struct MaskEntry {
+  /// kRegion is a node whose octants are in a mask of their own.
+  enum class Kind : std::uint8_t { kNode, kRegion, kCorners, kSpecial, kListed };
+
+  Kind kind = Kind::kNode;
+  /// Of a node: its octants, as in MaskNode. `first` is the entry of its first
+  /// grey octant, the others follow; of a region: its number.
+  std::uint8_t grey = 0, leaf = 0, black = 0, inverted = 0;
+  /// Of a special cell: into MaskTree::specials; of a listed one: into MaskTree::lists.
+  std::uint32_t first = 0;
+  bool is_leaf() const { return kind != Kind::kNode && kind != Kind::kRegion; }
+  MaskCorners corners{};  ///< of a listed cell too
+};
+
+/// The mask of a watertight model.
+struct MaskTree {
+  std::vector<MaskEntry> entries;  ///< 0 is the root; children come after their parent
+  std::vector<SpecialCell> specials;
+  std::vector<MaskBlocks> lists;
+  unsigned levels = 0;  ///< level of the finest grey cell
+
+  /// Makes the entry at `place` that of a divided cell, with room for its grey octants' entries.
+  /// winding  at the octants' least corners: the colour of those that are not grey.
+  void divide(std::size_t place, const std::array<bool, 8>& grey,
+              const std::array<std::int64_t, 8>& winding);
+  /// Notes in the entry at `node` whether its octant, whose entry is at `child`, is a leaf.
+  void note_leaf(std::size_t node, unsigned octant, std::size_t child);
+};
+
+}  // namespace planetree::octree

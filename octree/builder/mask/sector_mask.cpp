@@ -1,0 +1,251 @@
+#include "octree/builder/mask/sector_mask.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <numeric>
+#include <utility>
+
+#include "octree/builder/mask/octant_overlap.h"
+#include "octree/builder/mask/slab_fit.h"
+#include "octree/builder/surface/edge_count.h"
+#include "octree/builder/surface/edge_crossings.h"
+#include "octree/geometry/clipped_grid.h"
+#include "octree/geometry/predicates.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Cells that no more touch are not divided further.
+constexpr std::size_t kFewTriangles = 64;
+/// Unless they touch so few octants.
+constexpr int kFewOctants = 2;
+/// Nor are those whose triangles have been listed so many times over, in octants
+/// of octants, since their number last halved: they are larger than the cell or
+/// coincide, and smaller cells would not tell them apart.
+constexpr double kMostCopies = 3;
+/// A special cell pays for its planes by so many triangles each.
+constexpr std::size_t kTrianglesPerPlane = 12;
+constexpr std::size_t kMostSpecialTriangles = 4096;
+
+/// A cell and what is known of it.
+struct GreyCell {
+  GridCell cell;
+  std::vector<std::uint32_t> triangles;  ///< positions; all that may touch it
+  std::int64_t winding = 0;              ///< at its least corner
+  std::size_t halved = 0;                ///< triangles when their number last halved
+  double copies = 1;                     ///< of each triangle since
+};
+
+using Octants = std::array<GreyCell, 8>;
+
+class RegionMask {
+ public:
+  RegionMask(const ClippedGrid& grid, const Triangles& triangles, const ListBlocks& list)
+      : grid_(grid), list_(list) {
+    triangles_.reserve(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      triangles_.emplace_back(triangles.corners(i));
+  }
+
+  // winding  at the cell's least corner.
+  MaskTree run(const GridCell& cell, std::int64_t winding) const {
+    GreyCell region{cell, {}, winding, triangles_.size()};
+    region.triangles.resize(triangles_.size());
+    std::iota(region.triangles.begin(), region.triangles.end(), 0);
+    MaskTree tree;
+    tree.entries.resize(1);
+    grow(std::move(region), tree, 0);
+    return tree;
+  }
+
+ private:
+  // Makes the entry at `place` of a cell; what is below goes to the end.
+  void grow(GreyCell grey, MaskTree& tree, std::size_t place) const {
+    tree.levels = std::max(tree.levels, grey.cell.level);
+    if (make_special(grey, tree, place)) return;
+    const std::size_t count = grey.triangles.size();
+    if (grey.cell.level == kLevels || (count <= kFewTriangles && !in_few_octants(grey)))
+      return make_corners(grey, tree, place);
+    Octants octants = divide(grey);
+    if (!worthwhile(grey, octants)) return make_corners(grey, tree, place);
+    grey.triangles = {};
+    add_node(octants, tree, place);
+    std::size_t child = tree.entries[place].first;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      if (octants[octant].triangles.empty()) continue;
+      grow(std::move(octants[octant]), tree, child);
+      tree.note_leaf(place, octant, child++);
+    }
+  }
+
+  // Whether the surface only grazes the cell, so that most of it will be white or black.
+  bool in_few_octants(const GreyCell& grey) const {
+    const Point middle = grid_.middle(grey.cell);
+    unsigned near = 0;
+    for (const std::uint32_t position : grey.triangles)
+      near |= octants_of_box(triangles_[position], middle);
+    return std::popcount(near) <= kFewOctants;
+  }
+
+  // Whether octants tell triangles apart; if so, hands on by how much.
+  static bool worthwhile(const GreyCell& grey, Octants& octants) {
+    std::size_t listed = 0;
+    for (const GreyCell& octant : octants) listed += octant.triangles.size();
+    const double copies =
+        grey.copies * static_cast<double>(listed) / static_cast<double>(grey.triangles.size());
+    for (GreyCell& octant : octants) {
+      const bool halved = octant.triangles.size() <= grey.halved / 2;
+      octant.halved = halved ? octant.triangles.size() : grey.halved;
+      octant.copies = halved ? 1 : copies;
+    }
+    return copies <= kMostCopies;
+  }
+
+  Octants divide(const GreyCell& grey) const {
+    Octants octants;
+    std::array<Point, 8> lower;  // the corners of the first, too
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      octants[octant].cell = grey.cell.child(octant);
+      lower[octant] = grid_.lower(octants[octant].cell);
+    }
+    hand_out(grey, octants);
+    octants[0].winding = grey.winding;
+    const std::array<std::int64_t, 8> winding = edge_count(lower, octants[0]).all();
+    for (unsigned octant = 0; octant < 8; ++octant) octants[octant].winding = winding[octant];
+    for (GreyCell& octant : octants)
+      if (!grid_.has_part_of(octant.cell)) octant = {octant.cell, {}};
+    return octants;
+  }
+
+  // Each octant the triangles that may touch it, in order.
+  void hand_out(const GreyCell& grey, Octants& octants) const {
+    const std::vector<std::uint8_t> touched = octants_touched(grey);
+    std::array<std::size_t, 8> counts{};
+    for (unsigned left : touched)
+      for (; left != 0; left &= left - 1) ++counts[static_cast<unsigned>(std::countr_zero(left))];
+    for (unsigned octant = 0; octant < 8; ++octant)
+      octants[octant].triangles.reserve(counts[octant]);
+    for (std::size_t i = 0; i < touched.size(); ++i)
+      for (unsigned left = touched[i]; left != 0; left &= left - 1)
+        octants[static_cast<unsigned>(std::countr_zero(left))].triangles.push_back(
+            grey.triangles[i]);
+  }
+
+  // Those that each triangle may touch, a bit each.
+  std::vector<std::uint8_t> octants_touched(const GreyCell& grey) const {
+    const Point middle = grid_.middle(grey.cell);
+    std::vector<std::uint8_t> touched(grey.triangles.size());
+    OctantOverlap overlap(grid_.lower(grey.cell), middle, grid_.upper(grey.cell));
+    const auto settle = [&] {
+      const OctantOverlap::Told told = overlap.take();
+      for (unsigned k = 0; k < told.count; ++k) touched[told.places[k]] = told.octants[k];
+    };
+    constexpr std::uint32_t kAhead = 16;
+    for (std::uint32_t i = 0; i < touched.size(); ++i) {
+      if (i + kAhead < touched.size()) __builtin_prefetch(&triangles_[grey.triangles[i + kAhead]]);
+      const BoxedTriangle& triangle = triangles_[grey.triangles[i]];
+      const unsigned near = octants_of_box(triangle, middle);
+      touched[i] = static_cast<std::uint8_t>(near);
+      if ((near & (near - 1)) == 0) continue;
+      overlap.add(triangle.corners, near, i);
+      if (overlap.full()) settle();
+    }
+    settle();
+    return touched;
+  }
+
+  static void add_node(const Octants& octants, MaskTree& tree, std::size_t place) {
+    std::array<bool, 8> grey;
+    std::array<std::int64_t, 8> winding;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      grey[octant] = !octants[octant].triangles.empty();
+      winding[octant] = octants[octant].winding;
+    }
+    tree.divide(place, grey, winding);
+  }
+
+  std::array<Point, 8> corners_of(const GridCell& cell) const {
+    std::array<Point, 8> corners;
+    for (unsigned which = 0; which < 8; ++which) corners[which] = grid_.corner(cell, which);
+    return corners;
+  }
+
+  EdgeCount edge_count(const std::array<Point, 8>& corners, const GreyCell& grey) const {
+    return EdgeCount(corners, grey.winding, triangles_, grey.triangles);
+  }
+
+  bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+    const std::size_t count = grey.triangles.size();
+    if (count < kTrianglesPerPlane || count > kMostSpecialTriangles) return false;
+    // A few of them, far apart, usually tell.
+    constexpr std::size_t kSamples = 8;
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < kSamples; ++i)
+      triangles.push_back(triangles_[grey.triangles[i * count / kSamples]].corners);
+    if (!in_few_planes(triangles)) return false;
+    triangles.clear();
+    for (const std::uint32_t position : grey.triangles)
+      triangles.push_back(triangles_[position].corners);
+    if (!in_few_planes(triangles)) return false;
+    const std::array<Point, 8> corners = corners_of(grey.cell);
+    const auto special = special_cell(triangles, corners, edge_count(corners, grey).all());
+    if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
+    tree.entries[place].kind = MaskEntry::Kind::kSpecial;
+    tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
+    tree.specials.push_back(*special);
+    return true;
+  }
+
+  void make_corners(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+    MaskEntry& entry = tree.entries[place];
+    entry.kind = MaskEntry::Kind::kCorners;
+    entry.corners.fill(kUncounted);
+    const std::array<Point, 8> corners = corners_of(grey.cell);
+    const EdgeCount count = edge_count(corners, grey);
+    const std::array<std::int64_t, 8> winding = count.all();
+    const auto fits = [](std::int64_t number) {
+      return -kListedTag > number && number > kListedTag;
+    };
+    if (!std::all_of(winding.begin(), winding.end(), fits)) return;
+    // Along other edges; were it ever another number, the cell would be left to longer ways.
+    const bool agree =
+        winding[7] == winding[5] + count.rise(7, 5) && winding[7] == winding[3] + count.rise(7, 3);
+    assert(agree);
+    if (!agree) return;
+    for (unsigned which = 0; which < 8; ++which)
+      entry.corners[which] = static_cast<std::int8_t>(winding[which]);
+    list_blocks(grey, tree, place);
+  }
+
+  // Where one bit a corner says the rest.
+  void list_blocks(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+    const GridCell& cell = grey.cell;
+    MaskEntry& entry = tree.entries[place];
+    const auto [least, greatest] = std::minmax_element(entry.corners.begin(), entry.corners.end());
+    if (cell.level == kLevels || *greatest - *least > 1) return;
+    MaskBlocks blocks;
+    // A cell that the surface misses by less than rounding may have no octant that is touched.
+    if (!list_(cell, blocks) || blocks.count == 0) return;
+    if (!grid_.region().has_walls())
+      blocks.slab = fit_slab(cell, grid_.lower(cell), triangles_, grey.triangles);
+    entry.kind = MaskEntry::Kind::kListed;
+    entry.first = static_cast<std::uint32_t>(tree.lists.size());
+    tree.lists.push_back(blocks);
+  }
+
+  const ClippedGrid& grid_;
+  const ListBlocks& list_;
+  std::vector<BoxedTriangle> triangles_;
+};
+
+}  // namespace
+
+MaskTree mask_of_region(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
+                        const Triangles& triangles, const ListBlocks& list) {
+  return RegionMask(grid, triangles, list).run(cell, winding);
+}
+
+}  // namespace planetree::octree

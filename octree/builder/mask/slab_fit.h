@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/surface/edge_crossings.h"
+#include "octree/geometry/cell_grid.h"
+#include "octree/geometry/cell_slab.h"
+
+namespace planetree::octree {
+
+/// Fits a slab to the surface in a cell: across the mean of the triangles' normals, as far as their
+/// vertices go.
+///
+/// lower      least corner of the cell, which is not clipped.
+/// triangles  of which those at `positions` are all that may touch the cell.
+CellSlab fit_slab(const GridCell& cell, const Point& lower,
+                  const std::vector<BoxedTriangle>& triangles,
+                  const std::vector<std::uint32_t>& positions);
+
+}  // namespace planetree::octree

@@ -1,0 +1,93 @@
+#include "octree/builder/mask/tree_frames.h"
+
+#include <algorithm>
+#include <new>
+
+#include "octree/geometry/strict_math.h"
+#include "octree/page/mask_decoder.h"
+#include "octree/page/page_decoder.h"
+
+namespace planetree::octree {
+
+TreeFrames::TreeFrames(const BuiltTree& tree, const BuiltMask* mask)
+    : tree_(tree),
+      mask_(mask),
+      page_lines_(tree.facts_of_page(0).page_bytes / kSlotBytes),
+      most_(std::min<std::size_t>(tree.pages().size() + (mask ? mask->size() : 0),
+                                  kBytes / kSlotBytes / page_lines_)) {
+  lines_.reserve(most_ * page_lines_);
+  frames_.reserve(most_);
+}
+
+const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
+  auto& self = *static_cast<TreeFrames*>(frames);
+  const auto place = self.places_.find(number);
+  if (place != self.places_.end()) {
+    self.frames_[place->second].asked = ++self.asks_;
+    return self.bytes_of(place->second).data();
+  }
+  try {
+    return self.bring(number);
+  } catch (const std::bad_alloc&) {
+    if (self.state_)
+      self.state_ = make_error(ErrorCode::kNoMemory, number, Error::kNowhere,
+                               "no memory for a page that is read again; free some and try again");
+    return nullptr;
+  }
+}
+
+const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
+  auto& self = *static_cast<TreeFrames*>(frames);
+  const auto place = self.places_.find(number);
+  return place == self.places_.end() ? nullptr : self.bytes_of(place->second).data();
+}
+
+Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame) const {
+  const std::uint32_t tree_pages = tree_.pages().size();
+  const bool of_tree = number < tree_pages;
+  const auto raw =
+      of_tree ? tree_.pages().encode(number) : mask_->encode(number - tree_pages, tree_pages);
+  if (!raw) return raw.error();
+  if (of_tree) return decode_page(raw->bytes, tree_.facts_of_page(number), frame);
+  PageFacts facts = tree_.facts_of_page(0);
+  facts.first_page = tree_pages;
+  facts.page_count = mask_->size();
+  facts.page_number = number;
+  facts.octcode = raw->octcode;
+  facts.ordinal = raw->ordinal;
+  return decode_mask_page(raw->bytes, facts, frame);
+}
+
+const std::byte* TreeFrames::bring(std::uint32_t number) {
+  const std::size_t frame = free_one();
+  const std::span<std::byte> bytes = bytes_of(frame);
+  const Result<void> decoded = decode(number, bytes);
+  if (!decoded) {
+    if (state_) state_ = decoded;
+    frames_[frame] = {};
+    return nullptr;
+  }
+  places_.emplace(number, frame);
+  frames_[frame] = {number, ++asks_};
+  return bytes.data();
+}
+
+// The one that was not asked for the longest.
+std::size_t TreeFrames::free_one() {
+  if (frames_.size() < most_) {
+    lines_.resize(lines_.size() + page_lines_);
+    frames_.emplace_back();
+    return frames_.size() - 1;
+  }
+  const auto oldest =
+      std::min_element(frames_.begin(), frames_.end(),
+                       [](const Frame& a, const Frame& b) { return a.asked < b.asked; });
+  places_.erase(oldest->page);
+  return static_cast<std::size_t>(oldest - frames_.begin());
+}
+
+std::span<std::byte> TreeFrames::bytes_of(std::size_t frame) {
+  return {lines_[frame * page_lines_].bytes, page_lines_ * kSlotBytes};
+}
+
+}  // namespace planetree::octree

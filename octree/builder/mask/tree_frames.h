@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "octree/builder/mask/built_mask.h"
+#include "octree/builder/tree/built_tree.h"
+#include "octree/traversal/tree_view.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// Frames of the pages of a tree that is being built, and of its mask, for walks in them: the
+/// last ones that were asked for. One thread.
+class TreeFrames {
+ public:
+  /// Memory of the frames.
+  static constexpr std::size_t kBytes = std::size_t{16} << 20;
+
+  /// tree, mask  must outlive this; without a mask there are the tree's pages alone.
+  explicit TreeFrames(const BuiltTree& tree, const BuiltMask* mask = nullptr);
+  TreeFrames(const TreeFrames&) = delete;
+  TreeFrames& operator=(const TreeFrames&) = delete;
+
+  PageReader reader() { return {this, &TreeFrames::page, &TreeFrames::peek}; }
+
+  /// Of the pages that could not be had, the first one's.
+  /// errors  those of reading what was put away.
+  const Result<void>& state() const { return state_; }
+
+ private:
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+  struct Frame {
+    std::uint32_t page = kNoPage;
+    std::uint64_t asked = 0;  // when last
+  };
+  struct Line {
+    alignas(kSlotBytes) std::byte bytes[kSlotBytes];
+  };
+
+  static const std::byte* page(void* frames, std::uint32_t number) noexcept;
+  static const std::byte* peek(void* frames, std::uint32_t number) noexcept;
+  const std::byte* bring(std::uint32_t number);
+  Result<void> decode(std::uint32_t number, std::span<std::byte> frame) const;
+  std::size_t free_one();
+  std::span<std::byte> bytes_of(std::size_t frame);
+
+  const BuiltTree& tree_;
+  const BuiltMask* const mask_;
+  const std::size_t page_lines_;
+  const std::size_t most_;
+  std::vector<Line> lines_;
+  std::vector<Frame> frames_;
+  std::unordered_map<std::uint32_t, std::size_t> places_;  // of pages among the frames
+  std::uint64_t asks_ = 0;
+  Result<void> state_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "octree/builder/mesh/ply_header.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// A header, however long, from the front of a file: `parse` is given ever more of it until what
+/// is in front of the body is surely there.
+///
+/// parse   (text) -> Result<PlyHeader>.
+/// errors  those of reading and, of so much as a header may have, those of `parse`.
+template <class Parse>
+Result<PlyHeader> parse_front(const MeshFile& file, const Parse& parse) {
+  constexpr std::uint64_t kFirstBytes = std::uint64_t{1} << 16;
+  constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;
+  for (std::uint64_t bytes = kFirstBytes;; bytes *= 4) {
+    const Result<std::string> front = file.front(bytes);
+    if (!front) return front.error();
+    Result<PlyHeader> header = parse(std::string_view(*front));
+    // What ends with the text may go on behind it.
+    const bool is_whole = front->size() == file.size_bytes();
+    if (is_whole || bytes >= kMostBytes || (header && header->body.offset < front->size()))
+      return header;
+  }
+}
+
+}  // namespace planetree::octree

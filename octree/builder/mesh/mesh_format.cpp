@@ -1,0 +1,42 @@
+#include "octree/builder/mesh/mesh_format.h"
+
+#include <algorithm>
+#include <string>
+
+#include "octree/builder/mesh/off_reader.h"
+#include "octree/builder/mesh/ply_reader.h"
+#include "octree/builder/mesh/stl_reader.h"
+
+namespace planetree::octree {
+namespace {
+
+/// None of the formats is told by more.
+constexpr std::uint64_t kProbeBytes = 4096;
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return extension;
+}
+
+}  // namespace
+
+Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path) {
+  const auto front = file.front(kProbeBytes);
+  if (!front) return front.error();
+  if (is_ply(*front)) return MeshFormat::kPly;
+  if (has_binary_stl_size(*front, file.size_bytes())) return MeshFormat::kStlBinary;
+  if (is_ascii_stl(*front)) return MeshFormat::kStlAscii;
+  if (is_off(*front)) return MeshFormat::kOff;
+  const std::string extension = lower_extension(path);
+  if (extension == ".obj") return MeshFormat::kObj;
+  // One without a keyword, as old ones are.
+  if (extension == ".off") return MeshFormat::kOff;
+  // A binary STL whose size is wrong: its reader says in which way.
+  if (extension == ".stl") return MeshFormat::kStlBinary;
+  return MeshFormat::kUnknown;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "octree/builder/mesh/stream/mesh_file.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
+
+/// What a mesh file is, by its content, and only then by the extension of its path.
+/// errors  those of MeshFile::read().
+Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path);
+
+}  // namespace planetree::octree

@@ -1,0 +1,200 @@
+#include "octree/builder/mesh/mesh_size.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "octree/builder/mesh/header_prefix.h"
+#include "octree/builder/mesh/mesh_format.h"
+#include "octree/builder/mesh/off_reader.h"
+#include "octree/builder/mesh/ply_header.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+
+namespace planetree::octree {
+namespace {
+
+// What the body of a PLY has beside the items of its lists, or of an ascii one at least;
+// nothing if no file could have it.
+std::uint64_t least_body_bytes(const PlyHeader& header) {
+  std::uint64_t sum = 0;
+  for (const PlyElement& element : header.elements) {
+    const bool is_ascii = header.encoding == PlyEncoding::kAscii;
+    const std::uint64_t record =
+        is_ascii ? 2 * element.properties.size() : element.min_record_bytes();
+    std::uint64_t bytes = 0;
+    if (__builtin_mul_overflow(element.count, record, &bytes) ||
+        __builtin_add_overflow(sum, bytes, &sum))
+      return ~std::uint64_t{0};
+  }
+  return sum;
+}
+
+Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& header) {
+  if (!header && header.error().code != ErrorCode::kBadInput) return header.error();
+  if (!header) return MeshSize{};
+  const std::uint64_t faces = header->faces().count, vertices = header->vertices().count;
+  const std::uint64_t body = file.size_bytes() - header->body.offset,
+                      least = least_body_bytes(*header);
+  if (least > body) return MeshSize{};
+  MeshSize size{faces, vertices, !header->float32()};
+  size.is_indexed_text = header->encoding == PlyEncoding::kAscii;
+  if (size.is_indexed_text) {
+    // A closed surface has twice as many triangles as vertices, whatever polygons they are in.
+    size.triangles = std::max(faces, 2 * std::min(faces, vertices));
+  } else {
+    const PlyProperty& list = header->faces().properties[header->index_list];
+    const std::uint64_t corners = (body - least) / size_bytes(list.type);
+    size.triangles = corners - std::min(corners, 2 * faces);
+  }
+  return size;
+}
+
+/// Some windows of a file, evenly spaced.
+class Sample {
+ public:
+  /// Of what is behind the first bytes.
+  static Result<Sample> of(const MeshFile& file, std::uint64_t first_bytes = 0) {
+    Sample sample(file.size_bytes() - std::min(file.size_bytes(), first_bytes));
+    const std::uint64_t step = std::max<std::uint64_t>(sample.size_ / kWindows, kWindowBytes);
+    for (std::uint64_t at = 0; at < sample.size_; at += step) {
+      Window window{at, std::string(std::min(kWindowBytes, sample.size_ - at), '\0')};
+      const auto bytes = std::as_writable_bytes(std::span(window.text));
+      if (const auto read = file.read(first_bytes + at, bytes); !read) return read.error();
+      sample.windows_.push_back(std::move(window));
+    }
+    return sample;
+  }
+
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+  /// Calls look(window, where it begins) for each; the text lives as long as this.
+  template <class Look>
+  void each_window(const Look& look) const {
+    for (const Window& window : windows_) look(std::string_view(window.text), window.at);
+  }
+
+  /// Of a text: what count_in(line) says of all lines together, and a little more.
+  template <class CountIn>
+  std::uint64_t total(const CountIn& count_in) const {
+    std::uint64_t count = 0, seen = 0;
+    each_window([&](std::string_view window, std::uint64_t) {
+      // Two lines are cut off at the ends of a window: too few to matter.
+      LineScanner lines(window);
+      while (lines.next()) count += count_in(lines.line());
+      seen += window.size();
+    });
+    if (seen == 0) return 0;
+    const double share = static_cast<double>(size_) / static_cast<double>(seen);
+    return static_cast<std::uint64_t>(static_cast<double>(count) * share * kMargin);
+  }
+
+ private:
+  static constexpr std::uint64_t kWindows = 64;
+  static constexpr std::uint64_t kWindowBytes = 16384;
+  static constexpr double kMargin = 1 + 1.0 / 32;
+
+  struct Window {
+    std::uint64_t at = 0;
+    std::string text;
+  };
+
+  explicit Sample(std::uint64_t size) : size_(size) {}
+
+  std::uint64_t size_;
+  std::vector<Window> windows_;
+};
+
+/// How many vertices an STL has, which does not say: judged by corners that are near in the
+/// file, as they are written.
+class StlCorners {
+ public:
+  void add(std::string_view corner) {
+    ++count_;
+    distinct_.insert(corner);
+  }
+
+  /// A surface repeats corners, of which it has half as many as triangles; a heap of triangles
+  /// does not.
+  std::uint64_t vertices_of(std::uint64_t triangles) const {
+    const bool is_heap = distinct_.size() > count_ - count_ / 50;
+    return is_heap ? 3 * triangles : triangles / 2;
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  std::unordered_set<std::string_view> distinct_;
+};
+
+MeshSize size_of_obj(const Sample& sample) {
+  const std::uint64_t triangles = sample.total([](std::string_view line) -> std::uint64_t {
+    if (take_word(line) != "f") return 0;
+    std::uint64_t corners = 0;
+    while (!take_word(line).empty()) ++corners;
+    return corners - std::min<std::uint64_t>(corners, 2);
+  });
+  const std::uint64_t vertices = sample.total(
+      [](std::string_view line) -> std::uint64_t { return take_word(line) == "v" ? 1 : 0; });
+  return {triangles, vertices, true, true};
+}
+
+constexpr std::uint64_t kStlHeadBytes = 84;
+
+MeshSize size_of_binary_stl(const Sample& facets) {
+  constexpr std::uint64_t kFacetBytes = 50, kNormalBytes = 12, kCornerBytes = 12;
+  const std::uint64_t triangles = facets.size() / kFacetBytes;
+  StlCorners corners;
+  facets.each_window([&](std::string_view window, std::uint64_t at) {
+    for (std::uint64_t facet = (kFacetBytes - at % kFacetBytes) % kFacetBytes;
+         facet + kFacetBytes <= window.size(); facet += kFacetBytes)
+      for (std::uint64_t k = 0; k < 3; ++k)
+        corners.add(window.substr(facet + kNormalBytes + k * kCornerBytes, kCornerBytes));
+  });
+  return {triangles, corners.vertices_of(triangles), false};
+}
+
+MeshSize size_of_ascii_stl(const Sample& sample) {
+  StlCorners corners;
+  const std::uint64_t triangles = sample.total([&corners](std::string_view line) -> std::uint64_t {
+    const std::string_view word = take_word(line);
+    if (is_same_word(word, "vertex")) corners.add(line);
+    return is_same_word(word, "facet") ? 1 : 0;
+  });
+  return {triangles, corners.vertices_of(triangles), true};
+}
+
+template <class SizeOf>
+Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
+  if (!sample) return sample.error();
+  return size_of(*sample);
+}
+
+}  // namespace
+
+Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path, storage::FileCalls& calls) {
+  const Result<MeshFile> file = MeshFile::open(path, calls);
+  if (!file) return file.error();
+  const Result<MeshFormat> format = judge_format(*file, path);
+  if (!format) return format.error();
+  switch (*format) {
+    case MeshFormat::kPly:
+      return size_of_records(*file, parse_front(*file, parse_ply_header));
+    case MeshFormat::kOff:
+      return size_of_records(*file, parse_front(*file, parse_off_header));
+    case MeshFormat::kStlBinary:
+      return size_by(size_of_binary_stl, Sample::of(*file, kStlHeadBytes));
+    case MeshFormat::kStlAscii:
+      return size_by(size_of_ascii_stl, Sample::of(*file));
+    case MeshFormat::kObj:
+      return size_by(size_of_obj, Sample::of(*file));
+    case MeshFormat::kUnknown:
+      break;
+  }
+  return MeshSize{};
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,197 @@
+#include "octree/builder/mesh/obj_reader.h"
+
+#include <cinttypes>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "octree/builder/mesh/stream/face_vertex_join.h"
+#include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/mesh_lines.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/builder/mesh/stream/text_vertices.h"
+
+namespace planetree::octree {
+
+namespace {
+
+/// Steps through the statements of an OBJ: lines, joined where a line ends in
+/// a backslash. A comment is never joined: a Windows path may end it.
+class ObjStatements {
+ public:
+  ObjStatements(const MeshFile& file, TextPlace begin, std::size_t window_bytes)
+      : lines_(file, begin, LineComment::kNone, window_bytes) {}
+
+  bool next() {
+    if (!lines_.next()) return false;
+    place_ = lines_.place();
+    text_ = lines_.line();
+    if (!without_backslash(text_)) return true;
+    joined_.assign(text_);
+    bool goes_on = true;
+    while (goes_on && lines_.next()) {
+      std::string_view part = lines_.line();
+      goes_on = without_backslash(part);
+      joined_ += ' ';
+      joined_ += part;
+    }
+    text_ = joined_;
+    return !lines_.failure();
+  }
+
+  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] TextPlace place() const { return place_; }
+  /// Why there is no next one, if not for the end.
+  [[nodiscard]] const std::optional<Error>& failure() const { return lines_.failure(); }
+  [[nodiscard]] std::uint64_t end_offset() const { return lines_.after().offset; }
+
+ private:
+  /// Cuts the backslash off a line that goes on; false if it does not.
+  static bool without_backslash(std::string_view& line) {
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    if (last == std::string_view::npos || line[last] != '\\') return false;
+    if (line[line.find_first_not_of(" \t")] == '#') return false;
+    line = line.substr(0, last);
+    return true;
+  }
+
+  MeshLines lines_;
+  TextPlace place_;
+  std::string_view text_;
+  std::string joined_;
+};
+
+/// An f statement that has been read.
+class ObjFace {
+ public:
+  ObjFace(std::uint64_t line, const std::vector<std::int64_t>& numbers,
+          std::int64_t vertices_before)
+      : line_(line), numbers_(numbers), vertices_before_(vertices_before) {}
+
+  [[nodiscard]] std::uint64_t record() const { return line_; }
+  [[nodiscard]] std::uint64_t size() const { return numbers_.size(); }
+  bool value_at(std::uint64_t k, std::int64_t& value) const {
+    value = numbers_[static_cast<std::size_t>(k)];
+    return true;
+  }
+  [[nodiscard]] std::int64_t vertices_before() const { return vertices_before_; }
+  [[nodiscard]] static Error failure() { return {}; }
+
+ private:
+  const std::uint64_t line_;
+  const std::vector<std::int64_t>& numbers_;
+  const std::int64_t vertices_before_;
+};
+
+/// Reads in two passes, since an f may name a later v.
+class Obj {
+ public:
+  Obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch)
+      : file_(file),
+        scratch_(scratch),
+        delivery_(sink, RecordKind::kLine, 2 * file.size_bytes()),
+        vertices_(file, false, scratch) {}
+
+  Result<MeshSummary> read() {
+    const Result<TextPlace> begin = text_begin(file_);
+    if (!begin) return begin.error();
+    if (Result<void> read = read_vertices(*begin); !read) return read.error();
+    MeshJoin join(vertices_, 1, scratch_, true, delivery_);
+    const auto read = join.deliver(
+        {*begin, 0, 0}, file_.size_bytes(),
+        [this](const FacePlace& from, const auto& take) { return each_face(from, take); });
+    if (!read) return read.error();
+    return delivery_.finish(false);
+  }
+
+ private:
+  [[nodiscard]] ObjStatements statements_from(TextPlace begin) const {
+    return {file_, begin, static_cast<std::size_t>(scratch_.window_bytes())};
+  }
+
+  Result<void> read_vertices(TextPlace begin) {
+    ObjStatements statements = statements_from(begin);
+    while (statements.next()) {
+      std::string_view rest = statements.text();
+      if (take_word(rest) == "v") {
+        if (Result<void> taken = take_vertex(statements, rest); !taken) return taken;
+      }
+      delivery_.advance(statements.end_offset());
+    }
+    if (statements.failure()) return *statements.failure();
+    delivery_.set_vertex_count(vertices_.count());
+    return vertices_.finish();
+  }
+
+  /// As MeshJoin::deliver() wants it.
+  template <class Take>
+  Result<FacePlace> each_face(const FacePlace& from, const Take& take) {
+    ObjStatements statements = statements_from(from.place);
+    std::int64_t vertices_before = from.vertices_before;
+    while (statements.next()) {
+      std::string_view rest = statements.text();
+      const std::string_view keyword = take_word(rest);
+      if (keyword == "v") ++vertices_before;
+      if (keyword == "f") {
+        if (Result<void> read = read_face(statements, rest); !read) return read.error();
+        const Result<bool> taken =
+            take(ObjFace(statements.place().line, numbers_, vertices_before));
+        if (!taken) return taken.error();
+        if (!*taken) return FacePlace{statements.place(), 0, vertices_before};
+      }
+      delivery_.advance(file_.size_bytes() + statements.end_offset());
+    }
+    if (statements.failure()) return *statements.failure();
+    return FacePlace{{statements.end_offset(), 0}, 0, vertices_before};
+  }
+
+  /// Colours or a weight may follow the three coordinates; they are not read.
+  Result<void> take_vertex(const ObjStatements& statements, std::string_view rest) {
+    Vec3 position;
+    for (double* const value : {&position.x, &position.y, &position.z}) {
+      const std::string_view word = take_word(rest);
+      if (word.empty()) return error(statements, "a vertex of fewer than three numbers");
+      if (!parse_real(word, *value)) {
+        return error(statements, "'" + printable(word) + "' is not a number");
+      }
+    }
+    return vertices_.add(position);
+  }
+
+  /// Reads a face's statement into numbers_.
+  Result<void> read_face(const ObjStatements& statements, std::string_view rest) {
+    numbers_.clear();
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+      if (word.front() == '#') break;
+      std::string_view behind = word;
+      std::int64_t number = 0;
+      if (!take_integer(behind, number) || !(behind.empty() || behind.front() == '/')) {
+        return error(statements, "'" + printable(word) + "' is not a corner of a face");
+      }
+      numbers_.push_back(number);
+    }
+    return {};
+  }
+
+  [[nodiscard]] static Error error(const ObjStatements& statements, const std::string& cause) {
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, statements.place().offset,
+                      "line %" PRIu64 ": %s; copy or export the OBJ again", statements.place().line,
+                      cause.c_str());
+  }
+
+  const MeshFile& file_;
+  MeshScratch& scratch_;
+  MeshDelivery delivery_;
+  TextVertices vertices_;
+  std::vector<std::int64_t> numbers_;  ///< of vertices of the f being read, as written
+};
+
+}  // namespace
+
+Result<MeshSummary> read_obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
+  return Obj(file, sink, scratch).read();
+}
+
+}  // namespace planetree::octree

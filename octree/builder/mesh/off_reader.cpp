@@ -1,0 +1,182 @@
+#include "octree/builder/mesh/off_reader.h"
+
+#include <bit>
+#include <cinttypes>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "octree/builder/mesh/header_prefix.h"
+#include "octree/builder/mesh/ply_header.h"
+#include "octree/builder/mesh/ply_reader.h"
+#include "octree/builder/mesh/ply_scalar.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+
+namespace planetree::octree {
+
+namespace {
+
+/// What stands in front of "OFF" says what follows x, y and z of a vertex.
+struct OffPrefix {
+  std::string_view letters;
+  std::size_t more_numbers;
+  bool supported;
+};
+
+constexpr OffPrefix kPrefixes[] = {
+    {"ST", 2, true}, {"C", 4, true}, {"N", 3, true}, {"4", 0, false}, {"n", 0, false}};
+
+struct OffKeyword {
+  std::size_t more_numbers = 0;  ///< of a vertex in a binary file; an ascii one has what it has
+  bool supported = true;
+};
+
+/// Takes the keyword off the front of a file's first word. Geomview has its
+/// letters in one order, others write them in any, each once.
+std::optional<OffKeyword> take_keyword(std::string_view& word) noexcept {
+  std::string_view rest = word;
+  OffKeyword keyword;
+  for (std::size_t i = 0; i < std::size(kPrefixes) && !rest.starts_with("OFF"); ++i) {
+    for (const OffPrefix& prefix : kPrefixes) {
+      if (!rest.starts_with(prefix.letters)) continue;
+      rest.remove_prefix(prefix.letters.size());
+      keyword.more_numbers += prefix.more_numbers;
+      keyword.supported &= prefix.supported;
+      break;
+    }
+  }
+  if (!rest.starts_with("OFF")) return std::nullopt;
+  rest.remove_prefix(3);
+  // Well-known collections have files that go on without a blank: "OFF8 6 12".
+  if (!rest.empty() && (rest.front() < '0' || rest.front() > '9')) return std::nullopt;
+  word = rest;
+  return keyword;
+}
+
+/// The records of a file as a PLY's header would declare them. Of ascii, the
+/// numbers have no precision but their own.
+PlyHeader records_of(PlyEncoding encoding, std::size_t more_numbers) {
+  const bool is_ascii = encoding == PlyEncoding::kAscii;
+  const PlyType real = is_ascii ? PlyType::kFloat64 : PlyType::kFloat32;
+  PlyHeader header;
+  header.encoding = encoding;
+  header.has_loose_lines = is_ascii;
+  header.elements = {{"vertex", 0, {}}, {"face", 0, {}}};
+  for (const char* name : {"x", "y", "z"}) header.elements[0].properties.push_back({name, real});
+  header.elements[1].properties = {{"corners", PlyType::kInt32, true, PlyType::kInt32}};
+  if (!is_ascii) {
+    header.elements[0].properties.resize(3 + more_numbers, {"more", real});
+    header.elements[1].properties.push_back({"colour", real, true, PlyType::kInt32});
+  }
+  header.vertex_element = 0;
+  header.face_element = 1;
+  header.coordinates = {0, 1, 2};
+  return header;
+}
+
+/// Reads up to where the vertices begin.
+class OffHeader {
+ public:
+  explicit OffHeader(std::string_view file)
+      : file_(file), lines_(file, text_begin(file), LineEnd::kAny, LineComment::kHash) {}
+
+  Result<PlyHeader> parse() {
+    if (!lines_.next_filled()) return cut_off();
+    std::string_view rest = lines_.line();
+    std::string_view word = take_word(rest);
+    const std::string shown = printable(word);
+    const std::optional<OffKeyword> keyword = take_keyword(word);
+    if (!keyword) return counts(lines_.line());
+    if (!keyword->supported) {
+      return error("'" + shown + "' has vertices of other than three dimensions: write plain OFF");
+    }
+    if (!word.empty()) return counts({word.data(), word.size() + rest.size()});
+    std::string_view behind = rest;
+    const std::string_view next = take_word(behind);
+    if (next == "BINARY") return binary_counts(behind, keyword->more_numbers);
+    if (!next.empty()) return counts(rest);
+    if (!lines_.next_filled()) return cut_off();
+    return counts(lines_.line());
+  }
+
+ private:
+  /// Those of vertices, faces and edges. The last is often wrong or left out.
+  Result<PlyHeader> counts(std::string_view text) {
+    PlyHeader header = records_of(PlyEncoding::kAscii, 0);
+    std::string_view rest = text;
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::string_view word = take_word(rest);
+      if (i == 2 && word.empty()) break;
+      std::int64_t count = 0;
+      if (!take_integer(word, count) || !word.empty()) return no_counts(text);
+      if (i == 2) break;
+      if (count < 0) return no_counts(text);
+      header.elements[i].count = static_cast<std::uint64_t>(count);
+    }
+    if (!take_word(rest).empty()) return no_counts(text);
+    header.body = lines_.after();
+    return header;
+  }
+
+  Result<PlyHeader> binary_counts(std::string_view behind, std::size_t more_numbers) {
+    if (!take_word(behind).empty()) return error("text follows 'BINARY'");
+    constexpr std::uint64_t kCountBytes = 4;
+    constexpr bool kSwap = std::endian::native != std::endian::big;
+    PlyHeader header = records_of(PlyEncoding::kBinaryBigEndian, more_numbers);
+    TextPlace place = lines_.after();
+    if (file_.size() - place.offset < 3 * kCountBytes) return cut_off();
+    for (PlyElement& element : header.elements) {
+      const auto* const at = reinterpret_cast<const std::byte*>(file_.data()) + place.offset;
+      const auto count = load<std::int32_t>(at, kSwap);
+      if (count < 0) return error_at(place, "a count of " + std::to_string(count));
+      element.count = static_cast<std::uint64_t>(count);
+      place.offset += kCountBytes;
+    }
+    place.offset += kCountBytes;  // the edges
+    header.body = place;
+    return header;
+  }
+
+  [[nodiscard]] Error no_counts(std::string_view text) const {
+    return error("'" + printable(text) + "' is not the numbers of vertices, faces and edges");
+  }
+
+  [[nodiscard]] Error cut_off() const {
+    return error_at(lines_.after(), "the file ends in front of its counts");
+  }
+
+  [[nodiscard]] Error error(const std::string& cause) const {
+    return error_at(lines_.place(), cause);
+  }
+
+  [[nodiscard]] static Error error_at(const TextPlace& place, const std::string& cause) {
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, place.offset,
+                      "line %" PRIu64 ": %s; copy or export the OFF again", place.line,
+                      cause.c_str());
+  }
+
+  std::string_view file_;
+  LineScanner lines_;
+};
+
+}  // namespace
+
+bool is_off(std::string_view file) noexcept {
+  LineScanner lines(file, text_begin(file), LineEnd::kAny, LineComment::kHash);
+  if (!lines.next_filled()) return false;
+  std::string_view rest = lines.line();
+  std::string_view word = take_word(rest);
+  return take_keyword(word).has_value();
+}
+
+Result<PlyHeader> parse_off_header(std::string_view file) { return OffHeader(file).parse(); }
+
+Result<MeshSummary> read_off(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
+  const Result<PlyHeader> header = parse_front(file, parse_off_header);
+  if (!header) return header.error();
+  return read_ply_body(file, *header, sink, scratch);
+}
+
+}  // namespace planetree::octree

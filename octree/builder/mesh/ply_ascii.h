@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "octree/builder/mesh/ply_body.h"
+#include "octree/builder/mesh/stream/face_vertex_join.h"
+#include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
+#include "octree/builder/mesh/stream/mesh_lines.h"
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+#include "octree/builder/mesh/stream/text_vertices.h"
+
+namespace planetree::octree {
+
+/// An ascii body: one record a line, empty lines aside. The vertices are put away as they are
+/// read, as floats where the header declares nothing wider.
+class PlyAscii final : public PlyBody {
+ public:
+  /// All must outlive this.
+  PlyAscii(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+           MeshScratch& scratch);
+
+  Result<TextPlace> skip(const PlyElement& element, TextPlace begin) override;
+  Result<TextPlace> vertices(TextPlace begin) override;
+  Result<TextPlace> faces(TextPlace begin) override;
+  Result<void> expect_end(TextPlace end) override;
+
+ private:
+  class Face;
+
+  [[nodiscard]] MeshLines lines_from(TextPlace begin) const;
+  /// Calls take_line(record, lines), which returns Result<bool>, on the line of each record
+  /// from `from` on; stops where that is false, and returns the place of that line, or else
+  /// what is behind the last.
+  template <class TakeLine>
+  Result<FacePlace> each_line(const PlyElement& element, const FacePlace& from,
+                              const TakeLine& take_line);
+  Result<void> take_vertex(const MeshLines& lines);
+  /// Reads a face's line into indices_.
+  Result<void> take_face(const MeshLines& lines);
+
+  const MeshFile& file_;
+  const PlyHeader& header_;
+  MeshDelivery& delivery_;
+  MeshScratch& scratch_;
+  std::vector<int> axes_;  ///< per property of a vertex: 0, 1, 2 for x, y, z, or -1
+  TextVertices vertices_;
+  std::optional<std::uint64_t> words_behind_vertex_;  ///< of loose lines: as of the first vertex
+  std::vector<std::int64_t> indices_;                 ///< of the face being read
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "octree/builder/mesh/ply_header.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// The records of a PLY file behind its header, in one encoding. Each call
+/// takes the place where an element begins and returns the one behind it.
+class PlyBody {
+ public:
+  virtual ~PlyBody() = default;
+
+  /// Passes over all records of `element`.
+  virtual Result<TextPlace> skip(const PlyElement& element, TextPlace begin) = 0;
+  /// Makes the vertices known; once, in front of faces().
+  virtual Result<TextPlace> vertices(TextPlace begin) = 0;
+  /// Delivers the faces.
+  virtual Result<TextPlace> faces(TextPlace begin) = 0;
+  /// Refuses records that no element declares: a count in the header is wrong.
+  virtual Result<void> expect_end(TextPlace end) = 0;
+};
+
+}  // namespace planetree::octree

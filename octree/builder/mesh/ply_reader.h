@@ -1,0 +1,19 @@
+#pragma once
+
+#include "octree/builder/mesh/mesh_reader.h"
+#include "octree/builder/mesh/ply_header.h"
+#include "octree/builder/mesh/stream/mesh_file.h"
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+
+namespace planetree::octree {
+
+/// Reads a PLY file (is_ply()): ascii or binary, elements in any order.
+/// Contract as read_mesh.
+Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
+
+/// Reads the records that `header` says the file has, whatever its format.
+/// Contract as read_mesh.
+Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header, TriangleSink& sink,
+                                  MeshScratch& scratch);
+
+}  // namespace planetree::octree

@@ -1,0 +1,135 @@
+#include "octree/builder/mesh/stream/corner_sort.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <span>
+
+namespace planetree::octree {
+namespace {
+
+/// A corner on its way to its vertex: the vertex within its part, and the corner's number.
+/// Then on its way back: the corner within its part, and the position.
+constexpr std::size_t kPlaceBytes = sizeof(std::uint32_t);
+constexpr std::size_t kByVertexBytes = kPlaceBytes + sizeof(std::uint64_t);
+
+constexpr std::size_t by_corner_bytes(std::size_t position_bytes) {
+  return kPlaceBytes + position_bytes;
+}
+
+Error changed_error() {
+  return make_error(ErrorCode::kReadFailed, Error::kNowhere, Error::kNowhere,
+                    "a temporary file is not what was written; check the device and the system's "
+                    "log");
+}
+
+}  // namespace
+
+// Half of the memory for a part of the vertices or of the corners, a quarter for each dealing
+// out: while they meet there are both.
+CornerSort::CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64_t memory_bytes)
+    : vertices_(vertices),
+      scratch_(scratch),
+      position_bytes_(vertices.position_bytes()),
+      buffer_bytes_(memory_bytes / 4) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
+  const std::uint64_t most =
+      std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMost);
+  part_shift_ = static_cast<int>(std::bit_width(most)) - 1;
+  by_vertex_file_.emplace(scratch);
+  by_vertex_.emplace(kByVertexBytes, parts_of(vertices.count()), buffer_bytes_,
+                     by_vertex_file_->spill());
+}
+
+std::uint64_t CornerSort::disk_bytes(std::uint64_t corners, bool float32) {
+  const std::size_t position_bytes = 3 * (float32 ? sizeof(float) : sizeof(double));
+  const std::uint64_t bytes = corners * (kByVertexBytes + by_corner_bytes(position_bytes));
+  return bytes + bytes / 32;  // of blocks, what leads from one to the next
+}
+
+Result<void> CornerSort::add(std::uint64_t vertex) {
+  std::byte* const record = by_vertex_->add(static_cast<std::size_t>(vertex >> part_shift_));
+  if (record == nullptr) return by_vertex_->failure();
+  const auto place = static_cast<std::uint32_t>(vertex & part_mask());
+  std::memcpy(record, &place, sizeof place);
+  std::memcpy(record + kPlaceBytes, &corner_count_, sizeof corner_count_);
+  ++corner_count_;
+  return {};
+}
+
+Result<void> CornerSort::match(const std::function<void(std::uint64_t, std::uint64_t)>& done) {
+  by_corner_file_.emplace(scratch_);
+  by_corner_.emplace(by_corner_bytes(position_bytes_), parts_of(corner_count_), buffer_bytes_,
+                     by_corner_file_->spill());
+  const std::size_t parts = by_vertex_->bucket_count();
+  for (std::size_t part = 0; part < parts; ++part) {
+    if (!by_vertex_->is_empty(part))
+      if (const auto matched = match_part(part); !matched) return matched;
+    done(part + 1, parts);
+  }
+  by_vertex_.reset();
+  by_vertex_file_.reset();
+  return {};
+}
+
+Result<void> CornerSort::match_part(std::size_t part) {
+  const std::uint64_t first = std::uint64_t{part} << part_shift_;
+  const std::uint64_t count = std::min(std::uint64_t{1} << part_shift_, vertices_.count() - first);
+  positions_.resize(static_cast<std::size_t>(count) * position_bytes_);
+  if (const auto read = vertices_.read(first, positions_); !read) return read;
+  return by_vertex_->each_block(part, [this](std::span<const std::byte> records) -> Result<void> {
+    for (; !records.empty(); records = records.subspan(kByVertexBytes))
+      if (const auto placed = place(records.data()); !placed) return placed;
+    return {};
+  });
+}
+
+Result<void> CornerSort::place(const std::byte* corner) {
+  std::uint32_t place = 0;
+  std::uint64_t number = 0;
+  std::memcpy(&place, corner, sizeof place);
+  std::memcpy(&number, corner + kPlaceBytes, sizeof number);
+  const std::size_t from = std::size_t{place} * position_bytes_;
+  if (from >= positions_.size() || number >= corner_count_) return changed_error();
+  std::byte* const record = by_corner_->add(static_cast<std::size_t>(number >> part_shift_));
+  if (record == nullptr) return by_corner_->failure();
+  place = static_cast<std::uint32_t>(number & part_mask());
+  std::memcpy(record, &place, sizeof place);
+  std::memcpy(record + kPlaceBytes, positions_.data() + from, position_bytes_);
+  return {};
+}
+
+bool CornerSort::load(std::uint64_t part) {
+  const std::uint64_t first = part << part_shift_;
+  const std::uint64_t count = std::min(std::uint64_t{1} << part_shift_, corner_count_ - first);
+  positions_.assign(static_cast<std::size_t>(count) * position_bytes_, std::byte{0});
+  loaded_ = ~std::uint64_t{0};
+  const std::size_t record_bytes = by_corner_bytes(position_bytes_);
+  const auto placed = by_corner_->each_block(
+      static_cast<std::size_t>(part), [&](std::span<const std::byte> records) -> Result<void> {
+        for (; !records.empty(); records = records.subspan(record_bytes)) {
+          std::uint32_t place = 0;
+          std::memcpy(&place, records.data(), sizeof place);
+          if (place >= count) return changed_error();
+          std::memcpy(positions_.data() + std::size_t{place} * position_bytes_,
+                      records.data() + kPlaceBytes, position_bytes_);
+        }
+        return {};
+      });
+  if (placed) {
+    loaded_ = part;
+    return true;
+  }
+  failure_ = placed.error();
+  return false;
+}
+
+const std::byte* CornerSort::missing(std::uint64_t corner) {
+  if (corner >= corner_count_)
+    failure_ = make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                          "the mesh has changed while it was read; leave it alone and try again");
+  return nullptr;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,231 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "octree/builder/mesh/stream/corner_sort.h"
+#include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/builder/mesh/stream/mesh_vertices.h"
+#include "octree/builder/mesh/stream/vertex_cache.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// Where a face is, for whoever goes through faces to begin there.
+struct FacePlace {
+  TextPlace place;
+  std::uint64_t record = 0;          ///< faces before it
+  std::int64_t vertices_before = 0;  ///< of an OBJ: those in front of it
+};
+
+/// Gives the corners of faces their positions and delivers them, in the order of the input and
+/// within bounded memory whatever the order of the vertices they name.
+///
+/// Vertices near those asked for lately are in memory; so a mesh whose faces have neighbours
+/// for neighbours is read once, from front to back. From where faces jump about so much that
+/// sorting is cheaper, the rest is gone through twice: corners are sorted to meet their
+/// vertices, and delivered when they have.
+///
+/// A face is a class with
+///   record(), size()       its number and how many corners it has,
+///   value_at(k, value)     how the file names the vertex of corner k; false if it cannot be
+///                          read, and failure() says why,
+///   vertices_before()      from which negative values of an OBJ count.
+class MeshJoin {
+ public:
+  /// vertices      all known; they, `scratch` and `delivery` must outlive this.
+  /// first_number  what the file calls the first of them.
+  /// is_text       whether the vertices themselves take of the memory.
+  MeshJoin(MeshVertices& vertices, std::int64_t first_number, MeshScratch& scratch, bool is_text,
+           MeshDelivery& delivery);
+
+  /// Delivers all faces.
+  ///
+  /// file_bytes  of the file.
+  /// each_face   (from, take) -> Result<FacePlace>: calls take(face), which returns
+  ///             Result<bool>, for each face from `from` on, and stops where that is false.
+  ///             Returns the place of that face, or else what is behind the last.
+  /// errors      those of each_face, of the sink and of temporary files.
+  template <class EachFace>
+  Result<FacePlace> deliver(const FacePlace& begin, std::uint64_t file_bytes,
+                            const EachFace& each_face) {
+    cache_.emplace(vertices_, memory_bytes_);
+    credit_bytes_ = most_credit_bytes();
+    const Result<FacePlace> end =
+        each_face(begin, [this](const auto& face) { return this->take_near(face); });
+    if (!end || !goes_over_) return end;
+    cache_.reset();
+    return deliver_sorted(*end, file_bytes - end->place.offset, each_face);
+  }
+
+ private:
+  /// Sorting a corner takes about four times as many bytes, but of few and long reads.
+  static constexpr std::uint64_t kCreditBytes = 16;
+  /// So many corners of a polygon are not looked up again when it has been judged.
+  static constexpr std::size_t kHeldCorners = 4096;
+
+  template <class Face>
+  class NearCorners;
+  template <class Face>
+  class SortedCorners;
+
+  template <class EachFace>
+  Result<FacePlace> deliver_sorted(const FacePlace& begin, std::uint64_t rest_bytes,
+                                   const EachFace& each_face);
+  template <class Face>
+  Result<bool> take_near(const Face& face);
+  template <class Face>
+  Result<bool> add_to(CornerSort& sort, const Face& face);
+  template <class Face>
+  Result<bool> take_sorted(CornerSort& sort, std::uint64_t& next_corner, const Face& face);
+
+  /// The vertex that a value names; count() or more if there is none.
+  [[nodiscard]] std::uint64_t vertex_of(std::int64_t value, std::int64_t vertices_before) const {
+    return static_cast<std::uint64_t>(value < 0 ? value + vertices_before : value - first_number_);
+  }
+  [[nodiscard]] std::uint64_t most_credit_bytes() const { return 2 * cache_->capacity_bytes(); }
+  void begin_face(std::uint64_t corners);
+  bool stop(const Error& failure) {
+    failure_ = failure;
+    return false;
+  }
+
+  MeshVertices& vertices_;
+  const std::uint64_t vertex_count_;
+  const bool float32_;
+  const std::int64_t first_number_;
+  MeshScratch& scratch_;
+  const std::uint64_t memory_bytes_;
+  MeshDelivery& delivery_;
+  std::optional<VertexCache> cache_;
+  std::vector<Vec3> held_;          ///< positions of the face's corners from 3 on
+  std::uint64_t credit_bytes_ = 0;  ///< that may still be read; grows with each corner
+  std::uint64_t seen_bytes_ = 0;    ///< were read when that was counted
+  std::uint64_t limit_bytes_ = 0;   ///< may be read, this face included
+  bool goes_over_ = false;
+  std::optional<Error> failure_;
+};
+
+/// The corners of a face whose vertices are read where they are.
+template <class Face>
+class MeshJoin::NearCorners {
+ public:
+  NearCorners(MeshJoin& join, const Face& face) : join_(join), face_(face) {}
+
+  bool first(std::uint64_t k, MeshCorner& corner) {
+    if (!look_up(k, corner)) return false;
+    if (join_.cache_->read_bytes() > join_.limit_bytes_) {
+      join_.goes_over_ = true;
+      return false;
+    }
+    if (k >= 3 && join_.held_.size() < kHeldCorners) join_.held_.push_back(corner.position);
+    return true;
+  }
+  bool again(std::uint64_t k, MeshCorner& corner) {
+    if (k - 3 >= join_.held_.size()) return look_up(k, corner);
+    corner.position = join_.held_[static_cast<std::size_t>(k - 3)];
+    return true;
+  }
+
+ private:
+  bool look_up(std::uint64_t k, MeshCorner& corner) {
+    if (!face_.value_at(k, corner.value)) return join_.stop(face_.failure());
+    const std::uint64_t vertex = join_.vertex_of(corner.value, face_.vertices_before());
+    corner.in_range = vertex < join_.vertex_count_;
+    if (!corner.in_range) return true;
+    const std::byte* const position = join_.cache_->at(vertex);
+    if (position == nullptr) return join_.stop(join_.cache_->failure());
+    corner.position = position_at(position, join_.float32_);
+    return true;
+  }
+
+  MeshJoin& join_;
+  const Face& face_;
+};
+
+/// The corners of a face that have met their vertices.
+template <class Face>
+class MeshJoin::SortedCorners {
+ public:
+  SortedCorners(MeshJoin& join, CornerSort& sort, std::uint64_t first_corner, const Face& face)
+      : join_(join), sort_(sort), first_corner_(first_corner), face_(face) {}
+
+  bool first(std::uint64_t k, MeshCorner& corner) {
+    if (!face_.value_at(k, corner.value)) return join_.stop(face_.failure());
+    corner.in_range = join_.vertex_of(corner.value, face_.vertices_before()) < join_.vertex_count_;
+    return !corner.in_range || again(k, corner);
+  }
+  bool again(std::uint64_t k, MeshCorner& corner) {
+    const std::byte* const position = sort_.at(first_corner_ + k);
+    if (position == nullptr) return join_.stop(sort_.failure());
+    corner.position = position_at(position, join_.float32_);
+    return true;
+  }
+
+ private:
+  MeshJoin& join_;
+  CornerSort& sort_;
+  const std::uint64_t first_corner_;
+  const Face& face_;
+};
+
+template <class Face>
+Result<bool> MeshJoin::take_near(const Face& face) {
+  begin_face(face.size());
+  NearCorners<Face> corners(*this, face);
+  Result<bool> taken = delivery_.polygon_of(face.record(), face.size(), corners);
+  if (taken && !*taken && !goes_over_) return *failure_;
+  return taken;
+}
+
+template <class Face>
+Result<bool> MeshJoin::add_to(CornerSort& sort, const Face& face) {
+  if (face.size() < 3) return true;
+  for (std::uint64_t k = 0; k < face.size(); ++k) {
+    std::int64_t value = 0;
+    if (!face.value_at(k, value)) return face.failure();
+    const std::uint64_t vertex = vertex_of(value, face.vertices_before());
+    if (vertex >= vertex_count_) {
+      sort.add_none();
+    } else if (const auto added = sort.add(vertex); !added) {
+      return added.error();
+    }
+  }
+  return true;
+}
+
+template <class Face>
+Result<bool> MeshJoin::take_sorted(CornerSort& sort, std::uint64_t& next_corner, const Face& face) {
+  SortedCorners<Face> corners(*this, sort, next_corner, face);
+  if (face.size() >= 3) next_corner += face.size();
+  Result<bool> taken = delivery_.polygon_of(face.record(), face.size(), corners);
+  if (taken && !*taken) return *failure_;
+  return taken;
+}
+
+template <class EachFace>
+Result<FacePlace> MeshJoin::deliver_sorted(const FacePlace& begin, std::uint64_t rest_bytes,
+                                           const EachFace& each_face) {
+  if (const auto may = scratch_.ask_to_sort(); !may) return may.error();
+  CornerSort sort(vertices_, scratch_, memory_bytes_);
+  const std::uint64_t bytes_before = delivery_.bytes_total();
+  delivery_.expect_more(2 * rest_bytes);
+  const auto added = each_face(begin, [&](const auto& face) { return this->add_to(sort, face); });
+  if (!added) return added.error();
+  const auto matched = sort.match([&](std::uint64_t part, std::uint64_t parts) {
+    delivery_.advance(bytes_before + rest_bytes / parts * part);
+  });
+  if (!matched) return matched.error();
+  delivery_.begin_again(2 * rest_bytes);
+  std::uint64_t next_corner = 0;
+  return each_face(begin,
+                   [&](const auto& face) { return this->take_sorted(sort, next_corner, face); });
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "octree/builder/mesh/stream/triangle_sink.h"
+#include "planetree/error.h"
+#include "planetree/types.h"
+
+namespace planetree::octree {
+
+/// A corner as a format's reader found it.
+struct MeshCorner {
+  Vec3 position;           ///< meaningless unless in_range
+  std::int64_t value = 0;  ///< how the file names its vertex; see SetAside::value
+  bool in_range = true;    ///< the vertex exists
+};
+
+/// Hands polygons to a sink as fans: the one place that counts triangle
+/// indices, judges records and reports progress, for all formats.
+class MeshDelivery {
+ public:
+  MeshDelivery(TriangleSink& sink, RecordKind kind, std::uint64_t bytes_total)
+      : sink_(sink), kind_(kind), bytes_total_(bytes_total) {}
+
+  /// Vertices in the file, as far as they are known; for messages and summary.
+  void set_vertex_count(std::uint64_t count) noexcept { vertex_count_ = count; }
+
+  /// Delivers the record's fan, or sets the record aside.
+  ///
+  /// corners  first(k, corner) for k from 0 on, until the record is judged: that is done
+  ///          before any of it is delivered; then again(k, corner) from 3 on. Each is true, or
+  ///          false where there is none to be had.
+  /// return   false: there was none, and nothing was delivered if first() said so. Else the
+  ///          sink's error, if it gave one.
+  template <class Corners>
+  Result<bool> polygon_of(std::uint64_t record, std::uint64_t corner_count, Corners& corners) {
+    if (corner_count < 3) {
+      ++record_count_;
+      set_aside(record, corner_count, RecordFault::kTooFewCorners,
+                static_cast<std::int64_t>(corner_count));
+      return true;
+    }
+    std::array<Vec3, 3> three;
+    MeshCorner corner;
+    for (std::uint64_t k = 0; k < corner_count; ++k) {
+      if (!corners.first(k, corner)) return false;
+      if (const std::optional<RecordFault> fault = fault_of(corner)) {
+        ++record_count_;
+        set_aside(record, corner_count, *fault, corner.value);
+        return true;
+      }
+      if (k < 3) three[k] = without_negative_zero(corner.position);
+    }
+    ++record_count_;
+    any_delivered_ = true;
+    Result<void> taken = sink_.triangle(next_index_++, three);
+    for (std::uint64_t k = 3; k < corner_count && taken; ++k) {
+      if (!corners.again(k, corner)) return false;
+      three[1] = three[2];
+      three[2] = without_negative_zero(corner.position);
+      taken = sink_.triangle(next_index_++, three);
+    }
+    if (!taken) return taken.error();
+    return true;
+  }
+
+  /// The same of corners that are all at hand.
+  ///
+  /// corner_at  (k) -> MeshCorner for k in [0, corner_count), the same each time.
+  /// return     the sink's error, if it gave one.
+  template <class CornerAt>
+  Result<void> polygon(std::uint64_t record, std::uint64_t corner_count,
+                       const CornerAt& corner_at) {
+    struct Corners {
+      bool first(std::uint64_t k, MeshCorner& corner) {
+        corner = corner_at(k);
+        return true;
+      }
+      bool again(std::uint64_t k, MeshCorner& corner) { return first(k, corner); }
+      const CornerAt& corner_at;
+    } corners{corner_at};
+    const Result<bool> taken = polygon_of(record, corner_count, corners);
+    if (!taken) return taken.error();
+    return {};
+  }
+
+  /// Tells the sink how far the reading is, about every 4 MiB.
+  void advance(std::uint64_t bytes_done) {
+    if (bytes_done + bytes_before_ >= next_report_bytes_) report(bytes_done + bytes_before_);
+  }
+  /// Says that more is to be done than was thought: so much, as bytes of the file are counted.
+  void expect_more(std::uint64_t bytes) { bytes_total_ += bytes; }
+  /// Says that what advance() is told from now on was told before, and so much of it.
+  void begin_again(std::uint64_t bytes) { bytes_before_ += bytes; }
+  [[nodiscard]] std::uint64_t bytes_total() const { return bytes_total_; }
+
+  /// Call once all is read: the summary, or kBadInput if no triangle was found.
+  Result<MeshSummary> finish(bool float32);
+
+ private:
+  static constexpr std::uint64_t kReportBytes = std::uint64_t{4} << 20;
+
+  static std::optional<RecordFault> fault_of(const MeshCorner& corner) {
+    if (!corner.in_range) return RecordFault::kIndexOutOfRange;
+    const Vec3& p = corner.position;
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) return std::nullopt;
+    return RecordFault::kVertexNotFinite;
+  }
+
+  /// Equal positions must have equal bits; -0 + 0 is +0, and all else stays.
+  static Vec3 without_negative_zero(const Vec3& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
+
+  void set_aside(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
+                 std::int64_t value);
+  void report(std::uint64_t bytes_done);
+
+  TriangleSink& sink_;
+  RecordKind kind_;
+  std::uint64_t bytes_total_;
+  std::uint64_t bytes_before_ = 0;
+  std::uint64_t next_report_bytes_ = kReportBytes;
+  std::uint64_t vertex_count_ = 0;
+  std::uint64_t record_count_ = 0;
+  std::uint64_t next_index_ = 0;
+  bool any_delivered_ = false;
+  std::optional<SetAside> first_set_aside_;
+};
+
+}  // namespace planetree::octree

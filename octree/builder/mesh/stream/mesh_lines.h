@@ -1,0 +1,76 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "octree/builder/mesh/stream/mesh_file.h"
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/builder/mesh/stream/mesh_window.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// Steps through the lines of a mesh file, of which a window is in memory: as LineScanner does
+/// through those of a text.
+class MeshLines {
+ public:
+  /// A line is in memory whole; one longer than this is refused.
+  static constexpr std::uint64_t kMaxLineBytes = std::uint64_t{32} << 20;
+
+  /// file  must outlive this.
+  MeshLines(const MeshFile& file, TextPlace start, LineComment comment = LineComment::kNone,
+            std::size_t window_bytes = MeshWindow::kWindowBytes)
+      : size_bytes_(file.size_bytes()),
+        comment_(comment),
+        window_(file, window_bytes),
+        window_bytes_(std::max<std::uint64_t>(window_bytes, MeshWindow::kRecordBytes)),
+        base_(start.offset),
+        lines_({}, {0, start.line}, LineEnd::kAny, comment) {}
+
+  /// Steps to the next line; false at the end of the file, or where failure() says why it
+  /// cannot be read.
+  bool next() {
+    while (!lines_.next())
+      if (!refill()) return false;
+    return true;
+  }
+  /// Steps to the next line that holds a word; false as next().
+  bool next_filled() {
+    while (!lines_.next_filled())
+      if (!refill()) return false;
+    return true;
+  }
+
+  /// As LineScanner's; the line's characters until the next step.
+  [[nodiscard]] std::string_view line() const { return lines_.line(); }
+  [[nodiscard]] TextPlace place() const { return in_file(lines_.place()); }
+  [[nodiscard]] TextPlace after() const { return in_file(lines_.after()); }
+
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+
+ private:
+  [[nodiscard]] TextPlace in_file(const TextPlace& place) const {
+    return {base_ + place.offset, place.line};
+  }
+  bool refill();
+  bool fail(const Error& error) {
+    failure_ = error;
+    return false;
+  }
+
+  std::uint64_t size_bytes_;
+  LineComment comment_;
+  MeshWindow window_;
+  std::uint64_t window_bytes_;
+  std::uint64_t base_;  ///< where the text of lines_ begins in the file
+  LineScanner lines_;   ///< of whole lines
+  std::optional<Error> failure_;
+};
+
+/// Where the text of a file begins, as text_begin().
+Result<TextPlace> text_begin(const MeshFile& file);
+
+}  // namespace planetree::octree

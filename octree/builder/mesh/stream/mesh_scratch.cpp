@@ -1,0 +1,19 @@
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+
+#include <system_error>
+
+namespace planetree::octree {
+namespace {
+
+// Where the system names none, there are none to be written: the error is then of who tries.
+std::filesystem::path temporary_directory() {
+  std::error_code ignored;
+  return std::filesystem::temp_directory_path(ignored);
+}
+
+}  // namespace
+
+MeshScratch::MeshScratch(std::uint64_t memory_bytes)
+    : MeshScratch(memory_bytes, temporary_directory()) {}
+
+}  // namespace planetree::octree

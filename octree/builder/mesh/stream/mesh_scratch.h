@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <utility>
+
+#include "planetree/error.h"
+#include "storage/spill/spill_file.h"
+#include "storage/system/file_calls.h"
+
+namespace planetree::octree {
+
+/// What a mesh may take while it is read: memory, and room for temporary files.
+///
+/// threads  one at a time.
+class MeshScratch {
+ public:
+  static constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
+
+  /// memory_bytes  about the most to keep of the mesh in memory.
+  /// directory     takes what does not fit.
+  /// calls         the system; must outlive this.
+  MeshScratch(std::uint64_t memory_bytes, std::filesystem::path directory,
+              storage::FileCalls& calls = storage::FileCalls::real())
+      : memory_bytes_(memory_bytes), directory_(std::move(directory)), calls_(calls) {}
+  /// In the system's directory for temporary files.
+  explicit MeshScratch(std::uint64_t memory_bytes = kMemoryBytes);
+
+  [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }
+  [[nodiscard]] storage::FileCalls& calls() const { return calls_; }
+
+  /// Of the memory, what is for joining corners with vertices; the rest is for a window of the
+  /// file and, of a text, for vertices.
+  [[nodiscard]] std::uint64_t join_bytes(bool is_text) const {
+    return memory_bytes_ - window_bytes() - (is_text ? text_bytes(memory_bytes_) : 0);
+  }
+  static constexpr std::uint64_t text_bytes(std::uint64_t memory_bytes) { return memory_bytes / 2; }
+  [[nodiscard]] std::uint64_t window_bytes() const {
+    return std::min(memory_bytes_ / 4, kWindowBytes);
+  }
+
+  /// Asked once corners have to be sorted on disk, before any of them is written; an error ends
+  /// the reading.
+  void before_sorting(std::function<Result<void>()> ask) { before_sorting_ = std::move(ask); }
+  Result<void> ask_to_sort() const { return before_sorting_ ? before_sorting_() : Result<void>(); }
+
+  /// Of temporary files that are closed: bytes they had on disk, together.
+  [[nodiscard]] std::uint64_t disk_bytes() const { return disk_bytes_; }
+  /// Whether one of them failed.
+  [[nodiscard]] bool failed() const { return failed_; }
+
+ private:
+  friend class ScratchFile;
+  static constexpr std::uint64_t kWindowBytes = std::uint64_t{1} << 20;
+
+  const std::uint64_t memory_bytes_;
+  const std::filesystem::path directory_;
+  storage::FileCalls& calls_;
+  std::function<Result<void>()> before_sorting_;
+  std::uint64_t disk_bytes_ = 0;
+  bool failed_ = false;
+};
+
+/// A temporary file of a MeshScratch, which must outlive it.
+class ScratchFile {
+ public:
+  /// held_bytes  may stay in memory.
+  explicit ScratchFile(MeshScratch& scratch, std::uint64_t held_bytes = 0)
+      : scratch_(scratch), spill_(scratch.directory_, held_bytes, scratch.calls_) {}
+  ~ScratchFile() {
+    scratch_.disk_bytes_ += spill_.disk_bytes();
+    scratch_.failed_ |= spill_.failed();
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  [[nodiscard]] storage::SpillFile& spill() { return spill_; }
+
+ private:
+  MeshScratch& scratch_;
+  storage::SpillFile spill_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,131 @@
+#include "octree/builder/mesh/stream/mesh_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <limits>
+#include <system_error>
+
+namespace planetree::octree {
+
+namespace {
+
+constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
+
+/// Whether a decimal number that no T holds is too large, not too small:
+/// whether its first digit other than 0 stands, after the exponent has moved
+/// the point, in front of it.
+bool is_large(std::string_view number) noexcept {
+  const std::size_t exponent_at = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, exponent_at);
+  const std::size_t point = std::min(digits.find('.'), digits.size());
+  const std::size_t leading = digits.find_first_of("123456789");
+  if (leading == std::string_view::npos) return false;
+  std::int64_t exponent = 0;
+  if (exponent_at < number.size()) {
+    std::string_view rest = number.substr(exponent_at + 1);
+    take_integer(rest, exponent);
+  }
+  const auto places = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
+  // Compared without adding: a saturated exponent must not overflow.
+  return exponent > -places;
+}
+
+template <class T>
+bool parse(std::string_view word, T& value) noexcept {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  const auto [stop, code] = std::from_chars(word.data(), end, value);
+  if (code == std::errc::invalid_argument) return false;
+  if (code == std::errc::result_out_of_range) {
+    const bool large = is_large(word.substr(0, static_cast<std::size_t>(stop - word.data())));
+    value = large ? std::numeric_limits<T>::infinity() : T{0};
+  }
+  if (stop == end) return true;
+  value = std::numeric_limits<T>::quiet_NaN();
+  return *stop == '#';
+}
+
+std::string_view without_comment(std::string_view line) noexcept {
+  std::size_t hash = line.find('#');
+  while (hash != std::string_view::npos && hash > 0 && line[hash - 1] == '.')
+    hash = line.find('#', hash + 1);
+  return line.substr(0, hash);
+}
+
+}  // namespace
+
+TextPlace text_begin(std::string_view file) noexcept {
+  return {file.substr(0, 3) == "\xEF\xBB\xBF" ? std::uint64_t{3} : std::uint64_t{0}, 1};
+}
+
+bool LineScanner::ends_line(char c) const noexcept {
+  return (c == '\n' && line_end_ != LineEnd::kCarriageReturn) ||
+         (c == '\r' && line_end_ != LineEnd::kNewline);
+}
+
+bool LineScanner::next() noexcept {
+  if (after_.offset >= text_.size()) return false;
+  place_ = after_;
+  const auto begin = static_cast<std::size_t>(place_.offset);
+  std::size_t end = begin;
+  while (end < text_.size() && !ends_line(text_[end])) ++end;
+  line_ = text_.substr(begin, end - begin);
+  const bool is_pair = line_end_ == LineEnd::kAny && text_.substr(end, 2) == "\r\n";
+  after_.offset = std::min(end + (is_pair ? 2 : 1), text_.size());
+  after_.line = place_.line + 1;
+  if (comment_ == LineComment::kHash) line_ = without_comment(line_);
+  return true;
+}
+
+bool LineScanner::next_filled() noexcept {
+  while (next()) {
+    if (!std::all_of(line_.begin(), line_.end(), is_space)) return true;
+  }
+  return false;
+}
+
+std::string_view take_word(std::string_view& rest) noexcept {
+  std::size_t begin = 0;
+  while (begin < rest.size() && is_space(rest[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < rest.size() && !is_space(rest[end])) ++end;
+  const std::string_view word = rest.substr(begin, end - begin);
+  rest.remove_prefix(end);
+  return word;
+}
+
+bool is_same_word(std::string_view word, std::string_view lower) noexcept {
+  const auto same = [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  };
+  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), same);
+}
+
+bool parse_real(std::string_view word, float& value) noexcept { return parse(word, value); }
+bool parse_real(std::string_view word, double& value) noexcept { return parse(word, value); }
+
+bool take_integer(std::string_view& word, std::int64_t& value) noexcept {
+  std::string_view digits = word;
+  if (digits.size() > 1 && digits.front() == '+' && is_digit(digits[1])) digits.remove_prefix(1);
+  const auto [stop, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (code == std::errc::invalid_argument) return false;
+  if (code == std::errc::result_out_of_range) {
+    value = digits.front() == '-' ? std::numeric_limits<std::int64_t>::min()
+                                  : std::numeric_limits<std::int64_t>::max();
+  }
+  word.remove_prefix(static_cast<std::size_t>(stop - word.data()));
+  return true;
+}
+
+std::string printable(std::string_view word) {
+  constexpr std::size_t kMaxCharacters = 24;
+  std::string shown(word.substr(0, kMaxCharacters));
+  for (char& c : shown) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  if (word.size() > kMaxCharacters) shown += "...";
+  return shown;
+}
+
+}  // namespace planetree::octree

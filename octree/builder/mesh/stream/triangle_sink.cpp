@@ -1,0 +1,45 @@
+#include "octree/builder/mesh/stream/triangle_sink.h"
+
+#include <cinttypes>
+#include <cstdio>
+
+namespace planetree::octree {
+
+namespace {
+
+const char* kind_name(RecordKind kind) {
+  switch (kind) {
+    case RecordKind::kFace:
+      return "face";
+    case RecordKind::kFacet:
+      return "facet";
+    case RecordKind::kLine:
+      break;
+  }
+  return "line";
+}
+
+}  // namespace
+
+std::string SetAside::text() const {
+  char cause[128] = {};
+  switch (fault) {
+    case RecordFault::kVertexNotFinite:
+      std::snprintf(cause, sizeof cause, "%s %" PRId64 " is not finite",
+                    kind == RecordKind::kFacet ? "corner" : "vertex", value);
+      break;
+    case RecordFault::kIndexOutOfRange:
+      std::snprintf(cause, sizeof cause,
+                    "vertex index %" PRId64 " is out of range, the file has %" PRIu64 " vertices",
+                    value, vertex_count);
+      break;
+    case RecordFault::kTooFewCorners:
+      std::snprintf(cause, sizeof cause, "has %" PRId64 " corners, fewer than 3", value);
+      break;
+  }
+  char line[192] = {};
+  std::snprintf(line, sizeof line, "%s %" PRIu64 ": %s", kind_name(kind), record, cause);
+  return line;
+}
+
+}  // namespace planetree::octree

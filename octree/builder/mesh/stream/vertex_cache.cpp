@@ -1,0 +1,61 @@
+#include "octree/builder/mesh/stream/vertex_cache.h"
+
+#include <algorithm>
+#include <span>
+
+namespace planetree::octree {
+namespace {
+
+// A call of the system and the seek of a disk are worth a block of so many bytes; where memory
+// is too little for many blocks, they are smaller.
+constexpr std::uint64_t kBlockBytes = std::uint64_t{16} << 10;
+constexpr std::uint64_t kBlocks = 64;
+
+}  // namespace
+
+VertexCache::VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes)
+    : vertices_(vertices), position_bytes_(vertices.position_bytes()) {
+  const std::uint64_t block_vertices =
+      std::min(kBlockBytes, memory_bytes / kBlocks) / position_bytes_;
+  block_shift_ = static_cast<int>(std::bit_width(std::max<std::uint64_t>(block_vertices, 1))) - 1;
+  const std::uint64_t room = memory_bytes / (block_bytes() + sizeof(Slot));
+  const std::uint64_t blocks = (vertices.count() >> block_shift_) + 1;
+  if (blocks > room) ways_ = kWays;
+  slots_.resize(static_cast<std::size_t>(
+      blocks > room ? std::max<std::uint64_t>(room / kWays, 1) * kWays : blocks));
+  known_.fill(slots_.data());
+}
+
+bool VertexCache::enter(std::uint64_t block, Slot*& slot) {
+  Slot* const set = &slots_[static_cast<std::size_t>(block % (slots_.size() / ways_)) * ways_];
+  slot = set;
+  for (Slot* other = set; other != set + ways_; ++other) {
+    if (other->block == block) {
+      slot = other;
+      return true;
+    }
+    if (other->used < slot->used) slot = other;
+  }
+  return load(block, *slot);
+}
+
+bool VertexCache::load(std::uint64_t block, Slot& slot) {
+  if (!slot.positions)
+    slot.positions =
+        std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(block_bytes()));
+  // What is in it is no longer what it was, whether it can be read or not.
+  slot.block = kNone;
+  const std::uint64_t first = block << block_shift_;
+  const std::uint64_t count = std::min(std::uint64_t{1} << block_shift_, vertices_.count() - first);
+  const std::span<std::byte> out(slot.positions.get(),
+                                 static_cast<std::size_t>(count * position_bytes_));
+  if (const auto read = vertices_.read(first, out); !read) {
+    failure_ = read.error();
+    return false;
+  }
+  read_bytes_ += out.size();
+  slot.block = block;
+  return true;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "octree/builder/mesh/stream/mesh_vertices.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// Blocks of neighbouring vertices that were asked for lately. Vertices that faces near each
+/// other share are read about once; all of them at most once if they fit.
+///
+/// A block has its place in one of several sets, in which it displaces the one that was used
+/// longest ago; or, if all fit, a place of its own.
+class VertexCache {
+ public:
+  /// vertices      all known; must outlive this.
+  /// memory_bytes  about the most to take, as it is needed.
+  VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes);
+  VertexCache(const VertexCache&) = delete;
+  VertexCache& operator=(const VertexCache&) = delete;
+
+  /// The position of a vertex below count(), until the next call. Null: it cannot be read,
+  /// failure() says why.
+  const std::byte* at(std::uint64_t vertex) {
+    const std::uint64_t block = vertex >> block_shift_;
+    Slot*& slot = known_[block % kKnown];
+    if (slot->block != block && !enter(block, slot)) return nullptr;
+    slot->used = ++clock_;
+    return slot->positions.get() +
+           (vertex & ((std::uint64_t{1} << block_shift_) - 1)) * position_bytes_;
+  }
+  [[nodiscard]] const Error& failure() const { return *failure_; }
+
+  /// What may be in memory, and what was read into it so far.
+  [[nodiscard]] std::uint64_t capacity_bytes() const { return slots_.size() * block_bytes(); }
+  [[nodiscard]] std::uint64_t read_bytes() const { return read_bytes_; }
+
+ private:
+  static constexpr std::size_t kWays = 8;
+  static constexpr std::size_t kKnown = 16;
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+  struct Slot {
+    std::uint64_t block = kNone;
+    std::uint64_t used = 0;  ///< when it last was
+    std::unique_ptr<std::byte[]> positions;
+  };
+
+  [[nodiscard]] std::uint64_t block_bytes() const { return position_bytes_ << block_shift_; }
+  bool enter(std::uint64_t block, Slot*& slot);
+  bool load(std::uint64_t block, Slot& slot);
+
+  MeshVertices& vertices_;
+  const std::size_t position_bytes_;
+  int block_shift_ = 0;                   ///< of 2^block_shift_ vertices
+  std::vector<Slot> slots_;               ///< those of each set side by side
+  std::size_t ways_ = 1;                  ///< of a set
+  std::array<Slot*, kKnown> known_ = {};  ///< where to look first
+  std::uint64_t clock_ = 0;
+  std::uint64_t read_bytes_ = 0;
+  std::optional<Error> failure_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,107 @@
+#include "octree/builder/sort/chunks.h"
+
+#include <utility>
+
+#include "octree/geometry/octcode.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Triangles whose codes are `code` but for the last `bits` bits.
+struct Stretch {
+  Patch patch;
+  std::uint64_t code = 0;
+  unsigned bits = kMortonBits;
+};
+
+struct Halves {
+  Stretch lower, upper;
+};
+
+class PatchCutter {
+ public:
+  PatchCutter(const TriangleRuns& runs, std::uint64_t most) : runs_(runs), most_(most) {}
+
+  // Makes the node of a stretch, its patches and the nodes below it.
+  Result<void> add(Stretch stretch) {
+    const std::size_t at = tree.nodes.size();
+    const auto begin = static_cast<std::uint32_t>(tree.patches.size());
+    tree.nodes.push_back({begin, begin + 1, 0, 0});
+    if (stretch.patch.size <= most_) {
+      tree.patches.push_back(std::move(stretch.patch));
+      return {};
+    }
+    auto halves = by_code(std::move(stretch));
+    if (!halves) return halves.error();
+    tree.nodes[at].left = static_cast<std::uint32_t>(tree.nodes.size());
+    if (const auto added = add(std::move(halves->lower)); !added) return added;
+    tree.nodes[at].right = static_cast<std::uint32_t>(tree.nodes.size());
+    if (const auto added = add(std::move(halves->upper)); !added) return added;
+    tree.nodes[at].end = static_cast<std::uint32_t>(tree.patches.size());
+    return {};
+  }
+
+  PatchTree tree;
+
+ private:
+  // At the first bit that is not the same in all.
+  Result<Halves> by_code(Stretch stretch) const {
+    while (stretch.bits > 0) {
+      const std::uint64_t upper_code = stretch.code | std::uint64_t{1} << --stretch.bits;
+      auto middle = runs_.cut(upper_code);
+      if (!middle) return middle.error();
+      const std::uint64_t lower = TriangleRuns::count(stretch.patch.from, *middle);
+      if (lower == 0) stretch.code = upper_code;
+      if (lower != 0 && lower != stretch.patch.size)
+        return halves_of(std::move(stretch), *std::move(middle), lower, upper_code);
+    }
+    return by_number(std::move(stretch));
+  }
+
+  // Before the least index that leaves a half before it.
+  Result<Halves> by_number(Stretch stretch) const {
+    const std::uint64_t lower = stretch.patch.size / 2;
+    std::uint64_t least = 0, most = ~std::uint64_t{0};
+    while (least < most) {
+      const std::uint64_t index = least + (most - least) / 2;
+      const auto middle = runs_.cut(stretch.code, index);
+      if (!middle) return middle.error();
+      // Less than none where the index is before the stretch.
+      const auto before =
+          static_cast<std::int64_t>(TriangleRuns::count(stretch.patch.from, *middle));
+      if (before < static_cast<std::int64_t>(lower))
+        least = index + 1;
+      else
+        most = index;
+    }
+    auto middle = runs_.cut(stretch.code, least);
+    if (!middle) return middle.error();
+    const std::uint64_t code = stretch.code;
+    return halves_of(std::move(stretch), *std::move(middle), lower, code);
+  }
+
+  static Halves halves_of(Stretch stretch, TriangleRuns::Cut middle, std::uint64_t lower,
+                          std::uint64_t upper_code) {
+    Halves halves;
+    halves.upper = {{middle, std::move(stretch.patch.to), stretch.patch.size - lower},
+                    upper_code,
+                    stretch.bits};
+    halves.lower = {
+        {std::move(stretch.patch.from), std::move(middle), lower}, stretch.code, stretch.bits};
+    return halves;
+  }
+
+  const TriangleRuns& runs_;
+  const std::uint64_t most_;
+};
+
+}  // namespace
+
+Result<PatchTree> cut_patches(const TriangleRuns& runs, std::uint64_t most) {
+  PatchCutter cutter(runs, most);
+  const auto added = cutter.add({{runs.begin(), runs.end(), runs.size()}});
+  if (!added) return added.error();
+  return std::move(cutter.tree);
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "octree/builder/job/build_progress.h"
+#include "octree/builder/job/parallel.h"
+#include "octree/builder/job/phase_count.h"
+#include "octree/builder/sort/chunks.h"
+#include "octree/builder/sort/triangle_runs.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// Calls work(number, triangles in any order) for each patch that is not done already, on any
+/// thread; counts them as the parts of a phase. Uses the calling thread's TBB arena.
+///
+/// is_done  of a patch's number; asked before any work.
+/// errors   those of SpillFile and `work`.
+template <class IsDone, class Work>
+Result<void> for_each_patch(const TriangleRuns& runs, const std::vector<Patch>& patches,
+                            BuildProgress& progress, BuildPhase phase, const IsDone& is_done,
+                            const Work& work) {
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (!is_done(i)) left.push_back(i);
+  PhaseCount count(progress, phase, patches.size(), patches.size() - left.size());
+  return for_each_in_parallel(left.size(), [&](std::size_t i) -> Result<void> {
+    const Patch& patch = patches[left[i]];
+    auto triangles = runs.read_any_order(patch.from, patch.to);
+    if (!triangles) return triangles.error();
+    if (const Result<void> done = work(left[i], *triangles); !done) return done;
+    count.add();
+    return {};
+  });
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,30 @@
+#include "octree/builder/sort/ordered_mesh.h"
+
+#include <limits>
+#include <utility>
+
+#include "octree/builder/mesh/mesh_reader.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+
+Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
+                                   MeshScratch& scratch, BuildProgress& progress,
+                                   MeshIntake& intake) {
+  const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
+    static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
+  };
+  intake.report_progress(report, &progress);
+  const Result<MeshSummary> summary = read_mesh(input, intake, scratch);
+  if (!summary) return summary.error();
+  auto frame = intake.finish();
+  if (!frame) return frame.error();
+  if (options.strict && frame->set_aside_count > 0)
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                      "%s; repair the mesh or build without --strict",
+                      frame->first_set_aside_text.c_str());
+  const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
+  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}};
+}
+
+}  // namespace planetree::octree

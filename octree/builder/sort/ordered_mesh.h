@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "octree/builder/job/build_options.h"
+#include "octree/builder/job/build_progress.h"
+#include "octree/builder/job/model_frame.h"
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+#include "octree/builder/sort/triangle_runs.h"
+#include "octree/builder/sort/triangle_spool.h"
+#include "planetree/error.h"
+
+namespace planetree::octree {
+
+/// A mesh, read and ordered.
+struct OrderedMesh {
+  ModelFrame frame;
+  std::uint64_t vertex_records = 0;
+  bool wide_ids = false;                  ///< some triangle's index takes more than 32 bits
+  std::vector<TriangleRuns::Place> runs;  ///< if none of them is in memory
+};
+
+/// Reads the mesh at `input`, which is not ordered then.
+///
+/// scratch  as read_mesh() has it.
+/// intake   takes its triangles.
+/// return   all but the runs.
+/// errors   those of read_mesh and MeshIntake; kBadInput for a bad record under options.strict.
+Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
+                                   MeshScratch& scratch, BuildProgress& progress,
+                                   MeshIntake& intake);
+
+}  // namespace planetree::octree

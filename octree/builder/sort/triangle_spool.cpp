@@ -1,0 +1,136 @@
+#include "octree/builder/sort/triangle_spool.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "octree/builder/sort/morton_order.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+bool is_float(const Vec3& v) {
+  return static_cast<double>(static_cast<float>(v.x)) == v.x &&
+         static_cast<double>(static_cast<float>(v.y)) == v.y &&
+         static_cast<double>(static_cast<float>(v.z)) == v.z;
+}
+
+Triangle points_of(const std::array<Vec3, 3>& corners) {
+  Triangle triangle;
+  for (std::size_t k = 0; k < 3; ++k) triangle[k] = {corners[k].x, corners[k].y, corners[k].z};
+  return triangle;
+}
+
+Triangles widened(const Triangles& narrow) {
+  Triangles wide(true);
+  wide.reserve(narrow.size());
+  for (std::uint32_t i = 0; i < narrow.size(); ++i) wide.add(narrow.key(i), narrow.corners(i));
+  return wide;
+}
+
+}  // namespace
+
+Result<void> MeshIntake::triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) {
+  if (chunks_.empty() || chunks_.back().held.size() == chunk_triangles_) {
+    if (!chunks_.empty())
+      if (const auto put = put_away(chunks_.back()); !put) return put;
+    chunks_.push_back({Triangles(frame_.float64), 0, 0, frame_.float64});
+  }
+  if (!frame_.float64 && !std::all_of(corners.begin(), corners.end(), is_float)) widen_last();
+  if (frame_.triangle_count == 0) {
+    frame_.input_sample = {corners[0].x, corners[0].y, corners[0].z};
+    frame_.sample_triangle = index;
+  }
+  note(corners);
+  chunks_.back().held.add({0, index}, points_of(corners));
+  ++frame_.triangle_count;
+  return {};
+}
+
+void MeshIntake::note(const std::array<Vec3, 3>& corners) {
+  for (const Vec3& corner : corners) {
+    const Point point(corner.x, corner.y, corner.z);
+    const bool first = frame_.triangle_count == 0 && &corner == corners.data();
+    frame_.input_lower = first ? point : Point(frame_.input_lower.cwiseMin(point));
+    frame_.input_upper = first ? point : Point(frame_.input_upper.cwiseMax(point));
+    for (const double value : {corner.x, corner.y, corner.z}) {
+      const double magnitude = std::fabs(value);
+      if (magnitude > 0 && (least_magnitude_ == 0 || magnitude < least_magnitude_))
+        least_magnitude_ = magnitude;
+    }
+  }
+}
+
+void MeshIntake::widen_last() {
+  frame_.float64 = true;
+  chunks_.back().held = widened(chunks_.back().held);
+  chunks_.back().float64 = true;
+}
+
+Result<void> MeshIntake::put_away(Chunk& chunk) {
+  const std::span<const std::byte> records = chunk.held.records();
+  chunk.bytes = records.size();
+  if (records.size() <= held_bytes_) {
+    held_bytes_ -= records.size();
+    return {};
+  }
+  const auto offset = file_.append(records);
+  if (!offset) return offset.error();
+  chunk.offset = *offset;
+  chunk.held = Triangles(chunk.float64);
+  return {};
+}
+
+void MeshIntake::set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) {
+  if (frame_.set_aside_count == 0) {
+    frame_.first_set_aside = first_index;
+    frame_.first_set_aside_text = why.text();
+  }
+  frame_.set_aside_count += count;
+}
+
+void MeshIntake::progress(std::uint64_t bytes_done, std::uint64_t bytes_total) {
+  if (progress_) progress_(progress_context_, bytes_done, bytes_total);
+}
+
+void MeshIntake::choose_scale() {
+  const Point &lower = frame_.input_lower, &upper = frame_.input_upper;
+  // Halves, because the difference of two doubles may overflow.
+  double half = (upper * 0.5 - lower * 0.5).maxCoeff();
+  if (half == 0) half = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()) * 0.5;
+  int exponent = 0;
+  if (half > 0) std::frexp(half, &exponent);
+  frame_.scale_exponent = half > 0 ? -exponent : 0;
+}
+
+Result<ModelFrame> MeshIntake::finish() {
+  choose_scale();
+  if (least_magnitude_ > 0 &&
+      std::ldexp(least_magnitude_, frame_.scale_exponent) < std::numeric_limits<float>::min())
+    frame_.float64 = true;
+  if (!chunks_.empty())
+    if (const auto put = put_away(chunks_.back()); !put) return put.error();
+  return frame_;
+}
+
+Result<Triangles> MeshIntake::take_chunk(std::size_t at) {
+  Chunk& chunk = chunks_[at];
+  Triangles triangles = std::move(chunk.held);
+  chunk.held = Triangles(chunk.float64);
+  if (triangles.size() == 0) {
+    std::vector<std::byte> records(chunk.bytes);
+    if (const auto read = file_.read(chunk.offset, records); !read) return read.error();
+    triangles = Triangles(std::move(records), chunk.float64);
+  }
+  if (frame_.float64 && !chunk.float64) triangles = widened(triangles);
+  const Point lower = frame_.lower();
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    Triangle corners = triangles.corners(i);
+    for (Point& corner : corners) corner = frame_.scaled(corner);
+    triangles.set(i, {morton_code_of(corners, lower), triangles.index(i)}, corners);
+  }
+  return triangles;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,140 @@
+#include "octree/builder/space_need.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "octree/builder/mesh/stream/corner_sort.h"
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+#include "octree/builder/sort/triangles.h"
+#include "octree/builder/surface/edge_balance.h"
+#include "storage/file/file_layout.h"
+#include "storage/system/device_space.h"
+
+namespace planetree::octree {
+namespace {
+
+// Of triangles: edges that patches have in common and triangles that regions do, on the most
+// crumpled surfaces at hand a third of this.
+constexpr std::uint64_t kTrianglesABorderEdge = 12;
+constexpr std::uint64_t kTrianglesAVisitor = 10;
+// Of pages beside vertices, a triangle: indices, corners, nodes and the mask. And of pages that
+// are nearly empty, however few triangles there are.
+constexpr std::uint64_t kPageBytes = 12;
+constexpr std::uint64_t kWideIdBytes = 4;
+constexpr std::uint64_t kLeastPageBytes = 4096;
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+
+std::uint64_t beyond(std::uint64_t bytes, std::uint64_t held_bytes) {
+  return bytes - std::min(bytes, held_bytes);
+}
+
+/// What of some triangles is put away, chunk by chunk: where one is, there was less room left
+/// than it takes.
+std::uint64_t put_away_bytes(const MeshSize& size, const BuildMemory& memory,
+                             std::uint64_t held_bytes) {
+  const std::uint64_t record = Triangles::record_bytes(size.float64);
+  const std::uint64_t bytes = size.triangles * record;
+  return bytes <= held_bytes ? 0
+                             : beyond(bytes, beyond(held_bytes, memory.chunk_triangles * record));
+}
+
+std::uint64_t edge_bytes(const MeshSize& size, const BuildMemory& memory) {
+  // By Euler's formula, of a surface without handles: vertices that faces do not share.
+  const std::uint64_t open =
+      std::min(beyond(2 * size.vertices, size.triangles), 3 * size.triangles);
+  const std::uint64_t bytes =
+      EdgeCensus::kEdgeBytes * (open + size.triangles / kTrianglesABorderEdge);
+  return bytes <= memory.edge_bytes ? 0 : bytes;
+}
+
+std::uint64_t visitor_bytes(const MeshSize& size, const BuildMemory& memory) {
+  const std::uint64_t bytes =
+      Triangles::record_bytes(size.float64) * (size.triangles / kTrianglesAVisitor);
+  return bytes <= memory.visitor_bytes ? 0 : bytes;
+}
+
+std::uint64_t position_bytes(const MeshSize& size) {
+  return 3 * (size.float64 ? sizeof(double) : sizeof(float));
+}
+
+std::uint64_t raw_page_bytes(const MeshSize& size) {
+  const std::uint64_t vertex_bytes = position_bytes(size);
+  // A vertex is in every page that has a triangle of it.
+  const std::uint64_t vertices = std::min(size.vertices + size.triangles / 4, 3 * size.triangles);
+  const bool wide_ids = size.triangles > std::numeric_limits<std::uint32_t>::max();
+  return vertex_bytes * vertices + size.triangles * (kPageBytes + (wide_ids ? kWideIdBytes : 0)) +
+         kLeastPageBytes;
+}
+
+Error too_little(const char* what, std::uint64_t needed, std::uint64_t free, const char* remedy) {
+  return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere,
+                    "%s may take %llu MiB, and the device has %llu MiB free; %s", what,
+                    static_cast<unsigned long long>((needed + kMiB - 1) / kMiB),
+                    static_cast<unsigned long long>(free / kMiB), remedy);
+}
+
+constexpr const char* kTemporaryRemedy =
+    "free some, name a roomier --temp-dir, or give more --memory";
+
+}  // namespace
+
+SpaceNeed SpaceNeed::after_cutting(const MeshSize& part, const BuildMemory& memory,
+                                   std::uint64_t kept_bytes) {
+  const std::uint64_t pages = raw_page_bytes(part);
+  const std::uint64_t to_keep = visitor_bytes(part, memory) + beyond(pages, memory.pages_bytes);
+  // Stored pages are not longer than raw ones, and a page of 4 KiB has 40 bytes in the table.
+  return {beyond(to_keep, kept_bytes), pages + pages / 64 + 2 * storage::kHeaderBytes};
+}
+
+SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memory,
+                                   std::uint64_t kept_bytes, bool matched, bool cut) {
+  SpaceNeed need;
+  if (!cut) need = after_cutting(size, memory, 0);
+  need.temporary_bytes =
+      beyond(need.temporary_bytes + put_away_bytes(size, memory, memory.runs_bytes), kept_bytes);
+  if (!matched) need.temporary_bytes += edge_bytes(size, memory);
+  return need;
+}
+
+SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory, bool cut) {
+  SpaceNeed need = after_reading(size, memory, 0, false, cut);
+  need.temporary_bytes += put_away_bytes(size, memory, memory.intake_bytes);
+  if (size.is_indexed_text)
+    need.temporary_bytes +=
+        beyond(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
+  return need;
+}
+
+SpaceNeed SpaceNeed::before_sorting(const MeshSize& size, const BuildMemory& memory,
+                                    std::uint64_t written_bytes, bool cut) {
+  SpaceNeed need = before_reading(size, memory, cut);
+  need.temporary_bytes =
+      beyond(need.temporary_bytes + CornerSort::disk_bytes(3 * size.triangles, !size.float64),
+             written_bytes);
+  return need;
+}
+
+Result<void> SpaceNeed::check(const std::filesystem::path& temporary_directory,
+                              const std::filesystem::path& output_directory,
+                              storage::FileCalls& calls, BuildPlace& place) const {
+  const auto temporary = storage::DeviceSpace::of(temporary_directory, calls);
+  const auto output = storage::DeviceSpace::of(output_directory, calls);
+  constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
+  const std::uint64_t temporary_free = temporary.free_bytes.value_or(kUnknown);
+  const std::uint64_t output_free = output.free_bytes.value_or(kUnknown);
+  if (output_bytes > output_free) {
+    place = BuildPlace::kOutput;
+    return too_little("the output", output_bytes, output_free,
+                      "free some, or name an output on another device");
+  }
+  place = BuildPlace::kTemporary;
+  if (temporary_bytes > temporary_free)
+    return too_little("temporary files", temporary_bytes, temporary_free, kTemporaryRemedy);
+  if (temporary_bytes > 0 && temporary.is_same_device(output) &&
+      temporary_bytes + output_bytes > output_free)
+    return too_little("temporary files and the output", temporary_bytes + output_bytes, output_free,
+                      kTemporaryRemedy);
+  return {};
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,258 @@
+#include "octree/builder/surface/edge_balance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "octree/builder/job/parallel.h"
+#include "octree/geometry/strict_math.h"
+#include "storage/file/checksum.h"
+
+namespace planetree::octree {
+namespace {
+
+/// The ends of an edge, in the same order whichever way a face runs along it.
+using Ends = std::array<double, 6>;
+
+struct HalfEdge {
+  Ends ends{};
+  int way = 0;  // 1 or -1: from the lesser end to the greater or back; 0 without length
+};
+
+HalfEdge half_edge(const Triangle& triangle, std::size_t corner) {
+  const Point &from = triangle[corner], &to = triangle[(corner + 1) % 3];
+  if (from == to) return {};
+  const bool forward = std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end());
+  const Point &a = forward ? from : to, &b = forward ? to : from;
+  return {{a.x(), a.y(), a.z(), b.x(), b.y(), b.z()}, forward ? 1 : -1};
+}
+
+std::uint64_t hash_of(const Ends& ends) { return storage::hash64(std::as_bytes(std::span(ends))); }
+
+/// An edge that does not come out even in a patch.
+struct LeftOver {
+  storage::SpillKey key;  // the hash of its ends
+  Ends ends{};
+  std::int64_t net = 0;  // faces that run forward less those that run back
+};
+
+static_assert(sizeof(LeftOver) == EdgeCensus::kEdgeBytes);
+
+/// The edges of a patch, found by their hash.
+class EdgeTable {
+ public:
+  explicit EdgeTable(const Triangles& patch)
+      : patch_(patch), entries_(std::bit_ceil(std::size_t{3} * patch.size() + 1)) {
+    std::array<Pending, 3 * std::size_t{kAtOnce}> pending;
+    for (std::uint32_t first = 0; first < patch.size(); first += kAtOnce) {
+      std::size_t count = 0;
+      const std::uint32_t end = std::min(first + kAtOnce, patch.size());
+      for (std::uint32_t i = first; i < end; ++i) {
+        const Triangle triangle = patch.corners(i);
+        for (unsigned corner = 0; corner < 3; ++corner) {
+          const HalfEdge edge = half_edge(triangle, corner);
+          if (edge.way == 0) continue;
+          pending[count] = {edge, hash_of(edge.ends), 4 * i + corner};
+          __builtin_prefetch(&entry_at(pending[count].hash));
+          ++count;
+        }
+      }
+      for (std::size_t k = 0; k < count; ++k) add(pending[k]);
+    }
+  }
+
+  std::vector<LeftOver> left_over() const {
+    std::vector<LeftOver> found;
+    for (const Entry& entry : entries_)
+      if (entry.net != 0) {
+        const Ends ends = ends_of(entry);
+        found.push_back({{hash_of(ends), 0}, ends, entry.net});
+      }
+    return found;
+  }
+
+ private:
+  // Small: what is looked at is anywhere among them.
+  struct Entry {
+    std::uint32_t place = kNone;  // 4 * triangle + corner of the first face that has the edge
+    std::int32_t net = 0;
+  };
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  struct Pending {
+    HalfEdge edge;
+    std::uint64_t hash;
+    std::uint32_t place;
+  };
+  // Triangles whose entries are asked of memory before the first of them is waited for.
+  static constexpr std::uint32_t kAtOnce = 16;
+
+  Entry& entry_at(std::uint64_t hash) { return entries_[hash & (entries_.size() - 1)]; }
+
+  Ends ends_of(const Entry& entry) const {
+    return half_edge(patch_.corners(entry.place / 4), entry.place % 4).ends;
+  }
+
+  void add(const Pending& pending) {
+    for (std::uint64_t hash = pending.hash;; ++hash) {
+      Entry& entry = entry_at(hash);
+      if (entry.place == kNone)
+        entry.place = pending.place;
+      else if (ends_of(entry) != pending.edge.ends)
+        continue;
+      entry.net += pending.edge.way;
+      return;
+    }
+  }
+
+  const Triangles& patch_;
+  std::vector<Entry> entries_;
+};
+
+/// Open edges of some hashes, and those with the least ends among them.
+struct OpenEnds {
+  std::uint64_t count = 0;
+  std::vector<Ends> least;
+
+  void note(const Ends& ends) {
+    ++count;
+    list(ends);
+  }
+  void join(const OpenEnds& other) {
+    count += other.count;
+    for (const Ends& ends : other.least) list(ends);
+  }
+  void list(const Ends& ends) {
+    least.insert(std::upper_bound(least.begin(), least.end(), ends), ends);
+    if (least.size() > EdgeBalance::kListed) least.pop_back();
+  }
+};
+
+OpenEnds open_ends(std::vector<LeftOver> edges) {
+  std::sort(edges.begin(), edges.end(),
+            [](const LeftOver& a, const LeftOver& b) { return a.ends < b.ends; });
+  OpenEnds open;
+  for (std::size_t i = 0; i < edges.size();) {
+    const Ends& ends = edges[i].ends;
+    std::int64_t net = 0;
+    for (; i < edges.size() && edges[i].ends == ends; ++i) net += edges[i].net;
+    if (net != 0) open.note(edges[i - 1].ends);
+  }
+  return open;
+}
+
+/// So many left-over edges are balanced at a time, about.
+constexpr std::uint64_t kEdgesAtOnce = 1 << 17;
+
+}  // namespace
+
+EdgeCensus::EdgeCensus(std::uint64_t held_bytes, storage::SpillFile& file)
+    : left_over_(sizeof(LeftOver), held_bytes, file) {}
+
+Result<void> EdgeCensus::add(const Triangles& patch) {
+  std::vector<LeftOver> edges = EdgeTable(patch).left_over();
+  std::sort(edges.begin(), edges.end(),
+            [](const LeftOver& a, const LeftOver& b) { return a.key < b.key; });
+  std::vector<std::byte> records(edges.size() * sizeof(LeftOver));
+  if (!edges.empty()) std::memcpy(records.data(), edges.data(), records.size());
+  const auto added = left_over_.add(std::move(records));
+  if (!added) return added.error();
+  return {};
+}
+
+Result<EdgeBalance> EdgeCensus::balance() {
+  // A power of two of equal shares of all hashes.
+  const std::uint64_t shares = std::bit_ceil(left_over_.size() / kEdgesAtOnce + 1);
+  const auto cut = [&](std::uint64_t share) -> Result<storage::SpillRuns::Cut> {
+    if (share == shares) return left_over_.end();
+    return left_over_.cut({share * (~std::uint64_t{0} / shares + 1), 0});
+  };
+  std::mutex mutex;
+  OpenEnds open;
+  const auto balanced = for_each_in_parallel(shares, [&](std::size_t share) -> Result<void> {
+    const auto from = cut(share), to = cut(share + 1);
+    if (!from) return from.error();
+    if (!to) return to.error();
+    const auto records = left_over_.read(*from, *to);
+    if (!records) return records.error();
+    std::vector<LeftOver> edges(records->size() / sizeof(LeftOver));
+    if (!edges.empty()) std::memcpy(edges.data(), records->data(), records->size());
+    const OpenEnds some = open_ends(std::move(edges));
+    const std::lock_guard lock(mutex);
+    open.join(some);
+    return {};
+  });
+  if (!balanced) return balanced.error();
+  EdgeBalance balance;
+  balance.open_edges = open.count;
+  for (std::size_t i = 0; i < open.least.size(); ++i) {
+    const Ends& e = open.least[i];
+    balance.first[i].from = {e[0], e[1], e[2]};
+    balance.first[i].to = {e[3], e[4], e[5]};
+  }
+  return balance;
+}
+
+void EdgeFaces::Faces::join(const Faces& other) {
+  forward += other.forward;
+  back += other.back;
+  if (std::pair(other.triangle, other.corner) >= std::pair(triangle, corner)) return;
+  triangle = other.triangle;
+  corner = other.corner;
+  first_forward = other.first_forward;
+}
+
+void EdgeFaces::look_at(const Triangles& patch) {
+  const std::size_t listed = balance_.listed();
+  std::array<Faces, EdgeBalance::kListed> found;
+  for (std::uint32_t i = 0; i < patch.size(); ++i) {
+    const Triangle triangle = patch.corners(i);
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const Point &from = triangle[corner], &to = triangle[(corner + 1) % 3];
+      for (std::size_t k = 0; k < listed; ++k) {
+        const OpenEdge& edge = balance_.first[k];
+        const bool forward = from == edge.from && to == edge.to;
+        if (forward || (from == edge.to && to == edge.from))
+          found[k].join({forward, !forward, patch.index(i), corner, forward});
+      }
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  for (std::size_t k = 0; k < listed; ++k) faces_[k].join(found[k]);
+}
+
+EdgeBalance EdgeFaces::balance() const {
+  std::array<std::size_t, EdgeBalance::kListed> order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+    return std::pair(faces_[a].triangle, faces_[a].corner) <
+           std::pair(faces_[b].triangle, faces_[b].corner);
+  });
+  EdgeBalance balance = balance_;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Faces& faces = faces_[order[i]];
+    OpenEdge& edge = balance.first[i] = balance_.first[order[i]];
+    edge.triangle = faces.triangle;
+    edge.along = faces.first_forward ? faces.forward : faces.back;
+    edge.against = faces.first_forward ? faces.back : faces.forward;
+    if (!faces.first_forward) std::swap(edge.from, edge.to);
+  }
+  return balance;
+}
+
+void EdgeBalance::describe(int scale_exponent, storage::ModelRecord& model) const {
+  model.open_edge_count = open_edges;
+  for (std::size_t i = 0; i < listed(); ++i) {
+    storage::OpenEdge& edge = model.open_edge[i];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      edge.from[axis] = std::ldexp(first[i].from[axis], -scale_exponent);
+      edge.to[axis] = std::ldexp(first[i].to[axis], -scale_exponent);
+    }
+    edge.triangle = first[i].triangle;
+    edge.along = first[i].along;
+    edge.against = first[i].against;
+  }
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,31 @@
+#include "octree/builder/surface/edge_matching.h"
+
+#include "octree/builder/sort/each_chunk.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+
+Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Patch>& patches,
+                                std::uint64_t held_bytes, storage::SpillFile& scratch,
+                                BuildProgress& progress, const PatchCall& also) {
+  const auto is_done = [](std::size_t) { return false; };
+  EdgeCensus census(held_bytes, scratch);
+  const auto add = [&](std::size_t, const Triangles& patch) {
+    const auto counted = census.add(patch);
+    return counted ? also(patch) : counted;
+  };
+  const auto added = for_each_patch(runs, patches, progress, BuildPhase::kClosing, is_done, add);
+  if (!added) return added.error();
+  auto balance = census.balance();
+  if (!balance || balance->open_edges == 0) return balance;
+  EdgeFaces faces(*balance);
+  const auto look = [&](std::size_t, const Triangles& patch) -> Result<void> {
+    faces.look_at(patch);
+    return {};
+  };
+  const auto looked = for_each_patch(runs, patches, progress, BuildPhase::kListing, is_done, look);
+  if (!looked) return looked.error();
+  return faces.balance();
+}
+
+}  // namespace planetree::octree

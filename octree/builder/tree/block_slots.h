@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/sort/morton_order.h"
+#include "octree/builder/sort/triangles.h"
+#include "octree/builder/tree/chunk_vertices.h"
+#include "octree/builder/tree/wide_tree.h"
+#include "octree/page/frame.h"
+
+namespace planetree::octree {
+
+/// The slots that each block's record takes. The vertices of blocks must have been listed.
+std::vector<std::uint8_t> block_slots(const Triangles& triangles, const PatchVertices& vertices,
+                                      const std::vector<MortonKey>& keys,
+                                      const std::vector<WideBlock>& blocks,
+                                      const BlockShape& shape);
+
+}  // namespace planetree::octree

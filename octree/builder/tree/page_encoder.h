@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/sort/morton_order.h"
+#include "octree/builder/sort/triangles.h"
+#include "octree/builder/tree/chunk_vertices.h"
+#include "octree/builder/tree/page_plan.h"
+#include "octree/builder/tree/wide_tree.h"
+#include "octree/page/frame.h"
+
+namespace planetree::octree {
+
+/// A page's raw bytes, and where in them its links to other pages are.
+struct EncodedPage {
+  std::vector<std::byte> bytes;
+  std::uint32_t links_at = 0;
+  std::uint32_t link_count = 0;
+};
+
+/// Makes the raw bytes of pages, as octree/page/page_decoder.h reads them. One
+/// encoder per thread; the bytes depend on the arguments alone.
+class PageEncoder {
+ public:
+  PageEncoder(const Triangles& mesh, const PatchVertices& vertices,
+              const std::vector<MortonKey>& keys, const WideTree& tree, const PagePlan& plan,
+              const BlockShape& shape)
+      : mesh_(mesh), vertices_(vertices), keys_(keys), tree_(tree), plan_(plan), shape_(shape) {}
+
+  /// page  of the plan.
+  EncodedPage encode(std::size_t page) const;
+
+ private:
+  const Triangles& mesh_;
+  const PatchVertices& vertices_;
+  const std::vector<MortonKey>& keys_;
+  const WideTree& tree_;
+  const PagePlan& plan_;
+  BlockShape shape_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/tree/chunk_build.h"
+#include "octree/builder/tree/page_appender.h"
+#include "octree/builder/tree/page_numbers.h"
+#include "octree/builder/tree/top_tree.h"
+#include "storage/spill/spill_file.h"
+
+namespace planetree::octree {
+
+/// The raw bytes of the distance pages of a file, by number: the patches' as they were put
+/// away, with the links of the whole tree, and the crown's.
+/// threads  any number.
+class TreePages {
+ public:
+  /// All must outlive this; `crown` is given its links.
+  TreePages(Crown& crown, const std::vector<BuiltPatch>& patches, const PageNumbers& numbers,
+            const BlockShape& shape, const storage::SpillFile& file);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(numbers_.pages().size()); }
+  std::uint32_t root_link() const;
+  Result<FilePage> encode(std::uint32_t number) const;
+
+ private:
+  const Crown& crown_;
+  const std::vector<BuiltPatch>& patches_;
+  const PageNumbers& numbers_;
+  const BlockShape& shape_;
+  const storage::SpillFile& file_;
+};
+
+}  // namespace planetree::octree

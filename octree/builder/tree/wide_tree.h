@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "octree/builder/tree/binary_tree.h"
+#include "octree/geometry/child_bounds.h"
+#include "octree/page/frame.h"
+#include "octree/page/moments.h"
+
+namespace planetree::octree {
+
+/// One child of a wide node: a wide node, or a block of triangles.
+struct WideChild {
+  bool block = false;
+  std::uint32_t index = 0;  ///< into WideTree::nodes or WideTree::blocks
+  std::uint32_t begin = 0;  ///< its triangles are keys[begin ... end)
+  std::uint32_t end = 0;
+  FloatBox true_box;   ///< encloses the triangles
+  PackedChild packed;  ///< as stored
+  FloatBox box;        ///< as decoded; encloses true_box
+
+  std::uint32_t count() const { return end - begin; }
+};
+
+struct WideNode {
+  FloatBox box;  ///< as decoded from its parent; the root's own is exact
+  std::uint8_t child_count = 0;
+  std::uint8_t height = 0;
+  std::array<WideChild, kFanOut> children;
+};
+
+/// Triangles keys[begin ... end), at most 16.
+struct WideBlock {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+/// The tree as it will be stored: nodes of up to eight children, parents
+/// before children, their boxes already rounded to what is stored. A model of
+/// at most 16 triangles is one block and no node.
+struct WideTree {
+  std::vector<WideNode> nodes;  ///< in preorder
+  std::vector<WideBlock> blocks;
+  std::vector<NodeMoments> moments;  ///< by node; none of a watertight model
+};
+
+/// Collapses a binary tree so that the surfaces of the nodes that stay add up to least: a
+/// node then has about six of eight children. The blocks are the leaves as they are.
+WideTree collapse(const std::vector<BinaryNode>& binary);
+
+}  // namespace planetree::octree

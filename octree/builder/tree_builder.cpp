@@ -1,0 +1,323 @@
+#include "octree/builder/tree_builder.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "octree/builder/build_files.h"
+#include "octree/builder/build_identity.h"
+#include "octree/builder/job/build_memory.h"
+#include "octree/builder/job/phase_count.h"
+#include "octree/builder/mesh/mesh_size.h"
+#include "octree/builder/sort/each_chunk.h"
+#include "octree/builder/sort/ordered_mesh.h"
+#include "octree/builder/sort/triangle_runs.h"
+#include "octree/builder/space_need.h"
+#include "octree/builder/surface/edge_matching.h"
+#include "octree/builder/tree/built_tree.h"
+#include "octree/builder/tree_file.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+class TreeBuild {
+ public:
+  TreeBuild(const std::filesystem::path& input, const std::filesystem::path& output,
+            const BuildOptions& options, const BuildMemory& memory, BuildProgress& progress,
+            const BuildSeams& seams)
+      : input_(input),
+        output_(output),
+        options_(options),
+        memory_(memory),
+        progress_(progress),
+        seams_(seams),
+        files_(output, options, memory, seams.calls) {}
+
+  Result<BuildReport> run() {
+    if (const auto taken_up = take_up_work(); !taken_up) return taken_up.error();
+    if (const auto roomy = foresee_space(); !roomy) return roomy.error();
+    if (const auto ordered = order_triangles(); !ordered) return ordered.error();
+    if (const auto looked = look_at_surface(); !looked) return looked.error();
+    if (const auto cut = cut_out_part(); !cut) return cut.error();
+    if (const auto built = build_patches(); !built) return built.error();
+    if (const auto numbered = number_pages(); !numbered) return numbered.error();
+    if (const auto coloured = colour_cells(); !coloured) return coloured.error();
+    part_.reset();
+    whole_.reset();
+    return write_pages();
+  }
+
+  /// Where an error of run() is from.
+  void tell_failed() const {
+    const auto [place, path] = files_.failed_at().value_or(
+        writing_ ? std::pair(BuildPlace::kOutput, output_) : std::pair(BuildPlace::kInput, input_));
+    progress_.failed_at(place, path);
+  }
+
+ private:
+  Result<void> take_up_work();
+  Result<void> foresee_space();
+  Result<void> order_triangles();
+  Result<void> read();
+  Result<void> take_up_mesh();
+  Result<void> set_mesh(const OrderedMesh& mesh);
+  Region region() const;
+  Result<void> look_at_surface();
+  Result<void> match_edges();
+  Result<void> cut_out_part();
+  Result<void> build_patches();
+  void take_up_patches();
+  Result<void> build(std::size_t number, Triangles& triangles);
+  Result<void> number_pages();
+  Result<void> colour_cells();
+  Result<BuildReport> write_pages();
+  /// The triangles to be built.
+  const TriangleRuns& runs() const { return part_ ? *part_ : *whole_; }
+  template <class... Parts>
+  Result<void> keep(const Parts&... parts) {
+    return files_.work() ? files_.work()->keep(parts...) : Result<void>();
+  }
+
+  const std::filesystem::path& input_;
+  const std::filesystem::path& output_;
+  const BuildOptions& options_;
+  const BuildMemory memory_;
+  BuildProgress& progress_;
+  const BuildSeams& seams_;
+  bool writing_ = false;
+  BuildFiles files_;
+  MeshSize size_;
+  BuiltModel model_;
+  std::optional<TriangleRuns> whole_;
+  std::optional<TriangleRuns> part_;    // of it: what touches a region
+  std::optional<MaskRegions> regions_;  // of a watertight model
+  std::optional<BuiltTree> tree_;
+};
+
+Result<void> TreeBuild::take_up_work() {
+  if (!options_.resume) return {};
+  const auto identity = BuildIdentity::of(input_, options_, seams_);
+  if (!identity) return identity.error();
+  progress_.progress(BuildPhase::kResuming, 0, 1);
+  const auto taken_up = files_.take_up_work(*identity);
+  if (taken_up) progress_.takes_up(files_.work()->start());
+  return taken_up;
+}
+
+// Whether there is room, before a day of work rather than after.
+Result<void> TreeBuild::foresee_space() {
+  const auto size = MeshSize::foresee(input_, seams_.calls);
+  if (!size) return size.error();
+  size_ = *size;
+  if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
+  return files_.look_for(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
+}
+
+Result<void> TreeBuild::order_triangles() {
+  const bool ordered_before = files_.work() && files_.work()->mesh();
+  if (const auto ordered = ordered_before ? take_up_mesh() : read(); !ordered) return ordered;
+  auto above = cut_patches(*whole_, seams_.patch_triangles);
+  if (!above) return above.error();
+  model_.above = *std::move(above);
+  return {};
+}
+
+Result<void> TreeBuild::take_up_mesh() {
+  const OrderedMesh& mesh = *files_.work()->mesh();
+  if (const auto set = set_mesh(mesh); !set) return set;
+  whole_.emplace(mesh.frame.float64, 0, files_.triangles());
+  whole_->add_placed(mesh.runs);
+  return {};
+}
+
+Result<void> TreeBuild::read() {
+  MeshIntake intake(memory_.chunk_triangles, memory_.intake_bytes, files_.scratch());
+  files_.mesh().before_sorting([this] {
+    return files_.look_for(SpaceNeed::before_sorting(size_, memory_, files_.scratch().disk_bytes(),
+                                                     options_.box.has_value()));
+  });
+  auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, intake);
+  if (!mesh) return mesh.error();
+  if (const auto set = set_mesh(*mesh); !set) return set;
+  whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
+  PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
+  if (const auto taken = whole_->take(intake, [&count] { count.add(); }); !taken) return taken;
+  if (files_.work()) mesh->runs = whole_->places();
+  return keep(*mesh);
+}
+
+// And looks for space once more, now that its triangles are counted.
+Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
+  model_.frame = mesh.frame;
+  model_.box = options_.box;
+  model_.vertex_records = mesh.vertex_records;
+  model_.shape.float64 = mesh.frame.float64;
+  model_.shape.wide_ids = mesh.wide_ids;
+  if (model_.box)
+    if (const auto near = model_.box->check_near(model_.frame); !near) return near;
+  size_ = {mesh.frame.triangle_count, size_.vertices, mesh.frame.float64};
+  const KeptWork* const work = files_.work();
+  return files_.look_for(SpaceNeed::after_reading(size_, memory_, work ? work->taken_up_bytes() : 0,
+                                                  work && work->surface(), model_.box.has_value()));
+}
+
+Region TreeBuild::region() const {
+  return model_.box ? model_.box->region(model_.frame) : Region();
+}
+
+Result<void> TreeBuild::look_at_surface() {
+  if (model_.box) part_.emplace(model_.shape.float64, memory_.part_bytes, files_.triangles());
+  const KeptWork* const work = files_.work();
+  if (work && work->surface()) {
+    model_.edges = work->surface()->edges;
+    model_.cut = work->surface()->cut;
+    if (part_) part_->add_placed(work->surface()->kept);
+  } else if (const auto matched = match_edges(); !matched) {
+    return matched;
+  }
+  model_.shape.moments = model_.edges.open_edges > 0;
+  if (model_.box) return {};
+  model_.cut.triangle_count = model_.frame.triangle_count;
+  model_.cut.sample_triangle = model_.frame.sample_triangle;
+  model_.cut.sample = model_.frame.scaled(model_.frame.input_sample);
+  return {};
+}
+
+Result<void> TreeBuild::match_edges() {
+  RegionCut cut(model_.frame.lower(), model_.frame.upper(), region(), part_ ? &*part_ : nullptr);
+  auto edges =
+      octree::match_edges(*whole_, model_.above.patches, memory_.edge_bytes, files_.scratch(),
+                          progress_, [&cut](const Triangles& patch) { return cut.add(patch); });
+  if (!edges) return edges.error();
+  model_.edges = *std::move(edges);
+  model_.cut = cut.found();
+  if (!files_.work()) return {};
+  return keep(SurfaceWork{model_.edges, model_.cut,
+                          part_ ? part_->places() : std::vector<TriangleRuns::Place>()});
+}
+
+// From here on the rest of the input is of no more use.
+Result<void> TreeBuild::cut_out_part() {
+  if (!part_) return {};
+  whole_.reset();
+  if (part_->size() == 0) return nothing_touches(model_.frame);
+  auto above = cut_patches(*part_, seams_.patch_triangles);
+  if (!above) return above.error();
+  model_.above = *std::move(above);
+  const std::uint64_t triangles = part_->size();
+  const MeshSize part{triangles, std::min(size_.vertices, 3 * triangles), size_.float64};
+  // Of what was taken up all but the triangles.
+  const std::uint64_t record = Triangles::record_bytes(size_.float64);
+  const std::uint64_t kept_bytes = files_.work() ? files_.work()->taken_up_bytes() : 0;
+  const std::uint64_t of_triangles = record * (size_.triangles + triangles);
+  return files_.look_for(
+      SpaceNeed::after_cutting(part, memory_, kept_bytes - std::min(kept_bytes, of_triangles)));
+}
+
+Result<void> TreeBuild::build_patches() {
+  if (model_.edges.open_edges == 0) {
+    regions_.emplace(model_.frame.lower(), region(), model_.cut.winding, model_.frame.float64,
+                     memory_.visitor_bytes, files_.triangles());
+    if (const auto divided = regions_->divide(runs(), seams_.region_triangles); !divided)
+      return divided;
+  }
+  model_.patches.resize(model_.above.patches.size());
+  take_up_patches();
+  return for_each_patch(
+      runs(), model_.above.patches, progress_, BuildPhase::kBounding,
+      [&](std::size_t i) { return !model_.patches[i].pages.empty(); },
+      [&](std::size_t i, Triangles& triangles) { return build(i, triangles); });
+}
+
+void TreeBuild::take_up_patches() {
+  if (!files_.work()) return;
+  for (std::uint32_t i = 0; i < model_.patches.size(); ++i) {
+    auto patch = files_.work()->take_patch(i);
+    if (!patch || (regions_ && !regions_->add_placed(patch->part))) continue;
+    model_.patches[i] = std::move(patch->built);
+  }
+}
+
+Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
+  triangles.sort();
+  PatchWork patch;
+  if (regions_) {
+    auto part = regions_->add(triangles);
+    if (!part) return part.error();
+    patch.part = *std::move(part);
+  }
+  auto built = build_patch(triangles, model_.frame.centre(), model_.shape, options_.page_bytes,
+                           files_.pages());
+  if (!built) return built.error();
+  patch.built = *std::move(built);
+  if (const auto kept = keep(static_cast<std::uint32_t>(number), patch); !kept) return kept;
+  model_.patches[number] = std::move(patch.built);
+  return {};
+}
+
+Result<void> TreeBuild::number_pages() {
+  tree_.emplace(model_.frame, model_.above, model_.patches, model_.shape, options_.page_bytes,
+                files_.pages());
+  return tree_->check();
+}
+
+// Only where winding numbers are constant off the surface.
+Result<void> TreeBuild::colour_cells() {
+  if (!regions_) return {};
+  model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
+  auto earlier =
+      files_.work() ? files_.work()->take_regions() : std::map<std::uint32_t, BuiltRegion>();
+  PhaseCount count(progress_, BuildPhase::kColouring, regions_->touched_count(), earlier.size());
+  for (auto& [number, region] : earlier) model_.mask->take_up(number, std::move(region));
+  const auto done = [&](std::uint32_t number, const BuiltRegion& region) {
+    const auto kept = keep(number, region);
+    if (kept) count.add();
+    return kept;
+  };
+  const auto built = model_.mask->build(*regions_, runs(), &*tree_, done);
+  regions_.reset();
+  return built;
+}
+
+Result<BuildReport> TreeBuild::write_pages() {
+  writing_ = true;
+  const auto header = write_tree(model_, *tree_, output_, options_, seams_.calls, progress_);
+  if (!header) return header.error();
+  if (const auto removed = files_.remove_work(); !removed) return removed.error();
+  return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_set_aside_text,
+                     files_.disk_bytes()};
+}
+
+}  // namespace
+
+Result<BuildReport> build_tree(const std::filesystem::path& input,
+                               const std::filesystem::path& output, const BuildOptions& options,
+                               BuildProgress& progress, const BuildSeams& seams) {
+  if (!std::has_single_bit(options.page_bytes) || options.page_bytes < storage::kMinPageBytes ||
+      options.page_bytes > storage::kMaxPageBytes)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "a page of %u bytes; use a power of two from 4K to 256K", options.page_bytes);
+  auto memory = seams.memory ? Result<BuildMemory>(*seams.memory)
+                             : BuildMemory::share(options.memory_bytes, options.threads);
+  if (!memory) return memory.error();
+  if (options.box)
+    if (const auto checked = options.box->check(); !checked) return checked.error();
+  if (options.resume) memory = memory->holding_nothing_kept();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(memory->threads));
+  tbb::task_arena arena(memory->threads);
+  return arena.execute([&] {
+    TreeBuild build(input, output, options, *memory, progress, seams);
+    auto report = build.run();
+    if (!report) build.tell_failed();
+    return report;
+  });
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,92 @@
+#include "octree/builder/tree_file.h"
+
+#include <optional>
+
+#include "octree/builder/mask/height_field_marks.h"
+#include "octree/builder/tree/page_appender.h"
+#include "octree/geometry/strict_math.h"
+#include "storage/file/page_writer.h"
+
+namespace planetree::octree {
+namespace {
+
+void describe_mesh(const BuiltModel& built, storage::ModelRecord& model) {
+  const ModelFrame& frame = built.frame;
+  model.triangle_count = built.cut.triangle_count;
+  model.set_aside_count = frame.set_aside_count;
+  model.first_set_aside = frame.first_set_aside;
+  model.vertex_count = built.vertex_records;
+  const Point centre = frame.centre();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    model.box_lower[axis] = frame.input_lower[axis];
+    model.box_upper[axis] = frame.input_upper[axis];
+    model.centre[axis] = centre[axis];
+    model.sample[axis] = built.cut.sample[axis];
+  }
+  model.sample_triangle = built.cut.sample_triangle;
+  model.scale_exponent = frame.scale_exponent;
+  model.vertex_kind =
+      built.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
+  model.triangle_id_bytes = built.shape.wide_ids ? 8 : 4;
+  built.edges.describe(frame.scale_exponent, model);
+}
+
+void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
+  if (!built.box) return;
+  model.input_triangles = built.frame.triangle_count;
+  const auto& [lower, upper] = *built.box;
+  const Point from(lower.x, lower.y, lower.z), to(upper.x, upper.y, upper.z);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    // -0 becomes +0.
+    model.region_lower[axis] = from[axis] + 0.0;
+    model.region_upper[axis] = to[axis] + 0.0;
+  }
+  model.region_winding = built.cut.winding;
+}
+
+void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::ModelRecord& model) {
+  model.node_count = tree.node_count();
+  model.block_count = tree.block_count();
+  model.height = static_cast<std::uint8_t>(tree.height());
+  model.root_link = tree.pages().root_link();
+  if (!built.mask) return;
+  model.mask_page_count = built.mask->size();
+  model.mask_cell_count = built.mask->cell_count();
+  model.mask_levels = static_cast<std::uint8_t>(built.mask->levels());
+}
+
+}  // namespace
+
+Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree& tree,
+                                       const std::filesystem::path& output,
+                                       const BuildOptions& options, storage::FileCalls& calls,
+                                       BuildProgress& progress) {
+  const TreePages& pages = tree.pages();
+  const std::uint32_t mask_pages = built.mask ? built.mask->size() : 0;
+  const std::uint32_t page_count = pages.size() + mask_pages;
+  auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
+  if (!writer) return writer.error();
+  PageAppender appender(*writer, progress, page_count);
+  // What is beyond a wall may touch the lines that prove a sheet.
+  const bool has_walls = built.box && built.box->region(built.frame).has_walls();
+  std::optional<SheetMarks> sheets;
+  if (built.mask && !has_walls) sheets.emplace(tree, *built.mask);
+  const auto appended = appender.append(pages.size(), [&](std::uint32_t number) {
+    auto page = pages.encode(number);
+    if (page && sheets)
+      if (const auto marked = sheets->mark(number, *page); !marked) page = marked.error();
+    return page;
+  });
+  if (!appended) return appended.error();
+  writer->begin_mask();
+  const auto masked = appender.append(
+      mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, pages.size()); });
+  if (!masked) return masked.error();
+  storage::ModelRecord model{};
+  describe_mesh(built, model);
+  describe_region(built, model);
+  describe_tree(built, tree, model);
+  return writer->finish(model, options.page_bytes);
+}
+
+}  // namespace planetree::octree

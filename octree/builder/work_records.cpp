@@ -1,0 +1,66 @@
+#include "octree/builder/work_records.h"
+
+#include <algorithm>
+
+namespace planetree::octree {
+
+bool SpillExtent::take(std::uint64_t offset, std::uint64_t count, std::uint64_t each_bytes) {
+  if (offset > file_bytes_ || count > (file_bytes_ - offset) / each_bytes) return false;
+  end_ = std::max(end_, offset + count * each_bytes);
+  bytes_ += count * each_bytes;
+  return true;
+}
+
+bool SpillExtent::take(const TriangleRuns::Place& run, bool float64) {
+  return run.marks.size() == storage::SpillRuns::mark_count(run.size) &&
+         take(run.offset, run.size, Triangles::record_bytes(float64));
+}
+
+bool SpillExtent::take(const std::vector<TriangleRuns::Place>& runs, std::uint64_t triangles,
+                       bool float64) {
+  std::uint64_t left = triangles;
+  for (const TriangleRuns::Place& run : runs) {
+    if (run.size > left || !take(run, float64)) return false;
+    left -= run.size;
+  }
+  return left == 0;
+}
+
+bool SpillExtent::take(const OrderedMesh& mesh) {
+  return mesh.frame.triangle_count > 0 &&
+         take(mesh.runs, mesh.frame.triangle_count, mesh.frame.float64);
+}
+
+bool SpillExtent::take(const SurfaceWork& surface, bool float64) {
+  return take(surface.kept, surface.cut.triangle_count, float64);
+}
+
+bool SpillExtent::take(const std::vector<SpilledPage>& pages, std::size_t head_bytes) {
+  return std::ranges::all_of(pages, [&](const SpilledPage& page) {
+    const std::uint64_t links_end =
+        page.links_at + std::uint64_t{page.link_count} * sizeof(std::uint32_t);
+    return links_end <= page.raw_bytes && head_bytes <= page.raw_bytes &&
+           take(page.offset, page.raw_bytes, 1);
+  });
+}
+
+bool SpillExtent::take(const PatchWork& patch, bool float64, const LinkFormat& links) {
+  const BuiltPatch& built = patch.built;
+  return take(built.pages, sizeof(PageHead)) && links.page(built.root_link) < built.pages.size() &&
+         !built.boxes_below.empty() && take(patch.part.visitors, float64);
+}
+
+bool SpillExtent::take(std::uint32_t number, const BuiltRegion& region,
+                       const MaskLinkFormat& links) {
+  const MaskEntry& entry = region.root.entry;
+  const bool special = entry.kind == MaskEntry::Kind::kSpecial;
+  if (special != region.root.special.has_value() ||
+      (special && region.root.special->plane_count > kMaxPlanes))
+    return false;
+  const bool divided = entry.kind == MaskEntry::Kind::kRegion;
+  if (divided && (entry.first != number || links.page(region.family) >= region.pages.size()))
+    return false;
+  return (divided || entry.is_leaf()) && take(region.pages, sizeof(MaskPageHead));
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,100 @@
+#include "octree/geometry/exact_predicates.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
+
+#include "octree/geometry/double_parts.h"
+
+namespace planetree::octree {
+namespace {
+
+namespace mp = boost::multiprecision;
+
+/// The room is on the stack.
+template <unsigned kBits>
+using Whole =
+    mp::number<mp::cpp_int_backend<kBits, kBits, mp::signed_magnitude, mp::unchecked, void>,
+               mp::et_off>;
+
+/// Coordinates are whole multiples of 2^-1074 below 2^302, differences of two
+/// below 2^1377, and a determinant is a sum of six products of three: below
+/// 2^4134.
+using LargeWhole = Whole<4160>;
+/// Mostly they are of about one size. What is below 2^126 has differences below 2^127 and
+/// determinants below 2^384.
+using SmallWhole = Whole<384>;
+constexpr int kSmallBits = 126;
+
+/// Numbers that are multiples of one power of two, as small as it can be chosen.
+class CommonUnit {
+ public:
+  template <std::size_t kCount>
+  explicit CommonUnit(const std::array<const Point*, kCount>& points) {
+    for (const Point* point : points)
+      for (const double value : *point)
+        if (const DoubleParts parts(value); parts.mantissa != 0) {
+          exponent_ = std::min(exponent_, parts.exponent);
+          most_ = std::max(most_, parts.exponent);
+        }
+  }
+
+  /// Whether all numbers are below 2^kSmallBits units.
+  bool small() const { return most_ - exponent_ <= kSmallBits - 53; }
+
+  template <class Number>
+  std::array<Number, 3> difference(const Point& to, const Point& from) const {
+    std::array<Number, 3> result;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      result[axis] = whole<Number>(to[axis]) - whole<Number>(from[axis]);
+    return result;
+  }
+
+ private:
+  template <class Number>
+  Number whole(double value) const {
+    const DoubleParts parts(value);
+    Number result = parts.mantissa;
+    if (parts.mantissa != 0) result <<= static_cast<unsigned>(parts.exponent - exponent_);
+    return result;
+  }
+
+  int exponent_ = 2046;
+  int most_ = 0;
+};
+
+template <class Number>
+int orientation_sign(const CommonUnit& unit, const Point& a, const Point& b, const Point& c,
+                     const Point& d) {
+  const auto u = unit.difference<Number>(b, a), v = unit.difference<Number>(c, a),
+             w = unit.difference<Number>(d, a);
+  const Number volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+                        u[2] * (v[0] * w[1] - v[1] * w[0]);
+  return volume.sign();
+}
+
+template <class Number>
+int area_sign(const CommonUnit& unit, const Point& a, const Point& b, const Point& c,
+              unsigned axis) {
+  const auto u = unit.difference<Number>(b, a), v = unit.difference<Number>(c, a);
+  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const Number area = u[i] * v[j] - u[j] * v[i];
+  return area.sign();
+}
+
+}  // namespace
+
+int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+  const CommonUnit unit(std::array{&a, &b, &c, &d});
+  return unit.small() ? orientation_sign<SmallWhole>(unit, a, b, c, d)
+                      : orientation_sign<LargeWhole>(unit, a, b, c, d);
+}
+
+int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+  const CommonUnit unit(std::array{&a, &b, &c});
+  return unit.small() ? area_sign<SmallWhole>(unit, a, b, c, axis)
+                      : area_sign<LargeWhole>(unit, a, b, c, axis);
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,74 @@
+// Some lanes of registers put one behind the other, compiled once for each instruction set that
+// Highway knows at hand.
+
+#if defined(PLANETREE_OCTREE_PACKED_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_PACKED_LANES_INL_H_
+#undef PLANETREE_OCTREE_PACKED_LANES_INL_H_
+#else
+#define PLANETREE_OCTREE_PACKED_LANES_INL_H_
+#endif
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/geometry/wide_floats-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_AVX2
+// For each mask of eight lanes, which they are, a byte each: the first in the lowest.
+inline constexpr std::array<std::uint64_t, 256> kLanesOfMask = [] {
+  std::array<std::uint64_t, 256> lanes{};
+  for (unsigned mask = 0; mask < lanes.size(); ++mask)
+    for (unsigned lane = 0, at = 0; lane < 8; ++lane)
+      if ((mask >> lane & 1) != 0) lanes[mask] |= std::uint64_t{lane} << 8 * at++;
+  return lanes;
+}();
+#endif
+
+// The lanes of a mask, of registers of 32-bit numbers. `Tag` is one of these.
+template <class Tag>
+class PackedLanes {
+ public:
+  HWY_INLINE PackedLanes(Tag d, hn::Mask<Tag> mask) : mask_(mask), count_(hn::CountTrue(d, mask)) {
+#if HWY_TARGET == HWY_AVX2
+    const hn::RebindToUnsigned<Tag> du;
+    const hn::Rebind<std::uint8_t, decltype(du)> bytes;
+    const auto* at = reinterpret_cast<const std::uint8_t*>(&kLanesOfMask[mask_bits(d, mask)]);
+    lanes_ = hn::PromoteTo(du, hn::LoadU(bytes, at));
+#endif
+  }
+
+  std::size_t count() const { return count_; }
+
+  // Writes as much as a register holds: count() numbers and, behind them, others of it or 0.
+  template <class Lanes, class T>
+  HWY_INLINE void store(Lanes values, T* to) const {
+    const hn::DFromV<Lanes> d;
+#if HWY_TARGET == HWY_AVX2
+    // Highway 1.0.3 has a table in the function for this, which gcc 12 copies to the stack.
+    const auto packed = hn::TableLookupLanes(values, hn::IndicesFromVec(d, lanes_));
+#else
+    const auto packed = hn::Compress(values, hn::RebindMask(d, mask_));
+#endif
+    hn::StoreU(packed, d, to);
+  }
+
+ private:
+  hn::Mask<Tag> mask_;
+  std::size_t count_;
+#if HWY_TARGET == HWY_AVX2
+  hn::Vec<hn::RebindToUnsigned<Tag>> lanes_;
+#endif
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,131 @@
+#include "octree/geometry/predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "octree/geometry/exact_predicates.h"
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Four times Shewchuk's (7 + 56u)u: every rounding may err by a whole ulp.
+constexpr double kOrientationFilter = 32 * 0x1p-53;
+constexpr double kNormalFilter = 16 * 0x1p-53;
+
+/// What flushing subnormal differences and products to zero may cost, where no
+/// difference exceeds `largest`.
+double flushed(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest); }
+
+int sign_of(double value) { return value > 0 ? 1 : -1; }
+
+/// Not by ==, for which a thread may have been told to take subnormals for zero.
+bool same_bits(const Point& a, const Point& b) {
+  return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
+}
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Whether the points lie in one plane across an axis, as faces of boxes do.
+bool in_axis_plane(const Point& a, const Point& b, const Point& c, const Point& d) {
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if (same_bits(a[axis], b[axis]) && same_bits(a[axis], c[axis]) && same_bits(a[axis], d[axis]))
+      return true;
+  return false;
+}
+
+}  // namespace
+
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+  const Point u = b - a, v = c - a, w = d - a;
+  const double xy = v.x() * w.y(), yx = v.y() * w.x();
+  const double yz = v.y() * w.z(), zy = v.z() * w.y();
+  const double zx = v.z() * w.x(), xz = v.x() * w.z();
+  const double volume = u.x() * (yz - zy) + u.y() * (zx - xz) + u.z() * (xy - yx);
+  const double permanent = std::fabs(u.x()) * (std::fabs(yz) + std::fabs(zy)) +
+                           std::fabs(u.y()) * (std::fabs(zx) + std::fabs(xz)) +
+                           std::fabs(u.z()) * (std::fabs(xy) + std::fabs(yx));
+  const double largest =
+      std::max({u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff(), w.cwiseAbs().maxCoeff()});
+  if (std::fabs(volume) > kOrientationFilter * permanent + flushed(largest)) return sign_of(volume);
+  // By far the most frequent of the rest: a vertex of the triangle itself.
+  if (same_bits(d, a) || same_bits(d, b) || same_bits(d, c)) return 0;
+  if (in_axis_plane(a, b, c, d)) return 0;
+  return exact_orientation(a, b, c, d);
+}
+
+int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double left = (b[i] - a[i]) * (c[j] - a[j]);
+  const double right = (b[j] - a[j]) * (c[i] - a[i]);
+  const double area = left - right;
+  const double largest = std::max((b - a).cwiseAbs().maxCoeff(), (c - a).cwiseAbs().maxCoeff());
+  if (std::fabs(area) > kNormalFilter * (std::fabs(left) + std::fabs(right)) + flushed(largest))
+    return sign_of(area);
+  if ((same_bits(b[i], a[i]) || same_bits(c[j], a[j])) &&
+      (same_bits(b[j], a[j]) || same_bits(c[i], a[i])))
+    return 0;
+  return exact_normal_sign(a, b, c, axis);
+}
+
+// The step is (s1, s2, s3), s1 >> s2 >> s3 > 0.
+int moved_side(const Triangle& triangle, const Point& point) noexcept {
+  const auto& [a, b, c] = triangle;
+  int side = orientation(a, b, c, point);
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(a, b, c, axis);
+  return side;
+}
+
+bool lies_on(const Point& point, const Triangle& triangle) noexcept {
+  const auto& [a, b, c] = triangle;
+  if ((point.array() < a.cwiseMin(b).cwiseMin(c).array()).any() ||
+      (point.array() > a.cwiseMax(b).cwiseMax(c).array()).any())
+    return false;
+  if (orientation(a, b, c, point) != 0) return false;
+  // In its plane the point is on the triangle where, seen along any axis, it is
+  // not on different sides of two edges. A triangle without area is the part of
+  // its line that its box holds.
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const int sides[] = {normal_sign(a, b, point, axis), normal_sign(b, c, point, axis),
+                         normal_sign(c, a, point, axis)};
+    const auto [least, greatest] = std::minmax_element(std::begin(sides), std::end(sides));
+    if (*least < 0 && *greatest > 0) return false;
+  }
+  return true;
+}
+
+namespace {
+
+int compare(double left, double right) { return left < right ? -1 : left > right ? 1 : 0; }
+
+/// The sign of det[p - b, q - b, a - b] for the moved ends p, q of the segment:
+/// on which side the line through a and b passes. Its terms from the greatest
+/// on; with e = a - b they are
+///     the determinant itself,  e-steps:  (q - b) x e,  d-steps:  e x (p - b),
+///     and products of both,  d . (e x steps of p).
+int passing_side(const MovedSegment& segment, const Point& a, const Point& b) {
+  int side = orientation(b, segment.from, segment.to, a);
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(b, segment.to, a, axis);
+  if (side != 0) return side;
+  const int e[3] = {compare(a.x(), b.x()), compare(a.y(), b.y()), compare(a.z(), b.z())};
+  const int products[3][2] = {{-e[2], e[1]}, {e[2], -e[0]}, {-e[1], e[0]}};
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) {
+    side = normal_sign(b, a, segment.from, axis);
+    for (const int product : products[axis])
+      if (side == 0) side = product;
+  }
+  return side;
+}
+
+}  // namespace
+
+int crossing(const MovedSegment& segment, const Triangle& triangle) noexcept {
+  const int from = moved_side(triangle, segment.from);
+  if (from == 0 || from == moved_side(triangle, segment.to)) return 0;
+  const auto& [a, b, c] = triangle;
+  const int passing = passing_side(segment, a, b);
+  if (passing != passing_side(segment, b, c) || passing != passing_side(segment, c, a)) return 0;
+  return -from;
+}
+
+}  // namespace planetree::octree

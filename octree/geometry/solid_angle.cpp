@@ -1,0 +1,125 @@
+#include "octree/geometry/solid_angle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "octree/geometry/angle.h"
+#include "octree/geometry/predicates.h"
+#include "octree/geometry/strict_math.h"
+#include "octree/geometry/wide_float.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr double kOverTwoPi = 0x1.45f306dc9c883p-3;  ///< 1 / (2 pi)
+
+/// With a, b, c the ways to the corners, tan(omega / 2) = height / width:
+///
+///     height = a . (b x c),   width = |a||b||c| + a . b |c| + b . c |a| + c . a |b|.
+///
+/// Half the solid angle is the angle of that vector, so that its end being off
+/// by `error` turns it by no more than asin(error / true length).
+struct HalfAngle {
+  double width = 0;
+  double height = 0;
+  double error = 0;   ///< the true vector ends at most so far from (width, height)
+  double length = 0;  ///< of (width, height)
+
+  bool tells_angle() const { return error < 0x1p-24 * length; }
+};
+
+constexpr HalfAngle kUntold{0, 0, 1, 0};
+
+/// In units of |a||b||c|. A way's components are right to one rounding, its
+/// length to four; each of the four terms of width loses at most 12 with its
+/// factors and its sum, and height, whose six terms have magnitudes that sum to
+/// at most 1.16, loses 9: their end 50. 256 covers that also where every
+/// rounding is of a whole ulp.
+constexpr double kDoubleError = 256 * 0x1p-53;
+
+/// Ways of other lengths, squared, may have lost bits to underflow, or their
+/// products may overflow.
+constexpr double kShortest2 = 0x1p-320;
+constexpr double kLongest2 = 0x1p320;
+
+HalfAngle in_double(const Point& point, const Triangle& triangle) {
+  const Point a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
+  const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
+  if (!(std::min({a2, b2, c2}) > kShortest2 && std::max({a2, b2, c2}) < kLongest2)) return kUntold;
+  const double a1 = std::sqrt(a2), b1 = std::sqrt(b2), c1 = std::sqrt(c2);
+  HalfAngle half;
+  half.width = a1 * b1 * c1 + a.dot(b) * c1 + b.dot(c) * a1 + c.dot(a) * b1;
+  half.height = a.dot(b.cross(c));
+  half.error = kDoubleError * (a1 * b1 * c1);
+  half.length = std::sqrt(half.width * half.width + half.height * half.height);
+  return half;
+}
+
+/// Of length 1.
+template <class Scalar>
+Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
+  Vector3<Scalar> way;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    way[axis] = wide<Scalar>(to[axis]) - wide<Scalar>(from[axis]);
+  const Scalar length = sqrt(dot(way, way));
+  for (Scalar& component : way) component /= length;
+  return way;
+}
+
+/// The same in wider numbers, of directions: a product of three such components
+/// is right to 24 roundings. No corner is where the point is. What is returned is
+/// scaled to a length of about 1.
+template <class Scalar>
+HalfAngle in_wide(const Point& point, const Triangle& triangle) {
+  const auto a = wide_direction<Scalar>(point, triangle[0]);
+  const auto b = wide_direction<Scalar>(point, triangle[1]);
+  const auto c = wide_direction<Scalar>(point, triangle[2]);
+  const Scalar width = 1 + dot(a, b) + dot(b, c) + dot(c, a);
+  const Scalar height = dot(a, cross(b, c));
+  const Scalar larger = std::max(Scalar(abs(width)), Scalar(abs(height)));
+  if (larger == 0) return kUntold;
+  HalfAngle half;
+  half.width = static_cast<double>(width / larger);
+  half.height = static_cast<double>(height / larger);
+  const Scalar error = ldexp(Scalar(1), 8 - kBits<Scalar>) / larger;
+  half.error = error < 1 ? static_cast<double>(error) + kDoubleError : 1;
+  half.length = std::sqrt(half.width * half.width + half.height * half.height);
+  return half;
+}
+
+/// The angle found, knowing on which side of the plane the point is.
+WindingShare share_of(const HalfAngle& half, int side) {
+  WindingShare share;
+  // Seen from behind, where `side` is -1, height is positive.
+  const double height = std::max(0.0, -side * half.height);
+  if (!(half.length > 2 * half.error)) {
+    share.value = -side * 0.25;
+    share.error = 0.25;
+    return share;
+  }
+  share.value = -side * angle_of(half.width, height) * kOverTwoPi;
+  // asin(e / l) is below (pi / 2) e / l, over 2 pi; 2^-50 is the angle's own.
+  share.error = std::min(0.5, half.error / (half.length - half.error) * 0.25 + 0x1p-50);
+  return share;
+}
+
+}  // namespace
+
+WindingShare winding_share(const Point& point, const Triangle& triangle) noexcept {
+  HalfAngle half = in_double(point, triangle);
+  const bool side_told = std::fabs(half.height) > half.error;
+  int side = half.height > 0 ? -1 : 1;
+  if (!side_told) {
+    if (lies_on(point, triangle)) return {0, 0, true};
+    side = orientation(triangle[0], triangle[1], triangle[2], point);
+    // In the plane, but not on the triangle; or there is no plane.
+    if (side == 0) return {};
+  }
+  if (!half.tells_angle()) half = in_wide<Quad>(point, triangle);
+  if (!half.tells_angle()) half = in_wide<Widest>(point, triangle);
+  return share_of(half, side);
+}
+
+}  // namespace planetree::octree

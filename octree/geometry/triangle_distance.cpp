@@ -1,0 +1,146 @@
+#include "octree/geometry/triangle_distance.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "octree/geometry/triangle_distance.cpp"
+#include <hwy/foreach_target.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "octree/geometry/strict_math.h"
+#include "octree/geometry/triangle_kernels-inl.h"
+#include "octree/geometry/triangle_rows.h"
+#include "octree/geometry/vector3.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+void evaluate_on_target(const Point& query, const TriangleView& triangles,
+                        TriangleFindings& findings) {
+  evaluate_some(triangles, 1, query, findings);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace planetree::octree {
+namespace {
+
+HWY_EXPORT(evaluate_on_target);
+
+// Below this squared sine the face is its edges, to 2^-50 of their length.
+constexpr double kDegenerateSine2 = 0x1p-100;
+// A point inside a face has a share of every corner, though it may round to 0.
+constexpr double kLeastShare = 0x1p-54;
+
+// The other two corners, in order.
+constexpr std::size_t kFirst[3] = {1, 0, 0};
+constexpr std::size_t kSecond[3] = {2, 2, 1};
+
+unsigned before(const Point& a, const Point& b) {
+  const unsigned x_less = a.x() < b.x(), x_same = a.x() == b.x();
+  const unsigned y_less = a.y() < b.y(), y_same = a.y() == b.y();
+  const unsigned z_less = a.z() < b.z();
+  return x_less | (x_same & (y_less | (y_same & z_less)));
+}
+
+// order[k] is the corner that comes k-th; equal corners keep their order. Without branches:
+// which comes first is a coin toss to the processor.
+std::array<std::size_t, 3> lexicographic_order(const Triangle& triangle) {
+  const unsigned swapped01 = before(triangle[1], triangle[0]);
+  const unsigned swapped02 = before(triangle[2], triangle[0]);
+  const unsigned swapped12 = before(triangle[2], triangle[1]);
+  std::array<std::size_t, 3> order{};
+  order[swapped01 + swapped02] = 0;
+  order[1 - swapped01 + swapped12] = 1;
+  order[2 - swapped02 - swapped12] = 2;
+  return order;
+}
+
+// The corner opposite to the longest side, the first of equals.
+std::size_t apex_of(const std::array<Point, 3>& corner) {
+  std::size_t apex = 0;
+  double longest2 = -1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double edge2 = (corner[kSecond[k]] - corner[kFirst[k]]).squaredNorm();
+    apex = edge2 > longest2 ? k : apex;
+    longest2 = std::max(longest2, edge2);
+  }
+  return apex;
+}
+
+// Looks again, with 113 bits, at the face of a triangle that double found too flat.
+void refine_face(const Point& query, const Triangle& triangle, TriangleFindings& findings,
+                 std::size_t lane) {
+  const auto order = lexicographic_order(triangle);
+  const std::array<Point, 3> corner{triangle[order[0]], triangle[order[1]], triangle[order[2]]};
+  const std::size_t apex = apex_of(corner);
+  const auto e1 = difference<Quad>(corner[kFirst[apex]], corner[apex]);
+  const auto e2 = difference<Quad>(corner[kSecond[apex]], corner[apex]);
+  const auto normal = cross(e1, e2);
+  const Quad normal2 = dot(normal, normal);
+  if (!(normal2 > kDegenerateSine2 * dot(e1, e1) * dot(e2, e2))) return;
+  const auto from_apex = difference<Quad>(query, corner[apex]);
+  const Quad v = dot(cross(from_apex, e2), normal);
+  const Quad w = dot(cross(e1, from_apex), normal);
+  if (!(v > 0 && w > 0 && v + w < normal2)) return;
+  const Quad height = dot(from_apex, normal);
+  const auto squared = static_cast<double>(height / normal2 * height);
+  if (!(squared <= findings.squared[lane])) return;
+  findings.squared[lane] = squared;
+  findings.number[lane] = static_cast<double>(apex);
+  findings.first[lane] = static_cast<double>(v / normal2);
+  findings.second[lane] = static_cast<double>(w / normal2);
+}
+
+}  // namespace
+
+void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
+                 TriangleFindings& findings) noexcept {
+  for (; flat != 0; flat &= flat - 1) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(flat));
+    refine_face(query, triangles.triangle(lane), findings, lane);
+  }
+}
+
+void place(const Triangle& triangle, const TriangleFinding& finding,
+           NearestOnTriangle& nearest) noexcept {
+  nearest.value = finding.value;
+  nearest.barycentric = {};
+  const auto order = lexicographic_order(triangle);
+  const auto number = static_cast<std::size_t>(finding.number);
+  const std::size_t first = order[kFirst[number]], second = order[kSecond[number]];
+  const Point& u = triangle[first];
+  const Point& v = triangle[second];
+  const double a = finding.first, b = finding.second;
+  if (b == TriangleFinding::kOnSide) {
+    nearest.feature = a == 0 || a == 1 ? Feature::kVertex : Feature::kEdge;
+    nearest.point = a == 0 ? u : a == 1 ? v : Point(u + a * (v - u));
+    nearest.barycentric[first] = 1 - a;
+    nearest.barycentric[second] = a;
+    return;
+  }
+  const Point& apex = triangle[order[number]];
+  nearest.feature = Feature::kFace;
+  nearest.point = apex + (a * (u - apex) + b * (v - apex));
+  nearest.barycentric[order[number]] = std::max((1 - a) - b, kLeastShare);
+  nearest.barycentric[first] = std::max(a, kLeastShare);
+  nearest.barycentric[second] = std::max(b, kLeastShare);
+}
+
+NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
+  TriangleRows<kTrianglesAtOnce> rows;
+  rows.fill(0, triangle);
+  TriangleFindings findings;
+  HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), findings);
+  NearestOnTriangle nearest;
+  place(triangle, findings.of(0), nearest);
+  return nearest;
+}
+
+}  // namespace planetree::octree
+#endif

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/geometry/triangle_distance.h"
+
+namespace planetree::octree {
+
+/// kTrianglesAtOnce triangles of some rows: coordinates are `stride` apart, by corner and axis.
+struct TriangleView {
+  const double* at;
+  std::size_t stride;
+
+  Triangle triangle(std::size_t i) const {
+    Triangle corners;
+    copy_triangle(i, corners);
+    return corners;
+  }
+  void copy_triangle(std::size_t i, Triangle& corners) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        corners[k][static_cast<Eigen::Index>(axis)] = at[(3 * k + axis) * stride + i];
+  }
+};
+
+/// Triangles side by side, for kernels that look at several at once. Plain memory; entries
+/// that were never set hold anything.
+template <std::size_t kMost>
+struct TriangleRows {
+  static_assert(kMost % kTrianglesAtOnce == 0);
+
+  alignas(kTrianglesAtOnce * sizeof(double)) double at[3][3][kMost];  ///< corner, axis, triangle
+
+  Triangle triangle(std::size_t i) const { return view(0).triangle(i); }
+  /// Those from `first` on, a multiple of kTrianglesAtOnce.
+  TriangleView view(std::size_t first) const { return {at[0][0] + first, kMost}; }
+
+  void set(std::size_t i, const Triangle& corners) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Eigen::Index axis = 0; axis < 3; ++axis) at[k][axis][i] = corners[k][axis];
+  }
+
+  /// Sets `i` and all others that are evaluated with it; `i` is the first of these.
+  void fill(std::size_t i, const Triangle& corners) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        for (std::size_t lane = 0; lane < kTrianglesAtOnce; ++lane)
+          at[k][axis][i + lane] = corners[k][axis];
+  }
+
+  void copy(std::size_t from, std::size_t to) {
+    for (auto& corner : at)
+      for (auto& row : corner) row[to] = row[from];
+  }
+};
+
+/// Looks again, with 113 bits, at those that `flat` has a bit for: evaluate_triangles() found
+/// their faces too flat for double.
+void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
+                 TriangleFindings& findings) noexcept;
+
+}  // namespace planetree::octree

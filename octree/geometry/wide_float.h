@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include "octree/geometry/double_parts.h"
+#include "octree/geometry/vector3.h"
+
+/// Numbers wider than Quad, and doubles made wide bit by bit.
+namespace planetree::octree {
+
+/// 4096 bits, on the stack: enough for directions to tell a point from a line
+/// that misses it by the least of doubles.
+using Widest = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<4096, boost::multiprecision::digit_base_2, void,
+                                         std::int32_t>,
+    boost::multiprecision::et_off>;
+
+template <class Scalar>
+inline constexpr int kBits = std::numeric_limits<Scalar>::digits;
+
+/// `value`, which is finite, without any error.
+template <class Scalar>
+Scalar wide(double value) {
+  const DoubleParts parts(value);
+  return ldexp(Scalar(parts.mantissa), parts.exponent - 1074);
+}
+
+}  // namespace planetree::octree

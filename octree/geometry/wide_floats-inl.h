@@ -1,0 +1,79 @@
+// Floats side by side, points of them, and the bits of masks, compiled once for each instruction
+// set that Highway knows at hand. Multiplications and additions are never fused and lanes never
+// mixed, so that every set computes the same bits.
+
+#if defined(PLANETREE_OCTREE_WIDE_FLOATS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
+#undef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
+#else
+#define PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
+#endif
+
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#include "octree/geometry/tree_limits.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Whether one register holds eight floats, and has operations across all of them.
+#undef PLANETREE_EIGHT_LANES
+#define PLANETREE_EIGHT_LANES (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
+
+using FloatTag = hn::CappedTag<float, kFanOut>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+
+// As many as a block has triangles, or a part of them: for whatever stands in longer lists.
+using TriangleTag = hn::CappedTag<float, kMaxBlockTriangles>;
+using TriangleFloats = hn::Vec<TriangleTag>;
+
+// A vector, of three coordinates, in each lane.
+template <class Lanes>
+struct Vectors {
+  Lanes x, y, z;
+};
+using Wide3 = Vectors<Floats>;
+using TriangleVectors = Vectors<TriangleFloats>;
+
+template <class Lanes>
+HWY_INLINE Vectors<Lanes> sub(const Vectors<Lanes>& a, const Vectors<Lanes>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+template <class Lanes>
+HWY_INLINE Lanes dot(const Vectors<Lanes>& a, const Vectors<Lanes>& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+template <class Lanes>
+HWY_INLINE Lanes outside(Lanes lower, Lanes upper, Lanes at) {
+  const Lanes zero = hn::Zero(hn::DFromV<Lanes>());
+  return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
+}
+
+// A bit for each lane, of 16 at most.
+template <class Tag, class Mask>
+HWY_INLINE unsigned mask_bits(Tag d, Mask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0] | unsigned{bytes[1]} << 8;
+}
+
+// A bit for each lane that is not above the limit, or not a number.
+template <class Lanes>
+HWY_INLINE unsigned bits_not_above(Lanes values, float limit) {
+  const hn::DFromV<Lanes> d;
+  return mask_bits(d, hn::Not(hn::Gt(values, hn::Set(d, limit))));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

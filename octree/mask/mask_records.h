@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/mask/mask_lookup.h"
+#include "octree/page/mask_frame.h"
+#include "octree/traversal/tree_view.h"
+
+namespace planetree::octree {
+
+/// Link to record of a mask, by way of its page. Looks a page up only where the page changes.
+class MaskRecords {
+ public:
+  MaskRecords(const MaskFacts& mask, const PageReader& pages)
+      : links_(mask.page_bytes),
+        first_page_(mask.first_page),
+        page_count_(mask.page_count),
+        pages_(pages) {}
+
+  /// The mask's root; null if its page cannot be had.
+  const std::byte* root(TreeWork& work) {
+    turn_to(0, work);
+    return frame_ ? slot(header().first_record_slot) : nullptr;
+  }
+  bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
+
+  /// What is at a link, if its page is in memory; else null.
+  const std::byte* peek(std::uint32_t link) const {
+    const std::uint32_t page = links_.page(link);
+    const std::byte* frame = frame_;
+    if (page != page_)
+      frame = pages_.peek && page < page_count_ ? pages_.peek(pages_.context, first_page_ + page)
+                                                : nullptr;
+    return frame ? frame + links_.slot(link) * kMaskSlotBytes : nullptr;
+  }
+
+  /// Asks for the first lines of what is at a link, as far as it is in memory.
+  static void prefetch(const MaskFacts& mask, std::uint32_t link, const FrameTable& frames) {
+    const MaskLinkFormat links(mask.page_bytes);
+    const std::uint32_t page = links.page(link);
+    if (!frames.cells || page >= mask.page_count) return;
+    const std::byte* at =
+        frames.frame_of(mask.first_page + page) + links.slot(link) * kMaskSlotBytes;
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+  }
+
+  /// The record of a grey octant of the last record, or of a node that was kept before there was
+  /// one; null as record()'s.
+  const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {
+    const std::uint32_t link = child_link(node, octant);
+    // Links within a page were checked when it was decoded.
+    if (links_.page(link) == page_ && frame_) return slot(links_.slot(link));
+    return record(link, (node.leaf >> octant & 1) != 0, work);
+  }
+  /// The link to it.
+  std::uint32_t child_link(const MaskNode& node, unsigned octant) const {
+    const unsigned below = (1U << octant) - 1;
+    return links_.make(links_.page(node.family),
+                       links_.slot(node.family) + count_octants(node.grey & below));
+  }
+  /// The record at a link, which is said to be a leaf or a node; null if its page cannot be had
+  /// or holds no such record there.
+  const std::byte* record(std::uint32_t link, bool leaf, TreeWork& work) {
+    turn_to(links_.page(link), work);
+    const std::uint32_t at = links_.slot(link);
+    return frame_ && holds(at, leaf) ? slot(at) : nullptr;
+  }
+
+  /// Whether the page of a link can be had: then slot() is of it.
+  bool turn_to_page_of(std::uint32_t link, TreeWork& work) {
+    turn_to(links_.page(link), work);
+    return frame_ != nullptr;
+  }
+  std::uint32_t slot_of(std::uint32_t link) const { return links_.slot(link); }
+  /// Whether so many slots from a link on are in its page.
+  bool has_room(std::uint32_t link, unsigned slots) const {
+    return links_.slot(link) + slots <= links_.slots();
+  }
+  /// The link to a slot of the last record's page.
+  std::uint32_t link_to(std::uint32_t slot) const { return links_.make(page_, slot); }
+
+  const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }
+
+ private:
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+
+  bool holds(std::uint32_t at, bool leaf) const {
+    return at >= header().first_record_slot &&
+           at < std::uint32_t{header().first_record_slot} + header().record_count &&
+           is_mask_node(frame_, at) != leaf;
+  }
+  const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
+  void turn_to(std::uint32_t page, TreeWork& work) {
+    if (page == page_) return;
+    ++work.page_turns;
+    page_ = page;
+    frame_ = page < page_count_ ? pages_.page(pages_.context, first_page_ + page) : nullptr;
+  }
+
+  const MaskLinkFormat links_;
+  const std::uint32_t first_page_;
+  const std::uint32_t page_count_;
+  const PageReader& pages_;
+  std::uint32_t page_ = kNoPage;
+  const std::byte* frame_ = nullptr;
+};
+
+}  // namespace planetree::octree

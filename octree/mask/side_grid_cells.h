@@ -1,0 +1,176 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "octree/mask/side_grid_record.h"
+
+namespace planetree::octree {
+
+/// The cells of a ColourMap: the colour of each, and of what is below the grey ones. Cubes of them,
+/// blocks, are looked up by number; what is known of a block's cells stands together, for whoever
+/// looks at one seldom needs others. All pointers are into the map's memory.
+struct MapCells {
+  static constexpr int kUnknown = MapRecord::kUnknown;
+
+  enum Code : unsigned {
+    kWhite = 0,
+    kInside = 1,  ///< of the sign `inside`
+    kListed,      ///< grey
+    kOther,       ///< nothing is known here
+  };
+  /// A cell, by the block that it is in and its place there: a bit of each axis for the halves of
+  /// the block's sides, before those for the halves of these.
+  struct Cell {
+    std::size_t block;
+    unsigned at;
+  };
+  static constexpr unsigned kBlockBits = 2;  ///< cells along a block's side, as a power of 2
+
+  /// The codes of a block's cells, a bit of each in either word.
+  struct Codes {
+    std::uint64_t low, high;
+
+    constexpr Code of(unsigned at) const {
+      return static_cast<Code>((low >> at & 1) | (high >> at & 1) << 1);
+    }
+    void set(unsigned at, Code code) {
+      const std::uint64_t bit = std::uint64_t{1} << at;
+      low = (code & 1) != 0 ? low | bit : low & ~bit;
+      high = (code & 2) != 0 ? high | bit : high & ~bit;
+    }
+    constexpr std::uint64_t listed() const { return high & ~low; }
+    bool operator==(const Codes&) const = default;
+  };
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  static constexpr Codes kUnpainted{kAll, kAll};
+
+  /// Listed cells of a block that follow each other, by the colours of their octants: `inside` are
+  /// those of its sign.
+  struct Group {
+    static constexpr unsigned kCells = 8;
+    std::uint64_t unknown, inside;
+    std::uint64_t first_record;  ///< of the unknown ones, in their order
+  };
+
+  std::uint32_t* first_word = nullptr;  ///< of each block
+  std::uint64_t* words = nullptr;       ///< a block's Codes, and its groups
+  MapRecord* records = nullptr;
+  int inside = 1;  ///< or -1
+
+  static constexpr std::size_t groups_in(const Codes& codes) {
+    return (count(codes.listed()) + Group::kCells - 1) / Group::kCells;
+  }
+
+  /// Sets up the words of blocks of these codes, with all octants of listed cells unknown; blocks
+  /// of one colour share theirs. Returns how many words there are; where that is more than `room`,
+  /// there was none for some.
+  std::size_t lay_out(std::span<const Codes> blocks, std::size_t room) {
+    constexpr std::array kShared{Codes{0, 0}, Codes{kAll, 0}, kUnpainted};
+    constexpr std::size_t kCodeWords = sizeof(Codes) / sizeof(std::uint64_t);
+    std::size_t size = 0;
+    for (const Codes& codes : kShared) size = add_block(size, codes, room);
+    for (std::size_t block = 0; block < blocks.size() && size <= room; ++block) {
+      const auto shared = static_cast<std::size_t>(
+          std::find(kShared.begin(), kShared.end(), blocks[block]) - kShared.begin());
+      const bool shares = shared < kShared.size();
+      first_word[block] = static_cast<std::uint32_t>(shares ? kCodeWords * shared : size);
+      if (!shares) size = add_block(size, blocks[block], room);
+    }
+    return size;
+  }
+  /// Counts the records before each group. Returns how many there are in all.
+  std::size_t count_records(std::size_t block_count) {
+    std::size_t before = 0;
+    for (std::size_t block = 0; block < block_count; ++block)
+      for (std::size_t i = 0; i < groups_in(codes_of(block)); ++i) {
+        Group& next = group(first_word[block], i);
+        next.first_record = before;
+        before += count(next.unknown);
+      }
+    return before;
+  }
+
+  const Codes& codes_of(std::size_t block) const {
+    return *reinterpret_cast<const Codes*>(words + first_word[block]);
+  }
+  /// Asks for so many lines behind the codes', too, where groups of listed cells are: the first two
+  /// at least are in one, nearly all in three.
+  template <std::size_t kLines = 0>
+  Code code_of(Cell cell) const {
+    const Codes& codes = codes_of(cell.block);
+    for (std::size_t line = 1; line <= kLines; ++line)
+      __builtin_prefetch(reinterpret_cast<const std::byte*>(&codes) + line * kLineBytes);
+    return codes.of(cell.at);
+  }
+
+  /// An octant of a listed cell.
+  struct Octant {
+    Group& group;
+    std::uint64_t bit;
+
+    bool is_unknown() const { return (group.unknown & bit) != 0; }
+    bool is_inside() const { return (group.inside & bit) != 0; }
+    std::uint64_t record() const { return group.first_record + count(group.unknown & (bit - 1)); }
+  };
+  Octant octant_of(Cell cell, unsigned octant) const {
+    const std::uint64_t before = (std::uint64_t{1} << cell.at) - 1;
+    const unsigned number = count(codes_of(cell.block).listed() & before);
+    return {group(first_word[cell.block], number / Group::kCells),
+            std::uint64_t{1} << (8 * (number % Group::kCells) + octant)};
+  }
+
+  /// What is known of a place.
+  struct Found {
+    int winding;                        ///< its sign, or kUnknown
+    const MapRecord* record = nullptr;  ///< then: of the octant; null if the cell is not listed
+  };
+  /// In a cell that has a code and is not listed.
+  Found find_by_code(unsigned code) const {
+    // By no branch: points come from either side.
+    return {code <= kInside ? static_cast<int>(code) * inside : kUnknown};
+  }
+  /// In a listed cell, in octant `part` of its octant `octant`.
+  Found find_below(Cell cell, unsigned octant, unsigned part) const {
+    const Found found = find_below(cell, octant);
+    return found.record ? Found{found.record->winding(part), found.record} : found;
+  }
+  /// The same as far as it takes no look at a record.
+  Found find_below(Cell cell, unsigned octant) const {
+    const Octant found = octant_of(cell, octant);
+    if (!found.is_unknown()) return {static_cast<int>(found.is_inside()) * inside};
+    return {kUnknown, &records[found.record()]};
+  }
+
+ private:
+  static constexpr std::size_t kLineBytes = 64;
+  static constexpr std::size_t kGroupWords = sizeof(Group) / sizeof(std::uint64_t);
+
+  // Behind the words that there are; returns how many there are then.
+  std::size_t add_block(std::size_t size, const Codes& codes, std::size_t room) {
+    const std::size_t groups = groups_in(codes), end = size + 2 + kGroupWords * groups;
+    if (end > room) return room + 1;
+    std::construct_at(reinterpret_cast<Codes*>(words + size), codes);
+    std::size_t octants = 8 * std::size_t{count(codes.listed())};
+    for (std::size_t i = 0; i < groups; ++i, octants -= 64)
+      std::construct_at(&group(size, i),
+                        Group{octants >= 64 ? kAll : (std::uint64_t{1} << octants) - 1, 0, 0});
+    return end;
+  }
+  Group& group(std::size_t first, std::size_t number) const {
+    return *reinterpret_cast<Group*>(words + first + 2 + kGroupWords * number);
+  }
+  // The processors we build for may lack an instruction for it.
+  static constexpr std::uint32_t count(std::uint64_t set) {
+    set -= set >> 1 & 0x5555555555555555;
+    set = (set & 0x3333333333333333) + (set >> 2 & 0x3333333333333333);
+    set = (set + (set >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    return static_cast<std::uint32_t>(set * 0x0101010101010101 >> 56);
+  }
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,115 @@
+#include "octree/mask/side_grid_lookup.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "octree/mask/side_grid_lookup.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "octree/geometry/wide_floats-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+#if PLANETREE_EIGHT_LANES
+
+using WordTag = hn::FixedTag<std::uint64_t, 4>;
+using StepTag = hn::RebindToSigned<WordTag>;
+using Words = hn::Vec<WordTag>;
+using Steps = hn::Vec<StepTag>;
+
+HWY_INLINE Words bits_of(double x, double y, double z) {
+  const hn::FixedTag<double, 2> pair;
+  const hn::FixedTag<double, 4> all;
+  const auto xy = hn::InterleaveLower(pair, hn::Set(pair, x), hn::Set(pair, y));
+  return hn::BitCast(WordTag(), hn::Combine(all, hn::Set(pair, z), xy));
+}
+
+// The sum over axes of values below 2^32 by factors below that.
+HWY_INLINE std::size_t weighted_sum(Words values, Words factors) {
+  const hn::Repartition<std::uint32_t, WordTag> halves;
+  const auto products = hn::MulEven(hn::BitCast(halves, values), hn::BitCast(halves, factors));
+  return hn::GetLane(hn::SumOfLanes(WordTag(), products));
+}
+
+// One bit of each axis: an octant.
+template <int kShift>
+HWY_INLINE unsigned bits_at(Steps steps) {
+  const StepTag signs;
+  return mask_bits(signs, hn::Lt(hn::ShiftLeft<63 - kShift>(steps), hn::Zero(signs))) & 7;
+}
+
+// Of which the compiler is told nothing: gcc 12, where it sees that a function leaves vectors
+// alone, calls it and returns with their upper halves in use, for which whatever comes next then
+// waits.
+[[gnu::noipa]] int winding_below(const MapCells& cells, MapCells::Cell cell, unsigned octant,
+                                 unsigned part) {
+  return cells.find_below(cell, octant, part).winding;
+}
+
+// MapSteps::find(), an axis a lane, of the digits of CellSteps. The fourth lane is never in doubt
+// where others are not.
+int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, double y, double z) {
+  const WordTag words;
+  const StepTag signs;
+  const Words bits = bits_of(x, y, z);
+  const Words exponent = hn::And(hn::ShiftRight<52>(bits), hn::Set(words, 0x7ff));
+  const Words highest = hn::Set(words, std::uint64_t{1} << 63);
+  const Words digits = hn::ShiftRight<2>(hn::Or(hn::ShiftLeft<11>(bits), highest));
+  const Steps shift = hn::Sub(hn::Set(signs, steps.input.shift()), hn::BitCast(signs, exponent));
+  const Words shown = digits >> hn::BitCast(words, hn::Min(shift, hn::Set(signs, 63)));
+  const Steps sign = hn::BroadcastSignBit(hn::BitCast(signs, bits));
+  const Steps from_zero = hn::Sub(hn::Xor(hn::BitCast(signs, shown), sign), sign);
+  const Steps beyond = hn::Sub(from_zero, hn::Load(signs, steps.first.data()));
+  const Steps step = hn::Min(hn::Max(beyond, hn::Set(signs, MapSteps::kRimMiddle)),
+                             hn::Load(signs, steps.last_middle.data()));
+  const Steps past_side = hn::And(step, hn::Set(signs, MapSteps::kLeast - 1));
+  const auto doubtful =
+      hn::Or(hn::Lt(shift, hn::Zero(signs)), hn::Lt(past_side, hn::Set(signs, steps.doubtful)));
+  if (!hn::AllFalse(signs, doubtful)) return MapCells::kUnknown;
+  constexpr int kBlockShift = CellSteps::kBits + int{MapCells::kBlockBits};
+  const MapCells::Cell cell{
+      weighted_sum(hn::ShiftRight<kBlockShift>(hn::BitCast(words, step)),
+                   hn::Load(words, steps.stride.data())),
+      bits_at<CellSteps::kBits + 1>(step) << 3 | bits_at<CellSteps::kBits>(step)};
+  // Points that a glance is enough for are seldom in the block of the one before, so that none of
+  // its lines is likely to be near.
+  const unsigned code = cells.code_of<3>(cell);
+  if (code != MapCells::kListed) return cells.find_by_code(code).winding;
+  return winding_below(cells, cell, bits_at<MapSteps::kOctantBits>(step),
+                       bits_at<MapSteps::kLeastBits>(step));
+}
+
+#else
+
+int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, double y, double z) {
+  const std::array<double, 3> point{x, y, z};
+  MapSteps::Place place;
+  if (!steps.find(point.data(), steps.input, place)) return MapCells::kUnknown;
+  return find(steps, cells, place).winding;
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace planetree::octree {
+
+HWY_EXPORT(glance_on_target);
+
+MapGlance map_glance() noexcept {
+  // Else it might be the one that chooses.
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  return &HWY_DYNAMIC_DISPATCH(glance_on_target);
+}
+
+}  // namespace planetree::octree
+#endif

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+
+#include "octree/geometry/cell_slab.h"
+#include "octree/page/mask_frame.h"
+
+namespace planetree::octree {
+
+/// What a ColourMap has of a grey cell of a mask: a node as the mask has it, where a leaf is, or
+/// where its list of blocks is, and its slab. None is in two cache lines.
+struct alignas(16) MapRecord {
+  static constexpr int kUnknown = 2;  ///< no sign of a winding number
+
+  std::uint32_t link = 0;                  ///< to a node's family, a leaf's record, or its list
+  std::uint32_t slab = CellSlab{}.word();  ///< of a list's leaf
+  std::uint8_t grey = 0;                   ///< as the rest of a node: MaskNode; 0 in all others
+  std::uint8_t leaf = kNothing;            ///< else: kLeaf, or kListed and more
+  std::uint8_t black = 0;
+  std::uint8_t inverted = 0;
+  std::uint8_t touched = 0xff;  ///< octants of this cell, by what is listed
+
+  static constexpr MapRecord of_node(const MaskNode& node) {
+    return {.link = node.family,
+            .grey = node.grey,
+            .leaf = node.grey != 0 ? node.leaf : kOneColour,
+            .black = node.black,
+            .inverted = node.inverted};
+  }
+  /// A cell of one colour.
+  static constexpr MapRecord of_colour(int winding) {
+    MaskNode node{};
+    (winding < 0 ? node.inverted : node.black) = winding != 0 ? 0xff : 0;
+    return of_node(node);
+  }
+  /// levels_above  the leaf is of a cell so many levels above this one, up to 7.
+  static constexpr MapRecord of_leaf(std::uint32_t link, unsigned levels_above) {
+    return {.link = link, .leaf = static_cast<std::uint8_t>(kLeaf | levels_above)};
+  }
+  /// A leaf that has() a list at `link`.
+  static constexpr MapRecord of_list(const MaskListed& listed, std::uint32_t link,
+                                     const CellSlab& slab, unsigned touched,
+                                     unsigned levels_above) {
+    const unsigned least = listed.least == 0 ? 0 : kLeastIsMinus1;
+    return {.link = link,
+            .slab = slab.word(),
+            .leaf = static_cast<std::uint8_t>(kListed | least | levels_above),
+            .black = listed.block_count,
+            .inverted = listed.higher,
+            .touched = static_cast<std::uint8_t>(levels_above == 0 ? touched : 0xff)};
+  }
+  static constexpr bool has(const MaskListed& listed) {
+    return listed.least == 0 || listed.least == -1;
+  }
+
+  constexpr bool is_node() const { return grey != 0; }
+  constexpr bool is_leaf() const { return grey == 0 && (leaf & kLeaf) != 0; }
+  constexpr bool is_listed() const { return grey == 0 && (leaf & kListed) != 0; }
+  constexpr bool is_nothing() const { return grey == 0 && leaf == kNothing; }
+  constexpr unsigned levels_above() const { return grey != 0 ? 0 : leaf & kLevelsAbove; }
+  /// As the mask has it.
+  constexpr MaskNode node() const { return {link, grey, leaf, black, inverted}; }
+  /// The leaf of a list, which is from `slot` on.
+  constexpr MaskListed listed(std::uint32_t slot) const {
+    return {kListedTag, black, static_cast<std::int8_t>((leaf & kLeastIsMinus1) != 0 ? -1 : 0),
+            inverted, slot};
+  }
+  /// The sign of the winding number in an octant of this cell; kUnknown where it is grey.
+  constexpr int winding(unsigned octant) const {
+    if (is_listed()) return (touched >> octant & 1) != 0 ? kUnknown : corner_of(listed(0), octant);
+    const bool told = grey != 0 ? (grey >> octant & 1) == 0 : leaf == kOneColour;
+    return told ? (black >> octant & 1) - (inverted >> octant & 1) : kUnknown;
+  }
+
+ private:
+  static constexpr std::uint8_t kOneColour = 0, kLeaf = 0x80, kListed = 0x40, kLeastIsMinus1 = 0x20,
+                                kNothing = 0x10, kLevelsAbove = 7;
+};
+static_assert(sizeof(MapRecord) == 16);
+
+}  // namespace planetree::octree

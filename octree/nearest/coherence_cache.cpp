@@ -1,0 +1,165 @@
+#include "octree/nearest/coherence_cache.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "octree/geometry/strict_math.h"
+#include "octree/page/block_view.h"
+#include "octree/traversal/bounds.h"
+#include "octree/traversal/child_overlap.h"
+#include "octree/traversal/link_resolver.h"
+#include "octree/traversal/triangle_overlap.h"
+
+namespace planetree::octree {
+namespace {
+
+// Records by their links, up to so many: a forged tree could lead to one again and again.
+class LimitedFinder {
+ public:
+  LimitedFinder(const TreeFacts& tree, std::uint64_t most, const PageReader& pages, TreeWork& work)
+      : records_(tree, pages), work_(work), left_(std::min(most, tree.record_count)) {}
+
+  // Null where it cannot be had, or no more may be visited.
+  const std::byte* find(std::uint32_t link) {
+    const std::byte* record = left_ > 0 ? records_.find(link, work_) : nullptr;
+    if (!record) {
+      left_ = 0;  // after a page that is lost nothing more is looked for
+      return nullptr;
+    }
+    --left_;
+    ++(LinkFormat::is_leaf(link) ? work_.blocks : work_.nodes);
+    return record;
+  }
+
+ private:
+  RecordFinder records_;
+  TreeWork& work_;
+  std::uint64_t left_;
+};
+
+// A ball as the children of nodes and the triangles of blocks are held against it.
+class Ball {
+ public:
+  Ball(const TreeFacts& tree, const Point& centre, double radius)
+      : centre_(centre),
+        radius_(radius),
+        query_(FloatQuery::from(centre, tree.centre)),
+        threshold_(prune_threshold(query_, radius)) {}
+
+  // Adds the children that reach into it.
+  void add_children(const Node& node, NearbySubtrees& found) const {
+    add_children_within(node, query_, threshold_, found);
+  }
+  // A bit for each triangle that does; see triangles_within().
+  unsigned reached_by(const BlockView& block, double (&nearest)[kMaxBlockTriangles]) const {
+    return triangles_within(block, centre_, query_, radius_, nearest);
+  }
+
+ private:
+  const Point& centre_;
+  const double radius_;
+  const FloatQuery query_;
+  const float threshold_;
+};
+
+// The subtrees that reach into a ball: from the root down, level by level, as long as there is
+// room for more.
+class SubtreeSearch {
+ public:
+  SubtreeSearch(const Ball& ball, LimitedFinder& records, NearbySubtrees& found)
+      : ball_(ball), records_(records), found_(found) {}
+
+  // False where there is nothing to keep.
+  bool run(std::uint32_t root_link) {
+    found_.clear();
+    const Node* root = node(root_link);
+    if (!root) return false;
+    ball_.add_children(*root, found_);
+    while (open_level()) {
+    }
+    return found_.size() > 0;
+  }
+
+ private:
+  // Puts nodes' near children in their places. False where none was opened.
+  bool open_level() {
+    bool opened = false;
+    for (std::size_t i = found_.size(); i-- > 0 && found_.has_room();) {
+      const Node* opening = node(found_.link(i));
+      if (!opening) continue;
+      found_.remove(i);
+      ball_.add_children(*opening, found_);
+      opened = true;
+    }
+    return opened;
+  }
+
+  // Null where it is a block, its page is lost, or no more may be visited.
+  const Node* node(std::uint32_t link) {
+    return LinkFormat::is_leaf(link) ? nullptr : reinterpret_cast<const Node*>(records_.find(link));
+  }
+
+  const Ball& ball_;
+  LimitedFinder& records_;
+  NearbySubtrees& found_;
+};
+
+// The triangles of some blocks that reach into a ball.
+class TriangleSearch {
+ public:
+  TriangleSearch(const TreeFacts& tree, const Ball& ball) : tree_(tree), ball_(ball) {}
+
+  // More blocks than these do not keep to so few triangles.
+  static constexpr std::size_t kMostBlocks = 28;
+
+  // False where they are too many, or a page is lost.
+  bool run(const NearbySubtrees& blocks, LimitedFinder& records) {
+    if (blocks.size() > kMostBlocks) return false;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      const std::byte* record = records.find(blocks.link(i));
+      if (!record) return false;
+      if (!add(BlockView(record, tree_.shape))) return false;
+    }
+    return true;
+  }
+
+  std::span<const NearbyTriangle> found() const { return {found_.data(), count_}; }
+
+ private:
+  bool add(const BlockView& block) {
+    double nearest[kMaxBlockTriangles];
+    unsigned near = ball_.reached_by(block, nearest);
+    if (count_ + static_cast<unsigned>(std::popcount(near)) > found_.size()) return false;
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(near));
+      found_[count_++] = {block.triangle(i), block.id(i), nearest[i], block.header().in_sheet()};
+    }
+    return true;
+  }
+
+  const TreeFacts& tree_;
+  const Ball& ball_;
+  std::size_t count_ = 0;
+  std::array<NearbyTriangle, NearbyTriangles::kMost> found_;
+};
+
+}  // namespace
+
+void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
+                     std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
+  const double diagonal = (tree.box_upper - tree.box_lower).norm();
+  const double radius = wanted_radius(query, distance, diagonal);
+  if (!(radius > 0)) return;
+  centre_ = query;
+  radius_ = radius;
+  triangles_.clear();
+  const Ball ball(tree, centre_, radius_);
+  LimitedFinder records(tree, max_nodes, pages, work);
+  if (!SubtreeSearch(ball, records, subtrees_).run(tree.root_link)) return forget();
+  if (!subtrees_.are_blocks()) return;
+  TriangleSearch search(tree, ball);
+  if (search.run(subtrees_, records)) triangles_.fill(search.found(), centre_, distance, radius_);
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,214 @@
+#include "octree/nearest/feature_normal.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "octree/geometry/angle.h"
+#include "octree/geometry/predicates.h"
+#include "octree/geometry/strict_math.h"
+#include "octree/geometry/vector3.h"
+#include "octree/nearest/height_field.h"
+#include "octree/traversal/box_walk.h"
+#include "octree/traversal/outcodes.h"
+#include "octree/traversal/triangle_overlap.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Thinner faces, by the square of their angle's sine, are evaluated with 113
+/// bits: they lose half of a double's.
+constexpr double kThinSine2 = 0x1p-48;
+/// Edges this short have squares that underflow.
+constexpr double kShortEdge = 0x1p-200;
+/// Sums below this share of their terms are rounding.
+constexpr double kNoSum = 0x1p-40;
+
+Point thin_normal(const Triangle& triangle) {
+  const Vector3<Quad> normal =
+      cross(difference<Quad>(triangle[1], triangle[0]), difference<Quad>(triangle[2], triangle[0]));
+  using boost::multiprecision::abs;
+  const Quad largest = std::max({Quad(abs(normal[0])), Quad(abs(normal[1])), Quad(abs(normal[2]))});
+  if (largest == 0) return Point::Zero();
+  const Point shorter(static_cast<double>(normal[0] / largest),
+                      static_cast<double>(normal[1] / largest),
+                      static_cast<double>(normal[2] / largest));
+  return shorter / shorter.norm();
+}
+
+/// Sums the faces around an edge or a vertex, by their index as long as they are few, so that
+/// it does not matter in which order they are found.
+class Fan {
+ public:
+  /// sides  told of every face; may be null.
+  Fan(const Point& vertex, const Point* other, FacingSides* sides)
+      : vertex_(vertex), other_(other), sides_(sides) {}
+
+  void add(const Triangle& triangle, std::uint64_t index) {
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      if (triangle[corner] != vertex_) continue;
+      const Point& next = triangle[(corner + 1) % 3];
+      const Point& last = triangle[(corner + 2) % 3];
+      if (other_ && next != *other_ && last != *other_) continue;
+      if (count_ == kSorted) {
+        sorted_ = false;
+        sum_up();
+      }
+      Face& face = faces_[count_];
+      double area2 = 0;
+      const bool has_area = face_normal(triangle, face.normal, area2);
+      if (sides_) has_area ? sides_->add(triangle, face.normal, area2) : sides_->add_unknown();
+      if (!has_area) continue;
+      face.index = index;
+      face.corner = corner;
+      face.weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
+      ++count_;
+    }
+  }
+
+  /// Whether normal() does not depend on the order in which faces were found.
+  bool is_sorted() const { return sorted_; }
+
+  Point normal() {
+    std::sort(faces_, faces_ + count_, [](const Face& a, const Face& b) {
+      return a.index != b.index ? a.index < b.index : a.corner < b.corner;
+    });
+    sum_up();
+    const double length = sum_.norm();
+    return length > kNoSum * weights_ ? Point(sum_ / length) : first_;
+  }
+
+ private:
+  struct Face {
+    std::uint64_t index;
+    unsigned corner;
+    double weight;
+    Point normal;
+  };
+
+  void sum_up() {
+    for (const Face& face : std::span(faces_, count_)) {
+      sum_ += face.weight * face.normal;
+      weights_ += face.weight;
+      if (face.index >= first_index_) continue;
+      first_index_ = face.index;
+      first_ = face.normal;
+    }
+    count_ = 0;
+  }
+
+  static constexpr std::size_t kSorted = NearbyTriangles::kMost;
+
+  const Point& vertex_;
+  const Point* other_;  ///< the edge's other end; null for a vertex
+  FacingSides* sides_;
+  bool sorted_ = true;
+  std::size_t count_ = 0;
+  Face faces_[kSorted];
+  Point sum_ = Point::Zero();
+  double weights_ = 0;
+  Point first_ = Point::Zero();
+  std::uint64_t first_index_ = kNoTriangle;
+};
+
+/// That of one face.
+void normal_of_face(const Point& query, const NearestAnswer& nearest, FeatureNormal& found) {
+  double area2 = 0;
+  if (!face_normal(nearest.corners, found.normal, area2)) {
+    found.normal = Point::Zero();
+    return;
+  }
+  if (!nearest.in_sheet) return;
+  FacingSides sides(query);
+  sides.add(nearest.corners, found.normal, area2);
+  sides.end_after(*std::min_element(nearest.barycentric.begin(), nearest.barycentric.end()) *
+                  std::sqrt(area2));
+  found.side = sides.common();
+}
+
+void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) {
+  const ListedBits around = triangles_with_corner(triangles, vertex);
+  for (std::size_t word = 0; word < around.size(); ++word)
+    for (std::uint64_t bits = around[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
+      fan.add(triangles.triangle(i), triangles.id(i));
+    }
+}
+
+// From some subtrees down, or from the root.
+bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, const TreeFacts& tree,
+             std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) {
+  const Outcodes outcodes(vertex, vertex);
+  BoxWalk walk(tree, vertex, vertex, pages, work);
+  if (subtrees) walk.begin_with(*subtrees);
+  return walk.run(max_nodes, [&](const BlockView& block, std::uint32_t) {
+    for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(around));
+      fan.add(block.triangle(i), block.id(i));
+    }
+  });
+}
+
+}  // namespace
+
+bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept {
+  const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const Point normal = u.cross(v);
+  area2 = normal.squaredNorm();
+  const bool short_edge = std::min(u.squaredNorm(), v.squaredNorm()) < kShortEdge * kShortEdge;
+  if (!short_edge && area2 > kThinSine2 * u.squaredNorm() * v.squaredNorm()) {
+    unit = normal / std::sqrt(area2);
+    return true;
+  }
+  bool flat = true;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    flat = flat && normal_sign(triangle[0], triangle[1], triangle[2], axis) == 0;
+  if (!flat) unit = thin_normal(triangle);
+  return !flat;
+}
+
+void feature_normal(const TreeFacts& tree, const Point& query, const NearestAnswer& nearest,
+                    const Vicinity* vicinity, std::uint64_t max_nodes, const PageReader& pages,
+                    TreeWork& work, FeatureNormal& found) noexcept {
+  found.complete = true;
+  found.side = 0;
+  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, found);
+  // The corners that the nearest point is made of: one, or two.
+  const Point* ends[3] = {};
+  double shares[3] = {};
+  std::size_t count = 0;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    if (!(nearest.barycentric[corner] > 0)) continue;
+    shares[count] = nearest.barycentric[corner];
+    ends[count++] = &nearest.corners[corner];
+  }
+  const Point& vertex = *ends[0];
+  const bool on_edge = nearest.feature == Feature::kEdge;
+  FacingSides sides(query);
+  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.in_sheet ? &sides : nullptr);
+  if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
+  const bool nearby = vicinity && vicinity->has_all_at(nearest.point);
+  if (nearby && vicinity->triangles().complete()) {
+    add_faces(vertex, vicinity->triangles(), fan);
+  } else {
+    const std::uint64_t before = work.nodes + work.blocks;
+    const NearbySubtrees* subtrees = nearby ? &vicinity->subtrees() : nullptr;
+    found.complete = walk_to(vertex, subtrees, fan, tree, max_nodes, pages, work);
+    // So many are summed up as the tree has them.
+    if (subtrees && !fan.is_sorted())
+      return feature_normal(tree, query, nearest, nullptr,
+                            max_nodes - (work.nodes + work.blocks - before), pages, work, found);
+  }
+  found.normal = fan.normal();
+  if (found.complete && nearest.in_sheet) found.side = sides.common();
+  // Not even the nearest triangle's own page was to be had.
+  double area2 = 0;
+  if (!found.complete && found.normal.squaredNorm() == 0 &&
+      !face_normal(nearest.corners, found.normal, area2))
+    found.normal = Point::Zero();
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,59 @@
+// Blocks that float has looked at, until their triangles are noted.
+
+#if defined(PLANETREE_OCTREE_FILTERED_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_FILTERED_BLOCKS_INL_H_
+#undef PLANETREE_OCTREE_FILTERED_BLOCKS_INL_H_
+#else
+#define PLANETREE_OCTREE_FILTERED_BLOCKS_INL_H_
+#endif
+
+#include <bit>
+
+#include "octree/page/block_view.h"
+#include "octree/traversal/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+// Some blocks of one page with what float says of their triangles. Later, when more of the tree
+// has been looked at, fewer of these may be nearest.
+class FilteredBlocks {
+ public:
+  static constexpr unsigned kMost = 8;
+
+  bool empty() const { return size_ == 0; }
+  bool full() const { return size_ == kMost; }
+
+  // Where there is room, float's findings of a block go to next(); add() then keeps them.
+  FilteredTriangles& next() { return triangles_[size_]; }
+  void add(const BlockHeader& block) { block_[size_++] = &block; }
+
+  // Calls note(block, i, squared) for each triangle whose lower bound is not above
+  // limit_of(extent of the block), and forgets all. The blocks must still be there.
+  template <class LimitOf, class Note>
+  HWY_INLINE void note_near(const BlockShape& shape, const LimitOf& limit_of, const Note& note) {
+    for (unsigned at = 0; at < size_; ++at) {
+      const BlockView block(*block_[at], shape);
+      const FilteredTriangles& filtered = triangles_[at];
+      const float limit = limit_of(block.header().extent);
+      unsigned near = near_triangles(filtered, block.triangle_count(), limit);
+      for (; near != 0; near &= near - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(near));
+        note(block, i, filtered.squared[i]);
+      }
+    }
+    size_ = 0;
+  }
+
+ private:
+  unsigned size_ = 0;
+  const BlockHeader* block_[kMost];
+  FilteredTriangles triangles_[kMost];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

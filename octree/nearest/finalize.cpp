@@ -1,0 +1,98 @@
+#include "octree/nearest/finalize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Squares below 2^-1022 underflow; lengths below this are not told apart.
+constexpr double kUnresolved = 0x1p-500;
+
+double down(double value) { return std::max(0.0, value - std::fabs(value) * 0x1p-52); }
+double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<double>::min(); }
+
+// A bound on the whole model from its box alone.
+double distance_to_box(const TreeFacts& tree, const Point& query) {
+  const Point gap = (tree.box_lower - query).cwiseMax(query - tree.box_upper).cwiseMax(0.0);
+  return std::max(0.0, gap.norm() * (1 - 0x1p-48) - kUnresolved);
+}
+
+NearestAnswer beyond(const NearestLimits& limits) {
+  NearestAnswer answer;
+  answer.distance = answer.upper = kInfinity;
+  answer.lower = limits.max_distance;
+  answer.status = Status::kBeyondMaxDistance;
+  return answer;
+}
+
+// Nothing was reached: all that is known is one vertex and what was left out.
+NearestAnswer nothing_read(const TreeFacts& tree, const Point& query, double lower, double within) {
+  NearestAnswer answer;
+  const double distance = (query - tree.sample).norm();
+  answer.point = tree.sample;
+  answer.upper = std::min(up(distance * (1 + 0x1p-48) + kUnresolved), up(within));
+  answer.distance = answer.upper;
+  answer.lower = std::min(lower, down(distance * (1 - 0x1p-48) - kUnresolved));
+  answer.feature = Feature::kVertex;
+  answer.status = Status::kDegraded;
+  return answer;
+}
+
+// Whether children left out, of this least bound, may hold the nearest
+// triangle. Infinity says that none were left out; the threshold is infinite
+// too where the query is too far away for float.
+bool may_matter(float bound, const BestTriangle& best) {
+  return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
+}
+
+void answer_with(const BestTriangle& best, NearestAnswer& answer) {
+  best.place_nearest(answer);
+  answer.distance = std::sqrt(answer.value.squared);
+  answer.lower = down(best.lower());
+  answer.upper = up(answer.distance + answer.value.error);
+  answer.triangle = best.triangle();
+  answer.corners = best.corners();
+  answer.in_sheet = best.in_sheet();
+  answer.status = Status::kExact;
+}
+
+}  // namespace
+
+NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
+                       const BestTriangle& best, const FloatQuery& wide,
+                       const LeftOut& left_out) noexcept {
+  // One answer, made where the caller wants it.
+  NearestAnswer answer;
+  const bool spent = may_matter(left_out.unread, best);
+  const auto bound_of = [&](float squared) {
+    return std::max(distance_to_box(tree, query), certified(wide, squared));
+  };
+  if (!best.found()) {
+    answer =
+        spent ? nothing_read(tree, query, std::min(limits.max_distance, bound_of(left_out.unread)),
+                             left_out.within)
+              : beyond(limits);
+    return answer;
+  }
+  answer_with(best, answer);
+  if (may_matter(left_out.pruned, best)) {
+    answer.lower = std::min(answer.lower, bound_of(left_out.pruned));
+    answer.status = Status::kWithinError;
+  }
+  // Only now: what max_error left out may be nearer than what was found.
+  if (answer.lower > limits.max_distance && !spent) {
+    answer = beyond(limits);
+  } else if (spent) {
+    answer.lower = std::min(answer.lower, bound_of(left_out.unread));
+    answer.upper = std::min(answer.upper, up(left_out.within));
+    answer.status = Status::kDegraded;
+  }
+  return answer;
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,132 @@
+// The nearest of the subtrees and triangles that a ball holds.
+
+#if defined(PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_
+#undef PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_
+#else
+#define PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "octree/geometry/packed_lanes-inl.h"
+#include "octree/geometry/triangle_kernels-inl.h"
+#include "octree/nearest/best_triangle.h"
+#include "octree/traversal/bounds.h"
+#include "octree/traversal/nearby_subtrees.h"
+#include "octree/traversal/nearby_triangles.h"
+#include "octree/traversal/node_kernels-inl.h"
+#include "octree/traversal/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Subtrees of a list, nearest first, with bounds of theirs. Squared bounds are not negative, so
+// that their bits order as they do; the last of these tell the place in the list instead.
+class SubtreeKeys {
+ public:
+  static constexpr std::int32_t kPlaceBits = NearbySubtrees::kMost - 1;
+
+  std::size_t size() const { return size_; }
+  std::size_t place(std::size_t i) const { return static_cast<std::size_t>(at_[i] & kPlaceBits); }
+  float bound(std::size_t i) const { return std::bit_cast<float>(at_[i] & ~kPlaceBits); }
+
+  // Those of a register's keys that are near.
+  template <class Near, class Keys>
+  HWY_INLINE void add(const Near& near, Keys keys) {
+    near.store(keys, at_ + size_);
+    size_ += near.count();
+  }
+
+  HWY_INLINE void sort() {
+#if PLANETREE_EIGHT_LANES
+    if (size_ <= kFanOut) {
+      const IntTag d;
+      const auto used = hn::FirstN(d, size_);
+      const Ints keys = hn::IfThenElse(used, hn::Load(d, at_), hn::Set(d, kNoKey));
+      return hn::Store(sort_lanes(keys), d, at_);
+    }
+#endif
+    std::sort(at_, at_ + size_);
+  }
+
+ private:
+  std::size_t size_ = 0;
+  // A vector may be written behind the last.
+  HWY_ALIGN std::int32_t at_[NearbySubtrees::kMost + kMaxBlockTriangles];
+};
+
+// Finds the subtrees whose boxes come as near as a threshold.
+HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, float threshold,
+                          SubtreeKeys& found) {
+  const TriangleTag d;
+  const TriangleVectors p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
+  for (std::size_t i = 0; i < list.size(); i += hn::Lanes(d)) {
+    const auto gap = [&](std::size_t axis, TriangleFloats at) {
+      return outside(hn::Load(d, list.lower(axis) + i), hn::Load(d, list.upper(axis) + i), at);
+    };
+    const TriangleVectors gaps{gap(0, p.x), gap(1, p.y), gap(2, p.z)};
+    const TriangleFloats squared = dot(gaps, gaps);
+    const auto beyond = hn::Gt(squared, hn::Set(d, threshold));
+    const PackedLanes near(d, hn::AndNot(beyond, hn::FirstN(d, list.size() - i)));
+    found.add(near, bound_keys(squared, SubtreeKeys::kPlaceBits, i));
+  }
+  found.sort();
+}
+
+// Evaluates four of a list, and offers those of them that `near` has a bit for.
+HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsigned near,
+                           const Point& query, BestTriangle& best) {
+  TriangleFindings findings;
+  evaluate_some(list.exact().view(first), near, query, findings);
+  for (; near != 0; near &= near - 1) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(near));
+    best.offer(findings.of(lane), list.id(first + lane), list.in_sheet(first + lane),
+               [&](Triangle& to) { list.exact().view(0).copy_triangle(first + lane, to); });
+  }
+}
+
+// Offers what may be nearest of a list. No triangle matters that is farther from the list's
+// centre than `reach`.
+HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Point& query,
+                             const FloatQuery& wide, BestTriangle& best, TreeWork& work) {
+  const TriangleTag d;
+  const std::size_t count = list.count_within(reach);
+  const FloatOffset from(query, list.centre());
+  const ListedTriangles triangles(list, from.at);
+  HWY_ALIGN float squared[NearbyTriangles::kMost];  // lower bounds
+  const TriangleFloats none = hn::Set(d, std::numeric_limits<float>::infinity());
+  TriangleFloats least = none;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const TriangleBounds bounds =
+        triangle_bounds(triangles.corner(0, i), triangles.corner(1, i), triangles.corner(2, i));
+    hn::Store(bounds.lower, d, squared + i);
+    const auto listed = hn::FirstN(d, count - i);
+    least = hn::Min(least, hn::IfThenElse(listed, bounds.upper, none));
+  }
+  const float least_upper = hn::GetLane(hn::MinOfLanes(d, least));
+  const double upper = std::min(best.reach(), filter_upper(least_upper, list.extent()));
+  const float limit = filter_threshold(wide, upper, list.extent());
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    unsigned near = bits_not_above(hn::Load(d, squared + i), limit);
+    if (count - i < hn::Lanes(d)) near &= (1u << (count - i)) - 1;
+    for (std::size_t first = i; near != 0; first += kTrianglesAtOnce, near >>= kTrianglesAtOnce) {
+      const unsigned four = near & ((1u << kTrianglesAtOnce) - 1);
+      if (four == 0) continue;
+      work.triangles += static_cast<unsigned>(std::popcount(four));
+      offer_four(list, first, four, query, best);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,287 @@
+// A descent of a tree to the triangle that is nearest to a query.
+
+#if defined(PLANETREE_OCTREE_DESCENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_DESCENT_INL_H_
+#undef PLANETREE_OCTREE_DESCENT_INL_H_
+#else
+#define PLANETREE_OCTREE_DESCENT_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "octree/geometry/triangle_kernels-inl.h"
+#include "octree/nearest/best_triangle.h"
+#include "octree/nearest/candidates.h"
+#include "octree/nearest/coherence_cache.h"
+#include "octree/nearest/filtered_blocks-inl.h"
+#include "octree/nearest/finalize.h"
+#include "octree/nearest/nearby_kernels-inl.h"
+#include "octree/page/block_view.h"
+#include "octree/page/child_box.h"
+#include "octree/traversal/bounds.h"
+#include "octree/traversal/frontier.h"
+#include "octree/traversal/link_resolver.h"
+#include "octree/traversal/node_kernels-inl.h"
+#include "octree/traversal/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+// One descent; the parts that touch nodes and blocks are compiled per target.
+class Descent {
+ public:
+  Descent(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
+          const PageReader& pages, TreeWork& work)
+      : tree_(tree),
+        query_(query),
+        wide_(FloatQuery::from(query, tree.centre)),
+        limits_(limits),
+        visits_left_(std::min<std::uint64_t>(limits.max_nodes, tree.record_count)),
+        work_(work),
+        keeper_(limits.allow_any_way() ? pages.keeper : nullptr),
+        records_(tree, pages),
+        best_(wide_, limits_) {
+    if (keeper_) *keeper_ = {this, &let_go};
+  }
+  ~Descent() {
+    if (keeper_) *keeper_ = {};
+  }
+  Descent(const Descent&) = delete;
+  Descent& operator=(const Descent&) = delete;
+
+  void run_from_root() {
+    search(0, tree_.root_link);
+    finish();
+  }
+  // From the subtrees that a ball holds, nearest first.
+  void run_from(const Vicinity& vicinity) {
+    subtrees_ = &vicinity.subtrees();
+    if (limits_.max_error == 0 && wide_.usable) best_.promise(vicinity.nearest_of(query_));
+    SubtreeKeys keys;
+    find_near(*subtrees_, wide_, best_.exact_threshold(), keys);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (keys.bound(i) > best_.threshold()) {
+        left_out_.pruned = std::min(left_out_.pruned, keys.bound(i));
+        break;
+      }
+      search(keys.bound(i), subtrees_->link(keys.place(i)));
+    }
+    finish();
+  }
+
+  // Where something is left out that may matter, a triangle known from elsewhere helps.
+  void fall_back_on(const NearestAnswer& known) {
+    if (known.triangle == kNoTriangle || left_out_.unread > best_.exact_threshold()) return;
+    note(known.corners, known.triangle, 0, known.in_sheet, 0);
+    settle();
+  }
+
+  const BestTriangle& best() const { return best_; }
+  const FloatQuery& wide() const { return wide_; }
+  const LeftOut& what_is_left_out() const { return left_out_; }
+
+ private:
+  static constexpr unsigned kPrefetched = 3;  // children, nearest first
+  static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
+
+  // All of a subtree that is near. Compiled once: there is much of it.
+  HWY_NOINLINE void search(float bound, std::uint32_t link) {
+    FrontierEntry entry{bound, link, RecordFinder::kNoPage}, second{};
+    bool has_second = false;
+    do {
+      // From nearest child to nearest child, as long as nodes are near.
+      while (visit(entry)) {
+      }
+    } while (take_next(entry, second, has_second));
+  }
+
+  // Far away, the two nearest at a time: the second need not wait for the first one's children,
+  // few of which are nearer.
+  HWY_INLINE bool take_next(FrontierEntry& entry, FrontierEntry& second, bool& has_second) {
+    if (has_second) {
+      entry = second;
+      has_second = false;
+      return true;
+    }
+    const Frontier::Order order = order_;
+    if (!frontier_.pop(order, best_.threshold(), entry, left_out_.pruned)) return false;
+    if (order == Frontier::Order::kNearest && frontier_.is_ordered())
+      has_second = frontier_.pop(order, best_.threshold(), second, left_out_.pruned);
+    return true;
+  }
+
+  // Whether to go on with a child, which `entry` then is.
+  HWY_INLINE bool visit(FrontierEntry& entry) {
+    if (visits_left_ == 0) {
+      left_out_.unread = std::min(left_out_.unread, entry.bound);
+      return false;
+    }
+    --visits_left_;
+    // Another page may take the place of theirs.
+    if (!keeper_ && !blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
+    const std::byte* record = records_.find(entry.link, work_, entry.from);
+    if (!record) {
+      leave_out(entry);
+    } else if (LinkFormat::is_leaf(entry.link)) {
+      ++work_.blocks;
+      visit_block(BlockView(record, tree_.shape));
+    } else {
+      ++work_.nodes;
+      return visit_node(entry, *reinterpret_cast<const Node*>(record), records_.page());
+    }
+    return false;
+  }
+
+  // A page that cannot be had: the box of what is there is all that is known.
+  void leave_out(const FrontierEntry& entry) {
+    left_out_.unread = std::min(left_out_.unread, entry.bound);
+    if (sought_ == kMostSought) return;
+    ++sought_;
+    if (entry.from == RecordFinder::kNoPage) return leave_out_listed(entry.link);
+    const RecordFinder::Child child = records_.find_parent(entry.link, entry.from);
+    if (!child.node) return;
+    const FloatBox box = child_box(*child.node, child.place);
+    left_out_.within = std::min(left_out_.within, farthest_in_box(box, query_ - tree_.centre));
+  }
+
+  // A subtree that a ball holds; or the root, of whose box nothing is said here.
+  void leave_out_listed(std::uint32_t link) {
+    for (std::size_t i = 0; subtrees_ && i < subtrees_->size(); ++i)
+      if (subtrees_->link(i) == link)
+        left_out_.within =
+            std::min(left_out_.within, subtrees_->farthest(i, query_ - tree_.centre));
+  }
+
+  HWY_INLINE bool visit_node(FrontierEntry& entry, const Node& node, std::uint32_t page) {
+    if (!frontier_.has_room()) {
+      left_out_.unread = std::min(left_out_.unread, entry.bound);
+      return false;
+    }
+    FrontierGroup& group = frontier_.next();
+    // Far away, bounds say little of where the nearest triangle is.
+    const bool far = entry.bound > node.gate;
+    order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
+    const NearChildren children = sorted_children(node, wide_, far, best_.threshold(), group);
+    const unsigned near = children.count;
+    // By no branch.
+    const float first_left = group.bound(near % kFanOut);
+    left_out_.pruned =
+        std::min(left_out_.pruned,
+                 near < node.child_count ? first_left : std::numeric_limits<float>::infinity());
+    // The nearest child is visited at once, unless from afar another is nearer; the last
+    // lines of a node are looked at from afar alone.
+    if (near > 0) {
+      const std::uint32_t nearest = node.link[children.child()];
+      far ? prefetch<kNodeSlots>(nearest, group, near)
+          : prefetch<kNearNodeSlots>(nearest, group, near);
+    }
+    const bool at_once = !far && near > 0;
+    frontier_.push(at_once ? 1 : 0, near, page);
+    if (at_once) entry = {children.bound(), node.link[children.child()], page};
+    return at_once;
+  }
+
+  // The nearest of the children that are near, the same again where there are fewer: by no branch.
+  // The very nearest is known before all are in order.
+  template <std::size_t kNodeLines>
+  HWY_INLINE void prefetch(std::uint32_t nearest, const FrontierGroup& group, unsigned near) {
+    records_.prefetch<kNodeLines>(nearest);
+#pragma GCC unroll 4
+    for (unsigned i = 1; i < kPrefetched; ++i)
+      records_.prefetch<kNodeLines>(group.link[i < near ? i : 0]);
+  }
+
+  HWY_INLINE void visit_block(const BlockView& block) {
+    const BlockHeader& header = block.header();
+    // Too small for float, or too far away.
+    if (!filter_tells(wide_, header.extent)) {
+      for (unsigned i = 0; i < header.triangle_count; ++i) note(block, i, 0);
+      return;
+    }
+    if (blocks_.full()) note_blocks();
+    const FloatOffset from(query_, block.vertex(0));
+    FilteredTriangles& filtered = blocks_.next();
+    filter_block(header, from.at, limit_of(header.extent), filtered);
+    if (filtered.near == 0) return;
+    blocks_.add(header);
+    best_.promise(filter_upper(filtered.least_upper, header.extent));
+  }
+
+  // Of the values that the filter has for the triangles of a block.
+  float limit_of(float extent) const { return filter_threshold(wide_, best_.reach(), extent); }
+
+  // Notes those triangles of the blocks so far that float cannot rule out.
+  void note_blocks() {
+    blocks_.note_near(
+        tree_.shape, [&](float extent) { return limit_of(extent); },
+        [&](const BlockView& block, unsigned i, float squared) { note(block, i, squared); });
+  }
+
+  void note(const BlockView& block, unsigned i, float squared) {
+    note(block.triangle(i), block.id(i), block.header().extent, block.header().in_sheet(), squared);
+  }
+  void note(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
+    if (candidates_.full()) {
+      keep_possible();
+      if (candidates_.full()) settle();
+    }
+    candidates_.add(corners, id, extent, in_sheet, squared);
+  }
+
+  void keep_possible() {
+    candidates_.keep_if([&](float squared, float extent) { return squared <= limit_of(extent); });
+  }
+
+  // Blocks whose frames may go are noted by what is known so far.
+  static void let_go(void* descent) noexcept { static_cast<Descent*>(descent)->note_blocks(); }
+
+  void finish() {
+    note_blocks();
+    settle();
+  }
+
+  // Evaluates what may be best.
+  void settle() {
+    // As many as are evaluated at once take as long as one.
+    if (candidates_.size() > kTrianglesAtOnce) keep_possible();
+    const auto& rows = candidates_.rows();
+    for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
+      TriangleFindings findings;
+      const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
+      evaluate_some(rows.view(i), (1U << count) - 1, query_, findings);
+      for (std::size_t lane = 0; lane < count; ++lane)
+        best_.offer(findings.of(lane), candidates_.id(i + lane), candidates_.in_sheet(i + lane),
+                    [&](Triangle& to) { rows.view(0).copy_triangle(i + lane, to); });
+    }
+    work_.triangles += candidates_.size();
+    candidates_.clear();
+  }
+
+  const TreeFacts& tree_;
+  const Point query_;
+  const FloatQuery wide_;
+  const NearestLimits limits_;
+  // An honest tree cannot be visited longer than it is; a forged one could.
+  std::uint64_t visits_left_;
+  TreeWork& work_;
+  FrameKeeper* const keeper_;
+  RecordFinder records_;
+  BestTriangle best_;
+  FilteredBlocks blocks_;  // without a keeper, all of the page that was found last
+  Candidates candidates_;
+  Frontier frontier_;
+  Frontier::Order order_ = Frontier::Order::kLast;
+  const NearbySubtrees* subtrees_ = nullptr;  // where a descent does not begin at the root
+  LeftOut left_out_;
+  unsigned sought_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

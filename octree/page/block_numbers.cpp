@@ -1,0 +1,168 @@
+#include "octree/page/block_numbers.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "octree/page/block_numbers.cpp"
+#include <hwy/foreach_target.h>
+
+#include "octree/page/split_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+bool places_one_by_one(const Shuffled<std::uint16_t>& refs, const BlockVertices& block,
+                       unsigned stride, std::uint16_t* places) {
+  std::size_t place = 0;
+  bool good = true;
+  for (unsigned i = 0; i < block.ref_count; ++i) {
+    const std::uint16_t step = refs[block.first_ref + i];
+    good &= i == 0 || step > 0;
+    place += step;
+    places[i] = static_cast<std::uint16_t>(place);
+  }
+  good &= block.ref_count == 0 || place < block.first_new;
+  for (unsigned i = block.ref_count; i < block.vertex_count; ++i)
+    places[i] = static_cast<std::uint16_t>(block.first_new + (i - block.ref_count));
+  std::fill(places + block.vertex_count, places + stride, places[0]);
+  return good;
+}
+
+template <class Id>
+bool ids_one_by_one(Id first, const Shuffled<Id>& steps, std::size_t first_step, unsigned count,
+                    Id* ids) {
+  Id id = ids[0] = first;
+  bool ascend = true;
+  for (unsigned i = 1; i < count; ++i) {
+    const Id last = id;
+    id = static_cast<Id>(id + steps[first_step + i - 1]);
+    ascend &= id > last;  // nor does a sum that overflows
+    ids[i] = id;
+  }
+  std::fill(ids + count, ids + kMaxBlockTriangles, id);
+  return ascend;
+}
+
+#if HWY_TARGET != HWY_SCALAR
+
+// How many of the first lanes there are, of `count` from lane `first` on.
+HWY_INLINE std::size_t left_of(std::size_t count, std::size_t first) {
+  return count > first ? count - first : 0;
+}
+
+// How many of some sums are above the one before, which is a step less: none that wraps around.
+template <class Lanes>
+HWY_INLINE std::size_t count_rising(Lanes sums, Lanes steps) {
+  return hn::CountTrue(hn::DFromV<Lanes>(), hn::Gt(sums, hn::Sub(sums, steps)));
+}
+
+// Needs `stride` refs from the first on.
+bool places_by_lanes(const Shuffled<std::uint16_t>& refs, const BlockVertices& block,
+                     unsigned stride, std::uint16_t* places) {
+  const PairTag pairs;
+  const auto wide = [&](std::size_t number) {
+    return hn::Set(pairs, static_cast<std::uint16_t>(number));
+  };
+  Pairs last = hn::Zero(pairs), first = last;
+  std::size_t rising = 0;
+  for (unsigned i = 0; i < stride; i += 8) {
+    const auto referred = hn::FirstN(pairs, left_of(block.ref_count, i));
+    const Pairs steps =
+        hn::IfThenElseZero(referred, load_eight(refs.bytes(), refs.size(), block.first_ref + i));
+    Pairs sums = hn::Add(steps, hn::ShiftLeftLanes<1>(pairs, steps));
+    sums = hn::Add(sums, hn::ShiftLeftLanes<2>(pairs, sums));
+    sums = hn::Add(hn::Add(sums, hn::ShiftLeftLanes<4>(pairs, sums)), last);
+    last = hn::Broadcast<7>(sums);
+    rising += count_rising(sums, steps);
+    const Pairs others = hn::Add(hn::Iota(pairs, static_cast<std::uint16_t>(i)),
+                                 wide(block.first_new - block.ref_count));
+    const Pairs all = hn::IfThenElse(referred, sums, others);
+    if (i == 0) {
+      first = hn::Broadcast<0>(all);
+      // The first is no step above another.
+      rising -= block.ref_count > 0 && hn::GetLane(steps) > 0 ? 1 : 0;
+    }
+    const auto known = hn::FirstN(pairs, left_of(block.vertex_count, i));
+    hn::StoreU(hn::IfThenElse(known, all, first), pairs, places + i);
+  }
+  return block.ref_count == 0 ||
+         (rising == block.ref_count - 1 && places[block.ref_count - 1] < block.first_new);
+}
+
+// Needs a step before the first one, and kMaxBlockTriangles - 1 from there on.
+bool ids_by_lanes(std::uint32_t first, const Shuffled<std::uint32_t>& steps, std::size_t first_step,
+                  unsigned count, std::uint32_t* ids) {
+  const ByteTag bytes;
+  const QuadTag quads;
+  Bytes planes[4];
+  load_sixteen(steps.bytes(), steps.size(), first_step - 1, planes);
+  const auto others = hn::And(hn::FirstN(bytes, count), hn::Not(hn::FirstN(bytes, 1)));
+  for (Bytes& plane : planes) plane = hn::IfThenElseZero(others, plane);
+  Quads step[4];
+  join_planes(planes, step);
+  Quads last = hn::Set(quads, first);
+  std::size_t rising = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    Quads sums = hn::Add(step[i], hn::ShiftLeftLanes<1>(quads, step[i]));
+    sums = hn::Add(hn::Add(sums, hn::ShiftLeftLanes<2>(quads, sums)), last);
+    last = hn::Broadcast<3>(sums);
+    rising += count_rising(sums, step[i]);
+    hn::StoreU(sums, quads, ids + 4 * i);
+  }
+  return rising == count - 1;
+}
+
+#endif
+
+// Lanes read whole registers, and all that they read must be the array's.
+bool places_on_target(const Shuffled<std::uint16_t>& refs, const BlockVertices& block,
+                      unsigned stride, std::uint16_t* places) {
+#if HWY_TARGET != HWY_SCALAR
+  if (block.first_ref + stride <= refs.size()) return places_by_lanes(refs, block, stride, places);
+#endif
+  return places_one_by_one(refs, block, stride, places);
+}
+
+bool ids_on_target(std::uint32_t first, const Shuffled<std::uint32_t>& steps,
+                   std::size_t first_step, unsigned count, std::uint32_t* ids) {
+#if HWY_TARGET != HWY_SCALAR
+  if (first_step > 0 && first_step - 1 + kMaxBlockTriangles <= steps.size())
+    return ids_by_lanes(first, steps, first_step, count, ids);
+#endif
+  return ids_one_by_one(first, steps, first_step, count, ids);
+}
+
+bool wide_ids_on_target(std::uint64_t first, const Shuffled<std::uint64_t>& steps,
+                        std::size_t first_step, unsigned count, std::uint64_t* ids) {
+  return ids_one_by_one(first, steps, first_step, count, ids);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace planetree::octree {
+
+HWY_EXPORT(places_on_target);
+HWY_EXPORT(ids_on_target);
+HWY_EXPORT(wide_ids_on_target);
+
+bool unpack_places(const Shuffled<std::uint16_t>& refs, const BlockVertices& block, unsigned stride,
+                   std::uint16_t* places) noexcept {
+  return HWY_DYNAMIC_DISPATCH(places_on_target)(refs, block, stride, places);
+}
+
+bool unpack_ids(std::uint32_t first, const Shuffled<std::uint32_t>& steps, std::size_t first_step,
+                unsigned count, std::uint32_t* ids) noexcept {
+  return HWY_DYNAMIC_DISPATCH(ids_on_target)(first, steps, first_step, count, ids);
+}
+
+bool unpack_ids(std::uint64_t first, const Shuffled<std::uint64_t>& steps, std::size_t first_step,
+                unsigned count, std::uint64_t* ids) noexcept {
+  return HWY_DYNAMIC_DISPATCH(wide_ids_on_target)(first, steps, first_step, count, ids);
+}
+
+}  // namespace planetree::octree
+#endif

@@ -1,0 +1,295 @@
+#include "octree/page/mask_decoder.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "octree/geometry/strict_math.h"
+#include "octree/page/frame.h"
+#include "octree/page/mask_frame.h"
+#include "octree/page/mask_streams.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Coordinates in the model frame are below 2^55.
+constexpr double kFarthestPlane = 0x1p60;
+
+class MaskDecoder {
+ public:
+  MaskDecoder(const PageFacts& facts, std::span<std::byte> frame)
+      : facts_(facts),
+        links_(facts.page_bytes),
+        block_links_(facts.page_bytes),
+        frame_(frame.data()) {}
+
+  const char* decode(std::span<const std::byte> raw) {
+    if (const char* fault = streams_.cut(raw, facts_.shape.float64)) return fault;
+    if (head().page_number != facts_.page_number) return "it is another page's bytes";
+    if (head().octcode != facts_.octcode || head().ordinal != facts_.ordinal)
+      return "its key is not the page table's";
+    if (const char* fault = write_header()) return fault;
+    next_family_ = head().root_count;
+    for (std::size_t i = 0; i < head().record_count; ++i)
+      if (const char* fault = decode_record(i)) return fault;
+    return check_sums();
+  }
+
+ private:
+  const MaskPageHead& head() const { return streams_.head; }
+  const char* write_header();
+  const char* count_lists(std::size_t& slots) const;
+  const char* decode_record(std::size_t index);
+  const char* decode_node(MaskNode& node, bool above);
+  const char* link_family(MaskNode& node);
+  const char* link_above(MaskNode& node);
+  const char* decode_plain(MaskCorners& corners);
+  const char* decode_corners(MaskCorners& corners);
+  const char* decode_special(MaskSpecial& special);
+  const char* decode_plane();
+  const char* decode_listed(MaskListed& listed);
+  const char* decode_slab(std::size_t at, std::byte* slab) const;
+  const char* decode_list(std::byte* octants, std::byte* links, unsigned count);
+  const char* check_sums() const;
+
+  static bool is_leaf(std::uint8_t kind) { return kind > static_cast<int>(MaskKind::kNodeAbove); }
+
+  const PageFacts& facts_;
+  MaskLinkFormat links_;
+  LinkFormat block_links_;
+  std::byte* frame_;
+  MaskStreams streams_;
+  std::size_t first_record_slot_ = 0;
+  std::size_t first_plane_slot_ = 0;
+  std::size_t next_family_ = 0;
+  std::size_t next_node_ = 0;
+  std::size_t next_link_ = 0;
+  std::size_t next_plain_ = 0;
+  std::size_t next_corners_ = 0;
+  std::size_t next_special_ = 0;
+  std::size_t next_plane_ = 0;
+  std::size_t next_listed_ = 0;
+  std::size_t next_list_slot_ = 0;
+  std::size_t next_block_ = 0;
+};
+
+const char* MaskDecoder::write_header() {
+  first_record_slot_ = mask_head_slots(facts_.page_bytes);
+  first_plane_slot_ = first_record_slot_ + head().record_count;
+  next_list_slot_ = first_plane_slot_ + kPlaneSlots * head().plane_count;
+  std::size_t end = next_list_slot_;
+  if (const char* fault = count_lists(end)) return fault;
+  if (end * kMaskSlotBytes > facts_.page_bytes) return "its records do not fit a page";
+  std::memset(frame_, 0, first_record_slot_ * kMaskSlotBytes);
+  MaskHeader header{};
+  header.page_number = head().page_number;
+  header.ordinal = head().ordinal;
+  header.octcode = head().octcode;
+  header.record_count = head().record_count;
+  header.root_count = head().root_count;
+  header.first_record_slot = static_cast<std::uint16_t>(first_record_slot_);
+  header.first_plane_slot = static_cast<std::uint16_t>(first_plane_slot_);
+  header.page_link_count = head().page_link_count;
+  std::memcpy(frame_, &header, sizeof header);
+  return nullptr;
+}
+
+// Adds their slots.
+const char* MaskDecoder::count_lists(std::size_t& slots) const {
+  std::size_t blocks = 0;
+  for (std::size_t i = 0; i < head().listed_count; ++i) {
+    const unsigned count = streams_.block_counts[i];
+    if (count == 0 || count > kMostListed) return "a list's count of blocks is out of range";
+    slots += list_slots(count);
+    blocks += count;
+  }
+  return blocks == head().block_link_count ? nullptr : "its lists do not add up";
+}
+
+const char* MaskDecoder::decode_record(std::size_t index) {
+  if (index >= next_family_) return "a record has no parent";
+  const std::size_t slot = first_record_slot_ + index;
+  std::byte* record = frame_ + slot * kMaskSlotBytes;
+  const auto kind = static_cast<MaskKind>(streams_.kinds[index]);
+  switch (kind) {
+    case MaskKind::kNode:
+    case MaskKind::kNodeAbove: {
+      auto* nodes = reinterpret_cast<std::uint64_t*>(frame_ + sizeof(MaskHeader));
+      nodes[slot / 64] |= std::uint64_t{1} << slot % 64;
+      return decode_node(*reinterpret_cast<MaskNode*>(record), kind == MaskKind::kNodeAbove);
+    }
+    case MaskKind::kPlainCorners:
+      return decode_plain(*reinterpret_cast<MaskCorners*>(record));
+    case MaskKind::kCorners:
+      return decode_corners(*reinterpret_cast<MaskCorners*>(record));
+    case MaskKind::kSpecial:
+      return decode_special(*reinterpret_cast<MaskSpecial*>(record));
+    case MaskKind::kListed:
+      return decode_listed(*reinterpret_cast<MaskListed*>(record));
+  }
+  return "a record is of unknown kind";
+}
+
+const char* MaskDecoder::decode_node(MaskNode& node, bool above) {
+  if (next_node_ == head().node_count) return "the counts of records do not add up";
+  const std::size_t at = next_node_++;
+  node = {0, streams_.grey[at], streams_.leaf[at], streams_.black[at], streams_.inverted[at]};
+  if ((node.leaf & ~node.grey) != 0 || (node.grey & node.black) != 0 ||
+      (node.grey & node.inverted) != 0 || (node.black & node.inverted) != 0)
+    return "an octant has two colours";
+  if (above) return link_above(node);
+  return node.grey == 0 ? nullptr : link_family(node);
+}
+
+const char* MaskDecoder::link_family(MaskNode& node) {
+  const std::size_t first = next_family_;
+  next_family_ += static_cast<unsigned>(std::popcount(node.grey));
+  if (next_family_ > head().record_count) return "its families do not add up";
+  std::size_t member = first;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((node.grey >> octant & 1) == 0) continue;
+    if (is_leaf(streams_.kinds[member++]) != ((node.leaf >> octant & 1) != 0))
+      return "a record is not of the kind its parent says";
+  }
+  node.family = links_.make(facts_.page_number - facts_.first_page,
+                            static_cast<std::uint32_t>(first_record_slot_ + first));
+  return nullptr;
+}
+
+const char* MaskDecoder::link_above(MaskNode& node) {
+  if (node.grey == 0 || next_link_ == head().page_link_count) return "its page links do not add up";
+  node.family = streams_.page_links[next_link_++];
+  const std::uint64_t page = links_.page(node.family);
+  const std::size_t end =
+      links_.slot(node.family) + static_cast<std::size_t>(std::popcount(node.grey));
+  if (page <= facts_.page_number - facts_.first_page || page >= facts_.page_count ||
+      end * kMaskSlotBytes > facts_.page_bytes)
+    return "a link leads to a page that cannot be below it";
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_plain(MaskCorners& corners) {
+  if (next_plain_ == head().plain_count) return "the counts of records do not add up";
+  const std::uint8_t bits = streams_.plain_corners[next_plain_++];
+  for (unsigned corner = 0; corner < 8; ++corner)
+    corners[corner] = static_cast<std::int8_t>(bits >> corner & 1);
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_corners(MaskCorners& corners) {
+  if (next_corners_ == head().corners_count) return "the counts of records do not add up";
+  const std::size_t at = 8 * next_corners_++;
+  for (unsigned corner = 0; corner < 8; ++corner) corners[corner] = streams_.corners[at + corner];
+  if (std::count(corners.begin(), corners.end(), kListedTag) != 0)
+    return "a corner's winding number is out of range";
+  const auto uncounted = std::count(corners.begin(), corners.end(), kUncounted);
+  return uncounted == 0 || uncounted == 8 ? nullptr : "a corner of a cell is not counted";
+}
+
+const char* MaskDecoder::decode_special(MaskSpecial& special) {
+  if (next_special_ == head().special_count) return "the counts of records do not add up";
+  const std::size_t at = next_special_++;
+  special.tag = kUncounted;
+  special.plane_count = streams_.plane_counts[at];
+  special.behind = streams_.behind[at];
+  special.beyond = streams_.beyond[at];
+  special.plane_slot = static_cast<std::uint32_t>(first_plane_slot_ + kPlaneSlots * next_plane_);
+  if (special.plane_count == 0 || special.plane_count > kMaxPlanes)
+    return "a special cell's planes are out of range";
+  if (special.behind == kUncounted || special.beyond == kUncounted ||
+      special.behind == special.beyond)
+    return "a special cell has no two sides";
+  for (unsigned i = 0; i < special.plane_count; ++i)
+    if (const char* fault = decode_plane()) return fault;
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_plane() {
+  if (next_plane_ == head().plane_count) return "its planes do not add up";
+  auto* plane = reinterpret_cast<double*>(frame_ + first_plane_slot_ * kMaskSlotBytes) +
+                kPlaneSlots * next_plane_;
+  for (std::size_t i = 0; i < kPlaneSlots; ++i) {
+    plane[i] = streams_.plane_coordinate(kPlaneSlots * next_plane_ + i);
+    if (!(std::fabs(plane[i]) < kFarthestPlane)) return "a plane is out of range";
+  }
+  ++next_plane_;
+  return nullptr;
+}
+
+const char* MaskDecoder::decode_listed(MaskListed& listed) {
+  if (next_listed_ == head().listed_count) return "the counts of records do not add up";
+  const std::size_t at = next_listed_++;
+  listed = {kListedTag, streams_.block_counts[at], streams_.least[at], streams_.higher[at],
+            static_cast<std::uint32_t>(next_list_slot_)};
+  if (listed.least <= kListedTag || listed.least == std::numeric_limits<std::int8_t>::max())
+    return "a corner's winding number is out of range";
+  std::byte* const octants = frame_ + next_list_slot_ * kMaskSlotBytes;
+  next_list_slot_ += list_slots(listed.block_count);
+  std::byte* const slab = octants + list_octant_slots(listed.block_count) * kMaskSlotBytes;
+  // Whatever is not written stands in the last slots.
+  std::memset(slab - kMaskSlotBytes, 0, kMaskSlotBytes);
+  std::memset(frame_ + (next_list_slot_ - 1) * kMaskSlotBytes, 0, kMaskSlotBytes);
+  if (const char* fault = decode_slab(at, slab)) return fault;
+  return decode_list(octants, slab + sizeof(std::uint32_t), listed.block_count);
+}
+
+const char* MaskDecoder::decode_slab(std::size_t at, std::byte* slab) const {
+  CellSlab found;
+  found.direction = streams_.slab_directions[at];
+  found.lower = streams_.slab_lowers[at];
+  found.upper = streams_.slab_uppers[at];
+  if (!found.direction_is_valid()) return "a slab's direction is out of range";
+  if (found.lower > found.upper) return "a slab's planes are the wrong way round";
+  const std::uint32_t word = found.word();
+  std::memcpy(slab, &word, sizeof word);
+  return nullptr;
+}
+
+// By copies that no byte written can change, as far as the compiler knows.
+const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
+  const Shuffled<std::uint8_t> all_octants = streams_.block_octants;
+  const Shuffled<std::uint32_t> all_links = streams_.block_links;
+  const LinkFormat format = block_links_;
+  const std::uint32_t page_count = facts_.first_page;
+  const std::size_t first = next_block_;
+  next_block_ += count;
+  bool all_touch = true, all_lead = true, ascend = true;
+  std::uint32_t before = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const std::uint8_t touched = all_octants[first + i];
+    const std::uint32_t link = all_links[first + i];
+    all_touch &= touched != 0;
+    all_lead &= LinkFormat::is_leaf(link);
+    all_lead &= format.page(link) < page_count;
+    ascend &= link > before;
+    before = link;
+    std::memcpy(octants + i, &touched, sizeof touched);
+    std::memcpy(links + i * sizeof link, &link, sizeof link);
+  }
+  if (!all_touch) return "a block of a list touches nothing";
+  if (!all_lead) return "a list leads to what is no block";
+  return ascend ? nullptr : "the blocks of a list are not in order";
+}
+
+const char* MaskDecoder::check_sums() const {
+  if (next_family_ != head().record_count) return "its families do not add up";
+  if (next_link_ != head().page_link_count) return "its page links do not add up";
+  if (next_plane_ != head().plane_count) return "its planes do not add up";
+  return nullptr;
+}
+
+}  // namespace
+
+Result<void> decode_mask_page(std::span<const std::byte> raw, const PageFacts& facts,
+                              std::span<std::byte> frame) noexcept {
+  assert(frame.size() == facts.page_bytes);
+  const char* fault = MaskDecoder(facts, frame).decode(raw);
+  if (!fault) return {};
+  return make_error(ErrorCode::kDamaged, facts.page_number, Error::kNowhere,
+                    "mask page %u is damaged: %s; build the file again", facts.page_number, fault);
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,55 @@
+#include "octree/page/mask_streams.h"
+
+#include <cstring>
+
+#include "octree/page/stream_reader.h"
+
+namespace planetree::octree {
+namespace {
+
+const char* check_head(const MaskPageHead& head) {
+  if (head.record_count == 0 || head.root_count == 0) return "the page holds no record";
+  if (head.root_count > head.record_count) return "the count of roots does not fit";
+  if (std::size_t{head.node_count} + head.plain_count + head.corners_count + head.special_count +
+          head.listed_count !=
+      head.record_count)
+    return "the counts of records do not add up";
+  if (head.page_link_count > head.node_count) return "the count of links does not fit";
+  if (head.reserved != 0) return "reserved bytes are not 0";
+  return nullptr;
+}
+
+}  // namespace
+
+const char* MaskStreams::cut(std::span<const std::byte> raw, bool float64) noexcept {
+  constexpr const char* kShort = "the page is shorter than its counts say";
+  if (raw.size() < sizeof head) return kShort;
+  std::memcpy(&head, raw.data(), sizeof head);
+  if (const char* fault = check_head(head)) return fault;
+  StreamCutter cutter(raw.subspan(sizeof head));
+  cutter.take(kinds, head.record_count);
+  for (auto* masks : {&grey, &leaf, &black, &inverted}) cutter.take(*masks, head.node_count);
+  cutter.take(page_links, head.page_link_count);
+  cutter.take(plain_corners, head.plain_count);
+  cutter.take(corners, 8 * std::size_t{head.corners_count});
+  cutter.take(plane_counts, head.special_count);
+  cutter.take(behind, head.special_count);
+  cutter.take(beyond, head.special_count);
+  const std::size_t coordinates = 9 * std::size_t{head.plane_count};
+  if (float64)
+    cutter.take(planes64, coordinates);
+  else
+    cutter.take(planes32, coordinates);
+  cutter.take(least, head.listed_count);
+  cutter.take(higher, head.listed_count);
+  cutter.take(block_counts, head.listed_count);
+  cutter.take(slab_directions, head.listed_count);
+  cutter.take(slab_lowers, head.listed_count);
+  cutter.take(slab_uppers, head.listed_count);
+  cutter.take(block_octants, head.block_link_count);
+  cutter.take(block_links, head.block_link_count);
+  if (!cutter.whole()) return kShort;
+  return cutter.empty() ? nullptr : "the page is longer than its counts say";
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "octree/page/raw_streams.h"
+
+namespace planetree::octree {
+
+/// Takes arrays off the front of some bytes, until they do not suffice.
+class StreamCutter {
+ public:
+  explicit StreamCutter(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  template <class T>
+  void take(Shuffled<T>& stream, std::size_t count) {
+    const std::size_t bytes = Shuffled<T>::bytes_for(count);
+    const std::byte* start = skip(bytes);
+    stream = start ? Shuffled<T>(start, count) : Shuffled<T>();
+  }
+  std::span<const std::byte> take_bytes(std::size_t bytes) {
+    const std::byte* start = skip(bytes);
+    return start ? std::span(start, bytes) : std::span<const std::byte>();
+  }
+  /// Whether there were bytes for every array so far.
+  bool whole() const { return ok_; }
+  bool empty() const { return rest_.empty(); }
+
+ private:
+  const std::byte* skip(std::size_t bytes) {
+    if (!ok_ || bytes > rest_.size()) {
+      ok_ = false;
+      return nullptr;
+    }
+    const std::byte* start = rest_.data();
+    rest_ = rest_.subspan(bytes);
+    return start;
+  }
+
+  std::span<const std::byte> rest_;
+  bool ok_ = true;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "octree/page/frame.h"
+
+namespace planetree::octree {
+
+/// A child to visit: a squared lower bound on its distance, its link, and the page of the
+/// node that has it.
+struct FrontierEntry {
+  float bound;
+  std::uint32_t link;
+  std::uint32_t from;
+};
+
+/// The children of one node that are worth a visit, nearest first; one cache line.
+/// Squared bounds are not negative, so their bits order as they do.
+struct alignas(kSlotBytes) FrontierGroup {
+  std::int32_t bound_bits[kFanOut];
+  std::uint32_t link[kFanOut];
+
+  float bound(unsigned at) const { return std::bit_cast<float>(bound_bits[at]); }
+};
+
+/// Children still to visit: a group for each visited node that has some. Taken nearest
+/// first, as few are visited as can be; taken from the last group, they lie close together.
+class Frontier {
+ public:
+  enum class Order { kNearest, kLast };
+  /// From more groups only the last is taken, so that depth bounds how many are added. Few asks
+  /// have as many at once.
+  static constexpr std::size_t kMostToOrder = 48;
+
+  bool has_room() const { return size_ < kMaxGroups; }
+  /// Whether the nearest of all is taken, where that is asked for.
+  bool is_ordered() const { return size_ <= kMostToOrder; }
+
+  /// Where the next group is to be written; push() then counts it in.
+  FrontierGroup& next() { return groups_[size_]; }
+  /// The group's entries from `first` to `end` are to be visited; of a node in page `from`.
+  void push(unsigned first, unsigned end, std::uint32_t from) {
+    if (first >= end) return;
+    cursors_[size_] = {from, static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end)};
+    set_key(size_, groups_[size_].bound_bits[first]);
+    ++size_;
+  }
+
+  /// Takes a child within `threshold`. `dropped` becomes the least bound of those that are
+  /// not, if less. False when nothing is left.
+  bool pop(Order order, float threshold, FrontierEntry& entry, float& dropped) {
+    // In a register: from memory each that is dropped would wait for the one before.
+    float least_dropped = dropped;
+    const bool found = pop_near(order, threshold, entry, least_dropped);
+    dropped = least_dropped;
+    return found;
+  }
+
+ private:
+  bool pop_near(Order order, float threshold, FrontierEntry& entry, float& dropped) {
+    while (size_ > 0) {
+      const bool nearest = order == Order::kNearest && is_ordered();
+      const std::size_t at = nearest ? nearest_group() : size_ - 1;
+      Cursor& cursor = cursors_[at];
+      const FrontierGroup& group = groups_[at];
+      entry = {group.bound(cursor.next), group.link[cursor.next], cursor.from};
+      if (entry.bound <= threshold) {
+        if (++cursor.next == cursor.end)
+          remove(at);
+        else
+          set_key(at, group.bound_bits[cursor.next]);
+        return true;
+      }
+      dropped = std::min(dropped, entry.bound);
+      size_ = nearest ? 0 : size_ - 1;
+    }
+    return false;
+  }
+
+  struct Cursor {
+    std::uint32_t from;
+    std::uint8_t next, end;  // of the group's entries
+  };
+  // Two are taken at a time as long as groups are ordered; the way down from each adds one a level.
+  static constexpr std::size_t kMaxGroups = kMostToOrder + std::size_t{2} * (kMaxHeight + 1);
+
+  // A group's least bound, and its place, so that the last of equals comes first.
+  void set_key(std::size_t at, std::int32_t bound_bits) {
+    keys_[at] = std::uint64_t{static_cast<std::uint32_t>(bound_bits)} << 32 | (kMaxGroups - at);
+  }
+  std::size_t nearest_group() const {
+    std::uint64_t least = keys_[0];
+    for (std::size_t i = 1; i < size_; ++i) least = std::min(least, keys_[i]);
+    return kMaxGroups - static_cast<std::uint32_t>(least);
+  }
+  void remove(std::size_t at) {
+    if (at == --size_) return;
+    groups_[at] = groups_[size_];
+    cursors_[at] = cursors_[size_];
+    set_key(at, groups_[at].bound_bits[cursors_[at].next]);
+  }
+
+  std::size_t size_ = 0;
+  std::uint64_t keys_[kMaxGroups];
+  Cursor cursors_[kMaxGroups];
+  FrontierGroup groups_[kMaxGroups];
+};
+
+}  // namespace planetree::octree

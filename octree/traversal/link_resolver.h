@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/page/frame.h"
+#include "octree/traversal/tree_view.h"
+
+namespace planetree::octree {
+
+/// Link to record, by way of its page. Looks a page up only where the page
+/// changes.
+class RecordFinder {
+ public:
+  RecordFinder(const TreeFacts& tree, const PageReader& pages)
+      : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
+
+  /// No page has this number.
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+
+  /// The node or block that `link` leads to, good until the next call; null
+  /// where its page cannot be had or holds no such record. `from` is the page of the node
+  /// that has the link, as page() said then.
+  const std::byte* find(std::uint32_t link, TreeWork& work, std::uint32_t from = kNoPage) {
+    const std::uint32_t page = links_.page(link);
+    const std::uint32_t slot = links_.slot(link);
+    if (!is_at_hand(link)) {
+      ++work.page_turns;
+      page_number_ = page;
+      frame_ = pages_.page(pages_.context, page);
+    }
+    // Links within a page were checked when it was decoded; links between pages could not
+    // be before both were here.
+    if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
+    return frame_ + slot * kSlotBytes;
+  }
+  /// Whether the record is on the page that was found last.
+  bool is_at_hand(std::uint32_t link) const { return links_.page(link) == page_number_ && frame_; }
+  /// The page of the last record.
+  std::uint32_t page() const { return page_number_; }
+
+  /// A child of a node, by its place there.
+  struct Child {
+    const Node* node = nullptr;
+    unsigned place = 0;
+  };
+  /// Looks through the nodes of a page, as far as it is in memory, for the one that has `link`.
+  Child find_parent(std::uint32_t link, std::uint32_t page) const {
+    const std::byte* frame =
+        pages_.peek && page != kNoPage ? pages_.peek(pages_.context, page) : nullptr;
+    if (!frame) return {};
+    const auto& header = *reinterpret_cast<const FrameHeader*>(frame);
+    for (unsigned i = 0; i < header.node_count; ++i) {
+      const unsigned slot = header.first_node_slot + i * node_slots_;
+      const auto* node = reinterpret_cast<const Node*>(frame + slot * kSlotBytes);
+      for (unsigned place = 0; place < node->child_count; ++place)
+        if (node->link[place] == link) return {node, place};
+    }
+    return {};
+  }
+
+  /// Asks for the record's first cache lines, as far as it is in memory: of a node those that near
+  /// queries look at, unless other numbers are asked for. No answer depends on it.
+  ///
+  /// By no branch that depends on the link: those would be mispredicted.
+  template <std::size_t kNodeLines = kNearNodeSlots>
+  [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
+    if (!pages_.frames.cells) return;
+    const std::byte* frame = pages_.frames.frame_of(links_.page(link));
+    const std::uint32_t slot = links_.slot(link);
+    const std::size_t leaf = link >> 31;
+    const std::byte* record = frame + slot * kSlotBytes;
+#pragma GCC unroll 8
+    for (std::size_t i = 0; i < kNodeLines; ++i) __builtin_prefetch(record + i * kSlotBytes);
+    // Of a node its last line again.
+    const std::byte* last = record + (kNodeLines - 1) * kSlotBytes;
+#pragma GCC unroll 8
+    for (std::size_t i = kNodeLines; i < kBlockLines; ++i)
+      __builtin_prefetch(last += leaf * kSlotBytes);
+  }
+
+ private:
+  static constexpr std::size_t kBlockLines = 4;  // all of most
+
+  bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
+    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
+    if (LinkFormat::is_leaf(link)) {
+      const auto* starts = reinterpret_cast<const std::uint64_t*>(frame_ + kSlotBytes);
+      return (starts[slot / 64] >> slot % 64 & 1) != 0;
+    }
+    if (slot < header.first_node_slot) return false;
+    const std::uint32_t offset = slot - header.first_node_slot;
+    // By constants: a division would take as long as the node's bounds.
+    const bool aligned = node_slots_ == kNodeSlots ? offset % kNodeSlots == 0
+                                                   : offset % (kNodeSlots + kMomentSlots) == 0;
+    return aligned && offset < header.node_count * node_slots_;
+  }
+
+  const LinkFormat links_;
+  const unsigned node_slots_;
+  const PageReader& pages_;
+  std::uint32_t page_number_ = kNoPage;
+  const std::byte* frame_ = nullptr;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/page/frame.h"
+#include "octree/traversal/bounds.h"
+
+namespace planetree::octree {
+
+/// The subtrees that reach into a ball, a block being the smallest: queries within the ball begin
+/// with these and not at the root. Boxes as in the nodes that have them, side by side.
+class NearbySubtrees {
+ public:
+  static constexpr std::size_t kMost = 64;
+
+  /// Forgets what was there.
+  void clear() { size_ = 0; }
+
+  /// Whether the children of any node find room.
+  bool has_room() const { return size_ + kFanOut <= kMost; }
+  /// Where more of them go while has_room(): to each a vector of kFanOut numbers may be written, of
+  /// which add() counts the first ones in.
+  float* next_lower(std::size_t axis) { return lower_[axis] + size_; }
+  float* next_upper(std::size_t axis) { return upper_[axis] + size_; }
+  std::uint32_t* next_link() { return link_ + size_; }
+  void add(std::size_t count) { size_ += count; }
+  /// The last one takes the place of another.
+  void remove(std::size_t at) {
+    --size_;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      lower_[axis][at] = lower_[axis][size_];
+      upper_[axis][at] = upper_[axis][size_];
+    }
+    link_[at] = link_[size_];
+  }
+
+  std::size_t size() const { return size_; }
+  bool are_blocks() const { return std::all_of(link_, link_ + size_, LinkFormat::is_leaf); }
+  std::uint32_t link(std::size_t i) const { return link_[i]; }
+  /// No surface point in one is farther from a query than this; see farthest_in_box().
+  double farthest(std::size_t i, const Point& query) const {
+    return farthest_in_box(
+        {{lower_[0][i], lower_[1][i], lower_[2][i]}, {upper_[0][i], upper_[1][i], upper_[2][i]}},
+        query);
+  }
+  /// A side of each box; up to the next multiple of sixteen there are numbers, of no meaning.
+  const float* lower(std::size_t axis) const { return lower_[axis]; }
+  const float* upper(std::size_t axis) const { return upper_[axis]; }
+
+ private:
+  static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
+  static_assert(kMost % kLanes == 0);
+
+  std::size_t size_ = 0;
+  alignas(kSlotBytes) float lower_[3][kMost] = {};
+  alignas(kSlotBytes) float upper_[3][kMost] = {};
+  std::uint32_t link_[kMost] = {};
+};
+
+}  // namespace planetree::octree

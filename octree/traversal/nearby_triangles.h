@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "octree/geometry/triangle_rows.h"
+#include "octree/page/frame.h"
+#include "octree/traversal/bounds.h"
+
+namespace planetree::octree {
+
+/// A triangle that reaches into a ball.
+struct NearbyTriangle {
+  Triangle corners;
+  std::uint64_t id;
+  double nearest;         ///< it is no nearer to the centre than this
+  bool in_sheet = false;  ///< its block is
+};
+
+/// All triangles that reach into a ball, where they are few: queries within it look at no
+/// node, block or page at all. Those near the centre come first, so that queries near it look
+/// at few.
+class NearbyTriangles {
+ public:
+  static constexpr std::size_t kMost = 192;
+
+  /// Forgets what was there.
+  void clear() {
+    size_ = 0;
+    complete_ = false;
+  }
+
+  /// Takes all that reach into the ball, kMost at most; `nearest` is the distance of the
+  /// nearest from the centre.
+  void fill(std::span<const NearbyTriangle> found, const Point& centre, double nearest,
+            double radius) {
+    centre_ = centre;
+    nearest_ = nearest;
+    rings_per_length_ = radius > nearest ? kRings / (radius - nearest) : 0;
+    extent_ = 0;
+    size_ = found.size();
+    std::array<std::uint8_t, kMost> ring;
+    std::array<std::size_t, kRings + 1> next{};
+    for (std::size_t i = 0; i < size_; ++i) {
+      ring[i] = static_cast<std::uint8_t>(ring_at(found[i].nearest));
+      ++next[ring[i] + 1u];
+    }
+    for (std::size_t i = 1; i <= kRings; ++i) next[i] += next[i - 1];
+    for (std::size_t i = 0; i < kRings; ++i) end_[i] = static_cast<std::uint8_t>(next[i + 1]);
+    double extent2 = 0;
+    for (std::size_t i = 0; i < size_; ++i)
+      extent2 = std::max(extent2, set(next[ring[i]]++, found[i]));
+    extent_ = round_up(std::sqrt(extent2));
+    for (std::size_t i = size_; i % kLanes != 0; ++i) repeat_last(i);
+    complete_ = size_ > 0 && extent_ >= kLeastFilterExtent;
+  }
+
+  /// Whether there is a list, and of all.
+  bool complete() const { return complete_; }
+  std::size_t size() const { return size_; }
+  /// Those from here on are farther from the centre than `distance`.
+  std::size_t count_within(double distance) const { return end_[ring_at(distance)]; }
+  const Point& centre() const { return centre_; }
+  /// At least the distance of any corner from the centre; 2^-40 or more.
+  float extent() const { return extent_; }
+  /// A coordinate of a corner of each, relative to the centre and rounded; the last is
+  /// repeated up to the next multiple of sixteen.
+  const float* row(std::size_t corner, std::size_t axis) const { return row_[corner][axis]; }
+  /// The exact corners, repeated in the same way.
+  const TriangleRows<kMost>& exact() const { return exact_; }
+
+  Triangle triangle(std::size_t i) const { return exact_.triangle(i); }
+  std::uint64_t id(std::size_t i) const { return id_[i]; }
+  bool in_sheet(std::size_t i) const { return in_sheet_[i]; }
+
+ private:
+  static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
+  static_assert(kMost % kLanes == 0 && kMost <= 255);
+  static constexpr std::size_t kRings = 16;
+
+  // Greater distances have no smaller rings, however they are rounded.
+  std::size_t ring_at(double distance) const {
+    const double ring = (distance - nearest_) * rings_per_length_;
+    return ring > 0 ? static_cast<std::size_t>(std::min(ring, kRings - 1.0)) : 0;
+  }
+
+  // Returns the greatest squared distance of a corner from the centre.
+  double set(std::size_t i, const NearbyTriangle& found) {
+    double farthest2 = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point from = found.corners[k] - centre_;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        row_[k][axis][i] = static_cast<float>(from[static_cast<Eigen::Index>(axis)]);
+      farthest2 = std::max(farthest2, from.squaredNorm());
+    }
+    exact_.set(i, found.corners);
+    id_[i] = found.id;
+    in_sheet_[i] = found.in_sheet;
+    return farthest2;
+  }
+
+  void repeat_last(std::size_t i) {
+    for (auto& corner : row_)
+      for (auto& row : corner) row[i] = row[size_ - 1];
+    exact_.copy(size_ - 1, i);
+  }
+
+  Point centre_ = Point::Zero();
+  double nearest_ = 0;
+  double rings_per_length_ = 0;
+  std::size_t size_ = 0;
+  float extent_ = 0;
+  bool complete_ = false;
+  std::array<std::uint8_t, kRings> end_;  // of each ring's triangles
+  alignas(kLanes * sizeof(float)) float row_[3][3][kMost];
+  TriangleRows<kMost> exact_;
+  std::uint64_t id_[kMost];
+  bool in_sheet_[kMost];
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,204 @@
+// Which triangles may be nearer than a limit, as float sees them: see octree/traversal/bounds.h for
+// how far to trust it.
+
+#if defined(PLANETREE_OCTREE_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_TRIANGLE_FILTER_INL_H_
+#undef PLANETREE_OCTREE_TRIANGLE_FILTER_INL_H_
+#else
+#define PLANETREE_OCTREE_TRIANGLE_FILTER_INL_H_
+#endif
+
+#include <cstddef>
+#include <limits>
+
+#include "octree/geometry/wide_floats-inl.h"
+#include "octree/page/block_triangles-inl.h"
+#include "octree/page/frame.h"
+#include "octree/traversal/bounds.h"
+#include "octree/traversal/nearby_triangles.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Squared distance to the segment from a point `p2` away, squared, from the query, along
+// an edge; `along` is the edge times the vector to the query. The products of a triangle's
+// sides do for all of it: what cancels is paid for by kEdgeError.
+HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats along,
+                                          TriangleFloats edge2) {
+  const TriangleTag d;
+  const TriangleFloats least = hn::Set(d, 0x1p-126f);
+  const TriangleFloats one = hn::Set(d, 1.0f);
+  const TriangleFloats t =
+      hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
+  return hn::Sub(p2, hn::Mul(t, hn::Sub(hn::Add(along, along), hn::Mul(t, edge2))));
+}
+
+// Squared distances of triangles as float sees them: on either side of the true one, but
+// for the rounding of the corners, which is kFilterSlack's.
+struct TriangleBounds {
+  TriangleFloats lower;  // 0 where float cannot tell
+  TriangleFloats upper;
+};
+
+// Of a face too flat for float: it lies within its own height of its edges.
+HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole,
+                                     TriangleFloats sides, TriangleFloats longest2) {
+  const TriangleTag d;
+  const TriangleFloats zero = hn::Zero(d);
+  const TriangleFloats doubt = hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
+  const TriangleFloats rise =
+      hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
+  const TriangleFloats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
+  return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
+}
+
+// Of triangles given by vectors from the query to corners.
+HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const TriangleVectors& b,
+                                          const TriangleVectors& c) {
+  const TriangleTag d;
+  const TriangleFloats zero = hn::Zero(d);
+  const TriangleVectors ab = sub(b, a), ac = sub(c, a);
+  const TriangleFloats a2 = dot(a, a), ab2 = dot(ab, ab), ac2 = dot(ac, ac), ab_ac = dot(ab, ac);
+  const TriangleFloats to_b = hn::Neg(dot(a, ab)), to_c = hn::Neg(dot(a, ac));
+  // The third side and its start, from the products of the others.
+  const TriangleFloats b2 = hn::Sub(hn::Add(a2, ab2), hn::Add(to_b, to_b));
+  const TriangleFloats bc2 = hn::Sub(hn::Add(ab2, ac2), hn::Add(ab_ac, ab_ac));
+  const TriangleFloats b_to_c = hn::Sub(hn::Add(to_c, ab2), hn::Add(to_b, ab_ac));
+  const TriangleFloats edges =
+      hn::Min(hn::Min(segment_squared(a2, to_b, ab2), segment_squared(a2, to_c, ac2)),
+              segment_squared(b2, b_to_c, bc2));
+  const TriangleFloats edge_error = hn::Mul(hn::Add(a2, hn::Add(ab2, ac2)), hn::Set(d, kEdgeError));
+
+  const TriangleFloats sides = hn::Mul(ab2, ac2);
+  const TriangleFloats whole = hn::Sub(sides, hn::Mul(ab_ac, ab_ac));
+  const TriangleFloats v = hn::Sub(hn::Mul(ac2, to_b), hn::Mul(ab_ac, to_c));
+  const TriangleFloats w = hn::Sub(hn::Mul(ab2, to_c), hn::Mul(ab_ac, to_b));
+  const auto inside =
+      hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
+  const TriangleFloats inverse = hn::Div(hn::Set(d, 1.0f), whole);
+  // Shares of b and c first: products of three short sides underflow.
+  const TriangleFloats face =
+      hn::Sub(a2, hn::Add(hn::Mul(hn::Mul(v, inverse), to_b), hn::Mul(hn::Mul(w, inverse), to_c)));
+  const TriangleFloats face_error =
+      hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
+
+  const TriangleFloats squared = hn::IfThenElse(inside, face, edges);
+  const TriangleFloats error = hn::IfThenElse(inside, face_error, edge_error);
+  const TriangleFloats lower = hn::Max(hn::Sub(squared, error), zero);
+  const TriangleFloats upper = hn::Add(squared, error);
+  const auto round = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFlatSine2), sides)),
+                             hn::Ge(whole, hn::Set(d, 0x1p-100f)));
+  if (hn::AllTrue(d, round)) return {lower, upper};
+  const TriangleFloats least = hn::Max(hn::Sub(edges, edge_error), zero);
+  const TriangleFloats flat = flat_lower(least, whole, sides, hn::Max(hn::Max(ab2, ac2), bc2));
+  return {hn::IfThenElse(round, lower, flat),
+          hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
+}
+
+// Squared distances to the boxes of triangles given in the same way: no greater than those of the
+// triangles but for rounding, which is kFilterSlack's, at a fifth of the cost.
+HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVectors& b,
+                                     const TriangleVectors& c) {
+  const TriangleFloats zero = hn::Zero(TriangleTag());
+  const auto gap = [&](TriangleFloats u, TriangleFloats v, TriangleFloats w) {
+    const TriangleFloats lower = hn::Min(hn::Min(u, v), w), upper = hn::Max(hn::Max(u, v), w);
+    return hn::Max(hn::Max(lower, hn::Neg(upper)), zero);
+  };
+  const TriangleVectors gaps{gap(a.x, b.x, c.x), gap(a.y, b.y, c.y), gap(a.z, b.z, c.z)};
+  return dot(gaps, gaps);
+}
+
+// The way from a point to the query.
+struct FloatOffset {
+  FloatOffset(const Point& query, const Point& from)
+      : at{static_cast<float>(query.x() - from.x()), static_cast<float>(query.y() - from.y()),
+           static_cast<float>(query.z() - from.z())} {}
+  const float at[3];
+};
+
+// Triangles that stand side by side.
+class ListedTriangles {
+ public:
+  HWY_INLINE ListedTriangles(const NearbyTriangles& list, const float (&query)[3])
+      : list_(list),
+        query_{hn::Set(TriangleTag(), query[0]), hn::Set(TriangleTag(), query[1]),
+               hn::Set(TriangleTag(), query[2])} {}
+
+  HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t i) const {
+    const TriangleTag d;
+    const TriangleVectors at{hn::Load(d, list_.row(k, 0) + i), hn::Load(d, list_.row(k, 1) + i),
+                             hn::Load(d, list_.row(k, 2) + i)};
+    return sub(at, query_);
+  }
+
+ private:
+  const NearbyTriangles& list_;
+  const TriangleVectors query_;
+};
+
+// What float says of a block's triangles.
+struct FilteredTriangles {
+  HWY_ALIGN float squared[kMaxBlockTriangles];  // lower bounds
+  unsigned near;                                // a bit for each whose bound is not above the limit
+  float least_upper;                            // of TriangleBounds::upper
+};
+
+// Lanes past the last triangle must repeat one.
+template <class Triangles>
+HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, float limit,
+                                 FilteredTriangles& filtered) {
+  const TriangleTag d;
+  const TriangleFloats none = hn::Set(d, std::numeric_limits<float>::infinity());
+  TriangleFloats least = none;
+  unsigned near = 0;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const TriangleVectors a = triangles.corner(0, i), b = triangles.corner(1, i),
+                          c = triangles.corner(2, i);
+    // Most of what a block holds is too far away for more to be asked of it.
+    const auto beyond = hn::Gt(box_bounds(a, b, c), hn::Set(d, limit));
+    if (hn::AllTrue(d, beyond)) continue;
+    const TriangleBounds bounds = triangle_bounds(a, b, c);
+    hn::Store(bounds.lower, d, filtered.squared + i);
+    // Whatever others there are in the register: how many it holds must not matter.
+    const auto far = hn::Or(beyond, hn::Gt(bounds.lower, hn::Set(d, limit)));
+    least = hn::Min(least, hn::IfThenElse(far, none, bounds.upper));
+    near |= mask_bits(d, hn::Not(far)) << i;
+  }
+  filtered.near = near & (~0u >> (32 - count));
+  filtered.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+// A block's, of so many vertices; called, so that these are in registers and nowhere else.
+template <unsigned kStride, bool kCompact>
+void filter_block_of(const BlockHeader& block, const float (&query)[3], float limit,
+                     FilteredTriangles& filtered) {
+  filter_triangles(BlockTriangles<kStride, kCompact>(block, query), block.triangle_count, limit,
+                   filtered);
+}
+
+// A block's. `query` is relative to vertex 0.
+HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], float limit,
+                             FilteredTriangles& filtered) {
+  by_layout(block, [&]<unsigned kStride, bool kCompact>() {
+    filter_block_of<kStride, kCompact>(block, query, limit, filtered);
+  });
+}
+
+// Those of the first `count` that a lower limit leaves; of lanes that `near` leaves out,
+// anything.
+HWY_INLINE unsigned near_triangles(const FilteredTriangles& filtered, std::size_t count,
+                                   float limit) {
+  const TriangleTag d;
+  unsigned near = 0;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d))
+    near |= bits_not_above(hn::Load(d, filtered.squared + i), limit) << i;
+  return near & filtered.near;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,108 @@
+// Which of several triangles a segment passes through, in double, as far as double can tell.
+// No arithmetic here reaches an answer but by signs that are certain.
+
+#if defined(PLANETREE_OCTREE_CROSSING_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_CROSSING_KERNELS_INL_H_
+#undef PLANETREE_OCTREE_CROSSING_KERNELS_INL_H_
+#else
+#define PLANETREE_OCTREE_CROSSING_KERNELS_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/geometry/predicates.h"
+#include "octree/geometry/triangle_kernels-inl.h"
+#include "octree/geometry/triangle_rows.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+// A bit for each of kTrianglesAtOnce triangles. The others are certainly not crossed, nor is
+// the segment's start on them.
+struct CrossedTriangles {
+  unsigned forward = 0;   // crossing() is 1
+  unsigned backward = 0;  // crossing() is -1
+  unsigned unsure = 0;    // none of this is certain
+};
+
+// The greatest coordinate by magnitude.
+HWY_INLINE Doubles largest(const Doubles3& a) {
+  return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
+}
+
+// The sign of a . (b x c), of vectors whose components err by a rounding each and whose
+// largest ones' product is `size`. The determinant is a sum of six products; each errs by
+// three differences, two products and three sums, 8 roundings, which may be of a whole ulp
+// each in a thread that rounds another way: 6 * 16 * 2^-53 of `size` at most. The last term is
+// more than what is flushed to zero.
+struct CertainSign {
+  DoubleMask positive, negative;
+};
+HWY_INLINE CertainSign certain_sign(Doubles determinant, Doubles size) {
+  const DoubleTag d;
+  const Doubles error = hn::Add(hn::Mul(size, hn::Set(d, 0x1p-46)), hn::Set(d, 0x1p-600));
+  return {hn::Gt(determinant, error), hn::Lt(determinant, hn::Neg(error))};
+}
+
+// Tests the triangles of `rows` against a segment, as many as a vector holds.
+HWY_INLINE CrossedTriangles cross_vector(const TriangleRows<kTrianglesAtOnce>& rows,
+                                         std::size_t lane, const Doubles3& from,
+                                         const Doubles3& to) {
+  const DoubleTag d;
+  const auto corner = [&](std::size_t k) {
+    return Doubles3{hn::Load(d, rows.at[k][0] + lane), hn::Load(d, rows.at[k][1] + lane),
+                    hn::Load(d, rows.at[k][2] + lane)};
+  };
+  const Doubles3 p = corner(0), q = corner(1), r = corner(2);
+  const Doubles3 a = p - from, b = q - from, c = r - from, way = to - from;
+  const Doubles3 e1 = q - p, e2 = r - p;
+  const Doubles3 normal = outer(e1, e2), beyond = p - to;
+  const Doubles size_a = largest(a), size_b = largest(b), size_c = largest(c);
+  const Doubles faces = hn::Mul(largest(e1), largest(e2)), length = largest(way);
+
+  // In front of the plane where the corner is behind, seen from the point.
+  const CertainSign start = certain_sign(inner(a, normal), hn::Mul(faces, size_a));
+  const CertainSign end = certain_sign(inner(beyond, normal), hn::Mul(faces, largest(beyond)));
+  const auto edge = [&](const Doubles3& u, const Doubles3& v, Doubles sizes) {
+    return certain_sign(inner(way, outer(v, u)), hn::Mul(length, sizes));
+  };
+  const CertainSign ab = edge(a, b, hn::Mul(size_a, size_b));
+  const CertainSign bc = edge(b, c, hn::Mul(size_b, size_c));
+  const CertainSign ca = edge(c, a, hn::Mul(size_c, size_a));
+
+  const auto same_side =
+      hn::Or(hn::And(start.positive, end.positive), hn::And(start.negative, end.negative));
+  const auto beside = hn::And(hn::Or(hn::Or(ab.positive, bc.positive), ca.positive),
+                              hn::Or(hn::Or(ab.negative, bc.negative), ca.negative));
+  const auto through = hn::Or(hn::And(hn::And(ab.positive, bc.positive), ca.positive),
+                              hn::And(hn::And(ab.negative, bc.negative), ca.negative));
+  const auto forward = hn::And(through, hn::And(start.positive, end.negative));
+  const auto backward = hn::And(through, hn::And(start.negative, end.positive));
+  const auto told = hn::Or(hn::Or(same_side, beside), hn::Or(forward, backward));
+  return {mask_bits(d, forward), mask_bits(d, backward), mask_bits(d, hn::Not(told))};
+}
+
+HWY_INLINE CrossedTriangles cross_triangles(const TriangleRows<kTrianglesAtOnce>& rows,
+                                            const MovedSegment& segment) {
+  const DoubleTag d;
+  const auto all = [&](const Point& point) {
+    return Doubles3{hn::Set(d, point.x()), hn::Set(d, point.y()), hn::Set(d, point.z())};
+  };
+  const Doubles3 from = all(segment.from), to = all(segment.to);
+  CrossedTriangles found;
+  for (std::size_t lane = 0; lane < kTrianglesAtOnce; lane += hn::Lanes(d)) {
+    const CrossedTriangles some = cross_vector(rows, lane, from, to);
+    found.forward |= some.forward << lane;
+    found.backward |= some.backward << lane;
+    found.unsure |= some.unsure << lane;
+  }
+  return found;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,162 @@
+#include "octree/winding/crossings.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "octree/winding/crossings.cpp"
+#include <hwy/foreach_target.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "octree/geometry/strict_math.h"
+#include "octree/geometry/triangle_rows.h"
+#include "octree/traversal/link_resolver.h"
+#include "octree/traversal/tree_walk.h"
+#include "octree/winding/crossing_kernels-inl.h"
+#include "octree/winding/float_segment.h"
+#include "octree/winding/segment_kernels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+
+// Gathers triangles until there are as many as are tested at once.
+class CrossingSum {
+ public:
+  explicit CrossingSum(const MovedSegment& segment) : segment_(segment) {}
+
+  void add(const Triangle& triangle) {
+    if (size_ == 0)
+      rows_.fill(0, triangle);
+    else
+      rows_.set(size_, triangle);
+    if (++size_ == kTrianglesAtOnce) test();
+  }
+
+  Crossings sum() {
+    if (size_ > 0) test();
+    return sum_;
+  }
+
+ private:
+  void test() {
+    const unsigned used = (1U << size_) - 1;
+    const CrossedTriangles crossed = cross_triangles(rows_, segment_);
+    sum_.difference += std::popcount(crossed.forward & used);
+    sum_.difference -= std::popcount(crossed.backward & used);
+    for (unsigned unsure = crossed.unsure & used; unsure != 0; unsure &= unsure - 1) {
+      const Triangle triangle = rows_.triangle(static_cast<unsigned>(std::countr_zero(unsure)));
+      sum_.on_surface = sum_.on_surface || lies_on(segment_.from, triangle);
+      sum_.difference += crossing(segment_, triangle);
+    }
+    size_ = 0;
+  }
+
+  const MovedSegment& segment_;
+  std::size_t size_ = 0;
+  TriangleRows<kTrianglesAtOnce> rows_;
+  Crossings sum_;
+};
+
+// As triangles_met(), where vertices are doubles: those whose boxes are not apart from the
+// segment's.
+unsigned boxes_met(const BlockView& block, const MovedSegment& segment) {
+  const Point lower = segment.from.cwiseMin(segment.to);
+  const Point upper = segment.from.cwiseMax(segment.to);
+  unsigned found = 0;
+  for (unsigned i = 0; i < block.triangle_count(); ++i) {
+    const auto [a, b, c] = block.triangle(i);
+    const bool apart = (a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any() ||
+                       (a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any();
+    found |= (apart ? 0U : 1U) << i;
+  }
+  return found;
+}
+
+// What a segment crosses of the blocks that are visited.
+class BlockCrossings {
+ public:
+  BlockCrossings(const TreeFacts& tree, const MovedSegment& segment, TreeWork& work)
+      : segment_(segment),
+        in_blocks_(FloatSegment::between(
+            segment.from, segment.to, Point::Zero(),
+            std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff()))),
+        crossings_(segment),
+        work_(work) {}
+
+  void visit(const BlockView& block) {
+    const float* vertices = block.float_vertices();
+    unsigned met =
+        vertices ? triangles_met(block.header(), vertices, in_blocks_) : boxes_met(block, segment_);
+    for (; met != 0; met &= met - 1) {
+      crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
+      ++work_.triangles;
+    }
+  }
+
+  Crossings found(bool complete) {
+    Crossings found = crossings_.sum();
+    found.complete = complete;
+    return found;
+  }
+
+ private:
+  const MovedSegment& segment_;
+  const FloatSegment in_blocks_;
+  CrossingSum crossings_;
+  TreeWork& work_;
+};
+
+Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
+                          std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) {
+  const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
+  BlockCrossings crossings(tree, segment, work);
+  const auto visit = [&](const BlockView& block, std::uint32_t)
+                         HWY_ATTR { crossings.visit(block); };
+  const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, in_nodes); };
+  const bool complete = TreeWalk(tree, pages, work).run(max_nodes, visit, meeting);
+  return crossings.found(complete);
+}
+
+Crossings count_in_blocks_on_target(const TreeFacts& tree, const MovedSegment& segment,
+                                    std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
+                                    const PageReader& pages, TreeWork& work) {
+  if (blocks.size() > max_nodes) return {.complete = false};
+  RecordFinder records(tree, pages);
+  for (const std::uint32_t link : blocks) records.prefetch(link);
+  BlockCrossings crossings(tree, segment, work);
+  bool complete = true;
+  for (const std::uint32_t link : blocks) {
+    const std::byte* record = LinkFormat::is_leaf(link) ? records.find(link, work) : nullptr;
+    complete = complete && record;
+    if (!record) continue;
+    ++work.blocks;
+    crossings.visit(BlockView(record, tree.shape));
+  }
+  return crossings.found(complete);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace planetree::octree {
+
+HWY_EXPORT(count_on_target);
+HWY_EXPORT(count_in_blocks_on_target);
+
+Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
+                          std::uint64_t max_nodes, const PageReader& pages,
+                          TreeWork& work) noexcept {
+  return HWY_DYNAMIC_DISPATCH(count_on_target)(tree, segment, max_nodes, pages, work);
+}
+
+Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
+                          std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
+                          const PageReader& pages, TreeWork& work) noexcept {
+  return HWY_DYNAMIC_DISPATCH(count_in_blocks_on_target)(tree, segment, blocks, max_nodes, pages,
+                                                         work);
+}
+
+}  // namespace planetree::octree
+#endif

@@ -1,0 +1,111 @@
+// Which of a node's children, and which of a block's triangles, a segment may meet.
+
+#if defined(PLANETREE_OCTREE_SEGMENT_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_SEGMENT_KERNELS_INL_H_
+#undef PLANETREE_OCTREE_SEGMENT_KERNELS_INL_H_
+#else
+#define PLANETREE_OCTREE_SEGMENT_KERNELS_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/geometry/wide_floats-inl.h"
+#include "octree/page/child_sides-inl.h"
+#include "octree/page/corner_codes-inl.h"
+#include "octree/page/frame.h"
+#include "octree/winding/float_segment.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace planetree::octree {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A bit for each of a node's children that a segment may meet. Boxes are cut off where the
+// segment ends, so that it is held against each at its own place.
+HWY_INLINE unsigned children_met(const Node& node, const FloatSegment& segment) {
+  const FloatTag d;
+  unsigned found = 0;
+  for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d)) {
+    const Floats first = hn::Max(lower_sides(node, segment.axis, i), hn::Set(d, segment.lower));
+    const Floats last = hn::Min(upper_sides(node, segment.axis, i), hn::Set(d, segment.upper));
+    auto apart = hn::Gt(first, last);
+#pragma GCC unroll 2
+    for (const FloatSegment::Aside& aside : segment.aside) {
+      const Floats slope = hn::Set(d, aside.slope);
+      const Floats a = hn::Mul(slope, first), b = hn::Mul(slope, last);
+      const Floats least = hn::Add(hn::Min(a, b), hn::Set(d, aside.least));
+      const Floats most = hn::Add(hn::Max(a, b), hn::Set(d, aside.most));
+      apart = hn::Or(apart, hn::Gt(lower_sides(node, aside.axis, i), most));
+      apart = hn::Or(apart, hn::Lt(upper_sides(node, aside.axis, i), least));
+    }
+    found |= mask_bits(d, hn::Not(apart)) << i;
+  }
+  return found & ((1U << node.child_count) - 1);
+}
+
+// A segment in all lanes, and the codes of vertices: on which sides of it they are.
+class SegmentSides {
+ public:
+  HWY_INLINE explicit SegmentSides(const FloatSegment& segment)
+      : along_(segment.axis),
+        aside_{segment.aside[0].axis, segment.aside[1].axis},
+        lower_(hn::Set(FloatTag(), segment.lower)),
+        upper_(hn::Set(FloatTag(), segment.upper)),
+        first_(segment.aside[0]),
+        second_(segment.aside[1]) {}
+
+  // Of whole vectors of vertices that float holds exactly.
+  HWY_INLINE void write_codes(const float* HWY_RESTRICT vertices, unsigned stride,
+                              std::uint8_t* HWY_RESTRICT codes) const {
+    const FloatTag d;
+    const hn::Rebind<std::uint8_t, FloatTag> bytes;
+    const float* along = vertices + std::size_t{along_} * stride;
+    const float* aside0 = vertices + std::size_t{aside_[0]} * stride;
+    const float* aside1 = vertices + std::size_t{aside_[1]} * stride;
+    for (std::size_t i = 0; i < stride; i += hn::Lanes(d)) {
+      const Floats z = hn::Load(d, along + i);
+      Ints code = hn::Or(bit_where(hn::Lt(z, lower_), 1), bit_where(hn::Gt(z, upper_), 2));
+      code = hn::Or(code, first_.code(z, hn::Load(d, aside0 + i), 4));
+      code = hn::Or(code, second_.code(z, hn::Load(d, aside1 + i), 16));
+      hn::StoreU(hn::DemoteTo(bytes, code), bytes, codes + i);
+    }
+  }
+
+ private:
+  static HWY_INLINE Ints bit_where(hn::Mask<FloatTag> mask, std::int32_t bit) {
+    const IntTag d;
+    return hn::IfThenElseZero(hn::RebindMask(d, mask), hn::Set(d, bit));
+  }
+
+  struct Aside {
+    HWY_INLINE explicit Aside(const FloatSegment::Aside& aside)
+        : slope(hn::Set(FloatTag(), aside.slope)),
+          least(hn::Set(FloatTag(), aside.least)),
+          most(hn::Set(FloatTag(), aside.most)) {}
+    HWY_INLINE Ints code(Floats z, Floats at, std::int32_t bit) const {
+      const Floats place = hn::Mul(slope, z);
+      return hn::Or(bit_where(hn::Lt(at, hn::Add(place, least)), bit),
+                    bit_where(hn::Gt(at, hn::Add(place, most)), 2 * bit));
+    }
+    Floats slope, least, most;
+  };
+
+  const unsigned along_, aside_[2];
+  const Floats lower_, upper_;
+  const Aside first_, second_;
+};
+
+// A bit for each of a block's triangles that is not on one side of the segment as a whole.
+HWY_INLINE unsigned triangles_met(const BlockHeader& block, const float* vertices,
+                                  const FloatSegment& segment) {
+  HWY_ALIGN std::uint8_t codes[kMaxBlockVertices];
+  SegmentSides(segment).write_codes(vertices, block.stride(), codes);
+  return ~corner_codes(block, codes).shared & ((1U << block.triangle_count) - 1);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace planetree::octree
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,188 @@
+#include "octree/winding/winding_number.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "octree/geometry/certain_sum.h"
+#include "octree/geometry/solid_angle.h"
+#include "octree/geometry/strict_math.h"
+#include "octree/page/block_view.h"
+#include "octree/traversal/link_resolver.h"
+#include "octree/winding/multipole.h"
+
+namespace planetree::octree {
+namespace {
+
+/// A child that stands in the sum with its moments.
+struct Standin {
+  Multipoles::Share share;
+  std::uint32_t link;
+  std::uint32_t order;  ///< of its coming
+
+  bool known() const { return share.error <= Multipoles::kMostError; }
+  /// The most uncertain first, of equals the last to come: so unknown ones are
+  /// opened depth first.
+  friend bool operator<(const Standin& a, const Standin& b) {
+    return a.share.error < b.share.error || (a.share.error == b.share.error && a.order < b.order);
+  }
+};
+
+/// Children still to be opened: the most uncertain on top while there is room
+/// for all, and once there is not, those below the one that found no room, the
+/// last to come first.
+class Openings {
+ public:
+  bool empty() const { return size_ == 0 && deep_size_ == 0; }
+  bool has_room() const { return size_ + kFanOut <= heap_.size(); }
+  bool deep_has_room() const { return deep_size_ + kFanOut <= deep_.size(); }
+  bool is_deep() const { return deep_size_ > 0; }
+
+  void push(const Standin& standin) {
+    heap_[size_++] = standin;
+    std::push_heap(heap_.begin(), heap_.begin() + size_);
+  }
+  void push_deep(const Standin& standin) { deep_[deep_size_++] = standin; }
+  Standin pop() {
+    if (deep_size_ > 0) return deep_[--deep_size_];
+    std::pop_heap(heap_.begin(), heap_.begin() + size_);
+    return heap_[--size_];
+  }
+
+ private:
+  std::size_t size_ = 0, deep_size_ = 0;
+  std::array<Standin, 1024> heap_;
+  std::array<Standin, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> deep_;
+};
+
+class WindingSum {
+ public:
+  WindingSum(const TreeFacts& tree, const Point& point, const PageReader& pages, TreeWork& work)
+      : tree_(tree),
+        point_(point),
+        work_(work),
+        multipoles_(point, tree.centre),
+        records_(tree, pages) {}
+
+  WindingNumber run(std::uint64_t max_nodes) {
+    // An honest tree cannot be visited longer than it is; a forged one could.
+    std::uint64_t left = std::min(max_nodes, tree_.record_count);
+    stand_in({{0, Multipoles::kUnknown}, tree_.root_link, 0});
+    openings_.push({{0, Multipoles::kUnknown}, tree_.root_link, 0});
+    while (!openings_.empty() && !decided()) {
+      const Standin standin = openings_.pop();
+      // Where something unknown is lost, only the surface can still be found,
+      // and that is not where anything is known.
+      if (lost_unknown_ && standin.known()) continue;
+      if (left-- == 0) {
+        complete_ = false;
+        break;
+      }
+      open(standin);
+    }
+    WindingNumber result = sum();
+    result.complete = complete_ || decided();
+    return result;
+  }
+
+ private:
+  WindingNumber sum() const {
+    WindingNumber result;
+    result.value = value_.value();
+    result.error = unknown_ > 0
+                       ? Multipoles::kUnknown
+                       : (error_.value() + error_.error() + value_.error()) * (1 + 0x1p-50);
+    result.on_surface = on_surface_;
+    return result;
+  }
+
+  bool decided() const {
+    if (unknown_ > 0) return false;
+    const WindingNumber so_far = sum();
+    if (!on_surface_) return so_far.above_half() || so_far.below_half();
+    return std::fabs(so_far.value) > so_far.error || so_far.error < 0.125;
+  }
+
+  void stand_in(const Standin& standin) {
+    if (standin.known()) {
+      value_.add(standin.share.value);
+      error_.add(standin.share.error);
+    } else {
+      ++unknown_;
+    }
+  }
+  void stand_back(const Standin& standin) {
+    if (standin.known()) {
+      value_.add(-standin.share.value);
+      error_.add(-standin.share.error);
+    } else {
+      --unknown_;
+    }
+  }
+
+  // A record that cannot be had is left to its moments.
+  void open(const Standin& standin) {
+    const bool deep = openings_.is_deep() || !openings_.has_room();
+    const std::byte* record = records_.find(standin.link, work_);
+    const bool leaf = LinkFormat::is_leaf(standin.link);
+    // A tree deeper than its header may say is forged.
+    if (!record || (!leaf && deep && !openings_.deep_has_room())) {
+      complete_ = false;
+      lost_unknown_ = lost_unknown_ || !standin.known();
+      return;
+    }
+    stand_back(standin);
+    if (leaf)
+      add_block(BlockView(record, tree_.shape));
+    else
+      open_node(*reinterpret_cast<const Node*>(record), deep);
+  }
+
+  void open_node(const Node& node, bool deep) {
+    ++work_.nodes;
+    std::array<Multipoles::Share, kFanOut> shares;
+    multipoles_.shares(node, shares);
+    for (unsigned child = 0; child < node.child_count; ++child) {
+      const Standin standin{shares[child], node.link[child], ++order_};
+      stand_in(standin);
+      if (deep)
+        openings_.push_deep(standin);
+      else
+        openings_.push(standin);
+    }
+  }
+
+  void add_block(const BlockView& block) {
+    ++work_.blocks;
+    for (unsigned i = 0; i < block.triangle_count(); ++i) {
+      ++work_.triangles;
+      const WindingShare share = winding_share(point_, block.triangle(i));
+      value_.add(share.value);
+      error_.add(share.error);
+      on_surface_ = on_surface_ || share.on_surface;
+    }
+  }
+
+  const TreeFacts& tree_;
+  const Point& point_;
+  TreeWork& work_;
+  const Multipoles multipoles_;
+  RecordFinder records_;
+  Openings openings_;
+  CertainSum value_, error_;
+  std::uint64_t unknown_ = 0;  ///< children that stand in without being known
+  std::uint32_t order_ = 0;
+  bool lost_unknown_ = false;
+  bool on_surface_ = false;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+WindingNumber winding_number(const TreeFacts& tree, const Point& point, std::uint64_t max_nodes,
+                             const PageReader& pages, TreeWork& work) noexcept {
+  return WindingSum(tree, point, pages, work).run(max_nodes);
+}
+
+}  // namespace planetree::octree

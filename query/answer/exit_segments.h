@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "octree/traversal/tree_view.h"
+
+namespace planetree::query {
+
+/// Whether a point, model frame, is strictly outside of a model's box.
+inline bool outside_box(const octree::TreeFacts& tree, const octree::Point& point) {
+  return (point.array() < tree.box_lower.array()).any() ||
+         (point.array() > tree.box_upper.array()).any();
+}
+
+/// The ways straight out of a model's box along the axes, the shortest first.
+class WaysOut {
+ public:
+  struct Way {
+    double length = 0;
+    octree::Point end = octree::Point::Zero();  ///< strictly outside, where the winding number is 0
+  };
+
+  /// from  within the box, model frame.
+  WaysOut(const octree::TreeFacts& tree, const octree::Point& from) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      add(from, axis, tree.box_lower[axis], -1);
+      add(from, axis, tree.box_upper[axis], 1);
+    }
+  }
+
+  const std::array<Way, 6>& all() const { return ways_; }
+
+ private:
+  void add(const octree::Point& from, Eigen::Index axis, double side, double direction) {
+    Way way{std::fabs(side - from[axis]), from};
+    // A side far from the origin may absorb the step of 1.
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double beyond = std::nextafter(side, direction * infinity);
+    way.end[axis] = direction < 0 ? std::min(side - 1, beyond) : std::max(side + 1, beyond);
+    // Behind those that are as short.
+    std::size_t at = count_++;
+    for (; at > 0 && way.length < ways_[at - 1].length; --at) ways_[at] = ways_[at - 1];
+    ways_[at] = way;
+  }
+
+  std::size_t count_ = 0;
+  std::array<Way, 6> ways_;
+};
+
+}  // namespace planetree::query

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "octree/mask/mask_lookup.h"
+#include "query/answer/side_result.h"
+
+namespace planetree::query {
+
+/// What a probe's last asks found out about sides, for the next ones nearby. Of watertight
+/// models alone: elsewhere winding numbers are not constant off the surface. Plain memory,
+/// one thread.
+class SideMemory {
+ public:
+  /// The cell of the mask that the point is in, if it is the last one; else null.
+  const octree::MaskFinding* cell_with(const octree::Point& point) const {
+    const bool within =
+        (point.array() >= cell_lower_.array()).all() && (point.array() < cell_upper_.array()).all();
+    return within ? &cell_ : nullptr;
+  }
+  /// Whether asks come from about the same place, so that a cell is worth its bounds.
+  bool is_near(const octree::Point& point, const octree::TreeFacts& tree) const {
+    const double diagonal2 = (tree.box_upper - tree.box_lower).squaredNorm();
+    return (point - point_).squaredNorm() < diagonal2 * (kNear * kNear);
+  }
+  void note_cell(const octree::MaskFacts& mask, const octree::MaskFinding& found) {
+    const octree::CellGrid grid(mask.lower);
+    cell_ = found;
+    cell_lower_ = grid.lower(found.cell);
+    cell_upper_ = grid.upper(found.cell);
+  }
+
+  /// The last point whose side was found.
+  const octree::Point& point() const { return point_; }
+  /// Its side; unknown before any was found.
+  const Standing& standing() const { return standing_; }
+  /// Whether its winding number is right, and not of the right sign alone.
+  bool counted() const { return counted_; }
+
+  /// Whether `point`, which has no surface nearer than `clear`, stands where the last one
+  /// does: there is nothing between.
+  bool same_side(const octree::Point& point, double clear) const {
+    const double most = std::max(clear, clear_);
+    if (!(most > 0)) return false;
+    const double gap = (point - point_).norm();
+    return gap * (1 + kRounding) < most;
+  }
+
+  /// A point's side; no surface is nearer to it than `clear`, which may be 0.
+  void note(const octree::Point& point, const Standing& standing, bool counted, double clear) {
+    standing_ = standing;
+    counted_ = counted;
+    go_to(point, clear);
+  }
+  /// The same of a point that stands where the last one does.
+  void go_to(const octree::Point& point, double clear) {
+    const bool off_surface = standing_.side == Side::kInside || standing_.side == Side::kOutside;
+    point_ = point;
+    clear_ = off_surface ? clear : 0;
+  }
+
+ private:
+  static constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNear = 0x1p-6;  ///< as a share of the model's diagonal
+  static constexpr double kRounding = 0x1p-40;
+
+  octree::MaskFinding cell_;
+  octree::Point cell_lower_ = octree::Point::Constant(kNowhere);
+  octree::Point cell_upper_ = octree::Point::Constant(kNowhere);
+  octree::Point point_ = octree::Point::Constant(kNowhere);
+  Standing standing_;
+  bool counted_ = false;
+  double clear_ = 0;
+};
+
+}  // namespace planetree::query

@@ -1,0 +1,55 @@
+#include "query/serve/batch_threads.h"
+
+#include <new>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "query/serve/fp_environment.h"
+
+namespace planetree::query {
+namespace {
+
+// So long that handing a piece over costs nothing, so short that none is waited for.
+constexpr std::size_t kPieceQueries = 128;
+
+}  // namespace
+
+Result<std::unique_ptr<BatchCrew>> BatchCrew::claim(const ModelState& model, unsigned threads) {
+  try {
+    std::unique_ptr<BatchCrew> crew(new BatchCrew(threads));
+    for (unsigned i = 0; i < threads; ++i) {
+      auto reader = model.claim_reader();
+      if (!reader) return reader.error();
+      crew->probes_.push_back(ProbeState::create(model, std::move(*reader)));
+    }
+    return crew;
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory for %u batch threads; free some or ask for fewer", threads);
+  }
+}
+
+bool BatchCrew::run(const void* batch, std::size_t count, Work work) noexcept {
+  // Acquire and release: a batch sees what the last one left in the probes.
+  if (busy_.exchange(true, std::memory_order_acquire)) return false;
+  const auto do_piece = [&](const tbb::blocked_range<std::size_t>& piece) {
+    const HostArithmetic host;
+    const int place = tbb::this_task_arena::current_thread_index();
+    work(batch, *probes_[static_cast<std::size_t>(place)], piece.begin(), piece.end());
+  };
+  bool done = true;
+  try {
+    arena_.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPieceQueries), do_piece,
+                        tbb::simple_partitioner());
+    });
+  } catch (...) {  // of memory, from oneTBB: nothing of ours throws
+    done = false;
+  }
+  busy_.store(false, std::memory_order_release);
+  return done;
+}
+
+}  // namespace planetree::query

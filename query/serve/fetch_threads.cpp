@@ -1,0 +1,90 @@
+#include "query/serve/fetch_threads.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <new>
+#include <system_error>
+#include <utility>
+
+#include "query/serve/fp_environment.h"
+
+namespace planetree::query {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::microseconds kPause(150), kLongPause(10'000);
+constexpr auto kLately = std::chrono::seconds(1);
+
+FetchWorker::Seconds time_now() { return Clock::now().time_since_epoch(); }
+
+// Whoever opened the model may run before all others, and handle signals.
+void become_ordinary() noexcept {
+  const sched_param parameters{};
+  ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
+  sigset_t all;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+}
+
+// As much of the stack as is ever used, so that the process does not grow later.
+[[gnu::noinline]] void claim_stack() noexcept {
+  constexpr std::size_t kLineBytes = 64;
+  volatile std::byte stack[FetchCrew::kThreadBytes / 4 * 3];
+  for (std::size_t at = 0; at < sizeof stack; at += kLineBytes) stack[at] = std::byte{};
+}
+
+}  // namespace
+
+void FetchCrew::run(FetchWorker& worker) noexcept {
+  claim_stack();
+  become_ordinary();
+  const HostArithmetic host;
+  Clock::time_point last = Clock::now() - kLately;
+  while (!stopping_.load(std::memory_order_relaxed)) {
+    const FetchWorker::Did did = worker.work();
+    if (did == FetchWorker::Did::kReadForAnAsk) continue;
+    if (did == FetchWorker::Did::kNothing) {
+      cache_.wait_for_errand(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
+      continue;
+    }
+    last = Clock::now();
+    (did == FetchWorker::Did::kServedAWish ? wishes_fetched_ : places_prefetched_)
+        .fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+Result<std::unique_ptr<FetchCrew>> FetchCrew::start(const ModelState& model, unsigned threads) {
+  const auto refused = [&] {
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "the system refused %u fetch threads; free memory or ask for fewer", threads);
+  };
+  try {
+    std::unique_ptr<FetchCrew> crew(new FetchCrew(model.cache()));
+    for (unsigned i = 0; i < threads; ++i) {
+      auto reader = model.claim_reader();
+      if (!reader) return reader.error();
+      crew->workers_.push_back(std::make_unique<FetchWorker>(model, *std::move(reader), i, threads,
+                                                             &time_now, crew->stopping_));
+    }
+    for (const auto& worker : crew->workers_)
+      crew->threads_.emplace_back([&crew = *crew, &worker = *worker] { crew.run(worker); });
+    return crew;
+  } catch (const std::bad_alloc&) {
+    return refused();
+  } catch (const std::system_error&) {
+    return refused();
+  }
+}
+
+FetchCrew::~FetchCrew() {
+  stopping_.store(true, std::memory_order_relaxed);
+  cache_.wake_helpers();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+}  // namespace planetree::query

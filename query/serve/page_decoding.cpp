@@ -1,0 +1,43 @@
+#include "query/serve/page_decoding.h"
+
+#include "octree/page/frame.h"
+#include "octree/page/mask_decoder.h"
+#include "octree/page/mask_frame.h"
+#include "octree/page/page_decoder.h"
+
+namespace planetree::query {
+
+octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept {
+  octree::BlockShape shape;
+  shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
+  shape.wide_ids = model.triangle_id_bytes == 8;
+  shape.moments = model.open_edge_count != 0;
+  return shape;
+}
+
+Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
+                          std::uint32_t page, std::span<const std::byte> raw,
+                          std::span<std::byte> frame) noexcept {
+  const std::uint32_t first_mask_page = header.first_mask_page();
+  const bool mask = page >= first_mask_page;
+  octree::PageFacts facts;
+  facts.page_bytes = header.page_bytes;
+  facts.first_page = mask ? first_mask_page : 0;
+  facts.page_count = mask ? header.page_count - first_mask_page : first_mask_page;
+  facts.shape = block_shape(header.model);
+  facts.page_number = page;
+  facts.octcode = entry.octcode;
+  facts.ordinal = entry.ordinal;
+  return mask ? octree::decode_mask_page(raw, facts, frame)
+              : octree::decode_page(raw, facts, frame);
+}
+
+bool leads_to_pages(const storage::FileHeader& header, std::uint32_t page,
+                    std::span<const std::byte> frame) noexcept {
+  const std::byte* head = frame.data();
+  return page < header.first_mask_page()
+             ? reinterpret_cast<const octree::FrameHeader*>(head)->page_link_count > 0
+             : reinterpret_cast<const octree::MaskHeader*>(head)->page_link_count > 0;
+}
+
+}  // namespace planetree::query

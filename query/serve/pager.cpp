@@ -1,0 +1,146 @@
+#include "query/serve/pager.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <utility>
+
+#include "octree/mask/side_grid.h"
+#include "query/serve/page_decoding.h"
+
+namespace planetree::query {
+Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path, const Limits& limits,
+                                           storage::FileCalls& calls) {
+  auto file = storage::PageFile::open(path, calls);
+  if (!file) return file.error();
+  // Links in pages are checked as those are decoded; this one is in the header.
+  const storage::FileHeader& header = file->header();
+  if (octree::LinkFormat(header.page_bytes).page(header.model.root_link) != 0)
+    return make_error(
+        ErrorCode::kDamaged, Error::kNowhere,
+        offsetof(storage::FileHeader, model) + offsetof(storage::ModelRecord, root_link),
+        "the tree's root is not on the first page; restore the file from a copy or build it again");
+  std::unique_ptr<Pager> pager(new Pager(std::move(*file)));
+  if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
+  if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();
+  return pager;
+}
+
+std::uint64_t Pager::scratch_bytes() const noexcept {
+  return file_.header().max_raw_bytes + (stored_fits_frame() ? 0 : file_.header().max_stored_bytes);
+}
+
+AskingMemory::Needs Pager::asking_needs(const Limits& limits) const noexcept {
+  const storage::ModelRecord& model = file_.header().model;
+  AskingMemory::Needs needs;
+  needs.readers = limits.readers();
+  if (model.mask_page_count > 0)
+    needs.colour_bytes = octree::ColourMap::bytes(model.triangle_count);
+  needs.trace_touches = limits.trace_touches;
+  needs.page_count = file_.header().page_count;
+  return needs;
+}
+
+Result<void> Pager::claim(const Limits& limits) {
+  const storage::FileHeader& header = file_.header();
+  const AskingMemory::Needs needs = asking_needs(limits);
+  cache::CacheLimits cache_limits{};
+  cache_limits.budget_bytes = limits.budget_bytes;
+  cache_limits.page_count = header.page_count;
+  cache_limits.frame_bytes = header.page_bytes;
+  cache_limits.policy = limits.policy;
+  cache_limits.max_readers = limits.readers();
+  // pin() is one more.
+  const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;
+  most_waited_ = std::min(limits.wait_limit, kMostWaited);
+  const std::uint64_t wait_bytes =
+      owner_count * sizeof(OwnWait) +
+      std::min(owner_count, kMostWaits) * storage::ReadWait::kMappedBytes;
+  cache_limits.reserved_bytes = file_.table_memory_bytes() + owner_count * scratch_bytes() +
+                                wait_bytes + sizeof(Pager) + AskingMemory::bytes(needs) +
+                                limits.probe_bytes * limits.max_probes + limits.crew_bytes;
+  const auto fill = [](void* context, const cache::FillRequest& request) {
+    return static_cast<Pager*>(context)->fill(request);
+  };
+  auto cache = cache::PageCache::create(cache_limits, fill, this);
+  if (!cache) return cache.error();
+  cache_ = std::move(*cache);
+  auto asking = AskingMemory::claim(needs);
+  if (!asking) return asking.error();
+  asking_.emplace(*std::move(asking));
+  if (const auto locked = lock(limits.locking); !locked) return locked;
+  scratch_.reset(new (std::nothrow) std::byte[owner_count * scratch_bytes()]);
+  waits_.reset(new (std::nothrow) OwnWait[owner_count]);
+  if (!scratch_ || !waits_)
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory to read pages; free some and try again");
+  return {};
+}
+
+Result<void> Pager::lock(Locking locking) noexcept {
+  if (locking == Locking::kNever) return {};
+  // The smaller part first: the system may allow no more.
+  asking_is_locked_ = asking_->lock();
+  const bool cache_is_locked = cache_->lock_memory();
+  if ((asking_is_locked_ && cache_is_locked) || locking != Locking::kRequire) return {};
+  return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                    "the system does not let memory be locked; raise the limit (ulimit -l), "
+                    "lower the memory budget, or open the model without locking");
+}
+
+Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
+  const storage::FileHeader& header = file_.header();
+  const storage::PageEntry& entry = file_.entries()[request.page];
+  std::byte* const scratch = scratch_.get() + request.owner * scratch_bytes();
+  const std::span<std::byte> raw(scratch, entry.raw_bytes);
+  // A frame is written last, so that it may hold the stored bytes before.
+  const std::span<std::byte> stored =
+      stored_fits_frame() ? request.frame
+                          : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
+  if (request.may_wait) {
+    if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
+  } else {
+    const auto read = file_.read_page_soon(request.page, stored, raw, soon_terms(request));
+    if (!read) return read.error();
+    if (!*read) return cache::Filled::kWouldWait;
+  }
+  if (const auto decoded = decode_frame(header, entry, request.page, raw, request.frame); !decoded)
+    return decoded.error();
+  return leads_to_pages(header, request.page, request.frame) ? cache::Filled::kFilledUpper
+                                                             : cache::Filled::kFilled;
+}
+
+storage::SoonTerms Pager::soon_terms(const cache::FillRequest& request) noexcept {
+  storage::SoonTerms terms;
+  if (most_waited_.count() > 0) terms.wait = wait_of(request.owner);
+  terms.most_waited = most_waited_;
+  terms.soon_written = request.frame;
+  return terms;
+}
+
+storage::ReadWait* Pager::wait_of(std::uint32_t owner) noexcept {
+  OwnWait& own = waits_[owner];
+  if (!own.is_given && waits_given_.load(std::memory_order_relaxed) < kMostWaits)
+    own.is_given = waits_given_.fetch_add(1, std::memory_order_relaxed) < kMostWaits;
+  return own.is_given ? &own.wait : nullptr;
+}
+
+// Pages of asks come first, one for each that this thread wants: neither waits for all of the
+// other's.
+const std::byte* PageTurner::fetch(std::uint32_t number) noexcept {
+  if (log_) log_->fetched(number);
+  let_frames_go();
+  if (stop_) {
+    reader_.leave();
+    reader_.help();
+    reader_.enter();
+  }
+  const cache::Fetched fetched = reader_.fetch(number, terms_);
+  if (fetched.given_up) {
+    missed_ = true;
+    waits_ = false;
+  }
+  return fetched.frame;
+}
+
+}  // namespace planetree::query

@@ -1,0 +1,157 @@
+#include "storage/file/page_writer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cinttypes>
+#include <cstring>
+#include <utility>
+
+#include "storage/file/file_check.h"
+#include "storage/file/file_hash.h"
+
+namespace planetree::storage {
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+
+Error bad_argument(std::uint64_t page, const char* cause) noexcept {
+  return make_error(ErrorCode::kBadArgument, page, Error::kNowhere, "%s", cause);
+}
+
+}  // namespace
+
+Result<PageWriter> PageWriter::create(const std::filesystem::path& path, std::uint32_t page_count,
+                                      bool replace, FileCalls& calls) {
+  if (page_count == 0) {
+    return bad_argument(Error::kNowhere, "a file needs at least one page; give it a model");
+  }
+  Result<NewFile> file = NewFile::create(path, replace, calls);
+  if (!file) return file.error();
+  PageWriter writer(*std::move(file));
+  writer.page_count_ = page_count;
+  writer.entries_.reserve(page_count);
+  writer.buffer_.reserve(kBufferBytes);
+  writer.buffer_offset_ = table_end(page_count);
+  return writer;
+}
+
+Result<void> PageWriter::append(std::uint64_t octcode, std::uint32_t ordinal,
+                                std::uint32_t raw_bytes, const StoredPage& stored) {
+  if (failure_) return *failure_;
+  if (const Result<void> checked = check_next(octcode, ordinal, raw_bytes, stored); !checked) {
+    return fail(checked.error());
+  }
+  const auto page = static_cast<std::uint32_t>(entries_.size());
+  PageEntry entry{};
+  entry.offset = buffer_offset_ + buffer_.size();
+  entry.check = page_hash(page, stored.bytes);
+  entry.octcode = octcode;
+  entry.ordinal = ordinal;
+  entry.codec = stored.codec;
+  entry.stored_bytes = static_cast<std::uint32_t>(stored.bytes.size());
+  entry.raw_bytes = raw_bytes;
+  entries_.push_back(entry);
+  return add_bytes(stored.bytes);
+}
+
+Result<void> PageWriter::check_next(std::uint64_t octcode, std::uint32_t ordinal,
+                                    std::uint32_t raw_bytes,
+                                    const StoredPage& stored) const noexcept {
+  const std::size_t page = entries_.size();
+  if (page == page_count_) return bad_argument(page, "more pages than the writer was created for");
+  if (!entries_.empty() && page != first_mask_page_) {
+    const PageEntry& last = entries_.back();
+    if (std::pair(last.octcode, last.ordinal) >= std::pair(octcode, ordinal)) {
+      return bad_argument(page, "the page's key does not follow the one before");
+    }
+  }
+  if (!lengths_are_plausible(stored.codec, stored.bytes.size(), raw_bytes)) {
+    return bad_argument(page, "the page's stored length cannot give its raw length");
+  }
+  return {};
+}
+
+Result<void> PageWriter::add_bytes(std::span<const std::byte> bytes) {
+  if (bytes.size() > kBufferBytes - buffer_.size()) {
+    if (const Result<void> flushed = flush(); !flushed) return flushed;
+  }
+  static_assert(kMaxRawBytes <= kBufferBytes, "a page fits in the empty buffer");
+  buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  return {};
+}
+
+Result<void> PageWriter::flush() {
+  if (const Result<void> written = file_.write_at(buffer_offset_, buffer_); !written) {
+    return fail(written.error());
+  }
+  buffer_offset_ += buffer_.size();
+  buffer_.clear();
+  return {};
+}
+
+Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t page_bytes) {
+  if (failure_) return *failure_;
+  if (entries_.size() != page_count_) {
+    return fail(bad_argument(entries_.size(), "fewer pages than the writer was created for"));
+  }
+  if (model.mask_page_count != page_count_ - first_mask_page_.value_or(page_count_)) {
+    return fail(bad_argument(Error::kNowhere, "the mask has not as many pages as the model says"));
+  }
+  const FileHeader header = make_header(model, page_bytes);
+  // What a reader would refuse must not be written.
+  if (const Result<void> checked = check_header(header, header.file_bytes); !checked) {
+    Error error = checked.error();
+    error.code = ErrorCode::kBadArgument;
+    return fail(error);
+  }
+  assert(check_table(header, entries_));
+  if (const Result<void> written = write_out(header); !written) return fail(written.error());
+  if (const Result<void> committed = file_.commit(); !committed) return fail(committed.error());
+  fail(bad_argument(Error::kNowhere, "the file is finished; create another writer"));
+  return header;
+}
+
+FileHeader PageWriter::make_header(const ModelRecord& model, std::uint32_t page_bytes) {
+  FileHeader header{};
+  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  header.version = kFormatVersion;
+  header.header_bytes = kHeaderBytes;
+  header.page_bytes = page_bytes;
+  header.file_bytes = buffer_offset_ + buffer_.size() + kHeaderBytes;
+  header.page_count = page_count_;
+  header.model = model;
+  const Hash128 id = content_id(entries_, 0);
+  header.content_id[0] = id.low;
+  header.content_id[1] = id.high;
+  for (PageEntry& entry : entries_) {
+    entry.check ^= id.low;
+    header.max_raw_bytes = std::max(header.max_raw_bytes, entry.raw_bytes);
+    header.max_stored_bytes = std::max<std::uint64_t>(header.max_stored_bytes, entry.stored_bytes);
+  }
+  header.table_hash = table_hash(entries_);
+  header.header_hash = header_hash(header);
+  return header;
+}
+
+// The leading header goes last: a file that was cut off earlier does not look like one.
+Result<void> PageWriter::write_out(const FileHeader& header) {
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(&header, 1));
+  if (const Result<void> flushed = flush(); !flushed) return flushed;
+  if (const Result<void> written =
+          file_.write_at(kHeaderBytes, std::as_bytes(std::span<const PageEntry>(entries_)));
+      !written) {
+    return written;
+  }
+  if (const Result<void> written = file_.write_at(header.file_bytes - kHeaderBytes, bytes);
+      !written) {
+    return written;
+  }
+  return file_.write_at(0, bytes);
+}
+
+Error PageWriter::fail(const Error& error) noexcept {
+  failure_ = error;
+  return error;
+}
+
+}  // namespace planetree::storage

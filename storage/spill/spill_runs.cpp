@@ -1,0 +1,138 @@
+#include "storage/spill/spill_runs.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+namespace planetree::storage {
+
+Result<SpillRuns::Place> SpillRuns::add(std::vector<std::byte> records) {
+  assert(record_bytes_ >= sizeof(SpillKey) && records.size() % record_bytes_ == 0);
+  if (records.empty()) return Place{};
+  Run run;
+  run.place.size = records.size() / record_bytes_;
+  bool held = false;
+  {
+    const std::lock_guard lock(adding_);
+    held = records.size() <= held_bytes_;
+    if (held) held_bytes_ -= records.size();
+  }
+  if (held) {
+    run.held = std::move(records);
+  } else {
+    const auto offset = file_.append(records);
+    if (!offset) return offset.error();
+    run.place.offset = *offset;
+    run.place.marks = marks_of(records);
+  }
+  const std::lock_guard lock(adding_);
+  size_ += run.place.size;
+  return runs_.emplace_back(std::move(run)).place;
+}
+
+void SpillRuns::add_placed(Place place) {
+  if (place.size == 0) return;
+  assert(place.offset + place.size * record_bytes_ <= file_.size_bytes());
+  assert(place.marks.size() == mark_count(place.size));
+  const std::lock_guard lock(adding_);
+  size_ += place.size;
+  runs_.push_back({std::move(place), {}});
+}
+
+std::vector<SpillRuns::Place> SpillRuns::places() const {
+  std::vector<Place> places;
+  for (const Run& run : runs_) {
+    assert(run.held.empty());
+    places.push_back(run.place);
+  }
+  return places;
+}
+
+SpillRuns::Cut SpillRuns::end() const {
+  Cut cut;
+  for (const Run& run : runs_) cut.push_back(run.place.size);
+  return cut;
+}
+
+Result<void> SpillRuns::get(const Run& run, std::uint64_t from, std::span<std::byte> out) const {
+  const std::uint64_t offset = from * record_bytes_;
+  if (run.held.empty()) return file_.read(run.place.offset + offset, out);
+  if (!out.empty()) std::memcpy(out.data(), run.held.data() + offset, out.size());
+  return {};
+}
+
+std::vector<std::uint64_t> SpillRuns::marks_of(std::span<const std::byte> records) const {
+  std::vector<std::uint64_t> marks;
+  const std::size_t step = kMarkRecords * record_bytes_;
+  marks.reserve(mark_count(records.size() / record_bytes_));
+  for (std::size_t at = 0; at < records.size(); at += step)
+    std::memcpy(&marks.emplace_back(), records.data() + at, sizeof marks.back());
+  return marks;
+}
+
+// Marks tell where the record is to within a stretch between two of them, or more where many
+// records have one first half.
+Result<std::uint64_t> SpillRuns::find(const Run& run, const SpillKey& key) const {
+  const std::vector<std::uint64_t>& marks = run.place.marks;
+  const auto [same, after] = std::equal_range(marks.begin(), marks.end(), key.first);
+  const auto records_before = [&](auto mark) {
+    return static_cast<std::uint64_t>(mark - marks.begin()) * kMarkRecords;
+  };
+  const std::uint64_t first = same == marks.begin() ? 0 : records_before(same - 1);
+  const std::uint64_t last = after == marks.end() ? run.place.size : records_before(after);
+  return find_within(run, first, last, key);
+}
+
+Result<std::uint64_t> SpillRuns::find_within(const Run& run, std::uint64_t first,
+                                             std::uint64_t last, const SpillKey& key) const {
+  const std::uint64_t at_once = run.held.empty() ? 2 * kMarkRecords : 0;
+  while (last - first > at_once) {
+    const std::uint64_t middle = first + (last - first) / 2;
+    SpillKey at;
+    if (const auto got = get(run, middle, std::as_writable_bytes(std::span(&at, 1))); !got)
+      return got.error();
+    if (at < key)
+      first = middle + 1;
+    else
+      last = middle;
+  }
+  std::vector<std::byte> records((last - first) * record_bytes_);
+  if (const auto got = get(run, first, records); !got) return got.error();
+  const std::byte* at = records.data();
+  for (SpillKey found; first < last; ++first, at += record_bytes_) {
+    std::memcpy(&found, at, sizeof found);
+    if (!(found < key)) break;
+  }
+  return first;
+}
+
+Result<SpillRuns::Cut> SpillRuns::cut(const SpillKey& key) const {
+  Cut cut;
+  for (const Run& run : runs_) {
+    const auto place = find(run, key);
+    if (!place) return place.error();
+    cut.push_back(*place);
+  }
+  return cut;
+}
+
+std::uint64_t SpillRuns::count(const Cut& from, const Cut& to) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) sum += to[i] - from[i];
+  return sum;
+}
+
+Result<std::vector<std::byte>> SpillRuns::read(const Cut& from, const Cut& to) const {
+  std::vector<std::byte> records(count(from, to) * record_bytes_);
+  std::span<std::byte> left = records;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const std::size_t bytes = (to[i] - from[i]) * record_bytes_;
+    if (bytes == 0) continue;
+    if (const auto got = get(runs_[i], from[i], left.first(bytes)); !got) return got.error();
+    left = left.subspan(bytes);
+  }
+  return records;
+}
+
+}  // namespace planetree::storage

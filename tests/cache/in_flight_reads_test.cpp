@@ -1,0 +1,257 @@
+// Threads that fetch side by side: each page is read once, without the mutex, and waits for
+// those who want it.
+
+#include "cache/in_flight_reads.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "cache/page_cache.h"
+#include "tests/cache/tagged_pages.h"
+
+namespace planetree::cache {
+namespace {
+
+constexpr std::uint32_t kErrandFrameBytes = 4096;
+
+TEST(Errands, ServesAllWhoWaitForAPage) {
+  std::vector<Errand> table(4);
+  Errands errands(table);
+  errands.read(0, 7);
+  EXPECT_TRUE(errands.is_read(7));
+  errands.wait(1, 7, false);
+  errands.wait(2, 7, true);
+  errands.wait(3, 8, false);
+  EXPECT_EQ(errands.page_wanted(), 8u);
+  std::set<std::uint32_t> woken;
+  const auto wake = [&](std::uint32_t owner) { woken.insert(owner); };
+  errands.end(0);
+  EXPECT_EQ(errands.serve(7, 5, wake), 2u);
+  EXPECT_EQ(woken, (std::set<std::uint32_t>{1, 2}));
+  errands.end(1);
+  EXPECT_TRUE(errands.holds(5));
+  errands.end(2);
+  EXPECT_FALSE(errands.holds(5));
+}
+
+TEST(Errands, WantsThePageThatWasWaitedForLongest) {
+  std::vector<Errand> table(4);
+  Errands errands(table);
+  EXPECT_EQ(errands.page_wanted(), Errands::kNobody);
+  errands.wait(3, 8, false);
+  errands.wait(0, 9, false);
+  errands.wait(1, 8, false);
+  EXPECT_EQ(errands.page_wanted(), 8u);
+  errands.read(2, 8);
+  EXPECT_EQ(errands.page_wanted(), 9u);
+  errands.end(0);
+  EXPECT_EQ(errands.page_wanted(), Errands::kNobody);
+}
+
+TEST(Errands, PutBackWakesThoseWhoReadThemselves) {
+  std::vector<Errand> table(3);
+  Errands errands(table);
+  errands.read(0, 7);
+  errands.wait(1, 7, true);
+  errands.wait(2, 7, false);
+  EXPECT_EQ(errands.page_wanted(), Errands::kNobody);
+  errands.end(0);
+  std::set<std::uint32_t> woken;
+  errands.put_back(7, [&](std::uint32_t owner) { woken.insert(owner); });
+  EXPECT_EQ(woken, std::set<std::uint32_t>{1});
+  EXPECT_EQ(errands.of(1).stage, Errand::Stage::kRetry);
+  EXPECT_EQ(errands.page_wanted(), 7u);
+}
+
+/// Pages of which some stand still until they are let go, and are nothing for those who do not
+/// wait.
+struct SlowPages {
+  TaggedPages tags;
+  std::set<std::uint32_t> slow;
+  std::atomic<bool> moves{false};
+  std::atomic<int> standing{0};
+  std::atomic<int> refused{0};
+
+  static Result<Filled> fill(void* context, const FillRequest& request) {
+    auto& pages = *static_cast<SlowPages*>(context);
+    if (pages.slow.contains(request.page)) {
+      if (!request.may_wait) {
+        ++pages.refused;
+        return Filled::kWouldWait;
+      }
+      ++pages.standing;
+      while (!pages.moves) std::this_thread::yield();
+      --pages.standing;
+    }
+    return TaggedPages::fill(&pages.tags, request);
+  }
+};
+
+class SideBySide : public testing::Test {
+ protected:
+  void open(std::uint32_t frames) {
+    auto cache = PageCache::create(limits_for_frames(frames, 50, 4), SlowPages::fill, &pages_);
+    ASSERT_TRUE(cache);
+    cache_ = *std::move(cache);
+  }
+
+  /// A thread that fetches a page and looks at it.
+  std::thread fetching(std::uint32_t page, const FetchTerms& terms = {}) {
+    return std::thread([this, page, terms] {
+      Reader reader = *cache_->claim_reader();
+      reader.enter();
+      const Fetched fetched = reader.fetch(page, terms);
+      if (fetched.given_up) ++given_up_;
+      if (fetched.frame && TaggedPages::matches(fetched.frame, kErrandFrameBytes, page)) ++right_;
+      reader.leave();
+    });
+  }
+
+  /// The same, which has come upon a slow page.
+  std::thread standing_at(std::uint32_t page) {
+    std::thread thread = fetching(page);
+    while (pages_.standing == 0) std::this_thread::yield();
+    return thread;
+  }
+
+  SlowPages pages_;
+  std::unique_ptr<PageCache> cache_;
+  std::atomic<int> right_{0}, given_up_{0};
+};
+
+constexpr FetchTerms kByHelpers{.reads_itself = false};
+constexpr FetchTerms kAtOnceOrNot{.reads_itself = false,
+                                  .wait_limit = std::chrono::milliseconds(1)};
+
+TEST_F(SideBySide, OneReadsWhatTwoWant) {
+  open(6);
+  pages_.slow = {7};
+  std::thread first = standing_at(7);
+  std::thread second = fetching(7);
+  pages_.moves = true;
+  first.join();
+  second.join();
+  EXPECT_EQ(right_, 2);
+  EXPECT_EQ(pages_.tags.fill_calls(), 1u);
+}
+
+TEST_F(SideBySide, OthersReadWhileOneStandsStill) {
+  open(6);
+  pages_.slow = {7};
+  std::thread stuck = standing_at(7);
+  // In the smallest cache too, where pages are evicted meanwhile.
+  for (std::uint32_t page = 8; page < 50; ++page) fetching(page).join();
+  EXPECT_EQ(right_, 42);
+  EXPECT_EQ(pages_.standing, 1);
+  pages_.moves = true;
+  stuck.join();
+  EXPECT_EQ(right_, 43);
+}
+
+TEST_F(SideBySide, HelpersReadWhatMustBeWaitedFor) {
+  open(6);
+  pages_.slow = {7, 8};
+  pages_.moves = true;
+  Reader helper = *cache_->claim_reader();
+  EXPECT_FALSE(helper.help());
+  std::thread first = fetching(7, kByHelpers), second = fetching(8, kByHelpers);
+  for (int helped = 0; helped < 2;) helped += helper.help();
+  first.join();
+  second.join();
+  EXPECT_EQ(right_, 2);
+  EXPECT_EQ(pages_.refused, 2);
+  EXPECT_FALSE(helper.help());
+}
+
+TEST_F(SideBySide, WhatNeedsNoWaitingNeedsNoHelper) {
+  open(6);
+  for (std::uint32_t page = 0; page < 20; ++page) fetching(page, kByHelpers).join();
+  EXPECT_EQ(right_, 20);
+}
+
+TEST_F(SideBySide, WaitsNoLongerThanTheLimit) {
+  open(6);
+  pages_.slow = {7};
+  fetching(7, kAtOnceOrNot).join();
+  EXPECT_EQ(given_up_, 1);
+  EXPECT_EQ(cache_->stats().given_up, 1u);
+  EXPECT_EQ(cache_->stats().quarantined, 0u);
+  // Nobody waits any more.
+  Reader helper = *cache_->claim_reader();
+  EXPECT_FALSE(helper.help());
+  pages_.moves = true;
+  fetching(7).join();
+  EXPECT_EQ(right_, 1);
+}
+
+TEST_F(SideBySide, WhoReadsItselfGoesOnWhereAnotherGaveUp) {
+  open(6);
+  pages_.slow = {7};
+  std::thread stuck = standing_at(7);
+  std::thread patient = fetching(7), hasty = fetching(7, kAtOnceOrNot);
+  hasty.join();
+  EXPECT_EQ(given_up_, 1);
+  pages_.moves = true;
+  stuck.join();
+  patient.join();
+  EXPECT_EQ(right_, 2);
+  EXPECT_EQ(pages_.tags.fill_calls(), 1u);
+}
+
+TEST_F(SideBySide, UnreadablePagesAreToldToAllWhoWait) {
+  open(6);
+  pages_.slow = {7};
+  pages_.tags.make_unreadable(7);
+  std::thread first = standing_at(7);
+  std::thread second = fetching(7), third = fetching(7, kByHelpers);
+  pages_.moves = true;
+  first.join();
+  second.join();
+  third.join();
+  EXPECT_EQ(right_ + given_up_, 0);
+  EXPECT_EQ(cache_->stats().quarantined, 1u);
+  EXPECT_EQ(pages_.tags.fill_calls(), 1u);
+}
+
+// Everything at once, in the smallest cache: askers that have helpers, and those that have not.
+TEST_F(SideBySide, NobodyWaitsForEver) {
+  open(6);
+  for (std::uint32_t page = 0; page < 50; page += 3) pages_.slow.insert(page);
+  pages_.moves = true;
+  std::atomic<bool> stop{false};
+  std::atomic<int> wrong{0};
+  std::thread helper([&] {
+    Reader reader = *cache_->claim_reader();
+    while (!stop) {
+      cache_->wait_for_errand(std::chrono::microseconds(100), stop);
+      reader.help();
+    }
+  });
+  std::vector<std::thread> askers;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    askers.emplace_back([&, seed] {
+      Reader reader = *cache_->claim_reader();
+      Numbers numbers(seed);
+      for (int i = 0; i < 3000; ++i) {
+        reader.enter();
+        // Few pages, so that many want the same.
+        const std::uint32_t page = numbers.below(12);
+        const Fetched fetched = reader.fetch(page, seed == 3 ? FetchTerms{} : kByHelpers);
+        wrong += !fetched.frame || !TaggedPages::matches(fetched.frame, kErrandFrameBytes, page);
+        reader.leave();
+      }
+    });
+  for (std::thread& asker : askers) asker.join();
+  stop = true;
+  cache_->wake_helpers();
+  helper.join();
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(cache_->stats().evictions, 100u);
+}
+
+}  // namespace
+}  // namespace planetree::cache

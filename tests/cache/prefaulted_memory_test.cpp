@@ -1,0 +1,41 @@
+#include "cache/prefaulted_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace planetree::cache {
+namespace {
+
+constexpr std::uint64_t kHuge = std::uint64_t{2} << 20;
+
+TEST(ClaimedMemory, TakesWholePages) {
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(1), 4096u);
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(4096), 4096u);
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(4097), 8192u);
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(~std::uint64_t{0}), ~std::uint64_t{0}) << "no wrapping";
+}
+
+TEST(ClaimedMemory, TakesAHugePageWhereLittleIsMissing) {
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge / 4 * 3 - 4096), kHuge / 4 * 3 - 4096);
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge / 4 * 3), kHuge);
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge), kHuge);
+  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge + 1), kHuge + 4096);
+}
+
+TEST(ClaimedMemory, GivesWhatItSaysInZeros) {
+  for (const std::uint64_t bytes : {std::uint64_t{100}, kHuge / 10 * 9, kHuge + 5000}) {
+    const auto memory = ClaimedMemory::claim(bytes);
+    ASSERT_TRUE(memory);
+    EXPECT_EQ(memory->bytes(), ClaimedMemory::claimed_bytes(bytes));
+    EXPECT_TRUE(std::all_of(memory->data(), memory->data() + memory->bytes(),
+                            [](std::byte byte) { return byte == std::byte{0}; }));
+    if (memory->bytes() >= kHuge) {
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory->data()) % kHuge, 0u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace planetree::cache

@@ -1,0 +1,32 @@
+// Tens of thousands of random asks; the million is `./dev check-random`.
+
+#include "tests/oracle/random_queries.h"
+
+#include <gtest/gtest.h>
+
+namespace planetree::oracle {
+namespace {
+
+constexpr std::size_t kAsksPerModel = 2500;
+constexpr std::size_t kModelsPerTest = 4;
+
+// So that no test takes long with a sanitizer.
+class RandomAsks : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(RandomAsks, AreAnsweredRight) {
+  AskTally tally;
+  for (std::size_t i = 0; i < kModelsPerTest; ++i)
+    tally += ask_at_random(GetParam() * kModelsPerTest + i, kAsksPerModel);
+  EXPECT_EQ(tally.asks, kModelsPerTest * kAsksPerModel);
+  EXPECT_EQ(tally.not_finite, 0u);
+  EXPECT_EQ(tally.interval, 0u);
+  EXPECT_EQ(tally.side, 0u);
+  EXPECT_EQ(tally.normal, 0u);
+  EXPECT_EQ(tally.first_miss, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, RandomAsks,
+                         testing::Range(std::size_t{0}, kAskedModels / kModelsPerTest));
+
+}  // namespace
+}  // namespace planetree::oracle

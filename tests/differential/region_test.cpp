@@ -1,0 +1,198 @@
+// A file of a region answers as that of the whole surface does, or says that it cannot.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/differential/parted_model.h"
+#include "tests/oracle/closed_models.h"
+#include "tests/oracle/winding.h"
+
+namespace planetree::oracle {
+namespace {
+
+// Asked all over it and about it; what is inside of the box is told a side.
+void check_solid(const Soup& soup, const RegionBox& box, Seen* seen = nullptr) {
+  for (const std::uint32_t page_bytes : {4096u, 65536u}) {
+    Parted model(soup, box, 1, page_bytes);
+    ASSERT_TRUE(model.part().model().info().watertight());
+    Random random(9);
+    for (int k = 0; k < 300 && !testing::Test::HasFailure(); ++k) {
+      const Vec3 query = some_query(random, soup, box, 1);
+      model.check(query);
+      if (model.walls().distance(query) >= 0) {
+        EXPECT_EQ(model.part().probe().contains(query).side, exact_side(query, soup));
+      }
+    }
+    if (seen != nullptr) *seen = model.seen();
+  }
+}
+
+TEST(Region, CutsThinParts) {
+  check_solid(box({0, 0, 0}, {1, 1, 1e-6}), {{0.25, 0.25, -1}, {0.5, 0.5, 1}});
+  check_solid(box({0, 0, 0}, {1, 1, 1e-6}), {{0.25, 0.25, 5e-7}, {0.5, 0.5, 2e-6}});
+  check_solid(box({0, 0, 0}, {1, 1e-9, 1e-9}), {{0.25, -1, 4e-10}, {0.5, 1, 1}});
+}
+
+TEST(Region, KnowsNestedAndOverlappingSolids) {
+  const Soup nested = ball(3) + scaled(inside_out(ball(3)), 0.75) + scaled(ball(2), 0.5);
+  const Soup twice = ball(3) + moved(ball(3), {0.3, 0.1, 0.2});
+  for (const Soup& soup : {nested, twice, inside_out(twice), twice + twice}) {
+    Seen seen;
+    check_solid(soup, {{0.1, -0.2, -0.3}, {0.9, 0.4, 0.35}}, &seen);
+    EXPECT_GT(seen.inside, 50);
+  }
+}
+
+// Far in, where no way out does without what was left out: every number is two or three.
+TEST(Region, CountsWhatWindsAboutItFromFarAway) {
+  const Soup shells = ball(3) + scaled(ball(2), 1.5) + scaled(ball(2), 0.5);
+  Parted model(shells, {{0.3, -0.2, -0.2}, {0.6, 0.2, 0.2}});
+  EXPECT_EQ(model.part().probe().contains({0.55, 0, 0}).side, Side::kInside);
+  Seen seen;
+  check_solid(shells, {{0.3, -0.2, -0.2}, {0.6, 0.2, 0.2}}, &seen);
+  EXPECT_EQ(seen.outside, 0);
+}
+
+TEST(Region, MayHaveItsWallsInFacesAndVertices) {
+  const Soup cube = box({0, 0, 0}, {1, 1, 1}), two = cube + box({1, 0, 0}, {2, 1, 1});
+  check_solid(cube, {{0, 0, 0}, {1, 1, 1}});
+  check_solid(cube, {{0.5, 0, 0}, {1, 0.5, 0.5}});
+  check_solid(two, {{1, 0, 0}, {1.5, 1, 1}});
+  check_solid(two, {{0.5, 0.25, 0.25}, {1, 0.75, 0.75}});
+  check_solid(ball(2), {{0, 0, 0}, {1, 1, 1}});
+  check_solid(ball(2), {{-1, -1, 0}, {1, 1, 0}});
+}
+
+TEST(Region, MayBeAPlaneALineOrAPoint) {
+  const Soup solid = ball(3);
+  const Vec3 corner = solid[100][0];
+  check_solid(solid, {{-1, -1, corner.z}, {1, 1, corner.z}});
+  check_solid(solid, {{-2, -2, 0.123}, {2, 2, 0.123}});
+  check_solid(solid, {{-2, corner.y, corner.z}, {2, corner.y, corner.z}});
+  check_solid(solid, {corner, corner});
+}
+
+// Where the box is larger than the model there is nothing to be missed.
+TEST(Region, ThatHoldsAllAnswersAsTheWholeDoesEverywhere) {
+  Random random(12);
+  Soup holed = ball(3);
+  holed.resize(300);
+  for (const Soup& soup : {ball(3), holed}) {
+    for (const RegionBox& box :
+         {RegionBox{{-1, -1, -1}, {1, 1, 1}}, RegionBox{{-1e300, -2, -1e9}, {3, 1e308, 1}}}) {
+      Parted model(soup, box);
+      EXPECT_EQ(model.part().model().info().triangles, soup.size());
+      EXPECT_EQ(model.part().model().info().content_id[0],
+                model.whole().model().info().content_id[0]);
+      for (int k = 0; k < 200; ++k) {
+        const Vec3 query = nasty_query(random, soup, 1);
+        expect_same_bits(model.part().ask(query), model.whole().ask(query));
+      }
+    }
+  }
+}
+
+// Half a model has one wall; away from it answers go on to the other sides and beyond.
+TEST(Region, HasWallsOnlyWithinTheModel) {
+  const Soup solid = ball(4);
+  Parted model(solid, {{-5, -5, 0.2}, {5, 5, 5}});
+  for (const Vec3& query : {Vec3{0, 0, 3}, Vec3{0.9, 0, 1.5}, Vec3{0, 0, 1e4}}) {
+    model.check(query);
+    EXPECT_EQ(model.part().ask(query).status, Status::kExact);
+    EXPECT_EQ(model.part().ask(query).side, Side::kOutside);
+  }
+  model.check({0, 0, -3});
+  EXPECT_EQ(model.part().ask({0, 0, -3}).status, Status::kDegraded);
+  EXPECT_EQ(model.part().ask({0, 0, -3}).side, Side::kUnknown);
+  for (const double far : {1e200, -1e200, 1e308, -1e308}) {
+    const ClosestPoint answer = model.part().ask({0, 0, far});
+    EXPECT_EQ(answer.status, Status::kDegraded) << far;
+    EXPECT_LE(answer.lower, std::fabs(far));
+    EXPECT_GE(answer.upper, std::fabs(far));
+    EXPECT_EQ(answer.side, far > 0 ? Side::kOutside : Side::kUnknown);
+  }
+}
+
+// So far away that all of the model is in one direction; but which walls a point is beyond, its
+// other coordinates say.
+TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
+  const Soup cube = box({0, 0, 0}, {1, 1, 1});
+  for (const double far : {1e80, 1e100, 1e300, 1e308, -1e100}) {
+    for (const RegionBox& box :
+         {RegionBox{{0.25, -10, -10}, {10, 10, 10}}, RegionBox{{-10, -10, -10}, {0.5, 10, 10}}}) {
+      Parted model(cube, box);
+      for (const double x : {0.1, 0.4, 0.9}) {
+        const bool within = box.lower.x <= x && x <= box.upper.x;
+        const Side side = within ? Side::kOutside : Side::kUnknown;
+        for (const Vec3& query : {Vec3{x, 0.5, far}, Vec3{x, far, 0.5}}) {
+          EXPECT_EQ(model.part().ask(query).side, side) << x << " " << far;
+          EXPECT_EQ(model.part().probe().contains(query).side, side);
+          EXPECT_EQ(model.part().ask(query, {.max_nodes = 1000}).side, side);
+        }
+      }
+    }
+  }
+}
+
+// At the same distance from the wall as from the surface something beyond could round nearer.
+TEST(Region, IsCarefulWhereTheWallIsAsNearAsTheSurface) {
+  const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
+  Parted model(two, {{-1, -1, -1}, {2, 2, 2}});
+  for (const double step : {0.0, 0x1p-52, -0x1p-52, 1e-9, -1e-9})
+    model.check({1.5 + step, 0.5, 0.5});
+  EXPECT_EQ(model.part().ask({1.5, 0.5, 0.5}).status, Status::kDegraded);
+  EXPECT_EQ(model.part().ask({1.5 - 1e-9, 0.5, 0.5}).status, Status::kExact);
+}
+
+TEST(Region, LooksNoFartherThanAskedIfThatIsProven) {
+  const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
+  Parted model(two, {{-1, -1, -1}, {2.5, 2, 2}});
+  Ask ask;
+  ask.max_distance = 0.25;
+  model.check({2, 0.5, 0.5}, ask);
+  EXPECT_EQ(model.part().ask({2, 0.5, 0.5}, ask).status, Status::kBeyondMaxDistance);
+  // The wall is nearer than what was asked for, the other box not.
+  const ClosestPoint answer = model.part().ask({2.375, 0.5, 0.5}, ask);
+  EXPECT_EQ(answer.status, Status::kDegraded);
+  EXPECT_EQ(answer.triangle, kNoTriangle);
+  EXPECT_NEAR(answer.lower, 0.125, 1e-9);
+  EXPECT_GE(answer.upper, 0.625);
+  ask.max_error = 10;
+  EXPECT_EQ(model.part().ask({2.375, 0.5, 0.5}, ask).status, Status::kWithinError);
+}
+
+TEST(Region, AnswersBatchesAndRealTimeAsksAlike) {
+  const Soup solid = ball(4) + moved(ball(3), {0.4, 0.3, 0.2});
+  const RegionBox box{{-0.1, -0.2, 0.1}, {0.7, 0.6, 1}};
+  Parted model(solid, box);
+  Random random(31);
+  std::vector<Vec3> queries;
+  for (int k = 0; k < 400; ++k) queries.push_back(some_query(random, solid, box, 1));
+  std::vector<ClosestPoint> answers(queries.size());
+  model.part().probe().closest_points(queries, answers);
+  Ask at_once;
+  at_once.wait = Wait::kNever;
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    expect_same_bits(model.part().ask(queries[k]), answers[k]);
+    model.check(queries[k]);
+    // All pages are there by now.
+    expect_same_bits(model.part().ask(queries[k], at_once), answers[k]);
+  }
+}
+
+TEST(Region, MustTouchTheModel) {
+  for (const RegionBox& box :
+       {RegionBox{{2, 2, 2}, {3, 3, 3}}, RegionBox{{0, 0, 0}, {0.1, 0.1, 0.1}},
+        RegionBox{{0.9, 0.9, 0.9}, {1, 1, 1}}}) {
+    const std::string failure = build_failure(ball(2), box);
+    EXPECT_EQ(failure, "no triangle touches the box; that of the whole model is -1,-1,-1,1,1,1");
+  }
+  EXPECT_NE(build_failure(ball(2), RegionBox{{0, 1, 0}, {1, 0, 1}}), "");
+  EXPECT_NE(build_failure(ball(2), RegionBox{{0, 0, 0}, {1, kNoWall, 1}}), "");
+}
+
+}  // namespace
+}  // namespace planetree::oracle

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "octree/builder/tree_builder.h"
+#include "tests/octree/support/sample_mask.h"
+#include "tests/storage/file/file_image.h"
+#include "tests/storage/system/temporary_directory.h"
+
+namespace planetree::octree {
+
+/// Builds of models of many patches: what large ones are, with sizes so small that tests can
+/// look at them.
+class SmallPatches : public testing::Test {
+ protected:
+  // Binary STL, whose corners are floats.
+  void write(const Soup& soup) {
+    std::ofstream file(mesh_, std::ios::binary);
+    const auto put = [&file](const auto& value) {
+      file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    file << std::string(80, ' ');
+    put(static_cast<std::uint32_t>(soup.size()));
+    for (const auto& triangle : soup) {
+      for (int i = 0; i < 3; ++i) put(0.0f);
+      for (const Vec3& corner : triangle)
+        for (const double value : {corner.x, corner.y, corner.z}) put(static_cast<float>(value));
+      put(std::uint16_t{0});
+    }
+  }
+  // Binary PLY of doubles, vertices and faces in random order. What it is, its content says.
+  void write_shuffled(Soup soup) {
+    std::mt19937 random(4);
+    std::shuffle(soup.begin(), soup.end(), random);
+    std::vector<Vec3> vertices;
+    for (const auto& triangle : soup)
+      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    const auto key = [](const Vec3& v) { return std::tuple(v.x, v.y, v.z); };
+    std::map<std::tuple<double, double, double>, std::uint32_t> numbers;
+    std::shuffle(vertices.begin(), vertices.end(), random);
+    std::erase_if(vertices, [&](const Vec3& vertex) {
+      return !numbers.emplace(key(vertex), static_cast<std::uint32_t>(numbers.size())).second;
+    });
+    std::ofstream file(mesh_, std::ios::binary);
+    const auto put = [&file](const auto& value) {
+      file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    file << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices.size()
+         << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
+         << soup.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
+    for (const Vec3& vertex : vertices)
+      for (const double value : {vertex.x, vertex.y, vertex.z})
+        put(static_cast<double>(static_cast<float>(value)));
+    for (const auto& triangle : soup) {
+      put(std::uint8_t{3});
+      for (const Vec3& corner : triangle) put(numbers.at(key(corner)));
+    }
+  }
+  storage::Bytes built() const { return storage::read_bytes(output_); }
+
+  storage::TemporaryDirectory folder_;
+  storage::TemporaryDirectory meshes_;
+  std::filesystem::path mesh_ = meshes_ / "model.stl";
+  std::filesystem::path output_ = folder_ / "model.ptree";
+};
+
+inline constexpr BuildMemory kRoomy{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30, 1 << 30, 1 << 30};
+inline constexpr BuildMemory kTight{1, 77, 65536, 0, 0, 0, 0, 0};
+// The same, and so little for the mesh that corners in no order are sorted on disk.
+inline constexpr BuildMemory kShuffling{1, 77, 1000, 0, 0, 0, 0, 0};
+inline constexpr BuildMemory kBetween{3, 200, 65536, 30000, 20000, 7000, 5000, 5000};
+
+}  // namespace planetree::octree

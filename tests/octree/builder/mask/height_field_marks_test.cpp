@@ -1,0 +1,96 @@
+#include "octree/builder/mask/height_field_marks.h"
+
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <vector>
+
+#include "octree/page/page_streams.h"
+#include "octree/page/raw_streams.h"
+#include "tests/octree/support/sheet_model.h"
+#include "tests/storage/system/faulty_calls.h"
+
+namespace planetree::octree {
+namespace {
+
+std::vector<bool> marks_in(const SheetModel& model, const FilePage& page) {
+  RawStreams streams;
+  std::vector<bool> marks;
+  EXPECT_EQ(streams.cut(page.bytes, model.facts.shape), nullptr);
+  for (std::size_t i = 0; i < streams.head.block_count; ++i) marks.push_back(streams.in_sheet(i));
+  return marks;
+}
+
+std::vector<FilePage> pages_of(const SheetModel& model) {
+  std::vector<FilePage> pages;
+  for (std::uint32_t number = 0; number < model.tree.tree->pages().size(); ++number)
+    pages.push_back(*model.tree.tree->pages().encode(number));
+  return pages;
+}
+
+// Without a mark, and all of what is not a mark stays as it is.
+FilePage unmarked(FilePage page, std::size_t blocks) {
+  for (std::size_t i = 0; i < blocks; ++i) page.bytes[page.blocks_at + i] &= ~std::byte{kSheetBit};
+  return page;
+}
+
+TEST(SheetMarks, AreOfTheBlocksThatAreFound) {
+  const SheetModel model(joined({sphere(4), moved(sphere(4), {0.9, 0, 0})}));
+  std::vector<std::vector<bool>> found(model.tree.tree->pages().size());
+  TreeFrames frames(*model.tree.tree, &model.mask);
+  const SheetFinder finder(model.facts, model.mask_facts);
+  std::size_t in_sheets = 0, in_none = 0;
+  model.each_block([&](const BlockView& block, std::uint32_t page) {
+    found[page].push_back(finder.is_in_sheet(block, frames.reader()));
+    ++(found[page].back() ? in_sheets : in_none);
+  });
+  ASSERT_GT(in_sheets, 0u);
+  ASSERT_GT(in_none, 0u);
+  SheetMarks marks(*model.tree.tree, model.mask);
+  const std::vector<FilePage> before = pages_of(model);
+  for (std::uint32_t number = 0; number < before.size(); ++number) {
+    FilePage page = before[number];
+    ASSERT_TRUE(marks.mark(number, page));
+    EXPECT_EQ(marks_in(model, page), found[number]) << number;
+    EXPECT_EQ(unmarked(page, found[number].size()).bytes, before[number].bytes);
+  }
+}
+
+TEST(SheetMarks, DoNotDependOnThreads) {
+  const SheetModel model(sphere(5));
+  std::vector<FilePage> one = pages_of(model), many = one;
+  SheetMarks marks(*model.tree.tree, model.mask), others(*model.tree.tree, model.mask);
+  for (std::uint32_t number = 0; number < one.size(); ++number)
+    ASSERT_TRUE(marks.mark(number, one[number]));
+  tbb::parallel_for(std::size_t{0}, many.size(), [&](std::size_t number) {
+    EXPECT_TRUE(others.mark(static_cast<std::uint32_t>(number), many[number]));
+  });
+  for (std::size_t number = 0; number < one.size(); ++number)
+    EXPECT_EQ(one[number].bytes, many[number].bytes);
+}
+
+// A mark that is missing would be another file: whichever read fails, the page's own or one of a
+// walk around a block.
+TEST(SheetMarks, FailWithTheDisk) {
+  storage::FaultyCalls calls;
+  storage::SpillFile file(std::filesystem::temp_directory_path(), 0, calls);
+  const SheetModel model(sphere(5), file);
+  std::vector<FilePage> pages = pages_of(model);
+  const std::uint32_t last = static_cast<std::uint32_t>(pages.size()) - 1;
+  std::size_t failures = 0;
+  for (bool failed = true; failed; failures += failed) {
+    calls = storage::FaultyCalls();
+    calls.fault = storage::FaultyCalls::Fault::kError;
+    calls.fault_at = static_cast<int>(failures);
+    SheetMarks marks(*model.tree.tree, model.mask);
+    const auto marked = marks.mark(last, pages[last]);
+    failed = !marked;
+    EXPECT_TRUE(marked || marked.error().code == ErrorCode::kReadFailed);
+  }
+  EXPECT_GT(failures, 3u);
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,319 @@
+#include "octree/builder/mask/special_cell.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "octree/geometry/cell_overlap.h"
+#include "octree/geometry/predicates.h"
+#include "tests/octree/support/sample_mask.h"
+
+namespace planetree::octree {
+namespace {
+
+// The cell from 0 to 1, and what is of a closed model in it.
+struct InCell {
+  Surface model;
+  std::vector<Triangle> triangles;
+  std::array<Point, 8> corners;
+  std::array<std::int64_t, 8> winding{};
+
+  explicit InCell(const Soup& soup) : model(in_double(soup)) {
+    for (const Triangle& triangle : model.triangles())
+      if (may_touch(triangle, Point(0, 0, 0), Point(1, 1, 1))) triangles.push_back(triangle);
+    for (unsigned i = 0; i < 8; ++i) {
+      corners[i] = Point(i & 1, i >> 1 & 1, i >> 2);
+      winding[i] = model.winding(corners[i]);
+    }
+  }
+  static std::vector<Triangle> in_double(const Soup& soup) {
+    const auto point = [](const Vec3& p) { return Point(p.x, p.y, p.z); };
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : soup) triangles.push_back({point(a), point(b), point(c)});
+    return triangles;
+  }
+  std::optional<SpecialCell> special() const { return special_cell(triangles, corners, winding); }
+  bool is(const SpecialCell& claim) const {
+    return is_special_cell(claim, triangles, corners, winding);
+  }
+};
+
+// A cone to a polygon beside or below the cell, with its apex in it; closed.
+Soup cone(const Vec3& apex, const std::vector<Vec3>& rim) {
+  Soup soup;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const Vec3 &a = rim[i], &b = rim[(i + 1) % rim.size()];
+    soup.push_back({apex, a, b});
+    if (i > 0 && i + 1 < rim.size()) soup.push_back({rim[0], b, a});
+  }
+  return soup;
+}
+
+std::vector<Vec3> ring(unsigned sides, double turn) {
+  std::vector<Vec3> rim;
+  for (unsigned i = 0; i < sides; ++i) {
+    const double angle = turn + 2 * 3.14159265358979 * i / sides;
+    rim.push_back({0.5 + 6 * std::cos(angle), 0.5 + 6 * std::sin(angle), -2});
+  }
+  return rim;
+}
+
+struct Case {
+  const char* name;
+  Soup soup;
+  unsigned planes;
+};
+
+std::vector<Case> special_models() {
+  std::vector<Case> cases = {
+      {"plane", box({-9, -9, -9}, {9, 9, 0.3}), 1},
+      {"plane of many triangles", box({-4, -4, -4}, {4, 4, 0.25}, 16), 1},
+      {"askew plane", box({-9, -9, -9}, {9, 9, 0.5}), 1},
+      {"edge", box({-9, -9, -9}, {9, 0.7, 0.3}), 2},
+      {"corner of a cube", box({-9, -9, -9}, {0.5, 0.625, 0.4}, 3), 3},
+      {"four planes", cone({0.5, 0.5, 0.6}, ring(4, 0.1)), 4},
+      {"two layers of one plane",
+       joined({box({-9, -9, -9}, {9, 9, 0.5}), box({-5, -7, -3}, {5, 5, 0.5})}), 1},
+      {"nested corner",
+       joined({box({-9, -9, -9}, {0.5, 0.5, 0.5}), box({-3, -3, -3}, {0.5, 0.5, 0.5})}), 3},
+  };
+  // Askew, through corners of the cell.
+  Soup askew = box({-4, -4, -4}, {4, 4, 0});
+  for (auto& triangle : askew)
+    for (Vec3& p : triangle) p = {p.x, p.y, p.z + 1 - p.x};
+  cases[2].soup = askew;
+  return cases;
+}
+
+// What a claim says of a point: its winding number, or that it is on the surface.
+struct Said {
+  bool on_surface = false;
+  int winding = 0;
+};
+
+Said say(const SpecialCell& claim, const Point& point) {
+  int farthest = -1;
+  for (unsigned i = 0; i < claim.plane_count; ++i) {
+    const auto& [a, b, c] = claim.planes[i];
+    farthest = std::max(farthest, orientation(a, b, c, point));
+  }
+  return {farthest == 0, farthest > 0 ? claim.beyond : claim.behind};
+}
+
+void expect_truth(const InCell& in_cell, const SpecialCell& claim) {
+  for (int x = 0; x <= 8; ++x)
+    for (int y = 0; y <= 8; ++y)
+      for (int z = 0; z <= 8; ++z) {
+        const Point point = Point(x, y, z) / 8;
+        const bool on_surface = std::ranges::any_of(
+            in_cell.triangles, [&](const Triangle& triangle) { return lies_on(point, triangle); });
+        const Said said = say(claim, point);
+        ASSERT_EQ(said.on_surface, on_surface) << point.transpose();
+        if (!on_surface) {
+          ASSERT_EQ(said.winding, in_cell.model.winding(point)) << point.transpose();
+        }
+      }
+}
+
+TEST(SpecialCells, SayTheSideOfEveryPoint) {
+  for (const Case& c : special_models())
+    for (const bool turned : {false, true}) {
+      SCOPED_TRACE(std::string(c.name) + (turned ? ", inside out" : ""));
+      const InCell in_cell(turned ? inside_out(c.soup) : c.soup);
+      EXPECT_TRUE(in_few_planes(in_cell.triangles));
+      const auto special = in_cell.special();
+      ASSERT_TRUE(special);
+      EXPECT_EQ(special->plane_count, c.planes);
+      EXPECT_TRUE(in_cell.is(*special));
+      expect_truth(in_cell, *special);
+    }
+}
+
+// Inside a hollow the solid is beyond the planes.
+TEST(SpecialCells, AreConcaveAsWell) {
+  for (const Case& c : special_models()) {
+    SCOPED_TRACE(c.name);
+    const InCell hollow(joined({box({-20, -20, -20}, {20, 20, 20}), inside_out(c.soup)}));
+    const auto special = hollow.special();
+    ASSERT_TRUE(special);
+    // One plane is as convex one way round as the other.
+    if (special->plane_count > 1) {
+      EXPECT_EQ(special->beyond, 1);
+      EXPECT_LE(special->behind, 0);
+    }
+    expect_truth(hollow, *special);
+  }
+}
+
+// Corners on a plane may have either number: they are left out.
+TEST(SpecialCells, TakeNoWordFromCornersOnAPlane) {
+  // Behind it y is above x: the step from a corner on it leads beyond.
+  const auto shear = [](Soup soup) {
+    for (auto& triangle : soup)
+      for (Vec3& p : triangle) p = {p.x, p.x + p.y, p.z};
+    return soup;
+  };
+  const InCell in_cell(shear(box({-9, 0, -9}, {9, 9, 9})));
+  EXPECT_EQ(in_cell.winding[0], 0);
+  EXPECT_EQ(in_cell.winding[2], 1);
+  const auto special = in_cell.special();
+  ASSERT_TRUE(special);
+  EXPECT_TRUE(in_cell.is(*special));
+  expect_truth(in_cell, *special);
+}
+
+TEST(SpecialCells, HaveAtMostFourPlanes) {
+  const InCell five(cone({0.5, 0.5, 0.6}, ring(5, 0.1)));
+  EXPECT_EQ(five.triangles.size(), 5u);
+  EXPECT_FALSE(in_few_planes(five.triangles));
+  EXPECT_FALSE(five.special());
+}
+
+TEST(SpecialCells, AreConvex) {
+  // A step up at x = 0.5: a convex and a concave edge.
+  const InCell step(joined({box({-9, -9, -9}, {0.5, 9, 0.3}), box({0.5, -9, -9}, {9, 9, 0.7})}));
+  EXPECT_FALSE(step.special());
+  // A saddle: every other point of the rim is raised.
+  std::vector<Vec3> rim = ring(4, 0);
+  rim[0].z = rim[2].z = 8;
+  const InCell saddle(cone({0.5, 0.5, 0.5}, rim));
+  EXPECT_TRUE(in_few_planes(saddle.triangles));
+  EXPECT_FALSE(saddle.special());
+}
+
+TEST(SpecialCells, HaveNoFacesBackToBack) {
+  const InCell two(joined({box({-9, -9, -9}, {9, 9, 0.5}), box({-9, -9, 0.5}, {9, 9, 8})}));
+  EXPECT_FALSE(in_few_planes(two.triangles));
+  EXPECT_FALSE(two.special());
+  const Triangle& one = two.triangles.front();
+  EXPECT_FALSE(in_few_planes(std::array{one, Triangle{one[0], one[2], one[1]}}));
+}
+
+TEST(SpecialCells, HaveNoTriangleWithoutArea) {
+  InCell in_cell(box({-9, -9, -9}, {9, 9, 0.5}));
+  const Point a(0, 0, 0.5), b(1, 1, 0.5), c(0.5, 0.5, 0.5);
+  for (const Triangle& flat : {Triangle{a, b, c}, Triangle{a, a, a}, Triangle{a, b, a}}) {
+    auto triangles = in_cell.triangles;
+    triangles.push_back(flat);
+    EXPECT_FALSE(in_few_planes(triangles));
+    EXPECT_FALSE(special_cell(triangles, in_cell.corners, in_cell.winding));
+  }
+}
+
+// Where a plane only touches the cell no corner says what is beyond it.
+TEST(SpecialCells, HaveACornerBeyondEveryPlane) {
+  EXPECT_FALSE(InCell(box({-9, -9, -9}, {9, 9, 1})).special());
+  EXPECT_FALSE(InCell(box({-9, -9, -9}, {9, 1, 0.5})).special());
+  EXPECT_FALSE(InCell(box({-9, -9, -9}, {9, 9, 0})).special());
+  EXPECT_FALSE(InCell(box({-9, -9, 0}, {9, 9, 9})).special());
+  // It would say so of an edge in the cell.
+  EXPECT_TRUE(InCell(box({-9, -9, -9}, {9, 0.75, 0.5})).special());
+}
+
+TEST(SpecialCells, HaveCornersThatAgree) {
+  const InCell edge(box({-9, -9, -9}, {9, 0.75, 0.5}));
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    InCell changed = edge;
+    changed.winding[corner] += 1;
+    // The only corners behind both planes are 0 and 1.
+    EXPECT_FALSE(changed.special()) << corner;
+    EXPECT_FALSE(changed.is(*edge.special())) << corner;
+  }
+  InCell same = edge;
+  same.winding.fill(3);
+  EXPECT_FALSE(same.special());
+}
+
+TEST(SpecialCells, HaveNumbersOfOneByte) {
+  const InCell plane(box({-9, -9, -9}, {9, 9, 0.5}));
+  const auto with = [&](std::int64_t behind, std::int64_t beyond) {
+    InCell changed = plane;
+    for (unsigned i = 0; i < 8; ++i) changed.winding[i] = i < 4 ? behind : beyond;
+    return changed.special();
+  };
+  const auto largest = with(127, -127);
+  ASSERT_TRUE(largest);
+  EXPECT_EQ(largest->behind, 127);
+  EXPECT_EQ(largest->beyond, -127);
+  EXPECT_FALSE(with(128, 0));
+  EXPECT_FALSE(with(0, 128));
+  EXPECT_FALSE(with(-128, 0));
+  EXPECT_FALSE(with(0, -128));
+  EXPECT_FALSE(with(256, 0));
+  EXPECT_FALSE(with(std::int64_t{1} << 32 | 1, 0));
+}
+
+class Claims : public testing::Test {
+ protected:
+  Claims() : in_cell_(box({-9, -9, -9}, {0.5, 0.75, 0.25})), claim_(*in_cell_.special()) {
+    EXPECT_EQ(claim_.plane_count, 3u);
+    EXPECT_TRUE(in_cell_.is(claim_));
+  }
+  InCell in_cell_;
+  SpecialCell claim_;
+};
+
+TEST_F(Claims, AreRefusedWithOtherNumbers) {
+  SpecialCell swapped = claim_;
+  std::swap(swapped.behind, swapped.beyond);
+  EXPECT_FALSE(in_cell_.is(swapped));
+  SpecialCell behind = claim_, beyond = claim_;
+  behind.behind = 2;
+  beyond.beyond = -1;
+  EXPECT_FALSE(in_cell_.is(behind));
+  EXPECT_FALSE(in_cell_.is(beyond));
+}
+
+TEST_F(Claims, AreRefusedWithAPlaneMovedByAnUlp) {
+  for (unsigned plane = 0; plane < claim_.plane_count; ++plane)
+    for (unsigned axis = 0; axis < 3; ++axis)
+      for (const double towards : {-9.0, 9.0}) {
+        SpecialCell moved = claim_;
+        for (Point& corner : moved.planes[plane])
+          corner[axis] = std::nextafter(corner[axis], towards);
+        // Along itself a plane may go; across, each of its own axis, it may not.
+        const auto& [a, b, c] = claim_.planes[plane];
+        EXPECT_EQ(in_cell_.is(moved), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
+        SpecialCell tilted = claim_;
+        tilted.planes[plane][1][axis] = std::nextafter(tilted.planes[plane][1][axis], towards);
+        EXPECT_EQ(in_cell_.is(tilted), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
+      }
+}
+
+TEST_F(Claims, AreRefusedWithAPlaneTurnedOrMissing) {
+  for (unsigned plane = 0; plane < claim_.plane_count; ++plane) {
+    SpecialCell turned = claim_;
+    std::swap(turned.planes[plane][1], turned.planes[plane][2]);
+    EXPECT_FALSE(in_cell_.is(turned)) << plane;
+    SpecialCell missing = claim_;
+    missing.planes[plane] = missing.planes[--missing.plane_count];
+    EXPECT_FALSE(in_cell_.is(missing)) << plane;
+  }
+  SpecialCell none = claim_;
+  none.plane_count = 0;
+  EXPECT_FALSE(in_cell_.is(none));
+}
+
+TEST_F(Claims, AreRefusedWithAPlaneThatIsNoFace) {
+  ASSERT_LT(claim_.plane_count, kMaxPlanes);
+  SpecialCell more = claim_;
+  // A plane that cuts off the least corner of the cell.
+  more.planes[more.plane_count++] = {Point(0.125, 0, 0), Point(0, 0, 0.125), Point(0, 0.125, 0)};
+  EXPECT_FALSE(in_cell_.is(more));
+  // Without area it is nowhere.
+  more.planes[3] = {Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)};
+  EXPECT_FALSE(in_cell_.is(more));
+}
+
+// A triangle off all planes, though behind them.
+TEST_F(Claims, AreRefusedWhereThereIsMore) {
+  InCell more = in_cell_;
+  more.triangles.push_back({Point(0, 0, 0.125), Point(0.25, 0, 0.125), Point(0, 0.25, 0.125)});
+  EXPECT_FALSE(more.is(claim_));
+  EXPECT_TRUE(in_cell_.is(claim_));
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,178 @@
+#include "octree/builder/mask/tree_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+
+#include "octree/builder/surface/region_cut.h"
+#include "octree/page/mask_decoder.h"
+#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/support/sample_mask.h"
+#include "tests/octree/support/sheet_model.h"
+#include "tests/storage/system/faulty_calls.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint32_t kLargePages = 262144;
+constexpr std::uint32_t kHeld = TreeFrames::kBytes / kLargePages;
+
+// Has more pages than are held.
+PatchedTree many_pages(storage::SpillFile& file = spill_file()) {
+  return PatchedTree(sphere(4), 40, kLargePages, file);
+}
+
+const std::byte* ask(TreeFrames& frames, std::uint32_t page) {
+  return frames.reader().page(frames.reader().context, page);
+}
+bool holds(TreeFrames& frames, std::uint32_t page) {
+  return frames.reader().peek(frames.reader().context, page) != nullptr;
+}
+
+void expect_page(const PatchedTree& sample, TreeFrames& frames, std::uint32_t page) {
+  const PageFacts facts = sample.tree->facts_of_page(page);
+  SampleFrame expected(facts.page_bytes);
+  const auto raw = sample.tree->pages().encode(page);
+  ASSERT_TRUE(raw);
+  ASSERT_TRUE(decode_page(raw->bytes, facts, expected.bytes()));
+  const std::byte* frame = ask(frames, page);
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(std::memcmp(frame, expected.data(), expected.header().used_bytes), 0) << page;
+}
+
+TEST(TreeFrames, AreThoseOfThePages) {
+  for (const std::uint32_t page_bytes : {4096u, kLargePages}) {
+    const PatchedTree sample(sphere(4), 40, page_bytes);
+    TreeFrames frames(*sample.tree);
+    const std::uint32_t count = sample.tree->pages().size();
+    ASSERT_GT(count, kHeld);
+    for (std::uint32_t page = 0; page < count; ++page) expect_page(sample, frames, page);
+    // Over others, in another order.
+    Noise noise(2);
+    for (int i = 0; i < 100; ++i) expect_page(sample, frames, noise.bits() % count);
+    EXPECT_TRUE(frames.state());
+  }
+}
+
+TEST(TreeFrames, HoldTheLastThatWereAskedFor) {
+  const PatchedTree sample = many_pages();
+  TreeFrames frames(*sample.tree);
+  const std::uint32_t count = sample.tree->pages().size();
+  ASSERT_GT(count, kHeld + 2);
+  for (std::uint32_t page = 0; page < count; ++page) {
+    const std::byte* frame = ask(frames, page);
+    EXPECT_EQ(ask(frames, page), frame);
+    // Asked for every time.
+    ASSERT_NE(ask(frames, 0), nullptr);
+  }
+  EXPECT_TRUE(holds(frames, 0));
+  EXPECT_TRUE(holds(frames, count - 1));
+  EXPECT_TRUE(holds(frames, count + 1 - kHeld));
+  EXPECT_FALSE(holds(frames, count - kHeld));
+  EXPECT_FALSE(holds(frames, 1));
+}
+
+TEST(TreeFrames, HoldNoMoreThanTheirMemory) {
+  const PatchedTree sample = many_pages();
+  TreeFrames frames(*sample.tree);
+  const std::uint32_t count = sample.tree->pages().size();
+  for (std::uint32_t page = 0; page < count; ++page) ASSERT_NE(ask(frames, page), nullptr);
+  std::size_t held = 0;
+  for (std::uint32_t page = 0; page < count; ++page) {
+    EXPECT_EQ(holds(frames, page), page + kHeld >= count) << page;
+    held += holds(frames, page);
+  }
+  EXPECT_EQ(held, kHeld);
+}
+
+TEST(TreeFrames, AreThoseOfTheMaskToo) {
+  const SheetModel model(sphere(5));
+  const std::uint32_t first = model.mask_facts.first_page;
+  ASSERT_GT(model.mask.size(), 2u);
+  TreeFrames frames(*model.tree.tree, &model.mask);
+  for (std::uint32_t i = 0; i < model.mask.size(); ++i) {
+    const auto raw = model.mask.encode(i, first);
+    ASSERT_TRUE(raw);
+    PageFacts facts = model.tree.tree->facts_of_page(0);
+    facts.first_page = first;
+    facts.page_count = model.mask.size();
+    facts.page_number = first + i;
+    facts.octcode = raw->octcode;
+    facts.ordinal = raw->ordinal;
+    SampleFrame expected(4096);
+    ASSERT_TRUE(decode_mask_page(raw->bytes, facts, expected.bytes()));
+    const std::byte* frame = ask(frames, first + i);
+    ASSERT_NE(frame, nullptr);
+    const std::size_t records_end = header_of(expected).first_plane_slot * kMaskSlotBytes;
+    EXPECT_EQ(std::memcmp(frame, expected.data(), records_end), 0) << i;
+    // Those of the tree have their numbers still.
+    expect_page(model.tree, frames, i % first);
+  }
+  EXPECT_TRUE(frames.state());
+}
+
+class LostFrames : public testing::Test {
+ protected:
+  // No read succeeds from now on.
+  void lose_disk() {
+    calls_.fault = storage::FaultyCalls::Fault::kError;
+    calls_.number = EIO;
+    calls_.fault_at = 0;
+    calls_.every = true;
+  }
+
+  storage::FaultyCalls calls_;
+  storage::SpillFile file_{std::filesystem::temp_directory_path(), 0, calls_};
+};
+
+TEST_F(LostFrames, AreAnErrorThatStays) {
+  const PatchedTree sample = many_pages(file_);
+  TreeFrames frames(*sample.tree);
+  const std::uint32_t last = sample.tree->pages().size() - 1;
+  ASSERT_NE(ask(frames, last), nullptr);
+  lose_disk();
+  EXPECT_NE(ask(frames, last), nullptr);
+  EXPECT_TRUE(frames.state());
+  EXPECT_EQ(ask(frames, last - 1), nullptr);
+  ASSERT_FALSE(frames.state());
+  EXPECT_EQ(frames.state().error().code, ErrorCode::kReadFailed);
+  EXPECT_FALSE(holds(frames, last - 1));
+  calls_.fault = storage::FaultyCalls::Fault::kNone;
+  expect_page(sample, frames, last);
+  for (std::uint32_t page = 0; page <= last; ++page) expect_page(sample, frames, page);
+  EXPECT_FALSE(frames.state());
+}
+
+// A list that is missing would be another file.
+TEST_F(LostFrames, FailTheMask) {
+  const PatchedTree sample(sphere(4), 40, 4096, file_);
+  RegionCut cut(sample.mesh.lower(), sample.mesh.upper(), {}, nullptr);
+  ASSERT_TRUE(cut.add(sample.mesh));
+  MaskRegions regions(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
+  ASSERT_TRUE(regions.divide(*sample.runs, 300) && regions.add(sample.mesh));
+  std::mutex mutex;
+  std::size_t taken = 0;
+  const auto build = [&] {
+    taken = 0;
+    return build_mask(
+        regions, *sample.runs, sample.tree.get(), [](std::size_t) { return nullptr; },
+        [&](std::size_t, const MaskTree&, const RegionRoot&) -> Result<void> {
+          const std::lock_guard lock(mutex);
+          ++taken;
+          return {};
+        });
+  };
+  ASSERT_TRUE(build());
+  EXPECT_EQ(taken, regions.touched_count());
+  lose_disk();
+  const auto failed = build();
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().code, ErrorCode::kReadFailed);
+  EXPECT_LT(taken, regions.touched_count());
+}
+
+}  // namespace
+}  // namespace planetree::octree

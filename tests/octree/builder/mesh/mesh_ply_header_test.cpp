@@ -1,0 +1,123 @@
+#include "octree/builder/mesh/ply_header.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace planetree::octree {
+namespace {
+
+const std::string kVertex =
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string kFace = "element face 1\nproperty list uchar int vertex_indices\n";
+
+void expect_refused(const std::string& text, const std::string& message) {
+  const Result<PlyHeader> header = parse_ply_header(text);
+  ASSERT_FALSE(header) << message;
+  EXPECT_EQ(header.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(std::string(header.error().text).find(message), std::string::npos)
+      << "said: " << header.error().text;
+}
+
+TEST(PlyHeader, FindsWhatAMeshNeeds) {
+  const std::string text =
+      "ply\r\nformat binary_big_endian 1.0\r\ncomment by hand\r\nelement face 7\r\n"
+      "property uchar tag\r\nproperty list uint8 uint32 vertex_index\r\nelement vertex 9\r\n"
+      "property double z\r\nproperty int16 y\r\nproperty float32 x\r\nend_header\r\n";
+  const Result<PlyHeader> header = parse_ply_header(text + "body");
+  ASSERT_TRUE(header) << header.error().text;
+  EXPECT_EQ(header->encoding, PlyEncoding::kBinaryBigEndian);
+  EXPECT_EQ(header->face_element, 0U);
+  EXPECT_EQ(header->vertex_element, 1U);
+  EXPECT_EQ(header->index_list, 1U);
+  EXPECT_EQ(header->faces().count, 7U);
+  EXPECT_EQ(header->vertices().count, 9U);
+  EXPECT_EQ(header->coordinates, (std::array<std::size_t, 3>{2, 1, 0}));
+  EXPECT_EQ(header->coordinate_type(0), PlyType::kFloat32);
+  EXPECT_EQ(header->coordinate_type(1), PlyType::kInt16);
+  EXPECT_EQ(header->coordinate_type(2), PlyType::kFloat64);
+  EXPECT_EQ(header->body.offset, text.size());
+  EXPECT_EQ(header->body.line, 12U);
+  EXPECT_FALSE(header->float32());
+  EXPECT_EQ(header->vertices().offset_of(2), 10U);
+  EXPECT_EQ(header->vertices().min_record_bytes(), 14U);
+  EXPECT_EQ(header->faces().min_record_bytes(), 2U);
+}
+
+TEST(PlyHeader, BeginsTheBodyRightAfterALoneCarriageReturn) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n" + kVertex + kFace + "end_header\n";
+  for (char& c : text) c = c == '\n' ? '\r' : c;
+  const Result<PlyHeader> header = parse_ply_header(text + "\nbody");
+  ASSERT_TRUE(header) << header.error().text;
+  EXPECT_EQ(header->body.offset, text.size());
+}
+
+TEST(PlyHeader, KnowsEveryTypeByBothNames) {
+  const std::pair<const char*, PlyType> types[] = {
+      {"char", PlyType::kInt8},      {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
+      {"uint8", PlyType::kUint8},    {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},
+      {"ushort", PlyType::kUint16},  {"uint16", PlyType::kUint16},   {"int", PlyType::kInt32},
+      {"int32", PlyType::kInt32},    {"uint", PlyType::kUint32},     {"uint32", PlyType::kUint32},
+      {"float", PlyType::kFloat32},  {"float32", PlyType::kFloat32}, {"double", PlyType::kFloat64},
+      {"float64", PlyType::kFloat64}};
+  for (const auto& [name, type] : types) {
+    const Result<PlyHeader> header =
+        parse_ply_header("ply\nformat ascii 1.0\nelement vertex 3\nproperty " + std::string(name) +
+                         " x\nproperty float y\nproperty float z\n" + kFace + "end_header\n");
+    ASSERT_TRUE(header) << name;
+    EXPECT_EQ(header->coordinate_type(0), type) << name;
+    EXPECT_EQ(header->float32(),
+              type != PlyType::kInt32 && type != PlyType::kUint32 && type != PlyType::kFloat64)
+        << name;
+  }
+}
+
+TEST(PlyHeader, RefusesUnreadableStatements) {
+  const std::string begin = "ply\nformat ascii 1.0\n";
+  expect_refused("ply\n", "line 2: the file ends before 'end_header'");
+  expect_refused(begin + kVertex + kFace, "line 9: the file ends before 'end_header'");
+  expect_refused(begin + "elephant vertex 3\n", "line 3: 'elephant' is no statement");
+  expect_refused("ply\nformat ascii 2.0\n", "line 2: format 'ascii 2.0' is unknown");
+  expect_refused("ply\nformat binary 1.0\n", "line 2: format 'binary 1.0' is unknown");
+  expect_refused(begin + "format ascii 1.0\n", "line 3: a second format");
+  expect_refused("ply\n" + kVertex + kFace + "end_header\n", "line 8: the header names no format");
+  expect_refused(begin + "element vertex many\n", "line 3: 'many' is no count");
+  expect_refused(begin + "element vertex 3x\n", "line 3: '3x' is no count");
+  expect_refused(begin + "element vertex -3\n", "line 3: '-3' is no count");
+  expect_refused(begin + "element vertex\n", "line 3: '' is no count");
+  expect_refused(begin + kVertex + "element vertex 3\n", "line 7: a second element 'vertex'");
+  expect_refused(begin + "property float x\n", "line 3: a property in front of all elements");
+  expect_refused(begin + "element vertex 3\nproperty half x\n", "line 4: type 'half' is unknown");
+  expect_refused(begin + "element vertex 3\nproperty float\n", "line 4: a property without a name");
+  expect_refused(begin + "element face 3\nproperty list float int vertex_index\n",
+                 "line 4: a list whose length is of no integer type");
+}
+
+TEST(PlyHeader, RefusesLayoutsThatAreNoMesh) {
+  const std::string begin = "ply\nformat binary_little_endian 1.0\n";
+  const std::string end = "end_header\n";
+  expect_refused(begin + kFace + end, "no element 'vertex'");
+  expect_refused(begin + kVertex + end, "no triangle: the header has no element 'face'");
+  expect_refused(
+      begin + kVertex + "element tristrips 1\nproperty list int int vertex_index\n" + end,
+      "triangle strips are not supported");
+  expect_refused(begin + kVertex + kFace + "element tristrips 1\n" + end,
+                 "triangle strips are not supported");
+  expect_refused(begin + "element vertex 3\nproperty float x\nproperty float y\n" + kFace + end,
+                 "the vertices have 0 numbers 'z', not one");
+  expect_refused(begin + kVertex + "property float y\n" + kFace + end,
+                 "the vertices have 2 numbers 'y', not one");
+  expect_refused(begin + kVertex + "property list uchar int tags\n" + kFace + end,
+                 "binary vertices with a list are not supported");
+  expect_refused(begin + kVertex + "element face 1\nproperty int a\n" + end,
+                 "the faces have 0 lists 'vertex_indices' or 'vertex_index'");
+  expect_refused(begin + kVertex + kFace + "property list uchar int vertex_index\n" + end,
+                 "the faces have 2 lists 'vertex_indices' or 'vertex_index'");
+  expect_refused(begin + kVertex + "element face 1\nproperty list uchar float vertex_index\n" + end,
+                 "'vertex_index' is not a list of integers");
+  expect_refused(begin + kVertex + "element face 1\nproperty int vertex_index\n" + end,
+                 "'vertex_index' is not a list of integers");
+}
+
+}  // namespace
+}  // namespace planetree::octree

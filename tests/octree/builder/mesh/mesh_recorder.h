@@ -1,0 +1,147 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "octree/builder/mesh/mesh_reader.h"
+
+/// Helpers of the mesh readers' tests.
+namespace planetree::octree {
+
+/// A file that is there while this lives.
+class TemporaryFile {
+ public:
+  TemporaryFile(std::string_view bytes, const std::string& extension) {
+    static int serial = 0;
+    path_ =
+        std::filesystem::temp_directory_path() / ("planetree_mesh_" + std::to_string(::getpid()) +
+                                                  "_" + std::to_string(serial++) + extension);
+    std::ofstream file(path_, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Writes down every call as one line, all digits kept:
+///   0: 0 0 0, 1 0 0, 0 1 0
+///   1+2 aside: face 1: vertex 9 is not finite
+class Recorder : public TriangleSink {
+ public:
+  Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
+    char line[256];
+    const auto& [a, b, c] = corners;
+    std::snprintf(
+        line, sizeof line, "%llu: %.17g %.17g %.17g, %.17g %.17g %.17g, %.17g %.17g %.17g",
+        static_cast<unsigned long long>(index), a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z);
+    log += std::string(line) + "\n";
+    if (index == refuse_index) {
+      return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere, "refused");
+    }
+    return {};
+  }
+  void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) override {
+    log +=
+        std::to_string(first_index) + "+" + std::to_string(count) + " aside: " + why.text() + "\n";
+  }
+  void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
+    reports.emplace_back(bytes_done, bytes_total);
+  }
+
+  std::string log;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> reports;
+  std::uint64_t refuse_index = ~std::uint64_t{0};
+};
+
+/// What came of reading some bytes as a mesh.
+struct Reading {
+  std::string log;
+  std::optional<MeshSummary> summary;
+  std::string error;  ///< text; empty if it went well
+  ErrorCode code = ErrorCode::kBadArgument;
+  std::uint64_t offset = Error::kNowhere;
+};
+
+inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch) {
+  Recorder recorder;
+  const Result<MeshSummary> summary = read_mesh(path, recorder, scratch);
+  Reading reading;
+  reading.log = recorder.log;
+  if (summary) {
+    reading.summary = *summary;
+  } else {
+    reading.error = summary.error().text;
+    reading.code = summary.error().code;
+    reading.offset = summary.error().offset;
+  }
+  return reading;
+}
+
+inline Reading read_path(const std::filesystem::path& path,
+                         std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
+  MeshScratch scratch(memory_bytes);
+  return read_path(path, scratch);
+}
+
+inline Reading read_bytes(std::string_view bytes, const std::string& extension = "",
+                          std::uint64_t memory_bytes = MeshScratch::kMemoryBytes) {
+  const TemporaryFile file(bytes, extension);
+  return read_path(file.path(), memory_bytes);
+}
+
+/// Numbers in a stated byte order, one after the other.
+class Bytes {
+ public:
+  explicit Bytes(std::endian order = std::endian::little) : order_(order) {}
+
+  Bytes& text(std::string_view text) {
+    bytes_ += text;
+    return *this;
+  }
+  template <class T, class... More>
+  Bytes& put(T value, More... more) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof(T));
+    if (order_ != std::endian::native) std::reverse(raw, raw + sizeof(T));
+    bytes_.append(raw, sizeof(T));
+    if constexpr (sizeof...(more) > 0) put(more...);
+    return *this;
+  }
+  template <class T>
+  Bytes& put_all(const std::vector<T>& values) {
+    for (const T value : values) put(value);
+    return *this;
+  }
+  [[nodiscard]] const std::string& str() const { return bytes_; }
+
+ private:
+  std::endian order_;
+  std::string bytes_;
+};
+
+inline std::string ply_format_name(std::endian order) {
+  return order == std::endian::little ? "binary_little_endian" : "binary_big_endian";
+}
+
+}  // namespace planetree::octree

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/octree/builder/build_fixture.h"
+#include "tests/storage/system/faulty_calls.h"
+
+namespace planetree::octree {
+
+/// What a build did, as it told.
+class Witness final : public BuildProgress {
+ public:
+  struct Count {
+    std::uint64_t taken_up = 0, done = 0, total = 0;
+  };
+
+  void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
+    const auto [at, begun] = counts_.try_emplace(phase, Count{done, done, total});
+    EXPECT_GE(done, at->second.done);
+    EXPECT_LE(done, total);
+    at->second.done = done;
+  }
+  void takes_up(const std::string& what) override { start = what; }
+  void failed_at(BuildPlace place, const std::filesystem::path& path) override {
+    failed = {place, path};
+  }
+
+  bool did(BuildPhase phase) const { return counts_.contains(phase); }
+  Count count(BuildPhase phase) const { return did(phase) ? counts_.at(phase) : Count{}; }
+
+  std::string start;
+  std::optional<std::pair<BuildPlace, std::filesystem::path>> failed;
+
+ private:
+  std::map<BuildPhase, Count> counts_;
+};
+
+/// Builds that are stopped, and gone on with.
+class ResumedBuild : public SmallPatches {
+ protected:
+  using Fault = storage::FaultyCalls::Fault;
+  using Names = std::vector<std::string>;
+
+  Result<BuildReport> build() {
+    storage::FaultyCalls calls;  // which do not fail, but do not wait for the disk
+    return build(calls);
+  }
+  Result<BuildReport> build(storage::FileCalls& calls, const BuildMemory& memory = kTight) {
+    witness_ = {};
+    return build_tree(mesh_, output_, options_, witness_, {40, 60, memory, calls});
+  }
+  // What a build writes that nothing stops.
+  storage::Bytes whole() {
+    options_.resume = false;
+    EXPECT_TRUE(build());
+    options_.resume = true;
+    storage::Bytes bytes = built();
+    std::filesystem::remove(output_);
+    return bytes;
+  }
+  // Every call from the n-th on fails. False: the build makes fewer.
+  bool stop_at(int call) {
+    storage::FaultyCalls calls;
+    calls.fault = Fault::kError;
+    calls.number = ENOSPC;
+    calls.fault_at = call;
+    calls.every = true;
+    const auto stopped = build(calls);
+    EXPECT_TRUE(stopped || calls.happened());
+    return calls.happened();
+  }
+  // Stops builds, each from the start, until one has done so many parts of a phase.
+  void stop_in(BuildPhase phase, std::uint64_t parts = 0) {
+    witness_ = {};
+    for (int call = 0; !witness_.did(phase) || witness_.count(phase).done < parts; call += 9) {
+      std::filesystem::remove_all(work_);
+      ASSERT_TRUE(stop_at(call));
+    }
+    ASSERT_FALSE(std::filesystem::exists(output_));
+    ASSERT_TRUE(std::filesystem::exists(work_));
+  }
+  void expect_completed(const storage::Bytes& expected) {
+    const auto report = build();
+    ASSERT_TRUE(report) << report.error().text;
+    ASSERT_EQ(built(), expected);
+    ASSERT_EQ(folder_.names(), Names{"model.ptree"});
+  }
+
+  /// Completes what was stopped, and takes the output away. False if it was complete before.
+  bool goes_on(const storage::Bytes& expected) {
+    const bool complete = std::filesystem::exists(output_);
+    expect_completed(expected);
+    std::filesystem::remove(output_);
+    return !complete;
+  }
+
+  static BuildOptions resumable() {
+    BuildOptions options;
+    options.page_bytes = 4096;
+    options.resume = true;
+    options.replace = true;
+    return options;
+  }
+  static Soup holed() {
+    Soup soup = sphere(2);
+    soup.resize(soup.size() - 5);
+    return soup;
+  }
+
+  BuildOptions options_ = resumable();
+  std::filesystem::path work_ = folder_ / "model.ptree.work";
+  Witness witness_;
+};
+
+}  // namespace planetree::octree

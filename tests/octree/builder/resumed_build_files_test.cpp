@@ -1,0 +1,214 @@
+// What builds that can be resumed have on disk: damaged, failing, short of room.
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <map>
+#include <string>
+#include <system_error>
+
+#include "octree/builder/mesh/mesh_size.h"
+#include "octree/builder/sort/triangles.h"
+#include "octree/builder/space_need.h"
+#include "octree/page/page_streams.h"
+#include "tests/octree/builder/resumed_build.h"
+
+namespace planetree::octree {
+namespace {
+
+class ResumedBuildFiles : public ResumedBuild {};
+
+// Whatever is damaged, in whatever record.
+TEST_F(ResumedBuildFiles, NeverBelievesADamagedJournal) {
+  for (const bool open : {false, true}) {
+    write(open ? holed() : sphere(2));
+    const storage::Bytes expected = whole();
+    stop_in(open ? BuildPhase::kBounding : BuildPhase::kColouring, 2);
+    const storage::Bytes journal = storage::read_bytes(work_ / "journal"),
+                         spill = storage::read_bytes(work_ / "spill");
+    for (std::size_t at = 0; at < journal.size(); at += 11) {
+      storage::Bytes damaged = journal;
+      damaged[at] ^= std::byte{4};
+      std::filesystem::create_directory(work_);
+      std::filesystem::permissions(work_, std::filesystem::perms::owner_all);
+      storage::write_bytes(work_ / "journal", damaged);
+      storage::write_bytes(work_ / "spill", spill);
+      expect_completed(expected);
+      // The last to be lost is a region, or of an open model a patch.
+      EXPECT_TRUE(witness_.did(BuildPhase::kBounding));
+      EXPECT_TRUE(at >= 100 || witness_.start.starts_with("earlier work is of no use"));
+      std::filesystem::remove(output_);
+    }
+  }
+}
+
+TEST_F(ResumedBuildFiles, BelievesOnlyWhatATruncatedSpillFileHolds) {
+  write(sphere(2));
+  const storage::Bytes expected = whole();
+  stop_in(BuildPhase::kColouring, 4);
+  const storage::Bytes journal = storage::read_bytes(work_ / "journal"),
+                       spill = storage::read_bytes(work_ / "spill");
+  std::uint64_t taken_up = 0;
+  for (std::size_t size = 0; size < spill.size(); size += 509) {
+    std::filesystem::create_directory(work_);
+    std::filesystem::permissions(work_, std::filesystem::perms::owner_all);
+    storage::write_bytes(work_ / "journal", journal);
+    storage::write_bytes(work_ / "spill", std::span(spill).first(size));
+    expect_completed(expected);
+    EXPECT_GE(witness_.count(BuildPhase::kBounding).taken_up, taken_up);
+    taken_up = witness_.count(BuildPhase::kBounding).taken_up;
+    EXPECT_FALSE(taken_up > 0 && witness_.did(BuildPhase::kClosing));
+    std::filesystem::remove(output_);
+  }
+  EXPECT_GT(taken_up, 0u);
+}
+
+TEST_F(ResumedBuildFiles, LeavesNothingOfWhatCannotBeGoneOnWith) {
+  storage::write_bytes(mesh_, storage::Bytes(200, std::byte{'x'}));
+  ASSERT_FALSE(build());
+  EXPECT_EQ(folder_.names(), Names{});
+  std::filesystem::remove(mesh_);
+  const auto report = build();
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(folder_.names(), Names{});
+}
+
+/// The system, of which the n-th call that is about an open file fails.
+class FailingFile final : public storage::FileCalls {
+ public:
+  explicit FailingFile(int fail_at) : fail_at_(fail_at) {}
+  // Empty: no call failed.
+  const std::string& name() const { return name_; }
+
+  int fstat(int descriptor, struct stat* status) noexcept override {
+    return strikes(descriptor) ? -1 : FileCalls::fstat(descriptor, status);
+  }
+  ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
+    return strikes(descriptor) ? -1 : FileCalls::pread(descriptor, out, bytes, offset);
+  }
+  ssize_t pwrite(int descriptor, const void* in, std::size_t bytes,
+                 off_t offset) noexcept override {
+    return strikes(descriptor) ? -1 : FileCalls::pwrite(descriptor, in, bytes, offset);
+  }
+  int fsync(int) noexcept override { return 0; }  // no test here cuts the power
+  int fdatasync(int descriptor) noexcept override { return strikes(descriptor) ? -1 : 0; }
+  int flock(int descriptor, int operation) noexcept override {
+    return strikes(descriptor) ? -1 : FileCalls::flock(descriptor, operation);
+  }
+
+ private:
+  bool strikes(int descriptor) noexcept {
+    if (count_++ != fail_at_) return false;
+    std::error_code ignored;
+    name_ = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), ignored);
+    errno = EIO;
+    return true;
+  }
+
+  const int fail_at_;
+  int count_ = 0;
+  std::string name_;
+};
+
+TEST_F(ResumedBuildFiles, SaysWhereItFailed) {
+  const storage::TemporaryDirectory elsewhere;
+  write(sphere(2));
+  options_.temp_directory = elsewhere / ".";
+  work_ = options_.work_directory(output_);
+  const auto place_of = [&](const std::string& name) {
+    const auto is_in = [&name](const std::filesystem::path& folder) {
+      return name.starts_with(std::filesystem::canonical(folder).string());
+    };
+    if (name.find(".work") != std::string::npos) return std::pair(BuildPlace::kTemporary, work_);
+    if (is_in(elsewhere / ".")) return std::pair(BuildPlace::kTemporary, options_.temp_directory);
+    if (is_in(meshes_ / ".")) return std::pair(BuildPlace::kInput, mesh_);
+    return std::pair(BuildPlace::kOutput, output_);
+  };
+  std::map<std::filesystem::path, int> failed;
+  for (const bool anew : {true, false})
+    for (int call = 0;; ++call) {
+      if (anew) std::filesystem::remove_all(work_);
+      FailingFile calls(call);
+      const auto report = build(calls);
+      if (calls.name().empty()) break;
+      if (report) continue;
+      EXPECT_EQ(witness_.failed, place_of(calls.name())) << calls.name();
+      ++failed[witness_.failed->second];
+    }
+  EXPECT_EQ(failed.size(), 4u);
+}
+
+// What memory would hold is on disk, and what is there already is not looked for again.
+TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
+  write(sphere(3));
+  const storage::Bytes expected = whole();
+  const auto size = MeshSize::foresee(mesh_);
+  ASSERT_TRUE(size);
+  BuildMemory memory = kRoomy;
+  memory.edge_bytes = 0;
+  const auto needed = [&](std::uint64_t kept_bytes, bool matched) {
+    const auto need =
+        SpaceNeed::after_reading(*size, memory.holding_nothing_kept(), kept_bytes, matched);
+    return need.temporary_bytes + need.output_bytes;
+  };
+  storage::FaultyCalls calls;
+  const auto build_with = [&](std::uint64_t free_bytes) {
+    calls.room = storage::device_room(free_bytes);
+    const auto report = build(calls, memory);
+    EXPECT_FALSE(witness_.did(BuildPhase::kOrdering) && !report);
+    return static_cast<bool>(report);
+  };
+  const std::pair shortage(BuildPlace::kTemporary, output_.parent_path());
+  EXPECT_FALSE(build_with(needed(0, false) - 1));
+  EXPECT_EQ(witness_.failed, shortage);
+  EXPECT_TRUE(build_with(needed(0, false)));
+  using Stop = std::pair<BuildPhase, std::uint64_t>;
+  for (const auto& [phase, parts] : {Stop(BuildPhase::kClosing, 0), Stop(BuildPhase::kBounding, 0),
+                                     Stop(BuildPhase::kBounding, 2)}) {
+    std::filesystem::remove(output_);
+    stop_in(phase, parts);
+    const bool matched = phase != BuildPhase::kClosing;
+    // Triangles in order, and no less than a page of each patch.
+    const std::uint64_t surely_kept_bytes =
+        size->triangles * Triangles::record_bytes(false) + parts * sizeof(PageHead);
+    const std::uint64_t kept_bytes = std::filesystem::file_size(work_ / "spill");
+    EXPECT_FALSE(build_with(needed(kept_bytes, matched) - 1));
+    EXPECT_EQ(witness_.failed, shortage);
+    EXPECT_TRUE(build_with(needed(surely_kept_bytes, matched)));
+    EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+    EXPECT_EQ(built(), expected);
+  }
+}
+
+// By this build and by those it goes on with.
+TEST_F(ResumedBuildFiles, ReportsWhatItHadOnDisk) {
+  write(sphere(3));
+  storage::FaultyCalls calls;
+  const auto at_once = build(calls, kRoomy);
+  ASSERT_TRUE(at_once);
+  const std::uint64_t triangle_bytes = at_once->header.model.triangle_count * (16 + 36);
+  EXPECT_GT(at_once->temporary_bytes, triangle_bytes);
+  std::filesystem::remove(output_);
+  stop_in(BuildPhase::kColouring, 2);
+  const auto later = build(calls, kRoomy);
+  ASSERT_TRUE(later);
+  EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+  EXPECT_GT(later->temporary_bytes, triangle_bytes);
+}
+
+TEST_F(ResumedBuildFiles, KeepsItsWorkInTheDirectoryForTemporaryFiles) {
+  const storage::TemporaryDirectory elsewhere;
+  write(sphere(2));
+  const storage::Bytes expected = whole();
+  options_.temp_directory = elsewhere / ".";
+  work_ = options_.work_directory(output_);
+  stop_in(BuildPhase::kBounding);
+  EXPECT_EQ(elsewhere.names(), Names{work_.filename()});
+  EXPECT_NE(options_.work_directory(meshes_ / "model.ptree"), work_);
+  expect_completed(expected);
+  EXPECT_EQ(elsewhere.names(), Names{});
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,181 @@
+// Builds that were stopped, and gone on with.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "storage/spill/work_directory.h"
+#include "tests/octree/builder/resumed_build.h"
+
+namespace planetree::octree {
+namespace {
+
+const std::string kAfresh = "no earlier work to go on with; building from the start";
+
+TEST_F(ResumedBuild, WritesTheSameBytesAndLeavesNothingBeside) {
+  for (const Soup& soup : {sphere(3), holed(), repeated(300)}) {
+    write(soup);
+    expect_completed(whole());
+    EXPECT_EQ(witness_.start, kAfresh);
+    std::filesystem::remove(output_);
+  }
+}
+
+TEST_F(ResumedBuild, GoesOnWhereverItWasStopped) {
+  for (const Soup& soup : {sphere(2), holed()}) {
+    write(soup);
+    const storage::Bytes expected = whole();
+    std::map<BuildPhase, std::uint64_t> taken_up;
+    for (int call = 0; stop_at(call); ++call) {
+      SCOPED_TRACE("stopped at call " + std::to_string(call));
+      const Witness stopped = witness_;
+      if (!goes_on(expected)) continue;
+      // Phases before the last are not done again, nor are parts that were counted.
+      EXPECT_FALSE(stopped.did(BuildPhase::kClosing) && witness_.did(BuildPhase::kReading));
+      EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && witness_.did(BuildPhase::kClosing));
+      for (const BuildPhase phase : {BuildPhase::kBounding, BuildPhase::kColouring}) {
+        const std::uint64_t before = witness_.count(phase).taken_up;
+        EXPECT_GE(before, std::max(stopped.count(phase).done, taken_up[phase]));
+        taken_up[phase] = before;
+      }
+    }
+    EXPECT_EQ(taken_up[BuildPhase::kBounding], witness_.count(BuildPhase::kBounding).total);
+    EXPECT_EQ(taken_up[BuildPhase::kColouring], witness_.count(BuildPhase::kColouring).total);
+    std::filesystem::remove(output_);
+  }
+}
+
+TEST_F(ResumedBuild, GoesOnWithARegion) {
+  write(sphere(2));
+  options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
+  const storage::Bytes expected = whole();
+  int matched_before = 0;
+  for (int call = 0; stop_at(call); call += 3) {
+    SCOPED_TRACE("stopped at call " + std::to_string(call));
+    const Witness stopped = witness_;
+    if (!goes_on(expected)) continue;
+    EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && witness_.did(BuildPhase::kClosing));
+    matched_before += !witness_.did(BuildPhase::kClosing);
+  }
+  EXPECT_GT(matched_before, 3);
+}
+
+TEST_F(ResumedBuild, BeginsAnewWithAnotherRegion) {
+  write(sphere(2));
+  options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
+  stop_in(BuildPhase::kBounding);
+  options_.box->upper.x = 0.4;
+  ASSERT_TRUE(build());
+  EXPECT_EQ(witness_.start,
+            "earlier work is of no use, its options were others; building from the start");
+}
+
+// One call fails, is interrupted or stops half way; the process lives on.
+TEST_F(ResumedBuild, WritesTheSameBytesWhateverGoesWrong) {
+  write(sphere(2));
+  const storage::Bytes expected = whole();
+  for (const Fault fault : {Fault::kError, Fault::kInterrupt, Fault::kShort})
+    for (int call = 0;; call += 7) {
+      SCOPED_TRACE("call " + std::to_string(call));
+      storage::FaultyCalls calls;
+      calls.fault = fault;
+      calls.fault_at = call;
+      const auto report = build(calls);
+      if (!calls.happened()) break;
+      EXPECT_TRUE(report || fault == Fault::kError) << report.error().text;
+      if (report) {
+        ASSERT_EQ(built(), expected);
+      }
+      expect_completed(expected);
+      std::filesystem::remove(output_);
+    }
+}
+
+// No part takes more than so many calls, nor does what comes before; the whole takes many more.
+TEST_F(ResumedBuild, GetsThereHoweverOftenItIsStopped) {
+  write(sphere(3));
+  const storage::Bytes expected = whole();
+  int stops = 0;
+  for (; stop_at(1200 + 50 * stops); ++stops)
+    EXPECT_FALSE(stops > 0 && witness_.did(BuildPhase::kReading));
+  EXPECT_GE(stops, 3);
+  EXPECT_EQ(built(), expected);
+  EXPECT_EQ(folder_.names(), Names{"model.ptree"});
+}
+
+TEST_F(ResumedBuild, GoesOnAfterItWasKilled) {
+  write(sphere(2));
+  const storage::Bytes expected = whole();
+  std::map<std::string, int> starts;
+  for (int call = 0;; call += 13) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      storage::FaultyCalls calls;
+      calls.fault = Fault::kKill;
+      calls.fault_at = call;
+      ::_exit(build(calls) ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    if (!WIFSIGNALED(status)) break;
+    expect_completed(expected);
+    for (const char* phase : {"start", "ordering", "bounding", "colouring"})
+      if (witness_.start.find(phase) != std::string::npos) ++starts[phase];
+    std::filesystem::remove(output_);
+  }
+  EXPECT_EQ(starts.size(), 4u);
+}
+
+TEST_F(ResumedBuild, GoesOnWithOtherMemoryAndThreads) {
+  write(sphere(3));
+  const storage::Bytes expected = whole();
+  for (const BuildPhase phase : {BuildPhase::kClosing, BuildPhase::kColouring}) {
+    stop_in(phase);
+    ASSERT_TRUE(build(storage::FileCalls::real(), kBetween));
+    EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+    EXPECT_EQ(built(), expected);
+    std::filesystem::remove(output_);
+  }
+}
+
+TEST_F(ResumedBuild, StartsAfreshIfTheInputChanged) {
+  write(sphere(2));
+  stop_in(BuildPhase::kColouring, 4);
+  Soup other = sphere(2);
+  other[50][1].x *= 1.5;
+  write(other);
+  expect_completed(whole());
+  EXPECT_EQ(witness_.start,
+            "earlier work is of no use, the input has changed; building from the start");
+}
+
+TEST_F(ResumedBuild, StartsAfreshIfItsOptionsChanged) {
+  write(sphere(2));
+  stop_in(BuildPhase::kColouring, 4);
+  options_.page_bytes = 8192;
+  expect_completed(whole());
+  EXPECT_EQ(witness_.start,
+            "earlier work is of no use, its options were others; building from the start");
+}
+
+TEST_F(ResumedBuild, IsOneProcessesAtATime) {
+  write(sphere(2));
+  const storage::Bytes expected = whole();
+  stop_in(BuildPhase::kBounding);
+  {
+    const auto other = storage::WorkDirectory::open(work_);
+    ASSERT_TRUE(other);
+    const auto report = build();
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::kAlreadyExists);
+  }
+  expect_completed(expected);
+  EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+}
+
+}  // namespace
+}  // namespace planetree::octree

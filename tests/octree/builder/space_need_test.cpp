@@ -1,0 +1,217 @@
+#include "octree/builder/space_need.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "octree/builder/tree_builder.h"
+#include "tests/octree/support/sample_mask.h"
+#include "tests/storage/system/faulty_calls.h"
+#include "tests/storage/system/temporary_directory.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint64_t kMegabyte = 1 << 20;
+
+/// A build of an ascii PLY with a temporary directory of its own.
+class BuildSpace : public testing::Test, public BuildProgress {
+ protected:
+  void progress(BuildPhase, std::uint64_t, std::uint64_t) override { begun_ = true; }
+  void failed_at(BuildPlace place, const std::filesystem::path&) override { place_ = place; }
+
+  // A torus of quads, or of polygons of more corners that go round a quad several times.
+  void write_torus(unsigned corners, const char* real) const {
+    constexpr unsigned kRound = 60, kAlong = 80;
+    std::ofstream file(mesh_);
+    file << "ply\nformat ascii 1.0\nelement vertex " << kRound * kAlong << "\nproperty " << real
+         << " x\nproperty " << real << " y\nproperty " << real << " z\nelement face "
+         << kRound * kAlong << "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (unsigned i = 0; i < kRound; ++i)
+      for (unsigned j = 0; j < kAlong; ++j) {
+        const double a = i * 2 * M_PI / kRound, b = j * 2 * M_PI / kAlong;
+        const double radius = 3 + std::cos(a);
+        file << radius * std::cos(b) << ' ' << radius * std::sin(b) << ' ' << std::sin(a) << '\n';
+      }
+    for (unsigned i = 0; i < kRound; ++i)
+      for (unsigned j = 0; j < kAlong; ++j) {
+        const unsigned next_i = (i + 1) % kRound, next_j = (j + 1) % kAlong;
+        const unsigned quad[] = {i * kAlong + j, next_i * kAlong + j, next_i * kAlong + next_j,
+                                 i * kAlong + next_j};
+        file << corners;
+        for (unsigned k = 0; k < corners; ++k) file << ' ' << quad[k % 4];
+        file << '\n';
+      }
+  }
+
+  Result<BuildReport> build(const BuildMemory& memory,
+                            storage::FileCalls& calls = storage::FileCalls::real()) {
+    BuildOptions options;
+    options.temp_directory = temporary_ / ".";
+    options.replace = true;
+    options.box = box_;
+    return build_tree(mesh_, output_, options, *this,
+                      {kPatchTriangles, kRegionTriangles, memory, calls});
+  }
+  SpaceNeed need(const BuildMemory& memory) const {
+    const auto size = MeshSize::foresee(mesh_);
+    EXPECT_TRUE(size);
+    return SpaceNeed::before_reading(*size, memory);
+  }
+
+  storage::TemporaryDirectory folder_;
+  storage::TemporaryDirectory temporary_;
+  std::filesystem::path mesh_ = folder_ / "torus.ply";
+  std::filesystem::path output_ = folder_ / "torus.ptree";
+  std::optional<BuildPlace> place_;
+  std::optional<RegionBox> box_;
+  bool begun_ = false;  ///< to read
+};
+
+constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0};
+constexpr BuildMemory kPartHeld{1, 700, 65536, 200000, 150000, 70000, 3000, 3000};
+constexpr BuildMemory kAllHeld{1,
+                               700,
+                               kMegabyte << 5,
+                               kMegabyte << 5,
+                               kMegabyte << 5,
+                               kMegabyte << 5,
+                               kMegabyte << 5,
+                               kMegabyte << 5};
+
+TEST_F(BuildSpace, IsForeseenHoweverMuchIsHeld) {
+  for (const char* real : {"float", "double"}) {
+    write_torus(4, real);
+    for (const BuildMemory& memory : {kNothingHeld, kPartHeld}) {
+      const SpaceNeed foreseen = need(memory);
+      const auto report = build(memory);
+      ASSERT_TRUE(report) << report.error().text;
+      EXPECT_GE(foreseen.temporary_bytes, report->temporary_bytes);
+      EXPECT_LE(foreseen.temporary_bytes, 1.5 * static_cast<double>(report->temporary_bytes));
+      EXPECT_GE(foreseen.output_bytes, report->header.file_bytes);
+      EXPECT_GT(report->temporary_bytes, 100000u);
+    }
+    EXPECT_EQ(need(kAllHeld).temporary_bytes, 0u);
+    EXPECT_EQ(build(kAllHeld)->temporary_bytes, 0u);
+  }
+}
+
+TEST_F(BuildSpace, IsLookedForBeforeAnythingIsWritten) {
+  write_torus(4, "float");
+  const SpaceNeed foreseen = need(kNothingHeld);
+  storage::FaultyCalls calls;
+  calls.room = storage::device_room(foreseen.temporary_bytes + foreseen.output_bytes);
+  EXPECT_TRUE(build(kNothingHeld, calls));
+  std::filesystem::remove(output_);
+  calls.room = storage::device_room(foreseen.temporary_bytes + foreseen.output_bytes - 1);
+  begun_ = false;
+  const auto refused = build(kNothingHeld, calls);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
+  EXPECT_FALSE(begun_);
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
+}
+
+// A little of a mesh that would not fit.
+TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
+  write_torus(4, "float");
+  const auto size = MeshSize::foresee(mesh_);
+  ASSERT_TRUE(size);
+  const SpaceNeed cut = SpaceNeed::before_reading(*size, kNothingHeld, true);
+  EXPECT_LT(cut.temporary_bytes, need(kNothingHeld).temporary_bytes);
+  EXPECT_EQ(cut.output_bytes, 0u);
+  storage::FaultyCalls calls;
+  calls.room = storage::device_room(cut.temporary_bytes);
+  EXPECT_FALSE(build(kNothingHeld, calls));
+  box_ = {{-100, -100, 0}, {0, 0, 100}};
+  const auto report = build(kNothingHeld, calls);
+  ASSERT_TRUE(report) << report.error().text;
+  EXPECT_LT(report->header.model.triangle_count, size->triangles / 4);
+  // There is no room for what is cut out.
+  calls.room = storage::device_room(1000);
+  EXPECT_FALSE(build(kNothingHeld, calls));
+}
+
+// Of polygons with many corners an ascii PLY does not tell how many triangles they are.
+TEST_F(BuildSpace, IsLookedForAgainOnceTrianglesAreCounted) {
+  write_torus(12, "float");
+  const SpaceNeed foreseen = need(kNothingHeld);
+  storage::FaultyCalls calls;
+  calls.room = storage::device_room(foreseen.temporary_bytes + foreseen.output_bytes);
+  const auto refused = build(kNothingHeld, calls);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
+  EXPECT_EQ(place_, BuildPlace::kTemporary);
+  EXPECT_TRUE(begun_);
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
+}
+
+/// Devices of two directories.
+class Devices final : public storage::FileCalls {
+ public:
+  std::uint64_t temporary_free = 0, output_free = 0;
+  bool shared = false;
+
+  int fstatat(int, const char* path, struct stat* status, int) noexcept override {
+    status->st_dev = shared || *path == 't' ? 1 : 2;
+    return 0;
+  }
+  int statvfs(const char* path, struct statvfs* room) noexcept override {
+    *room = storage::device_room(*path == 't' ? temporary_free : output_free, kMegabyte);
+    return 0;
+  }
+};
+
+struct SpaceCase {
+  SpaceNeed need;
+  std::uint64_t temporary_free, output_free;
+  bool shared;
+  BuildPlace place;
+  std::string text;  // empty: enough
+};
+
+TEST(SpaceNeed, SaysWhereHowMuchIsMissing) {
+  const SpaceNeed both{30 * kMegabyte, 10 * kMegabyte}, file{0, 10 * kMegabyte - 5};
+  const std::string remedy = "free some, name a roomier --temp-dir, or give more --memory";
+  const BuildPlace temporary = BuildPlace::kTemporary, output = BuildPlace::kOutput;
+  const std::vector<SpaceCase> cases = {
+      {both, 30, 10, false, temporary, ""},
+      {both, 29, 10, false, temporary,
+       "temporary files may take 30 MiB, and the device has 29 MiB free; " + remedy},
+      {both, 29, 9, false, output,
+       "the output may take 10 MiB, and the device has 9 MiB free; free some, or name an output "
+       "on another device"},
+      {both, 40, 40, true, temporary, ""},
+      {both, 39, 39, true, temporary,
+       "temporary files and the output may take 40 MiB, and the device has 39 MiB free; " + remedy},
+      {file, 0, 10, false, output, ""},
+      {file, 10, 10, true, output, ""},
+      {file, 0, 9, false, output,
+       "the output may take 10 MiB, and the device has 9 MiB free; free some, or name an output "
+       "on another device"}};
+  for (const SpaceCase& c : cases) {
+    Devices calls;
+    calls.temporary_free = c.temporary_free;
+    calls.output_free = c.output_free;
+    calls.shared = c.shared;
+    BuildPlace place = BuildPlace::kInput;
+    const auto checked = c.need.check("temporary", "output", calls, place);
+    EXPECT_EQ(checked ? "" : checked.error().text, c.text);
+    if (checked) continue;
+    EXPECT_EQ(checked.error().code, ErrorCode::kNoSpace);
+    EXPECT_EQ(place, c.place);
+  }
+}
+
+TEST(SpaceNeed, GoesOnWhereADeviceDoesNotTell) {
+  storage::FaultyCalls calls;
+  calls.fault = storage::FaultyCalls::Fault::kError;
+  calls.every = true;
+  BuildPlace place = BuildPlace::kInput;
+  EXPECT_TRUE((SpaceNeed{~std::uint64_t{0}, ~std::uint64_t{0}}).check(".", ".", calls, place));
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,85 @@
+#include "octree/builder/tree/built_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "octree/builder/mask/tree_frames.h"
+#include "octree/traversal/box_walk.h"
+#include "octree/traversal/link_resolver.h"
+#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/support/sample_mask.h"
+
+namespace planetree::octree {
+namespace {
+
+struct BuiltTreeCase {
+  const char* name;
+  Soup soup;
+  std::uint64_t patch_triangles;
+};
+
+std::vector<BuiltTreeCase> built_cases() {
+  return {{"one patch", sphere(4), 1 << 20},
+          {"patches", sphere(4), 40},
+          {"doubles", scattered(900, 0.1), 60},
+          {"a block", sphere(0), 100},
+          {"in one place", repeated(300), 50}};
+}
+
+// Every triangle is found, once, and as many records as are told.
+TEST(BuiltTree, IsTheTreeOfAllPatches) {
+  for (const BuiltTreeCase& c : built_cases()) {
+    SCOPED_TRACE(c.name);
+    const PatchedTree sample(c.soup, c.patch_triangles);
+    EXPECT_EQ(sample.above.patches.size() > 1, c.soup.size() > c.patch_triangles);
+    ASSERT_TRUE(sample.tree->check());
+    const TreeFacts tree = sample.tree->facts();
+    TreeFrames frames(*sample.tree);
+    TreeWork work;
+    std::set<std::uint64_t> found;
+    std::set<std::uint32_t> links;
+    EXPECT_TRUE(BoxWalk(tree, tree.box_lower, tree.box_upper, frames.reader(), work)
+                    .run(~std::uint64_t{0}, [&](const BlockView& block, std::uint32_t link) {
+                      EXPECT_TRUE(links.insert(link).second);
+                      EXPECT_LT(LinkFormat(tree.page_bytes).page(link),
+                                sample.tree->pages().size());
+                      for (unsigned i = 0; i < block.triangle_count(); ++i)
+                        EXPECT_TRUE(found.insert(block.id(i)).second);
+                    }));
+    EXPECT_EQ(found.size(), c.soup.size());
+    EXPECT_EQ(*found.rbegin(), c.soup.size() - 1);
+    EXPECT_EQ(work.nodes, sample.tree->node_count());
+    EXPECT_EQ(work.blocks, sample.tree->block_count());
+    EXPECT_EQ(tree.record_count, work.nodes + work.blocks);
+    EXPECT_TRUE(frames.state());
+  }
+}
+
+TEST(BuiltTree, IsAsHighAsItsRoot) {
+  for (const BuiltTreeCase& c : built_cases()) {
+    SCOPED_TRACE(c.name);
+    const PatchedTree sample(c.soup, c.patch_triangles);
+    const TreeFacts tree = sample.tree->facts();
+    TreeFrames frames(*sample.tree);
+    TreeWork work;
+    const std::byte* root = RecordFinder(tree, frames.reader()).find(tree.root_link, work);
+    ASSERT_NE(root, nullptr);
+    const bool block = LinkFormat::is_leaf(tree.root_link);
+    EXPECT_EQ(sample.tree->height(), block ? 0u : reinterpret_cast<const Node*>(root)->height);
+    EXPECT_EQ(block, c.soup.size() <= kMaxBlockTriangles);
+  }
+}
+
+TEST(BuiltTree, TellsTheModelsBox) {
+  const PatchedTree sample(sphere(3), 40);
+  const TreeFacts tree = sample.tree->facts();
+  EXPECT_EQ(tree.box_lower, sample.mesh.lower());
+  EXPECT_EQ(tree.box_upper, sample.mesh.upper());
+  EXPECT_EQ(tree.centre, sample.mesh.frame.centre());
+  EXPECT_EQ(tree.page_bytes, 4096u);
+}
+
+}  // namespace
+}  // namespace planetree::octree

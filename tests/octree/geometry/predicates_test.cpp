@@ -1,0 +1,190 @@
+#include "octree/geometry/predicates.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cfenv>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/octree/support/odd_arithmetic.h"
+
+namespace planetree::octree {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+int rational_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  Rational u[3], v[3], w[3];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = Rational(b[i]) - Rational(a[i]);
+    v[i] = Rational(c[i]) - Rational(a[i]);
+    w[i] = Rational(d[i]) - Rational(a[i]);
+  }
+  const Rational volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+                          u[2] * (v[0] * w[1] - v[1] * w[0]);
+  return volume.sign();
+}
+
+// Points that agree with the plane x + y + z = 1 up to single ulps.
+Point on_ulp_grid(std::mt19937_64& random) {
+  std::uniform_int_distribution<int> step(-2, 2);
+  const Point bases[] = {{0.5, 0.25, 0.25}, {0.75, 0.125, 0.125}, {0.25, 0.5, 0.25}, {1, 0, 0}};
+  Point point = bases[random() % 4];
+  for (double& value : point) value += step(random) * 0x1p-53;
+  return point;
+}
+
+TEST(Predicates, OrientationIsExactOnAnUlpGrid) {
+  std::mt19937_64 random(38);
+  int flat = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Point a = on_ulp_grid(random), b = on_ulp_grid(random), c = on_ulp_grid(random),
+                d = on_ulp_grid(random);
+    const int expected = rational_orientation(a, b, c, d);
+    ASSERT_EQ(orientation(a, b, c, d), expected);
+    flat += expected == 0;
+  }
+  EXPECT_GT(flat, 20);
+}
+
+TEST(Predicates, OrientationIsExactNearTheSmallestNumbers) {
+  std::mt19937_64 random(43);
+  std::uniform_int_distribution<int> exponent(-1074, -300), mantissa(-3, 3);
+  const auto tiny = [&] {
+    const int digit = mantissa(random);
+    return std::ldexp(digit, exponent(random));
+  };
+  for (int i = 0; i < 1000; ++i) {
+    Point points[4];
+    for (Point& point : points) point = {tiny(), tiny(), i % 2 == 0 ? tiny() : 1.0};
+    ASSERT_EQ(orientation(points[0], points[1], points[2], points[3]),
+              rational_orientation(points[0], points[1], points[2], points[3]));
+  }
+}
+
+TEST(Predicates, OrientationHoldsTheWidestSpan) {
+  const Point a(0, 0, 0), b(0x1p300, 0, 0), c(0, 0x1p300, 0x1p-1074);
+  EXPECT_EQ(orientation(a, b, c, {-0x1p300, -0x1p300, 0}), 1);
+  EXPECT_EQ(orientation(a, b, c, {-0x1p300, 0, 0}), 0);
+  EXPECT_EQ(orientation(a, b, c, {0, 0, -0x1p-1074}), -1);
+  EXPECT_EQ(normal_sign(a, b, c, 0), 0);
+  EXPECT_EQ(normal_sign(a, b, c, 1), -1);
+  EXPECT_EQ(normal_sign(a, b, c, 2), 1);
+}
+
+TEST(Predicates, SignsDoNotDependOnTheModeOfTheThread) {
+  std::mt19937_64 random(41);
+  std::uniform_int_distribution<int> exponent(-1074, -1000);
+  for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+    for (int i = 0; i < 400; ++i) {
+      Point points[4];
+      for (Point& point : points) {
+        point = on_ulp_grid(random);
+        if (i % 3 == 0) point.z() = std::ldexp(1.0, exponent(random));
+      }
+      const int expected = rational_orientation(points[0], points[1], points[2], points[3]);
+      const OddArithmetic odd(rounding);
+      ASSERT_EQ(orientation(points[0], points[1], points[2], points[3]), expected);
+    }
+}
+
+// Outward triangles of the cube from 0 to 2.
+std::vector<Triangle> cube() {
+  const auto corner = [](unsigned i) { return Point(i & 1 ? 2 : 0, i & 2 ? 2 : 0, i & 4 ? 2 : 0); };
+  const unsigned quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  std::vector<Triangle> triangles;
+  for (const auto& quad : quads) {
+    triangles.push_back({corner(quad[0]), corner(quad[1]), corner(quad[2])});
+    triangles.push_back({corner(quad[0]), corner(quad[2]), corner(quad[3])});
+  }
+  return triangles;
+}
+
+int winding_change(const std::vector<Triangle>& triangles, const Point& from, const Point& to) {
+  int change = 0;
+  for (const Triangle& triangle : triangles) change += crossing({from, to}, triangle);
+  return change;
+}
+
+// All points with coordinates from -1 to 3: vertices, edges, faces of the cube
+// and what lies in line with them.
+std::vector<Point> lattice() {
+  std::vector<Point> points;
+  for (int x = -1; x <= 3; ++x)
+    for (int y = -1; y <= 3; ++y)
+      for (int z = -1; z <= 3; ++z) points.emplace_back(x, y, z);
+  return points;
+}
+
+TEST(Crossings, CountTheWindingNumberOfLatticePoints) {
+  const Point outside(-7, -9, -8);
+  for (const Point& point : lattice()) {
+    // Moved by a positive step: the lower faces are inside, the upper outside.
+    const bool inside = point.minCoeff() >= 0 && point.maxCoeff() < 2;
+    EXPECT_EQ(winding_change(cube(), point, outside), inside) << point.transpose();
+  }
+}
+
+TEST(Crossings, AgreeAlongAnyWay) {
+  const Point outside(-7, -9, -8);
+  const auto points = lattice();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = i % 3; j < points.size(); j += 3) {
+      const Point &from = points[i], &to = points[j];
+      ASSERT_EQ(winding_change(cube(), from, to) + winding_change(cube(), to, outside),
+                winding_change(cube(), from, outside))
+          << from.transpose() << " to " << to.transpose();
+    }
+}
+
+TEST(Crossings, CountDoubledAndTurnedSurfaces) {
+  const Point centre(1, 1, 1), outside(9, 1, 1);
+  auto doubled = cube();
+  for (const Triangle& triangle : cube()) doubled.push_back(triangle);
+  EXPECT_EQ(winding_change(doubled, centre, outside), 2);
+  auto turned = cube();
+  for (Triangle& triangle : turned) std::swap(triangle[0], triangle[1]);
+  EXPECT_EQ(winding_change(turned, centre, outside), -1);
+  EXPECT_EQ(winding_change(cube(), outside, centre), -1);
+}
+
+TEST(Crossings, PassByTrianglesWithoutArea) {
+  const Point p(0, 0, -1), q(0, 0, 1);
+  EXPECT_EQ(crossing({p, q}, {Point(-1, 0, 0), Point(1, 0, 0), Point(0, 0, 0)}), 0);
+  EXPECT_EQ(crossing({p, q}, {Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)}), 0);
+  EXPECT_NE(crossing({p, q}, {Point(-1, -1, 0), Point(1, -1, 0), Point(0, 1, 0)}), 0);
+}
+
+// On a grid so coarse that most points are in some plane, line or corner.
+TEST(Predicates, LiesOnIsExactOnALattice) {
+  std::mt19937_64 random(33);
+  std::uniform_int_distribution<int> step(0, 3);
+  const auto place = [&] { return Point(step(random), step(random), step(random)); };
+  int on = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Triangle triangle{place(), place(), place()};
+    const Point point = i % 2 == 0 ? place() : Point(place() * 0.5);
+    // Whole multiples of 2^-52: no square is rounded.
+    const bool expected = triangle_value(point, triangle).squared == 0;
+    ASSERT_EQ(lies_on(point, triangle), expected)
+        << point.transpose() << " on " << triangle[0].transpose() << ", " << triangle[1].transpose()
+        << ", " << triangle[2].transpose();
+    on += expected;
+  }
+  EXPECT_GT(on, 200);
+}
+
+TEST(Predicates, LiesOnTellsUlpsApart) {
+  const Triangle triangle{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
+  EXPECT_TRUE(lies_on({0.5, 0.5, 0}, triangle));
+  EXPECT_FALSE(lies_on({0.5, std::nextafter(0.5, 1.0), 0}, triangle));
+  EXPECT_FALSE(lies_on({0.25, 0.25, 0x1p-1074}, triangle));
+  EXPECT_FALSE(lies_on({0.25, -0x1p-1074, 0}, triangle));
+  EXPECT_TRUE(lies_on({0.25, 0x1p-1074, 0}, triangle));
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,67 @@
+#include "octree/geometry/startup_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+#include "octree/geometry/predicates.h"
+#include "tests/octree/support/odd_arithmetic.h"
+
+namespace planetree::octree {
+namespace {
+
+// What the predicates come to without their filters.
+int rounded_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+  const double volume = (b - a).cross(c - a).dot(d - a);
+  return (volume > 0) - (volume < 0);
+}
+
+int rounded_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+  const double area = (b - a).cross(c - a)[static_cast<Eigen::Index>(axis)];
+  return (area > 0) - (area < 0);
+}
+
+TEST(SelfTest, FindsThisBuildInOrder) { EXPECT_EQ(self_test(), nullptr); }
+
+TEST(SelfTest, FindsPredicatesThatRound) {
+  TestedPredicates wrong = TestedPredicates::ours();
+  wrong.orientation = &rounded_orientation;
+  EXPECT_NE(self_test(wrong), nullptr);
+  wrong = TestedPredicates::ours();
+  wrong.normal_sign = &rounded_normal_sign;
+  EXPECT_NE(self_test(wrong), nullptr);
+}
+
+TEST(SelfTest, FindsPredicatesThatAreWrongOnlyWhereProductsUnderflow) {
+  TestedPredicates wrong = TestedPredicates::ours();
+  wrong.orientation = [](const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+    return c.y() > 0 && c.y() < 0x1p-1000 ? 0 : orientation(a, b, c, d);
+  };
+  EXPECT_NE(self_test(wrong), nullptr);
+}
+
+TEST(SelfTest, FindsContactThatIsNeverOrAlwaysSeen) {
+  TestedPredicates wrong = TestedPredicates::ours();
+  wrong.lies_on = [](const Point&, const Triangle&) noexcept { return false; };
+  EXPECT_NE(self_test(wrong), nullptr);
+  wrong.lies_on = [](const Point&, const Triangle&) noexcept { return true; };
+  EXPECT_NE(self_test(wrong), nullptr);
+}
+
+// All that can be seen from here of a build that computes otherwise.
+TEST(SelfTest, FindsArithmeticOfAnotherKind) {
+  const auto found = [](int rounding) {
+    const OddArithmetic odd(rounding);
+    const char* fault = self_test();
+    return std::string_view(fault ? fault : "");
+  };
+  EXPECT_EQ(found(FE_TONEAREST), "subnormal numbers are taken for zero");
+  for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+    EXPECT_EQ(found(rounding), "results are not rounded to nearest, once");
+}
+
+}  // namespace
+}  // namespace planetree::octree

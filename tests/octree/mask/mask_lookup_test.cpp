@@ -1,0 +1,273 @@
+#include "octree/mask/mask_lookup.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "tests/octree/mask/random_mask.h"
+#include "tests/octree/support/sample_mask.h"
+
+namespace planetree::octree {
+namespace {
+
+using Kind = MaskEntry::Kind;
+
+/// What spec.md says of a point's way down, over the entries themselves.
+struct Way {
+  std::vector<std::uint32_t> entries;  ///< from the root to a leaf or the last node
+  GridCell cell;
+  bool colour = false;
+  int winding = 0;
+  std::size_t nodes(const MaskTree& tree) const {
+    return entries.size() - tree.entries[entries.back()].is_leaf();
+  }
+};
+
+Way way_of(const MaskTree& tree, const CellGrid& grid, const Point& point) {
+  Way way;
+  for (std::uint32_t at = 0;;) {
+    way.entries.push_back(at);
+    const MaskEntry& entry = tree.entries[at];
+    if (entry.kind != Kind::kNode) return way;
+    const Point middle = grid.middle(way.cell);
+    const unsigned octant = (point.x() >= middle.x() ? 1u : 0u) |
+                            (point.y() >= middle.y() ? 2u : 0u) |
+                            (point.z() >= middle.z() ? 4u : 0u);
+    way.cell = way.cell.child(octant);
+    if ((entry.grey >> octant & 1) == 0) {
+      way.colour = true;
+      way.winding = (entry.black >> octant & 1) - (entry.inverted >> octant & 1);
+      return way;
+    }
+    at = entry.first;
+    for (unsigned before = 0; before < octant; ++before) at += entry.grey >> before & 1;
+  }
+}
+
+// Half of them on the sides of cells.
+std::vector<Point> points_in(const Point& lower, std::size_t count) {
+  Noise noise(8);
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 p = noise.point(0, 2);
+    Point point = lower + Point(p.x, p.y, p.z);
+    if (i % 2 == 0)
+      for (double& value : point) value = std::floor(value * 64) / 64;
+    points.push_back(point);
+  }
+  return points;
+}
+
+void expect_same(const MaskFinding& found, const Way& way, const MaskTree& tree) {
+  using Found = MaskFinding::Kind;
+  EXPECT_EQ(found.cell.level, way.cell.level);
+  EXPECT_EQ(found.cell.at, way.cell.at);
+  const MaskEntry& entry = tree.entries[way.entries.back()];
+  if (way.colour) {
+    EXPECT_EQ(found.kind, Found::kColour);
+    EXPECT_EQ(found.winding, way.winding);
+    EXPECT_EQ(found.blocks.count, 0u);
+  } else if (entry.kind == Kind::kSpecial) {
+    const SpecialCell& special = tree.specials[entry.first];
+    EXPECT_EQ(found.kind, Found::kPlanes);
+    EXPECT_TRUE(found.winding == special.behind || found.winding == special.beyond);
+  } else if (entry.corners[0] == kUncounted) {
+    EXPECT_EQ(found.kind, Found::kNothing);
+  } else {
+    EXPECT_EQ(found.kind, Found::kCorners);
+    const bool listed = entry.kind == Kind::kListed;
+    for (unsigned corner = 0; corner < 8; ++corner)
+      EXPECT_EQ(listed ? corner_of(found.listed, corner) : found.corners[corner],
+                entry.corners[corner]);
+    EXPECT_TRUE(same(found.blocks, listed ? tree.lists[entry.first] : MaskBlocks{}));
+  }
+}
+
+class MaskLookup : public testing::Test {
+ protected:
+  MaskLookup() : tree_(random_mask(10)), grid_(lower_), pages_(tree_, 4096, kRandomMaskPage) {}
+
+  MaskFinding find(const Point& point, std::uint64_t max_nodes = ~std::uint64_t{0}) {
+    work_ = {};
+    return look_up(pages_.mask(lower_), point, max_nodes, pages_.reader(), work_);
+  }
+  std::uint32_t page_of(std::uint32_t entry) const {
+    for (std::uint32_t page = 0; page < pages_.size(); ++page)
+      if (std::ranges::find(pages_.plan().pages[page].entries, entry) !=
+          pages_.plan().pages[page].entries.end())
+        return page;
+    return ~0u;
+  }
+  // In the order of the way, each once.
+  std::vector<std::uint32_t> pages_of(const Way& way) const {
+    std::vector<std::uint32_t> pages;
+    for (const std::uint32_t entry : way.entries)
+      if (const std::uint32_t page = page_of(entry); pages.empty() || pages.back() != page)
+        pages.push_back(page);
+    return pages;
+  }
+
+  const Point lower_{-0.25, 3, 1.0 / 3};
+  MaskTree tree_;
+  CellGrid grid_;
+  MaskPages pages_;
+  TreeWork work_;
+};
+
+TEST_F(MaskLookup, FindsTheCellOfEveryPoint) {
+  std::size_t listed = 0;
+  for (const Point& point : points_in(lower_, 4000)) {
+    const Way way = way_of(tree_, grid_, point);
+    const MaskFinding found = find(point);
+    expect_same(found, way, tree_);
+    listed += found.blocks.count > 0;
+    EXPECT_EQ(work_.nodes, way.nodes(tree_));
+    EXPECT_LE(work_.nodes, tree_.levels);
+    EXPECT_EQ(work_.blocks, 0u);
+    ASSERT_FALSE(HasFailure()) << point.transpose();
+  }
+  EXPECT_GT(listed, 100u);
+}
+
+TEST_F(MaskLookup, ReadsOnlyPagesOnItsWay) {
+  std::size_t most = 0;
+  for (const Point& point : points_in(lower_, 3000)) {
+    find(point);
+    const std::vector<std::uint32_t> asked = pages_.take_asked();
+    ASSERT_EQ(asked, pages_of(way_of(tree_, grid_, point))) << point.transpose();
+    EXPECT_TRUE(std::ranges::is_sorted(asked));
+    EXPECT_EQ(work_.page_turns, asked.size());
+    most = std::max(most, asked.size());
+  }
+  EXPECT_GT(most, 2u);
+}
+
+TEST_F(MaskLookup, KnowsNothingWhereAPageIsMissing) {
+  const std::vector<Point> points = points_in(lower_, 150);
+  std::size_t lost = 0;
+  for (std::uint32_t page = 0; page < pages_.size(); page += 1 + page / 4) {
+    pages_.withhold(page);
+    for (const Point& point : points) {
+      const Way way = way_of(tree_, grid_, point);
+      const std::vector<std::uint32_t> on_way = pages_of(way);
+      const auto at = std::ranges::find(on_way, page);
+      pages_.take_asked();
+      const MaskFinding found = find(point);
+      if (at == on_way.end()) {
+        expect_same(found, way, tree_);
+        continue;
+      }
+      ++lost;
+      EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
+      EXPECT_EQ(pages_.take_asked(), std::vector(on_way.begin(), at + 1));
+    }
+    pages_.withhold(page, false);
+    ASSERT_FALSE(HasFailure()) << page;
+  }
+  EXPECT_GT(lost, 100u);
+}
+
+TEST_F(MaskLookup, VisitsNoMoreNodesThanItMay) {
+  for (const Point& point : points_in(lower_, 200)) {
+    const Way way = way_of(tree_, grid_, point);
+    const std::size_t needed = way.nodes(tree_);
+    for (std::uint64_t most = 0; most <= needed; ++most) {
+      const MaskFinding found = find(point, most);
+      EXPECT_LE(work_.nodes, most);
+      if (most < needed) {
+        EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
+      } else {
+        expect_same(found, way, tree_);
+      }
+    }
+  }
+}
+
+TEST_F(MaskLookup, KnowsNothingWithoutAMask) {
+  MaskFacts none = pages_.mask(lower_);
+  none.page_count = 0;
+  EXPECT_EQ(look_up(none, lower_, 100, pages_.reader(), work_).kind, MaskFinding::Kind::kNothing);
+  EXPECT_TRUE(pages_.take_asked().empty());
+}
+
+// Their octants have no number.
+TEST(MaskLookupOfLists, TakesNoneOfTheFinestCells) {
+  MaskTree tree;
+  tree.entries.resize(1);
+  for (unsigned level = 0; level < kLevels; ++level) {
+    const bool last = level + 1 == kLevels;
+    MaskEntry& node = tree.entries.back();
+    node = {.grey = 1, .leaf = static_cast<std::uint8_t>(last ? 1 : 0)};
+    node.first = static_cast<std::uint32_t>(tree.entries.size());
+    tree.entries.emplace_back();
+  }
+  tree.entries.back().kind = Kind::kListed;
+  tree.entries.back().corners = {4, 5, 5, 4, 4, 4, 4, 5};
+  tree.lists.push_back({1, {0xff}, {LinkFormat::kLeafBit}, {}});
+  MaskPages pages(tree, 4096, kRandomMaskPage);
+  TreeWork work;
+  const MaskFinding found =
+      look_up(pages.mask(Point::Zero()), Point::Zero(), 100, pages.reader(), work);
+  EXPECT_EQ(found.cell.level, kLevels);
+  EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
+  EXPECT_EQ(found.blocks.count, 0u);
+}
+
+// A node in one page may say of another page what is not so.
+TEST_F(MaskLookup, BelievesNoLinkBetweenPages) {
+  const MaskLinkFormat links(4096);
+  std::size_t changed = 0;
+  for (std::uint32_t page = 0; page < pages_.size(); ++page) {
+    const MaskHeader& head = header_of(pages_.frame(page));
+    for (std::uint32_t slot = head.first_record_slot;
+         slot < std::uint32_t{head.first_record_slot} + head.record_count; ++slot) {
+      if (!is_node(pages_.frame(page), slot)) continue;
+      auto& node = *const_cast<MaskNode*>(
+          reinterpret_cast<const MaskNode*>(slot_of(pages_.frame(page), slot)));
+      if (node.grey == 0 || links.page(node.family) == page) continue;
+      const std::uint32_t below = links.page(node.family);
+      // Beyond the records, before them, and to whatever else is there.
+      const std::uint32_t slots[] = {511, 0, links.slot(node.family) ^ 8};
+      node.family = links.make(below, slots[changed++ % 3]);
+    }
+  }
+  ASSERT_GT(changed, 30u);
+  for (const Point& point : points_in(lower_, 2000)) {
+    const MaskFinding found = find(point);
+    EXPECT_LE(work_.nodes, kLevels);
+    EXPECT_TRUE(found.kind != MaskFinding::Kind::kCorners || found.corners[0] != kUncounted);
+  }
+}
+
+// The side that planes tell, with and without an infinitesimal step.
+TEST(MaskLookupOfBoxes, TellsTheSideOfPointsInSpecialCells) {
+  const SampleMask sample(box({0, 0, 0}, {0.9, 0.8, 0.7}, 24));
+  MaskPages pages(sample.tree, 4096);
+  std::map<MaskFinding::Kind, int> kinds;
+  int on_surface = 0;
+  Noise noise(2);
+  for (int i = 0; i < 600; ++i) {
+    Point point(noise.uniform(0, 0.9), noise.uniform(0, 0.8), noise.uniform(0, 0.7));
+    // Near a face or on it.
+    const unsigned axis = noise.bits() % 3;
+    const double face = noise.bits() % 2 == 0 ? 0.0 : sample.mesh.upper()[axis];
+    point[axis] = i % 3 == 0 ? face : face + noise.uniform(-0.05, 0.05);
+    TreeWork work;
+    const MaskFinding found =
+        look_up(pages.mask(sample.mesh.lower()), point.cwiseMax(sample.mesh.lower()), 100,
+                pages.reader(), work);
+    point = point.cwiseMax(sample.mesh.lower());
+    ++kinds[found.kind];
+    if (found.kind != MaskFinding::Kind::kPlanes) continue;
+    EXPECT_EQ(found.on_surface, sample.surface.holds(point)) << point.transpose();
+    EXPECT_EQ(found.winding, sample.surface.winding(point)) << point.transpose();
+    on_surface += found.on_surface;
+  }
+  EXPECT_GT(kinds[MaskFinding::Kind::kPlanes], 100);
+  EXPECT_GT(on_surface, 50);
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,149 @@
+#include "octree/mask/mask_prefetcher.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tests/octree/mask/random_mask.h"
+#include "tests/octree/support/sample_mask.h"
+
+namespace planetree::octree {
+namespace {
+
+/// Pages of a mask in memory, and which of them were looked at.
+class PeekedPages {
+ public:
+  explicit PeekedPages(PageReader pages) : pages_(pages) {}
+
+  PageReader reader() {
+    return {this,
+            [](void*, std::uint32_t) noexcept -> const std::byte* {
+              ADD_FAILURE() << "asked for a page";
+              return nullptr;
+            },
+            [](void* context, std::uint32_t number) noexcept {
+              auto& self = *static_cast<PeekedPages*>(context);
+              self.seen_.insert(number);
+              return number == self.lost_ ? nullptr : self.pages_.peek(self.pages_.context, number);
+            }};
+  }
+  void lose(std::uint32_t page) { lost_ = page; }
+  std::set<std::uint32_t> take_seen() { return std::exchange(seen_, {}); }
+
+ private:
+  const PageReader pages_;
+  std::set<std::uint32_t> seen_;
+  std::uint32_t lost_ = ~std::uint32_t{0};
+};
+
+class MaskAheadTest : public testing::Test {
+ protected:
+  MaskAheadTest() {
+    TreeFacts tree;
+    tree.box_lower = lower_;
+    tree.box_upper = lower_ + Point(1.2, 1.9, 0.7);
+    // For the cells of a level far above the leaves.
+    colours_.fill(mask_, tree, false, 0, pages_.resident_reader(), memory_);
+  }
+  std::vector<Point> points(std::size_t count) const {
+    Noise noise(9);
+    std::vector<Point> result;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 p = noise.point(0, 1);
+      result.push_back(lower_ + Point(1.2 * p.x, 1.9 * p.y, 0.7 * p.z));
+    }
+    return result;
+  }
+  // How many steps it takes.
+  unsigned go(const Point& point, PageReader pages) const {
+    MaskAhead ahead(mask_, colours_, point);
+    unsigned steps = 0;
+    for (; ahead.goes_on(); ++steps) ahead.step(pages);
+    return steps;
+  }
+  // The pages that a search of the mask asks for, as the model's.
+  std::set<std::uint32_t> pages_of_search(const Point& point) {
+    const ColourMap::Spot spot = colours_.look(point);
+    if (spot.winding != ColourMap::kUnknown || !spot.record) return {};
+    TreeWork work;
+    pages_.take_asked();
+    look_up(mask_, spot, point, ~std::uint64_t{0}, pages_.reader(), work);
+    std::set<std::uint32_t> asked;
+    for (const std::uint32_t page : pages_.take_asked()) asked.insert(kRandomMaskPage + page);
+    return asked;
+  }
+
+  const Point lower_{-0.25, 3, 1.0 / 3};
+  MaskPages pages_{random_mask(10), 4096, kRandomMaskPage};
+  const MaskFacts mask_ = pages_.mask(lower_);
+  alignas(16) std::array<std::byte, 6000> memory_{};
+  ColourMap colours_;
+};
+
+TEST_F(MaskAheadTest, SeesThePagesOfTheSearchThatFollows) {
+  PeekedPages peeked(pages_.resident_reader());
+  std::size_t searches = 0, several = 0;
+  for (const Point& point : points(3000)) {
+    const unsigned steps = go(point, peeked.reader());
+    const std::set<std::uint32_t> seen = peeked.take_seen(), asked = pages_of_search(point);
+    EXPECT_LE(steps, kLevels + 2);
+    if (asked.empty()) continue;
+    ++searches;
+    several += asked.size() > 1;
+    ASSERT_EQ(seen, asked) << point.transpose();
+    ASSERT_GE(steps, asked.size());
+  }
+  EXPECT_GT(searches, 300u);
+  EXPECT_GT(several, 10u);
+}
+
+TEST_F(MaskAheadTest, GoesNoFartherThanAPageThatIsNotInMemory) {
+  PeekedPages peeked(pages_.resident_reader());
+  std::size_t stopped = 0;
+  for (const Point& point : points(1000)) {
+    const std::set<std::uint32_t> asked = pages_of_search(point);
+    if (asked.empty()) continue;
+    // Children are behind their parents.
+    peeked.lose(*asked.begin());
+    go(point, peeked.reader());
+    ASSERT_EQ(peeked.take_seen(), (std::set<std::uint32_t>{*asked.begin()}));
+    ++stopped;
+  }
+  EXPECT_GT(stopped, 100u);
+}
+
+TEST_F(MaskAheadTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
+  EXPECT_FALSE(MaskAhead(mask_, ColourMap(), lower_ + Point::Constant(0.3)).goes_on());
+  for (const double far : {10.0, 1e9, 1e300})
+    EXPECT_FALSE(MaskAhead(mask_, colours_, lower_ + Point::Constant(far)).goes_on()) << far;
+  std::size_t told = 0;
+  for (const Point& point : points(1000)) {
+    if (colours_.spot_of(point).record) continue;
+    ++told;
+    EXPECT_FALSE(MaskAhead(mask_, colours_, point).goes_on());
+  }
+  EXPECT_GT(told, 100u);
+}
+
+// Frames of noise, as none that was decoded is.
+TEST_F(MaskAheadTest, EndsInPagesOfAnything) {
+  Noise noise(4);
+  alignas(64) static std::array<std::uint64_t, 4096 / 8> frame;
+  for (std::uint64_t& word : frame) word = std::uint64_t{noise.bits()} << 32 | noise.bits();
+  const PageReader reader{nullptr, nullptr, [](void*, std::uint32_t) noexcept {
+                            return reinterpret_cast<const std::byte*>(frame.data());
+                          }};
+  unsigned most = 0;
+  for (const Point& point : points(3000)) most = std::max(most, go(point, reader));
+  EXPECT_GT(most, 2u);
+  EXPECT_LE(most, kLevels + 2);
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "octree/mask/side_grid.h"
+#include "tests/octree/mask/random_mask.h"
+#include "tests/octree/support/sample_mask.h"
+
+namespace planetree::octree {
+
+inline constexpr std::size_t kMany = 1 << 24;  // bytes
+
+/// A map of the colours of a mask of no model, and what the mask itself says.
+class RandomMap : public testing::Test {
+ protected:
+  static TreeFacts tree_of(const Point& lower, const Point& size) {
+    TreeFacts tree;
+    tree.box_lower = lower;
+    tree.box_upper = lower + size;
+    return tree;
+  }
+  ColourMap map_of(MaskPages& pages, std::size_t bytes) {
+    return map_of(pages, pages.resident_reader(), bytes);
+  }
+  ColourMap map_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
+    ColourMap map;
+    memory_.resize(bytes);
+    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
+    return map;
+  }
+  // Half of them on the sides of cells.
+  std::vector<Point> points(std::size_t count) const {
+    Noise noise(9);
+    std::vector<Point> result;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 p = noise.point(0, 1);
+      Point step = Point(p.x, p.y, p.z).cwiseProduct(size_);
+      if (i % 2 == 0)
+        for (double& value : step) value = std::floor(value * 32) / 32;
+      result.push_back(lower_ + step);
+    }
+    return result;
+  }
+  static int glance(const ColourMap& map, const Point& point) {
+    return map.glance(point.x(), point.y(), point.z());
+  }
+  MaskFinding look(MaskPages& pages, const Point& point) const {
+    return look(pages, lower_, point);
+  }
+  static MaskFinding look(MaskPages& pages, const Point& lower, const Point& point) {
+    TreeWork work;
+    return look_up(pages.mask(lower), point, ~std::uint64_t{0}, pages.reader(), work);
+  }
+  // The sign of the winding number, where the mask tells it by itself: also in octants of leaves
+  // that none of the listed blocks touch, and beyond leaves' slabs.
+  static std::optional<int> told(MaskPages& pages, const Point& lower, const Point& point) {
+    const MaskFinding found = look(pages, lower, point);
+    if (found.kind == MaskFinding::Kind::kColour) return found.winding;
+    if (found.kind != MaskFinding::Kind::kCorners || found.blocks.count == 0) return {};
+    const CellGrid grid(lower);
+    unsigned corner = grid.octant(found.cell, point), touched = 0;
+    for (unsigned i = 0; i < found.blocks.count; ++i) touched |= found.blocks.octants[i];
+    if ((touched >> corner & 1) != 0) {
+      const Point place = CellSlab::place_in(point, grid.lower(found.cell), found.cell.level);
+      corner = found.blocks.slab.corner_beyond(place);
+      if (corner == CellSlab::kNoCorner) return {};
+    }
+    const int winding = corner_of(found.listed, corner);
+    return (winding > 0) - (winding < 0);
+  }
+
+  // Lists of which a map keeps no more than where they are.
+  static bool has_rare_corners(const MaskFinding& found) {
+    return found.kind == MaskFinding::Kind::kCorners && found.blocks.count > 0 &&
+           !MapRecord::has(found.listed);
+  }
+
+  const Point lower_{-0.25, 3, 1.0 / 3};
+  const Point size_{1.2, 1.9, 0.7};
+  std::vector<std::byte> memory_;  // of the last map
+};
+
+}  // namespace planetree::octree

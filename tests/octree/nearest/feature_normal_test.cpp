@@ -1,0 +1,87 @@
+// Normals of asks that begin where the last ones were: the same, for less work.
+
+#include "octree/nearest/feature_normal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "octree/nearest/coherence_cache.h"
+#include "tests/octree/support/sample_tree.h"
+
+namespace planetree::octree {
+namespace {
+
+// A flat cone of so many faces about (0, 0, 0.1), its rim at a distance of 1.
+Soup cone(unsigned faces) {
+  const auto rim = [&](unsigned i) {
+    const double angle = 6.283185307179586 * (i % faces) / faces;
+    return Vec3{std::cos(angle), std::sin(angle), 0};
+  };
+  Soup soup;
+  for (unsigned i = 0; i < faces; ++i) soup.push_back({Vec3{0, 0, 0.1}, rim(i), rim(i + 1)});
+  return soup;
+}
+
+// What feature_normal() takes along a path, with what is near and without.
+struct Path {
+  explicit Path(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
+
+  void expect_same_normals(Point at, double step) {
+    const TreeFacts tree = tree_facts(sample);
+    Noise noise(7);
+    Vicinity vicinity;
+    for (int i = 0; i < 400; ++i) {
+      // Leaps end beside the ball, which is kept.
+      const double way = i % 20 == 19 ? 0.2 : step;
+      const Vec3 by = noise.point(-way, way);
+      at += Point(by.x, by.y, by.z);
+      TreeWork unused;
+      const NearestAnswer nearest_there = nearest(tree, at, {}, pages.reader(), unused, &vicinity);
+      FeatureNormal before, found;
+      feature_normal(tree, at, nearest_there, nullptr, kAll, pages.reader(), alone, before);
+      feature_normal(tree, at, nearest_there, &vicinity, kAll, pages.reader(), along, found);
+      EXPECT_EQ(found.normal, before.normal) << i;
+      EXPECT_EQ(found.side, before.side) << i;
+      EXPECT_TRUE(found.complete);
+      const bool held = vicinity.has_all_at(nearest_there.point);
+      from_subtrees += held && !vicinity.triangles().complete() ? 1 : 0;
+    }
+  }
+
+  static constexpr std::uint64_t kAll = 1'000'000;
+
+  SampleTree sample;
+  SamplePages pages;
+  TreeWork alone, along;
+  int from_subtrees = 0;
+};
+
+TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootForLessWork) {
+  const std::pair<const char*, Soup> soups[] = {
+      {"sphere", sphere(6)}, {"sheet", sheet(60)}, {"scattered triangles", scattered(20000, 0.05)}};
+  for (const auto& [name, soup] : soups) {
+    SCOPED_TRACE(name);
+    Path path(soup);
+    path.expect_same_normals(Point(0.45, 0.2, 0.1), 0.005);
+    EXPECT_GT(path.from_subtrees, 100);
+    EXPECT_LT(path.along.nodes, path.alone.nodes / 2);
+    EXPECT_LE(path.along.blocks, path.alone.blocks);
+  }
+}
+
+// Their sum depends on the order, which is the tree's.
+TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootOfMoreFacesThanAreSorted) {
+  for (const unsigned faces : {150u, 400u}) {
+    SCOPED_TRACE(std::to_string(faces) + " faces");
+    Path path(cone(faces));
+    path.expect_same_normals(Point(0, 0, 0.3), 0.001);
+    EXPECT_GT(path.alone.blocks, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,278 @@
+#include "octree/nearest/nearest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tests/octree/page/raw_page.h"
+#include "tests/octree/support/sample_tree.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Point random_point(Noise& noise, double low = -1.5, double high = 1.5) {
+  const Vec3 p = noise.point(low, high);
+  return {p.x, p.y, p.z};
+}
+
+// A tree in pages, asked; and every triangle looked at.
+struct Asked {
+  explicit Asked(const Soup& soup, std::uint32_t page_bytes = 4096)
+      : sample(build_sample(soup, page_bytes)), pages(sample), facts(tree_facts(sample)) {}
+
+  NearestAnswer ask(const Point& query, const NearestLimits& limits = {}) {
+    work = {};
+    return nearest(facts, query, limits, pages.reader(), work);
+  }
+
+  std::pair<double, std::uint64_t> least(const Point& query) const {
+    std::pair<double, std::uint64_t> best{kInfinity, kNoTriangle};
+    for (std::uint32_t i = 0; i < sample.mesh.size(); ++i)
+      best = std::min(
+          best, {triangle_value(query, sample.mesh.corners(i)).squared, sample.mesh.index(i)});
+    return best;
+  }
+
+  // [lower, upper] and what is known of the truth have something in common.
+  void expect_interval_holds(const NearestAnswer& answer, const Point& query) const {
+    const auto [squared, index] = least(query);
+    const auto position = static_cast<std::uint32_t>(index);
+    const double error = nearest_on_triangle(query, sample.mesh.corners(position)).value.error;
+    EXPECT_LE(answer.lower, std::sqrt(squared) + error);
+    EXPECT_GE(answer.upper, std::sqrt(squared) - error);
+    EXPECT_LT(answer.lower, answer.upper);
+  }
+
+  SampleTree sample;
+  SamplePages pages;
+  TreeFacts facts;
+  TreeWork work;
+};
+
+TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
+  const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(4)},
+                                                {"a triangle many times", repeated(500)},
+                                                {"long triangles", scattered(400, 1.0)},
+                                                {"small triangles", scattered(400, 1e-3)}};
+  for (const auto& [name, soup] : soups) {
+    SCOPED_TRACE(name);
+    Asked asked(soup);
+    Noise noise(1);
+    for (int i = 0; i < 200; ++i) {
+      const Point query = random_point(noise);
+      const NearestAnswer answer = asked.ask(query);
+      const auto [squared, index] = asked.least(query);
+      EXPECT_EQ(answer.status, Status::kExact);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(answer.distance),
+                std::bit_cast<std::uint64_t>(std::sqrt(squared)));
+      EXPECT_EQ(answer.triangle, index);
+    }
+  }
+}
+
+TEST(Nearest, GivesTiesToTheLeastIndex) {
+  Asked asked(sphere(4));
+  // The centre of a sphere, its corners, and points above its edges.
+  for (const Point& query : {Point(0, 0, 0), Point(1, 0, 0), Point(0, -3, 0), Point(0.5, 0.5, 0)})
+    EXPECT_EQ(asked.ask(query).triangle, asked.least(query).second);
+}
+
+TEST(Nearest, AnswersTheSameFromAnyPageSize) {
+  Asked small(scattered(2000, 0.1), 4096), large(scattered(2000, 0.1), 262144);
+  ASSERT_GT(small.pages.size(), large.pages.size());
+  Noise noise(2);
+  for (int i = 0; i < 200; ++i) {
+    const Point query = random_point(noise);
+    const NearestAnswer one = small.ask(query), other = large.ask(query);
+    EXPECT_EQ(one.distance, other.distance);
+    EXPECT_EQ(one.triangle, other.triangle);
+    EXPECT_EQ(one.point, other.point);
+    EXPECT_EQ(one.lower, other.lower);
+    EXPECT_EQ(one.upper, other.upper);
+  }
+}
+
+TEST(Nearest, LooksAtFewOfManyTriangles) {
+  Asked asked(sphere(6), 16384);
+  asked.ask(Point(0.9, 0.5, 0.1));
+  EXPECT_LT(asked.work.triangles, 64u);
+  EXPECT_LT(asked.work.nodes + asked.work.blocks, 64u);
+}
+
+TEST(Nearest, IsExactHoweverFarTheQueryIs) {
+  Asked asked(sphere(3));
+  for (const double far : {1e6, 0x1p59, 0x1p61, 1e30, 0x1p200, kFarthestQuery}) {
+    const NearestAnswer answer = asked.ask(Point(far, far / 3, -far / 7));
+    EXPECT_EQ(answer.status, Status::kExact) << far;
+    asked.expect_interval_holds(answer, Point(far, far / 3, -far / 7));
+  }
+}
+
+TEST(Nearest, StopsAtTheDistanceItIsTold) {
+  Asked asked(sphere(4));
+  const double scale = asked.sample.mesh.upper().x();
+  const Point query(3 * scale, 0, 0);
+  NearestLimits limits;
+  limits.max_distance = 1.9 * scale;
+  NearestAnswer answer = asked.ask(query, limits);
+  EXPECT_EQ(answer.status, Status::kBeyondMaxDistance);
+  EXPECT_EQ(answer.lower, limits.max_distance);
+  EXPECT_EQ(answer.upper, kInfinity);
+  EXPECT_EQ(answer.triangle, kNoTriangle);
+  limits.max_distance = 2 * scale;
+  answer = asked.ask(query, limits);
+  EXPECT_EQ(answer.status, Status::kExact);
+  EXPECT_EQ(answer.distance, 2 * scale);
+}
+
+TEST(Nearest, StaysWithinTheErrorItIsAllowed) {
+  Asked asked(sphere(5));
+  Noise noise(3);
+  int within = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Point query = random_point(noise);
+    NearestLimits limits;
+    limits.max_error = noise.uniform(0, 0.2);
+    const NearestAnswer answer = asked.ask(query, limits);
+    ASSERT_TRUE(answer.status == Status::kExact || answer.status == Status::kWithinError);
+    EXPECT_LE(answer.upper - answer.lower, limits.max_error);
+    asked.expect_interval_holds(answer, query);
+    within += answer.status == Status::kWithinError;
+  }
+  EXPECT_GT(within, 100);
+}
+
+TEST(Nearest, SavesWorkWhereErrorIsAllowed) {
+  Asked asked(sphere(5));
+  const Point query(0.01, 0.02, 0);  // near the centre, where all is equally far
+  asked.ask(query);
+  const std::uint64_t exact = asked.work.blocks;
+  NearestLimits limits;
+  limits.max_error = 0.1;
+  asked.ask(query, limits);
+  EXPECT_LT(asked.work.blocks * 2, exact);
+}
+
+// A triangle within max_distance must not be taken for one that max_error
+// allows to leave out: there is nothing else to answer with.
+TEST(Nearest, FindsWhatLiesBetweenErrorAndDistance) {
+  Asked asked(sphere(4));
+  Noise noise(4);
+  for (int i = 0; i < 300; ++i) {
+    const Point query = random_point(noise, -2.5, 2.5);
+    const double truth = std::sqrt(asked.least(query).first);
+    NearestLimits limits;
+    limits.max_distance = truth * noise.uniform(0.5, 2);
+    limits.max_error = limits.max_distance * noise.uniform(0.1, 1.5);
+    const NearestAnswer answer = asked.ask(query, limits);
+    EXPECT_EQ(answer.status == Status::kBeyondMaxDistance, truth > limits.max_distance);
+    asked.expect_interval_holds(answer, query);
+  }
+}
+
+TEST(Nearest, HoldsTheTruthAfterAnyNumberOfNodes) {
+  Asked asked(scattered(1500, 0.2));
+  Noise noise(5);
+  for (int i = 0; i < 40; ++i) {
+    const Point query = random_point(noise);
+    double width = kInfinity;
+    for (const std::uint32_t nodes : {0u, 1u, 2u, 5u, 20u, 100u, 10000u}) {
+      NearestLimits limits;
+      limits.max_nodes = nodes;
+      const NearestAnswer answer = asked.ask(query, limits);
+      EXPECT_LE(asked.work.nodes + asked.work.blocks, nodes);
+      asked.expect_interval_holds(answer, query);
+      EXPECT_EQ(answer.status, nodes == 10000 ? Status::kExact : answer.status);
+      if (nodes < 3) {
+        EXPECT_EQ(answer.status, Status::kDegraded);
+      }
+      width = std::min(width, answer.upper - answer.lower);
+    }
+    EXPECT_LT(width, 1e-10);
+  }
+}
+
+TEST(Nearest, AnswersFromTheSampleWhereNothingIsRead) {
+  Asked asked(sphere(4));
+  asked.pages.withhold(0);
+  const Point query(0.3, 0.2, 5);
+  const NearestAnswer answer = asked.ask(query);
+  EXPECT_EQ(answer.status, Status::kDegraded);
+  EXPECT_EQ(answer.triangle, kNoTriangle);
+  EXPECT_EQ(answer.point, asked.facts.sample);
+  EXPECT_EQ(answer.distance, answer.upper);
+  asked.expect_interval_holds(answer, query);
+}
+
+TEST(Nearest, GoesOnWithoutPagesItCannotHave) {
+  Noise noise(6);
+  std::size_t exact = 0, degraded = 0;
+  for (int round = 0; round < 8; ++round) {
+    Asked asked(sphere(4));
+    for (std::uint32_t page = 1; page < asked.pages.size(); ++page)
+      if (noise.bits() % 3 == 0) asked.pages.withhold(page);
+    for (int i = 0; i < 50; ++i) {
+      const Point query = random_point(noise);
+      const NearestAnswer answer = asked.ask(query);
+      asked.expect_interval_holds(answer, query);
+      if (answer.status == Status::kExact) {
+        EXPECT_EQ(answer.triangle, asked.least(query).second);
+      }
+      ++(answer.status == Status::kExact ? exact : degraded);
+    }
+  }
+  EXPECT_GT(exact, 20u);
+  EXPECT_GT(degraded, 20u);
+}
+
+// Links between pages are the one thing that a page by itself cannot show to
+// be right. Under the sanitizers following a wrong one would stop the test.
+TEST(Nearest, FollowsNoLinkThatMissesARecord) {
+  const SampleTree sample = build_sample(sphere(4), 4096);
+  const SamplePages honest(sample);
+  const LinkFormat links(4096);
+  const std::uint32_t page = links.page(RawPage::of(honest.raw(0)).page_links[0]);
+  for (std::uint32_t slot = 0; slot < 64; ++slot)
+    for (const bool leaf : {false, true}) {
+      SamplePages pages = honest;
+      RawPage root = RawPage::of(honest.raw(0));
+      // Two links to one page: the second finds the page already at hand.
+      for (std::uint32_t& link : root.page_links)
+        if (links.page(link) == page) link = links.make(leaf, page, slot);
+      root.page_links[0] = root.page_links[1] = links.make(leaf, page, slot);
+      ASSERT_TRUE(decode_page(root.bytes(), page_facts(sample, 0), pages.frame(0).bytes()));
+      TreeWork work;
+      const NearestAnswer answer =
+          nearest(tree_facts(sample), Point(0, 0, 0), {}, pages.reader(), work);
+      const auto& header = pages.frame(page).header();
+      const auto* starts =
+          reinterpret_cast<const std::uint64_t*>(pages.frame(page).data() + kSlotBytes);
+      const bool node_there = slot >= header.first_node_slot && slot < header.first_block_slot &&
+                              (slot - header.first_node_slot) % kNodeSlots == 0;
+      const bool there = leaf ? (*starts >> slot & 1) != 0 : node_there;
+      if (!there) {
+        EXPECT_EQ(answer.status, Status::kDegraded) << slot;
+      }
+      EXPECT_LT(answer.lower, answer.upper);
+    }
+}
+
+TEST(Nearest, EndsHoweverLongAForgedTreeIs) {
+  const SampleTree sample = build_sample(sphere(5), 4096);
+  SamplePages pages(sample);
+  TreeFacts facts = tree_facts(sample);
+  facts.record_count = 100;
+  TreeWork work;
+  const NearestAnswer answer = nearest(facts, Point(0, 0, 0), {}, pages.reader(), work);
+  EXPECT_EQ(work.nodes + work.blocks, 100u);
+  EXPECT_EQ(answer.status, Status::kDegraded);
+}
+
+}  // namespace
+}  // namespace planetree::octree

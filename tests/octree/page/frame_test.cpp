@@ -1,0 +1,82 @@
+#include "octree/page/frame.h"
+
+#include <gtest/gtest.h>
+
+#include "octree/page/page_streams.h"
+
+namespace planetree::octree {
+namespace {
+
+constexpr std::uint32_t kPageSizes[] = {4096, 8192, 16384, 32768, 65536, 131072, 262144};
+
+TEST(LinkFormat, GivesBackWhatItWasMadeOf) {
+  for (const std::uint32_t page_bytes : kPageSizes) {
+    const LinkFormat links(page_bytes);
+    const auto last_slot = static_cast<std::uint32_t>(page_bytes / kSlotBytes - 1);
+    for (const std::uint32_t page : {0u, 1u, links.max_pages() / 3, links.max_pages() - 1})
+      for (const std::uint32_t slot : {0u, 2u, last_slot})
+        for (const bool leaf : {false, true}) {
+          const std::uint32_t link = links.make(leaf, page, slot);
+          EXPECT_EQ(LinkFormat::is_leaf(link), leaf);
+          EXPECT_EQ(links.page(link), page);
+          EXPECT_EQ(links.slot(link), slot);
+        }
+  }
+}
+
+TEST(LinkFormat, ReachesFewerPagesTheLargerTheyAre) {
+  EXPECT_EQ(LinkFormat(4096).max_pages(), 1u << 25);
+  EXPECT_EQ(LinkFormat(65536).max_pages(), 1u << 21);
+  EXPECT_EQ(LinkFormat(262144).max_pages(), 1u << 19);
+}
+
+TEST(FrameHead, HasABitForEverySlot) {
+  for (const std::uint32_t page_bytes : kPageSizes) {
+    const std::size_t bits = (frame_head_slots(page_bytes) - 1) * kSlotBytes * 8;
+    EXPECT_GE(bits, page_bytes / kSlotBytes);
+  }
+  EXPECT_EQ(frame_head_slots(4096), 2u);
+  EXPECT_EQ(frame_head_slots(262144), 9u);
+}
+
+TEST(BlockShape, TakesTheSlotsTheFormatStates) {
+  struct Row {
+    unsigned vertices, narrow, wide;
+  };
+  constexpr Row kRows[] = {{1, 5, 11},  {16, 5, 11}, {17, 7, 16},  {24, 7, 16},
+                           {25, 8, 20}, {32, 8, 20}, {33, 11, 29}, {48, 11, 29}};
+  for (const Row& row : kRows) {
+    EXPECT_EQ((BlockShape{false, false}.slots(row.vertices, false)), row.narrow);
+    EXPECT_EQ((BlockShape{true, false}.slots(row.vertices, false)), row.wide);
+    EXPECT_EQ((BlockShape{false, true}.slots(row.vertices, false)), row.narrow + 1);
+    EXPECT_EQ((BlockShape{true, true}.slots(row.vertices, false)), row.wide + 1);
+  }
+  EXPECT_EQ(BlockShape{}.slots(16, true), 4u);
+  EXPECT_TRUE(BlockShape{}.may_be_compact(16));
+  EXPECT_FALSE(BlockShape{}.may_be_compact(17));
+  EXPECT_FALSE((BlockShape{true, false}.may_be_compact(16)));
+  EXPECT_FALSE((BlockShape{false, true}.may_be_compact(16)));
+}
+
+TEST(BlockShape, KeepsItsArraysApart) {
+  for (const unsigned stride : {16u, 24u, 32u, 48u})
+    for (const bool float64 : {false, true}) {
+      const BlockShape shape{float64, false};
+      EXPECT_GE(shape.exact_offset(stride), kSlotBytes + 3 * stride * sizeof(float));
+      EXPECT_GE(shape.id_offset(stride),
+                shape.exact_offset(stride) + (float64 ? 3 * stride * sizeof(double) : 0));
+      EXPECT_EQ(shape.id_offset(stride) % kSlotBytes, 0u);
+    }
+}
+
+TEST(Corners, TakeWholeBytesABlock) {
+  EXPECT_EQ(corner_bits(16), 4u);
+  EXPECT_EQ(corner_bits(17), 5u);
+  EXPECT_EQ(corner_bits(33), 6u);
+  EXPECT_EQ(corner_bytes(1, 3), 2u);
+  EXPECT_EQ(corner_bytes(16, 48), 36u);
+  EXPECT_EQ(corner_bytes(3, 20), 6u);
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tests/octree/page/mask_spoilings.h"
+
+namespace planetree::octree {
+namespace {
+
+// The first block of a list that has more than one.
+std::size_t of_several(const RawMaskPage& page) {
+  std::size_t at = 0;
+  for (const std::uint8_t count : page.block_counts) {
+    if (count > 1) return at;
+    at += count;
+  }
+  ADD_FAILURE() << "no list of the sample suits";
+  return 0;
+}
+
+// All of them, as far as may be.
+void lengthen_lists(RawMaskPage& page) {
+  std::ranges::fill(page.block_counts, std::uint8_t{kMostListed});
+  const std::size_t blocks = page.block_counts.size() * kMostListed;
+  page.head.block_link_count = static_cast<std::uint16_t>(blocks);
+  page.block_octants.resize(blocks, 1);
+  page.block_links.resize(blocks);
+}
+
+void grow(std::uint16_t& count, int by) { count = static_cast<std::uint16_t>(count + by); }
+
+using P = RawMaskPage;
+using F = PageFacts;
+
+}  // namespace
+
+std::vector<MaskSpoiling> mask_list_spoilings() {
+  return {
+      {"its records do not fit a page", [](P& p, F&) { lengthen_lists(p); }},
+      {"a corner's winding number is out of range", [](P& p, F&) { p.least[0] = kUncounted; }},
+      {"a corner's winding number is out of range", [](P& p, F&) { p.least[0] = kListedTag; }},
+      {"a corner's winding number is out of range", [](P& p, F&) { p.least.back() = 127; }},
+      {"a list's count of blocks is out of range", [](P& p, F&) { p.block_counts[0] = 0; }},
+      {"a list's count of blocks is out of range", [](P& p, F&) { p.block_counts[0] = 17; }},
+      {"a list's count of blocks is out of range", [](P& p, F&) { p.block_counts.back() = 0xff; }},
+      {"its lists do not add up",
+       [](P& p, F&) {
+         const auto at = std::ranges::find_if(p.block_counts, [](auto n) { return n > 1; });
+         ASSERT_NE(at, p.block_counts.end());
+         --*at;
+       }},
+      {"its lists do not add up",
+       [](P& p, F&) {
+         grow(p.head.block_link_count, 1);
+         p.block_octants.push_back(1);
+         p.block_links.push_back(0xffffffff);
+       }},
+      {"a slab's direction is out of range", [](P& p, F&) { p.slab_directions[0] |= 3; }},
+      {"a slab's direction is out of range",
+       [](P& p, F&) { p.slab_directions.back() = CellSlab::make_direction(0, 33, 0); }},
+      {"a slab's direction is out of range",
+       [](P& p, F&) { p.slab_directions[0] = CellSlab::make_direction(1, -32, 33); }},
+      {"a slab's planes are the wrong way round",
+       [](P& p, F&) {
+         p.slab_lowers[0] = 8;
+         p.slab_uppers[0] = 7;
+       }},
+      {"a block of a list touches nothing", [](P& p, F&) { p.block_octants[0] = 0; }},
+      {"a block of a list touches nothing", [](P& p, F&) { p.block_octants.back() = 0; }},
+      {"a list leads to what is no block",
+       [](P& p, F&) { p.block_links[0] &= ~LinkFormat::kLeafBit; }},
+      {"a list leads to what is no block",
+       [](P& p, F& f) {
+         p.block_links.back() = LinkFormat(f.page_bytes).make(true, f.first_page, 0);
+       }},
+      {"a list leads to what is no block", [](P& p, F&) { p.block_links.back() = 0xffffffff; }},
+      {"the blocks of a list are not in order",
+       [](P& p, F&) {
+         const std::size_t at = of_several(p);
+         std::swap(p.block_links[at], p.block_links[at + 1]);
+       }},
+      {"the blocks of a list are not in order",
+       [](P& p, F&) {
+         const std::size_t at = of_several(p);
+         p.block_links[at + 1] = p.block_links[at];
+       }},
+  };
+}
+
+}  // namespace planetree::octree

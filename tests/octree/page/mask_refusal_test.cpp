@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "octree/page/mask_decoder.h"
+#include "tests/octree/mask/random_mask.h"
+#include "tests/octree/page/mask_spoilings.h"
+#include "tests/octree/support/sample_mask.h"
+
+// Every sentence with which a mask page is refused, reached by one change to an
+// honest page.
+namespace planetree::octree {
+namespace {
+
+class MaskRefusal : public testing::TestWithParam<bool> {
+ protected:
+  MaskRefusal() : pages_(random_mask(10), 4096, kRandomMaskPage, GetParam()) {}
+
+  // Neither the mask's first page nor one without pages below.
+  std::uint32_t sample() const {
+    for (std::uint32_t page = 1; page < pages_.size(); ++page) {
+      const RawMaskPage raw = RawMaskPage::of(pages_.raw(page), GetParam());
+      const auto has = [&](MaskKind kind) {
+        return std::ranges::count(raw.kinds, static_cast<std::uint8_t>(kind)) > 0;
+      };
+      if (raw.head.page_link_count > 1 && has(MaskKind::kPlainCorners) && has(MaskKind::kCorners) &&
+          has(MaskKind::kSpecial) && has(MaskKind::kListed) && has_long_lists(raw) &&
+          raw.kinds.back() > static_cast<std::uint8_t>(MaskKind::kNodeAbove))
+        return page;
+    }
+    ADD_FAILURE() << "no page of the sample suits";
+    return 0;
+  }
+
+  // Longer ones would not fit.
+  static bool has_long_lists(const RawMaskPage& page) {
+    std::size_t slots = mask_head_slots(4096) + page.head.record_count + page.planes.size();
+    slots += page.block_counts.size() * list_slots(kMostListed);
+    return slots * kMaskSlotBytes > 4096;
+  }
+
+  MaskPages pages_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Planes, MaskRefusal, testing::Bool());
+
+TEST_P(MaskRefusal, NamesWhatIsWrongAndThePage) {
+  const std::uint32_t page = sample();
+  for (const MaskSpoiling& spoiling : all_mask_spoilings()) {
+    SCOPED_TRACE(spoiling.sentence);
+    PageFacts facts = pages_.facts(page);
+    RawMaskPage raw = RawMaskPage::of(pages_.raw(page), GetParam());
+    SampleFrame frame(facts.page_bytes);
+    ASSERT_TRUE(decode_mask_page(raw.bytes(), facts, frame.bytes()));
+    spoiling.spoil(raw, facts);
+    frame = SampleFrame(facts.page_bytes);
+    const auto decoded = decode_mask_page(raw.bytes(), facts, frame.bytes());
+    ASSERT_FALSE(decoded);
+    EXPECT_EQ(decoded.error().code, ErrorCode::kDamaged);
+    EXPECT_EQ(decoded.error().page, facts.page_number);
+    EXPECT_EQ(std::string(decoded.error().text), "mask page " + std::to_string(facts.page_number) +
+                                                     " is damaged: " + spoiling.sentence +
+                                                     "; build the file again");
+  }
+}
+
+TEST(MaskRefusalTexts, AreAllReached) {
+  std::set<std::string> reached;
+  for (const MaskSpoiling& spoiling : all_mask_spoilings()) reached.insert(spoiling.sentence);
+  const std::regex sentence("(return|[:?=]) \"([^\"]+)\";");
+  std::size_t written = 0;
+  for (const char* name : {"mask_streams", "mask_decoder"}) {
+    std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/") + name + ".cpp");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator match(text.begin(), text.end(), sentence), end; match != end;
+         ++match) {
+      ++written;
+      EXPECT_TRUE(reached.contains((*match)[2])) << (*match)[2];
+    }
+  }
+  EXPECT_GE(written, reached.size());
+}
+
+}  // namespace
+}  // namespace planetree::octree

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "octree/page/mask_frame.h"
+#include "octree/page/page_decoder.h"
+#include "tests/octree/page/raw_mask_page.h"
+
+namespace planetree::octree {
+
+/// One change to an honest page of random_mask(), and the sentence with which it is refused then.
+struct MaskSpoiling {
+  const char* sentence;
+  std::function<void(RawMaskPage&, PageFacts&)> spoil;
+};
+
+/// To reach every sentence there is. The page has leaves of all kinds, and pages below it; lists
+/// as long as they may be would not fit it.
+std::vector<MaskSpoiling> all_mask_spoilings();
+
+/// Those of them that are of lists of blocks.
+std::vector<MaskSpoiling> mask_list_spoilings();
+
+}  // namespace planetree::octree

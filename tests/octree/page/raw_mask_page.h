@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "octree/builder/tree/stream_writer.h"
+#include "octree/page/mask_streams.h"
+#include "tests/octree/page/stream_list.h"
+
+namespace planetree::octree {
+
+/// The raw bytes of a mask page, taken apart so that a test can spoil one thing
+/// and put the rest together again. The head's counts stay as they are unless
+/// they are what is spoilt.
+struct RawMaskPage {
+  MaskPageHead head{};
+  std::vector<std::uint8_t> kinds, grey, leaf, black, inverted;
+  std::vector<std::uint32_t> page_links;
+  std::vector<std::uint8_t> plain_corners;
+  std::vector<std::int8_t> corners;
+  std::vector<std::uint8_t> plane_counts;
+  std::vector<std::int8_t> behind, beyond;
+  std::vector<double> planes;
+  std::vector<std::int8_t> least;
+  std::vector<std::uint8_t> higher, block_counts;
+  std::vector<std::uint16_t> slab_directions;
+  std::vector<std::uint8_t> slab_lowers, slab_uppers, block_octants;
+  std::vector<std::uint32_t> block_links;
+  bool float64 = false;
+
+  /// `raw` must be a page that can be cut.
+  static RawMaskPage of(std::span<const std::byte> raw, bool float64) {
+    MaskStreams s;
+    if (s.cut(raw, float64) != nullptr) return {};
+    RawMaskPage page{s.head,
+                     list(s.kinds),
+                     list(s.grey),
+                     list(s.leaf),
+                     list(s.black),
+                     list(s.inverted),
+                     list(s.page_links),
+                     list(s.plain_corners),
+                     list(s.corners),
+                     list(s.plane_counts),
+                     list(s.behind),
+                     list(s.beyond),
+                     {},
+                     list(s.least),
+                     list(s.higher),
+                     list(s.block_counts),
+                     list(s.slab_directions),
+                     list(s.slab_lowers),
+                     list(s.slab_uppers),
+                     list(s.block_octants),
+                     list(s.block_links),
+                     float64};
+    for (std::size_t i = 0; i < std::size_t{9} * s.head.plane_count; ++i)
+      page.planes.push_back(s.plane_coordinate(i));
+    return page;
+  }
+
+  std::vector<std::byte> bytes() const {
+    StreamWriter writer;
+    writer.plain(&head, sizeof head);
+    writer.shuffled(kinds);
+    writer.shuffled(grey);
+    writer.shuffled(leaf);
+    writer.shuffled(black);
+    writer.shuffled(inverted);
+    writer.shuffled(page_links);
+    writer.shuffled(plain_corners);
+    writer.shuffled(corners);
+    writer.shuffled(plane_counts);
+    writer.shuffled(behind);
+    writer.shuffled(beyond);
+    if (float64)
+      writer.shuffled(planes);
+    else
+      writer.shuffled(std::vector<float>(planes.begin(), planes.end()));
+    writer.shuffled(least);
+    writer.shuffled(higher);
+    writer.shuffled(block_counts);
+    writer.shuffled(slab_directions);
+    writer.shuffled(slab_lowers);
+    writer.shuffled(slab_uppers);
+    writer.shuffled(block_octants);
+    writer.shuffled(block_links);
+    return writer.take();
+  }
+};
+
+}  // namespace planetree::octree

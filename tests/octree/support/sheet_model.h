@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include "octree/builder/mask/built_mask.h"
+#include "octree/builder/mask/height_field_finder.h"
+#include "octree/builder/mask/tree_frames.h"
+#include "octree/builder/surface/region_cut.h"
+#include "octree/page/block_view.h"
+#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/support/sample_mask.h"
+
+namespace planetree::octree {
+
+/// A watertight model, its tree and mask built as far as its file could be written.
+struct SheetModel {
+  explicit SheetModel(const Soup& soup, storage::SpillFile& file = spill_file())
+      : tree(soup, 200, 4096, file),
+        mask(4096, tree.shape.float64, file),
+        facts(tree.tree->facts()),
+        surface(tree.mesh) {
+    RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+    if (!cut.add(tree.mesh)) std::abort();
+    MaskRegions regions(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
+                        spill_file());
+    if (!regions.divide(*tree.runs, 2000) || !regions.add(tree.mesh) ||
+        !mask.build(regions, *tree.runs, tree.tree.get(),
+                    [](std::uint32_t, const BuiltRegion&) { return Result<void>(); }))
+      std::abort();
+    mask_facts = {4096, tree.tree->pages().size(), mask.size(), tree.mesh.lower()};
+  }
+
+  /// Calls with every block, in no frame, and its page.
+  void each_block(const std::function<void(const BlockView&, std::uint32_t)>& look) const {
+    for (std::uint32_t page = 0; page < tree.tree->pages().size(); ++page) {
+      SampleFrame frame(4096);
+      const auto raw = tree.tree->pages().encode(page);
+      if (!raw || !decode_page(raw->bytes, tree.tree->facts_of_page(page), frame.bytes()))
+        std::abort();
+      std::size_t slot = frame.header().first_block_slot;
+      for (std::size_t i = 0; i < frame.header().block_count; ++i) {
+        const BlockView block(frame.data() + slot * kSlotBytes, facts.shape);
+        look(block, page);
+        slot += block.slots();
+      }
+    }
+  }
+
+  PatchedTree tree;
+  BuiltMask mask;
+  TreeFacts facts;
+  MaskFacts mask_facts;
+  Surface surface;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,71 @@
+// Where faces tell sides, asks that do not wait may still need the mask.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "planetree/probe.h"
+#include "query/serve/fetch_worker.h"
+#include "tests/octree/builder/build_fixture.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+class NoWitness final : public octree::BuildProgress {
+  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+};
+
+FetchWorker::Seconds still_time() { return FetchWorker::Seconds(1); }
+
+class SheetWishes : public octree::SmallPatches {
+ protected:
+  SheetWishes() {
+    write(octree::sphere(5));
+    NoWitness witness;
+    octree::BuildOptions options;
+    options.page_bytes = 4096;
+    if (!octree::build_tree(mesh_, output_, options, witness)) std::abort();
+  }
+  // With little more memory than it takes to open, so that pages come and go.
+  Model open() const {
+    OpenOptions options;
+    options.max_probes = 3;
+    const auto opened = [&] {
+      return ModelState::open_model(output_, options, {storage::FileCalls::real(), false});
+    };
+    for (options.memory_budget_bytes = 1 << 16; !opened(); options.memory_budget_bytes += 1 << 16)
+      if (options.memory_budget_bytes > 1 << 24) std::abort();
+    options.memory_budget_bytes += 1 << 16;
+    return *opened();
+  }
+
+  const std::atomic<bool> never_{false};
+};
+
+// A thread that fetches has no last answers: what it finds without the mask, the probe that wished
+// may not.
+TEST_F(SheetWishes, BringTheMaskWhereFacesTellTheSide) {
+  const Model model = open();
+  const ModelState& state = ModelState::of(model);
+  FetchWorker worker(state, *state.claim_reader(), 0, 1, &still_time, never_);
+  constexpr Ask kHasty{.wait = Wait::kNever};
+  Probe probe = make_probe(model);
+  unsigned wished = 0;
+  for (const Vec3& place : random_queries(300, -1, 1)) {
+    // Near the surface, where no colour of the mask's upper cells tells the side.
+    const double length = std::sqrt(place.x * place.x + place.y * place.y + place.z * place.z);
+    const double share = 0.999 / length;
+    const Vec3 near{place.x * share, place.y * share, place.z * share};
+    if (probe.closest_point(near, kHasty).status == Status::kExact) continue;
+    ++wished;
+    while (worker.work() != FetchWorker::Did::kNothing) {
+    }
+    EXPECT_EQ(probe.closest_point(near, kHasty).status, Status::kExact);
+    EXPECT_EQ(probe.contains(near, kHasty).status, Status::kExact);
+  }
+  EXPECT_GT(wished, 20u);
+}
+
+}  // namespace
+}  // namespace planetree::query

@@ -1,0 +1,51 @@
+// What check_asking counts over ten million asks, over as many as there is time for here.
+
+#include <gtest/gtest.h>
+
+#include "tests/cache/allocation_count.h"
+#include "tests/query/lock_count.h"
+#include "tests/query/query_costs.h"
+#include "tests/query/sample_model.h"
+
+namespace planetree::query {
+namespace {
+
+class AskingStorm : public testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(AskingStorm, TakesNothingButTheProcessor) {
+  if (!cache::allocations_are_counted() || !locks_are_counted())
+    GTEST_SKIP() << "a sanitizer counts instead";
+  const SampleModel sample = SampleModel::masked(octree::sphere(5));
+  const std::vector<Vec3> places = random_queries(3000, -1.2, 1.2);
+  const std::uint64_t resident = resident_memory_bytes();
+  ASSERT_GT(resident, 0u);
+  OpenOptions options;
+  options.max_probes = 1;
+  options.trace_touches = GetParam();
+  options.memory_budget_bytes = sample.least_budget() + 8 * 4096 + GetParam() * 100;
+  const auto opened = Model::open(sample.path(), options);
+  ASSERT_TRUE(opened);
+  const Model& model = *opened;
+  Probe probe = make_probe(model);
+  std::uint64_t evicted = 0, degraded = 0;
+  for (int most = 100; most > 0 && evicted < 300; --most) {
+    const AskingCosts costs = measure_asking(model, probe, places, 6000, 6000, resident);
+    EXPECT_EQ(costs.allocations, 0u);
+    EXPECT_EQ(costs.locks, 0u);
+    EXPECT_EQ(costs.calls, 0u);
+    EXPECT_EQ(costs.faults, 0u);
+    EXPECT_EQ(costs.grown_bytes, 0u);
+    EXPECT_EQ(costs.over_budget_bytes, 0u);
+    evicted += costs.pages_evicted;
+    degraded += costs.degraded;
+  }
+  EXPECT_GE(evicted, 300u);
+  EXPECT_GT(degraded, 0u);
+  // Nobody took any.
+  EXPECT_EQ(model.stats().touches_dropped > 0, GetParam() > 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(TracedTouches, AskingStorm, testing::Values(0, 128));
+
+}  // namespace
+}  // namespace planetree::query

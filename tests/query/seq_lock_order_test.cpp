@@ -1,0 +1,95 @@
+// LatestValue over atomics that show every behaviour the language allows.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "query/serve/seq_lock.h"
+#include "tests/cache/explorer/atomic.h"
+#include "tests/cache/explorer/explore.h"
+
+namespace planetree::explorer {
+namespace {
+
+using query::LatestStep;
+using query::LatestValue;
+
+/// One step may be weaker than it ships.
+struct ExploredLatest {
+  template <class T>
+  using Atomic = explorer::Atomic<T>;
+
+  static std::memory_order order(LatestStep step) noexcept {
+    return weakened && step == *weakened ? std::memory_order_relaxed : query::order_of(step);
+  }
+  static inline const LatestStep* weakened = nullptr;
+};
+
+struct Twice {
+  std::uint64_t value = 0, again = 0;
+};
+
+/// One thread gives 1 and 2, the others look for each.
+class LatestProgram final : public Program {
+ public:
+  LatestProgram(std::uint32_t takers, std::uint64_t& lasts_taken)
+      : takers_(takers), lasts_taken_(lasts_taken) {}
+
+  std::uint32_t thread_count() const noexcept override { return takers_ + 1; }
+
+  void run(std::uint32_t thread) override {
+    if (thread == takers_) {
+      latest_.give({1, 1});
+      latest_.give({2, 2});
+    } else {
+      std::uint64_t seen = 0, last = 0;
+      for (int i = 0; i < 2; ++i) last = take(seen, last);
+    }
+  }
+
+ private:
+  std::uint64_t take(std::uint64_t& seen, std::uint64_t last) {
+    Twice taken;
+    if (!latest_.take(seen, taken)) return last;
+    if (taken.value != taken.again) Execution::current().fail("a torn value");
+    if (taken.value <= last) Execution::current().fail("no newer value");
+    lasts_taken_ += taken.value == 2 ? 1 : 0;
+    return taken.value;
+  }
+
+  const std::uint32_t takers_;
+  std::uint64_t& lasts_taken_;
+  LatestValue<Twice, ExploredLatest> latest_;
+};
+
+Report explore_latest(std::uint32_t takers, std::uint32_t stops) {
+  std::uint64_t lasts_taken = 0;
+  Report report =
+      explore_all([&] { return std::make_unique<LatestProgram>(takers, lasts_taken); }, stops);
+  EXPECT_TRUE(lasts_taken > 0 || !report.failure.empty());
+  return report;
+}
+
+TEST(LatestValueOrder, TearsNothingInAnyRun) {
+  EXPECT_EQ(explore_latest(1, kAnyStops).failure, "");
+}
+
+TEST(LatestValueOrder, TearsNothingForTwoTakers) {
+  EXPECT_EQ(explore_latest(2, kFewStops).failure, "");
+}
+
+class WeakenedLatest : public testing::TestWithParam<LatestStep> {
+ protected:
+  void SetUp() override { ExploredLatest::weakened = &GetParam(); }
+  void TearDown() override { ExploredLatest::weakened = nullptr; }
+};
+
+TEST_P(WeakenedLatest, IsCaught) { EXPECT_NE(explore_latest(1, kFewStops).failure, ""); }
+
+INSTANTIATE_TEST_SUITE_P(Steps, WeakenedLatest,
+                         testing::Values(LatestStep::kGiveWord, LatestStep::kGiveNumber,
+                                         LatestStep::kTakeNumber, LatestStep::kTakeWord));
+
+}  // namespace
+}  // namespace planetree::explorer

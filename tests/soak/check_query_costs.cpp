@@ -1,0 +1,95 @@
+// Counts what asks that do not wait take besides the processor.
+// usage: check_asking MODEL.ptree [ASKS]
+//
+// Ten million by default, with the least memory that the model opens with, each at another place
+// anywhere in its box, as fast as they go: every page is evicted again and again meanwhile. Exit
+// status 1 if the asking thread allocated, took a lock, called the system or faulted a page in,
+// or if the process grew or the model took more than its budget.
+
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "planetree/model.h"
+#include "planetree/probe.h"
+#include "tests/query/query_costs.h"
+
+namespace planetree::query {
+namespace {
+
+// The error names it.
+std::uint64_t least_budget(const std::string& file, OpenOptions options) {
+  options.memory_budget_bytes = 1;
+  const auto refused = Model::open(file, options);
+  const std::string text = refused ? "" : refused.error().text;
+  const std::size_t at = text.find("at least ");
+  return at == std::string::npos ? 0 : std::strtoull(&text[at + 9], nullptr, 10);
+}
+
+std::vector<Vec3> places_in(const ModelInfo& info, std::size_t count) {
+  std::mt19937_64 random(7);
+  const auto any = [&](double from, double to) {
+    return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  std::vector<Vec3> places(count);
+  for (Vec3& place : places) {
+    place.x = any(info.box_lower.x, info.box_upper.x);
+    place.y = any(info.box_lower.y, info.box_upper.y);
+    place.z = any(info.box_lower.z, info.box_upper.z);
+  }
+  return places;
+}
+
+// Whether it is none.
+bool report(const char* what, std::uint64_t count) {
+  std::printf("  %-28s %llu\n", what, static_cast<unsigned long long>(count));
+  return count == 0;
+}
+
+int run(const std::string& file, std::uint64_t asks) {
+  OpenOptions options;
+  options.max_probes = 1;
+  options.memory_budget_bytes = least_budget(file, options);
+  std::vector<Vec3> places(100003);
+  const std::uint64_t resident = resident_memory_bytes();
+  const auto model = Model::open(file, options);
+  if (!model) {
+    std::fprintf(stderr, "%s: %s\n", file.c_str(), model.error().text);
+    return 1;
+  }
+  auto probe = Probe::create(*model);
+  places = places_in(model->info(), places.size());
+  const AskingCosts costs = measure_asking(*model, *probe, places, places.size(), asks, resident);
+  std::printf(
+      "%llu asks with %llu bytes of memory, %llu of them locked: %llu degraded; %llu pages "
+      "read, %llu evicted meanwhile\n",
+      static_cast<unsigned long long>(asks),
+      static_cast<unsigned long long>(options.memory_budget_bytes),
+      static_cast<unsigned long long>(model->stats().locked_bytes),
+      static_cast<unsigned long long>(costs.degraded),
+      static_cast<unsigned long long>(costs.pages_read),
+      static_cast<unsigned long long>(costs.pages_evicted));
+  bool none = report("allocations", costs.allocations);
+  none &= report("locks", costs.locks);
+  if (costs.calls_are_counted)
+    none &= report("system calls", costs.calls);
+  else
+    std::printf("  system calls cannot be counted here\n");
+  none &= report("page faults", costs.faults);
+  none &= report("bytes grown", costs.grown_bytes);
+  none &= report("bytes over budget", costs.over_budget_bytes);
+  return none ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace planetree::query
+
+int main(int argc, char** argv) {
+  if (argc < 2 || argc > 3) {
+    std::fprintf(stderr, "usage: check_asking MODEL.ptree [ASKS]\n");
+    return 2;
+  }
+  return planetree::query::run(argv[1], argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 10000000);
+}

@@ -1,0 +1,110 @@
+#include "storage/file/page_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "tests/storage/file/sample_file.h"
+
+namespace planetree::storage {
+namespace {
+
+ErrorCode code_of(const Result<void>& result) {
+  EXPECT_FALSE(result);
+  return result ? ErrorCode{} : result.error().code;
+}
+
+TEST(PageCodec, RestoresWhatItStored) {
+  for (const std::size_t length : {1u, 2u, 12u, 13u, 64u, 4096u, 65536u, 200'000u}) {
+    for (const std::uint32_t page : {0u, 1u}) {
+      const Bytes raw = sample_page(page, length);
+      const StoredPage stored = encode_page(raw);
+      Bytes restored(length);
+      ASSERT_TRUE(decode_page(stored.codec, stored.bytes, restored)) << length;
+      EXPECT_EQ(restored, raw) << length;
+      EXPECT_TRUE(lengths_are_plausible(stored.codec, stored.bytes.size(), length)) << length;
+    }
+  }
+}
+
+TEST(PageCodec, CompressesOnlyWhatShrinks) {
+  EXPECT_EQ(encode_page(sample_page(0, 4096)).codec, Codec::kLz4);
+  EXPECT_LT(encode_page(sample_page(0, 4096)).bytes.size(), 3000u);
+  const Bytes noise = sample_page(1, 4096);
+  EXPECT_EQ(encode_page(noise).codec, Codec::kStored);
+  EXPECT_EQ(encode_page(noise).bytes, noise);
+}
+
+TEST(PageCodec, StoresTheMostCompressiblePage) {
+  const Bytes raw(kMaxRawBytes);
+  const StoredPage stored = encode_page(raw);
+  EXPECT_LE(raw.size(), stored.bytes.size() * 255);
+  Bytes restored(raw.size(), std::byte{1});
+  ASSERT_TRUE(decode_page(stored.codec, stored.bytes, restored));
+  EXPECT_EQ(restored, raw);
+}
+
+TEST(PageCodec, StoresTheSameInAnyThread) {
+  const Bytes raw = sample_page(0, 65536);
+  const StoredPage here = encode_page(raw);
+  Bytes other[2];
+  std::thread first([&] { other[0] = encode_page(raw).bytes; });
+  std::thread second([&] { other[1] = encode_page(raw).bytes; });
+  first.join();
+  second.join();
+  EXPECT_EQ(other[0], here.bytes);
+  EXPECT_EQ(other[1], here.bytes);
+}
+
+TEST(PageCodec, RefusesAnyOtherRawLength) {
+  const Bytes raw = sample_page(0, 500);
+  for (const Codec codec : {Codec::kStored, Codec::kLz4}) {
+    const Bytes stored = codec == Codec::kLz4 ? encode_page(raw).bytes : raw;
+    for (const std::size_t length : {0u, 1u, 499u, 501u, 1000u}) {
+      Bytes out(length);
+      EXPECT_EQ(code_of(decode_page(codec, stored, out)), ErrorCode::kDamaged) << length;
+    }
+  }
+}
+
+TEST(PageCodec, RefusesAnExpansionBeyondLz4) {
+  EXPECT_TRUE(lengths_are_plausible(Codec::kLz4, 4, 4 * 255));
+  EXPECT_FALSE(lengths_are_plausible(Codec::kLz4, 4, 4 * 255 + 1));
+  EXPECT_FALSE(lengths_are_plausible(Codec::kLz4, 4, 4));
+  EXPECT_FALSE(lengths_are_plausible(Codec::kLz4, ~std::uint64_t{0}, 4));
+  EXPECT_FALSE(lengths_are_plausible(Codec::kStored, kMaxRawBytes + 1, kMaxRawBytes + 1));
+  EXPECT_FALSE(lengths_are_plausible(Codec::kStored, 0, 0));
+  Bytes out(4 * 255 + 1);
+  const Result<void> decoded = decode_page(Codec::kLz4, Bytes(4), out);
+  ASSERT_FALSE(decoded);
+  EXPECT_NE(std::strstr(decoded.error().text, "length"), nullptr);
+}
+
+TEST(PageCodec, RefusesAnUnknownCodec) {
+  Bytes out(4);
+  EXPECT_EQ(code_of(decode_page(Codec{2}, Bytes(4), out)), ErrorCode::kDamaged);
+}
+
+TEST(PageCodec, SurvivesEveryBrokenBlock) {
+  const Bytes raw = sample_page(0, 200);
+  const Bytes stored = encode_page(raw).bytes;
+  std::size_t refused = 0;
+  for (std::size_t bit = 0; bit < stored.size() * 8; ++bit) {
+    // Buffers of exactly these sizes, so that a sanitizer sees one byte too far.
+    Bytes broken = stored;
+    broken[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
+    Bytes out(raw.size());
+    refused += decode_page(Codec::kLz4, broken, out) ? 0 : 1;
+  }
+  for (std::size_t length = 1; length < stored.size(); ++length) {
+    Bytes out(raw.size());
+    EXPECT_FALSE(decode_page(
+        Codec::kLz4, Bytes(stored.begin(), stored.begin() + static_cast<std::ptrdiff_t>(length)),
+        out));
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+}  // namespace
+}  // namespace planetree::storage

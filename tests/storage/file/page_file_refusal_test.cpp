@@ -1,0 +1,346 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "storage/file/page_file.h"
+#include "tests/storage/file/sample_file.h"
+#include "tests/storage/system/temporary_directory.h"
+
+/// Files whose hashes are right and whose content is not: each rule of
+/// storage/file/file_check.h is broken alone.
+namespace planetree::storage {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class PageFileRefusal : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(SampleFile().write(directory_ / "good.ptree"));
+    good_ = read_bytes(directory_ / "good.ptree");
+  }
+
+  FileImage good() const { return FileImage(good_); }
+
+  Error refusal_of(FileImage image) {
+    write_bytes(directory_ / "bad.ptree", image.bytes());
+    const Result<PageFile> file = PageFile::open(directory_ / "bad.ptree");
+    return file ? Error{} : file.error();
+  }
+
+  void expect_refused(const FileImage& image, ErrorCode code, const char* said) {
+    const Error error = refusal_of(image);
+    EXPECT_EQ(error.code, code) << said << " got: " << error.text;
+    EXPECT_NE(std::strstr(error.text, said), nullptr) << said << " got: " << error.text;
+  }
+
+  void expect_header_refused(const std::function<void(FileHeader&)>& change, ErrorCode code,
+                             const char* said) {
+    FileImage image = good();
+    image.change_header(change);
+    image.seal_header();
+    expect_refused(image, code, said);
+  }
+
+  void expect_model_refused(const std::function<void(ModelRecord&)>& change, const char* said) {
+    expect_header_refused([&](FileHeader& header) { change(header.model); }, ErrorCode::kDamaged,
+                          said);
+  }
+
+  void expect_entry_refused(std::uint32_t page, const std::function<void(PageEntry&)>& change,
+                            const char* said) {
+    FileImage image = good();
+    image.change_entry(page, change);
+    image.seal();
+    expect_refused(image, ErrorCode::kDamaged, said);
+    EXPECT_EQ(refusal_of(image).page, page) << said;
+  }
+
+  TemporaryDirectory directory_;
+  Bytes good_;
+};
+
+TEST_F(PageFileRefusal, LeavesTheSealedFileAlone) {
+  FileImage image = good();
+  image.seal();
+  EXPECT_EQ(image.bytes(), good_);
+  EXPECT_EQ(refusal_of(image).text[0], 0);
+}
+
+TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
+  expect_header_refused([](FileHeader& h) { h.version = 1; }, ErrorCode::kUnsupported, "version 1");
+  expect_header_refused([](FileHeader& h) { h.version = 0; }, ErrorCode::kUnsupported, "version 0");
+  expect_header_refused([](FileHeader& h) { h.incompatible_features = 0x20; },
+                        ErrorCode::kUnsupported, "0x20");
+  // Another version may have another header.
+  FileImage image = good();
+  image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
+  std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
+  expect_refused(image, ErrorCode::kUnsupported, "version 10");
+}
+
+TEST_F(PageFileRefusal, NotUnknownCompatibleFeatures) {
+  FileImage image = good();
+  image.change_header([](FileHeader& h) { h.compatible_features = ~std::uint64_t{0}; });
+  image.seal_header();
+  EXPECT_EQ(refusal_of(image).text[0], 0);
+}
+
+TEST_F(PageFileRefusal, WrongLengths) {
+  const std::uint64_t length = good_.size();
+  const auto said = [](std::uint64_t expected, std::uint64_t found) {
+    return "should have " + std::to_string(expected) + " bytes and has " + std::to_string(found);
+  };
+  FileImage longer = good();
+  longer.bytes().resize(length + 5);
+  expect_refused(longer, ErrorCode::kTruncated, said(length, length + 5).c_str());
+  FileImage shorter = good();
+  shorter.bytes().resize(length - 1);
+  expect_refused(shorter, ErrorCode::kTruncated, said(length, length - 1).c_str());
+  expect_header_refused([](FileHeader& h) { h.file_bytes = ~std::uint64_t{0}; },
+                        ErrorCode::kTruncated, said(~std::uint64_t{0}, length).c_str());
+}
+
+TEST_F(PageFileRefusal, HeaderFields) {
+  const auto expect_damaged = [&](const std::function<void(FileHeader&)>& change,
+                                  const char* said) {
+    expect_header_refused(change, ErrorCode::kDamaged, said);
+  };
+  expect_damaged([](FileHeader& h) { h.header_bytes = 504; }, "header's length");
+  for (const std::uint32_t bytes : {0u, 2048u, 4095u, 5000u, 524288u, ~0u}) {
+    expect_damaged([&](FileHeader& h) { h.page_bytes = bytes; }, "page size");
+  }
+  expect_damaged([](FileHeader& h) { h.page_count = 0; }, "no page");
+  expect_damaged([](FileHeader& h) { h.page_count = ~0u; }, "page table does not fit");
+  expect_damaged([](FileHeader& h) { h.page_count = 100; }, "page table does not fit");
+  expect_damaged([](FileHeader& h) { h.max_raw_bytes = 0; }, "largest raw page");
+  expect_damaged([](FileHeader& h) { h.max_raw_bytes = 4 * kMaxPageBytes + 1; },
+                 "largest raw page");
+  expect_damaged([](FileHeader& h) { h.max_raw_bytes = ~0u; }, "largest raw page");
+  expect_damaged([](FileHeader& h) { h.max_stored_bytes = 0; }, "largest stored page");
+  expect_damaged([](FileHeader& h) { h.max_stored_bytes = ~std::uint64_t{0}; },
+                 "largest stored page");
+  expect_damaged([](FileHeader& h) { h.reserved[0] = 1; }, "reserved");
+  expect_damaged([](FileHeader& h) { h.reserved[std::size(FileHeader{}.reserved) - 1] = 1; },
+                 "reserved");
+  expect_damaged([](FileHeader& h) { ++h.max_raw_bytes; }, "no page is as large");
+}
+
+TEST_F(PageFileRefusal, Regions) {
+  const auto make_region = [](ModelRecord& m) {
+    m.input_triangles = m.triangle_count;
+    for (int axis = 0; axis < 3; ++axis) {
+      m.region_lower[axis] = m.box_lower[axis];
+      m.region_upper[axis] = m.box_upper[axis];
+    }
+    m.region_winding = -3;
+  };
+  const auto expect_region_refused = [&](const std::function<void(ModelRecord&)>& change,
+                                         const char* said) {
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          make_region(m);
+          change(m);
+        },
+        said);
+  };
+  FileImage region = good();
+  region.change_header([&](FileHeader& h) { make_region(h.model); });
+  region.seal_header();
+  EXPECT_EQ(refusal_of(region).text[0], 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double value : {kNan, kInfinity, -kInfinity}) {
+      expect_region_refused([&](ModelRecord& m) { m.region_lower[axis] = value; }, "region");
+      expect_region_refused([&](ModelRecord& m) { m.region_upper[axis] = value; }, "region");
+    }
+    expect_region_refused(
+        [&](ModelRecord& m) {
+          m.region_lower[axis] = 0.5;
+          m.region_upper[axis] = 0.25;
+        },
+        "region");
+    for (const double beside : {-9.0, 9.0}) {
+      expect_region_refused(
+          [&](ModelRecord& m) { m.region_lower[axis] = m.region_upper[axis] = beside; }, "region");
+    }
+    expect_model_refused([&](ModelRecord& m) { m.region_lower[axis] = 1; }, "region");
+    expect_model_refused([&](ModelRecord& m) { m.region_upper[axis] = -0.0; }, "region");
+  }
+  expect_region_refused([](ModelRecord& m) { m.input_triangles = m.triangle_count - 1; },
+                        "more triangles than the input");
+  expect_region_refused([](ModelRecord& m) { m.input_triangles = 0; }, "region");
+  for (const std::int64_t winding : {std::int64_t{13}, std::int64_t{-13}, INT64_MAX, INT64_MIN}) {
+    expect_region_refused([&](ModelRecord& m) { m.region_winding = winding; }, "winding number");
+  }
+  expect_region_refused(
+      [](ModelRecord& m) {
+        m.input_triangles = ~std::uint64_t{0};
+        m.region_winding = INT64_MIN;
+      },
+      "winding number");
+  expect_model_refused([](ModelRecord& m) { m.region_winding = 1; }, "region");
+}
+
+TEST_F(PageFileRefusal, ModelFields) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double value : {kNan, kInfinity, -kInfinity}) {
+      expect_model_refused([&](ModelRecord& m) { m.box_lower[axis] = value; }, "box is not finite");
+      expect_model_refused([&](ModelRecord& m) { m.box_upper[axis] = value; }, "box is not finite");
+      expect_model_refused([&](ModelRecord& m) { m.centre[axis] = value; }, "centre");
+      expect_model_refused([&](ModelRecord& m) { m.sample[axis] = value; }, "sample");
+    }
+    expect_model_refused(
+        [&](ModelRecord& m) { m.box_lower[axis] = std::nextafter(m.box_upper[axis], kInfinity); },
+        "inside out");
+  }
+  for (const std::int32_t exponent : {-1201, 1201, INT32_MIN, INT32_MAX}) {
+    expect_model_refused([&](ModelRecord& m) { m.scale_exponent = exponent; }, "scale");
+  }
+  expect_model_refused([](ModelRecord& m) { m.vertex_kind = VertexKind{2}; }, "kind of vertices");
+  for (const int bytes : {0, 3, 5, 16, 255}) {
+    expect_model_refused([&](ModelRecord& m) { m.triangle_id_bytes = std::uint8_t(bytes); },
+                         "triangle indices");
+  }
+  expect_model_refused([](ModelRecord& m) { m.height = 97; }, "height");
+  expect_model_refused([](ModelRecord& m) { m.mask_page_count = ~0u; }, "only pages of the mask");
+  expect_model_refused([](ModelRecord& m) { m.mask_cell_count = 1; }, "mask's size");
+  expect_model_refused([](ModelRecord& m) { m.mask_page_count = 1; }, "mask's size");
+  expect_model_refused([](ModelRecord& m) { m.mask_levels = 1; }, "mask's size");
+  expect_model_refused([](ModelRecord& m) { m.mask_reserved[2] = 1; }, "mask's reserved");
+  expect_model_refused(
+      [](ModelRecord& m) {
+        m.mask_cell_count = m.mask_page_count = 1;
+        m.mask_levels = 20;
+      },
+      "mask's size");
+  expect_model_refused(
+      [](ModelRecord& m) {
+        m.mask_cell_count = m.mask_page_count = 1;
+        m.open_edge_count = 1;
+      },
+      "not watertight");
+  for (const int at : {0, 4}) {
+    expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
+  }
+}
+
+TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
+  const OpenEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
+  for (const std::uint64_t count : {0u, 2u, 3u})
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          m.open_edge_count = count;
+          m.open_edge[0] = edge;
+        },
+        "as long as their number");
+  expect_model_refused(
+      [&](ModelRecord& m) {
+        m.open_edge_count = 1;
+        m.open_edge[0] = edge;
+        m.open_edge[0].against = 1;
+      },
+      "is not one");
+  for (const double value : {kNan, kInfinity})
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          m.open_edge_count = 1;
+          m.open_edge[0] = edge;
+          m.open_edge[0].to[2] = value;
+        },
+        "is not one");
+}
+
+TEST_F(PageFileRefusal, NotModelsAtTheLimits) {
+  FileImage image = good();
+  image.change_header([](FileHeader& h) {
+    h.page_bytes = kMaxPageBytes;
+    h.model.scale_exponent = -1200;
+    h.model.height = 96;
+    h.model.vertex_kind = VertexKind::kFloat64;
+    h.model.triangle_id_bytes = 8;
+    h.model.box_lower[0] = h.model.box_upper[0];
+  });
+  image.seal_header();
+  EXPECT_EQ(refusal_of(image).text[0], 0);
+}
+
+TEST_F(PageFileRefusal, TableHashes) {
+  FileImage image = good();
+  image.change_header([](FileHeader& h) { h.table_hash ^= 1; });
+  image.seal_header();
+  expect_refused(image, ErrorCode::kDamaged, "page table's checksum");
+  image = good();
+  image.change_entry(1, [](PageEntry& e) { e.check ^= 1; });
+  image.seal_table();
+  image.seal_header();
+  expect_refused(image, ErrorCode::kDamaged, "content id");
+  for (const int word : {0, 1}) {
+    expect_header_refused([&](FileHeader& h) { h.content_id[word] ^= 1; }, ErrorCode::kDamaged,
+                          "content id");
+  }
+}
+
+TEST_F(PageFileRefusal, EntryFields) {
+  expect_entry_refused(
+      0, [](PageEntry& e) { ++e.offset; }, "does not start where");
+  expect_entry_refused(
+      1, [](PageEntry& e) { --e.offset; }, "does not start where");
+  expect_entry_refused(
+      2, [](PageEntry& e) { e.offset = ~std::uint64_t{0}; }, "does not start where");
+  expect_entry_refused(
+      2, [](PageEntry& e) { --e.stored_bytes; }, "do not end where");
+  expect_entry_refused(
+      1, [](PageEntry& e) { e.codec = Codec{7}; }, "codec");
+  expect_entry_refused(
+      0, [](PageEntry& e) { e.raw_bytes = 135; }, "raw length is above");
+  expect_entry_refused(
+      0, [](PageEntry& e) { e.raw_bytes = ~0u; }, "raw length is above");
+  expect_entry_refused(
+      0, [](PageEntry& e) { e.raw_bytes = 0; }, "cannot give");
+  expect_entry_refused(
+      0, [](PageEntry& e) { e.stored_bytes = 0; }, "stored length is zero");
+  expect_entry_refused(
+      0, [](PageEntry& e) { e.stored_bytes = ~0u; }, "above the file's largest");
+  expect_entry_refused(
+      1, [](PageEntry& e) { e.raw_bytes = 126; }, "cannot give");
+  expect_entry_refused(
+      1, [](PageEntry& e) { e.codec = Codec::kLz4; }, "cannot give");
+}
+
+TEST_F(PageFileRefusal, KeysOutOfOrder) {
+  expect_entry_refused(
+      1, [](PageEntry& e) { e.ordinal = 0; }, "key does not follow");
+  expect_entry_refused(
+      2, [](PageEntry& e) { e.octcode = 0; }, "key does not follow");
+  expect_entry_refused(
+      2, [](PageEntry& e) { e = {e.offset, e.check, 0, 1, e.codec, e.stored_bytes, e.raw_bytes}; },
+      "key does not follow");
+}
+
+// A page of 13 bytes that says it stands for a mebibyte.
+TEST_F(PageFileRefusal, Bombs) {
+  FileImage image = good();
+  image.change_entry(0, [](PageEntry& e) { e.raw_bytes = kMaxRawBytes; });
+  image.change_header([](FileHeader& h) { h.max_raw_bytes = kMaxRawBytes; });
+  image.seal();
+  expect_refused(image, ErrorCode::kDamaged, "cannot give");
+}
+
+TEST_F(PageFileRefusal, DamagedStartsOfOurOwn) {
+  // What a transfer in text mode makes of the first bytes.
+  FileImage image = good();
+  image.bytes().erase(image.bytes().begin() + 6);
+  std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
+  expect_refused(image, ErrorCode::kDamaged, "text mode");
+  image = good();
+  image.bytes()[100] ^= std::byte{1};
+  image.bytes()[image.bytes().size() - 1] ^= std::byte{1};
+  expect_refused(image, ErrorCode::kDamaged, "neither");
+}
+
+}  // namespace
+}  // namespace planetree::storage

@@ -1,0 +1,54 @@
+#include "tools/check/edge_check.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+namespace planetree::tools {
+namespace {
+
+using octree::Point;
+
+std::vector<octree::Triangle> closed_faces() {
+  const Point a(0, 0, 0), b(0, 1, 0), c(1, 0, 0), d(0, 0, 1);
+  return {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
+}
+
+bool finds_fault(const storage::ModelRecord& model, const std::vector<octree::Triangle>& faces) {
+  EdgeCheck check(model);
+  for (const octree::Triangle& face : faces) check.add(face);
+  return check.finding().has_value();
+}
+
+TEST(EdgeCheck, BelievesAHeaderThatIsRight) {
+  EXPECT_FALSE(finds_fault({}, closed_faces()));
+  std::vector<octree::Triangle> twice = closed_faces();
+  for (const octree::Triangle& face : closed_faces()) twice.push_back(face);
+  EXPECT_FALSE(finds_fault({}, twice));
+}
+
+// What it lists is so, and yet no edge is open.
+TEST(EdgeCheck, FindsAClosedSurfaceThatIsSaidToBeOpen) {
+  storage::ModelRecord model{};
+  model.open_edge_count = 1;
+  model.open_edge[0].to[1] = 1;
+  model.open_edge[0].along = model.open_edge[0].against = 1;
+  EXPECT_TRUE(finds_fault(model, closed_faces()));
+}
+
+// A hole, a face the other way round, a face too many.
+TEST(EdgeCheck, FindsAnOpenSurfaceThatIsSaidToBeClosed) {
+  std::vector<octree::Triangle> faces = closed_faces();
+  faces.pop_back();
+  EXPECT_TRUE(finds_fault({}, faces));
+  faces = closed_faces();
+  std::swap(faces[2][0], faces[2][1]);
+  EXPECT_TRUE(finds_fault({}, faces));
+  faces = closed_faces();
+  faces.push_back(faces[0]);
+  EXPECT_TRUE(finds_fault({}, faces));
+}
+
+}  // namespace
+}  // namespace planetree::tools

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "octree/page/page_streams.h"
+#include "tests/tools/check/mask_check_fixture.h"
+
+// What verify finds in the bits that say which blocks are in sheets.
+namespace planetree::tools {
+namespace {
+
+class FileCheckOfSheets : public FileCheckOfMasks {
+ protected:
+  using Counts = std::function<std::uint8_t(std::uint8_t count)>;
+
+  // Of the counts of triangles of all blocks.
+  Forgery forgery_of(const Counts& changed) {
+    Forgery forgery;
+    forgery.page = [changed](std::uint32_t, RawPage& page) {
+      for (std::size_t i = 0; i < page.elements("triangle_counts"); ++i)
+        page.set("triangle_counts", i, changed(page.get<std::uint8_t>("triangle_counts", i)));
+    };
+    return forgery;
+  }
+  CheckReport check_counts(const std::filesystem::path& tree, const Counts& changed, bool full) {
+    return check_forgery(tree, forgery_of(changed), full);
+  }
+
+  // Sets the bit of the block that is so many-th of those without it.
+  Counts marking(std::size_t which) {
+    return [left = which](std::uint8_t count) mutable -> std::uint8_t {
+      const bool clear = (count & octree::kSheetBit) == 0;
+      return clear && left-- == 0 ? count | octree::kSheetBit : count;
+    };
+  }
+  std::size_t count_unmarked(const std::filesystem::path& tree) {
+    std::size_t unmarked = 0;
+    check_counts(
+        tree,
+        [&](std::uint8_t count) {
+          unmarked += (count & octree::kSheetBit) == 0;
+          return count;
+        },
+        false);
+    return unmarked;
+  }
+};
+
+TEST_F(FileCheckOfSheets, FindsEveryBlockThatIsInNone) {
+  const std::size_t unmarked = count_unmarked(boxes());
+  ASSERT_GT(unmarked, 2u);
+  for (std::size_t i = 0; i < unmarked; ++i) {
+    const CheckReport report = check_counts(boxes(), marking(i), true);
+    EXPECT_EQ(codes_of(report), Codes{"BLOCK_SHEET"}) << i;
+    EXPECT_EQ(report.issues.count(), 1u);
+    EXPECT_EQ(codes_of(check_counts(boxes(), marking(i), false)), Codes{});
+  }
+}
+
+TEST_F(FileCheckOfSheets, AllowsBlocksThatAreNotSaidToBe) {
+  const auto clear = [](std::uint8_t count) {
+    return static_cast<std::uint8_t>(count & ~octree::kSheetBit);
+  };
+  for (const auto& tree : {boxes(), sphere()})
+    EXPECT_EQ(codes_of(check_counts(tree, clear, true)), Codes{});
+}
+
+// Not even those that are in sheets of the whole mesh.
+TEST_F(FileCheckOfSheets, FindsThemInFilesOfRegions) {
+  const std::filesystem::path region = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/region.ptree";
+  const std::size_t unmarked = count_unmarked(region);
+  ASSERT_GT(unmarked, 2u);
+  EXPECT_EQ(codes_of(check_path(region, true)), Codes{});
+  for (std::size_t i = 0; i < unmarked; ++i)
+    EXPECT_EQ(codes_of(check_counts(region, marking(i), true)), Codes{"BLOCK_SHEET"});
+}
+
+// They are proven by it.
+TEST_F(FileCheckOfSheets, AreNotLookedAtWhereTheMaskIsWrong) {
+  Forgery forgery = forgery_of(marking(0));
+  forgery.mask = [done = false](std::uint32_t, RawMaskPage& page) mutable {
+    if (done || page.head.corners_count == 0) return;
+    done = true;
+    page.corners[3] = static_cast<std::int8_t>(page.corners[3] + 1);
+  };
+  EXPECT_EQ(codes_of(check_forgery(boxes(), forgery, true)), Codes{"MASK_CORNER"});
+}
+
+}  // namespace
+}  // namespace planetree::tools

@@ -1,0 +1,227 @@
+#include "tools/check/file_check.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/tools/check/file_check_fixture.h"
+
+namespace planetree::tools {
+namespace {
+
+TEST_F(FileCheck, FindsPagesThatDoNotUnpack) {
+  Forgery forgery;
+  forgery.stored = [](std::uint32_t page, storage::StoredPage& stored) {
+    if (page != 1) return;
+    stored.codec = storage::Codec::kLz4;
+    std::fill(stored.bytes.begin(), stored.bytes.end(), std::byte{0xff});
+  };
+  EXPECT_EQ(codes_of_forgery(forgery), Codes{"PAGE_CODEC"});
+}
+
+TEST_F(FileCheck, FindsPagesThatBreakTheirRules) {
+  Forgery forgery;
+  forgery.page = [](std::uint32_t page, RawPage& raw) {
+    if (page == 0) raw.set<std::uint8_t>("child_counts", 0, 0);
+  };
+  EXPECT_EQ(codes_of_forgery(forgery), Codes{"PAGE_STRUCTURE"});
+}
+
+/// Calls change(raw) for the first page that has at least two links to others.
+Forgery change_links(const std::function<void(RawPage&)>& change) {
+  Forgery forgery;
+  forgery.page = [change, done = false](std::uint32_t, RawPage& raw) mutable {
+    if (done || raw.elements("page_links") < 2) return;
+    change(raw);
+    done = true;
+  };
+  return forgery;
+}
+
+TEST_F(FileCheck, FindsLinksThatLeadNowhere) {
+  const auto forgery = change_links(
+      [](RawPage& raw) { raw.set("page_links", 0, raw.get<std::uint32_t>("page_links", 0) + 1); });
+  EXPECT_EQ(codes_of_forgery(forgery), (Codes{"LINK_TARGET", "SUBTREE_UNLINKED"}));
+  const auto kind = change_links([](RawPage& raw) {
+    raw.set("page_links", 0, raw.get<std::uint32_t>("page_links", 0) ^ (1u << 31));
+  });
+  EXPECT_EQ(codes_of_forgery(kind), (Codes{"LINK_TARGET", "SUBTREE_UNLINKED"}));
+}
+
+TEST_F(FileCheck, FindsTwoLinksToOneSubtree) {
+  const auto forgery = change_links(
+      [](RawPage& raw) { raw.set("page_links", 1, raw.get<std::uint32_t>("page_links", 0)); });
+  const Codes codes = codes_of_forgery(forgery, false);
+  EXPECT_TRUE(codes.contains("LINK_TWICE") && codes.contains("SUBTREE_UNLINKED"));
+}
+
+TEST_F(FileCheck, FindsARootThatIsNotThere) {
+  EXPECT_TRUE(codes_of_model([](auto& model) { model.root_link += 1; }).contains("LINK_TARGET"));
+  EXPECT_TRUE(codes_of_model([](auto& model) {
+                model.root_link = ~std::uint32_t{0};
+              }).contains("LINK_TARGET"));
+}
+
+TEST_F(FileCheck, FindsBoxesThatDoNotAgreeAcrossPages) {
+  Forgery forgery;
+  forgery.page = [](std::uint32_t page, RawPage& raw) {
+    if (page == 0 || raw.elements("root_boxes") == 0) return;
+    raw.set("root_boxes", 3, std::nextafter(raw.get<float>("root_boxes", 3), 9.0f));
+  };
+  EXPECT_EQ(codes_of_forgery(forgery, false), Codes{"SUBTREE_BOX"});
+}
+
+TEST_F(FileCheck, FindsAHeaderWhoseBoxIsNotTheModels) {
+  EXPECT_EQ(codes_of_model([](auto& model) { model.box_upper[1] += 1; }),
+            (Codes{"ROOT_BOX", "MODEL_BOX"}));
+  EXPECT_EQ(codes_of_model([](auto& model) { model.box_upper[1] -= 1; }), Codes{"MODEL_BOX"});
+}
+
+TEST_F(FileCheck, FindsHeightsThatAreNot) {
+  EXPECT_EQ(codes_of_model([](auto& model) { ++model.height; }), Codes{"HEIGHT"});
+  // The root's height alone: the highest below it then has two less.
+  Forgery forgery;
+  forgery.page = [](std::uint32_t page, RawPage& raw) {
+    if (page == 0)
+      raw.set<std::uint8_t>("heights", 0,
+                            static_cast<std::uint8_t>(raw.get<std::uint8_t>("heights", 0) + 1));
+  };
+  forgery.model = [](storage::ModelRecord& model) { ++model.height; };
+  EXPECT_EQ(codes_of_forgery(forgery), Codes{"HEIGHT"});
+}
+
+TEST_F(FileCheck, FindsCountsThatDoNotAddUp) {
+  EXPECT_EQ(codes_of_model([](auto& model) { ++model.node_count; }), Codes{"COUNT"});
+  EXPECT_EQ(codes_of_model([](auto& model) { --model.block_count; }), Codes{"COUNT"});
+  EXPECT_EQ(codes_of_model([](auto& model) { ++model.triangle_count; }), Codes{"COUNT"});
+}
+
+TEST_F(FileCheck, FindsTrianglesOutOfRangeOrTwice) {
+  EXPECT_EQ(codes_of_model([](auto& model) { --model.triangle_count; }),
+            (Codes{"COUNT", "TRIANGLE_RANGE"}));
+  Forgery forgery;
+  forgery.page = [](std::uint32_t, RawPage& raw) {
+    if (raw.elements("first_ids") == 0) return;
+    raw.set<std::uint32_t>("first_ids", 0, 1);
+  };
+  EXPECT_TRUE(codes_of_forgery(forgery).contains("TRIANGLE_TWICE"));
+  EXPECT_FALSE(codes_of_forgery(forgery, false).contains("TRIANGLE_TWICE"));
+}
+
+TEST_F(FileCheck, FindsHeadersThatContradictThemselves) {
+  EXPECT_EQ(codes_of_model([](auto& model) { model.first_set_aside = 3; }), Codes{"HEADER_FIELD"});
+  EXPECT_EQ(codes_of_model([](auto& model) { model.set_aside_count = 3; }), Codes{"HEADER_FIELD"});
+  EXPECT_TRUE(codes_of_model([](auto& model) {
+                model.set_aside_count = ~std::uint64_t{0};
+              }).contains("HEADER_FIELD"));
+  EXPECT_TRUE(
+      codes_of_model([](auto& model) { model.triangle_count = 0; }).contains("HEADER_FIELD"));
+}
+
+TEST_F(FileCheck, FindsVerticesOutsideTheirBounds) {
+  Forgery moved;
+  moved.page = [](std::uint32_t, RawPage& raw) {
+    if (raw.elements("vertices") == 0) return;
+    raw.set("vertices", 0, raw.get<float>("vertices", 0) + 0.5f);
+  };
+  const Codes codes = codes_of_forgery(moved);
+  EXPECT_TRUE(codes.contains("VERTEX_OUTSIDE_BOX") && codes.contains("VERTEX_OUTSIDE_PLANES"));
+  EXPECT_EQ(codes_of_forgery(moved, false), Codes{});
+}
+
+TEST_F(FileCheck, FindsPlanesThatDoNotEnclose) {
+  const auto narrowed = [](std::string_view stream, auto value, std::uint32_t only_page) {
+    Forgery forgery;
+    forgery.page = [=](std::uint32_t page, RawPage& raw) {
+      if (page == only_page && raw.elements(stream) > 0) raw.set(stream, 0, value);
+    };
+    return forgery;
+  };
+  const Codes expected = {"VERTEX_OUTSIDE_PLANES"};
+  EXPECT_EQ(codes_of_forgery(narrowed("child_radii", std::uint16_t{0}, 1)), expected);
+  EXPECT_EQ(codes_of_forgery(narrowed("child_slabs", std::int16_t{0}, 1)), expected);
+  // Of an inner node, far above the vertices it should hold.
+  EXPECT_EQ(codes_of_forgery(narrowed("child_radii", std::uint16_t{0}, 0)), expected);
+}
+
+TEST_F(FileCheck, FindsASampleThatIsNone) {
+  EXPECT_EQ(codes_of_model([](auto& model) { model.sample[2] += 1; }), Codes{"SAMPLE"});
+  EXPECT_EQ(codes_of_model([](auto& model) { model.sample_triangle = 5; }), Codes{"SAMPLE"});
+}
+
+TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
+  // Then the nodes would have no moments.
+  EXPECT_EQ(codes_of_model([](auto& model) {
+              model.open_edge_count = 0;
+              for (auto& edge : model.open_edge) edge = {};
+            }),
+            Codes{"PAGE_STRUCTURE"});
+  EXPECT_EQ(codes_of_model([](auto& model) { ++model.open_edge[2].along; }), Codes{"OPEN_EDGES"});
+  EXPECT_EQ(codes_of_model(
+                [](auto& model) { std::swap(model.open_edge[1].from, model.open_edge[1].to); }),
+            Codes{"OPEN_EDGES"});
+}
+
+TEST_F(FileCheck, FindsMomentsThatAreNot) {
+  const auto changed = [](std::string_view stream, auto by, std::uint32_t only_page) {
+    Forgery forgery;
+    forgery.page = [=](std::uint32_t page, RawPage& raw) {
+      if (page != only_page || raw.elements(stream) == 0) return;
+      using T = decltype(by);
+      raw.set(stream, 0, static_cast<T>(raw.get<T>(stream, 0) + by));
+    };
+    return forgery;
+  };
+  const Codes expected = {"MOMENTS"};
+  // Of blocks, and far above them.
+  for (const std::uint32_t page : {0u, 1u}) {
+    EXPECT_EQ(codes_of_forgery(changed("child_vectors", std::int16_t{9000}, page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_firsts", std::int8_t{40}, page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_areas", std::uint16_t(-0x0180), page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_seconds", std::uint16_t(-0x0480), page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_areas", std::uint16_t(-0x0180), page), false),
+              Codes{});
+  }
+}
+
+TEST_F(FileCheck, CountsWhatItDoesNotKeep) {
+  IssueList list;
+  for (int i = 0; i < 1500; ++i) list.add({IssueCode::kTable, Error::kNowhere, 0, "x"});
+  EXPECT_EQ(list.count(), 1500u);
+  EXPECT_EQ(list.kept().size(), IssueList::kMostKept);
+}
+
+TEST(FileCheckOfShapes, AcceptsABlockThatIsTheWholeTree) {
+  storage::TemporaryDirectory folder;
+  write_mesh(folder / "mesh.obj", 1);
+  build_sample(folder / "mesh.obj", folder / "tree.ptree");
+  const CheckReport report = check(storage::read_bytes(folder / "tree.ptree"));
+  EXPECT_EQ(codes_of(report), Codes{});
+  EXPECT_EQ(report.nodes, 0u);
+  EXPECT_EQ(report.blocks, 1u);
+}
+
+TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
+  storage::TemporaryDirectory folder;
+  write_mesh(folder / "mesh.obj", 1);
+  build_sample(folder / "mesh.obj", folder / "tree.ptree");
+  Forgery forgery;
+  forgery.model = [](storage::ModelRecord& model) {
+    model.open_edge_count = 0;
+    for (auto& edge : model.open_edge) edge = {};
+  };
+  forge(folder / "tree.ptree", folder / "forged.ptree", forgery);
+  EXPECT_EQ(codes_of(check(storage::read_bytes(folder / "forged.ptree"))), Codes{"OPEN_EDGES"});
+}
+
+TEST(FileCheckOfShapes, AcceptsDoublesAndSetAsideRecords) {
+  storage::TemporaryDirectory folder;
+  write_mesh(folder / "mesh.obj", 12, "v 0.1 0.2 0.3\nf 1 2 170\nf 1 2 999\nf 1 5 170\n");
+  build_sample(folder / "mesh.obj", folder / "tree.ptree");
+  const Bytes bytes = storage::read_bytes(folder / "tree.ptree");
+  const storage::ModelRecord model = storage::FileImage(bytes).header().model;
+  EXPECT_EQ(model.vertex_kind, storage::VertexKind::kFloat64);
+  EXPECT_EQ(model.set_aside_count, 1u);
+  EXPECT_EQ(codes_of(check(bytes)), Codes{});
+}
+
+}  // namespace
+}  // namespace planetree::tools

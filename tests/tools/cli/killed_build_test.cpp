@@ -1,0 +1,34 @@
+#include "tests/soak/killed_builds.h"
+
+#include <gtest/gtest.h>
+
+namespace planetree::tools {
+namespace {
+
+#ifdef PLANETREE_COMMAND
+#ifdef NDEBUG
+constexpr const char* kTriangles = "200K";
+#else
+constexpr const char* kTriangles = "20K";  // where building takes long
+#endif
+
+TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElseButWorkToResume) {
+  KilledBuilds builds(PLANETREE_COMMAND, 1);
+  if (!builds.has_unnamed_files()) GTEST_SKIP() << "this file system has no files without names";
+  ASSERT_EQ(builds.prepare(kTriangles), "");
+  constexpr unsigned kCount = 20;
+  unsigned killed = 0, resumable = 0;
+  for (unsigned i = 0; i < kCount; ++i) {
+    const bool resume = i % 4 == i / 4 % 2;  // to replace a file, and to be the first
+    const KilledBuilds::Left left = builds.strike(i, kCount, resume);
+    EXPECT_EQ(left.wrong, "");
+    killed += left.killed ? 1 : 0;
+    resumable += left.work ? 1 : 0;
+  }
+  EXPECT_GE(killed, kCount / 4) << "of the others were done before";
+  EXPECT_GE(resumable, 1u) << "had kept something";
+}
+#endif
+
+}  // namespace
+}  // namespace planetree::tools

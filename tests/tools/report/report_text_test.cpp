@@ -1,0 +1,218 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "octree/geometry/octcode.h"
+#include "tests/storage/system/temporary_directory.h"
+#include "tests/tools/check/sample_tree.h"
+#include "tests/tools/cli/captured_console.h"
+#include "tools/check/issue.h"
+#include "tools/cli/file_digest.h"
+#include "tools/cli/file_text.h"
+#include "tools/cli/open_model.h"
+#include "tools/points/answer_writer.h"
+#include "tools/report/slice_image.h"
+
+namespace planetree::tools {
+namespace {
+
+ClosestPoint sample_answer() {
+  ClosestPoint answer;
+  answer.distance = 0.1;
+  answer.lower = 0.09;
+  answer.upper = 1.0 / 3;
+  answer.side = Side::kInside;
+  answer.point = {-0.0, 1e-5, 2};
+  answer.normal = {0, -1, 0};
+  answer.triangle = 12345678901234;
+  answer.feature = Feature::kEdge;
+  answer.status = Status::kExact;
+  return answer;
+}
+
+template <class Answer>
+std::string written(AnswerFormat format, const Answer& answer) {
+  CapturedConsole captured;
+  AnswerWriter writer(captured.console(), format);
+  const Vec3 query{1, std::numeric_limits<double>::quiet_NaN(), 0.1};
+  EXPECT_TRUE(writer.write(std::span(&query, 1), std::span(&answer, 1)));
+  return captured.output();
+}
+
+TEST(AnswerWriter, WritesSeventeenDigits) {
+  EXPECT_EQ(
+      written(AnswerFormat::kCsv, sample_answer()),
+      "1,nan,0.10000000000000001,0.10000000000000001,0.089999999999999997,"
+      "0.33333333333333331,inside,-0,1.0000000000000001e-05,2,0,-1,0,12345678901234,edge,exact\n");
+}
+
+TEST(AnswerWriter, LeavesAMissingTriangleEmpty) {
+  ClosestPoint answer;
+  answer.distance = answer.upper = std::numeric_limits<double>::infinity();
+  answer.status = Status::kBeyondMaxDistance;
+  EXPECT_EQ(written(AnswerFormat::kCsv, answer),
+            "1,nan,0.10000000000000001,inf,0,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance\n");
+  const auto json = nlohmann::json::parse(written(AnswerFormat::kJsonLines, answer));
+  EXPECT_EQ(json["triangle"], nullptr);
+  EXPECT_EQ(json["distance"], nullptr);
+  EXPECT_EQ(json["y"], nullptr);
+}
+
+TEST(AnswerWriter, WritesTheSideAlone) {
+  const Containment answer{Side::kOnSurface, Status::kExact};
+  EXPECT_EQ(written(AnswerFormat::kCsv, answer), "1,nan,0.10000000000000001,on_surface,exact\n");
+  const auto json = nlohmann::json::parse(written(AnswerFormat::kJsonLines, answer));
+  EXPECT_EQ(json["side"], "on_surface");
+  EXPECT_EQ(json["z"], 0.1);
+  const std::string bytes = written(AnswerFormat::kF64, Containment{Side::kOutside, {}});
+  double numbers[4];
+  ASSERT_EQ(bytes.size(), sizeof numbers);
+  std::memcpy(numbers, bytes.data(), sizeof numbers);
+  EXPECT_EQ(numbers[3], 1.0);
+}
+
+TEST(AnswerWriter, WritesRawNumbers) {
+  const std::string bytes = written(AnswerFormat::kF64, sample_answer());
+  ASSERT_EQ(bytes.size(), 112u);
+  double numbers[14];
+  std::memcpy(numbers, bytes.data(), sizeof numbers);
+  EXPECT_EQ(numbers[3], 0.1);
+  EXPECT_EQ(numbers[6], -1.0);
+  EXPECT_EQ(numbers[13], 12345678901234.0);
+}
+
+TEST(AnswerWriter, HasAWordForEverything) {
+  std::set<std::string_view> words;
+  for (std::size_t i = 0; i < kStatusCount; ++i) words.insert(status_word(static_cast<Status>(i)));
+  EXPECT_EQ(words, (std::set<std::string_view>{"exact", "within_error", "degraded",
+                                               "beyond_max_distance", "bad_query"}));
+  EXPECT_EQ(feature_word(Feature::kFace), "face");
+  words.clear();
+  for (std::size_t i = 0; i < kSideCount; ++i) words.insert(side_word(static_cast<Side>(i)));
+  EXPECT_EQ(words, (std::set<std::string_view>{"inside", "outside", "on_surface", "unknown"}));
+  EXPECT_EQ(feature_word(Feature::kVertex), "vertex");
+}
+
+TEST(Octcode, IsReadAsItIsShown) {
+  for (const unsigned bits : {0u, 1u, 5u, 23u, 56u, 57u}) {
+    const std::uint64_t octcode =
+        octree::octcode_of_prefix(octree::morton_code(0x5a5a5, 0x12345, 0x7ffff), bits);
+    const auto query = OctcodeQuery::parse(cell_text(octcode));
+    ASSERT_TRUE(query) << cell_text(octcode);
+    EXPECT_TRUE(query->matches(octcode));
+    EXPECT_FALSE(query->matches(octcode ^ (std::uint64_t{1} << 59)));
+  }
+  EXPECT_TRUE(OctcodeQuery::parse("0:0:0:0")->matches(2));
+  EXPECT_FALSE(OctcodeQuery::parse("0:0:0:0+1")->matches(2));
+  EXPECT_TRUE(OctcodeQuery::parse("0x1040000000000001")->matches(0x1040000000000001));
+}
+
+TEST(Octcode, RefusesWhatIsNone) {
+  for (const char* text : {"", "0x", "0xg", "0x11111111111111111", "1:2:3", "1:2:3:", "1:2:3:4:5",
+                           "20:0:0:0", "-1:0:0:0", "1:2:3:4+3", "1:2:3:4+", "a:b:c:d", "1;2;3;4"})
+    EXPECT_FALSE(OctcodeQuery::parse(text)) << text;
+}
+
+TEST(SlicePlane, ReadsNumbersAndShares) {
+  ModelInfo info;
+  info.box_lower = {-1, -2, -4};
+  info.box_upper = {1, 2, 0};
+  EXPECT_EQ(SlicePlane::parse("z=50%")->coordinate(info), -2);
+  EXPECT_EQ(SlicePlane::parse("Y=0%")->coordinate(info), -2);
+  EXPECT_EQ(SlicePlane::parse("x=-1.5e1")->coordinate(info), -15);
+  for (const char* text : {"", "z", "z=", "w=1", "z=1x", "z=%", "z=nan", "z=1e999", "zz=1"})
+    EXPECT_FALSE(SlicePlane::parse(text)) << text;
+}
+
+// The middle of a slice through a flat square: the surface is a dark line, and
+// the farther from it, the darker the bands.
+TEST(SliceImage, ShowsTheSurface) {
+  storage::TemporaryDirectory folder;
+  std::ofstream(folder / "mesh.obj") << "v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\nf 1 2 3 4\n";
+  build_sample(folder / "mesh.obj", folder / "tree.ptree");
+  const auto model = Model::open(folder / "tree.ptree");
+  ASSERT_TRUE(model);
+  auto probe = Probe::create(*model);
+  ASSERT_TRUE(probe);
+  const auto slice = draw_slice(*model, *probe, *SlicePlane::parse("y=50%"), {});
+  ASSERT_TRUE(slice);
+  const PngImage& image = slice->image;
+  EXPECT_EQ(image.width(), 800u);
+  EXPECT_LT(image.height(), 200u);
+  const std::uint32_t middle = image.height() / 2;
+  EXPECT_LT(image.at(400, middle).red, 40);
+  EXPECT_GT(image.at(400, middle - 5).red, 200);
+  EXPECT_LT(image.at(2, middle).red, 200);
+  EXPECT_LT(slice->least, slice->pixel_length);
+}
+
+TEST(FileDigest, IsThePublishedFunction) {
+  storage::TemporaryDirectory folder;
+  std::ofstream(folder / "abc") << "abc";
+  const auto digest = sha256_of_file(folder / "abc");
+  ASSERT_TRUE(digest);
+  EXPECT_EQ(*digest, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_FALSE(sha256_of_file(folder / "none"));
+}
+
+TEST(Issue, HasANameForEveryCode) {
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < kIssueCodeCount; ++i)
+    names.insert(issue_name(static_cast<IssueCode>(i)));
+  EXPECT_EQ(names.size(), kIssueCodeCount);
+}
+
+// What people look up must be there.
+TEST(Issue, IsDocumented) {
+  std::ifstream stream(std::string(PLANETREE_SOURCE_DIR) + "/format-spec/ISSUES.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (std::size_t i = 0; i < kIssueCodeCount; ++i) {
+    const std::string row = "| `" + std::string(issue_name(static_cast<IssueCode>(i))) + "` |";
+    EXPECT_NE(text.find(row), std::string::npos) << row;
+  }
+}
+
+TEST(ErrorLine, IsOneLineWhateverTheName) {
+  Error error = make_error(ErrorCode::kDamaged, 3, 4096, "it is wrong; mend it");
+  EXPECT_EQ(error_line("a\nb", error),
+            "planetree: a?b: page 3, at byte 4096: it is wrong; mend it\n");
+  error.page = Error::kNowhere;
+  EXPECT_EQ(error_line("a", error), "planetree: a: at byte 4096: it is wrong; mend it\n");
+}
+
+TEST(PagesLost, NamesWhatWasLostFirst) {
+  Stats stats;
+  EXPECT_EQ(pages_lost(stats), std::nullopt);
+  stats.waits_given_up = 3;
+  stats.degraded_answers = 5;
+  const auto late = pages_lost(stats);
+  ASSERT_TRUE(late);
+  EXPECT_EQ(exit_status(late->code), 3);
+  EXPECT_TRUE(std::string(late->text).starts_with("3 waits for its pages were given up, so 5 "));
+  stats.quarantined_pages = 1;
+  const auto unreadable = pages_lost(stats);
+  ASSERT_TRUE(unreadable);
+  EXPECT_EQ(exit_status(unreadable->code), 1);
+  EXPECT_TRUE(std::string(unreadable->text).starts_with("1 of its pages cannot be read, so 5 "));
+}
+
+TEST(ExitStatus, TellsWhoHasToAct) {
+  EXPECT_EQ(exit_status(ErrorCode::kBadArgument), 2);
+  EXPECT_EQ(exit_status(ErrorCode::kNotFound), 2);
+  EXPECT_EQ(exit_status(ErrorCode::kAlreadyExists), 2);
+  for (const ErrorCode code : {ErrorCode::kPermission, ErrorCode::kNoSpace, ErrorCode::kNoMemory,
+                               ErrorCode::kReadFailed, ErrorCode::kWriteFailed})
+    EXPECT_EQ(exit_status(code), 3);
+  for (const ErrorCode code : {ErrorCode::kBadInput, ErrorCode::kNotPlanetree,
+                               ErrorCode::kUnsupported, ErrorCode::kTruncated, ErrorCode::kDamaged})
+    EXPECT_EQ(exit_status(code), 1);
+}
+
+}  // namespace
+}  // namespace planetree::tools

@@ -1,0 +1,338 @@
+#include "tools/check/file_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "query/answer/model_region.h"
+#include "query/answer/scale.h"
+#include "tools/check/geometry_check.h"
+#include "tools/check/height_field_check.h"
+#include "tools/check/mask_check.h"
+#include "tools/check/subtree_links.h"
+
+namespace planetree::tools {
+namespace {
+
+using octree::FloatBox;
+using octree::Node;
+
+/// What the source of a link between pages says of the subtree it leads to.
+struct Promise {
+  std::shared_ptr<const Bounds> bounds;  // null for the root of all
+  std::uint64_t parent = 0;              // key of a node in TreeCheck::open_nodes_
+  bool is_root = false;
+};
+
+/// A node whose height is not proven until pages below have come.
+struct OpenNode {
+  std::uint32_t page = 0;
+  std::uint8_t height = 0;
+  std::uint8_t highest_child = 0;
+  std::uint8_t children_left = 0;
+};
+
+class TreeCheck {
+ public:
+  TreeCheck(FileParts& parts, bool full)
+      : parts_(parts), header_(*parts.header()), links_(header_.page_bytes) {
+    if (full) geometry_.emplace(header_, report_.issues);
+  }
+
+  CheckReport run(const CheckProgress& progress);
+
+ private:
+  using Links = SubtreeLinks<Promise>;
+  using Chain = std::shared_ptr<const Bounds>;
+
+  void check_model();
+  void check_page(std::uint32_t page);
+  void check_roots();
+  void check_root_node(std::uint32_t index, const FloatBox& box);
+  void check_root_box(const FloatBox& box);
+  void check_nodes();
+  void check_node(std::uint32_t index);
+  void follow_link(std::uint32_t index, unsigned child, OpenNode& open);
+  void check_blocks();
+  void settle_height(std::uint64_t parent, std::uint8_t child_height);
+  void prove_height(const OpenNode& node);
+  void compare(const char* what, std::uint64_t said, std::uint64_t found);
+  void check_counts();
+
+  void report(IssueCode code, std::string message) {
+    report_.issues.add({code, page_, Error::kNowhere, std::move(message)});
+  }
+  void report_whole(IssueCode code, std::string message) {
+    report_.issues.add({code, Error::kNowhere, Error::kNowhere, std::move(message)});
+  }
+  std::uint64_t key_of(std::uint32_t node) const {
+    return std::uint64_t{page_} << 32 | frame_->node_slot(node);
+  }
+
+  FileParts& parts_;
+  const storage::FileHeader& header_;
+  octree::LinkFormat links_;
+  CheckReport report_;
+  std::optional<GeometryCheck> geometry_;
+  Links pending_;
+  std::map<std::uint64_t, OpenNode> open_nodes_;
+  bool complete_ = true;  // whether every page so far could be followed
+
+  // Of the page at hand.
+  std::uint32_t page_ = 0;
+  std::optional<FrameView> frame_;
+  std::vector<Chain> node_bounds_;               // by node
+  std::map<std::uint32_t, Chain> block_bounds_;  // by slot
+};
+
+CheckReport TreeCheck::run(const CheckProgress& progress) {
+  for (const Issue& issue : parts_.issues()) report_.issues.add(issue);
+  check_model();
+  const std::uint32_t root = header_.model.root_link;
+  Promise whole;
+  whole.is_root = true;
+  pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, whole);
+  if (parts_.first_mask_page() == 0) complete_ = false;
+  for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
+    check_page(page);
+    if (progress) progress(page + 1);
+  }
+  if (links_.page(root) >= parts_.first_mask_page() && parts_.page_count() > 0)
+    report_whole(IssueCode::kLinkTarget, "the header's link to the root leads to no page");
+  check_counts();
+  if (geometry_) geometry_->finish(complete_);
+  const auto is_proving = [this] { return geometry_ && report_.issues.count() == 0; };
+  check_mask(parts_, is_proving(), report_, progress);
+  if (is_proving()) check_sheets(parts_, report_.issues);
+  return std::move(report_);
+}
+
+/// What the header says of the model, as far as it can be judged alone.
+void TreeCheck::check_model() {
+  const storage::ModelRecord& model = header_.model;
+  const auto wrong = [this](const char* message) {
+    report_.issues.add(
+        {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
+  };
+  if (model.triangle_count == 0) wrong("the header says that there is no triangle");
+  if (model.set_aside_count > ~std::uint64_t{0} - model.usable_triangles())
+    return wrong("the header's counts of triangles overflow");
+  const std::uint64_t indices = model.usable_triangles() + model.set_aside_count;
+  const bool names_one = model.first_set_aside != storage::kNoTriangle;
+  if (names_one != (model.set_aside_count > 0) || (names_one && model.first_set_aside >= indices))
+    wrong("the first triangle set aside does not fit their count");
+  if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
+}
+
+void TreeCheck::check_page(std::uint32_t page) {
+  page_ = page;
+  std::optional<Issue> issue = parts_.read_page(page);
+  if (!issue) issue = parts_.decode_page();
+  if (issue) {
+    report_.issues.add(*std::move(issue));
+    complete_ = false;
+    pending_.finish_page(page, [this](const Links::Target&, const Promise& promise) {
+      open_nodes_.erase(promise.parent);
+    });
+    return;
+  }
+  frame_.emplace(parts_.frame());
+  node_bounds_.assign(frame_->node_count(), nullptr);
+  block_bounds_.clear();
+  ++report_.pages;
+  report_.nodes += frame_->node_count();
+  report_.blocks += frame_->header().block_count;
+  check_roots();
+  check_nodes();
+  check_blocks();
+}
+
+void TreeCheck::check_roots() {
+  octree::RawStreams streams;
+  parts_.cut(streams);
+  const octree::FrameHeader& header = frame_->header();
+  for (std::uint32_t i = 0; i < header.root_node_count; ++i) {
+    FloatBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = streams.root_boxes[6 * std::size_t{i} + axis];
+      box.upper[axis] = streams.root_boxes[6 * std::size_t{i} + 3 + axis];
+    }
+    check_root_node(i, box);
+  }
+  frame_->for_each_block([&](std::uint32_t index, std::uint32_t slot) {
+    if (index >= header.root_block_count) return;
+    const auto promise = pending_.take({page_, slot, true});
+    if (promise) {
+      block_bounds_[slot] = promise->bounds;
+      if (promise->is_root && header_.model.height != 0)
+        report(IssueCode::kHeight, "the root is a block, but the header's height is not 0");
+    } else if (complete_) {
+      report(IssueCode::kSubtreeUnlinked,
+             fmt::format("no link leads to the block in slot {}", slot));
+    }
+  });
+  pending_.finish_page(page_, [this](const Links::Target& target, const Promise& promise) {
+    report(IssueCode::kLinkTarget,
+           fmt::format("a link leads to slot {}, where no subtree's {} begins", target.slot,
+                       target.leaf ? "block" : "root node"));
+    open_nodes_.erase(promise.parent);
+    complete_ = false;
+  });
+}
+
+void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
+  const std::uint32_t slot = frame_->node_slot(index);
+  const auto promise = pending_.take({page_, slot, false});
+  if (!promise) {
+    if (complete_)
+      report(IssueCode::kSubtreeUnlinked,
+             fmt::format("no link leads to the node in slot {}", slot));
+    return;
+  }
+  const std::uint8_t height = frame_->node(index).height;
+  if (promise->is_root) {
+    check_root_box(box);
+    if (height != header_.model.height)
+      report(IssueCode::kHeight, fmt::format("the root's height is {} and the header's {}", height,
+                                             header_.model.height));
+    return;
+  }
+  node_bounds_[index] = promise->bounds;
+  if (!promise->bounds->box.holds(box))
+    report(IssueCode::kSubtreeBox,
+           fmt::format("the box of the node in slot {} is not within the one its parent states",
+                       slot));
+  settle_height(promise->parent, height);
+}
+
+/// The root's box holds the header's, which is that of the input, if all of that is there.
+void TreeCheck::check_root_box(const FloatBox& box) {
+  const storage::ModelRecord& model = header_.model;
+  if (query::region_of(model).has_walls()) return;
+  const query::Scale scale(model.scale_exponent);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = scale.in(model.box_lower[axis]) - model.centre[axis];
+    const double upper = scale.in(model.box_upper[axis]) - model.centre[axis];
+    if (static_cast<double>(box.lower[axis]) <= lower &&
+        upper <= static_cast<double>(box.upper[axis]))
+      continue;
+    return report(IssueCode::kRootBox, "the root's box does not hold the header's");
+  }
+}
+
+void TreeCheck::check_nodes() {
+  for (std::uint32_t i = 0; i < frame_->node_count(); ++i) check_node(i);
+}
+
+void TreeCheck::check_node(std::uint32_t index) {
+  const Node& node = frame_->node(index);
+  if (geometry_ && node_bounds_[index]) geometry_->add_node(node, page_, *node_bounds_[index]);
+  OpenNode open;
+  open.page = page_;
+  open.height = node.height;
+  for (unsigned child = 0; child < node.child_count; ++child) {
+    const std::uint32_t link = node.link[child];
+    const bool here = links_.page(link) == page_;
+    if (!here) {
+      follow_link(index, child, open);
+      continue;
+    }
+    if (!octree::LinkFormat::is_leaf(link)) {
+      const std::uint32_t below = frame_->node_at_slot(links_.slot(link));
+      open.highest_child = std::max(open.highest_child, frame_->node(below).height);
+    }
+    if (!geometry_) continue;
+    auto bounds =
+        std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
+                                              frame_->moments(node, child), node_bounds_[index]});
+    if (octree::LinkFormat::is_leaf(link))
+      block_bounds_[links_.slot(link)] = std::move(bounds);
+    else
+      node_bounds_[frame_->node_at_slot(links_.slot(link))] = std::move(bounds);
+  }
+  if (open.children_left > 0)
+    open_nodes_.emplace(key_of(index), open);
+  else
+    prove_height(open);
+}
+
+void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open) {
+  const Node& node = frame_->node(index);
+  const std::uint32_t link = node.link[child];
+  const bool leaf = octree::LinkFormat::is_leaf(link);
+  Promise promise;
+  promise.bounds =
+      std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
+                                            frame_->moments(node, child), node_bounds_[index]});
+  promise.parent = key_of(index);
+  if (!leaf) ++open.children_left;
+  if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(promise))) {
+    if (!leaf) --open.children_left;
+    report(IssueCode::kLinkTwice, fmt::format("a second link leads to page {}, slot {}",
+                                              links_.page(link), links_.slot(link)));
+  }
+}
+
+void TreeCheck::check_blocks() {
+  const std::uint64_t indices = header_.model.usable_triangles() + header_.model.set_aside_count;
+  frame_->for_each_block([&](std::uint32_t, std::uint32_t slot) {
+    const octree::BlockView block = frame_->block(slot);
+    report_.triangles += block.triangle_count();
+    // They ascend within a block.
+    const std::uint64_t last = block.id(block.triangle_count() - 1);
+    if (last >= indices)
+      report(IssueCode::kTriangleRange,
+             fmt::format("triangle {} is named, but the model has {}", last, indices));
+    if (!geometry_) return;
+    const auto bounds = block_bounds_.find(slot);
+    geometry_->add(block, page_, bounds == block_bounds_.end() ? nullptr : bounds->second.get());
+  });
+}
+
+void TreeCheck::settle_height(std::uint64_t parent, std::uint8_t child_height) {
+  const auto found = open_nodes_.find(parent);
+  if (found == open_nodes_.end()) return;
+  OpenNode& node = found->second;
+  node.highest_child = std::max(node.highest_child, child_height);
+  if (--node.children_left > 0) return;
+  prove_height(node);
+  open_nodes_.erase(found);
+}
+
+void TreeCheck::prove_height(const OpenNode& node) {
+  if (node.height == node.highest_child + 1) return;
+  report_.issues.add({IssueCode::kHeight, node.page, Error::kNowhere,
+                      fmt::format("a node says that its height is {}, but the highest below it "
+                                  "has {}",
+                                  node.height, node.highest_child)});
+}
+
+void TreeCheck::compare(const char* what, std::uint64_t said, std::uint64_t found) {
+  if (said != found)
+    report_whole(IssueCode::kCount,
+                 fmt::format("the header says {} {}, but the pages hold {}", said, what, found));
+}
+
+void TreeCheck::check_counts() {
+  if (!complete_) return;
+  const storage::ModelRecord& model = header_.model;
+  compare("nodes", model.node_count, report_.nodes);
+  compare("blocks", model.block_count, report_.blocks);
+  compare("triangles", model.triangle_count, report_.triangles);
+}
+
+}  // namespace
+
+CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress) {
+  if (parts.header() != nullptr) return TreeCheck(parts, full).run(progress);
+  CheckReport report;
+  for (const Issue& issue : parts.issues()) report.issues.add(issue);
+  return report;
+}
+
+}  // namespace planetree::tools

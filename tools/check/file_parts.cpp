@@ -1,0 +1,176 @@
+#include "tools/check/file_parts.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+
+#include "query/serve/page_decoding.h"
+#include "storage/file/file_check.h"
+#include "storage/file/file_hash.h"
+#include "storage/file/header_choice.h"
+#include "storage/file/page_codec.h"
+#include "storage/system/file_error.h"
+
+namespace planetree::tools {
+namespace {
+
+IssueCode header_issue(ErrorCode code, IssueCode otherwise) {
+  switch (code) {
+    case ErrorCode::kNotPlanetree:
+      return IssueCode::kNotPlanetree;
+    case ErrorCode::kUnsupported:
+      return IssueCode::kFormatUnsupported;
+    case ErrorCode::kTruncated:
+      return IssueCode::kFileLength;
+    default:
+      return otherwise;
+  }
+}
+
+Issue page_issue(IssueCode code, std::uint32_t page, std::uint64_t offset, const char* message) {
+  return {code, page, offset, message};
+}
+
+/// Whether pages can be told apart by this header, right or wrong otherwise.
+bool can_serve(const storage::FileHeader& header, std::uint64_t actual_bytes) {
+  return header.version == storage::kFormatVersion &&
+         (header.incompatible_features & ~storage::kKnownIncompatibleFeatures) == 0 &&
+         std::has_single_bit(header.page_bytes) && header.page_bytes >= storage::kMinPageBytes &&
+         header.page_bytes <= storage::kMaxPageBytes && actual_bytes >= storage::kHeaderBytes;
+}
+
+}  // namespace
+
+Result<FileParts> FileParts::open(const std::filesystem::path& path, storage::FileCalls& calls) {
+  FileParts parts;
+  parts.path_ = path;
+  parts.file_ =
+      storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
+  struct stat status {};
+  if (!parts.file_.is_open() || calls.fstat(parts.file_.descriptor(), &status) != 0)
+    return storage::file_error(errno, storage::FileAction::kRead, "open the file");
+  if (!S_ISREG(status.st_mode)) {
+    parts.issues_.push_back({IssueCode::kNotPlanetree, Error::kNowhere, Error::kNowhere,
+                             "this is not a file but a directory, device, pipe or socket; name a "
+                             "regular file"});
+    return parts;
+  }
+  parts.actual_bytes_ = static_cast<std::uint64_t>(status.st_size);
+  if (const auto loaded = parts.load(); !loaded) return loaded.error();
+  return parts;
+}
+
+Result<void> FileParts::load() {
+  std::byte leading[storage::kHeaderBytes];
+  std::byte trailing[storage::kHeaderBytes];
+  const auto first = std::span(leading).first(
+      static_cast<std::size_t>(std::min<std::uint64_t>(actual_bytes_, storage::kHeaderBytes)));
+  const auto last =
+      std::span(trailing).first(actual_bytes_ >= 2 * sizeof leading ? sizeof trailing : 0);
+  if (const auto read = read_at(0, first); !read) return read;
+  if (const auto read = read_at(actual_bytes_ - last.size(), last); !read) return read;
+  const auto choice = storage::choose_header(first, last, actual_bytes_);
+  if (!choice) {
+    const IssueCode code = header_issue(choice.error().code, IssueCode::kHeaderLost);
+    issues_.push_back(Issue::from(code, choice.error()));
+    return {};
+  }
+  header_ = choice->header;
+  if (choice->copy_damaged)
+    issues_.push_back({IssueCode::kHeaderCopy, Error::kNowhere, Error::kNowhere,
+                       "one of the file's two headers is damaged; copy the file anew or build it "
+                       "again before the other goes too"});
+  if (const auto checked = storage::check_header(header_, actual_bytes_); !checked) {
+    const IssueCode code = header_issue(checked.error().code, IssueCode::kHeaderField);
+    issues_.push_back(Issue::from(code, checked.error()));
+  }
+  has_header_ = can_serve(header_, actual_bytes_);
+  if (!has_header_) return {};
+  frame_.resize(header_.page_bytes);
+  return load_table();
+}
+
+Result<void> FileParts::load_table() {
+  const std::uint64_t end = storage::table_end(header_.page_count);
+  if (end > actual_bytes_) {
+    issues_.push_back({IssueCode::kTable, Error::kNowhere, actual_bytes_,
+                       "the file ends before its page table does; restore the file from a copy or "
+                       "build it again"});
+    return {};
+  }
+  entries_.resize(header_.page_count);
+  const auto table = std::as_writable_bytes(std::span(entries_));
+  if (const auto read = read_at(storage::kHeaderBytes, table); !read) return read;
+  // The length was judged with the header; a table of a file cut short may be whole.
+  if (const auto checked = storage::check_table(header_, entries_); !checked)
+    issues_.push_back(Issue::from(IssueCode::kTable, checked.error()));
+  return {};
+}
+
+Result<void> FileParts::read_at(std::uint64_t offset, std::span<std::byte> out) const {
+  return out.empty() ? Result<void>{} : file_.read_at(offset, out);
+}
+
+/// A damaged table may say anything: nothing is claimed or read before this.
+const char* FileParts::fault_of(const storage::PageEntry& entry) const {
+  if (entry.offset > actual_bytes_ || entry.stored_bytes > actual_bytes_ - entry.offset)
+    return "the page lies beyond the file's end; restore the file from a copy or build it again";
+  if (entry.codec != storage::Codec::kStored && entry.codec != storage::Codec::kLz4)
+    return "the page's codec is unknown; restore the file from a copy or build it again";
+  if (entry.raw_bytes > storage::kMaxRawBytes ||
+      !storage::lengths_are_plausible(entry.codec, entry.stored_bytes, entry.raw_bytes))
+    return "the page's stored length cannot give its raw length; restore the file from a copy or "
+           "build it again";
+  return nullptr;
+}
+
+std::optional<Issue> FileParts::read_page(std::uint32_t page) {
+  const storage::PageEntry& entry = entries_[page];
+  page_ = page;
+  raw_.clear();
+  if (const char* fault = fault_of(entry))
+    return page_issue(IssueCode::kPageEntry, page, storage::table_end(page), fault);
+  stored_.resize(entry.stored_bytes);
+  if (const auto read = read_at(entry.offset, stored_); !read) {
+    Issue issue = Issue::from(IssueCode::kPageRead, read.error());
+    issue.page = page;
+    issue.offset = entry.offset;
+    return issue;
+  }
+  if ((storage::page_hash(page, stored_) ^ header_.content_id[0]) != entry.check)
+    return page_issue(IssueCode::kPageChecksum, page, entry.offset,
+                      "the page's checksum is wrong; restore the file from a copy or build it "
+                      "again");
+  raw_.resize(entry.raw_bytes);
+  if (const auto decoded = storage::decode_page(entry.codec, stored_, raw_); !decoded) {
+    raw_.clear();
+    return page_issue(IssueCode::kPageCodec, page, entry.offset, decoded.error().text);
+  }
+  return {};
+}
+
+bool FileParts::cut(octree::RawStreams& streams) const {
+  return streams.cut(raw_, shape()) == nullptr;
+}
+
+bool FileParts::cut(octree::MaskStreams& streams) const {
+  return page_ >= first_mask_page() && streams.cut(raw_, shape().float64) == nullptr;
+}
+
+std::optional<octree::MaskPageHead> FileParts::mask_head() const {
+  octree::MaskStreams streams;
+  if (!cut(streams)) return {};
+  return streams.head;
+}
+
+std::optional<Issue> FileParts::decode_page() {
+  const storage::PageEntry& entry = entries_[page_];
+  const auto decoded = query::decode_frame(header_, entry, page_, raw_, frame_.span());
+  if (decoded) return {};
+  return page_issue(IssueCode::kPageStructure, page_, entry.offset, decoded.error().text);
+}
+
+}  // namespace planetree::tools

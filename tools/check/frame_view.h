@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "octree/page/block_view.h"
+#include "octree/page/child_box.h"
+#include "octree/page/frame.h"
+#include "octree/page/moments.h"
+
+namespace planetree::tools {
+
+/// A decoded page: its records in their order. Subtree roots come first, among
+/// the nodes and among the blocks.
+class FrameView {
+ public:
+  FrameView(const std::byte* frame, const octree::BlockShape& shape)
+      : frame_(frame), shape_(shape) {}
+
+  const octree::FrameHeader& header() const {
+    return *reinterpret_cast<const octree::FrameHeader*>(frame_);
+  }
+
+  std::uint32_t node_count() const { return header().node_count; }
+  const octree::Node& node(std::uint32_t index) const {
+    return *reinterpret_cast<const octree::Node*>(at(node_slot(index)));
+  }
+  std::uint32_t node_slot(std::uint32_t index) const {
+    return header().first_node_slot + shape_.node_slots() * index;
+  }
+  std::uint32_t node_at_slot(std::uint32_t slot) const {
+    return (slot - header().first_node_slot) / shape_.node_slots();
+  }
+
+  /// Zeros in a file without moments.
+  octree::Moments moments(const octree::Node& node, unsigned child) const {
+    return shape_.moments ? octree::NodeMoments::of(node).child(child) : octree::Moments();
+  }
+
+  octree::BlockView block(std::uint32_t slot) const { return {at(slot), shape_}; }
+  /// Calls visit(index, slot) for every block.
+  template <class Visit>
+  void for_each_block(Visit visit) const {
+    std::uint32_t slot = header().first_block_slot;
+    for (std::uint32_t i = 0; i < header().block_count; ++i) {
+      visit(i, slot);
+      slot += block(slot).slots();
+    }
+  }
+
+ private:
+  const std::byte* at(std::uint32_t slot) const {
+    return frame_ + std::size_t{slot} * octree::kSlotBytes;
+  }
+  const std::byte* frame_;
+  octree::BlockShape shape_;
+};
+
+inline octree::Disc child_disc(const octree::Node& node, unsigned child) {
+  return {{node.normal[0][child], node.normal[1][child], node.normal[2][child]},
+          node.slab_lower[child],
+          node.slab_upper[child],
+          node.radius[child]};
+}
+
+}  // namespace planetree::tools

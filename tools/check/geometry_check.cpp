@@ -1,0 +1,173 @@
+#include "tools/check/geometry_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "octree/geometry/cell_overlap.h"
+#include "octree/traversal/bounds.h"
+#include "query/answer/model_region.h"
+#include "query/answer/scale.h"
+#include "tools/check/moment_check.h"
+
+namespace planetree::tools {
+namespace {
+
+using octree::Point;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Point point_of(const std::array<float, 3>& values) {
+  return {static_cast<double>(values[0]), static_cast<double>(values[1]),
+          static_cast<double>(values[2])};
+}
+
+/// `point` is relative to the model's centre, as boxes are.
+bool is_inside(const octree::FloatBox& box, const Point& point) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(static_cast<double>(box.lower[axis]) <= point[axis] &&
+          point[axis] <= static_cast<double>(box.upper[axis])))
+      return false;
+  return true;
+}
+
+/// Whether a point lies between the bounding planes and within the disc's
+/// radius, with the room that evaluation in float needs (octree/traversal/bounds.h):
+/// 8 units of 2^-24 times the box's diagonal.
+bool is_inside(const Bounds& bounds, const Point& point) {
+  const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
+  const double room = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
+  const Point normal = point_of(bounds.disc.normal);
+  const Point from = point - point_of(bounds.box.centre());
+  const double height = from.dot(normal);
+  const Point across = from - height * normal;
+  return static_cast<double>(bounds.disc.slab_lower) + room <= height &&
+         height + room <= static_cast<double>(bounds.disc.slab_upper) &&
+         across.norm() + room <= static_cast<double>(bounds.disc.radius);
+}
+
+Point point_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+Vec3 vec3_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+
+}  // namespace
+
+GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issues)
+    : model_(header.model),
+      issues_(issues),
+      edges_(model_),
+      lower_(Point::Constant(kInfinity)),
+      upper_(Point::Constant(-kInfinity)) {
+  const query::Scale scale(model_.scale_exponent);
+  const octree::Region region = query::region_of(model_);
+  cut_off_ = region.has_walls();
+  part_lower_ = region.clamped(scale.in(vec3_of(model_.box_lower)));
+  part_upper_ = region.clamped(scale.in(vec3_of(model_.box_upper)));
+}
+
+void GeometryCheck::report(IssueCode code, std::uint32_t page, std::string message) {
+  issues_.add({code, page, Error::kNowhere, std::move(message)});
+}
+
+void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, const Bounds* bounds) {
+  add_ids(block, page);
+  for (unsigned i = 0; i < block.header().vertex_count(); ++i) {
+    lower_ = lower_.cwiseMin(block.vertex(i));
+    upper_ = upper_.cwiseMax(block.vertex(i));
+  }
+  for (unsigned i = 0; i < block.triangle_count(); ++i) add_triangle(block.triangle(i), page);
+  if (bounds == nullptr) return;
+  check_vertices(block, page, *bounds);
+  if (model_.open_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
+    report(IssueCode::kMoments, page,
+           fmt::format("the moments of the block of triangle {} are not its own", block.id(0)));
+}
+
+void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
+  edges_.add(triangle);
+  if (cut_off_ && !octree::may_touch(triangle, part_lower_, part_upper_))
+    report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
+}
+
+void GeometryCheck::add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds) {
+  if (model_.open_edge_count != 0 && !moments_fit(bounds, node))
+    report(IssueCode::kMoments, page, "a node's moments are not the sums of its children's");
+}
+
+void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) {
+  for (unsigned i = 0; i < block.triangle_count(); ++i) {
+    const std::uint64_t id = block.id(i);
+    least_id_ = std::min(least_id_, id);
+    if (!insert(id))
+      report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} is there twice", id));
+    if (id == model_.sample_triangle) look_for_sample(block, i, page);
+  }
+}
+
+void GeometryCheck::look_for_sample(const octree::BlockView& block, unsigned triangle,
+                                    std::uint32_t page) {
+  sample_seen_ = true;
+  const Point sample = point_of(model_.sample);
+  for (const Point& corner : block.triangle(triangle))
+    if (corner == sample) return;
+  report(
+      IssueCode::kSample, page,
+      fmt::format("the header's sample point is no vertex of triangle {}", model_.sample_triangle));
+}
+
+void GeometryCheck::check_vertices(const octree::BlockView& block, std::uint32_t page,
+                                   const Bounds& bounds) {
+  bool in_box = true, in_planes = true;
+  for (unsigned i = 0; i < block.header().vertex_count(); ++i) {
+    const Point point = block.vertex(i) - point_of(model_.centre);
+    in_box = in_box && is_inside(bounds.box, point);
+    for (const Bounds* each = &bounds; each != nullptr; each = each->above.get())
+      in_planes = in_planes && is_inside(*each, point);
+  }
+  const auto message = [&block](const char* what) {
+    return fmt::format("a vertex of the block of triangle {} lies outside {}", block.id(0), what);
+  };
+  if (!in_box)
+    report(IssueCode::kVertexOutsideBox, page, message("the box that its parent states"));
+  if (!in_planes)
+    report(IssueCode::kVertexOutsidePlanes, page,
+           message("bounding planes that a node above it states"));
+}
+
+bool GeometryCheck::insert(std::uint64_t id) {
+  std::uint64_t& word = seen_[id / 512][id / 64 % 8];
+  const std::uint64_t bit = std::uint64_t{1} << id % 64;
+  const bool is_new = (word & bit) == 0;
+  word |= bit;
+  return is_new;
+}
+
+// Whether the header's box is that of the vertices, or of a region holds it.
+bool GeometryCheck::is_box(double lower, double upper, int axis) const {
+  if (cut_off_) return lower <= lower_[axis] && upper_[axis] <= upper;
+  return lower == lower_[axis] && upper == upper_[axis];
+}
+
+void GeometryCheck::finish(bool complete) {
+  if (!complete) return;
+  const query::Scale scale(model_.scale_exponent);
+  const auto whole_file = [this](IssueCode code, std::string message) {
+    issues_.add({code, Error::kNowhere, Error::kNowhere, std::move(message)});
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    if (!is_box(scale.in(model_.box_lower[axis]), scale.in(model_.box_upper[axis]), axis))
+      whole_file(IssueCode::kModelBox,
+                 fmt::format("the header's box is not that of the vertices along {}", "xyz"[axis]));
+  // Of a region, faces are missing.
+  if (auto finding = cut_off_ ? std::nullopt : edges_.finding())
+    whole_file(IssueCode::kOpenEdges, *std::move(finding));
+  if (!sample_seen_)
+    whole_file(IssueCode::kSample,
+               fmt::format("the header's sample triangle {} is not there", model_.sample_triangle));
+  else if (least_id_ != model_.sample_triangle)
+    whole_file(IssueCode::kSample,
+               fmt::format("the header's sample triangle is {} and the least triangle {}",
+                           model_.sample_triangle, least_id_));
+}
+
+}  // namespace planetree::tools

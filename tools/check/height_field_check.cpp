@@ -1,0 +1,75 @@
+#include "tools/check/height_field_check.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "octree/builder/mask/height_field_finder.h"
+#include "octree/geometry/strict_math.h"
+#include "query/answer/model_region.h"
+#include "query/serve/pager.h"
+#include "tools/check/model_reader.h"
+
+namespace planetree::tools {
+namespace {
+
+class SheetCheck {
+ public:
+  SheetCheck(FileParts& parts, IssueList& issues) : parts_(parts), issues_(issues) {}
+
+  void run() {
+    for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
+      std::optional<Issue> issue = parts_.read_page(page);
+      if (!issue) issue = parts_.decode_page();
+      if (issue) return issues_.add(*std::move(issue));
+      const FrameView frame = parts_.frame();
+      frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
+        if (frame.block(slot).header().in_sheet()) check(page, slot, frame.block(slot));
+      });
+      if (lost_) return;
+    }
+  }
+
+ private:
+  void check(std::uint32_t page, std::uint32_t slot, const octree::BlockView& block) {
+    if (query::region_of(parts_.header()->model).has_walls())
+      return report(page, slot, "in a sheet, but the file is of a region with walls");
+    if (!is_proven(block) && !lost_) report(page, slot, "in a sheet, which cannot be proven");
+  }
+
+  bool is_proven(const octree::BlockView& block) {
+    if (!open()) return false;
+    query::PageTurner turner(proof_->reader, Wait::kForPages);
+    const octree::SheetFinder finder(proof_->model->tree(), proof_->model->mask());
+    return finder.is_in_sheet(block, turner.pages());
+  }
+
+  bool open() {
+    if (proof_ || lost_) return !lost_;
+    auto opened = ModelReader::open(parts_.path());
+    if (opened) {
+      proof_.emplace(*std::move(opened));
+    } else {
+      lost_ = true;
+      issues_.add(Issue::from(IssueCode::kPageRead, opened.error()));
+    }
+    return !lost_;
+  }
+
+  void report(std::uint32_t page, std::uint32_t slot, const char* what) {
+    issues_.add({IssueCode::kBlockSheet, page, Error::kNowhere,
+                 fmt::format("the block in slot {} is said to be {}", slot, what)});
+  }
+
+  FileParts& parts_;
+  IssueList& issues_;
+  std::optional<ModelReader> proof_;
+  bool lost_ = false;
+};
+
+}  // namespace
+
+void check_sheets(FileParts& parts, IssueList& issues) { SheetCheck(parts, issues).run(); }
+
+}  // namespace planetree::tools

@@ -1,0 +1,233 @@
+#include "tools/check/mask_proof.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "octree/builder/mask/block_lister.h"
+#include "octree/builder/mask/special_cell.h"
+#include "octree/geometry/cell_overlap.h"
+#include "octree/geometry/strict_math.h"
+#include "octree/mask/mask_lookup.h"
+#include "octree/traversal/box_walk.h"
+#include "octree/traversal/link_resolver.h"
+#include "octree/winding/crossings.h"
+#include "query/answer/exit_segments.h"
+#include "query/serve/pager.h"
+#include "tools/check/slab_check.h"
+
+namespace planetree::tools {
+namespace {
+
+using octree::GridCell;
+using octree::Point;
+using octree::Triangle;
+
+constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
+
+std::string cell_name(const GridCell& cell) {
+  return fmt::format("{}/{}/{}/{}", cell.level, cell.at[0], cell.at[1], cell.at[2]);
+}
+
+/// One name for a corner of however many cells.
+std::uint64_t corner_key(const GridCell& cell, unsigned corner) {
+  std::uint64_t key = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const std::uint64_t index = cell.at[axis] + (corner >> axis & 1);
+    key = key << 20 | index << (octree::kLevels - cell.level);
+  }
+  return key;
+}
+
+octree::SpecialCell claim_of(const GreyCell& grey) {
+  octree::SpecialCell claim;
+  claim.plane_count = grey.special->plane_count;
+  claim.behind = grey.special->behind;
+  claim.beyond = grey.special->beyond;
+  for (unsigned i = 0; i < claim.plane_count; ++i)
+    claim.planes[i] = octree::mask_plane(grey.planes, i);
+  return claim;
+}
+
+// More may be listed than need be.
+bool has_all(const octree::MaskBlocks& said, const octree::MaskBlocks& found) {
+  for (unsigned i = 0; i < found.count; ++i) {
+    unsigned octants = 0;
+    for (unsigned k = 0; k < said.count; ++k)
+      if (said.links[k] == found.links[i]) octants = said.octants[k];
+    if ((found.octants[i] & ~octants) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<MaskProof>> MaskProof::open(const std::filesystem::path& path,
+                                                   IssueList& issues) {
+  auto opened = ModelReader::open(path);
+  if (!opened) return opened.error();
+  return std::unique_ptr<MaskProof>(new MaskProof(*std::move(opened), issues));
+}
+
+MaskProof::MaskProof(ModelReader opened, IssueList& issues)
+    : model_(std::move(opened.model)),
+      reader_(std::move(opened.reader)),
+      issues_(issues),
+      grid_(model_->mask().lower, model_->region()) {}
+
+void MaskProof::look_at(const GreyCell& grey) {
+  if (grey.node != nullptr) check_octants(grey);
+  if (grey.corners != nullptr) check_corners(grey, *grey.corners);
+  if (grey.listed != nullptr) {
+    octree::MaskCorners corners;
+    for (unsigned corner = 0; corner < 8; ++corner)
+      corners[corner] = static_cast<std::int8_t>(octree::corner_of(*grey.listed, corner));
+    check_corners(grey, corners);
+    check_list(grey);
+  }
+  if (grey.special != nullptr) check_special(grey);
+}
+
+void MaskProof::check_octants(const GreyCell& grey) {
+  for (unsigned octant = 0; octant < 8; ++octant)
+    if ((grey.node->grey >> octant & 1) == 0)
+      check_colour(grey.page, grey.cell.child(octant),
+                   (grey.node->black >> octant & 1) - (grey.node->inverted >> octant & 1));
+}
+
+void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colour) {
+  constexpr std::array<const char*, 3> kNames = {"inverted", "white", "black"};
+  const char* name = kNames[static_cast<std::size_t>(colour + 1)];
+  if (!grid_.has_part_of(cell)) {
+    if (colour != 0)
+      report(IssueCode::kMaskColour, page,
+             fmt::format("cell {} is {}, but not in the region", cell_name(cell), name));
+    return;
+  }
+  if (!touching(cell).empty())
+    return report(IssueCode::kMaskColour, page,
+                  fmt::format("cell {} is {}, but triangles touch it", cell_name(cell), name));
+  const std::optional<std::int64_t> number = winding(cell, 0);
+  if (number && (*number > 0) - (*number < 0) != colour)
+    report(
+        IssueCode::kMaskColour, page,
+        fmt::format("cell {} is {}, but its winding number is {}", cell_name(cell), name, *number));
+}
+
+void MaskProof::check_corners(const GreyCell& grey, const octree::MaskCorners& corners) {
+  if (corners[0] == octree::kUncounted) return;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const int said = corners[corner];
+    const std::optional<std::int64_t> number = winding(grey.cell, corner);
+    if (number && *number != said)
+      report(IssueCode::kMaskCorner, grey.page,
+             fmt::format("the winding number at corner {} of cell {} is {}, not {}", corner,
+                         cell_name(grey.cell), *number, said));
+  }
+}
+
+void MaskProof::check_list(const GreyCell& grey) {
+  if (grey.cell.level == octree::kLevels) return;
+  query::PageTurner turner(reader_, Wait::kForPages);
+  octree::MaskBlocks found;
+  const octree::BlockLister lister(model_->tree(), grid_);
+  const auto outcome = lister.list(grey.cell, turner.pages(), found);
+  if (outcome == octree::BlockLister::Outcome::kLost) return;
+  const bool all = outcome == octree::BlockLister::Outcome::kListed;
+  if (!all || !has_all(grey.blocks, found))
+    report(IssueCode::kMaskBlocks, grey.page,
+           fmt::format("cell {} does not list all blocks that touch it", cell_name(grey.cell)));
+  octree::RecordFinder records(model_->tree(), turner.pages());
+  octree::TreeWork work;
+  if (model_->region().has_walls() && grey.blocks.slab.says_something())
+    report(IssueCode::kMaskSlab, grey.page,
+           fmt::format("cell {} has a slab, but the region has walls", cell_name(grey.cell)));
+  bool outside = false;
+  for (unsigned i = 0; i < grey.blocks.count; ++i) {
+    const std::uint32_t link = grey.blocks.links[i];
+    const octree::LinkFormat links(model_->tree().page_bytes);
+    // What is wrong with a page that cannot be had is said elsewhere.
+    if (const std::byte* record = records.find(link, work))
+      outside = outside || !keeps_to_slab(grey, octree::BlockView(record, model_->tree().shape));
+    else if (turner.peek(links.page(link)) != nullptr)
+      report(IssueCode::kMaskBlocks, grey.page,
+             fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
+  }
+  if (outside)
+    report(IssueCode::kMaskSlab, grey.page,
+           fmt::format("the surface in cell {} is not between its slab's planes",
+                       cell_name(grey.cell)));
+}
+
+// Of a block that the cell lists.
+bool MaskProof::keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const {
+  const octree::CellSlab& slab = grey.blocks.slab;
+  if (!slab.says_something()) return true;
+  const Point lower = grid_.lower(grey.cell), upper = grid_.upper(grey.cell);
+  for (unsigned i = 0; i < block.triangle_count(); ++i)
+    if (!tools::keeps_to_slab(slab, block.triangle(i), lower, upper, grey.cell.level)) return false;
+  return true;
+}
+
+void MaskProof::check_special(const GreyCell& grey) {
+  std::array<Point, 8> corners;
+  std::array<std::int64_t, 8> numbers{};
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    corners[corner] = grid_.corner(grey.cell, corner);
+    const std::optional<std::int64_t> number = winding(grey.cell, corner);
+    if (!number) return;
+    numbers[corner] = *number;
+  }
+  if (!octree::is_special_cell(claim_of(grey), touching(grey.cell), corners, numbers))
+    report(
+        IssueCode::kMaskPlanes, grey.page,
+        fmt::format("the planes of cell {} do not say what is inside of it", cell_name(grey.cell)));
+}
+
+std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned corner) {
+  const auto [place, added] = counted_.try_emplace(corner_key(cell, corner));
+  if (added) place->second = recount(grid_.corner(cell, corner));
+  return place->second;
+}
+
+std::optional<std::int64_t> MaskProof::recount(const Point& point) {
+  const octree::TreeFacts& tree = model_->tree();
+  if (query::outside_box(tree, point)) return 0;
+  query::PageTurner turner(reader_, Wait::kForPages);
+  octree::TreeWork work;
+  if (model_->region().has_walls()) {
+    const octree::Crossings crossings = octree::count_crossings(
+        tree, {point, model_->region_corner()}, kAllNodes, turner.pages(), work);
+    if (!crossings.complete) return std::nullopt;
+    return model_->region_winding() + crossings.difference;
+  }
+  const query::WaysOut ways(tree, point);
+  for (const query::WaysOut::Way& way : ways.all()) {
+    const octree::Crossings crossings =
+        octree::count_crossings(tree, {point, way.end}, kAllNodes, turner.pages(), work);
+    if (crossings.complete) return crossings.difference;
+  }
+  return std::nullopt;
+}
+
+std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
+  const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
+  query::PageTurner turner(reader_, Wait::kForPages);
+  octree::TreeWork work;
+  std::vector<Triangle> found;
+  octree::BoxWalk(model_->tree(), lower, upper, turner.pages(), work)
+      .run(kAllNodes, [&](const octree::BlockView& block, std::uint32_t) {
+        for (unsigned i = 0; i < block.triangle_count(); ++i)
+          if (const Triangle triangle = block.triangle(i);
+              octree::may_touch(triangle, lower, upper))
+            found.push_back(triangle);
+      });
+  return found;
+}
+
+void MaskProof::report(IssueCode code, std::uint32_t page, std::string message) {
+  issues_.add({code, page, Error::kNowhere, std::move(message)});
+}
+
+}  // namespace planetree::tools

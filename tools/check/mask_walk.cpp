@@ -1,0 +1,144 @@
+#include "tools/check/mask_walk.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace planetree::tools {
+
+using octree::GridCell;
+using octree::MaskNode;
+
+/// The page at hand, and the cells of its records as they become known.
+class MaskWalk::Page {
+ public:
+  Page(const std::byte* frame, std::uint32_t page_number)
+      : number(page_number), frame_(frame), cells_(header().record_count) {}
+
+  const octree::MaskHeader& header() const {
+    return *reinterpret_cast<const octree::MaskHeader*>(frame_);
+  }
+  std::uint32_t first_slot() const { return header().first_record_slot; }
+  std::uint32_t end_slot() const { return first_slot() + header().record_count; }
+  const std::byte* slot(std::uint32_t at) const { return frame_ + at * octree::kMaskSlotBytes; }
+  bool is_node(std::uint32_t at) const { return octree::is_mask_node(frame_, at); }
+  /// The cell of the record in a slot, once known.
+  std::optional<GridCell>& cell(std::uint32_t at) { return cells_[at - first_slot()]; }
+
+  const std::uint32_t number;
+
+ private:
+  const std::byte* frame_;
+  std::vector<std::optional<GridCell>> cells_;
+};
+
+MaskWalk::MaskWalk(FileParts& parts, Visitor visit, Reporter report)
+    : parts_(parts),
+      links_(parts.header()->page_bytes),
+      visit_(std::move(visit)),
+      report_(std::move(report)) {}
+
+void MaskWalk::lose(std::uint32_t page) {
+  complete_ = false;
+  pending_.finish_page(page - parts_.first_mask_page(), [](const auto&, const auto&) {});
+}
+
+void MaskWalk::add(std::uint32_t number) {
+  Page page(parts_.frame_bytes(), number);
+  if (number == parts_.first_mask_page()) {
+    page.cell(page.first_slot()) = GridCell{};
+    if (page.header().root_count != 1)
+      report_({IssueCode::kSubtreeUnlinked, number, Error::kNowhere,
+               "the mask's first page has more roots than that of the mask"});
+  } else {
+    take_roots(page);
+  }
+  visit_records(page);
+  pending_.finish_page(number - parts_.first_mask_page(), [&](const auto& target, const auto&) {
+    report_({IssueCode::kLinkTarget, number, Error::kNowhere,
+             fmt::format("a link leads to slot {} of the mask, where no family of the kinds "
+                         "that its node states begins",
+                         target.slot)});
+  });
+}
+
+// Families that hang from earlier pages, one behind the other.
+void MaskWalk::take_roots(Page& page) {
+  const std::uint32_t within = page.number - parts_.first_mask_page();
+  const std::uint32_t end = page.first_slot() + page.header().root_count;
+  for (std::uint32_t slot = page.first_slot(); slot < end;) {
+    const std::optional<Owner> owner = pending_.take({within, slot, false});
+    if (!owner) {
+      if (complete_)
+        report_({IssueCode::kSubtreeUnlinked, page.number, Error::kNowhere,
+                 fmt::format("no link leads to the family in slot {} of the mask", slot)});
+      ++slot;
+      continue;
+    }
+    const auto members = static_cast<unsigned>(std::popcount(owner->node.grey));
+    if (members > end - slot)
+      report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
+               fmt::format("the family in slot {} of the mask ends before its node says", slot)});
+    else
+      place_family(page, owner->node, owner->cell, slot);
+    slot += members;
+  }
+}
+
+void MaskWalk::place_family(Page& page, const MaskNode& node, const GridCell& cell,
+                            std::uint32_t first_slot) {
+  std::uint32_t slot = first_slot;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((node.grey >> octant & 1) == 0) continue;
+    if (page.is_node(slot) == ((node.leaf >> octant & 1) != 0))
+      report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
+               fmt::format("the record in slot {} of the mask is not of the kind its node states",
+                           slot)});
+    else
+      page.cell(slot) = cell.child(octant);
+    ++slot;
+  }
+}
+
+void MaskWalk::visit_records(Page& page) {
+  for (std::uint32_t slot = page.first_slot(); slot < page.end_slot(); ++slot)
+    if (const std::optional<GridCell> cell = page.cell(slot)) follow(page, slot, *cell);
+}
+
+void MaskWalk::follow(Page& page, std::uint32_t slot, const GridCell& cell) {
+  GreyCell grey;
+  grey.page = page.number;
+  grey.cell = cell;
+  const std::byte* record = page.slot(slot);
+  if (!page.is_node(slot)) {
+    const auto& corners = *reinterpret_cast<const octree::MaskCorners*>(record);
+    if (octree::is_special(corners)) {
+      grey.special = reinterpret_cast<const octree::MaskSpecial*>(record);
+      grey.planes = reinterpret_cast<const double*>(page.slot(grey.special->plane_slot));
+    } else if (octree::is_listed(corners)) {
+      grey.listed = reinterpret_cast<const octree::MaskListed*>(record);
+      octree::copy_list(page.slot(0), *grey.listed, grey.blocks);
+    } else {
+      grey.corners = &corners;
+    }
+    return visit_(grey);
+  }
+  grey.node = reinterpret_cast<const MaskNode*>(record);
+  visit_(grey);
+  if (grey.node->grey == 0) return;
+  if (cell.level == octree::kLevels)
+    return report_({IssueCode::kPageStructure, page.number, Error::kNowhere,
+                    "a cell of the mask is divided below the finest level"});
+  const std::uint32_t family = grey.node->family;
+  if (links_.page(family) + parts_.first_mask_page() == page.number)
+    place_family(page, *grey.node, cell, links_.slot(family));
+  else if (!pending_.add({links_.page(family), links_.slot(family), false}, {cell, *grey.node}))
+    report_({IssueCode::kLinkTwice, page.number, Error::kNowhere,
+             fmt::format("a second link leads to slot {} of mask page {}", links_.slot(family),
+                         links_.page(family))});
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,24 @@
+#include "tools/check/model_reader.h"
+
+#include <cstdint>
+#include <utility>
+
+namespace planetree::tools {
+namespace {
+
+constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
+
+}  // namespace
+
+Result<ModelReader> ModelReader::open(const std::filesystem::path& path) {
+  OpenOptions options;
+  options.memory_budget_bytes = kMemoryBytes;
+  options.max_probes = 1;
+  auto model = query::ModelState::open(path, options);
+  if (!model) return model.error();
+  auto reader = (*model)->claim_reader();
+  if (!reader) return reader.error();
+  return ModelReader{*std::move(model), *std::move(reader)};
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "octree/geometry/triangle_distance.h"
+#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
+#include "tools/check/geometry_check.h"
+
+namespace planetree::tools {
+
+/// Whether the moments stated for a block are those of its triangles.
+///
+/// centre  of the model.
+bool moments_fit(const Bounds& stated, const octree::BlockView& block, const octree::Point& centre);
+
+/// Whether the moments stated for a node can be those of what the node itself
+/// states of its children.
+bool moments_fit(const Bounds& stated, const octree::Node& node);
+
+}  // namespace planetree::tools

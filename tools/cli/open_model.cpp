@@ -1,0 +1,39 @@
+#include "tools/cli/open_model.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <thread>
+
+namespace planetree::tools {
+
+Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory_bytes,
+                         Console& console, unsigned batch_threads, unsigned wait_limit_ms) {
+  OpenOptions options;
+  options.memory_budget_bytes = memory_bytes;
+  options.max_probes = 1;
+  options.wait_limit_ms = wait_limit_ms;
+  if (batch_threads == 0) batch_threads = std::max(std::thread::hardware_concurrency(), 1u);
+  options.batch_threads = std::min(batch_threads, OpenOptions::kMostBatchThreads);
+  auto model = Model::open(path, options);
+  if (model && model->stats().header_copy_damaged)
+    console.warn(path.string(),
+                 "one of its two headers is damaged; copy the file anew or build it again");
+  return model;
+}
+
+std::optional<Error> pages_lost(const Stats& stats) {
+  if (stats.quarantined_pages != 0)
+    return make_error(ErrorCode::kDamaged, Error::kNowhere, Error::kNowhere,
+                      "%" PRIu64 " of its pages cannot be read, so %" PRIu64
+                      " answers are degraded; planetree verify names the pages",
+                      stats.quarantined_pages, stats.degraded_answers);
+  if (stats.waits_given_up != 0)
+    return make_error(ErrorCode::kReadFailed, Error::kNowhere, Error::kNowhere,
+                      "%" PRIu64 " waits for its pages were given up, so %" PRIu64
+                      " answers are degraded; ask again when the disk is less busy, or let "
+                      "planetree query wait longer (--wait-limit)",
+                      stats.waits_given_up, stats.degraded_answers);
+  return std::nullopt;
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,166 @@
+#include "tools/cli/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+namespace planetree::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Cause {
+  ErrorCode code;
+  const char* remedy;
+};
+
+Cause cause_of(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return {ErrorCode::kNoSpace, "free some room, raise the limit or write elsewhere"};
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return {ErrorCode::kPermission, "choose a folder you may write to"};
+    case ENOENT:
+    case ENOTDIR:
+      return {ErrorCode::kNotFound, "create the folder first"};
+    case ENAMETOOLONG:
+    case EISDIR:
+      return {ErrorCode::kBadArgument, "choose another name"};
+    case EEXIST:
+      return {ErrorCode::kAlreadyExists, "use --force to replace it, or another name"};
+    case ENOMEM:
+      return {ErrorCode::kNoMemory, "free some memory"};
+    default:
+      return {ErrorCode::kWriteFailed, "check the device and what reads from it"};
+  }
+}
+
+Error system_error(const char* action, int error_number, std::uint64_t offset = Error::kNowhere) {
+  const Cause cause = cause_of(error_number);
+  return make_error(cause.code, Error::kNowhere, offset, "cannot %s: %s; %s", action,
+                    std::generic_category().message(error_number).c_str(), cause.remedy);
+}
+
+/// What already bears the name, if anything: links are followed.
+Result<mode_t> existing_mode(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return status.st_mode;
+  if (errno == ENOENT) return mode_t{0};
+  return system_error("look at the destination", errno);
+}
+
+}  // namespace
+
+Result<OutputFile> OutputFile::create(const fs::path& path, bool may_replace) {
+  OutputFile file;
+  file.may_replace_ = may_replace;
+  if (path == "-") {
+    file.descriptor_ = STDOUT_FILENO;
+    return file;
+  }
+  const auto mode = existing_mode(path);
+  if (!mode) return mode.error();
+  if (S_ISDIR(*mode)) return system_error("write", EISDIR);
+  if (*mode != 0 && !S_ISREG(*mode)) {
+    file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file.descriptor_ < 0) return system_error("open", errno);
+    file.owns_descriptor_ = true;
+    return file;
+  }
+  if (*mode != 0 && !may_replace) return system_error("write", EEXIST);
+  // Replacing what a link points to keeps the link, as writing through it would.
+  std::error_code ignored;
+  file.destination_ = *mode != 0 ? fs::canonical(path, ignored) : path;
+  if (file.destination_.empty()) file.destination_ = path;
+  if (const auto opened = file.open_temporary(); !opened) return opened.error();
+  return file;
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      owns_descriptor_(std::exchange(other.owns_descriptor_, false)),
+      may_replace_(other.may_replace_),
+      destination_(std::move(other.destination_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      bytes_written_(other.bytes_written_) {}
+
+OutputFile::~OutputFile() {
+  if (owns_descriptor_) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Result<void> OutputFile::open_temporary() {
+  constexpr int kMaxAttempts = 1000;
+  const fs::path folder = destination_.parent_path();
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    // The name does not contain the destination's, which may be as long as names get.
+    const fs::path name = folder / fmt::format(".planetree-{}-{}.part", ::getpid(), attempt);
+    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) {
+      owns_descriptor_ = true;
+      temporary_ = name;
+      return {};
+    }
+    if (errno != EEXIST) return system_error("create a file in that folder", errno);
+  }
+  return make_error(ErrorCode::kAlreadyExists, Error::kNowhere, Error::kNowhere,
+                    "the folder is full of temporary files; remove .planetree-*.part there");
+}
+
+Result<void> OutputFile::reserve(std::uint64_t bytes) {
+  if (temporary_.empty() || bytes == 0) return {};
+  const auto length = static_cast<off_t>(std::min<std::uint64_t>(bytes, INT64_MAX));
+  if (::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, length) == 0) return {};
+  if (cause_of(errno).code != ErrorCode::kNoSpace) return {};
+  return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere,
+                    "no room for the %llu bytes of this file: %s; %s",
+                    static_cast<unsigned long long>(bytes),
+                    std::generic_category().message(errno).c_str(), cause_of(errno).remedy);
+}
+
+Result<void> OutputFile::write(std::span<const std::byte> bytes) {
+  assert(descriptor_ >= 0);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return system_error("write", errno, bytes_written_);
+    bytes_written_ += static_cast<std::uint64_t>(written);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return {};
+}
+
+Result<void> OutputFile::commit() {
+  if (!owns_descriptor_) return {};
+  // Some devices report a lack of room only now.
+  if (!temporary_.empty() && ::fsync(descriptor_) != 0) return system_error("write", errno);
+  owns_descriptor_ = false;
+  if (::close(std::exchange(descriptor_, -1)) != 0) return system_error("write", errno);
+  return temporary_.empty() ? Result<void>{} : rename_temporary();
+}
+
+Result<void> OutputFile::rename_temporary() {
+  const unsigned flags = may_replace_ ? 0U : unsigned{RENAME_NOREPLACE};
+  int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, destination_.c_str(), flags);
+  // Not every file system can refuse to replace; create() has looked in any case.
+  if (failed != 0 && (errno == EINVAL || errno == ENOSYS)) {
+    failed = ::rename(temporary_.c_str(), destination_.c_str());
+  }
+  if (failed != 0) return system_error("name the finished file", errno);
+  temporary_.clear();
+  return {};
+}
+
+}  // namespace planetree::tools

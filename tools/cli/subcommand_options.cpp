@@ -1,0 +1,107 @@
+#include "tools/cli/subcommand_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/cli/size_text.h"
+
+namespace planetree::tools {
+namespace {
+
+std::string count_complaint(const std::string& text, std::uint64_t most) {
+  const auto count = parse_count(text);
+  if (!count) return count.error().text;
+  return *count <= most ? std::string() : fmt::format("{} is too many; at most {}", *count, most);
+}
+
+std::string bytes_complaint(const std::string& text) {
+  const auto bytes = parse_bytes(text);
+  return bytes ? std::string() : std::string(bytes.error().text);
+}
+
+std::string length_complaint(const std::string& text, bool infinite) {
+  double value = 0;
+  if (octree::parse_real(text, value) && value >= 0 && (infinite || std::isfinite(value)))
+    return {};
+  return fmt::format("'{}' is not a length; give a number from 0 on, in model units",
+                     octree::printable(text));
+}
+
+}  // namespace
+
+VerbOptions::VerbOptions(CLI::App& app, const std::string& name, const std::string& help)
+    : verb_(*app.add_subcommand(name, help)) {}
+
+VerbOptions::Option VerbOptions::path(const std::string& name, const char* type,
+                                      std::filesystem::path& value, const std::string& help) {
+  return verb_.add_option(name, value, help)->type_name(type);
+}
+
+VerbOptions::Option VerbOptions::flag(const std::string& name, bool& value,
+                                      const std::string& help) {
+  return verb_.add_flag(name, value, help);
+}
+
+VerbOptions::Option VerbOptions::bytes(const std::string& name, std::uint64_t& value,
+                                       const std::string& help) {
+  const auto take = [&value](const std::string& given) { value = *parse_bytes(given); };
+  return text(name, "SIZE", bytes_complaint, take, help);
+}
+
+VerbOptions::Option VerbOptions::count(const std::string& name, std::uint64_t& value,
+                                       std::uint64_t most, const std::string& help) {
+  const auto complaint = [most](const std::string& given) { return count_complaint(given, most); };
+  const auto take = [&value](const std::string& given) { value = *parse_count(given); };
+  return text(name, "N", complaint, take, help);
+}
+
+VerbOptions::Option VerbOptions::length(const std::string& name, double& value, bool infinite,
+                                        const std::string& help) {
+  const auto complaint = [infinite](const std::string& given) {
+    return length_complaint(given, infinite);
+  };
+  const auto take = [&value](const std::string& given) { octree::parse_real(given, value); };
+  return text(name, "LENGTH", complaint, take, help);
+}
+
+VerbOptions::Option VerbOptions::word(const std::string& name,
+                                      const std::vector<std::string>& words,
+                                      std::function<void(const std::string&)> take,
+                                      const std::string& help) {
+  return verb_.add_option_function<std::string>(name, take, help)
+      ->type_name("NAME")
+      ->check(CLI::IsMember(words).description(""));
+}
+
+VerbOptions::Option VerbOptions::text(const std::string& name, const char* type,
+                                      std::function<std::string(const std::string&)> complaint,
+                                      std::function<void(const std::string&)> take,
+                                      const std::string& help) {
+  return verb_.add_option_function<std::string>(name, take, help)
+      ->type_name(type)
+      ->check(CLI::Validator([complaint](std::string& given) { return complaint(given); }, "", ""));
+}
+
+VerbOptions::Option VerbOptions::require(Option option) { return option->required(); }
+
+VerbOptions::Option VerbOptions::default_text(Option option, const std::string& text) {
+  return option->default_str(text);
+}
+
+void VerbOptions::need(Option option, Option other) { option->needs(other); }
+
+void VerbOptions::exclude(Option option, Option other) { option->excludes(other); }
+
+bool VerbOptions::given(Option option) { return option->count() > 0; }
+
+void VerbOptions::on_given(std::function<std::string()> act) {
+  verb_.callback([act] {
+    const std::string complaint = act();
+    if (!complaint.empty()) throw CLI::ValidationError(complaint);
+  });
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tools/cli/input_file.h"
+#include "tools/points/point_reader.h"
+
+namespace planetree::tools {
+
+/// Points as little-endian float64 triples, one behind the other.
+class RawPoints final : public PointReader {
+ public:
+  RawPoints(std::string name, InputFile file)
+      : PointReader(std::move(name)), file_(std::move(file)) {}
+
+  Result<std::size_t> read(std::span<Vec3> points) override;
+
+ private:
+  InputFile file_;
+  std::uint64_t offset_ = 0;
+  std::size_t odd_bytes_ = 0;  // of a last point that is not whole
+};
+
+}  // namespace planetree::tools

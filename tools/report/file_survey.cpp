@@ -1,0 +1,165 @@
+#include "tools/report/file_survey.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+#include "tools/check/mask_walk.h"
+#include "tools/check/subtree_links.h"
+
+namespace planetree::tools {
+namespace {
+
+class Surveyor {
+ public:
+  explicit Surveyor(FileParts& parts)
+      : parts_(parts),
+        links_(parts.header()->page_bytes),
+        mask_(
+            parts, [this](const GreyCell& grey) { count(grey); },
+            [this](Issue issue) { survey_.issues.add(std::move(issue)); }) {}
+
+  FileSurvey run(const PageVisitor& visit) {
+    for (const Issue& issue : parts_.issues()) survey_.issues.add(issue);
+    const std::uint32_t root = parts_.header()->model.root_link;
+    pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
+    for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
+      PageRow row{page, parts_.entries()[page], {}, {}};
+      look_at(row);
+      if (!visit(row)) break;
+    }
+    return std::move(survey_);
+  }
+
+ private:
+  void look_at(PageRow& row) {
+    std::optional<Issue> issue = parts_.read_page(row.number);
+    if (!issue) issue = parts_.decode_page();
+    const bool mask = row.number >= parts_.first_mask_page();
+    if (issue) {
+      survey_.issues.add(*std::move(issue));
+      if (mask) return mask_.lose(row.number);
+      return pending_.finish_page(row.number, [](const auto&, const auto&) {});
+    }
+    if (mask) {
+      row.mask = add_streams<octree::MaskStreams>(survey_.mask_streams);
+      survey_.lists += row.mask->listed_count;
+      return mask_.add(row.number);
+    }
+    row.head = add_streams<octree::RawStreams>(survey_.streams);
+    const FrameView frame = parts_.frame();
+    frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
+      survey_.sheets += frame.block(slot).header().in_sheet() ? 1 : 0;
+    });
+    add_levels(row.number);
+  }
+
+  MaskLevelRow& mask_level(std::size_t level) {
+    if (survey_.mask.size() <= level) survey_.mask.resize(level + 1);
+    return survey_.mask[level];
+  }
+
+  void count(const GreyCell& grey) {
+    MaskLevelRow& row = mask_level(grey.cell.level);
+    ++row.grey;
+    row.corners += grey.corners != nullptr || grey.listed != nullptr;
+    row.special += grey.special != nullptr;
+    if (grey.node == nullptr) return;
+    const auto count_bits = [](unsigned mask) {
+      return static_cast<unsigned>(std::popcount(mask));
+    };
+    const unsigned inside = grey.node->black | grey.node->inverted;
+    MaskLevelRow& below = mask_level(grey.cell.level + 1);
+    below.black += count_bits(inside);
+    below.white += 8 - count_bits(inside | grey.node->grey);
+  }
+
+  // Those of the page at hand; its head.
+  template <class Streams>
+  decltype(Streams::head) add_streams(std::vector<StreamRow>& sums) const {
+    Streams streams;
+    const bool whole = parts_.cut(streams);
+    assert(whole);
+    static_cast<void>(whole);
+    const std::vector<StreamRow> rows = stream_rows(streams, parts_.shape());
+    if (sums.empty()) {
+      sums = rows;
+      return streams.head;
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      sums[i].elements += rows[i].elements;
+      sums[i].bytes += rows[i].bytes;
+    }
+    return streams.head;
+  }
+
+  LevelRow& level(std::uint32_t depth) {
+    if (survey_.levels.size() <= depth) survey_.levels.resize(depth + 1);
+    return survey_.levels[depth];
+  }
+
+  void add_levels(std::uint32_t page) {
+    const FrameView frame = parts_.frame();
+    const octree::FrameHeader& header = frame.header();
+    // Depths of the page's records; none where no link from above was seen.
+    std::vector<std::optional<std::uint32_t>> node_depths(header.node_count);
+    std::map<std::uint32_t, std::uint32_t> block_depths;  // by slot
+    for (std::uint32_t i = 0; i < header.root_node_count; ++i)
+      node_depths[i] = pending_.take({page, frame.node_slot(i), false});
+    for (std::uint32_t i = 0; i < header.node_count; ++i)
+      if (node_depths[i]) add_node(page, frame, i, *node_depths[i], node_depths, block_depths);
+    bool placed = true;
+    frame.for_each_block([&](std::uint32_t index, std::uint32_t slot) {
+      if (index < header.root_block_count)
+        if (const auto depth = pending_.take({page, slot, true})) block_depths[slot] = *depth;
+      const auto depth = block_depths.find(slot);
+      placed = placed && depth != block_depths.end();
+      if (depth == block_depths.end()) return;
+      LevelRow& row = level(depth->second);
+      ++row.blocks;
+      row.triangles += frame.block(slot).triangle_count();
+    });
+    for (const auto& depth : node_depths) placed = placed && depth.has_value();
+    if (!placed) ++survey_.unplaced_pages;
+    pending_.finish_page(page, [](const auto&, const auto&) {});
+  }
+
+  void add_node(std::uint32_t page, const FrameView& frame, std::uint32_t index,
+                std::uint32_t depth, std::vector<std::optional<std::uint32_t>>& node_depths,
+                std::map<std::uint32_t, std::uint32_t>& block_depths) {
+    const octree::Node& node = frame.node(index);
+    LevelRow& row = level(depth);
+    ++row.nodes;
+    row.children += node.child_count;
+    for (unsigned child = 0; child < node.child_count; ++child) {
+      const std::uint32_t link = node.link[child];
+      const bool leaf = octree::LinkFormat::is_leaf(link);
+      const std::uint32_t slot = links_.slot(link);
+      if (links_.page(link) != page)
+        pending_.add({links_.page(link), slot, leaf}, depth + 1);
+      else if (leaf)
+        block_depths[slot] = depth + 1;
+      else
+        node_depths[frame.node_at_slot(slot)] = depth + 1;
+    }
+  }
+
+  FileParts& parts_;
+  octree::LinkFormat links_;
+  FileSurvey survey_;
+  SubtreeLinks<std::uint32_t> pending_;  // to the depth of what is linked to
+  MaskWalk mask_;
+};
+
+}  // namespace
+
+FileSurvey survey_file(FileParts& parts, const PageVisitor& visit) {
+  if (parts.header() != nullptr) return Surveyor(parts).run(visit);
+  FileSurvey survey;
+  for (const Issue& issue : parts.issues()) survey.issues.add(issue);
+  return survey;
+}
+
+}  // namespace planetree::tools

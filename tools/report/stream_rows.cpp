@@ -1,0 +1,80 @@
+#include "tools/report/stream_rows.h"
+
+#include <array>
+
+namespace planetree::tools {
+namespace {
+
+template <class T>
+StreamRow row(std::string_view name, StreamGroup group, const octree::Shuffled<T>& stream) {
+  return {name, group, stream.size(), octree::Shuffled<T>::bytes_for(stream.size())};
+}
+
+}  // namespace
+
+std::string_view group_name(StreamGroup group) {
+  static constexpr std::array<std::string_view, kStreamGroupCount> kNames = {
+      "heads", "nodes", "blocks", "corners", "vertices", "ids", "mask", "mask_lists"};
+  return kNames[static_cast<std::size_t>(group)];
+}
+
+std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
+                                   const octree::BlockShape& shape) {
+  using enum StreamGroup;
+  const octree::RawStreams& s = streams;
+  std::vector<StreamRow> rows = {
+      {"page_head", kHead, 1, sizeof(octree::PageHead)}, row("root_boxes", kNodes, s.root_boxes),
+      row("child_counts", kNodes, s.child_counts),       row("heights", kNodes, s.heights),
+      row("child_kinds", kNodes, s.child_kinds),         row("child_boxes", kNodes, s.child_boxes),
+      row("child_normals", kNodes, s.child_normals),     row("child_slabs", kNodes, s.child_slabs),
+      row("child_radii", kNodes, s.child_radii)};
+  if (shape.moments) {
+    rows.push_back(row("child_vectors", kNodes, s.child_vectors));
+    rows.push_back(row("child_firsts", kNodes, s.child_firsts));
+    rows.push_back(row("child_areas", kNodes, s.child_areas));
+    rows.push_back(row("child_seconds", kNodes, s.child_seconds));
+  }
+  const std::vector<StreamRow> others = {
+      row("page_links", kNodes, s.page_links),
+      row("triangle_counts", kBlocks, s.triangle_counts),
+      row("vertex_counts", kBlocks, s.vertex_counts),
+      row("new_counts", kBlocks, s.new_counts),
+      row("vertex_refs", kVertices, s.vertex_refs),
+      {"corners", kCorners, s.corners.size(), s.corners.size()},
+      shape.float64 ? row("vertices", kVertices, s.vertices64)
+                    : row("vertices", kVertices, s.vertices32),
+      shape.wide_ids ? row("first_ids", kIds, s.first_ids64)
+                     : row("first_ids", kIds, s.first_ids32),
+      shape.wide_ids ? row("id_steps", kIds, s.id_steps64) : row("id_steps", kIds, s.id_steps32)};
+  rows.insert(rows.end(), others.begin(), others.end());
+  return rows;
+}
+
+std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
+                                   const octree::BlockShape& shape) {
+  using enum StreamGroup;
+  const octree::MaskStreams& s = streams;
+  return {{"mask_page_head", kHead, 1, sizeof(octree::MaskPageHead)},
+          row("record_kinds", kMask, s.kinds),
+          row("grey_masks", kMask, s.grey),
+          row("leaf_masks", kMask, s.leaf),
+          row("black_masks", kMask, s.black),
+          row("inverted_masks", kMask, s.inverted),
+          row("mask_page_links", kMask, s.page_links),
+          row("corner_bits", kMask, s.plain_corners),
+          row("mask_corners", kMask, s.corners),
+          row("plane_counts", kMask, s.plane_counts),
+          row("behind", kMask, s.behind),
+          row("beyond", kMask, s.beyond),
+          shape.float64 ? row("planes", kMask, s.planes64) : row("planes", kMask, s.planes32),
+          row("least", kMaskLists, s.least),
+          row("higher", kMaskLists, s.higher),
+          row("block_counts", kMaskLists, s.block_counts),
+          row("slab_directions", kMaskLists, s.slab_directions),
+          row("slab_lowers", kMaskLists, s.slab_lowers),
+          row("slab_uppers", kMaskLists, s.slab_uppers),
+          row("block_octants", kMaskLists, s.block_octants),
+          row("block_links", kMaskLists, s.block_links)};
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,283 @@
+#include "tools/report/summary_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "query/answer/model_region.h"
+#include "tools/cli/file_text.h"
+#include "tools/cli/size_text.h"
+
+namespace planetree::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Sections {
+  std::uint64_t headers = 0;
+  std::uint64_t page_table = 0;
+  std::uint64_t distance_pages = 0;
+  std::uint64_t mask_pages = 0;
+};
+
+Sections sections_of(const FileParts& parts) {
+  Sections sections;
+  sections.headers = 2 * storage::kHeaderBytes;
+  sections.page_table = parts.entries().size_bytes();
+  for (std::uint32_t page = 0; page < parts.page_count(); ++page)
+    (page < parts.first_mask_page() ? sections.distance_pages : sections.mask_pages) +=
+        parts.entries()[page].stored_bytes;
+  return sections;
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+MaskLevelRow mask_sum(const FileSurvey& survey) {
+  MaskLevelRow sum;
+  for (const MaskLevelRow& row : survey.mask) {
+    sum.white += row.white;
+    sum.black += row.black;
+    sum.grey += row.grey;
+    sum.corners += row.corners;
+    sum.special += row.special;
+  }
+  return sum;
+}
+
+Json mask_row_json(const MaskLevelRow& row) {
+  return {{"white", row.white},
+          {"black", row.black},
+          {"grey", row.grey},
+          {"with_corners", row.corners},
+          {"special", row.special}};
+}
+
+std::string mask_text(const FileSurvey& survey, const Sections& sections, std::uint64_t triangles) {
+  if (survey.mask.empty()) return {};
+  const MaskLevelRow sum = mask_sum(survey);
+  return fmt::format(
+      "  mask        {} levels, {} white, {} black, {} grey cells, of those {} with corners, {} of "
+      "them listing blocks, and {} special; {:.2f} bytes a triangle\n",
+      survey.mask.size() - 1, grouped_count(sum.white), grouped_count(sum.black),
+      grouped_count(sum.grey), grouped_count(sum.corners), grouped_count(survey.lists),
+      grouped_count(sum.special), share(sections.mask_pages, triangles));
+}
+
+std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
+  std::array<std::uint64_t, kStreamGroupCount> bytes{};
+  for (const auto* rows : {&survey.streams, &survey.mask_streams})
+    for (const StreamRow& row : *rows) bytes[static_cast<std::size_t>(row.group)] += row.bytes;
+  return bytes;
+}
+
+Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
+  const Sections sections = sections_of(parts);
+  Json raw = Json::object();
+  const auto groups = bytes_by_group(survey);
+  for (std::size_t i = 0; i < kStreamGroupCount; ++i)
+    raw[std::string(group_name(static_cast<StreamGroup>(i)))] = groups[i];
+  Json streams = Json::object();
+  for (const auto* rows : {&survey.streams, &survey.mask_streams})
+    for (const StreamRow& row : *rows) streams[std::string(row.name)] = row.bytes;
+  return {{"headers", sections.headers},
+          {"page_table", sections.page_table},
+          {"distance_pages", sections.distance_pages},
+          {"mask_pages", sections.mask_pages},
+          {"within_pages", raw},
+          {"within_pages_by_stream", streams}};
+}
+
+std::string point_text(const double (&values)[3]) {
+  return fmt::format("{:.9g} {:.9g} {:.9g}", values[0], values[1], values[2]);
+}
+
+// How sides are found, in a word.
+std::string_view sign_rule(const storage::ModelRecord& model) {
+  if (model.open_edge_count == 0) return "crossings";
+  return query::region_of(model).has_walls() ? "none" : "winding";
+}
+
+Json region_json(const storage::ModelRecord& model) {
+  if (!model.has_region()) return nullptr;
+  return {{"lower", model.region_lower},
+          {"upper", model.region_upper},
+          {"input_triangles", model.input_triangles}};
+}
+
+std::string region_text(const storage::ModelRecord& model) {
+  if (!model.has_region()) return {};
+  return fmt::format("  region      {} to {}: {} of the input's {} triangles touch it\n",
+                     point_text(model.region_lower), point_text(model.region_upper),
+                     grouped_count(model.triangle_count), grouped_count(model.input_triangles));
+}
+
+std::span<const storage::OpenEdge> listed_open_edges(const storage::ModelRecord& model) {
+  const std::uint64_t listed =
+      std::min<std::uint64_t>(model.open_edge_count, std::size(model.open_edge));
+  return std::span(model.open_edge).first(static_cast<std::size_t>(listed));
+}
+
+Json open_edges_json(const storage::ModelRecord& model) {
+  Json edges = Json::array();
+  for (const storage::OpenEdge& edge : listed_open_edges(model))
+    edges.push_back({{"triangle", edge.triangle},
+                     {"from", edge.from},
+                     {"to", edge.to},
+                     {"along", edge.along},
+                     {"against", edge.against}});
+  return edges;
+}
+
+std::string surface_text(const storage::ModelRecord& model) {
+  if (model.open_edge_count == 0) return "  surface     watertight; sides by crossings, exactly\n";
+  std::string text =
+      fmt::format("  surface     not watertight; {}: {} open edges\n",
+                  query::region_of(model).has_walls() ? "sides unknown, for not all of it is here"
+                                                      : "sides by winding number",
+                  grouped_count(model.open_edge_count));
+  for (const storage::OpenEdge& edge : listed_open_edges(model))
+    text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
+                        point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
+                        edge.against);
+  return text;
+}
+
+std::string raw_text(const FileSurvey& survey) {
+  const auto groups = bytes_by_group(survey);
+  std::uint64_t sum = 0;
+  for (const std::uint64_t bytes : groups) sum += bytes;
+  std::string text;
+  for (std::size_t i = 0; i < kStreamGroupCount; ++i)
+    text += fmt::format("{}{} {:.1f}%", i == 0 ? "" : ", ", group_name(static_cast<StreamGroup>(i)),
+                        100 * share(groups[i], sum));
+  return fmt::format("{} before compression: {}", short_bytes(sum), text);
+}
+
+std::string mask_levels_text(const FileSurvey& survey) {
+  std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "mask", "white",
+                                 "black", "grey", "with corners", "special");
+  for (std::size_t level = 0; level < survey.mask.size(); ++level) {
+    const MaskLevelRow& row = survey.mask[level];
+    text += fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", level,
+                        grouped_count(row.white), grouped_count(row.black), grouped_count(row.grey),
+                        grouped_count(row.corners), grouped_count(row.special));
+  }
+  return text;
+}
+
+}  // namespace
+
+Json summary_json(const FileParts& parts, const FileSurvey& survey) {
+  if (parts.header() == nullptr) return {{"file_bytes", parts.actual_bytes()}};
+  const storage::FileHeader& header = *parts.header();
+  const storage::ModelRecord& model = header.model;
+  Json json = {{"triangles", model.triangle_count},
+               {"set_aside", model.set_aside_count},
+               {"first_set_aside", nullptr},
+               {"vertices", model.vertex_count},
+               {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
+               {"region", region_json(model)},
+               {"coordinates", parts.shape().float64 ? "float64" : "float32"},
+               {"watertight", model.open_edge_count == 0},
+               {"sign_rule", sign_rule(model)},
+               {"open_edges", model.open_edge_count},
+               {"first_open_edges", open_edges_json(model)},
+               {"levels", model.height},
+               {"nodes", model.node_count},
+               {"blocks", model.block_count},
+               {"blocks_in_sheets", survey.sheets},
+               {"pages", header.page_count},
+               {"page_bytes", header.page_bytes},
+               {"file_bytes", parts.actual_bytes()},
+               {"bytes_per_triangle", share(header.file_bytes, model.triangle_count)},
+               {"format_version", header.version},
+               {"content_id", content_id_text(header.content_id)},
+               {"mask", mask_row_json(mask_sum(survey))},
+               {"special_configurations", mask_sum(survey).special},
+               {"lists_of_blocks", survey.lists},
+               {"bytes", bytes_json(parts, survey)}};
+  if (model.first_set_aside != storage::kNoTriangle)
+    json["first_set_aside"] = model.first_set_aside;
+  return json;
+}
+
+std::string summary_text(const std::string& name, const FileParts& parts,
+                         const FileSurvey& survey) {
+  if (parts.header() == nullptr)
+    return fmt::format("{}: {}\n", name, short_bytes(parts.actual_bytes()));
+  const storage::FileHeader& header = *parts.header();
+  const storage::ModelRecord& model = header.model;
+  const Sections sections = sections_of(parts);
+  std::string text = fmt::format(
+      "{}: {} triangles, {} vertices of {}\n", name, grouped_count(model.triangle_count),
+      grouped_count(model.vertex_count), parts.shape().float64 ? "float64" : "float32");
+  if (model.set_aside_count > 0)
+    text += fmt::format("  set aside   {} triangles of bad records, the first is {}\n",
+                        grouped_count(model.set_aside_count), model.first_set_aside);
+  text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
+                      point_text(model.box_upper));
+  text += region_text(model);
+  text += surface_text(model);
+  text += fmt::format(
+      "  tree        {} levels, {} nodes, {} blocks, {} of them in sheets, {:.1f} "
+      "triangles a block\n",
+      model.height, grouped_count(model.node_count), grouped_count(model.block_count),
+      grouped_count(survey.sheets), share(model.triangle_count, model.block_count));
+  text += mask_text(survey, sections, model.triangle_count);
+  text += fmt::format(
+      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, "
+      "mask pages {}\n",
+      short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
+      short_bytes(sections.headers), short_bytes(sections.page_table),
+      short_bytes(sections.distance_pages), short_bytes(sections.mask_pages));
+  text += fmt::format("  pages       {} of {} in memory; {}\n", grouped_count(header.page_count),
+                      short_bytes(header.page_bytes), raw_text(survey));
+  text += fmt::format("  content id  {}\n", content_id_text(header.content_id));
+  return text;
+}
+
+Json mask_levels_json(const FileSurvey& survey) {
+  Json rows = Json::array();
+  for (std::size_t level = 0; level < survey.mask.size(); ++level) {
+    rows.push_back({{"level", level}});
+    rows.back().update(mask_row_json(survey.mask[level]));
+  }
+  return rows;
+}
+
+Json levels_json(const FileSurvey& survey) {
+  Json rows = Json::array();
+  for (std::size_t depth = 0; depth < survey.levels.size(); ++depth) {
+    const LevelRow& row = survey.levels[depth];
+    rows.push_back({{"depth", depth},
+                    {"nodes", row.nodes},
+                    {"blocks", row.blocks},
+                    {"triangles", row.triangles},
+                    {"children_per_node", share(row.children, row.nodes)},
+                    {"triangles_per_block", share(row.triangles, row.blocks)}});
+  }
+  return rows;
+}
+
+std::string levels_text(const FileSurvey& survey) {
+  std::string text = fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13} {:>15}\n", "depth", "nodes",
+                                 "blocks", "triangles", "children/node", "triangles/block");
+  for (std::size_t depth = 0; depth < survey.levels.size(); ++depth) {
+    const LevelRow& row = survey.levels[depth];
+    text += fmt::format("{:>5} {:>13} {:>13} {:>15} {:>13.2f} {:>15.2f}\n", depth,
+                        grouped_count(row.nodes), grouped_count(row.blocks),
+                        grouped_count(row.triangles), share(row.children, row.nodes),
+                        share(row.triangles, row.blocks));
+  }
+  if (!survey.mask.empty()) text += mask_levels_text(survey);
+  if (survey.unplaced_pages > 0)
+    text += fmt::format("{} pages hang from pages that cannot be read and are not counted\n",
+                        grouped_count(survey.unplaced_pages));
+  return text;
+}
+
+}  // namespace planetree::tools

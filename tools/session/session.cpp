@@ -1,0 +1,87 @@
+#include "tools/session/session.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+#include <limits>
+#include <thread>
+
+namespace planetree::tools {
+namespace {
+
+using std::chrono::nanoseconds;
+
+nanoseconds now() noexcept {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::chrono::seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
+}
+
+void sleep_until(nanoseconds due) noexcept {
+  timespec time{};
+  time.tv_sec = static_cast<time_t>(due.count() / 1'000'000'000);
+  time.tv_nsec = static_cast<long>(due.count() % 1'000'000'000);
+  while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) != 0) {
+  }
+}
+
+std::uint32_t in_32_bits(nanoseconds time) noexcept {
+  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMost));
+}
+
+// Units a second; where the path begins the tip stands still.
+Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds period) noexcept {
+  if (tick == 0) return {};
+  const double per_second = 1e9 / static_cast<double>(period.count());
+  const Vec3 &from = path[tick - 1], &to = path[tick];
+  return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
+}
+
+void ask_all(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
+             TouchRecord& record) noexcept {
+  record.rights = become_real_time();
+  // Once, so that what is touched for the first time is not counted.
+  probe.closest_point(path.front(), {.wait = Wait::kNever});
+  sleep_until(now());
+  const ThreadUsage before = thread_usage();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const nanoseconds due = start + period * static_cast<std::int64_t>(i);
+    sleep_until(due);
+    const nanoseconds began = now();
+    probe.motion(path[i], velocity_at(path, i, period));
+    const ClosestPoint answer = probe.closest_point(path[i], {.wait = Wait::kNever});
+    const nanoseconds ended = now();
+    record.ticks[i] = {in_32_bits(ended - due), in_32_bits(ended - began),
+                       static_cast<float>(answer.upper - answer.lower), answer.status, answer.side};
+  }
+  const ThreadUsage after = thread_usage();
+  record.usage = {after.faults - before.faults, after.switches_wanted - before.switches_wanted,
+                  after.switches_forced - before.switches_forced};
+}
+
+void wake_only(nanoseconds start, nanoseconds period,
+               std::vector<std::uint32_t>& floor_ns) noexcept {
+  become_real_time();
+  for (std::size_t i = 0; i < floor_ns.size(); ++i) {
+    const nanoseconds due = start + period * static_cast<std::int64_t>(i);
+    sleep_until(due);
+    floor_ns[i] = in_32_bits(now() - due);
+  }
+}
+
+}  // namespace
+
+TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseconds period) {
+  TouchRecord record;
+  record.ticks.resize(path.size());
+  record.floor_ns.resize(path.size());
+  const nanoseconds start = now() + std::chrono::milliseconds(20);
+  std::thread asking([&] { ask_all(probe, path, start, period, record); });
+  std::thread idle([&] { wake_only(start + period / 2, period, record.floor_ns); });
+  asking.join();
+  idle.join();
+  return record;
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,109 @@
+#include "tools/session/session_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace planetree::tools {
+namespace {
+
+constexpr std::size_t kTicksAtOnePlace = 100;
+constexpr double kTurn = 0.05;           // most change of direction a tick, radians or so
+constexpr double kHeight = 1e-3;         // of the tip, as a share of the diagonal
+constexpr std::size_t kBobTicks = 1300;  // from one touch down to the next
+
+Vec3 sum(const Vec3& a, const Vec3& b, double times) {
+  return {a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
+}
+
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
+class Walk {
+ public:
+  Walk(const Model& model, Probe& probe, double step)
+      : box_lower_(model.info().box_lower),
+        box_upper_(model.info().box_upper),
+        diagonal_(length(sum(box_upper_, box_lower_, -1))),
+        step_(step * diagonal_),
+        probe_(probe) {}
+
+  // To a random place at the surface.
+  void jump() {
+    at_ = probe_.closest_point(any_place()).point;
+    heading_ = any_direction();
+  }
+
+  // Along the surface by one step.
+  void go(std::size_t tick) {
+    const double phase = static_cast<double>(tick % kBobTicks) / kBobTicks;
+    const double height = kHeight * diagonal_ * (2.2 * std::fabs(phase - 0.5) - 0.1);
+    const ClosestPoint ahead = probe_.closest_point(sum(at_, heading_, step_));
+    const Vec3 wanted = sum(ahead.point, ahead.normal, height);
+    Vec3 way = sum(wanted, at_, -1);
+    const double far = length(way);
+    // The surface may be steep there: no step is longer than the others.
+    if (far > step_) way = {way.x * step_ / far, way.y * step_ / far, way.z * step_ / far};
+    at_ = sum(at_, way, 1);
+    turn(ahead.normal, far < step_ / 4);
+  }
+
+  const Vec3& at() const { return at_; }
+
+ private:
+  // Keeps the heading along the surface; takes another where the way leads nowhere.
+  void turn(const Vec3& normal, bool stuck) {
+    const Vec3 other = any_direction();
+    Vec3 heading = stuck ? other : sum(heading_, other, kTurn);
+    heading = sum(heading, normal, -dot(heading, normal));
+    const double size = length(heading);
+    heading_ = size > 1e-6 ? Vec3{heading.x / size, heading.y / size, heading.z / size} : other;
+  }
+
+  double any(double from, double to) {
+    return from + (to - from) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
+  Vec3 any_place() {
+    const double x = any(box_lower_.x, box_upper_.x);
+    const double y = any(box_lower_.y, box_upper_.y);
+    return {x, y, any(box_lower_.z, box_upper_.z)};
+  }
+  Vec3 any_direction() {
+    for (;;) {
+      const double x = any(-1, 1);
+      const double y = any(-1, 1);
+      const Vec3 way{x, y, any(-1, 1)};
+      const double size = length(way);
+      if (size > 0.1 && size < 1) return {way.x / size, way.y / size, way.z / size};
+    }
+  }
+
+  const Vec3 box_lower_, box_upper_;
+  const double diagonal_;
+  const double step_;
+  Probe& probe_;
+  std::mt19937_64 random_{20};
+  Vec3 at_;
+  Vec3 heading_;
+};
+
+}  // namespace
+
+std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motion,
+                             std::size_t ticks) {
+  Walk walk(model, probe, motion == TouchMotion::kScratch ? 1e-3 : 2e-4);
+  walk.jump();
+  std::vector<Vec3> path;
+  path.reserve(ticks);
+  for (std::size_t tick = 0; tick < ticks; ++tick) {
+    if (motion != TouchMotion::kTeleport)
+      walk.go(tick);
+    else if (tick % kTicksAtOnePlace == 0)
+      walk.jump();
+    path.push_back(walk.at());
+  }
+  return path;
+}
+
+}  // namespace planetree::tools

@@ -1,0 +1,165 @@
+#include "tools/session/session_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "planetree/stats.h"
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand.h"
+
+namespace planetree::tools {
+namespace {
+
+/// Some measured values in ascending order.
+template <class Value>
+class Sorted {
+ public:
+  explicit Sorted(std::vector<Value> values) : values_(std::move(values)) {
+    std::sort(values_.begin(), values_.end());
+  }
+  /// The least value that this share of all do not exceed; 0 of none.
+  Value at(double share) const {
+    if (values_.empty()) return {};
+    const auto rank = static_cast<std::size_t>(share * static_cast<double>(values_.size()));
+    return values_[std::min(rank, values_.size() - 1)];
+  }
+
+ private:
+  std::vector<Value> values_;
+};
+
+constexpr std::pair<const char*, double> kShares[] = {
+    {"p50", 0.5}, {"p99", 0.99}, {"p999", 0.999}, {"p9999", 0.9999}, {"max", 1}};
+
+nlohmann::ordered_json in_microseconds(std::vector<std::uint32_t> nanoseconds) {
+  const Sorted<std::uint32_t> sorted(std::move(nanoseconds));
+  nlohmann::ordered_json shares;
+  for (const auto& [name, share] : kShares) shares[name] = sorted.at(share) / 1e3;
+  return shares;
+}
+
+template <class Field>
+std::vector<std::uint32_t> each(const TouchRecord& record, Field Tick::*field) {
+  std::vector<std::uint32_t> values;
+  for (const Tick& tick : record.ticks) values.push_back(tick.*field);
+  return values;
+}
+
+bool is_degraded(const Tick& tick) { return tick.status == Status::kDegraded; }
+
+/// Of the degraded ticks.
+std::vector<float> widths(const TouchRecord& record) {
+  std::vector<float> values;
+  for (const Tick& tick : record.ticks)
+    if (is_degraded(tick)) values.push_back(tick.width);
+  return values;
+}
+
+/// How many ticks in a row were degraded, each time.
+std::vector<std::uint32_t> refine_ticks(const TouchRecord& record) {
+  std::vector<std::uint32_t> runs;
+  std::uint32_t run = 0;
+  for (const Tick& tick : record.ticks) {
+    if (is_degraded(tick)) {
+      ++run;
+    } else if (run > 0) {
+      runs.push_back(run);
+      run = 0;
+    }
+  }
+  if (run > 0) runs.push_back(run);
+  return runs;
+}
+
+nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRecord& record,
+                                 const Model& model) {
+  const Stats stats = model.stats();
+  const std::uint64_t period_ns = 1'000'000'000 / arguments.rate_hz;
+  const auto late = std::count_if(record.ticks.begin(), record.ticks.end(),
+                                  [&](const Tick& tick) { return tick.latency_ns > period_ns; });
+  const auto unsided = std::count_if(record.ticks.begin(), record.ticks.end(),
+                                     [](const Tick& t) { return t.side == Side::kUnknown; });
+  const Sorted<float> width(widths(record));
+  const Sorted<std::uint32_t> refine(refine_ticks(record));
+  return {{"file", arguments.file.string()},
+          {"path", name_of(arguments.motion)},
+          {"rate_hz", arguments.rate_hz},
+          {"ticks", record.ticks.size()},
+          {"late", late},
+          {"degraded", std::count_if(record.ticks.begin(), record.ticks.end(), is_degraded)},
+          {"unknown_sides", unsided},
+          {"latency_us", in_microseconds(each(record, &Tick::latency_ns))},
+          {"ask_us", in_microseconds(each(record, &Tick::ask_ns))},
+          {"floor_us", in_microseconds(record.floor_ns)},
+          {"refine_ticks_p50", refine.at(0.5)},
+          {"refine_ticks_p99", refine.at(0.99)},
+          {"refine_ticks_max", refine.at(1)},
+          {"degraded_width_p50", width.at(0.5)},
+          {"degraded_width_max", width.at(1)},
+          {"faults", record.usage.faults},
+          {"switches_wanted", record.usage.switches_wanted},
+          {"switches_forced", record.usage.switches_forced},
+          {"fifo", record.rights.fifo},
+          {"pinned", record.rights.pinned},
+          {"locked_bytes", stats.locked_bytes},
+          {"pages_read", stats.pages_read},
+          {"pages_evicted", stats.pages_evicted},
+          {"quarantined_pages", stats.quarantined_pages},
+          {"wishes_fetched", stats.wishes_fetched},
+          {"wishes_made", stats.wishes_made},
+          {"places_prefetched", stats.places_prefetched},
+          {"touches_dropped", stats.touches_dropped},
+          {"budget_bytes", stats.budget_bytes},
+          {"held_bytes", stats.arena_bytes + stats.table_bytes},
+          {"peak_resident_bytes", peak_resident_bytes()}};
+}
+
+std::string row(const nlohmann::ordered_json& shares) {
+  std::string text;
+  for (const auto& [name, share] : kShares)
+    text += fmt::format(" {:>9.1f}", shares[name].get<double>());
+  return text;
+}
+
+const char* granted(bool yes) { return yes ? "granted" : "refused"; }
+
+}  // namespace
+
+std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
+                       const Model& model) {
+  return json_line(report_of(arguments, record, model));
+}
+
+std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,
+                        const Model& model) {
+  const auto report = report_of(arguments, record, model);
+  const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
+  std::string text =
+      fmt::format("{}: {} of {} ticks at {} Hz, {} of {} in memory\n", arguments.file.string(),
+                  name_of(arguments.motion), grouped_count(number("ticks")), arguments.rate_hz,
+                  short_bytes(number("held_bytes")), short_bytes(number("budget_bytes")));
+  text += fmt::format("late {}, degraded {} ({:.3f} %), exact again after {} ticks (p99)\n",
+                      grouped_count(number("late")), grouped_count(number("degraded")),
+                      100.0 * static_cast<double>(number("degraded")) /
+                          static_cast<double>(std::max<std::uint64_t>(1, number("ticks"))),
+                      number("refine_ticks_p99"));
+  text += "microseconds         p50       p99     p99.9    p99.99       max\n";
+  text += "answer, from due" + row(report["latency_us"]) + '\n';
+  text += "the ask alone   " + row(report["ask_us"]) + '\n';
+  text += "idle thread     " + row(report["floor_us"]) + '\n';
+  text += fmt::format("first before all threads: {}; one processor: {}; memory locked: {}\n",
+                      granted(record.rights.fifo), granted(record.rights.pinned),
+                      granted(number("locked_bytes") > 0));
+  text += fmt::format("{} page faults, {} switches forced; {} pages read, {} evicted\n",
+                      number("faults"), number("switches_forced"),
+                      grouped_count(number("pages_read")), grouped_count(number("pages_evicted")));
+  if (!arguments.trace.empty())
+    text += fmt::format("{} touches dropped from the trace\n", number("touches_dropped"));
+  return text;
+}
+
+}  // namespace planetree::tools
