@@ -32,7 +32,7 @@ using Answers = std::vector<ClosestPoint>;
 struct Way {
   std::string name;
   const Model& model;
-  std::function<void(Answers&)> ask;
+  std::function<void(Answers&)> query_options;
   Answers answers;
   std::vector<double> times{};
   double pages = 0;
@@ -41,7 +41,7 @@ struct Way {
     const auto points = static_cast<double>(answers.size());
     const std::uint64_t before = model.stats().pages_read;
     const auto start = std::chrono::steady_clock::now();
-    ask(answers);
+    answer(answers);
     const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
     times.push_back(time.count() / points);
     pages = static_cast<double>(model.stats().pages_read - before) / points;
@@ -66,32 +66,33 @@ int run(const Arguments& arguments) {
   OpenOptions options{.memory_budget_bytes = arguments.memory_mib << 20};
   const auto alone = Model::open(arguments.model, options);
   options.batch_threads = arguments.threads;
-  const auto crew = alone ? Model::open(arguments.model, options) : alone.error();
-  if (!crew) return std::cerr << "batch_bench: " << crew.error().text << '\n', 1;
-  auto probe = Probe::create(*alone), crew_probe = Probe::create(*crew);
-  if (!probe || !crew_probe) return std::cerr << "batch_bench: no probe\n", 1;
+  const auto batch_threads = alone ? Model::open(arguments.model, options) : alone.error();
+  if (!batch_threads) return std::cerr << "batch_bench: " << batch_threads.error().text << '\n', 1;
+  auto probe = Probe::create(*alone), thread_probe = Probe::create(*batch_threads);
+  if (!probe || !thread_probe) return std::cerr << "batch_bench: no probe\n", 1;
 
   const ModelInfo& info = alone->info();
   fmt::print("{} triangles, batches of {} points\n{:<10}{:<24}{:>10}{:>8}{:>8}{:>12}\n",
              info.triangles, arguments.points, "points", "", "ns", "times", "pages", "other bits");
-  constexpr Ask kDistanceAlone{.parts = kDistance};
+  constexpr QueryOptions kDistanceAlone{.parts = kDistance};
   for (const Workload workload : {Workload::kUniform, Workload::kNear}) {
     const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
     const std::vector<Vec3> points =
         make_queries(workload, {info.box_lower, info.box_upper}, surface, arguments.points, 1);
-    const Answers room(points.size());
+    const Answers capacity(points.size());
     std::vector<Way> ways{
         {"one by one", *alone,
          [&](Answers& answers) {
            for (std::size_t i = 0; i < points.size(); ++i)
              answers[i] = probe->closest_point(points[i], kDistanceAlone);
          },
-         room},
+         capacity},
         {"a batch", *alone,
-         [&](Answers& answers) { probe->closest_points(points, answers, kDistanceAlone); }, room},
-        {fmt::format("a batch, {} threads", arguments.threads), *crew,
-         [&](Answers& answers) { crew_probe->closest_points(points, answers, kDistanceAlone); },
-         room}};
+         [&](Answers& answers) { probe->closest_points(points, answers, kDistanceAlone); },
+         capacity},
+        {fmt::format("a batch, {} threads", arguments.threads), *batch_threads,
+         [&](Answers& answers) { thread_probe->closest_points(points, answers, kDistanceAlone); },
+         capacity}};
     for (Way& way : ways) way.run();  // to warm up
     for (Way& way : ways) way.times.clear();
     for (std::size_t round = 0; round < arguments.rounds; ++round)

@@ -20,7 +20,7 @@ namespace {
 
 struct Arguments {
   std::string model;
-  std::size_t asks = 10'000;
+  std::size_t queries = 10'000;
   std::uint64_t memory_mib = 256;
 };
 
@@ -36,22 +36,22 @@ bool drop_from_page_cache(const std::string& file) {
 
 struct Row {
   double total_us = 0;
-  double most_us = 0;
+  double max_us = 0;
   Stats stats;
 };
 
-template <class AskOne>
-Row ask_all(const Model& model, const std::vector<Vec3>& points, const AskOne& ask_one) {
+template <class QueryOne>
+Row query_all(const Model& model, const std::vector<Vec3>& points, const QueryOne& query_one) {
   using Clock = std::chrono::steady_clock;
   Row row;
   auto probe = Probe::create(model);
   if (!probe) return row;
   for (const Vec3& point : points) {
     const auto start = Clock::now();
-    ask_one(*probe, point);
+    query_one(*probe, point);
     const double us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
     row.total_us += us;
-    row.most_us = std::max(row.most_us, us);
+    row.max_us = std::max(row.max_us, us);
   }
   row.stats = model.stats();
   return row;
@@ -64,7 +64,7 @@ Result<std::vector<Vec3>> points_of(const Arguments& arguments, Workload workloa
   if (!probe) return probe.error();
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
   return make_queries(workload, {model->info().box_lower, model->info().box_upper}, surface,
-                      arguments.asks, 1);
+                      arguments.queries, 1);
 }
 
 int fail(const char* what) {
@@ -83,16 +83,16 @@ int run(const Arguments& arguments) {
       const auto model =
           Model::open(arguments.model, {.memory_budget_bytes = arguments.memory_mib << 20});
       if (!model) return fail(model.error().text);
-      const Row row = ask_all(*model, *points, [&](Probe& probe, const Vec3& point) {
+      const Row row = query_all(*model, *points, [&](Probe& probe, const Vec3& point) {
         if (side)
           probe.contains(point);
         else
           probe.closest_point(point, {.parts = kDistance});
       });
-      const auto asks = static_cast<double>(points->size());
+      const auto queries = static_cast<double>(points->size());
       fmt::print("{:<10}{:<20}{:>12.0f}{:>12.0f}{:>14.3f}\n", name_of(workload),
-                 side ? "side" : "distance", asks / row.total_us * 1e6, row.most_us,
-                 static_cast<double>(row.stats.pages_read) / asks);
+                 side ? "side" : "distance", queries / row.total_us * 1e6, row.max_us,
+                 static_cast<double>(row.stats.pages_read) / queries);
     }
   return 0;
 }
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
   CLI::App app("The first asks of a model of which nothing is in memory");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
-  app.add_option("--asks", arguments.asks, "Points a workload")->capture_default_str();
+  app.add_option("--asks", arguments.queries, "Points a workload")->capture_default_str();
   app.add_option("--memory-mib", arguments.memory_mib, "Most memory for the model")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

@@ -96,23 +96,23 @@ class FinerMesh {
 
   // `step` pieces on the way from vertex a to b.
   Place at(std::size_t a, std::size_t b, std::uint32_t step) const {
-    Place place{};
+    Place index{};
     const double share = static_cast<double>(step) / pieces_;
     for (unsigned axis = 0; axis < 3; ++axis)
-      place[axis] =
+      index[axis] =
           mesh_.positions[3 * a + axis] * (1 - share) + mesh_.positions[3 * b + axis] * share;
-    return place;
+    return index;
   }
   Place within(std::size_t triangle, std::uint32_t u, std::uint32_t v) const {
-    Place place{};
+    Place index{};
     const double shares[3] = {static_cast<double>(pieces_ - u - v) / pieces_,
                               static_cast<double>(u) / pieces_, static_cast<double>(v) / pieces_};
     for (unsigned corner = 0; corner < 3; ++corner)
       for (unsigned axis = 0; axis < 3; ++axis)
-        place[axis] +=
+        index[axis] +=
             shares[corner] *
             mesh_.positions[3 * std::size_t{mesh_.corners[3 * triangle + corner]} + axis];
-    return place;
+    return index;
   }
 
   // Of the vertex u pieces from the first corner towards the second and v towards the third.
@@ -143,11 +143,11 @@ class FinerMesh {
     z = (z ^ z >> 27) * 0x94d049bb133111eb;
     return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-52 - 1;
   }
-  void put(std::ostream& out, std::uint64_t number, const Place& place) const {
-    std::array<float, 3> moved{};
+  void put(std::ostream& out, std::uint64_t number, const Place& index) const {
+    std::array<float, 3> perturbed{};
     for (unsigned axis = 0; axis < 3; ++axis)
-      moved[axis] = static_cast<float>(place[axis] + reach_ * noise(3 * number + axis));
-    out.write(reinterpret_cast<const char*>(moved.data()), sizeof moved);
+      perturbed[axis] = static_cast<float>(index[axis] + reach_ * noise(3 * number + axis));
+    out.write(reinterpret_cast<const char*>(perturbed.data()), sizeof perturbed);
   }
   static void put_face(std::ostream& out, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const std::array<std::uint32_t, 3> face{a, b, c};

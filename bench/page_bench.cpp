@@ -15,7 +15,7 @@
 namespace planetree::bench {
 namespace {
 
-constexpr std::uint32_t kLeastPages = 10'000;
+constexpr std::uint32_t kMinPages = 10'000;
 
 struct alignas(octree::kSlotBytes) FrameSlot {
   std::byte bytes[octree::kSlotBytes];
@@ -93,7 +93,7 @@ int run(int argc, char** argv) {
     if (pages.count == 0) return;
     benchmark::RegisterBenchmark(name, [&file, pages, measure](auto& state) {
       measure(state, *file, pages);
-    })->Iterations(pages.count * (1 + kLeastPages / pages.count));
+    })->Iterations(pages.count * (1 + kMinPages / pages.count));
   };
   const Pages tree{0, file->header().first_mask_page()};
   const Pages mask{tree.count, file->page_count() - tree.count};

@@ -26,7 +26,7 @@ class MeshCollector final : public octree::TriangleSink {
     for (const Vec3& corner : corners) mesh.corners.push_back(vertex(corner));
     return {};
   }
-  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) override {}
+  void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
   void progress(std::uint64_t, std::uint64_t) override {}
 
   PeerMesh mesh;

@@ -26,7 +26,7 @@ struct Options {
   std::string instructions;  // whatever the processor has when empty
   std::vector<std::string> peers{"embree", "cgal"};
   std::vector<std::string> workloads;  // all when empty
-  std::size_t asks = 20000, rounds = 5;
+  std::size_t queries = 20000, rounds = 5;
 };
 
 // The last core: the first takes the system's interrupts.
@@ -55,16 +55,16 @@ bool use_only(const std::string& instructions) {
 }
 
 // One thing that is asked, of planetree or of a peer, and what it is asked for.
-struct Asked {
+struct Recorded {
   std::string who, what;  // "distance", "side", "all parts"
-  Contender ask;
+  Contender query_options;
 };
 
 // By no branch, which would be mispredicted for every other point and take as long as an ask.
 double number(bool answer) { return static_cast<double>(static_cast<int>(answer)); }
 
-std::vector<Asked> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers, bool watertight) {
-  std::vector<Asked> all;
+std::vector<Recorded> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers, bool watertight) {
+  std::vector<Recorded> all;
   all.push_back({"planetree", "distance", [&](const Vec3& query) {
                    return probe.closest_point(query, {.parts = kDistance}).distance;
                  }});
@@ -88,23 +88,23 @@ class Comparison {
              std::vector<BuiltPeer>& peers)
       : options_(options),
         info_(info),
-        asked_(contenders_of(probe, peers, info.watertight())),
+        queried_(contenders_of(probe, peers, info.watertight())),
         surface_([&](const Vec3& query) { return probe.closest_point(query); }) {}
 
   nlohmann::json run(Workload workload) {
     const std::vector<Vec3> queries =
-        make_queries(workload, {info_.box_lower, info_.box_upper}, surface_, options_.asks, 1);
+        make_queries(workload, {info_.box_lower, info_.box_upper}, surface_, options_.queries, 1);
     std::vector<Contender> contenders;
-    for (const Asked& asked : asked_) contenders.push_back(asked.ask);
+    for (const Recorded& queried : queried_) contenders.push_back(queried.query_options);
     const std::vector<Timing> timings = take_turns(contenders, queries, options_.rounds);
     nlohmann::json rows = nlohmann::json::array();
-    for (std::size_t i = 0; i < asked_.size(); ++i) {
+    for (std::size_t i = 0; i < queried_.size(); ++i) {
       // Peers are held against planetree's way to the same thing.
-      const std::size_t ours = asked_[i].what == "side" ? 2 : 0;
-      const Latency latency = latency_of(asked_[i].ask, queries);
+      const std::size_t ours = queried_[i].what == "side" ? 2 : 0;
+      const Latency latency = latency_of(queried_[i].query_options, queries);
       rows.push_back({{"workload", name_of(workload)},
-                      {"asked", asked_[i].what},
-                      {"of", asked_[i].who},
+                      {"asked", queried_[i].what},
+                      {"of", queried_[i].who},
                       {"ns", timings[i].median_ns},
                       {"times_ours", timings[i].median_ns / timings[ours].median_ns},
                       {"sum_differs", std::fabs(timings[i].checksum - timings[ours].checksum)},
@@ -126,7 +126,7 @@ class Comparison {
 
   const Options& options_;
   const ModelInfo& info_;
-  std::vector<Asked> asked_;
+  std::vector<Recorded> queried_;
   SurfaceOf surface_;
 };
 
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--workloads", options.workloads, "uniform, near, path, contact, teleport, medial")
       ->delimiter(',');
-  app.add_option("--asks", options.asks, "Points a workload")->capture_default_str();
+  app.add_option("--asks", options.queries, "Points a workload")->capture_default_str();
   app.add_option("--rounds", options.rounds, "Rounds in turn; their median counts")
       ->capture_default_str();
   app.add_option("--instructions", options.instructions,

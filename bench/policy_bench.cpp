@@ -16,16 +16,16 @@ namespace {
 
 struct Arguments {
   std::string model;
-  std::size_t asks = 20'000;
+  std::size_t queries = 20'000;
   std::vector<double> percents = {2, 5, 10, 25};
 };
 
-constexpr Workload kAsked[] = {Workload::kUniform, Workload::kNear, Workload::kPath,
-                               Workload::kTeleport};
+constexpr Workload kQueried[] = {Workload::kUniform, Workload::kNear, Workload::kPath,
+                                 Workload::kTeleport};
 
 // Pages read an ask once the frames are full, which the first half of the asks sees to.
-Result<double> reads_an_ask(const Arguments& arguments, const std::vector<Vec3>& points,
-                            std::uint64_t budget_bytes, cache::Policy policy) {
+Result<double> reads_a_query(const Arguments& arguments, const std::vector<Vec3>& points,
+                             std::uint64_t budget_bytes, cache::Policy policy) {
   const auto model = query::ModelState::open_model(
       arguments.model, {.memory_budget_bytes = budget_bytes, .max_probes = 1},
       {.starts_fetching = false, .policy = policy});
@@ -54,14 +54,14 @@ int run(const Arguments& arguments) {
   if (!probe) return fail(probe.error().text);
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
   fmt::print("{:<12}{:>10}{:>10}{:>10}\n", "points", "memory %", "clock", "lru");
-  for (const Workload workload : kAsked) {
+  for (const Workload workload : kQueried) {
     const auto points = make_queries(workload, {model->info().box_lower, model->info().box_upper},
-                                     surface, arguments.asks, 1);
+                                     surface, arguments.queries, 1);
     for (const double percent : arguments.percents) {
       const auto budget = static_cast<std::uint64_t>(
           percent / 100 * static_cast<double>(model->stats().arena_bytes));
-      const auto clock = reads_an_ask(arguments, points, budget, cache::Policy::kClock);
-      const auto lru = reads_an_ask(arguments, points, budget, cache::Policy::kLru);
+      const auto clock = reads_a_query(arguments, points, budget, cache::Policy::kClock);
+      const auto lru = reads_a_query(arguments, points, budget, cache::Policy::kLru);
       if (!clock || !lru) return fail((clock ? lru : clock).error().text);
       fmt::print("{:<12}{:>10}{:>10.4f}{:>10.4f}\n", name_of(workload), percent, *clock, *lru);
     }
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
   CLI::App app("Pages read an ask, by which page goes when another needs its frame");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
-  app.add_option("--asks", arguments.asks, "Points a workload; the second half counts")
+  app.add_option("--asks", arguments.queries, "Points a workload; the second half counts")
       ->capture_default_str();
   app.add_option("--percents", arguments.percents, "Budgets, in % of what all pages take")
       ->capture_default_str();

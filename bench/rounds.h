@@ -33,13 +33,13 @@ inline double processor_ns() {
   return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
 }
 
-/// Asks one thing of one point, and makes a number of the answer.
+/// Queries one thing of one point, and makes a number of the answer.
 using Contender = std::function<double(const Vec3&)>;
 
-inline double time_once(const Contender& ask, const std::vector<Vec3>& queries, double& sum) {
+inline double time_once(const Contender& contender, const std::vector<Vec3>& queries, double& sum) {
   sum = 0;
   const double start = processor_ns();
-  for (const Vec3& query : queries) sum += ask(query);
+  for (const Vec3& query : queries) sum += contender(query);
   return (processor_ns() - start) / static_cast<double>(queries.size());
 }
 
@@ -61,14 +61,14 @@ inline std::vector<Timing> take_turns(const std::vector<Contender>& contenders,
   return timings;
 }
 
-inline Latency latency_of(const Contender& ask, const std::vector<Vec3>& queries) {
+inline Latency latency_of(const Contender& contender, const std::vector<Vec3>& queries) {
   using Clock = std::chrono::steady_clock;
   std::vector<double> times;
   times.reserve(queries.size());
   double sum = 0;
   for (const Vec3& query : queries) {
     const auto start = Clock::now();
-    sum += ask(query);
+    sum += contender(query);
     times.push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count());
   }
   volatile double kept = sum;

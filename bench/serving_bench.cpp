@@ -81,20 +81,20 @@ double installs_a_second(const Model& model) {
 }
 
 /// How long asks took.
-struct AskTimes {
+struct QueryTimes {
   double half_ns, p999_ns;
   std::size_t degraded;
 };
 
-AskTimes ask_path(Probe& probe, const std::vector<Vec3>& path) {
+QueryTimes query_path(Probe& probe, const std::vector<Vec3>& path) {
   constexpr std::size_t kTimes = 10;
   std::vector<double> times;
   times.reserve(kTimes * path.size());
-  AskTimes result{};
+  QueryTimes result{};
   for (std::size_t i = 0; i < kTimes * path.size(); ++i) {
-    const Vec3& place = path[i % path.size()];
+    const Vec3& point = path[i % path.size()];
     const auto began = Clock::now();
-    const ClosestPoint answer = probe.closest_point(place, {.wait = Wait::kNever});
+    const ClosestPoint answer = probe.closest_point(point, {.wait = Wait::kNever});
     times.push_back(Nanoseconds(Clock::now() - began).count());
     result.degraded += answer.status == Status::kDegraded;
   }
@@ -104,10 +104,10 @@ AskTimes ask_path(Probe& probe, const std::vector<Vec3>& path) {
   return result;
 }
 
-void say(const char* what, const std::vector<AskTimes>& rounds) {
+void say(const char* what, const std::vector<QueryTimes>& rounds) {
   std::vector<double> half, p999;
   std::size_t degraded = 0;
-  for (const AskTimes& round : rounds) {
+  for (const QueryTimes& round : rounds) {
     half.push_back(round.half_ns);
     p999.push_back(round.p999_ns);
     degraded += round.degraded;
@@ -117,7 +117,7 @@ void say(const char* what, const std::vector<AskTimes>& rounds) {
 }
 
 // Rounds with and without installs take turns; on the calling thread, which runs first.
-void compare_asks(const Model& model, const std::vector<Vec3>& path) {
+void compare_queries(const Model& model, const std::vector<Vec3>& path) {
   std::atomic<bool> installs{false}, over{false};
   const std::uint64_t before = model.stats().pages_read;
   std::thread installer([&] {
@@ -126,11 +126,11 @@ void compare_asks(const Model& model, const std::vector<Vec3>& path) {
   });
   tools::become_real_time();
   auto probe = Probe::create(model);
-  std::vector<AskTimes> idle, loaded;
+  std::vector<QueryTimes> idle, loaded;
   for (int round = 0; round < 2 * kRounds; ++round) {
-    for (const Vec3& place : path) (void)probe->closest_point(place);  // so that it is resident
+    for (const Vec3& point : path) (void)probe->closest_point(point);  // so that it is resident
     installs = round % 2 == 1;
-    (installs ? loaded : idle).push_back(ask_path(*probe, path));
+    (installs ? loaded : idle).push_back(query_path(*probe, path));
     installs = false;
   }
   over = true;
@@ -170,7 +170,7 @@ int run(const char* file) {
   }
   std::thread(measure, std::cref(*model)).join();
   // A thread of its own each, so that what the asking one starts is an ordinary one.
-  std::thread(compare_asks, std::cref(*model), std::cref(path)).join();
+  std::thread(compare_queries, std::cref(*model), std::cref(path)).join();
   return 0;
 }
 

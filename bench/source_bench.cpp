@@ -81,7 +81,7 @@ class Source {
   std::size_t bytes_ = 0;
 };
 
-std::vector<std::uint32_t> shuffled_pages(const storage::PageFile& file) {
+std::vector<std::uint32_t> byte_split_pages(const storage::PageFile& file) {
   std::vector<std::uint32_t> pages(file.page_count());
   for (std::uint32_t i = 0; i < pages.size(); ++i) pages[i] = i;
   std::shuffle(pages.begin(), pages.end(), std::mt19937(1));
@@ -141,7 +141,7 @@ constexpr Row kRows[] = {{"positioned", Source::Way::kPositioned},
                          {"mapped, given back", Source::Way::kMappedAndDropped}};
 
 void measure(int descriptor, const storage::PageFile& file, Ticker& ticker, double seconds) {
-  const std::vector<std::uint32_t> pages = shuffled_pages(file);
+  const std::vector<std::uint32_t> pages = byte_split_pages(file);
   for (const Row& row : kRows) {
     drop_from_page_cache(descriptor);
     Source source(descriptor, file, row.way);

@@ -10,9 +10,9 @@ namespace planetree::cache {
 
 /// Cuts arrays off a piece of memory, each on its own cache line. Without
 /// memory it only measures, so that measuring and cutting cannot disagree.
-class Cutter {
+class ArenaLayout {
  public:
-  explicit Cutter(std::byte* base) noexcept : base_(base) {}
+  explicit ArenaLayout(std::byte* base) noexcept : base_(base) {}
 
   template <class T>
   std::span<T> cut(std::uint64_t count) noexcept {

@@ -23,9 +23,9 @@ Error out_of_range(const char* name, std::uint32_t value, std::uint32_t most) no
 }  // namespace
 
 Result<void> check_limits(const CacheLimits& limits) noexcept {
-  constexpr std::uint32_t kMostPages = kNoFrame - 1;
-  if (limits.page_count < 1 || limits.page_count > kMostPages) {
-    return out_of_range("page_count", limits.page_count, kMostPages);
+  constexpr std::uint32_t kMaxPages = kNoFrame - 1;
+  if (limits.page_count < 1 || limits.page_count > kMaxPages) {
+    return out_of_range("page_count", limits.page_count, kMaxPages);
   }
   if (limits.frame_bytes < 1 || limits.frame_bytes > kMaxFrameBytes) {
     return out_of_range("frame_bytes", limits.frame_bytes, kMaxFrameBytes);
@@ -43,10 +43,10 @@ std::uint32_t minimum_frame_count(const CacheLimits& limits) noexcept {
 std::uint64_t bytes_needed(const CacheLimits& limits, std::uint32_t frame_count) noexcept {
   // Within checked limits these sums stay below 2^61.
   const std::uint64_t own_bytes =
-      kObjectBytes + ClaimedMemory::claimed_bytes(tables_bytes(limits, frame_count)) +
-      ClaimedMemory::claimed_bytes(frame_count * FramePool::stride_bytes(limits.frame_bytes));
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  return limits.reserved_bytes > kMost - own_bytes ? kMost : own_bytes + limits.reserved_bytes;
+      kObjectBytes + PrefaultedMemory::claimed_bytes(tables_bytes(limits, frame_count)) +
+      PrefaultedMemory::claimed_bytes(frame_count * FramePool::stride_bytes(limits.frame_bytes));
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
+  return limits.reserved_bytes > kMax - own_bytes ? kMax : own_bytes + limits.reserved_bytes;
 }
 
 std::uint64_t minimum_budget_bytes(const CacheLimits& limits) noexcept {

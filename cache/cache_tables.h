@@ -25,9 +25,9 @@ struct CacheTables {
   std::span<std::uint32_t> free_frames;  ///< a stack
   // By reader, and one more owner: pin().
   std::span<ReaderSlot> slots;
-  std::span<Limbo::Place> places;
+  std::span<Limbo::Entry> entries;
   std::span<std::uint64_t> stamps;
-  std::span<Errand> errands;
+  std::span<InFlightRead> in_flight_reads;
 };
 
 /// Bytes of the tables of a cache with `frame_count` frames.
@@ -35,6 +35,6 @@ std::uint64_t tables_bytes(const CacheLimits& limits, std::uint32_t frame_count)
 
 /// Makes the tables in `memory`, which has at least tables_bytes().
 CacheTables make_tables(const CacheLimits& limits, std::uint32_t frame_count,
-                        const ClaimedMemory& memory) noexcept;
+                        const PrefaultedMemory& memory) noexcept;
 
 }  // namespace planetree::cache

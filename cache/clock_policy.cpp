@@ -16,9 +16,9 @@ std::uint32_t ClockPolicy::choose_victim(const FrameStates& states) noexcept {
   // longer counts, and one more round finds any evictable frame there is.
   constexpr unsigned kPatientRounds = kUse * kMaxUses;
   const std::uint64_t patient_steps = std::uint64_t{kPatientRounds} * scores_.size();
-  const std::uint64_t most_steps = patient_steps + scores_.size();
+  const std::uint64_t max_steps = patient_steps + scores_.size();
   const bool patient_with_upper = upper_count_ <= scores_.size() / 2;
-  for (std::uint64_t step = 0; step < most_steps; ++step) {
+  for (std::uint64_t step = 0; step < max_steps; ++step) {
     const std::uint32_t frame = advance();
     if (states.of(frame) != FrameStates::State::kEvictable) continue;
     const std::uint8_t score = scores_[frame].load(std::memory_order_relaxed);

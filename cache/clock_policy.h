@@ -11,7 +11,7 @@
 namespace planetree::cache {
 
 /// Pages of a tree: an upper one is on the way to others.
-enum class PageRank : std::uint8_t { kLower, kUpper };
+enum class PageTier : std::uint8_t { kLower, kUpper };
 
 /// Which page has to go: CLOCK with scores.
 ///
@@ -45,9 +45,9 @@ class ClockPolicy {
     }
   }
 
-  void install(std::uint32_t frame, PageRank rank) noexcept {
+  void install(std::uint32_t frame, PageTier tier) noexcept {
     constexpr std::uint8_t kScore = kUse * kInstallUses;
-    const bool upper = rank == PageRank::kUpper;
+    const bool upper = tier == PageTier::kUpper;
     if (upper) ++upper_count_;
     scores_[frame].store(upper ? kUpperBit | kScore : kScore, std::memory_order_relaxed);
   }

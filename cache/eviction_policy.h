@@ -11,9 +11,10 @@
 namespace planetree::cache {
 
 /// How readers say what they use, whatever the policy: two pointers, and no virtual call.
-class UseMarks {
+class ReferenceBits {
  public:
-  UseMarks(ClockPolicy::Score* scores, LruPolicy::Tick* uses, const LruPolicy::Tick* now) noexcept
+  ReferenceBits(ClockPolicy::Score* scores, LruPolicy::Tick* uses,
+                const LruPolicy::Tick* now) noexcept
       : scores_(scores), uses_(uses), now_(now) {}
 
   void mark(std::uint32_t frame) const noexcept {
@@ -52,7 +53,7 @@ class EvictionPolicy {
         clock_(tables.scores),
         lru_(tables.now, tables.uses, tables.entries) {}
 
-  UseMarks marks() const noexcept {
+  ReferenceBits marks() const noexcept {
     return {tables_.scores.data(), tables_.uses.data(), tables_.now.data()};
   }
 
@@ -63,16 +64,16 @@ class EvictionPolicy {
     states_.remove(frame);
     if (kind_ == Policy::kClock) clock_.remove(frame);
   }
-  void let_go(std::uint32_t frame) noexcept {
-    states_.let_go(frame);
-    if (kind_ == Policy::kLru) lru_.let_go(frame);
+  void release(std::uint32_t frame) noexcept {
+    states_.release(frame);
+    if (kind_ == Policy::kLru) lru_.release(frame);
   }
-  void install(std::uint32_t frame, PageRank rank = PageRank::kLower) noexcept {
+  void install(std::uint32_t frame, PageTier tier = PageTier::kLower) noexcept {
     states_.install(frame);
     if (kind_ == Policy::kLru) {
       lru_.install(frame);
     } else {
-      clock_.install(frame, rank);
+      clock_.install(frame, tier);
     }
   }
   /// An evictable frame, which stays evictable until removed; kNoFrame if there is none.

@@ -7,12 +7,13 @@ namespace planetree::cache {
 Result<FramePool> FramePool::create(std::uint32_t frame_count, std::uint32_t frame_bytes) noexcept {
   assert(frame_count > 0 && frame_bytes > 0);
   // At most (2^32 - 1) * 2^32: the product of two 32-bit numbers cannot wrap.
-  Result<ClaimedMemory> memory = ClaimedMemory::claim(frame_count * stride_bytes(frame_bytes));
+  Result<PrefaultedMemory> memory =
+      PrefaultedMemory::claim(frame_count * stride_bytes(frame_bytes));
   if (!memory) return memory.error();
   return FramePool(*std::move(memory), frame_count, frame_bytes);
 }
 
-FramePool::FramePool(ClaimedMemory memory, std::uint32_t frame_count,
+FramePool::FramePool(PrefaultedMemory memory, std::uint32_t frame_count,
                      std::uint32_t frame_bytes) noexcept
     : memory_(std::move(memory)),
       stride_bytes_(stride_bytes(frame_bytes)),

@@ -37,15 +37,15 @@ class FramePool {
   std::uint32_t frame_count() const noexcept { return frame_count_; }
   std::uint32_t frame_bytes() const noexcept { return frame_bytes_; }
   std::uint64_t stride_bytes() const noexcept { return stride_bytes_; }
-  /// As ClaimedMemory::lock().
+  /// As PrefaultedMemory::lock().
   bool lock() const noexcept { return memory_.lock(); }
   /// All memory the pool holds.
   std::uint64_t arena_bytes() const noexcept { return memory_.bytes(); }
 
  private:
-  FramePool(ClaimedMemory memory, std::uint32_t frame_count, std::uint32_t frame_bytes) noexcept;
+  FramePool(PrefaultedMemory memory, std::uint32_t frame_count, std::uint32_t frame_bytes) noexcept;
 
-  ClaimedMemory memory_;
+  PrefaultedMemory memory_;
   std::uint64_t stride_bytes_;
   std::uint32_t frame_count_;
   std::uint32_t frame_bytes_;

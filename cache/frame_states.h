@@ -13,7 +13,7 @@ namespace planetree::cache {
 ///
 ///     idle --install--> evictable --pin--> pinned
 ///      ^___remove_______|   ^
-///                           |--hold--> held, and back by let_go
+///                           |--hold--> held, and back by release()
 ///
 /// A held frame stays for a while: somebody who waited for its page has not come for it yet.
 /// A view of memory that PageCache owns.
@@ -40,7 +40,7 @@ class FrameStates {
     assert(states_[frame] != State::kIdle);
     if (states_[frame] == State::kEvictable) states_[frame] = State::kHeld;
   }
-  void let_go(std::uint32_t frame) noexcept {
+  void release(std::uint32_t frame) noexcept {
     assert(states_[frame] != State::kIdle);
     if (states_[frame] == State::kHeld) states_[frame] = State::kEvictable;
   }

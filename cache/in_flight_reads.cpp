@@ -5,50 +5,52 @@
 
 namespace planetree::cache {
 
-using Stage = Errand::Stage;
+using Stage = InFlightRead::Stage;
 
-bool Errands::is_read(std::uint32_t page) const noexcept {
-  return std::any_of(errands_.begin(), errands_.end(), [page](const Errand& errand) {
-    return errand.stage == Stage::kReads && errand.page == page;
-  });
+bool InFlightReads::is_read(std::uint32_t page) const noexcept {
+  return std::any_of(in_flight_reads_.begin(), in_flight_reads_.end(),
+                     [page](const InFlightRead& in_flight) {
+                       return in_flight.stage == Stage::kReads && in_flight.page == page;
+                     });
 }
 
-void Errands::read(std::uint32_t owner, std::uint32_t page) noexcept {
-  assert(errands_[owner].stage == Stage::kNone && !is_read(page));
-  errands_[owner].stage = Stage::kReads;
-  errands_[owner].page = page;
+void InFlightReads::read(std::uint32_t fetcher, std::uint32_t page) noexcept {
+  assert(in_flight_reads_[fetcher].stage == Stage::kNone && !is_read(page));
+  in_flight_reads_[fetcher].stage = Stage::kReads;
+  in_flight_reads_[fetcher].page = page;
   if (waiting_ == 0) return;
-  for (Errand& errand : errands_)
-    if (waits_for(errand, page)) errand.stage = Stage::kWaits;
+  for (InFlightRead& in_flight : in_flight_reads_)
+    if (waits_for(in_flight, page)) in_flight.stage = Stage::kWaits;
 }
 
-void Errands::wait(std::uint32_t owner, std::uint32_t page, bool reads_itself) noexcept {
-  assert(errands_[owner].stage == Stage::kNone);
+void InFlightReads::wait(std::uint32_t fetcher, std::uint32_t page, bool reads_itself) noexcept {
+  assert(in_flight_reads_[fetcher].stage == Stage::kNone);
   const Stage stage = is_read(page) ? Stage::kWaits : Stage::kWanted;
   assert(stage == Stage::kWaits || !reads_itself);
-  errands_[owner] = {stage, reads_itself, page, kNoFrame, next_number_++};
+  in_flight_reads_[fetcher] = {stage, reads_itself, page, kNoFrame, next_number_++};
   ++waiting_;
 }
 
-void Errands::end(std::uint32_t owner) noexcept {
-  Errand& errand = errands_[owner];
-  if (errand.stage == Stage::kWaits || errand.stage == Stage::kWanted) --waiting_;
-  errand.stage = Stage::kNone;
+void InFlightReads::end(std::uint32_t fetcher) noexcept {
+  InFlightRead& in_flight = in_flight_reads_[fetcher];
+  if (in_flight.stage == Stage::kWaits || in_flight.stage == Stage::kWanted) --waiting_;
+  in_flight.stage = Stage::kNone;
 }
 
-std::uint32_t Errands::page_wanted() const noexcept {
+std::uint32_t InFlightReads::page_wanted() const noexcept {
   if (waiting_ == 0) return kNobody;
-  const Errand* first = nullptr;
-  for (const Errand& errand : errands_)
-    if (errand.stage == Stage::kWanted && (!first || errand.number < first->number))
-      first = &errand;
+  const InFlightRead* first = nullptr;
+  for (const InFlightRead& in_flight : in_flight_reads_)
+    if (in_flight.stage == Stage::kWanted && (!first || in_flight.number < first->number))
+      first = &in_flight;
   return first ? first->page : kNobody;
 }
 
-bool Errands::holds(std::uint32_t frame) const noexcept {
-  return std::any_of(errands_.begin(), errands_.end(), [frame](const Errand& errand) {
-    return errand.stage == Stage::kServed && errand.frame == frame;
-  });
+bool InFlightReads::holds(std::uint32_t frame) const noexcept {
+  return std::any_of(in_flight_reads_.begin(), in_flight_reads_.end(),
+                     [frame](const InFlightRead& in_flight) {
+                       return in_flight.stage == Stage::kServed && in_flight.frame == frame;
+                     });
 }
 
 }  // namespace planetree::cache

@@ -39,7 +39,7 @@ class LruPolicy {
 
   void install(std::uint32_t frame) noexcept;
   /// A frame has become evictable again.
-  void let_go(std::uint32_t frame) noexcept { push(frame); }
+  void release(std::uint32_t frame) noexcept { push(frame); }
 
   /// An evictable frame; kNoFrame if there is none.
   std::uint32_t choose_victim(const FrameStates& states) noexcept;

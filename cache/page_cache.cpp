@@ -18,7 +18,7 @@ Result<std::unique_ptr<PageCache>> PageCache::create(const CacheLimits& limits, 
                       " bytes, or lower max_probes",
                       limits.budget_bytes, minimum_budget_bytes(limits));
   }
-  Result<ClaimedMemory> memory = ClaimedMemory::claim(tables_bytes(limits, frame_count));
+  Result<PrefaultedMemory> memory = PrefaultedMemory::claim(tables_bytes(limits, frame_count));
   if (!memory) return memory.error();
   Result<FramePool> frames = FramePool::create(frame_count, limits.frame_bytes);
   if (!frames) return frames.error();
@@ -32,8 +32,8 @@ Result<std::unique_ptr<PageCache>> PageCache::create(const CacheLimits& limits, 
   return cache;
 }
 
-PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context, ClaimedMemory memory,
-                     FramePool frames) noexcept
+PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context,
+                     PrefaultedMemory memory, FramePool frames) noexcept
     : limits_(limits),
       fill_(fill),
       context_(context),
@@ -42,8 +42,8 @@ PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context, Cl
       tables_(make_tables(limits, frames_.frame_count(), table_memory_)),
       map_(tables_.map),
       policy_(limits.policy, tables_.policy),
-      limbo_(tables_.slots, tables_.places, tables_.stamps),
-      errands_(tables_.errands),
+      limbo_(tables_.slots, tables_.entries, tables_.stamps),
+      in_flight_reads_(tables_.in_flight_reads),
       free_count_(frames_.frame_count()) {
   // A stack with frame 0 on top, so that frames are used in order.
   for (std::uint32_t i = 0; i < free_count_; ++i) tables_.free_frames[i] = free_count_ - 1 - i;
@@ -69,7 +69,7 @@ Result<void> PageCache::pin(std::uint32_t page) noexcept {
   Error why = make_error(ErrorCode::kDamaged, page, Error::kNowhere,
                          "page %u was found unreadable before: rebuild the file", page);
   Lock lock(mutex_);
-  const Outcome outcome = make_resident(lock, pin_owner(), page, {}, &why);
+  const Outcome outcome = make_resident(lock, pin_fetcher(), page, {}, &why);
   if (outcome != Outcome::kResident) return why;
   return pin_resident(page);
 }
@@ -78,9 +78,9 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   const std::uint32_t frame = map_.frame_of(page);
   if (policy_.state(frame) == EvictionPolicy::State::kPinned) return {};
   const std::uint32_t frame_count = frames_.frame_count();
-  const std::uint32_t places = limits_.max_readers + 1;
+  const std::uint32_t entries = limits_.max_readers + 1;
   // page_fetch.cpp says why so many must stay unpinned.
-  if (frame_count < limits_.page_count && frame_count - pinned_count_ <= places) {
+  if (frame_count < limits_.page_count && frame_count - pinned_count_ <= entries) {
     return make_error(ErrorCode::kNoMemory, page, Error::kNowhere,
                       "pinning more than %u of %u frames leaves too few for asking: "
                       "raise the memory budget",

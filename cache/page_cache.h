@@ -26,7 +26,7 @@ namespace planetree::cache {
 /// What is to be filled, and by whom.
 struct FillRequest {
   std::uint32_t page;
-  std::uint32_t owner;         ///< 0 ... max_readers; no two at the same time are of one owner
+  std::uint32_t fetcher;       ///< 0 ... max_readers; no two at the same time are of one owner
   bool may_wait;               ///< for a disk, longer than a moment
   std::span<std::byte> frame;  ///< frame_bytes long, old bytes in it
 };
@@ -100,7 +100,7 @@ class PageCache {
 
   /// For helpers: returns once there is a page to read for others, `stop` is true, or so much
   /// time is over. Who sets `stop` then calls wake_helpers().
-  void wait_for_errand(std::chrono::microseconds most, const std::atomic<bool>& stop) noexcept;
+  void wait_for_read(std::chrono::microseconds most, const std::atomic<bool>& stop) noexcept;
   void wake_helpers() noexcept;
 
   /// Any thread; waits for nobody.
@@ -113,28 +113,28 @@ class PageCache {
   /// What became of a page that was to be resident.
   enum class Outcome { kResident, kUnreadable, kWouldWait, kRetry, kGivenUp };
 
-  PageCache(const CacheLimits& limits, FillPage fill, void* context, ClaimedMemory memory,
+  PageCache(const CacheLimits& limits, FillPage fill, void* context, PrefaultedMemory memory,
             FramePool frames) noexcept;
 
   // page_fetch.cpp has these, and says why they end. An owner is a place in limbo and an errand:
-  // a reader's index, or pin_owner(). What takes the lock has it when it returns, but not always
+  // a reader's index, or pin_fetcher(). What takes the lock has it when it returns, but not always
   // meanwhile.
   Fetched fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept;
-  bool help(std::uint32_t owner) noexcept;
-  Outcome make_resident(Lock& lock, std::uint32_t owner, std::uint32_t page,
+  bool help(std::uint32_t fetcher) noexcept;
+  Outcome make_resident(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                         const FetchTerms& terms, Error* why) noexcept;
-  Outcome read_page(Lock& lock, std::uint32_t owner, std::uint32_t page, std::uint32_t frame,
+  Outcome read_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page, std::uint32_t frame,
                     bool may_wait, Error* why) noexcept;
-  Outcome wait_for_page(Lock& lock, std::uint32_t owner, std::uint32_t page,
+  Outcome wait_for_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                         const FetchTerms& terms) noexcept;
-  std::uint32_t take_frame(Lock& lock, std::uint32_t owner, std::uint32_t attempt) noexcept;
-  void wake(std::uint32_t owner) noexcept { wakers_[owner % kWakers].notify_all(); }
+  std::uint32_t take_frame(Lock& lock, std::uint32_t fetcher, std::uint32_t attempt) noexcept;
+  void wake(std::uint32_t fetcher) noexcept { wakers_[fetcher % kWakers].notify_all(); }
 
   // All below need the mutex.
-  std::uint32_t try_to_take_frame(std::uint32_t owner) noexcept;
-  bool evict_into_limbo(std::uint32_t owner) noexcept;
+  std::uint32_t try_to_take_frame(std::uint32_t fetcher) noexcept;
+  bool evict_into_limbo(std::uint32_t fetcher) noexcept;
   Result<void> pin_resident(std::uint32_t page) noexcept;
-  std::uint32_t pin_owner() const noexcept { return limits_.max_readers; }
+  std::uint32_t pin_fetcher() const noexcept { return limits_.max_readers; }
   bool quarantined(std::uint32_t page) const noexcept;
   void quarantine(std::uint32_t page) noexcept;
 
@@ -149,13 +149,13 @@ class PageCache {
     count.fetch_add(1, std::memory_order_relaxed);
   }
 
-  // Owners that wait share these: whoever is woken for another goes on waiting.
+  // Fetchers that wait share these: whoever is woken for another goes on waiting.
   static constexpr std::uint32_t kWakers = 16;
 
   const CacheLimits limits_;
   const FillPage fill_;
   void* const context_;
-  ClaimedMemory table_memory_;
+  PrefaultedMemory table_memory_;
   FramePool frames_;
   const CacheTables tables_;
   const PageMap map_;
@@ -165,7 +165,7 @@ class PageCache {
   std::condition_variable helpers_waker_;
   EvictionPolicy policy_;
   Limbo limbo_;
-  Errands errands_;
+  InFlightReads in_flight_reads_;
   std::uint32_t free_count_;
   std::uint32_t pinned_count_ = 0;
   std::uint64_t locked_bytes_ = 0;

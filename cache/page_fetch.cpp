@@ -42,9 +42,9 @@ void wait_for_sections(std::uint32_t attempt) noexcept {
 
 Fetched PageCache::fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept {
   assert(page < limits_.page_count);
-  const auto owner = static_cast<std::uint32_t>(&slot - tables_.slots.data());
+  const auto fetcher = static_cast<std::uint32_t>(&slot - tables_.slots.data());
   Lock lock(mutex_);
-  const Outcome outcome = make_resident(lock, owner, page, terms, nullptr);
+  const Outcome outcome = make_resident(lock, fetcher, page, terms, nullptr);
   // Entering before the mutex is free: whoever evicts this page later
   // has the mutex after us, sees us inside, and leaves its frame alone.
   slot.enter();
@@ -52,24 +52,24 @@ Fetched PageCache::fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms&
   return {nullptr, outcome == Outcome::kGivenUp};
 }
 
-bool PageCache::help(std::uint32_t owner) noexcept {
+bool PageCache::help(std::uint32_t fetcher) noexcept {
   Lock lock(mutex_);
   for (std::uint32_t attempt = 0;; ++attempt) {
-    limbo_.set_awaited(owner, false);
-    const std::uint32_t page = errands_.page_wanted();
-    if (page == Errands::kNobody) return false;
-    const std::uint32_t frame = take_frame(lock, owner, attempt);
+    limbo_.set_awaited(fetcher, false);
+    const std::uint32_t page = in_flight_reads_.page_wanted();
+    if (page == InFlightReads::kNobody) return false;
+    const std::uint32_t frame = take_frame(lock, fetcher, attempt);
     if (frame == kNoFrame) continue;
-    read_page(lock, owner, page, frame, true, nullptr);
+    read_page(lock, fetcher, page, frame, true, nullptr);
     return true;
   }
 }
 
-PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t owner, std::uint32_t page,
+PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                                             const FetchTerms& terms, Error* why) noexcept {
-  bool would_wait = false;
+  bool would_block = false;
   for (std::uint32_t attempt = 0;; ++attempt) {
-    limbo_.set_awaited(owner, false);
+    limbo_.set_awaited(fetcher, false);
     // Another thread may have brought the page meanwhile.
     if (const std::uint32_t frame = map_.frame_of(page); frame != kNoFrame) {
       policy_.marks().mark(frame);
@@ -77,74 +77,75 @@ PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t owner, std
     }
     if (quarantined(page)) return Outcome::kUnreadable;
     Outcome outcome;
-    if (would_wait || errands_.is_read(page)) {
-      outcome = wait_for_page(lock, owner, page, terms);
+    if (would_block || in_flight_reads_.is_read(page)) {
+      outcome = wait_for_page(lock, fetcher, page, terms);
     } else {
-      const std::uint32_t frame = take_frame(lock, owner, attempt);
+      const std::uint32_t frame = take_frame(lock, fetcher, attempt);
       if (frame == kNoFrame) continue;
-      outcome = read_page(lock, owner, page, frame, terms.reads_itself, why);
+      outcome = read_page(lock, fetcher, page, frame, terms.reads_itself, why);
     }
     if (outcome == Outcome::kWouldWait)
-      would_wait = true;
+      would_block = true;
     else if (outcome != Outcome::kRetry)
       return outcome;
   }
 }
 
-PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t owner, std::uint32_t page,
+PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                                         std::uint32_t frame, bool may_wait, Error* why) noexcept {
   const auto wake_waiting = [this](std::uint32_t waiting) { wake(waiting); };
-  errands_.read(owner, page);
+  in_flight_reads_.read(fetcher, page);
   lock.unlock();
   const Result<Filled> filled =
-      fill_(context_, {page, owner, may_wait, {frames_.frame(frame), limits_.frame_bytes}});
+      fill_(context_, {page, fetcher, may_wait, {frames_.frame(frame), limits_.frame_bytes}});
   lock.lock();
-  errands_.end(owner);
+  in_flight_reads_.end(fetcher);
   if (!filled) {
     tables_.free_frames[free_count_++] = frame;
     quarantine(page);
-    errands_.fail(page, wake_waiting);
+    in_flight_reads_.fail(page, wake_waiting);
     if (why != nullptr) *why = filled.error();
     return Outcome::kUnreadable;
   }
   if (*filled == Filled::kWouldWait) {
     assert(!may_wait);
     tables_.free_frames[free_count_++] = frame;
-    errands_.put_back(page, wake_waiting);
+    in_flight_reads_.put_back(page, wake_waiting);
     return Outcome::kWouldWait;
   }
   tables_.pages[frame] = page;
-  policy_.install(frame, *filled == Filled::kFilledUpper ? PageRank::kUpper : PageRank::kLower);
+  policy_.install(frame, *filled == Filled::kFilledUpper ? PageTier::kUpper : PageTier::kLower);
   map_.publish(page, frame);
   add_one(counts_.fills);
-  if (errands_.serve(page, frame, wake_waiting) > 0) policy_.hold(frame);
+  if (in_flight_reads_.serve(page, frame, wake_waiting) > 0) policy_.hold(frame);
   return Outcome::kResident;
 }
 
-PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t owner, std::uint32_t page,
+PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                                             const FetchTerms& terms) noexcept {
-  errands_.wait(owner, page, terms.reads_itself);
-  const auto waits = [this, owner] {
-    const Errand::Stage stage = errands_.of(owner).stage;
-    return stage == Errand::Stage::kWaits || stage == Errand::Stage::kWanted;
+  in_flight_reads_.wait(fetcher, page, terms.reads_itself);
+  const auto waits = [this, fetcher] {
+    const InFlightRead::Stage stage = in_flight_reads_.of(fetcher).stage;
+    return stage == InFlightRead::Stage::kWaits || stage == InFlightRead::Stage::kWanted;
   };
-  if (errands_.of(owner).stage == Errand::Stage::kWanted) helpers_waker_.notify_one();
-  std::condition_variable& waker = wakers_[owner % kWakers];
-  const auto told = [&waits] { return !waits(); };
+  if (in_flight_reads_.of(fetcher).stage == InFlightRead::Stage::kWanted)
+    helpers_waker_.notify_one();
+  std::condition_variable& waker = wakers_[fetcher % kWakers];
+  const auto is_done = [&waits] { return !waits(); };
   if (terms.wait_limit == FetchTerms::kNoLimit) {
-    waker.wait(lock, told);
+    waker.wait(lock, is_done);
   } else {
-    waker.wait_for(lock, terms.wait_limit, told);
+    waker.wait_for(lock, terms.wait_limit, is_done);
   }
-  const Errand errand = errands_.of(owner);
-  errands_.end(owner);
-  switch (errand.stage) {
-    case Errand::Stage::kServed:
-      if (!errands_.holds(errand.frame)) policy_.let_go(errand.frame);
+  const InFlightRead in_flight = in_flight_reads_.of(fetcher);
+  in_flight_reads_.end(fetcher);
+  switch (in_flight.stage) {
+    case InFlightRead::Stage::kServed:
+      if (!in_flight_reads_.holds(in_flight.frame)) policy_.release(in_flight.frame);
       return Outcome::kResident;
-    case Errand::Stage::kFailed:
+    case InFlightRead::Stage::kFailed:
       return Outcome::kUnreadable;
-    case Errand::Stage::kRetry:
+    case InFlightRead::Stage::kRetry:
       return Outcome::kRetry;
     default:
       add_one(counts_.given_up);
@@ -152,11 +153,12 @@ PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t owner, std
   }
 }
 
-void PageCache::wait_for_errand(std::chrono::microseconds most,
-                                const std::atomic<bool>& stop) noexcept {
+void PageCache::wait_for_read(std::chrono::microseconds most,
+                              const std::atomic<bool>& stop) noexcept {
   Lock lock(mutex_);
   helpers_waker_.wait_for(lock, most, [&] {
-    return stop.load(std::memory_order_relaxed) || errands_.page_wanted() != Errands::kNobody;
+    return stop.load(std::memory_order_relaxed) ||
+           in_flight_reads_.page_wanted() != InFlightReads::kNobody;
   });
 }
 
@@ -166,35 +168,35 @@ void PageCache::wake_helpers() noexcept {
   helpers_waker_.notify_all();
 }
 
-std::uint32_t PageCache::take_frame(Lock& lock, std::uint32_t owner,
+std::uint32_t PageCache::take_frame(Lock& lock, std::uint32_t fetcher,
                                     std::uint32_t attempt) noexcept {
-  const std::uint32_t frame = try_to_take_frame(owner);
+  const std::uint32_t frame = try_to_take_frame(fetcher);
   if (frame != kNoFrame) return frame;
-  limbo_.set_awaited(owner, true);
+  limbo_.set_awaited(fetcher, true);
   lock.unlock();
   wait_for_sections(attempt);
   lock.lock();
   return kNoFrame;
 }
 
-std::uint32_t PageCache::try_to_take_frame(std::uint32_t owner) noexcept {
+std::uint32_t PageCache::try_to_take_frame(std::uint32_t fetcher) noexcept {
   if (free_count_ > 0) return tables_.free_frames[--free_count_];
-  if (const std::uint32_t frame = limbo_.take(owner); frame != kNoFrame) return frame;
+  if (const std::uint32_t frame = limbo_.take(fetcher); frame != kNoFrame) return frame;
   if (const std::uint32_t frame = limbo_.take_unawaited(); frame != kNoFrame) return frame;
-  if (limbo_.holds(owner)) return kNoFrame;
-  if (!evict_into_limbo(owner)) limbo_.adopt(owner);
-  assert(limbo_.holds(owner));
+  if (limbo_.holds(fetcher)) return kNoFrame;
+  if (!evict_into_limbo(fetcher)) limbo_.adopt(fetcher);
+  assert(limbo_.holds(fetcher));
   // At once, if no section was open.
-  return limbo_.take(owner);
+  return limbo_.take(fetcher);
 }
 
-bool PageCache::evict_into_limbo(std::uint32_t owner) noexcept {
+bool PageCache::evict_into_limbo(std::uint32_t fetcher) noexcept {
   const std::uint32_t frame = policy_.choose_victim();
   if (frame == kNoFrame) return false;
   policy_.remove(frame);
   // Withdrawing comes before noting the open sections: E2, then E3.
   map_.withdraw(tables_.pages[frame]);
-  limbo_.retire(owner, frame);
+  limbo_.retire(fetcher, frame);
   add_one(counts_.evictions);
   return true;
 }

@@ -71,7 +71,7 @@ Error refused(std::uint64_t bytes) noexcept {
 
 }  // namespace
 
-std::uint64_t ClaimedMemory::claimed_bytes(std::uint64_t bytes) noexcept {
+std::uint64_t PrefaultedMemory::claimed_bytes(std::uint64_t bytes) noexcept {
   const std::uint64_t last = system_page_bytes() - 1;
   // Saturates instead of wrapping to a small number.
   if (bytes > std::numeric_limits<std::uint64_t>::max() - last) return bytes;
@@ -79,28 +79,28 @@ std::uint64_t ClaimedMemory::claimed_bytes(std::uint64_t bytes) noexcept {
   return rounded >= kNearlyHugeBytes ? std::max(rounded, kHugePageBytes) : rounded;
 }
 
-Result<ClaimedMemory> ClaimedMemory::claim(std::uint64_t bytes) noexcept {
+Result<PrefaultedMemory> PrefaultedMemory::claim(std::uint64_t bytes) noexcept {
   assert(bytes != 0);
   const std::uint64_t rounded = claimed_bytes(bytes);
   std::byte* data = rounded >= kHugePageBytes ? map_huge_aligned(rounded) : map_anonymous(rounded);
   if (data == nullptr) return refused(rounded);
-  ClaimedMemory memory(data, rounded);
+  PrefaultedMemory memory(data, rounded);
   if (!populate(data, rounded)) return refused(rounded);
   return memory;
 }
 
-bool ClaimedMemory::lock() const noexcept { return ::mlock(data_, bytes_) == 0; }
+bool PrefaultedMemory::lock() const noexcept { return ::mlock(data_, bytes_) == 0; }
 
-ClaimedMemory::ClaimedMemory(ClaimedMemory&& other) noexcept
+PrefaultedMemory::PrefaultedMemory(PrefaultedMemory&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
 
-ClaimedMemory& ClaimedMemory::operator=(ClaimedMemory&& other) noexcept {
+PrefaultedMemory& PrefaultedMemory::operator=(PrefaultedMemory&& other) noexcept {
   std::swap(data_, other.data_);
   std::swap(bytes_, other.bytes_);
   return *this;
 }
 
-ClaimedMemory::~ClaimedMemory() {
+PrefaultedMemory::~PrefaultedMemory() {
   if (data_ != nullptr) ::munmap(data_, bytes_);
 }
 

@@ -6,13 +6,13 @@
 
 namespace planetree::cache {
 
-Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t place) noexcept
+Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept
     : map_(cache.map_),
       marks_(cache.policy_.marks()),
       frames_(cache.frames_.frame(0)),
       stride_bytes_(cache.frames_.stride_bytes()),
       slot_(&slot),
-      place_(place),
+      index_(index),
       cache_(&cache) {}
 
 Reader::Reader(Reader&& other) noexcept
@@ -21,7 +21,7 @@ Reader::Reader(Reader&& other) noexcept
       frames_(other.frames_),
       stride_bytes_(other.stride_bytes_),
       slot_(std::exchange(other.slot_, nullptr)),
-      place_(other.place_),
+      index_(other.index_),
       cache_(other.cache_) {}
 
 Reader& Reader::operator=(Reader&& other) noexcept {
@@ -32,7 +32,7 @@ Reader& Reader::operator=(Reader&& other) noexcept {
   frames_ = other.frames_;
   stride_bytes_ = other.stride_bytes_;
   slot_ = std::exchange(other.slot_, nullptr);
-  place_ = other.place_;
+  index_ = other.index_;
   cache_ = other.cache_;
   return *this;
 }
@@ -52,7 +52,7 @@ Fetched Reader::fetch(std::uint32_t page, const FetchTerms& terms) noexcept {
 
 bool Reader::help() noexcept {
   assert(!inside());
-  return cache_->help(place_);
+  return cache_->help(index_);
 }
 
 }  // namespace planetree::cache

@@ -52,7 +52,7 @@ class Reader {
   bool inside() const noexcept { return slot_->inside(); }
 
   /// Among the readers there are at one time.
-  std::uint32_t place() const noexcept { return place_; }
+  std::uint32_t index() const noexcept { return index_; }
 
   /// Inside a section: the frame of a page number below page_count, or nullptr
   /// if it is not resident. No lock, allocation, loop or system call.
@@ -100,7 +100,7 @@ class Reader {
 
  private:
   friend class PageCache;
-  Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t place) noexcept;
+  Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept;
   void give_back() noexcept;
   const std::byte* at(std::uint32_t frame) const noexcept {
     return frames_ + frame * stride_bytes_;
@@ -109,11 +109,11 @@ class Reader {
   // Copies of what find() needs, so that it does not touch the cache object,
   // whose lines the writer keeps changing.
   PageMap map_;
-  UseMarks marks_;
+  ReferenceBits marks_;
   const std::byte* frames_;
   std::uint64_t stride_bytes_;
   ReaderSlot* slot_;  // nullptr once moved from
-  std::uint32_t place_;
+  std::uint32_t index_;
   PageCache* cache_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace planetree::cache {
 
-/// The steps of TraceRing, below, at which the order of memory matters.
+/// The steps of SpscRing, below, at which the order of memory matters.
 enum class RingStep : std::uint8_t {
   kShow,     ///< G3
   kSee,      ///< T1
@@ -50,9 +50,9 @@ struct StdRing {
 ///
 /// T1 acquires from G3 what was written at G2; G1 acquires from T3 that T2 is over.
 ///
-/// A view of slots that somebody else owns. Atomics as LatestValue has them: for tests.
+/// A view of slots that somebody else owns. Atomics as SeqLock has them: for tests.
 template <class Record, class Atomics = StdRing>
-class alignas(64) TraceRing {
+class alignas(64) SpscRing {
  public:
   using Slot = typename Atomics::template Plain<Record>;
 

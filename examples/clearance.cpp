@@ -36,16 +36,17 @@ int main(int argc, char** argv) {
   // A clearance is a distance, wanted to a thousandth of the path and not to the last bit.
   const planetree::Vec3 from = model->info().box_lower;
   const planetree::Vec3 to = model->info().box_upper;
-  planetree::Ask ask;
-  ask.parts = planetree::kDistance;
-  ask.max_error = 1e-3 * (to.x - from.x);
+  planetree::QueryOptions query_options;
+  query_options.parts = planetree::kDistance;
+  query_options.max_error = 1e-3 * (to.x - from.x);
 
   planetree::ClosestPoint tightest;
   double where = 0;
   constexpr int kSteps = 1000;
   for (int step = 0; step <= kSteps; ++step) {
     const double share = static_cast<double>(step) / kSteps;
-    const planetree::ClosestPoint nearest = probe->closest_point(between(from, to, share), ask);
+    const planetree::ClosestPoint nearest =
+        probe->closest_point(between(from, to, share), query_options);
     if (step > 0 && nearest.lower >= tightest.lower) continue;
     tightest = nearest;
     where = share;

@@ -81,8 +81,8 @@ int main(int argc, char** argv) {
   const double step = 1e-4 * diagonal;
 
   Spring spring(1 / step);
-  planetree::Ask ask;
-  ask.wait = planetree::Wait::kNever;
+  planetree::QueryOptions query_options;
+  query_options.wait = planetree::Wait::kNever;
   double strongest = 0;
   int touching = 0, uncertain = 0;
   auto due = std::chrono::steady_clock::now();
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
     const Vec3 move = sinking ? Vec3{0, 0, -step} : Vec3{step, 0, 0};
     tip = sum(tip, move, 1);
     probe->motion(tip, sum({}, move, per_second));
-    const planetree::ClosestPoint answer = probe->closest_point(tip, ask);
+    const planetree::ClosestPoint answer = probe->closest_point(tip, query_options);
     const double force = length(spring.force(tip, answer));
     strongest = std::max(strongest, force);
     touching += force > 0;

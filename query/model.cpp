@@ -24,12 +24,12 @@ ModelInfo describe(const storage::PageFile& file) {
   const storage::ModelRecord& model = header.model;
   ModelInfo info;
   info.triangles = model.triangle_count;
-  info.set_aside = model.set_aside_count;
-  info.first_set_aside = model.first_set_aside;
+  info.skipped = model.skipped_count;
+  info.first_skipped = model.first_skipped;
   info.vertices = model.vertex_count;
   info.box_lower = {model.box_lower[0], model.box_lower[1], model.box_lower[2]};
   info.box_upper = {model.box_upper[0], model.box_upper[1], model.box_upper[2]};
-  info.open_edges = model.open_edge_count;
+  info.unbalanced_edges = model.unbalanced_edge_count;
   info.input_triangles = model.usable_triangles();
   info.has_region = model.has_region();
   info.region_lower = {model.region_lower[0], model.region_lower[1], model.region_lower[2]};
@@ -52,9 +52,9 @@ ModelInfo describe(const storage::PageFile& file) {
   return info;
 }
 
-octree::TreeFacts tree_facts(const storage::FileHeader& header, const Scale& scale) {
+octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale) {
   const storage::ModelRecord& model = header.model;
-  octree::TreeFacts tree;
+  octree::TreeInfo tree;
   tree.page_bytes = header.page_bytes;
   tree.root_link = model.root_link;
   tree.shape = block_shape(model);
@@ -67,8 +67,8 @@ octree::TreeFacts tree_facts(const storage::FileHeader& header, const Scale& sca
   return tree;
 }
 
-octree::MaskFacts mask_facts(const storage::FileHeader& header, const octree::TreeFacts& tree) {
-  octree::MaskFacts mask;
+octree::MaskInfo mask_info(const storage::FileHeader& header, const octree::TreeInfo& tree) {
+  octree::MaskInfo mask;
   mask.page_bytes = header.page_bytes;
   mask.first_page = header.first_mask_page();
   mask.page_count = header.model.mask_page_count;
@@ -83,17 +83,17 @@ Result<void> check_counts(const OpenOptions& options) {
                       "%u %s make no sense; give 1 to %u", count, what, most);
   };
   for (const Result<void>& checked :
-       {check(options.batch_threads, "batch threads", OpenOptions::kMostBatchThreads),
-        check(options.fetch_threads, "fetch threads", OpenOptions::kMostFetchThreads),
-        check(options.max_probes, "probes", OpenOptions::kMostProbes),
-        check(std::max(options.trace_touches, 1U), "touches of a trace",
-              OpenOptions::kMostTraceTouches)})
+       {check(options.batch_threads, "batch threads", OpenOptions::kMaxBatchThreads),
+        check(options.fetch_threads, "fetch threads", OpenOptions::kMaxFetchThreads),
+        check(options.max_probes, "probes", OpenOptions::kMaxProbes),
+        check(std::max(options.page_trace_capacity, 1U), "accesses of a trace",
+              OpenOptions::kMaxPageTraceCapacity)})
     if (!checked) return checked;
   return {};
 }
 
 // Of the model's own threads.
-unsigned crew_probes(const OpenOptions& options) {
+unsigned thread_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
 
@@ -101,20 +101,20 @@ Pager::Limits limits_of(const OpenOptions& options, const ModelSeams& seams) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
-  limits.probe_bytes = sizeof(BatchRoom);
-  limits.crew_probes = crew_probes(options);
-  limits.crew_bytes = limits.crew_probes * sizeof(ProbeState) +
-                      options.fetch_threads * FetchCrew::kThreadBytes +
-                      limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
+  limits.probe_bytes = sizeof(BatchBuffers);
+  limits.thread_probes = thread_probes(options);
+  limits.thread_bytes = limits.thread_probes * sizeof(ProbeState) +
+                        options.fetch_threads * FetchThreads::kThreadBytes +
+                        limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
   limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
-  limits.trace_touches = options.trace_touches;
+  limits.page_trace_capacity = options.page_trace_capacity;
   limits.policy = seams.policy;
   return limits;
 }
 
-static_assert(OpenOptions::kMostProbes + OpenOptions::kMostFetchThreads +
-                  OpenOptions::kMostBatchThreads <=
+static_assert(OpenOptions::kMaxProbes + OpenOptions::kMaxFetchThreads +
+                  OpenOptions::kMaxBatchThreads <=
               cache::kMaxReaders);
 
 }  // namespace
@@ -123,51 +123,51 @@ ModelState::~ModelState() = default;
 
 // What it is in goes after it.
 void ModelState::operator delete(ModelState* state, std::destroying_delete_t) noexcept {
-  state->fetchers_.reset();
-  state->crew_.reset();
+  state->fetch_threads_.reset();
+  state->batch_threads_.reset();
   const std::unique_ptr<Pager> pager = std::move(state->pager_);
   state->~ModelState();
 }
 
 ModelState::ModelState(std::unique_ptr<Pager> pager, std::chrono::milliseconds wait_limit)
     : pager_(std::move(pager)),
-      asking_(pager_->asking_memory().parts()),
+      query_arena_(pager_->query_arena().parts()),
       info_(describe(pager_->file())),
       scale_(pager_->file().header().model.scale_exponent),
       wait_limit_(wait_limit) {
-  tree_ = tree_facts(pager_->file().header(), scale_);
-  mask_ = mask_facts(pager_->file().header(), tree_);
+  tree_ = tree_info(pager_->file().header(), scale_);
+  mask_ = mask_info(pager_->file().header(), tree_);
   region_ = region_of(pager_->file().header().model);
   region_corner_ = region_.clamped(tree_.box_lower);
   region_winding_ = pager_->file().header().model.region_winding;
 }
 
-Result<void> ModelState::fill_colours() {
+Result<void> ModelState::fill_side_grid() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
-  PageTurner turner(*reader, Wait::kForPages);
-  colours_.fill(mask_, tree_, region_.has_walls(), scale_.exponent(), turner.pages(),
-                asking_.colours);
+  PageAccessor accessor(*reader, Wait::kForPages);
+  side_grid_.fill(mask_, tree_, region_.has_walls(), scale_.exponent(), accessor.pages(),
+                  query_arena_.side_grid);
   return {};
 }
 
-Result<void> ModelState::start_crews(const OpenOptions& options, const ModelSeams& seams) {
+Result<void> ModelState::start_threads(const OpenOptions& options, const ModelSeams& seams) {
   if (options.batch_threads > 1) {
-    auto crew = BatchCrew::claim(*this, options.batch_threads);
-    if (!crew) return crew.error();
-    crew_ = std::move(*crew);
+    auto batch_threads = BatchThreads::claim(*this, options.batch_threads);
+    if (!batch_threads) return batch_threads.error();
+    batch_threads_ = std::move(*batch_threads);
   }
   if (!seams.starts_fetching) return {};
-  auto fetchers = FetchCrew::start(*this, options.fetch_threads);
+  auto fetchers = FetchThreads::start(*this, options.fetch_threads);
   if (!fetchers) return fetchers.error();
-  fetchers_ = std::move(*fetchers);
+  fetch_threads_ = std::move(*fetchers);
   return {};
 }
 
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
                                                      const OpenOptions& options,
                                                      const ModelSeams& seams) {
-  if (const char* fault = octree::self_test())
+  if (const char* fault = octree::startup_check())
     return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
                       "this build computes otherwise than it must: %s; compile without "
                       "-ffast-math, -ffp-contract and -mfpmath=387",
@@ -175,33 +175,33 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
   if (const auto checked = check_counts(options); !checked) return checked.error();
   auto pager = Pager::open(path, limits_of(options, seams), seams.calls);
   if (!pager) return pager.error();
-  void* room = (*pager)->asking_memory().parts().model_room;
+  void* storage = (*pager)->query_arena().parts().model_storage;
   const std::chrono::milliseconds wait_limit(options.wait_limit_ms);
-  std::unique_ptr<ModelState> state(::new (room) ModelState(std::move(*pager), wait_limit));
-  if (const auto filled = state->fill_colours(); !filled) return filled.error();
-  if (const auto started = state->start_crews(options, seams); !started) return started.error();
+  std::unique_ptr<ModelState> state(::new (storage) ModelState(std::move(*pager), wait_limit));
+  if (const auto filled = state->fill_side_grid(); !filled) return filled.error();
+  if (const auto started = state->start_threads(options, seams); !started) return started.error();
   return state;
 }
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
                                      const ModelSeams& seams) {
-  const HostArithmetic host;
+  const FpEnvironmentGuard host;
   auto state = open(path, options, seams);
   if (!state) return state.error();
   return Model(std::move(*state));
 }
 
-std::size_t ModelState::take_touches(std::span<PageTouch> touches) const noexcept {
+std::size_t ModelState::drain_page_trace(std::span<PageAccess> accesses) const noexcept {
   std::size_t count = 0;
-  for (std::uint32_t place = 0; place < asking_.traces.size(); ++place) {
-    std::array<Touch, 64> taken;
+  for (std::uint32_t index = 0; index < query_arena_.traces.size(); ++index) {
+    std::array<TracedAccess, 64> taken;
     for (std::size_t got = taken.size(); got == taken.size();) {
-      const std::size_t room = std::min(taken.size(), touches.size() - count);
-      got = asking_.traces[place].ring.take(std::span(taken).first(room));
-      for (const Touch& touch : std::span(taken).first(got)) {
-        const std::uint64_t octcode = pager_->file().entries()[touch.page].octcode;
+      const std::size_t capacity = std::min(taken.size(), accesses.size() - count);
+      got = query_arena_.traces[index].ring.take(std::span(taken).first(capacity));
+      for (const TracedAccess& access : std::span(taken).first(got)) {
+        const std::uint64_t octcode = pager_->file().entries()[access.page].octcode;
         const auto level = static_cast<std::uint8_t>(octree::cell_of_octcode(octcode).level);
-        touches[count++] = {touch.ask, place, touch.page, level, touch.kind};
+        accesses[count++] = {access.query, index, access.page, level, access.kind};
       }
     }
   }
@@ -218,11 +218,13 @@ Stats ModelState::stats() const noexcept {
   stats.quarantined_pages = cache.quarantined;
   stats.waits_given_up = cache.given_up;
   stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
-  for (const TouchTrace& trace : asking_.traces) stats.touches_dropped += trace.ring.dropped();
-  for (const Wishes& wishes : asking_.wishes) stats.wishes_made += wishes.missed.given();
-  if (fetchers_) {
-    stats.wishes_fetched = fetchers_->wishes_fetched();
-    stats.places_prefetched = fetchers_->places_prefetched();
+  for (const PageTrace& trace : query_arena_.traces)
+    stats.page_trace_dropped += trace.ring.dropped();
+  for (const FetchRequests& fetch_requests : query_arena_.fetch_requests)
+    stats.fetch_requests += fetch_requests.missed.given();
+  if (fetch_threads_) {
+    stats.fetch_requests_served = fetch_threads_->fetch_requests_served();
+    stats.positions_prefetched = fetch_threads_->positions_prefetched();
   }
   stats.frames = cache.frame_count;
   stats.arena_bytes = cache.arena_bytes;
@@ -246,8 +248,8 @@ Model::~Model() = default;
 
 const ModelInfo& Model::info() const noexcept { return state_->info(); }
 Stats Model::stats() const noexcept { return state_->stats(); }
-std::size_t Model::take_touches(std::span<PageTouch> touches) const noexcept {
-  return state_->take_touches(touches);
+std::size_t Model::drain_page_trace(std::span<PageAccess> accesses) const noexcept {
+  return state_->drain_page_trace(accesses);
 }
 
 }  // namespace planetree

@@ -23,8 +23,8 @@
 
 namespace planetree::query {
 
-class BatchCrew;
-class FetchCrew;
+class BatchThreads;
+class FetchThreads;
 
 /// Where a model can be taken apart: the system, so that disks can fail or stand still; its
 /// threads, so that a test can do what they do, step by step; and which pages it keeps, so that
@@ -35,7 +35,7 @@ struct ModelSeams {
   cache::Policy policy = cache::Policy::kClock;
 };
 
-/// What stands behind a Model; in the AskingMemory that it holds itself.
+/// What stands behind a Model; in the QueryArena that it holds itself.
 class ModelState {
  public:
   ~ModelState();
@@ -51,9 +51,9 @@ class ModelState {
 
   const ModelInfo& info() const noexcept { return info_; }
   Stats stats() const noexcept;
-  const octree::TreeFacts& tree() const noexcept { return tree_; }
-  const octree::MaskFacts& mask() const noexcept { return mask_; }
-  const octree::ColourMap& colours() const noexcept { return colours_; }
+  const octree::TreeInfo& tree() const noexcept { return tree_; }
+  const octree::MaskInfo& mask() const noexcept { return mask_; }
+  const octree::SideGrid& side_grid() const noexcept { return side_grid_; }
   /// Where the file knows all of the surface.
   const octree::Region& region() const noexcept { return region_; }
   /// A point in it, and the winding number there; of a watertight model of a region.
@@ -63,38 +63,42 @@ class ModelState {
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   cache::PageCache& cache() const noexcept { return pager_->cache(); }
   /// How asks wait for pages; and how fetch threads do.
-  cache::FetchTerms asking_terms() const noexcept { return {!fetchers_, wait_limit_}; }
-  cache::FetchTerms fetching_terms() const noexcept { return {true, wait_limit_}; }
+  cache::FetchTerms query_terms() const noexcept { return {!fetch_threads_, wait_limit_}; }
+  cache::FetchTerms fetcher_terms() const noexcept { return {true, wait_limit_}; }
   /// Null where batches are answered by the caller's thread alone.
-  BatchCrew* crew() const noexcept { return crew_.get(); }
+  BatchThreads* batch_threads() const noexcept { return batch_threads_.get(); }
   /// Of the probe whose reader has this place.
-  Wishes& wishes(std::uint32_t place) const noexcept { return asking_.wishes[place]; }
-  /// Its notes of pages.
-  TouchLog touch_log(std::uint32_t place) const noexcept {
-    if (asking_.traces.empty()) return {nullptr, nullptr};
-    return {&asking_.traces[place], asking_.marks.data()};
+  FetchRequests& fetch_requests(std::uint32_t index) const noexcept {
+    return query_arena_.fetch_requests[index];
   }
-  /// See Model::take_touches.
-  std::size_t take_touches(std::span<PageTouch> touches) const noexcept;
+  /// Its notes of pages.
+  PageTraceWriter page_trace_writer(std::uint32_t index) const noexcept {
+    if (query_arena_.traces.empty()) return {nullptr, nullptr};
+    return {&query_arena_.traces[index], query_arena_.marks.data()};
+  }
+  /// See Model::drain_page_trace.
+  std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;
   /// For the ProbeState whose reader has this place.
-  void* probe_room(std::uint32_t place) const noexcept { return asking_.probe_room(place); }
+  void* storage_of_probe(std::uint32_t index) const noexcept {
+    return query_arena_.storage_of_probe(index);
+  }
   std::uint32_t reader_count() const noexcept {
-    return static_cast<std::uint32_t>(asking_.wishes.size());
+    return static_cast<std::uint32_t>(query_arena_.fetch_requests.size());
   }
   /// Any thread.
   void count_degraded() const noexcept { degraded_.fetch_add(1, std::memory_order_relaxed); }
 
  private:
   ModelState(std::unique_ptr<Pager> pager, std::chrono::milliseconds wait_limit);
-  Result<void> fill_colours();
-  Result<void> start_crews(const OpenOptions& options, const ModelSeams& seams);
+  Result<void> fill_side_grid();
+  Result<void> start_threads(const OpenOptions& options, const ModelSeams& seams);
 
   std::unique_ptr<Pager> pager_;
-  const AskingMemory::Parts asking_;
+  const QueryArena::Parts query_arena_;
   ModelInfo info_;
-  octree::TreeFacts tree_;
-  octree::MaskFacts mask_;
-  octree::ColourMap colours_;
+  octree::TreeInfo tree_;
+  octree::MaskInfo mask_;
+  octree::SideGrid side_grid_;
   octree::Region region_;
   octree::Point region_corner_ = octree::Point::Zero();
   std::int64_t region_winding_ = 0;
@@ -102,8 +106,8 @@ class ModelState {
   std::chrono::milliseconds wait_limit_;
   mutable std::atomic<std::uint64_t> degraded_{0};
   // Last: their probes are the model's.
-  std::unique_ptr<BatchCrew> crew_;
-  std::unique_ptr<FetchCrew> fetchers_;
+  std::unique_ptr<BatchThreads> batch_threads_;
+  std::unique_ptr<FetchThreads> fetch_threads_;
 };
 
 }  // namespace planetree::query

@@ -14,9 +14,9 @@ namespace {
 
 // Apart from what most asks come to, which needs few registers.
 [[gnu::noinline]] Containment contains_computed(query::ProbeState& probe, const Vec3& query,
-                                                const Ask& ask) noexcept {
-  const query::HostArithmetic host;
-  return query::contains(probe, query, ask);
+                                                const QueryOptions& options) noexcept {
+  const query::FpEnvironmentGuard host;
+  return query::contains(probe, query, options);
 }
 
 }  // namespace
@@ -24,11 +24,11 @@ namespace {
 Result<Probe> Probe::create(const Model& model) {
   auto reader = model.state_->claim_reader();
   if (!reader) return reader.error();
-  std::unique_ptr<query::BatchRoom> room(new (std::nothrow) query::BatchRoom);
-  if (!room)
+  std::unique_ptr<query::BatchBuffers> storage(new (std::nothrow) query::BatchBuffers);
+  if (!storage)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for a probe; free some and try again");
-  return Probe(query::ProbeState::create(*model.state_, std::move(*reader), std::move(room)));
+  return Probe(query::ProbeState::create(*model.state_, std::move(*reader), std::move(storage)));
 }
 
 Probe::Probe(std::unique_ptr<query::ProbeState> state) noexcept : state_(std::move(state)) {}
@@ -36,31 +36,31 @@ Probe::Probe(Probe&&) noexcept = default;
 Probe& Probe::operator=(Probe&&) noexcept = default;
 Probe::~Probe() = default;
 
-ClosestPoint Probe::closest_point(Vec3 query, const Ask& ask) noexcept {
-  const query::HostArithmetic host;
-  return query::closest_point(*state_, query, ask);
+ClosestPoint Probe::closest_point(Vec3 query, const QueryOptions& options) noexcept {
+  const query::FpEnvironmentGuard host;
+  return query::closest_point(*state_, query, options);
 }
 
-Containment Probe::contains(Vec3 query, const Ask& ask) noexcept {
+Containment Probe::contains(Vec3 query, const QueryOptions& options) noexcept {
   // Before the register is read, which waits for what the thread computes.
-  const Containment told = query::contains_at_a_glance(*state_, query, ask);
-  return told.side != Side::kUnknown ? told : contains_computed(*state_, query, ask);
+  const Containment fast = query::contains_fast(*state_, query, options);
+  return fast.side != Side::kUnknown ? fast : contains_computed(*state_, query, options);
 }
 
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {
-  state_->wishes().motion.give({position, velocity, state_->last_parts()});
+  state_->fetch_requests().motion.give({position, velocity, state_->last_parts()});
 }
 
 void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,
-                     const Ask& ask) noexcept {
-  const query::HostArithmetic host;
-  query::contains(*state_, queries, answers, ask);
+                     const QueryOptions& options) noexcept {
+  const query::FpEnvironmentGuard host;
+  query::contains(*state_, queries, answers, options);
 }
 
 void Probe::closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
-                           const Ask& ask) noexcept {
-  const query::HostArithmetic host;
-  query::closest_points(*state_, queries, answers, ask);
+                           const QueryOptions& options) noexcept {
+  const query::FpEnvironmentGuard host;
+  query::closest_points(*state_, queries, answers, options);
 }
 
 }  // namespace planetree

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostThreads = 1024;
+constexpr std::uint64_t kMaxThreads = 1024;
 
 const char* unit_of(octree::BuildPhase phase) {
   if (phase == octree::BuildPhase::kReading) return "bytes";
@@ -61,7 +61,7 @@ class BuildMeter final : public octree::BuildProgress {
     if (done > done_) progress_.add(done - done_);
     done_ = std::max(done, done_);
   }
-  void failed_at(octree::BuildPlace, const fs::path& path) override { failed_at_ = path; }
+  void failed_at(octree::BuildDirectory, const fs::path& path) override { failed_at_ = path; }
   void takes_up(const std::string& what) override {
     if (arguments_.quiet) return;
     console_.note(fmt::format("planetree: {}: {}\n", arguments_.output.string(), what));
@@ -128,11 +128,11 @@ std::string json_report(const BuildArguments& arguments, const octree::BuildRepo
       {"file", arguments.output.string()},
       {"triangles", model.triangle_count},
       {"input_triangles", built.input_triangles},
-      {"set_aside", model.set_aside_count},
+      {"set_aside", model.skipped_count},
       {"first_set_aside", nullptr},
       {"vertices", model.vertex_count},
-      {"watertight", model.open_edge_count == 0},
-      {"open_edges", model.open_edge_count},
+      {"watertight", model.unbalanced_edge_count == 0},
+      {"open_edges", model.unbalanced_edge_count},
       {"levels", model.height},
       {"nodes", model.node_count},
       {"blocks", model.block_count},
@@ -147,8 +147,7 @@ std::string json_report(const BuildArguments& arguments, const octree::BuildRepo
       {"temporary_bytes", built.temporary_bytes},
       {"sha256", sha256},
       {"content_id", content_id_text(header.content_id)}};
-  if (model.first_set_aside != storage::kNoTriangle)
-    report["first_set_aside"] = model.first_set_aside;
+  if (model.first_skipped != storage::kNoTriangle) report["first_set_aside"] = model.first_skipped;
   return json_line(report);
 }
 
@@ -158,9 +157,9 @@ std::string plain_report(const BuildArguments& arguments, const octree::BuildRep
   const storage::ModelRecord& model = header.model;
   const std::string part =
       model.has_region() ? " of " + grouped_count(built.input_triangles) : std::string();
-  const std::string surface = model.open_edge_count == 0
+  const std::string surface = model.unbalanced_edge_count == 0
                                   ? "watertight"
-                                  : grouped_count(model.open_edge_count) + " open edges";
+                                  : grouped_count(model.unbalanced_edge_count) + " open edges";
   return fmt::format(
       "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
       "({} triangles/s), {} of memory\n",
@@ -170,14 +169,14 @@ std::string plain_report(const BuildArguments& arguments, const octree::BuildRep
       short_bytes(peak_resident_bytes()));
 }
 
-void warn_of_set_aside(const BuildArguments& arguments, const octree::BuildReport& report,
-                       Console& console) {
-  const std::uint64_t count = report.header.model.set_aside_count;
+void warn_of_skipped(const BuildArguments& arguments, const octree::BuildReport& report,
+                     Console& console) {
+  const std::uint64_t count = report.header.model.skipped_count;
   if (count == 0) return;
   console.warn(arguments.input.string(),
                fmt::format("{} triangle{} of bad records set aside, the first: {}; repair the "
                            "mesh, or use --strict to refuse it",
-                           grouped_count(count), count == 1 ? "" : "s", report.first_set_aside));
+                           grouped_count(count), count == 1 ? "" : "s", report.first_skipped));
 }
 
 std::string page_size_complaint(std::uint64_t bytes) {
@@ -206,10 +205,9 @@ octree::RegionBox box_of(const std::string& text) {
 }
 
 std::string memory_complaint(std::uint64_t bytes) {
-  constexpr std::uint64_t kLeast = octree::BuildMemory::kLeastBytes;
-  if (bytes == 0 || bytes >= kLeast) return {};
-  return fmt::format("--memory: {} is too little for a build; give {}M or more", bytes,
-                     kLeast >> 20);
+  constexpr std::uint64_t kMin = octree::BuildMemory::kMinBytes;
+  if (bytes == 0 || bytes >= kMin) return {};
+  return fmt::format("--memory: {} is too little for a build; give {}M or more", bytes, kMin >> 20);
 }
 
 }  // namespace
@@ -230,7 +228,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   if (!report) return console.fail(meter.failed_at().string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
-  warn_of_set_aside(arguments, *report, console);
+  warn_of_skipped(arguments, *report, console);
   if (!arguments.json) {
     console.print(plain_report(arguments, *report, seconds));
     return console.finish(kDone);
@@ -249,47 +247,53 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   };
   const auto options = std::make_shared<Options>();
   BuildArguments& arguments = options->arguments;
-  VerbOptions verb(app, "build", "Build the .ptree file of a mesh");
-  verb.require(verb.path("input", "IN", arguments.input,
-                         "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ"));
-  verb.require(verb.path("-o,--output", "OUT.ptree", arguments.output,
-                         "File to write; it appears whole or not at all"));
-  verb.default_text(verb.count("--threads", options->threads, kMostThreads,
-                               "Threads to work with; 0 means one for each processor. The file "
-                               "does not depend on it"),
-                    "0");
-  verb.default_text(verb.bytes("--memory", arguments.options.memory_bytes,
-                               "Most memory for the build; what does not fit is kept in temporary "
-                               "files. The file does not depend on it"),
-                    "a quarter of the machine's");
-  verb.path("--temp-dir", "DIR", arguments.options.temp_directory,
-            "Where temporary files go, about 120 bytes a triangle if memory is short, or 200 with "
-            "double coordinates; the output's directory by default. They have no names and vanish "
-            "with the process, but for what --resume keeps. A build that would find too little "
-            "room does not begin");
-  verb.text(
+  SubcommandOptions subcommand(app, "build", "Build the .ptree file of a mesh");
+  subcommand.require(subcommand.path("input", "IN", arguments.input,
+                                     "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ"));
+  subcommand.require(subcommand.path("-o,--output", "OUT.ptree", arguments.output,
+                                     "File to write; it appears whole or not at all"));
+  subcommand.default_text(
+      subcommand.count("--threads", options->threads, kMaxThreads,
+                       "Threads to work with; 0 means one for each processor. The file "
+                       "does not depend on it"),
+      "0");
+  subcommand.default_text(
+      subcommand.bytes("--memory", arguments.options.memory_bytes,
+                       "Most memory for the build; what does not fit is kept in temporary "
+                       "files. The file does not depend on it"),
+      "a quarter of the machine's");
+  subcommand.path(
+      "--temp-dir", "DIR", arguments.options.temp_directory,
+      "Where temporary files go, about 120 bytes a triangle if memory is short, or 200 with "
+      "double coordinates; the output's directory by default. They have no names and vanish "
+      "with the process, but for what --resume keeps. A build that would find too little "
+      "room does not begin");
+  subcommand.text(
       "--box", "X0,Y0,Z0,X1,Y1,Z1", box_complaint,
       [&arguments](const std::string& text) { arguments.options.box = box_of(text); },
       "Build only the triangles that touch this box, in model units. Sides, and whether the "
       "surface is watertight, are those of the whole mesh. Answers are exact where the "
       "surface is nearer than the box's walls, and lower bounds hold everywhere; sides are "
       "told in the box, of a watertight mesh");
-  verb.flag("--resume", arguments.options.resume,
-            "Keep what is done in a directory OUT.ptree.work, beside the output or in --temp-dir, "
-            "until the file is complete; go on with what an earlier build with --resume, of the "
-            "same input and options, left there when it was interrupted. The file does not "
-            "depend on it");
-  verb.default_text(verb.bytes("--page-size", options->page_bytes,
-                               "Bytes of a page in memory: a power of two from 4K to 256K"),
-                    "64K");
-  verb.flag("--strict", arguments.options.strict,
-            "Refuse a mesh with bad records (a vertex that is not finite, an index out of range, "
-            "fewer than 3 corners) instead of setting them aside");
-  verb.flag("--force", arguments.options.replace, "Replace the output if it exists");
-  verb.flag("--json", arguments.json,
-            "Report as one JSON object; progress as one a line, on standard error");
-  verb.flag("--quiet", arguments.quiet, "Show no progress");
-  verb.on_given([options, &console, &action] {
+  subcommand.flag(
+      "--resume", arguments.options.resume,
+      "Keep what is done in a directory OUT.ptree.work, beside the output or in --temp-dir, "
+      "until the file is complete; go on with what an earlier build with --resume, of the "
+      "same input and options, left there when it was interrupted. The file does not "
+      "depend on it");
+  subcommand.default_text(
+      subcommand.bytes("--page-size", options->page_bytes,
+                       "Bytes of a page in memory: a power of two from 4K to 256K"),
+      "64K");
+  subcommand.flag(
+      "--strict", arguments.options.strict,
+      "Refuse a mesh with bad records (a vertex that is not finite, an index out of range, "
+      "fewer than 3 corners) instead of setting them aside");
+  subcommand.flag("--force", arguments.options.replace, "Replace the output if it exists");
+  subcommand.flag("--json", arguments.json,
+                  "Report as one JSON object; progress as one a line, on standard error");
+  subcommand.flag("--quiet", arguments.quiet, "Show no progress");
+  subcommand.on_given([options, &console, &action] {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);
     options->arguments.options.page_bytes = static_cast<std::uint32_t>(options->page_bytes);
     action = [options, &console] { return run_build(options->arguments, console); };

@@ -26,26 +26,27 @@ constexpr const char* kFooter =
 int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) {
   std::string cause = error.what();
   std::replace(cause.begin(), cause.end(), '\n', ' ');
-  const auto verbs = app.get_subcommands();
-  if (verbs.empty()) {
+  const auto subcommands = app.get_subcommands();
+  if (subcommands.empty()) {
     fmt::print(console.errors(), "planetree: {}; see planetree --help\n", cause);
   } else {
-    const std::string verb = verbs.front()->get_name();
-    fmt::print(console.errors(), "planetree: {}: {}; see planetree {} --help\n", verb, cause, verb);
+    const std::string subcommand = subcommands.front()->get_name();
+    fmt::print(console.errors(), "planetree: {}: {}; see planetree {} --help\n", subcommand, cause,
+               subcommand);
   }
   return kCommandLineAtFault;
 }
 
 /// Says so where the first argument ought to be a verb and is none.
-bool lacks_verb(const CLI::App& app, int argc, const char* const* argv, Console& console) {
+bool lacks_subcommand(const CLI::App& app, int argc, const char* const* argv, Console& console) {
   if (argc < 2) {
     fmt::print(console.errors(), "planetree: no verb; planetree --help lists them\n");
     return true;
   }
   const std::string first = argv[1];
-  const auto verbs =
-      app.get_subcommands([&first](const CLI::App* verb) { return verb->get_name() == first; });
-  if (first.starts_with('-') || !verbs.empty()) return false;
+  const auto subcommands = app.get_subcommands(
+      [&first](const CLI::App* subcommand) { return subcommand->get_name() == first; });
+  if (first.starts_with('-') || !subcommands.empty()) return false;
   fmt::print(console.errors(), "planetree: no verb '{}'; planetree --help lists them\n",
              octree::printable(first));
   return true;
@@ -76,7 +77,7 @@ int run_command(int argc, const char* const* argv, Console& console) {
   add_inspect(app, console, action);
   add_verify(app, console, action);
   add_touch(app, console, action);
-  if (lacks_verb(app, argc, argv, console)) return kCommandLineAtFault;
+  if (lacks_subcommand(app, argc, argv, console)) return kCommandLineAtFault;
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success&) {

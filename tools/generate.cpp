@@ -36,8 +36,8 @@ Result<Outcome> generate(const GenerateOptions& options) {
 
   auto file = OutputFile::create(options.output, options.force);
   if (!file) return file.error();
-  const auto room = file->reserve(ply_bytes(**shape, comment));
-  if (!room) return room.error();
+  const auto space = file->reserve(ply_bytes(**shape, comment));
+  if (!space) return space.error();
   Progress progress(options.quiet, options.json);
   const auto written = write_ply(**shape, comment, *file, progress);
   if (!written) return written.error();
@@ -97,29 +97,32 @@ int run_generate(const GenerateOptions& options, Console& console) {
 void add_generate(CLI::App& app, Console& console, std::function<int()>& action) {
   constexpr auto kAnyCount = std::numeric_limits<std::uint64_t>::max();
   const auto options = std::make_shared<GenerateOptions>();
-  VerbOptions verb(app, "generate",
-                   "Write a test model of any size, in constant memory, as a binary PLY file");
-  verb.require(verb.path("output", "OUT.ply", options->output,
-                         "PLY file to write; - is standard output, and the report then goes to "
-                         "standard error"));
-  verb.require(verb.count("--triangles", options->triangles, kAnyCount,
-                          "About how many triangles; K, M, G mean thousands, millions, billions"));
-  verb.default_text(
-      verb.word(
+  SubcommandOptions subcommand(
+      app, "generate", "Write a test model of any size, in constant memory, as a binary PLY file");
+  subcommand.require(
+      subcommand.path("output", "OUT.ply", options->output,
+                      "PLY file to write; - is standard output, and the report then goes to "
+                      "standard error"));
+  subcommand.require(
+      subcommand.count("--triangles", options->triangles, kAnyCount,
+                       "About how many triangles; K, M, G mean thousands, millions, billions"));
+  subcommand.default_text(
+      subcommand.word(
           "--shape", shape_names(),
           [options](const std::string& name) { options->shape = *shape_named(name); },
           "statue (a displaced sphere), sphere (radius 100), cylinder (radius 100, height 200), "
           "cone (the same), terrain (side 200) or soup (in a unit cube)"),
       "statue");
-  verb.default_text(verb.count("--seed", options->seed, kAnyCount,
-                               "Number that chooses the noise of statue and terrain and the "
-                               "places of the soup"),
-                    "1");
-  verb.flag("--json", options->json,
-            "Report as one JSON object; progress as one a line, on standard error");
-  verb.flag("--quiet", options->quiet, "Show no progress");
-  verb.flag("--force", options->force, "Replace the file if it exists");
-  verb.on_given([options, &console, &action] {
+  subcommand.default_text(
+      subcommand.count("--seed", options->seed, kAnyCount,
+                       "Number that chooses the noise of statue and terrain and the "
+                       "places of the soup"),
+      "1");
+  subcommand.flag("--json", options->json,
+                  "Report as one JSON object; progress as one a line, on standard error");
+  subcommand.flag("--quiet", options->quiet, "Show no progress");
+  subcommand.flag("--force", options->force, "Replace the file if it exists");
+  subcommand.on_given([options, &console, &action] {
     action = [options, &console] { return run_generate(*options, console); };
     return std::string();
   });

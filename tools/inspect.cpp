@@ -54,14 +54,14 @@ void Inspection::tell(const Issue& issue) {
 
 /// A few lines stand for all: `verify` is there to list them.
 int Inspection::tell_issues(const IssueList& issues) {
-  constexpr std::size_t kMostTold = 10;
+  constexpr std::size_t kMaxListed = 10;
   if (issues.count() == 0) return kDone;
   std::fflush(console_.output());
-  const std::size_t told = std::min(issues.kept().size(), kMostTold);
-  for (std::size_t i = 0; i < told; ++i) tell(issues.kept()[i]);
-  if (issues.count() > told)
+  const std::size_t listed = std::min(issues.kept().size(), kMaxListed);
+  for (std::size_t i = 0; i < listed; ++i) tell(issues.kept()[i]);
+  if (issues.count() > listed)
     fmt::print(console_.errors(), "planetree: {}: {} more issues; planetree verify lists them\n",
-               arguments_.file.string(), issues.count() - told);
+               arguments_.file.string(), issues.count() - listed);
   return kDataAtFault;
 }
 
@@ -251,44 +251,45 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   };
   const auto options = std::make_shared<Options>();
   InspectArguments& arguments = options->arguments;
-  VerbOptions verb(app, "inspect", "Say what is in a .ptree file, damaged or not");
-  verb.require(verb.path("file", "FILE", arguments.file, "File to inspect"));
-  verb.flag("--levels", arguments.levels, "Also a row for each depth of the tree");
-  verb.flag("--pages", arguments.pages,
-            "Also a row for each page; its octcode is shown as level/x/y/z");
-  const auto node = verb.text(
+  SubcommandOptions subcommand(app, "inspect", "Say what is in a .ptree file, damaged or not");
+  subcommand.require(subcommand.path("file", "FILE", arguments.file, "File to inspect"));
+  subcommand.flag("--levels", arguments.levels, "Also a row for each depth of the tree");
+  subcommand.flag("--pages", arguments.pages,
+                  "Also a row for each page; its octcode is shown as level/x/y/z");
+  const auto node = subcommand.text(
       "--node", "OCTCODE", node_complaint,
       [&arguments](const std::string& text) { arguments.node = OctcodeQuery::parse(text); },
       "Instead the nodes at the top of the pages that begin at this octcode (0x... or "
       "level:x:y:z): box, children and bounding planes, relative to the model's centre");
   const auto page =
-      verb.count("--page", options->page, std::numeric_limits<std::uint32_t>::max(),
-                 "Instead all about one page, counted from 0, by the names of format-spec");
-  const auto image = verb.path("--image", "OUT.png", arguments.image, "PNG file to write");
-  const auto slice = verb.text(
+      subcommand.count("--page", options->page, std::numeric_limits<std::uint32_t>::max(),
+                       "Instead all about one page, counted from 0, by the names of format-spec");
+  const auto image = subcommand.path("--image", "OUT.png", arguments.image, "PNG file to write");
+  const auto slice = subcommand.text(
       "--slice", "AXIS=VALUE", slice_complaint,
       [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
       "Instead a picture of the distance over a plane, such as z=1.5 (model units) or z=50% "
       "(of the box)");
-  const auto why = verb.text(
+  const auto why = subcommand.text(
       "--why", "X,Y,Z", why_complaint,
       [&arguments](const std::string& text) { arguments.why = parse_point(text); },
       "Instead one answer and how it came about: the mask's cell, the rule that told the side, "
       "crossings, the nearest triangle, what was read (model units)");
-  verb.exclude(why, node);
-  verb.exclude(why, page);
-  verb.exclude(why, slice);
-  verb.need(slice, image);
-  verb.exclude(slice, node);
-  verb.exclude(slice, page);
-  verb.need(image, slice);
-  verb.exclude(page, node);
-  verb.need(verb.flag("--force", arguments.replace_image, "Replace the image if it exists"), image);
-  verb.flag("--json", arguments.json,
-            "Answer with one JSON object; progress as one a line, on standard error");
-  verb.flag("--quiet", arguments.quiet, "Show no progress");
-  verb.on_given([options, page, &console, &action] {
-    if (VerbOptions::given(page)) options->arguments.page = options->page;
+  subcommand.exclude(why, node);
+  subcommand.exclude(why, page);
+  subcommand.exclude(why, slice);
+  subcommand.need(slice, image);
+  subcommand.exclude(slice, node);
+  subcommand.exclude(slice, page);
+  subcommand.need(image, slice);
+  subcommand.exclude(page, node);
+  subcommand.need(
+      subcommand.flag("--force", arguments.replace_image, "Replace the image if it exists"), image);
+  subcommand.flag("--json", arguments.json,
+                  "Answer with one JSON object; progress as one a line, on standard error");
+  subcommand.flag("--quiet", arguments.quiet, "Show no progress");
+  subcommand.on_given([options, page, &console, &action] {
+    if (SubcommandOptions::given(page)) options->arguments.page = options->page;
     action = [options, &console] { return run_inspect(options->arguments, console); };
     return std::string();
   });

@@ -23,7 +23,7 @@ namespace planetree::tools {
 namespace {
 
 constexpr std::size_t kChunkPoints = 65536;
-constexpr std::uint64_t kMostWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
+constexpr std::uint64_t kMaxWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
 
 /// How many answers ended how.
 struct Tally {
@@ -71,11 +71,11 @@ class Session {
   }
 
  private:
-  void ask(std::span<const Vec3> queries, std::span<ClosestPoint> answers) {
-    probe_.closest_points(queries, answers, arguments_.ask);
+  void run(std::span<const Vec3> queries, std::span<ClosestPoint> answers) {
+    probe_.closest_points(queries, answers, arguments_.options);
   }
-  void ask(std::span<const Vec3> queries, std::span<Containment> answers) {
-    probe_.contains(queries, answers, arguments_.ask);
+  void run(std::span<const Vec3> queries, std::span<Containment> answers) {
+    probe_.contains(queries, answers, arguments_.options);
   }
 
   template <class Answer>
@@ -94,11 +94,11 @@ class Session {
         return console_.fail(points.name(), count.error());
       }
       if (*count == 0) break;
-      const auto asked = std::span(queries).first(*count);
-      const auto answered = std::span(answers).first(*count);
-      ask(asked, answered);
-      tally_.add<Answer>(answered);
-      wanted = writer.write(asked, std::span<const Answer>(answered));
+      const auto some = std::span(queries).first(*count);
+      const auto theirs = std::span(answers).first(*count);
+      run(some, theirs);
+      tally_.add<Answer>(theirs);
+      wanted = writer.write(some, std::span<const Answer>(theirs));
       progress.add(*count);
     }
     return kDone;
@@ -145,37 +145,41 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
                                                               {"jsonl", AnswerFormat::kJsonLines},
                                                               {"f64", AnswerFormat::kF64}};
   const auto options = std::make_shared<QueryArguments>();
-  VerbOptions verb(app, "query",
-                   "Find the surface point nearest to each point and the side it is on");
-  verb.require(verb.path("file", "FILE", options->file, "File that planetree build wrote"));
-  verb.default_text(
-      verb.path("points", "POINTS", options->points,
-                "Points to ask about, in model units: CSV (x,y,z, further columns are passed "
-                "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
-                "little-endian float64 triples); - is CSV from standard input"),
+  SubcommandOptions subcommand(
+      app, "query", "Find the surface point nearest to each point and the side it is on");
+  subcommand.require(
+      subcommand.path("file", "FILE", options->file, "File that planetree build wrote"));
+  subcommand.default_text(
+      subcommand.path("points", "POINTS", options->points,
+                      "Points to ask about, in model units: CSV (x,y,z, further columns are passed "
+                      "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
+                      "little-endian float64 triples); - is CSV from standard input"),
       "-");
-  verb.flag("--contains", options->contains,
-            "Tell only which side of the surface each point is on");
-  verb.default_text(verb.length("--max-error", options->ask.max_error, false,
-                                "May stop once the distance is known within this, in model units; "
-                                "0 goes on until it is exact"),
-                    "0");
-  verb.default_text(verb.length("--max-distance", options->ask.max_distance, true,
-                                "Look no farther than this, in model units"),
-                    "inf");
-  verb.default_text(verb.bytes("--memory", options->memory_bytes, "Most memory for the model"),
-                    "256M");
-  verb.default_text(verb.count("--threads", options->threads, OpenOptions::kMostBatchThreads,
-                               "Threads to answer with; 0 means one for each processor. No "
-                               "answer depends on it"),
-                    "0");
-  verb.default_text(
-      verb.count("--wait-limit", options->wait_limit_ms, kMostWaitMs,
-                 "Longest wait for one page, in milliseconds. An answer that needs it then is "
-                 "degraded: its interval holds, and the others go on"),
+  subcommand.flag("--contains", options->contains,
+                  "Tell only which side of the surface each point is on");
+  subcommand.default_text(
+      subcommand.length("--max-error", options->options.max_error, false,
+                        "May stop once the distance is known within this, in model units; "
+                        "0 goes on until it is exact"),
+      "0");
+  subcommand.default_text(subcommand.length("--max-distance", options->options.max_distance, true,
+                                            "Look no farther than this, in model units"),
+                          "inf");
+  subcommand.default_text(
+      subcommand.bytes("--memory", options->memory_bytes, "Most memory for the model"), "256M");
+  subcommand.default_text(
+      subcommand.count("--threads", options->threads, OpenOptions::kMaxBatchThreads,
+                       "Threads to answer with; 0 means one for each processor. No "
+                       "answer depends on it"),
+      "0");
+  subcommand.default_text(
+      subcommand.count(
+          "--wait-limit", options->wait_limit_ms, kMaxWaitMs,
+          "Longest wait for one page, in milliseconds. An answer that needs it then is "
+          "degraded: its interval holds, and the others go on"),
       "10000");
-  verb.default_text(
-      verb.word(
+  subcommand.default_text(
+      subcommand.word(
           "--format", {"csv", "jsonl", "f64"},
           [options](const std::string& name) { options->format = formats.at(name); },
           "csv: a header and a row for each point; jsonl: an object for each point, null for "
@@ -184,12 +188,12 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
           "surface, 1 "
           "outside; NaN is an unknown side and no triangle), with --contains 4 (x y z side)"),
       "csv");
-  verb.flag(
+  subcommand.flag(
       "--json", options->json,
       "Afterwards report as one JSON object, the last line on standard error; progress as one a "
       "line there too");
-  verb.flag("--quiet", options->quiet, "Show no progress");
-  verb.on_given([options, &console, &action] {
+  subcommand.flag("--quiet", options->quiet, "Show no progress");
+  subcommand.on_given([options, &console, &action] {
     action = [options, &console] { return run_query(*options, console); };
     return std::string();
   });

@@ -19,7 +19,7 @@ namespace planetree::tools {
 struct QueryArguments {
   std::filesystem::path file;
   std::filesystem::path points = "-";  ///< "-" is standard input
-  Ask ask;
+  QueryOptions options;
   bool contains = false;  ///< ask for the side alone
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint64_t threads = 0;  ///< 0: one for each processor

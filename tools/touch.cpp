@@ -24,7 +24,7 @@
 namespace planetree::tools {
 namespace {
 
-constexpr std::uint64_t kMostSeconds = 86400, kMostRateHz = 100000;
+constexpr std::uint64_t kMaxSeconds = 86400, kMaxRateHz = 100000;
 
 /// So that every page comes from the disk.
 void drop_from_page_cache(const std::filesystem::path& path) {
@@ -61,7 +61,7 @@ OpenOptions options_of(const TouchArguments& arguments) {
   OpenOptions options;
   options.memory_budget_bytes = arguments.memory_bytes;
   options.max_probes = 1;
-  if (!arguments.trace.empty()) options.trace_touches = TouchTaker::kTouchesWaiting;
+  if (!arguments.trace.empty()) options.page_trace_capacity = PageTraceDrain::kAccessesWaiting;
   return options;
 }
 
@@ -83,7 +83,7 @@ int run_touch(const TouchArguments& arguments, Console& console) {
   if (!probe) return console.fail(file, probe.error());
   const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
                       static_cast<std::int64_t>(arguments.rate_hz);
-  std::optional<TouchTaker> taker;
+  std::optional<PageTraceDrain> taker;
   if (*trace) taker.emplace(*model);
   const TouchRecord record = run_touch_session(*probe, *path, period);
   const std::string touches = taker ? touch_trace(taker->finish()) : "";
@@ -108,32 +108,34 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
   std::vector<std::string> names;
   for (const auto& [name, motion] : motions) names.push_back(name);
   const auto options = std::make_shared<TouchArguments>();
-  VerbOptions verb(app, "touch",
-                   "Hold a simulated haptic session: how late are its answers, how certain");
-  verb.require(verb.path("file", "FILE", options->file, "File that planetree build wrote"));
-  verb.default_text(verb.count("--seconds", options->seconds, kMostSeconds, "How long, in seconds"),
-                    "10");
-  verb.default_text(verb.count("--rate", options->rate_hz, kMostRateHz, "Answers a second, in Hz"),
-                    "1000");
-  verb.default_text(verb.bytes("--memory", options->memory_bytes, "Most memory for the model"),
-                    "256M");
-  verb.default_text(
-      verb.word(
+  SubcommandOptions subcommand(
+      app, "touch", "Hold a simulated haptic session: how late are its answers, how certain");
+  subcommand.require(
+      subcommand.path("file", "FILE", options->file, "File that planetree build wrote"));
+  subcommand.default_text(
+      subcommand.count("--seconds", options->seconds, kMaxSeconds, "How long, in seconds"), "10");
+  subcommand.default_text(
+      subcommand.count("--rate", options->rate_hz, kMaxRateHz, "Answers a second, in Hz"), "1000");
+  subcommand.default_text(
+      subcommand.bytes("--memory", options->memory_bytes, "Most memory for the model"), "256M");
+  subcommand.default_text(
+      subcommand.word(
           "--path", names,
           [options](const std::string& name) { options->motion = motions.at(name); },
           "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
           "(0.1 %) or teleport (to another place every hundred ticks)"),
       "glide");
-  verb.path("--ticks", "OUT.csv", options->ticks,
-            "Write every tick here: tick,x,y,z,latency_us,ask_us,width,side,status");
-  verb.path("--trace", "OUT.csv", options->trace,
-            "Write every page that an answer looked for here: tick,probe,page,level,touch (hit, "
-            "prefetched or missed)");
-  verb.flag("--force", options->force, "Replace what these name if it exists");
-  verb.flag("--cold", options->cold,
-            "Have the system forget the file first, so that every page comes from the disk");
-  verb.flag("--json", options->json, "Report as one JSON object");
-  verb.on_given([options, &console, &action]() -> std::string {
+  subcommand.path("--ticks", "OUT.csv", options->ticks,
+                  "Write every tick here: tick,x,y,z,latency_us,ask_us,width,side,status");
+  subcommand.path(
+      "--trace", "OUT.csv", options->trace,
+      "Write every page that an answer looked for here: tick,probe,page,level,touch (hit, "
+      "prefetched or missed)");
+  subcommand.flag("--force", options->force, "Replace what these name if it exists");
+  subcommand.flag("--cold", options->cold,
+                  "Have the system forget the file first, so that every page comes from the disk");
+  subcommand.flag("--json", options->json, "Report as one JSON object");
+  subcommand.on_given([options, &console, &action]() -> std::string {
     if (options->trace == "-" || options->ticks == "-")
       return "ticks and traces need files: standard output has the report";
     if (options->seconds == 0 || options->rate_hz == 0)

@@ -39,8 +39,8 @@ std::string plain_report(const VerifyArguments& arguments, const CheckReport& re
   std::string text;
   for (const Issue& issue : report.issues.kept())
     text += fmt::format("{}: {}\n", file, issue_text(issue));
-  const std::uint64_t untold = report.issues.count() - report.issues.kept().size();
-  if (untold > 0) text += fmt::format("{}: ... and {} more\n", file, grouped_count(untold));
+  const std::uint64_t unlisted = report.issues.count() - report.issues.kept().size();
+  if (unlisted > 0) text += fmt::format("{}: ... and {} more\n", file, grouped_count(unlisted));
   const std::string found = report.issues.count() == 0 ? "no issue"
                             : report.issues.count() == 1
                                 ? "1 issue"
@@ -68,14 +68,14 @@ int run_verify(const VerifyArguments& arguments, Console& console) {
 
 void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto options = std::make_shared<VerifyArguments>();
-  VerbOptions verb(app, "verify", "Hold a .ptree file against its format");
-  verb.require(verb.path("file", "FILE", options->file, "File to verify"));
-  verb.flag("--full", options->full,
-            "Also look at every triangle and vertex: unique indices, bounds that hold");
-  verb.flag("--json", options->json,
-            "Report as one JSON object; progress as one a line, on standard error");
-  verb.flag("--quiet", options->quiet, "Show no progress");
-  verb.on_given([options, &console, &action] {
+  SubcommandOptions subcommand(app, "verify", "Hold a .ptree file against its format");
+  subcommand.require(subcommand.path("file", "FILE", options->file, "File to verify"));
+  subcommand.flag("--full", options->full,
+                  "Also look at every triangle and vertex: unique indices, bounds that hold");
+  subcommand.flag("--json", options->json,
+                  "Report as one JSON object; progress as one a line, on standard error");
+  subcommand.flag("--quiet", options->quiet, "Show no progress");
+  subcommand.on_given([options, &console, &action] {
     action = [options, &console] { return run_verify(*options, console); };
     return std::string();
   });

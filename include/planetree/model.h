@@ -30,21 +30,21 @@ struct OpenOptions {
   /// wait_limit_ms), which are kept back.
   std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
   /// Threads that get what asks of Wait::kNever miss, what probes are moving to, and the pages
-  /// of asks that wait where the disk takes longer than 20 ms; 1 to kMostFetchThreads. Started
+  /// of asks that wait where the disk takes longer than 20 ms; 1 to kMaxFetchThreads. Started
   /// at open, as ordinary threads whatever the caller's is. Each serves some of the probes, and
   /// reads one page at a time.
   unsigned fetch_threads = 1;
   /// Threads that answer a batch together (Probe::closest_points over spans), the caller's
-  /// among them; 1 to kMostBatchThreads. Probes for them are claimed at open. One batch at a
+  /// among them; 1 to kMaxBatchThreads. Probes for them are claimed at open. One batch at a
   /// time has them: others meanwhile go on in their callers' threads.
   unsigned batch_threads = 1;
 
-  /// Most probes at one time; 1 to kMostProbes.
+  /// Most probes at one time; 1 to kMaxProbes.
   unsigned max_probes = 16;
   Locking locking = Locking::kTry;
-  /// Most touches of pages that wait to be taken, of each probe, up to kMostTraceTouches; 0: none
-  /// are noted. 16 bytes each or, as the next power of two of them are claimed, up to 32.
-  std::uint32_t trace_touches = 0;
+  /// Most accesses of pages that wait to be taken, of each probe, up to kMaxPageTraceCapacity; 0:
+  /// none are noted. 16 bytes each or, as the next power of two of them are claimed, up to 32.
+  std::uint32_t page_trace_capacity = 0;
 
   /// Longest that an ask of Wait::kForPages waits for a thread to get one page, in milliseconds.
   /// Before that it waits for the disk itself, as long but for no more than 20 ms: by io_uring, of
@@ -55,10 +55,10 @@ struct OpenOptions {
   /// Opening and closing a model wait for as long as the disk takes.
   unsigned wait_limit_ms = 10'000;
 
-  static constexpr unsigned kMostProbes = 1024;
-  static constexpr unsigned kMostFetchThreads = 64;
-  static constexpr unsigned kMostBatchThreads = 256;
-  static constexpr std::uint32_t kMostTraceTouches = std::uint32_t{1} << 24;
+  static constexpr unsigned kMaxProbes = 1024;
+  static constexpr unsigned kMaxFetchThreads = 64;
+  static constexpr unsigned kMaxBatchThreads = 256;
+  static constexpr std::uint32_t kMaxPageTraceCapacity = std::uint32_t{1} << 24;
 };
 
 /// An opened .ptree file: immutable, shared by any number of threads, each
@@ -84,11 +84,10 @@ class Model {
   /// Any thread, at any time; waits for nobody.
   Stats stats() const noexcept;
   /// Takes what asks of Wait::kNever noted of the pages they looked for, where
-  /// OpenOptions::trace_touches has them do so: of each probe, the oldest first. Those that find
-  /// no room are dropped and counted (Stats::touches_dropped), for no ask waits. One thread at a
-  /// time, any; waits for nobody.
-  /// return  how many there were, or room for.
-  std::size_t take_touches(std::span<PageTouch> touches) const noexcept;
+  /// OpenOptions::page_trace_capacity has them do so: of each probe, the oldest first. Those that
+  /// find no room are dropped and counted (Stats::page_trace_dropped), for no ask waits. One thread
+  /// at a time, any; waits for nobody. return  how many there were, or room for.
+  std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;
 
  private:
   friend class Probe;

@@ -37,17 +37,17 @@ enum class Side : std::uint8_t {
 /// How far an answer may be trusted.
 enum class Status : std::uint8_t {
   kExact,        ///< proven: nothing left unread can be nearer
-  kWithinError,  ///< upper - lower <= Ask::max_error
-  /// Pages missing or unreadable, or Ask::max_nodes spent, or something nearer may have been
-  /// left out (see ModelInfo::has_region); the interval holds.
+  kWithinError,  ///< upper - lower <= QueryOptions::max_error
+  /// Pages missing or unreadable, or QueryOptions::max_work spent, or something nearer may have
+  /// been left out (see ModelInfo::has_region); the interval holds.
   kDegraded,
-  kBeyondMaxDistance,  ///< nothing within Ask::max_distance
-  kBadQuery,           ///< the query, or a limit in the Ask, is not a number that makes sense
+  kBeyondMaxDistance,  ///< nothing within QueryOptions::max_distance
+  kBadQuery,  ///< the query, or a limit in the QueryOptions, is not a number that makes sense
 };
 
 inline constexpr std::uint64_t kNoTriangle = std::numeric_limits<std::uint64_t>::max();
 
-/// Parts of an answer, for Ask::parts.
+/// Parts of an answer, for QueryOptions::parts.
 inline constexpr std::uint32_t kDistance = 1;  ///< nearest point, triangle and interval
 inline constexpr std::uint32_t kSide = 2;
 inline constexpr std::uint32_t kNormal = 4;  ///< needs the others and brings them
@@ -62,7 +62,7 @@ enum class Wait : std::uint8_t {
 };
 
 /// What is asked beyond the point itself.
-struct Ask {
+struct QueryOptions {
   /// Of kDistance, kSide and kNormal any. What is not asked is not computed, nor
   /// are its pages read: without kDistance an answer is as if no triangle was
   /// reached.
@@ -74,11 +74,11 @@ struct Ask {
   /// Look no farther than this. Model units, >= 0.
   double max_distance = std::numeric_limits<double>::infinity();
   /// Most tree nodes and triangle blocks to visit. As it is by default there is no limit for
-  /// Wait::kForPages, and kRealTimeNodes for Wait::kNever.
-  std::uint32_t max_nodes = kNoLimit;
+  /// Wait::kForPages, and kRealTimeWork for Wait::kNever.
+  std::uint32_t max_work = kNoLimit;
 
   static constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t kRealTimeNodes = 4096;
+  static constexpr std::uint32_t kRealTimeWork = 4096;
 };
 
 /// The nearest surface point to a query.

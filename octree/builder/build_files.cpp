@@ -14,8 +14,8 @@ BuildFiles::BuildFiles(const std::filesystem::path& output, const BuildOptions& 
       scratch_(directory_, 0, calls),
       pages_(directory_, memory.pages_bytes, calls) {}
 
-Result<void> BuildFiles::take_up_work(const BuildIdentity& identity) {
-  auto work = KeptWork::open(work_directory_, identity, calls_);
+Result<void> BuildFiles::resume_work(const BuildIdentity& identity) {
+  auto work = Checkpoint::open(work_directory_, identity, calls_);
   work_failed_ = !work;
   if (!work) return work.error();
   work_ = *std::move(work);
@@ -35,19 +35,20 @@ std::uint64_t BuildFiles::disk_bytes() const {
 }
 
 Result<void> BuildFiles::look_for(const SpaceNeed& need) {
-  BuildPlace place = BuildPlace::kTemporary;
+  BuildDirectory directory = BuildDirectory::kTemporary;
   const auto checked =
-      need.check(directory_, BuildOptions::output_directory(output_), calls_, place);
-  if (!checked) short_of_room_ = place;
+      need.check(directory_, BuildOptions::output_directory(output_), calls_, directory);
+  if (!checked) short_of_space_ = directory;
   return checked;
 }
 
-std::optional<std::pair<BuildPlace, std::filesystem::path>> BuildFiles::failed_at() const {
+std::optional<std::pair<BuildDirectory, std::filesystem::path>> BuildFiles::failed_at() const {
   if (work_failed_ || (work_ && work_->failed()))
-    return std::pair(BuildPlace::kTemporary, work_directory_);
-  if (short_of_room_ == BuildPlace::kOutput) return std::pair(BuildPlace::kOutput, output_);
-  if (short_of_room_ || mesh_.failed() || scratch_.failed() || pages_.failed())
-    return std::pair(BuildPlace::kTemporary, directory_);
+    return std::pair(BuildDirectory::kTemporary, work_directory_);
+  if (short_of_space_ == BuildDirectory::kOutput)
+    return std::pair(BuildDirectory::kOutput, output_);
+  if (short_of_space_ || mesh_.failed() || scratch_.failed() || pages_.failed())
+    return std::pair(BuildDirectory::kTemporary, directory_);
   return {};
 }
 

@@ -22,7 +22,7 @@ namespace planetree::octree {
 /// What a build has on disk beside its input and output: files without names, and the work that
 /// it keeps, if it can be resumed.
 ///
-/// threads  as SpillFile and KeptWork.
+/// threads  as SpillFile and Checkpoint.
 class BuildFiles {
  public:
   /// output, options  tell where.
@@ -31,10 +31,10 @@ class BuildFiles {
              const BuildMemory& memory, storage::FileCalls& calls);
 
   /// Of a build that can be resumed, once and before all else: takes up what there is.
-  /// errors  those of KeptWork::open().
-  Result<void> take_up_work(const BuildIdentity& identity);
+  /// errors  those of Checkpoint::open().
+  Result<void> resume_work(const BuildIdentity& identity);
   /// What is kept; null: nothing is.
-  KeptWork* work() { return work_.get(); }
+  Checkpoint* work() { return work_.get(); }
   /// The output is there, whole: removes what was kept, if anything was.
   Result<void> remove_work();
 
@@ -53,16 +53,16 @@ class BuildFiles {
   Result<void> look_for(const SpaceNeed& need);
   /// Where something failed or is short of room, and its path; of what no call here was about,
   /// nothing.
-  std::optional<std::pair<BuildPlace, std::filesystem::path>> failed_at() const;
+  std::optional<std::pair<BuildDirectory, std::filesystem::path>> failed_at() const;
 
  private:
   const std::filesystem::path output_;
   const std::filesystem::path directory_;
   const std::filesystem::path work_directory_;
   storage::FileCalls& calls_;
-  std::unique_ptr<KeptWork> work_;
+  std::unique_ptr<Checkpoint> work_;
   bool work_failed_ = false;  // to be there, or to go
-  std::optional<BuildPlace> short_of_room_;
+  std::optional<BuildDirectory> short_of_space_;
   MeshScratch mesh_;
   storage::SpillFile scratch_;
   storage::SpillFile pages_;

@@ -73,8 +73,8 @@ Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
   identity.sample_high = sample->high;
   identity.page_bytes = options.page_bytes;
   identity.strict = options.strict;
-  identity.patch_triangles = seams.patch_triangles;
-  identity.region_triangles = seams.region_triangles;
+  identity.chunk_triangles = seams.chunk_triangles;
+  identity.sector_triangles = seams.sector_triangles;
   if (options.box) {
     const auto& [lower, upper] = *options.box;
     identity.box = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};

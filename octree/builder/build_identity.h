@@ -29,8 +29,8 @@ struct BuildIdentity {
 
   std::uint32_t page_bytes = 0;
   bool strict = false;
-  std::uint64_t patch_triangles = 0;
-  std::uint64_t region_triangles = 0;
+  std::uint64_t chunk_triangles = 0;
+  std::uint64_t sector_triangles = 0;
   std::optional<std::array<double, 6>> box;  ///< lower, then upper
 
   /// errors  as file_error(); kBadInput: the input is no regular file.
@@ -48,7 +48,7 @@ requires std::same_as<std::remove_const_t<Value>, BuildIdentity>
 void fields(Record& record, Value& identity) {
   record(identity.version, identity.input_bytes, identity.input_number, identity.changed_seconds,
          identity.changed_nanoseconds, identity.sample_low, identity.sample_high,
-         identity.page_bytes, identity.strict, identity.patch_triangles, identity.region_triangles,
+         identity.page_bytes, identity.strict, identity.chunk_triangles, identity.sector_triangles,
          identity.box);
 }
 

@@ -14,23 +14,23 @@ bool read_record(std::span<const std::byte> payload, Values&... values) {
 
 }  // namespace
 
-Result<std::unique_ptr<KeptWork>> KeptWork::open(const std::filesystem::path& path,
-                                                 const BuildIdentity& identity,
-                                                 storage::FileCalls& calls) {
+Result<std::unique_ptr<Checkpoint>> Checkpoint::open(const std::filesystem::path& path,
+                                                     const BuildIdentity& identity,
+                                                     storage::FileCalls& calls) {
   auto directory = storage::WorkDirectory::open(path, calls);
   if (!directory) return directory.error();
   auto journal = directory->open_file("journal");
   if (!journal) return journal.error();
   const auto journal_bytes = journal->size_bytes();
   if (!journal_bytes) return journal_bytes.error();
-  std::unique_ptr<KeptWork> work(new KeptWork(*std::move(directory), *std::move(journal)));
+  std::unique_ptr<Checkpoint> work(new Checkpoint(*std::move(directory), *std::move(journal)));
   work->removable_ = *journal_bytes == 0;
-  if (const auto taken = work->take_up(identity, *journal_bytes); !taken) return taken.error();
+  if (const auto taken = work->resume(identity, *journal_bytes); !taken) return taken.error();
   return work;
 }
 
 // The journal is cut before the file it speaks of is.
-Result<void> KeptWork::take_up(const BuildIdentity& identity, std::uint64_t journal_bytes) {
+Result<void> Checkpoint::resume(const BuildIdentity& identity, std::uint64_t journal_bytes) {
   auto file = directory_.open_file("spill");
   if (!file) return file.error();
   const auto file_bytes = file->size_bytes();
@@ -59,7 +59,8 @@ Result<void> KeptWork::take_up(const BuildIdentity& identity, std::uint64_t jour
   return directory_.sync_names();
 }
 
-bool KeptWork::restore_identity(const BuildIdentity& identity, std::span<const std::byte> payload) {
+bool Checkpoint::restore_identity(const BuildIdentity& identity,
+                                  std::span<const std::byte> payload) {
   BuildIdentity earlier;
   if (!read_record(payload, earlier)) earlier = {};
   refusal_ = identity.change_since(earlier);
@@ -68,7 +69,7 @@ bool KeptWork::restore_identity(const BuildIdentity& identity, std::span<const s
   return identified_;
 }
 
-bool KeptWork::restore(Kind kind, std::span<const std::byte> payload, SpillExtent& extent) {
+bool Checkpoint::restore(Kind kind, std::span<const std::byte> payload, SpillExtent& extent) {
   refusal_ = "its files do not fit each other";
   if (kind == Kind::kMesh && !mesh_) {
     OrderedMesh mesh;
@@ -78,31 +79,31 @@ bool KeptWork::restore(Kind kind, std::span<const std::byte> payload, SpillExten
   }
   if (kind == Kind::kSurface && mesh_ && !surface_) return restore_surface(payload, extent);
   if (!surface_) return false;
-  return kind == Kind::kPatch    ? restore_patch(payload, extent)
-         : kind == Kind::kRegion ? restore_region(payload, extent)
+  return kind == Kind::kChunk    ? restore_chunk(payload, extent)
+         : kind == Kind::kSector ? restore_sector(payload, extent)
                                  : false;
 }
 
-bool KeptWork::restore_surface(std::span<const std::byte> payload, SpillExtent& extent) {
+bool Checkpoint::restore_surface(std::span<const std::byte> payload, SpillExtent& extent) {
   SurfaceWork surface;
   if (!read_record(payload, surface) || !extent.take(surface, mesh_->frame.float64)) return false;
   surface_ = std::move(surface);
   return true;
 }
 
-bool KeptWork::restore_patch(std::span<const std::byte> payload, SpillExtent& extent) {
+bool Checkpoint::restore_chunk(std::span<const std::byte> payload, SpillExtent& extent) {
   std::uint32_t number = 0;
-  PatchWork patch;
-  if (!read_record(payload, number, patch) ||
-      !extent.take(patch, mesh_->frame.float64, LinkFormat(page_bytes_)))
+  ChunkWork chunk;
+  if (!read_record(payload, number, chunk) ||
+      !extent.take(chunk, mesh_->frame.float64, LinkFormat(page_bytes_)))
     return false;
-  patches_.insert_or_assign(number, std::move(patch));
+  chunks_.insert_or_assign(number, std::move(chunk));
   return true;
 }
 
-bool KeptWork::restore_region(std::span<const std::byte> payload, SpillExtent& extent) {
+bool Checkpoint::restore_sector(std::span<const std::byte> payload, SpillExtent& extent) {
   std::uint32_t number = 0;
-  BuiltRegion region;
+  BuiltSector region;
   if (!read_record(payload, number, region) ||
       !extent.take(number, region, MaskLinkFormat(page_bytes_)))
     return false;
@@ -110,52 +111,54 @@ bool KeptWork::restore_region(std::span<const std::byte> payload, SpillExtent& e
   return true;
 }
 
-KeptWork::~KeptWork() {
+Checkpoint::~Checkpoint() {
   // Whoever has it next would only begin; and an error that got us here says more than ours.
   if (removable_) (void)remove();
 }
 
-std::string KeptWork::start() const {
+std::string Checkpoint::start() const {
   if (!regions_.empty())
     return "going on after colouring " + std::to_string(regions_.size()) + " parts";
   if (mesh_ && !surface_) return "going on after ordering";
-  if (mesh_ && patches_.empty()) return "going on after matching edges";
-  if (mesh_) return "going on after bounding " + std::to_string(patches_.size()) + " parts";
+  if (mesh_ && chunks_.empty()) return "going on after matching edges";
+  if (mesh_) return "going on after bounding " + std::to_string(chunks_.size()) + " parts";
   if (refusal_ == nullptr) return "no earlier work to go on with; building from the start";
   return std::string("earlier work is of no use, ") + refusal_ + "; building from the start";
 }
 
-std::optional<PatchWork> KeptWork::take_patch(std::uint32_t number) {
-  const auto found = patches_.find(number);
-  if (found == patches_.end()) return {};
+std::optional<ChunkWork> Checkpoint::take_chunk(std::uint32_t number) {
+  const auto found = chunks_.find(number);
+  if (found == chunks_.end()) return {};
   return std::move(found->second);
 }
 
 template <class... Values>
-Result<void> KeptWork::append(Kind kind, const Values&... values) {
+Result<void> Checkpoint::append(Kind kind, const Values&... values) {
   RecordWriter record;
   record(values...);
   if (const auto synced = spill_->sync(); !synced) return synced;
   return journal_.append(static_cast<std::uint32_t>(kind), record.bytes());
 }
 
-Result<void> KeptWork::keep(const OrderedMesh& mesh) {
+Result<void> Checkpoint::keep(const OrderedMesh& mesh) {
   auto kept = append(Kind::kMesh, mesh);
   if (kept) removable_ = false;
   return kept;
 }
 
-Result<void> KeptWork::keep(const SurfaceWork& surface) { return append(Kind::kSurface, surface); }
-
-Result<void> KeptWork::keep(std::uint32_t number, const PatchWork& patch) {
-  return append(Kind::kPatch, number, patch);
+Result<void> Checkpoint::keep(const SurfaceWork& surface) {
+  return append(Kind::kSurface, surface);
 }
 
-Result<void> KeptWork::keep(std::uint32_t number, const BuiltRegion& region) {
-  return append(Kind::kRegion, number, region);
+Result<void> Checkpoint::keep(std::uint32_t number, const ChunkWork& chunk) {
+  return append(Kind::kChunk, number, chunk);
 }
 
-Result<void> KeptWork::remove() {
+Result<void> Checkpoint::keep(std::uint32_t number, const BuiltSector& region) {
+  return append(Kind::kSector, number, region);
+}
+
+Result<void> Checkpoint::remove() {
   removable_ = false;
   return directory_.remove();
 }

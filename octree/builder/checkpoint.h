@@ -21,18 +21,18 @@ namespace planetree::octree {
 /// to go on with: a file with what is spilled, and a journal of what in it counts.
 ///
 /// threads  one, but for keep(), of different patches and regions.
-class KeptWork {
+class Checkpoint {
  public:
   /// Takes up what earlier builds of `identity` left at `path`, or begins there: whatever else
   /// they left there is lost.
   ///
   /// calls   the system; must outlive this.
   /// errors  those of storage::WorkDirectory, Journal and SpillFile.
-  static Result<std::unique_ptr<KeptWork>> open(const std::filesystem::path& path,
-                                                const BuildIdentity& identity,
-                                                storage::FileCalls& calls);
+  static Result<std::unique_ptr<Checkpoint>> open(const std::filesystem::path& path,
+                                                  const BuildIdentity& identity,
+                                                  storage::FileCalls& calls);
   /// Leaves a directory behind only if there is something in it to go on with.
-  ~KeptWork();
+  ~Checkpoint();
 
   /// What is gone on with, or why nothing is: for a person.
   std::string start() const;
@@ -50,30 +50,30 @@ class KeptWork {
   const std::optional<OrderedMesh>& mesh() const { return mesh_; }
   const std::optional<SurfaceWork>& surface() const { return surface_; }
   /// Once for a patch.
-  std::optional<PatchWork> take_patch(std::uint32_t number);
+  std::optional<ChunkWork> take_chunk(std::uint32_t number);
   /// Once.
-  std::map<std::uint32_t, BuiltRegion> take_regions() { return std::move(regions_); }
+  std::map<std::uint32_t, BuiltSector> take_sectors() { return std::move(regions_); }
 
   /// Keeps what a phase came to, durably, with all in spill() by now.
   Result<void> keep(const OrderedMesh& mesh);
   Result<void> keep(const SurfaceWork& surface);
-  Result<void> keep(std::uint32_t number, const PatchWork& patch);
-  Result<void> keep(std::uint32_t number, const BuiltRegion& region);
+  Result<void> keep(std::uint32_t number, const ChunkWork& chunk);
+  Result<void> keep(std::uint32_t number, const BuiltSector& region);
 
   /// All is done: removes the directory.
   Result<void> remove();
 
  private:
-  enum class Kind : std::uint32_t { kIdentity, kMesh, kSurface, kPatch, kRegion };
+  enum class Kind : std::uint32_t { kIdentity, kMesh, kSurface, kChunk, kSector };
 
-  KeptWork(storage::WorkDirectory directory, storage::FileHandle journal)
+  Checkpoint(storage::WorkDirectory directory, storage::FileHandle journal)
       : directory_(std::move(directory)), journal_(std::move(journal)) {}
-  Result<void> take_up(const BuildIdentity& identity, std::uint64_t journal_bytes);
+  Result<void> resume(const BuildIdentity& identity, std::uint64_t journal_bytes);
   bool restore(Kind kind, std::span<const std::byte> payload, SpillExtent& extent);
   bool restore_identity(const BuildIdentity& identity, std::span<const std::byte> payload);
   bool restore_surface(std::span<const std::byte> payload, SpillExtent& extent);
-  bool restore_patch(std::span<const std::byte> payload, SpillExtent& extent);
-  bool restore_region(std::span<const std::byte> payload, SpillExtent& extent);
+  bool restore_chunk(std::span<const std::byte> payload, SpillExtent& extent);
+  bool restore_sector(std::span<const std::byte> payload, SpillExtent& extent);
   template <class... Values>
   Result<void> append(Kind kind, const Values&... values);
 
@@ -84,8 +84,8 @@ class KeptWork {
   const char* refusal_ = nullptr;  // why what was there is not gone on with
   std::optional<OrderedMesh> mesh_;
   std::optional<SurfaceWork> surface_;
-  std::map<std::uint32_t, PatchWork> patches_;
-  std::map<std::uint32_t, BuiltRegion> regions_;
+  std::map<std::uint32_t, ChunkWork> chunks_;
+  std::map<std::uint32_t, BuiltSector> regions_;
   std::uint32_t page_bytes_ = 0;
   std::uint64_t taken_up_bytes_ = 0;
   bool removable_ = false;  // there is nothing to go on with

@@ -21,7 +21,7 @@ constexpr std::uint64_t kTrianglesAVisitor = 10;
 // are nearly empty, however few triangles there are.
 constexpr std::uint64_t kPageBytes = 12;
 constexpr std::uint64_t kWideIdBytes = 4;
-constexpr std::uint64_t kLeastPageBytes = 4096;
+constexpr std::uint64_t kMinPageBytes = 4096;
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
 std::uint64_t beyond(std::uint64_t bytes, std::uint64_t held_bytes) {
@@ -35,7 +35,7 @@ std::uint64_t put_away_bytes(const MeshSize& size, const BuildMemory& memory,
   const std::uint64_t record = Triangles::record_bytes(size.float64);
   const std::uint64_t bytes = size.triangles * record;
   return bytes <= held_bytes ? 0
-                             : beyond(bytes, beyond(held_bytes, memory.chunk_triangles * record));
+                             : beyond(bytes, beyond(held_bytes, memory.batch_triangles * record));
 }
 
 std::uint64_t edge_bytes(const MeshSize& size, const BuildMemory& memory) {
@@ -63,7 +63,7 @@ std::uint64_t raw_page_bytes(const MeshSize& size) {
   const std::uint64_t vertices = std::min(size.vertices + size.triangles / 4, 3 * size.triangles);
   const bool wide_ids = size.triangles > std::numeric_limits<std::uint32_t>::max();
   return vertex_bytes * vertices + size.triangles * (kPageBytes + (wide_ids ? kWideIdBytes : 0)) +
-         kLeastPageBytes;
+         kMinPageBytes;
 }
 
 Error too_little(const char* what, std::uint64_t needed, std::uint64_t free, const char* remedy) {
@@ -98,7 +98,7 @@ SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memo
 
 SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory, bool cut) {
   SpaceNeed need = after_reading(size, memory, 0, false, cut);
-  need.temporary_bytes += put_away_bytes(size, memory, memory.intake_bytes);
+  need.temporary_bytes += put_away_bytes(size, memory, memory.spool_bytes);
   if (size.is_indexed_text)
     need.temporary_bytes +=
         beyond(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
@@ -116,18 +116,18 @@ SpaceNeed SpaceNeed::before_sorting(const MeshSize& size, const BuildMemory& mem
 
 Result<void> SpaceNeed::check(const std::filesystem::path& temporary_directory,
                               const std::filesystem::path& output_directory,
-                              storage::FileCalls& calls, BuildPlace& place) const {
+                              storage::FileCalls& calls, BuildDirectory& directory) const {
   const auto temporary = storage::DeviceSpace::of(temporary_directory, calls);
   const auto output = storage::DeviceSpace::of(output_directory, calls);
   constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
   const std::uint64_t temporary_free = temporary.free_bytes.value_or(kUnknown);
   const std::uint64_t output_free = output.free_bytes.value_or(kUnknown);
   if (output_bytes > output_free) {
-    place = BuildPlace::kOutput;
+    directory = BuildDirectory::kOutput;
     return too_little("the output", output_bytes, output_free,
                       "free some, or name an output on another device");
   }
-  place = BuildPlace::kTemporary;
+  directory = BuildDirectory::kTemporary;
   if (temporary_bytes > temporary_free)
     return too_little("temporary files", temporary_bytes, temporary_free, kTemporaryRemedy);
   if (temporary_bytes > 0 && temporary.is_same_device(output) &&

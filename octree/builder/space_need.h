@@ -50,7 +50,7 @@ struct SpaceNeed {
   ///         does not tell its free space is taken for large enough.
   Result<void> check(const std::filesystem::path& temporary_directory,
                      const std::filesystem::path& output_directory, storage::FileCalls& calls,
-                     BuildPlace& place) const;
+                     BuildDirectory& directory) const;
 };
 
 }  // namespace planetree::octree

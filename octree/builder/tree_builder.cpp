@@ -40,12 +40,12 @@ class TreeBuild {
         files_(output, options, memory, seams.calls) {}
 
   Result<BuildReport> run() {
-    if (const auto taken_up = take_up_work(); !taken_up) return taken_up.error();
-    if (const auto roomy = foresee_space(); !roomy) return roomy.error();
+    if (const auto taken_up = resume_work(); !taken_up) return taken_up.error();
+    if (const auto enough = foresee_space(); !enough) return enough.error();
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
     if (const auto looked = look_at_surface(); !looked) return looked.error();
     if (const auto cut = cut_out_part(); !cut) return cut.error();
-    if (const auto built = build_patches(); !built) return built.error();
+    if (const auto built = build_chunks(); !built) return built.error();
     if (const auto numbered = number_pages(); !numbered) return numbered.error();
     if (const auto coloured = colour_cells(); !coloured) return coloured.error();
     part_.reset();
@@ -55,24 +55,25 @@ class TreeBuild {
 
   /// Where an error of run() is from.
   void tell_failed() const {
-    const auto [place, path] = files_.failed_at().value_or(
-        writing_ ? std::pair(BuildPlace::kOutput, output_) : std::pair(BuildPlace::kInput, input_));
-    progress_.failed_at(place, path);
+    const auto [extent, path] =
+        files_.failed_at().value_or(writing_ ? std::pair(BuildDirectory::kOutput, output_)
+                                             : std::pair(BuildDirectory::kInput, input_));
+    progress_.failed_at(extent, path);
   }
 
  private:
-  Result<void> take_up_work();
+  Result<void> resume_work();
   Result<void> foresee_space();
   Result<void> order_triangles();
   Result<void> read();
-  Result<void> take_up_mesh();
+  Result<void> resume_mesh();
   Result<void> set_mesh(const OrderedMesh& mesh);
   Region region() const;
   Result<void> look_at_surface();
   Result<void> match_edges();
   Result<void> cut_out_part();
-  Result<void> build_patches();
-  void take_up_patches();
+  Result<void> build_chunks();
+  void resume_chunks();
   Result<void> build(std::size_t number, Triangles& triangles);
   Result<void> number_pages();
   Result<void> colour_cells();
@@ -96,16 +97,16 @@ class TreeBuild {
   BuiltModel model_;
   std::optional<TriangleRuns> whole_;
   std::optional<TriangleRuns> part_;    // of it: what touches a region
-  std::optional<MaskRegions> regions_;  // of a watertight model
+  std::optional<MaskSectors> regions_;  // of a watertight model
   std::optional<BuiltTree> tree_;
 };
 
-Result<void> TreeBuild::take_up_work() {
+Result<void> TreeBuild::resume_work() {
   if (!options_.resume) return {};
   const auto identity = BuildIdentity::of(input_, options_, seams_);
   if (!identity) return identity.error();
   progress_.progress(BuildPhase::kResuming, 0, 1);
-  const auto taken_up = files_.take_up_work(*identity);
+  const auto taken_up = files_.resume_work(*identity);
   if (taken_up) progress_.takes_up(files_.work()->start());
   return taken_up;
 }
@@ -121,34 +122,34 @@ Result<void> TreeBuild::foresee_space() {
 
 Result<void> TreeBuild::order_triangles() {
   const bool ordered_before = files_.work() && files_.work()->mesh();
-  if (const auto ordered = ordered_before ? take_up_mesh() : read(); !ordered) return ordered;
-  auto above = cut_patches(*whole_, seams_.patch_triangles);
+  if (const auto ordered = ordered_before ? resume_mesh() : read(); !ordered) return ordered;
+  auto above = cut_chunks(*whole_, seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   return {};
 }
 
-Result<void> TreeBuild::take_up_mesh() {
+Result<void> TreeBuild::resume_mesh() {
   const OrderedMesh& mesh = *files_.work()->mesh();
   if (const auto set = set_mesh(mesh); !set) return set;
   whole_.emplace(mesh.frame.float64, 0, files_.triangles());
-  whole_->add_placed(mesh.runs);
+  whole_->add_extents(mesh.runs);
   return {};
 }
 
 Result<void> TreeBuild::read() {
-  MeshIntake intake(memory_.chunk_triangles, memory_.intake_bytes, files_.scratch());
+  TriangleSpool spool(memory_.batch_triangles, memory_.spool_bytes, files_.scratch());
   files_.mesh().before_sorting([this] {
     return files_.look_for(SpaceNeed::before_sorting(size_, memory_, files_.scratch().disk_bytes(),
                                                      options_.box.has_value()));
   });
-  auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, intake);
+  auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool);
   if (!mesh) return mesh.error();
   if (const auto set = set_mesh(*mesh); !set) return set;
   whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
-  PhaseCount count(progress_, BuildPhase::kOrdering, intake.chunk_count());
-  if (const auto taken = whole_->take(intake, [&count] { count.add(); }); !taken) return taken;
-  if (files_.work()) mesh->runs = whole_->places();
+  PhaseCount count(progress_, BuildPhase::kOrdering, spool.chunk_count());
+  if (const auto taken = whole_->take(spool, [&count] { count.add(); }); !taken) return taken;
+  if (files_.work()) mesh->runs = whole_->extents();
   return keep(*mesh);
 }
 
@@ -162,7 +163,7 @@ Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   if (model_.box)
     if (const auto near = model_.box->check_near(model_.frame); !near) return near;
   size_ = {mesh.frame.triangle_count, size_.vertices, mesh.frame.float64};
-  const KeptWork* const work = files_.work();
+  const Checkpoint* const work = files_.work();
   return files_.look_for(SpaceNeed::after_reading(size_, memory_, work ? work->taken_up_bytes() : 0,
                                                   work && work->surface(), model_.box.has_value()));
 }
@@ -173,15 +174,15 @@ Region TreeBuild::region() const {
 
 Result<void> TreeBuild::look_at_surface() {
   if (model_.box) part_.emplace(model_.shape.float64, memory_.part_bytes, files_.triangles());
-  const KeptWork* const work = files_.work();
+  const Checkpoint* const work = files_.work();
   if (work && work->surface()) {
     model_.edges = work->surface()->edges;
     model_.cut = work->surface()->cut;
-    if (part_) part_->add_placed(work->surface()->kept);
+    if (part_) part_->add_extents(work->surface()->kept);
   } else if (const auto matched = match_edges(); !matched) {
     return matched;
   }
-  model_.shape.moments = model_.edges.open_edges > 0;
+  model_.shape.moments = model_.edges.unbalanced_edges > 0;
   if (model_.box) return {};
   model_.cut.triangle_count = model_.frame.triangle_count;
   model_.cut.sample_triangle = model_.frame.sample_triangle;
@@ -192,14 +193,14 @@ Result<void> TreeBuild::look_at_surface() {
 Result<void> TreeBuild::match_edges() {
   RegionCut cut(model_.frame.lower(), model_.frame.upper(), region(), part_ ? &*part_ : nullptr);
   auto edges =
-      octree::match_edges(*whole_, model_.above.patches, memory_.edge_bytes, files_.scratch(),
-                          progress_, [&cut](const Triangles& patch) { return cut.add(patch); });
+      octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),
+                          progress_, [&cut](const Triangles& chunk) { return cut.add(chunk); });
   if (!edges) return edges.error();
   model_.edges = *std::move(edges);
   model_.cut = cut.found();
   if (!files_.work()) return {};
   return keep(SurfaceWork{model_.edges, model_.cut,
-                          part_ ? part_->places() : std::vector<TriangleRuns::Place>()});
+                          part_ ? part_->extents() : std::vector<TriangleRuns::Extent>()});
 }
 
 // From here on the rest of the input is of no more use.
@@ -207,7 +208,7 @@ Result<void> TreeBuild::cut_out_part() {
   if (!part_) return {};
   whole_.reset();
   if (part_->size() == 0) return nothing_touches(model_.frame);
-  auto above = cut_patches(*part_, seams_.patch_triangles);
+  auto above = cut_chunks(*part_, seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   const std::uint64_t triangles = part_->size();
@@ -220,49 +221,49 @@ Result<void> TreeBuild::cut_out_part() {
       SpaceNeed::after_cutting(part, memory_, kept_bytes - std::min(kept_bytes, of_triangles)));
 }
 
-Result<void> TreeBuild::build_patches() {
-  if (model_.edges.open_edges == 0) {
+Result<void> TreeBuild::build_chunks() {
+  if (model_.edges.unbalanced_edges == 0) {
     regions_.emplace(model_.frame.lower(), region(), model_.cut.winding, model_.frame.float64,
                      memory_.visitor_bytes, files_.triangles());
-    if (const auto divided = regions_->divide(runs(), seams_.region_triangles); !divided)
+    if (const auto divided = regions_->divide(runs(), seams_.sector_triangles); !divided)
       return divided;
   }
-  model_.patches.resize(model_.above.patches.size());
-  take_up_patches();
-  return for_each_patch(
-      runs(), model_.above.patches, progress_, BuildPhase::kBounding,
-      [&](std::size_t i) { return !model_.patches[i].pages.empty(); },
+  model_.chunks.resize(model_.above.chunks.size());
+  resume_chunks();
+  return for_each_chunk(
+      runs(), model_.above.chunks, progress_, BuildPhase::kBounding,
+      [&](std::size_t i) { return !model_.chunks[i].pages.empty(); },
       [&](std::size_t i, Triangles& triangles) { return build(i, triangles); });
 }
 
-void TreeBuild::take_up_patches() {
+void TreeBuild::resume_chunks() {
   if (!files_.work()) return;
-  for (std::uint32_t i = 0; i < model_.patches.size(); ++i) {
-    auto patch = files_.work()->take_patch(i);
-    if (!patch || (regions_ && !regions_->add_placed(patch->part))) continue;
-    model_.patches[i] = std::move(patch->built);
+  for (std::uint32_t i = 0; i < model_.chunks.size(); ++i) {
+    auto chunk = files_.work()->take_chunk(i);
+    if (!chunk || (regions_ && !regions_->add_extents(chunk->part))) continue;
+    model_.chunks[i] = std::move(chunk->built);
   }
 }
 
 Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
   triangles.sort();
-  PatchWork patch;
+  ChunkWork chunk;
   if (regions_) {
     auto part = regions_->add(triangles);
     if (!part) return part.error();
-    patch.part = *std::move(part);
+    chunk.part = *std::move(part);
   }
-  auto built = build_patch(triangles, model_.frame.centre(), model_.shape, options_.page_bytes,
+  auto built = build_chunk(triangles, model_.frame.centre(), model_.shape, options_.page_bytes,
                            files_.pages());
   if (!built) return built.error();
-  patch.built = *std::move(built);
-  if (const auto kept = keep(static_cast<std::uint32_t>(number), patch); !kept) return kept;
-  model_.patches[number] = std::move(patch.built);
+  chunk.built = *std::move(built);
+  if (const auto kept = keep(static_cast<std::uint32_t>(number), chunk); !kept) return kept;
+  model_.chunks[number] = std::move(chunk.built);
   return {};
 }
 
 Result<void> TreeBuild::number_pages() {
-  tree_.emplace(model_.frame, model_.above, model_.patches, model_.shape, options_.page_bytes,
+  tree_.emplace(model_.frame, model_.above, model_.chunks, model_.shape, options_.page_bytes,
                 files_.pages());
   return tree_->check();
 }
@@ -272,10 +273,10 @@ Result<void> TreeBuild::colour_cells() {
   if (!regions_) return {};
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
   auto earlier =
-      files_.work() ? files_.work()->take_regions() : std::map<std::uint32_t, BuiltRegion>();
+      files_.work() ? files_.work()->take_sectors() : std::map<std::uint32_t, BuiltSector>();
   PhaseCount count(progress_, BuildPhase::kColouring, regions_->touched_count(), earlier.size());
-  for (auto& [number, region] : earlier) model_.mask->take_up(number, std::move(region));
-  const auto done = [&](std::uint32_t number, const BuiltRegion& region) {
+  for (auto& [number, region] : earlier) model_.mask->resume(number, std::move(region));
+  const auto done = [&](std::uint32_t number, const BuiltSector& region) {
     const auto kept = keep(number, region);
     if (kept) count.add();
     return kept;
@@ -290,7 +291,7 @@ Result<BuildReport> TreeBuild::write_pages() {
   const auto header = write_tree(model_, *tree_, output_, options_, seams_.calls, progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
-  return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_set_aside_text,
+  return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_skipped_text,
                      files_.disk_bytes()};
 }
 

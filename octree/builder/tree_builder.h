@@ -15,7 +15,7 @@ namespace planetree::octree {
 struct BuildReport {
   storage::FileHeader header;         ///< as written
   std::uint64_t input_triangles = 0;  ///< that could be used, built or not
-  std::string first_set_aside;        ///< the first bad record in words; empty if none
+  std::string first_skipped;          ///< the first bad record in words; empty if none
   std::uint64_t temporary_bytes = 0;  ///< spilled on disk
 };
 
@@ -35,7 +35,7 @@ struct BuildReport {
 ///         vertices of a text, 12 or 24 bytes each. Given back however the
 ///         process ends, but for what of it a build that can be resumed keeps, memory or not:
 ///         about 80 bytes a triangle, or 130.
-/// errors  those of read_mesh, storage::SpillFile, storage::PageWriter and KeptWork; kBadArgument
+/// errors  those of read_mesh, storage::SpillFile, storage::PageWriter and Checkpoint; kBadArgument
 ///         for page_bytes, a box that is none or one that no triangle touches; kNoMemory for too
 ///         little memory_bytes; kBadInput for a bad record under `strict`; kNoSpace where SpaceNeed
 ///         foresees too little, before anything is written, where corners turn out to have to be

@@ -13,8 +13,8 @@ namespace {
 void describe_mesh(const BuiltModel& built, storage::ModelRecord& model) {
   const ModelFrame& frame = built.frame;
   model.triangle_count = built.cut.triangle_count;
-  model.set_aside_count = frame.set_aside_count;
-  model.first_set_aside = frame.first_set_aside;
+  model.skipped_count = frame.skipped_count;
+  model.first_skipped = frame.first_skipped;
   model.vertex_count = built.vertex_records;
   const Point centre = frame.centre();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -69,12 +69,12 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   PageAppender appender(*writer, progress, page_count);
   // What is beyond a wall may touch the lines that prove a sheet.
   const bool has_walls = built.box && built.box->region(built.frame).has_walls();
-  std::optional<SheetMarks> sheets;
-  if (built.mask && !has_walls) sheets.emplace(tree, *built.mask);
+  std::optional<HeightFieldMarks> height_fields;
+  if (built.mask && !has_walls) height_fields.emplace(tree, *built.mask);
   const auto appended = appender.append(pages.size(), [&](std::uint32_t number) {
     auto page = pages.encode(number);
-    if (page && sheets)
-      if (const auto marked = sheets->mark(number, *page); !marked) page = marked.error();
+    if (page && height_fields)
+      if (const auto marked = height_fields->mark(number, *page); !marked) page = marked.error();
     return page;
   });
   if (!appended) return appended.error();

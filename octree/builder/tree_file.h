@@ -28,9 +28,9 @@ struct BuiltModel {
   EdgeBalance edges;  ///< of the whole input, as the frame is
   SurfaceCut cut;
   std::optional<RegionBox> box;
-  PatchTree above;
-  std::vector<BuiltPatch> patches;  ///< as above.patches
-  std::optional<BuiltMask> mask;    ///< of a watertight model
+  ChunkTree above;
+  std::vector<BuiltChunk> chunks;  ///< as above.patches
+  std::optional<BuiltMask> mask;   ///< of a watertight model
 };
 
 /// Puts the parts together and writes the file, whole or not at all.

@@ -11,15 +11,15 @@ bool SpillExtent::take(std::uint64_t offset, std::uint64_t count, std::uint64_t 
   return true;
 }
 
-bool SpillExtent::take(const TriangleRuns::Place& run, bool float64) {
+bool SpillExtent::take(const TriangleRuns::Extent& run, bool float64) {
   return run.marks.size() == storage::SpillRuns::mark_count(run.size) &&
          take(run.offset, run.size, Triangles::record_bytes(float64));
 }
 
-bool SpillExtent::take(const std::vector<TriangleRuns::Place>& runs, std::uint64_t triangles,
+bool SpillExtent::take(const std::vector<TriangleRuns::Extent>& runs, std::uint64_t triangles,
                        bool float64) {
   std::uint64_t left = triangles;
-  for (const TriangleRuns::Place& run : runs) {
+  for (const TriangleRuns::Extent& run : runs) {
     if (run.size > left || !take(run, float64)) return false;
     left -= run.size;
   }
@@ -44,23 +44,23 @@ bool SpillExtent::take(const std::vector<SpilledPage>& pages, std::size_t head_b
   });
 }
 
-bool SpillExtent::take(const PatchWork& patch, bool float64, const LinkFormat& links) {
-  const BuiltPatch& built = patch.built;
+bool SpillExtent::take(const ChunkWork& chunk, bool float64, const LinkFormat& links) {
+  const BuiltChunk& built = chunk.built;
   return take(built.pages, sizeof(PageHead)) && links.page(built.root_link) < built.pages.size() &&
-         !built.boxes_below.empty() && take(patch.part.visitors, float64);
+         !built.boxes_below.empty() && take(chunk.part.visitors, float64);
 }
 
-bool SpillExtent::take(std::uint32_t number, const BuiltRegion& region,
+bool SpillExtent::take(std::uint32_t number, const BuiltSector& sector,
                        const MaskLinkFormat& links) {
-  const MaskEntry& entry = region.root.entry;
+  const MaskEntry& entry = sector.root.entry;
   const bool special = entry.kind == MaskEntry::Kind::kSpecial;
-  if (special != region.root.special.has_value() ||
-      (special && region.root.special->plane_count > kMaxPlanes))
+  if (special != sector.root.special.has_value() ||
+      (special && sector.root.special->plane_count > kMaxPlanes))
     return false;
-  const bool divided = entry.kind == MaskEntry::Kind::kRegion;
-  if (divided && (entry.first != number || links.page(region.family) >= region.pages.size()))
+  const bool divided = entry.kind == MaskEntry::Kind::kSector;
+  if (divided && (entry.first != number || links.page(sector.family) >= sector.pages.size()))
     return false;
-  return (divided || entry.is_leaf()) && take(region.pages, sizeof(MaskPageHead));
+  return (divided || entry.is_leaf()) && take(sector.pages, sizeof(MaskPageHead));
 }
 
 }  // namespace planetree::octree

@@ -20,13 +20,13 @@ namespace planetree::octree {
 struct SurfaceWork {
   EdgeBalance edges;
   SurfaceCut cut;
-  std::vector<TriangleRuns::Place> kept;  ///< of a region: what touches it
+  std::vector<TriangleRuns::Extent> kept;  ///< of a region: what touches it
 };
 
 /// What building a patch gave.
-struct PatchWork {
-  BuiltPatch built;
-  MaskRegions::Part part;  ///< of watertight models
+struct ChunkWork {
+  BuiltChunk built;
+  MaskSectors::Part part;  ///< of watertight models
 };
 
 /// How far the bytes go that records speak of; what reaches beyond the file is refused.
@@ -36,16 +36,16 @@ class SpillExtent {
 
   bool take(const OrderedMesh& mesh);
   bool take(const SurfaceWork& surface, bool float64);
-  bool take(const PatchWork& patch, bool float64, const LinkFormat& links);
-  bool take(std::uint32_t number, const BuiltRegion& region, const MaskLinkFormat& links);
+  bool take(const ChunkWork& chunk, bool float64, const LinkFormat& links);
+  bool take(std::uint32_t number, const BuiltSector& sector, const MaskLinkFormat& links);
   /// Of what was taken: where it ends, and how much it is.
   std::uint64_t end() const { return end_; }
   std::uint64_t bytes() const { return bytes_; }
 
  private:
   bool take(const std::vector<SpilledPage>& pages, std::size_t head_bytes);
-  bool take(const std::vector<TriangleRuns::Place>& runs, std::uint64_t triangles, bool float64);
-  bool take(const TriangleRuns::Place& run, bool float64);
+  bool take(const std::vector<TriangleRuns::Extent>& runs, std::uint64_t triangles, bool float64);
+  bool take(const TriangleRuns::Extent& run, bool float64);
   bool take(std::uint64_t offset, std::uint64_t count, std::uint64_t each_bytes);
 
   std::uint64_t file_bytes_;
@@ -59,13 +59,13 @@ concept IsA = std::same_as<std::remove_const_t<Value>, Struct>;
 template <class Record, IsA<ModelFrame> Value>
 void fields(Record& record, Value& frame) {
   record(frame.triangle_count, frame.float64, frame.scale_exponent, frame.input_lower,
-         frame.input_upper, frame.input_sample, frame.sample_triangle, frame.set_aside_count,
-         frame.first_set_aside, frame.first_set_aside_text);
+         frame.input_upper, frame.input_sample, frame.sample_triangle, frame.skipped_count,
+         frame.first_skipped, frame.first_skipped_text);
 }
 
-template <class Record, IsA<TriangleRuns::Place> Value>
-void fields(Record& record, Value& place) {
-  record(place.offset, place.size, place.marks);
+template <class Record, IsA<TriangleRuns::Extent> Value>
+void fields(Record& record, Value& extent) {
+  record(extent.offset, extent.size, extent.marks);
 }
 
 template <class Record, IsA<OrderedMesh> Value>
@@ -73,14 +73,14 @@ void fields(Record& record, Value& mesh) {
   record(mesh.frame, mesh.vertex_records, mesh.wide_ids, mesh.runs);
 }
 
-template <class Record, IsA<OpenEdge> Value>
+template <class Record, IsA<UnbalancedEdge> Value>
 void fields(Record& record, Value& edge) {
   record(edge.triangle, edge.from, edge.to, edge.along, edge.against);
 }
 
 template <class Record, IsA<EdgeBalance> Value>
 void fields(Record& record, Value& balance) {
-  record(balance.open_edges, balance.first);
+  record(balance.unbalanced_edges, balance.first);
 }
 
 template <class Record, IsA<SurfaceCut> Value>
@@ -105,22 +105,21 @@ void fields(Record& record, Value& box) {
 
 template <class Record, IsA<SurfaceSums> Value>
 void fields(Record& record, Value& sums) {
-  record(sums.vector, sums.first, sums.area, sums.place, sums.second);
+  record(sums.vector, sums.first, sums.area, sums.position, sums.second);
 }
 
-template <class Record, IsA<BuiltPatch> Value>
-void fields(Record& record, Value& patch) {
-  record(patch.pages, patch.root_link, patch.height, patch.node_count, patch.block_count,
-         patch.least_code, patch.greatest_code, patch.box, patch.boxes_below, patch.area,
-         patch.sums);
+template <class Record, IsA<BuiltChunk> Value>
+void fields(Record& record, Value& chunk) {
+  record(chunk.pages, chunk.root_link, chunk.height, chunk.node_count, chunk.block_count,
+         chunk.min_code, chunk.greatest_code, chunk.box, chunk.boxes_below, chunk.area, chunk.sums);
 }
 
-template <class Record, IsA<MaskRegions::Rise> Value>
+template <class Record, IsA<MaskSectors::Rise> Value>
 void fields(Record& record, Value& rise) {
-  record(rise.region, rise.corners);
+  record(rise.sector, rise.corners);
 }
 
-template <class Record, IsA<MaskRegions::Part> Value>
+template <class Record, IsA<MaskSectors::Part> Value>
 void fields(Record& record, Value& part) {
   record(part.rises, part.visitors);
 }
@@ -136,19 +135,19 @@ void fields(Record& record, Value& special) {
   record(special.plane_count, special.planes, special.behind, special.beyond);
 }
 
-template <class Record, IsA<RegionRoot> Value>
+template <class Record, IsA<SectorRoot> Value>
 void fields(Record& record, Value& root) {
   record(root.entry, root.special);
 }
 
-template <class Record, IsA<BuiltRegion> Value>
-void fields(Record& record, Value& region) {
-  record(region.pages, region.family, region.cell_count, region.levels, region.root);
+template <class Record, IsA<BuiltSector> Value>
+void fields(Record& record, Value& sector) {
+  record(sector.pages, sector.family, sector.cell_count, sector.levels, sector.root);
 }
 
-template <class Record, IsA<PatchWork> Value>
-void fields(Record& record, Value& patch) {
-  record(patch.built, patch.part);
+template <class Record, IsA<ChunkWork> Value>
+void fields(Record& record, Value& chunk) {
+  record(chunk.built, chunk.part);
 }
 
 }  // namespace planetree::octree

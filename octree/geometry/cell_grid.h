@@ -85,8 +85,8 @@ class CellGrid {
   std::uint32_t finest(unsigned axis, double at) const {
     constexpr std::uint32_t kLast = (1 << kLevels) - 1;
     constexpr double kCells = 1 << (kLevels - 1);  // in a unit
-    const double place = std::clamp((at - lower_[axis]) * kCells, 0.0, double{kLast});
-    const auto guess = static_cast<std::uint32_t>(place);
+    const double scaled = std::clamp((at - lower_[axis]) * kCells, 0.0, double{kLast});
+    const auto guess = static_cast<std::uint32_t>(scaled);
     const auto begins = [&](std::uint32_t index) { return side(axis, kLevels, index) <= at; };
     if (begins(guess) && (guess == kLast || !begins(guess + 1))) return guess;
     // Rounding made the guess another cell than that which the sides, rounded too, tell.

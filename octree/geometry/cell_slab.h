@@ -42,7 +42,7 @@ struct CellSlab {
 
   /// Where a point is in a cell of a level, by its least corner: from 0 to 1 along each axis, or
   /// to another end where the cell's sides are rounded.
-  static Point place_in(const Point& point, const Point& lower, unsigned level) {
+  static Point position_in(const Point& point, const Point& lower, unsigned level) {
     return (point - lower) * (0.5 * static_cast<double>(1U << level));
   }
   constexpr int width() const { return kSteps + std::abs(p()) + std::abs(q()); }

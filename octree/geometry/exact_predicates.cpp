@@ -36,12 +36,12 @@ class CommonUnit {
       for (const double value : *point)
         if (const DoubleParts parts(value); parts.mantissa != 0) {
           exponent_ = std::min(exponent_, parts.exponent);
-          most_ = std::max(most_, parts.exponent);
+          max_ = std::max(max_, parts.exponent);
         }
   }
 
   /// Whether all numbers are below 2^kSmallBits units.
-  bool small() const { return most_ - exponent_ <= kSmallBits - 53; }
+  bool small() const { return max_ - exponent_ <= kSmallBits - 53; }
 
   template <class Number>
   std::array<Number, 3> difference(const Point& to, const Point& from) const {
@@ -61,7 +61,7 @@ class CommonUnit {
   }
 
   int exponent_ = 2046;
-  int most_ = 0;
+  int max_ = 0;
 };
 
 template <class Number>

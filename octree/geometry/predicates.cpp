@@ -69,7 +69,7 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
 }
 
 // The step is (s1, s2, s3), s1 >> s2 >> s3 > 0.
-int moved_side(const Triangle& triangle, const Point& point) noexcept {
+int perturbed_side(const Triangle& triangle, const Point& point) noexcept {
   const auto& [a, b, c] = triangle;
   int side = orientation(a, b, c, point);
   for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(a, b, c, axis);
@@ -103,7 +103,7 @@ int compare(double left, double right) { return left < right ? -1 : left > right
 /// on; with e = a - b they are
 ///     the determinant itself,  e-steps:  (q - b) x e,  d-steps:  e x (p - b),
 ///     and products of both,  d . (e x steps of p).
-int passing_side(const MovedSegment& segment, const Point& a, const Point& b) {
+int passing_side(const PerturbedSegment& segment, const Point& a, const Point& b) {
   int side = orientation(b, segment.from, segment.to, a);
   for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(b, segment.to, a, axis);
   if (side != 0) return side;
@@ -119,9 +119,9 @@ int passing_side(const MovedSegment& segment, const Point& a, const Point& b) {
 
 }  // namespace
 
-int crossing(const MovedSegment& segment, const Triangle& triangle) noexcept {
-  const int from = moved_side(triangle, segment.from);
-  if (from == 0 || from == moved_side(triangle, segment.to)) return 0;
+int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept {
+  const int from = perturbed_side(triangle, segment.from);
+  if (from == 0 || from == perturbed_side(triangle, segment.to)) return 0;
   const auto& [a, b, c] = triangle;
   const int passing = passing_side(segment, a, b);
   if (passing != passing_side(segment, b, c) || passing != passing_side(segment, c, a)) return 0;

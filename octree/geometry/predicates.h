@@ -20,8 +20,8 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
 int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
 
 /// Side of a triangle's plane that `point` is on once moved by an infinitesimal
-/// step (see MovedSegment): 0 only where the triangle has no area.
-int moved_side(const Triangle& triangle, const Point& point) noexcept;
+/// step (see PerturbedSegment): 0 only where the triangle has no area.
+int perturbed_side(const Triangle& triangle, const Point& point) noexcept;
 
 /// Whether `point` is on the closed triangle, which may be a segment or a point.
 bool lies_on(const Point& point, const Triangle& triangle) noexcept;
@@ -32,7 +32,7 @@ bool lies_on(const Point& point, const Triangle& triangle) noexcept;
 /// power of the next (simulation of simplicity, Edelsbrunner & Muecke 1990).
 /// A point has one step whatever the segment is, up to its length; so winding
 /// numbers counted along different segments agree.
-struct MovedSegment {
+struct PerturbedSegment {
   Point from, to;
 };
 
@@ -44,6 +44,6 @@ struct MovedSegment {
 /// 1 or -1 where the segment passes through the triangle: 1 if `from` is behind
 /// it, as seen along its normal (b - a) x (c - a). A triangle without area is
 /// never crossed.
-int crossing(const MovedSegment& segment, const Triangle& triangle) noexcept;
+int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept;
 
 }  // namespace planetree::octree

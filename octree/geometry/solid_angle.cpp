@@ -30,7 +30,7 @@ struct HalfAngle {
   bool tells_angle() const { return error < 0x1p-24 * length; }
 };
 
-constexpr HalfAngle kUntold{0, 0, 1, 0};
+constexpr HalfAngle kUncertain{0, 0, 1, 0};
 
 /// In units of |a||b||c|. A way's components are right to one rounding, its
 /// length to four; each of the four terms of width loses at most 12 with its
@@ -47,7 +47,8 @@ constexpr double kLongest2 = 0x1p320;
 HalfAngle in_double(const Point& point, const Triangle& triangle) {
   const Point a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
   const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
-  if (!(std::min({a2, b2, c2}) > kShortest2 && std::max({a2, b2, c2}) < kLongest2)) return kUntold;
+  if (!(std::min({a2, b2, c2}) > kShortest2 && std::max({a2, b2, c2}) < kLongest2))
+    return kUncertain;
   const double a1 = std::sqrt(a2), b1 = std::sqrt(b2), c1 = std::sqrt(c2);
   HalfAngle half;
   half.width = a1 * b1 * c1 + a.dot(b) * c1 + b.dot(c) * a1 + c.dot(a) * b1;
@@ -79,7 +80,7 @@ HalfAngle in_wide(const Point& point, const Triangle& triangle) {
   const Scalar width = 1 + dot(a, b) + dot(b, c) + dot(c, a);
   const Scalar height = dot(a, cross(b, c));
   const Scalar larger = std::max(Scalar(abs(width)), Scalar(abs(height)));
-  if (larger == 0) return kUntold;
+  if (larger == 0) return kUncertain;
   HalfAngle half;
   half.width = static_cast<double>(width / larger);
   half.height = static_cast<double>(height / larger);

@@ -85,7 +85,7 @@ TestedPredicates TestedPredicates::ours() noexcept {
   return {&octree::orientation, &octree::normal_sign, &octree::lies_on};
 }
 
-const char* self_test(const TestedPredicates& predicates) noexcept {
+const char* startup_check(const TestedPredicates& predicates) noexcept {
   if (const char* fault = rounding_fault<double>()) return fault;
   if (const char* fault = rounding_fault<float>()) return fault;
   if (const char* fault = range_fault<double>()) return fault;

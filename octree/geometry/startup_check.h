@@ -14,13 +14,13 @@ struct TestedPredicates {
   static TestedPredicates ours() noexcept;
 };
 
-/// Asks the arithmetic of this build, processor and thread, and the predicates,
+/// Queries the arithmetic of this build, processor and thread, and the predicates,
 /// what the answers rest on: single roundings to nearest, no fused operations,
 /// no extra digits, subnormal numbers; signs that a filter cannot tell.
 ///
 /// return   null if all is well, else what is wrong, in words.
 /// cost     some 20 microseconds; no allocation, no lock.
 /// threads  any.
-const char* self_test(const TestedPredicates& predicates = TestedPredicates::ours()) noexcept;
+const char* startup_check(const TestedPredicates& predicates = TestedPredicates::ours()) noexcept;
 
 }  // namespace planetree::octree

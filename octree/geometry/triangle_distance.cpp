@@ -35,7 +35,7 @@ HWY_EXPORT(evaluate_on_target);
 // Below this squared sine the face is its edges, to 2^-50 of their length.
 constexpr double kDegenerateSine2 = 0x1p-100;
 // A point inside a face has a share of every corner, though it may round to 0.
-constexpr double kLeastShare = 0x1p-54;
+constexpr double kMinShare = 0x1p-54;
 
 // The other two corners, in order.
 constexpr std::size_t kFirst[3] = {1, 0, 0};
@@ -107,8 +107,8 @@ void refine_flat(const Point& query, const TriangleView& triangles, unsigned fla
   }
 }
 
-void place(const Triangle& triangle, const TriangleFinding& finding,
-           NearestOnTriangle& nearest) noexcept {
+void locate(const Triangle& triangle, const TriangleFinding& finding,
+            NearestOnTriangle& nearest) noexcept {
   nearest.value = finding.value;
   nearest.barycentric = {};
   const auto order = lexicographic_order(triangle);
@@ -127,9 +127,9 @@ void place(const Triangle& triangle, const TriangleFinding& finding,
   const Point& apex = triangle[order[number]];
   nearest.feature = Feature::kFace;
   nearest.point = apex + (a * (u - apex) + b * (v - apex));
-  nearest.barycentric[order[number]] = std::max((1 - a) - b, kLeastShare);
-  nearest.barycentric[first] = std::max(a, kLeastShare);
-  nearest.barycentric[second] = std::max(b, kLeastShare);
+  nearest.barycentric[order[number]] = std::max((1 - a) - b, kMinShare);
+  nearest.barycentric[first] = std::max(a, kMinShare);
+  nearest.barycentric[second] = std::max(b, kMinShare);
 }
 
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
@@ -138,7 +138,7 @@ NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triang
   TriangleFindings findings;
   HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), findings);
   NearestOnTriangle nearest;
-  place(triangle, findings.of(0), nearest);
+  locate(triangle, findings.of(0), nearest);
   return nearest;
 }
 

@@ -74,8 +74,8 @@ struct TriangleFindings {
 };
 
 /// The nearest point that is told of; written where it is wanted, for to copy it takes longer.
-void place(const Triangle& triangle, const TriangleFinding& finding,
-           NearestOnTriangle& nearest) noexcept;
+void locate(const Triangle& triangle, const TriangleFinding& finding,
+            NearestOnTriangle& nearest) noexcept;
 
 /// The nearest point of `triangle` to `query`, in the model frame.
 ///

@@ -27,15 +27,15 @@ struct TriangleView {
 
 /// Triangles side by side, for kernels that look at several at once. Plain memory; entries
 /// that were never set hold anything.
-template <std::size_t kMost>
+template <std::size_t kMax>
 struct TriangleRows {
-  static_assert(kMost % kTrianglesAtOnce == 0);
+  static_assert(kMax % kTrianglesAtOnce == 0);
 
-  alignas(kTrianglesAtOnce * sizeof(double)) double at[3][3][kMost];  ///< corner, axis, triangle
+  alignas(kTrianglesAtOnce * sizeof(double)) double at[3][3][kMax];  ///< corner, axis, triangle
 
   Triangle triangle(std::size_t i) const { return view(0).triangle(i); }
   /// Those from `first` on, a multiple of kTrianglesAtOnce.
-  TriangleView view(std::size_t first) const { return {at[0][0] + first, kMost}; }
+  TriangleView view(std::size_t first) const { return {at[0][0] + first, kMax}; }
 
   void set(std::size_t i, const Triangle& corners) {
     for (std::size_t k = 0; k < 3; ++k)

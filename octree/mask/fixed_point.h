@@ -6,21 +6,21 @@
 
 namespace planetree::octree {
 
-/// Places along an axis in whole steps, so many to a cell of one level: told of the bits of
+/// Indices along an axis in whole steps, so many to a cell of one level: told of the bits of
 /// doubles alone, so that it does not matter how the thread rounds or what it has trapped.
-class CellSteps {
+class FixedPoint {
  public:
   static constexpr unsigned kBits = 30;
   static constexpr std::int64_t kCell = std::int64_t{1} << kBits;
   /// Scales beyond these are those of subnormal numbers, of which no bits are told here.
-  static constexpr int kMostScale = 900;
+  static constexpr int kMaxScale = 900;
   /// With which nothing has a place.
   static constexpr int kNoScale = 4096;
 
-  CellSteps() = default;
+  FixedPoint() = default;
   /// Of the cells of a level, where those of level 0 have a side of 2, and of values that are
   /// 2^-scale of theirs.
-  CellSteps(unsigned level, int scale) : shift_(1055 - static_cast<int>(level) - scale) {}
+  FixedPoint(unsigned level, int scale) : shift_(1055 - static_cast<int>(level) - scale) {}
 
   /// Digits::shift of a value, and its exponent as it is in its bits.
   std::int64_t shift() const { return shift_; }

@@ -12,26 +12,26 @@ namespace planetree::octree {
 namespace {
 
 /// Which side of a special cell's planes the point is on.
-void ask_planes(const MaskSpecial& special, const double* planes, const Point& point,
-                MaskFinding& finding) {
-  bool beyond = false, moved_beyond = false, on_plane = false;
+void query_planes(const MaskSpecial& special, const double* planes, const Point& point,
+                  MaskLookup& finding) {
+  bool beyond = false, perturbed_beyond = false, on_plane = false;
   for (unsigned i = 0; i < special.plane_count; ++i) {
     const Triangle plane = mask_plane(planes, i);
     const int side = orientation(plane[0], plane[1], plane[2], point);
     beyond = beyond || side > 0;
     on_plane = on_plane || side == 0;
-    moved_beyond = moved_beyond || (side != 0 ? side : moved_side(plane, point)) > 0;
+    perturbed_beyond = perturbed_beyond || (side != 0 ? side : perturbed_side(plane, point)) > 0;
   }
-  finding.kind = MaskFinding::Kind::kPlanes;
-  finding.winding = moved_beyond ? int{special.beyond} : int{special.behind};
+  finding.kind = MaskLookup::Kind::kPlanes;
+  finding.winding = perturbed_beyond ? int{special.beyond} : int{special.behind};
   finding.on_surface = on_plane && !beyond;
 }
 
 // Pages may go with the next that is asked for, so that lists are copied.
-void read_list(const MaskListed& listed, const MaskRecords& records, MaskFinding& finding) {
+void read_list(const MaskListed& listed, const MaskRecords& records, MaskLookup& finding) {
   // Octants of cells at the last level cannot be told apart: forged.
   if (finding.cell.level == kLevels) return;
-  finding.kind = MaskFinding::Kind::kCorners;
+  finding.kind = MaskLookup::Kind::kCorners;
   finding.listed = listed;
   copy_list(records.slot(0), listed, finding.blocks);
   // It may be no list, where the file was exchanged since a map looked at it.
@@ -39,34 +39,33 @@ void read_list(const MaskListed& listed, const MaskRecords& records, MaskFinding
 }
 
 void read_leaf(const std::byte* record, const MaskRecords& records, const Point& point,
-               MaskFinding& finding) {
+               MaskLookup& finding) {
   const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
   if (is_special(corners)) {
     const auto& special = *reinterpret_cast<const MaskSpecial*>(record);
     const auto* planes = reinterpret_cast<const double*>(records.slot(special.plane_slot));
-    ask_planes(special, planes, point, finding);
+    query_planes(special, planes, point, finding);
   } else if (is_listed(corners)) {
     read_list(*reinterpret_cast<const MaskListed*>(record), records, finding);
   } else if (corners[0] != kUncounted) {
-    finding.kind = MaskFinding::Kind::kCorners;
+    finding.kind = MaskLookup::Kind::kCorners;
     finding.corners = corners;
   }
 }
 
 // Goes down from a node of `cell`, which is told by `octant_in`.
 template <class OctantIn>
-void descend(MaskRecords& records, const MaskNode& from, const Point& point,
-             std::uint64_t max_nodes, const OctantIn& octant_in, TreeWork& work,
-             MaskFinding& finding) {
+void descend(MaskRecords& records, const MaskNode& from, const Point& point, std::uint64_t max_work,
+             const OctantIn& octant_in, TraversalStats& work, MaskLookup& finding) {
   MaskNode node = from;
   // A forged mask could be deeper than cells can be told apart.
-  for (std::uint64_t left = std::min<std::uint64_t>(max_nodes, kLevels - finding.cell.level);
+  for (std::uint64_t left = std::min<std::uint64_t>(max_work, kLevels - finding.cell.level);
        left > 0; --left) {
     ++work.nodes;
     const unsigned octant = octant_in(finding.cell);
     finding.cell = finding.cell.child(octant);
     if ((node.grey >> octant & 1) == 0) {
-      finding.kind = MaskFinding::Kind::kColour;
+      finding.kind = MaskLookup::Kind::kColour;
       finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
       return;
     }
@@ -78,9 +77,9 @@ void descend(MaskRecords& records, const MaskNode& from, const Point& point,
 }
 
 // From the root down.
-void look_from_root(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
-                    const PageReader& pages, TreeWork& work, MaskFinding& finding) {
-  if (mask.page_count == 0 || max_nodes == 0) return;
+void look_from_root(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
+                    const PageReader& pages, TraversalStats& work, MaskLookup& finding) {
+  if (mask.page_count == 0 || max_work == 0) return;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
   if (!record) return;
@@ -89,21 +88,21 @@ void look_from_root(const MaskFacts& mask, const Point& point, std::uint64_t max
   const auto octant_in = [octants](const GridCell& cell) {
     return static_cast<unsigned>(octants >> 3 * (kLevels - cell.level - 1) & 7);
   };
-  descend(records, *reinterpret_cast<const MaskNode*>(record), point, max_nodes, octant_in, work,
+  descend(records, *reinterpret_cast<const MaskNode*>(record), point, max_work, octant_in, work,
           finding);
 }
 
 // From where the map has led.
-void look_from(const ColourMap::Spot& spot, const MaskFacts& mask, const Point& point,
-               std::uint64_t max_nodes, const PageReader& pages, TreeWork& work,
-               MaskFinding& finding) {
-  finding.cell = spot.cell;
+void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point& point,
+               std::uint64_t max_work, const PageReader& pages, TraversalStats& work,
+               MaskLookup& finding) {
+  finding.cell = lookup.cell;
   MaskRecords records(mask, pages);
-  const MapRecord& record = *spot.record;
+  const SideGridRecord& record = *lookup.record;
   if (record.is_listed()) {
     // The map looked at it when it was filled; the file may have been exchanged since.
     const MaskListed listed = record.listed(records.slot_of(record.link));
-    if (records.has_room(record.link, list_slots(listed.block_count)) &&
+    if (records.has_capacity(record.link, list_slots(listed.block_count)) &&
         records.turn_to_page_of(record.link, work))
       read_list(listed, records, finding);
   } else if (record.is_leaf()) {
@@ -112,26 +111,26 @@ void look_from(const ColourMap::Spot& spot, const MaskFacts& mask, const Point& 
   } else {
     const CellGrid grid(mask.lower);
     const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
-    descend(records, record.node(), point, max_nodes, octant_in, work, finding);
+    descend(records, record.node(), point, max_work, octant_in, work, finding);
   }
 }
 
 }  // namespace
 
-MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
-                    const PageReader& pages, TreeWork& work) noexcept {
-  MaskFinding finding;
-  look_from_root(mask, point, max_nodes, pages, work, finding);
+MaskLookup look_up(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
+                   const PageReader& pages, TraversalStats& work) noexcept {
+  MaskLookup finding;
+  look_from_root(mask, point, max_work, pages, work, finding);
   return finding;
 }
 
-MaskFinding look_up(const MaskFacts& mask, const ColourMap::Spot& spot, const Point& point,
-                    std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
-  MaskFinding finding;
-  if (spot.record && max_nodes > 0)
-    look_from(spot, mask, point, max_nodes, pages, work, finding);
+MaskLookup look_up(const MaskInfo& mask, const SideGrid::Lookup& lookup, const Point& point,
+                   std::uint64_t max_work, const PageReader& pages, TraversalStats& work) noexcept {
+  MaskLookup finding;
+  if (lookup.record && max_work > 0)
+    look_from(lookup, mask, point, max_work, pages, work, finding);
   else
-    look_from_root(mask, point, max_nodes, pages, work, finding);
+    look_from_root(mask, point, max_work, pages, work, finding);
   return finding;
 }
 

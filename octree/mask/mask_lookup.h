@@ -10,7 +10,7 @@
 namespace planetree::octree {
 
 /// What a lookup must know of a mask.
-struct MaskFacts {
+struct MaskInfo {
   std::uint32_t page_bytes = 0;
   std::uint32_t first_page = 0;
   std::uint32_t page_count = 0;  ///< 0: the model has no mask
@@ -24,7 +24,7 @@ inline Triangle mask_plane(const double* planes, unsigned index) {
 }
 
 /// What the mask knows of a point.
-struct MaskFinding {
+struct MaskLookup {
   enum class Kind {
     kColour,   ///< white or black: only the sign of `winding` counts
     kPlanes,   ///< a special cell: `winding` and `on_surface`
@@ -43,9 +43,9 @@ struct MaskFinding {
 /// Finds the cell of the mask that a point is in.
 ///
 /// point      within the model's box, model frame.
-/// max_nodes  most nodes to visit; no more than kLevels are needed.
+/// max_work  most nodes to visit; no more than kLevels are needed.
 /// threads    any; no allocation, no lock, no exception.
-MaskFinding look_up(const MaskFacts& mask, const Point& point, std::uint64_t max_nodes,
-                    const PageReader& pages, TreeWork& work) noexcept;
+MaskLookup look_up(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
+                   const PageReader& pages, TraversalStats& work) noexcept;
 
 }  // namespace planetree::octree

@@ -8,49 +8,49 @@
 
 namespace planetree::octree {
 
-MaskAhead::MaskAhead(const MaskFacts& mask, const ColourMap& colours, const Point& point)
+MaskPrefetcher::MaskPrefetcher(const MaskInfo& mask, const SideGrid& side_grid, const Point& point)
     : mask_(mask), point_(point) {
-  const ColourMap::Spot spot = colours.spot_of(point);
-  if (!spot.record) return;
-  record_ = spot.record;
-  cell_ = spot.cell;
+  const SideGrid::Lookup lookup = side_grid.lookup_of(point);
+  if (!lookup.record) return;
+  record_ = lookup.record;
+  cell_ = lookup.cell;
   next_ = Next::kMapRecord;
   __builtin_prefetch(record_);
 }
 
-void MaskAhead::step(const PageReader& pages) noexcept {
+void MaskPrefetcher::step(const PageReader& pages) noexcept {
   assert(goes_on());
   const Next now = std::exchange(next_, Next::kNothing);
   if (now == Next::kMapRecord) {
     if (record_->is_node()) return go_below(record_->node(), pages);
-    if (record_->is_listed()) ask_for(record_->link, pages);
+    if (record_->is_listed()) request_for(record_->link, pages);
     if (!record_->is_leaf()) return;
     next_ = Next::kLeaf;
     link_ = record_->link;
-    ask_for(link_, pages);
+    request_for(link_, pages);
     return;
   }
-  const std::byte* record = ask_for(link_, pages);
+  const std::byte* record = request_for(link_, pages);
   if (!record) return;
   if (now == Next::kNode) return go_below(*reinterpret_cast<const MaskNode*>(record), pages);
   if (!is_listed(*reinterpret_cast<const MaskCorners*>(record))) return;
   const MaskLinkFormat links(mask_.page_bytes);
   const auto& listed = *reinterpret_cast<const MaskListed*>(record);
-  ask_for(links.make(links.page(link_), listed.list_slot), pages);
+  request_for(links.make(links.page(link_), listed.list_slot), pages);
 }
 
-void MaskAhead::go_below(const MaskNode& node, const PageReader& pages) {
+void MaskPrefetcher::go_below(const MaskNode& node, const PageReader& pages) {
   if (cell_.level >= kLevels) return;  // forged
   const unsigned octant = CellGrid(mask_.lower).octant(cell_, point_);
   if ((node.grey >> octant & 1) == 0) return;
   cell_ = cell_.child(octant);
   link_ = MaskRecords(mask_, pages).child_link(node, octant);
   next_ = (node.leaf >> octant & 1) != 0 ? Next::kLeaf : Next::kNode;
-  ask_for(link_, pages);
+  request_for(link_, pages);
 }
 
 // What is at a link, asked for; null if its page is not in memory.
-const std::byte* MaskAhead::ask_for(std::uint32_t link, const PageReader& pages) const {
+const std::byte* MaskPrefetcher::request_for(std::uint32_t link, const PageReader& pages) const {
   const std::byte* record = MaskRecords(mask_, pages).peek(link);
   if (record) __builtin_prefetch(record);
   return record;

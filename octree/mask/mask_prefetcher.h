@@ -15,10 +15,10 @@ namespace planetree::octree {
 /// memory for one of the cache lines that those two will read, and needs what the one before asked
 /// for. So while something else is computed in between, nobody waits for them. Goes no farther
 /// than what is in memory, and no answer depends on it.
-class MaskAhead {
+class MaskPrefetcher {
  public:
   /// The first step. All but the point must outlive this.
-  MaskAhead(const MaskFacts& mask, const ColourMap& colours, const Point& point);
+  MaskPrefetcher(const MaskInfo& mask, const SideGrid& side_grid, const Point& point);
 
   /// Whether there is another step.
   bool goes_on() const { return next_ != Next::kNothing; }
@@ -30,11 +30,11 @@ class MaskAhead {
   enum class Next : std::uint8_t { kNothing, kMapRecord, kNode, kLeaf };
 
   void go_below(const MaskNode& node, const PageReader& pages);
-  const std::byte* ask_for(std::uint32_t link, const PageReader& pages) const;
+  const std::byte* request_for(std::uint32_t link, const PageReader& pages) const;
 
-  const MaskFacts& mask_;
+  const MaskInfo& mask_;
   const Point point_;
-  const MapRecord* record_ = nullptr;
+  const SideGridRecord* record_ = nullptr;
   GridCell cell_;
   std::uint32_t link_ = 0;
   Next next_ = Next::kNothing;

@@ -12,14 +12,14 @@ namespace planetree::octree {
 /// Link to record of a mask, by way of its page. Looks a page up only where the page changes.
 class MaskRecords {
  public:
-  MaskRecords(const MaskFacts& mask, const PageReader& pages)
+  MaskRecords(const MaskInfo& mask, const PageReader& pages)
       : links_(mask.page_bytes),
         first_page_(mask.first_page),
         page_count_(mask.page_count),
         pages_(pages) {}
 
   /// The mask's root; null if its page cannot be had.
-  const std::byte* root(TreeWork& work) {
+  const std::byte* root(TraversalStats& work) {
     turn_to(0, work);
     return frame_ ? slot(header().first_record_slot) : nullptr;
   }
@@ -35,8 +35,8 @@ class MaskRecords {
     return frame ? frame + links_.slot(link) * kMaskSlotBytes : nullptr;
   }
 
-  /// Asks for the first lines of what is at a link, as far as it is in memory.
-  static void prefetch(const MaskFacts& mask, std::uint32_t link, const FrameTable& frames) {
+  /// Queries for the first lines of what is at a link, as far as it is in memory.
+  static void prefetch(const MaskInfo& mask, std::uint32_t link, const FrameTable& frames) {
     const MaskLinkFormat links(mask.page_bytes);
     const std::uint32_t page = links.page(link);
     if (!frames.cells || page >= mask.page_count) return;
@@ -48,7 +48,7 @@ class MaskRecords {
 
   /// The record of a grey octant of the last record, or of a node that was kept before there was
   /// one; null as record()'s.
-  const std::byte* child(const MaskNode& node, unsigned octant, TreeWork& work) {
+  const std::byte* child(const MaskNode& node, unsigned octant, TraversalStats& work) {
     const std::uint32_t link = child_link(node, octant);
     // Links within a page were checked when it was decoded.
     if (links_.page(link) == page_ && frame_) return slot(links_.slot(link));
@@ -62,20 +62,20 @@ class MaskRecords {
   }
   /// The record at a link, which is said to be a leaf or a node; null if its page cannot be had
   /// or holds no such record there.
-  const std::byte* record(std::uint32_t link, bool leaf, TreeWork& work) {
+  const std::byte* record(std::uint32_t link, bool leaf, TraversalStats& work) {
     turn_to(links_.page(link), work);
     const std::uint32_t at = links_.slot(link);
     return frame_ && holds(at, leaf) ? slot(at) : nullptr;
   }
 
   /// Whether the page of a link can be had: then slot() is of it.
-  bool turn_to_page_of(std::uint32_t link, TreeWork& work) {
+  bool turn_to_page_of(std::uint32_t link, TraversalStats& work) {
     turn_to(links_.page(link), work);
     return frame_ != nullptr;
   }
   std::uint32_t slot_of(std::uint32_t link) const { return links_.slot(link); }
   /// Whether so many slots from a link on are in its page.
-  bool has_room(std::uint32_t link, unsigned slots) const {
+  bool has_capacity(std::uint32_t link, unsigned slots) const {
     return links_.slot(link) + slots <= links_.slots();
   }
   /// The link to a slot of the last record's page.
@@ -92,9 +92,9 @@ class MaskRecords {
            is_mask_node(frame_, at) != leaf;
   }
   const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
-  void turn_to(std::uint32_t page, TreeWork& work) {
+  void turn_to(std::uint32_t page, TraversalStats& work) {
     if (page == page_) return;
-    ++work.page_turns;
+    ++work.page_switches;
     page_ = page;
     frame_ = page < page_count_ ? pages_.page(pages_.context, first_page_ + page) : nullptr;
   }

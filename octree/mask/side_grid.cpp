@@ -14,79 +14,79 @@ namespace {
 
 // As many bytes, or a few more.
 constexpr std::size_t whole_records(std::size_t bytes) {
-  return (bytes + sizeof(MapRecord) - 1) / sizeof(MapRecord) * sizeof(MapRecord);
+  return (bytes + sizeof(SideGridRecord) - 1) / sizeof(SideGridRecord) * sizeof(SideGridRecord);
 }
 
 }  // namespace
 
 // How many cells there are of a level, and where.
-void ColourMap::measure(const Point& size, unsigned level, bool clipped, int scale) {
-  constexpr std::uint32_t kRim = MapSteps::kRim;
+void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scale) {
+  constexpr std::uint32_t kRim = GridCoordinates::kRim;
   const double per_unit = 0.5 * static_cast<double>(std::uint64_t{1} << level);
   level_ = level;
-  least_side_ = 0.25 / per_unit;
-  steps_.model = CellSteps(level, 0);
+  min_side_ = 0.25 / per_unit;
+  steps_.model = FixedPoint(level, 0);
   // What is beyond a wall of a region is not the map's to know, and a glance does not see walls;
   // nor bits of subnormal numbers.
-  const bool told = !clipped && std::abs(scale) <= CellSteps::kMostScale;
-  steps_.input = CellSteps(level, told ? scale : CellSteps::kNoScale);
+  const bool certain = !clipped && std::abs(scale) <= FixedPoint::kMaxScale;
+  steps_.input = FixedPoint(level, certain ? scale : FixedPoint::kNoScale);
   // Steps err by one each of the point and of the box, sides by 2^-53 of the largest.
-  constexpr std::int64_t kDoubt = 1 << 8;
-  const double error = 0x1p-53 * (lower_.cwiseAbs().maxCoeff() + 4) * per_unit * CellSteps::kCell;
-  bool near = 2 + error < kDoubt;
+  constexpr std::int64_t kUncertainty = 1 << 8;
+  const double error = 0x1p-53 * (lower_.cwiseAbs().maxCoeff() + 4) * per_unit * FixedPoint::kCell;
+  bool near = 2 + error < kUncertainty;
   std::size_t stride = 1;
   for (unsigned axis = 0; axis < 3; ++axis) {
     width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1 + 2 * kRim;
     steps_.stride[axis] = stride;
     stride *= blocks_along(axis);
-    steps_.last_middle[axis] = (width_[axis] - 1) * CellSteps::kCell + MapSteps::kRimMiddle;
-    const CellSteps::Digits lower = steps_.model.digits_of(lower_[axis]);
+    steps_.last_middle[axis] = (width_[axis] - 1) * FixedPoint::kCell + GridCoordinates::kRimMiddle;
+    const FixedPoint::Digits lower = steps_.model.digits_of(lower_[axis]);
     near = near && lower.shift > 1;
-    steps_.first[axis] = near ? lower.steps() - kRim * CellSteps::kCell - kDoubt : 0;
+    steps_.first[axis] = near ? lower.steps() - kRim * FixedPoint::kCell - kUncertainty : 0;
   }
-  steps_.doubtful = 2 * (near ? kDoubt : MapSteps::kLeast);
+  steps_.uncertainty = 2 * (near ? kUncertainty : GridCoordinates::kMin);
 }
 
 // The cells of a level, and what is known of those that are grey; false if there is no room for
 // it.
-bool ColourMap::fill_cells(const MaskFacts& mask, const PageReader& pages, bool clipped,
-                           std::span<std::byte> memory) {
+bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool clipped,
+                          std::span<std::byte> memory) {
   const double block_count = 1.0 * blocks_along(0) * blocks_along(1) * blocks_along(2);
   if (block_count > static_cast<double>(memory.size())) return false;
   const auto blocks = static_cast<std::size_t>(block_count);
   const std::size_t index_bytes = whole_records(blocks * sizeof(std::uint32_t));
-  const std::size_t code_bytes = whole_records(blocks * sizeof(MapCells::Codes));
+  const std::size_t code_bytes = whole_records(blocks * sizeof(SideGridCells::Codes));
   if (index_bytes + code_bytes > memory.size()) return false;
   // What is painted is at the end, where records will be, until it is laid out.
-  const std::size_t painted_at =
-      (memory.size() - code_bytes) / alignof(MapRecord) * alignof(MapRecord);
-  const std::span<MapCells::Codes> painted(
-      reinterpret_cast<MapCells::Codes*>(memory.data() + painted_at), blocks);
-  std::uninitialized_fill(painted.begin(), painted.end(), MapCells::kUnpainted);
-  Painter painter(*this, painted, mask, pages, clipped);
-  painter.paint_cells();
+  const std::size_t filled_at =
+      (memory.size() - code_bytes) / alignof(SideGridRecord) * alignof(SideGridRecord);
+  const std::span<SideGridCells::Codes> filled(
+      reinterpret_cast<SideGridCells::Codes*>(memory.data() + filled_at), blocks);
+  std::uninitialized_fill(filled.begin(), filled.end(), SideGridCells::kUnfilled);
+  SideGridBuilder builder(*this, filled, mask, pages, clipped);
+  builder.fill_cells();
   cells_.first_word = reinterpret_cast<std::uint32_t*>(memory.data());
   cells_.words = reinterpret_cast<std::uint64_t*>(memory.data() + index_bytes);
-  const std::size_t room = (painted_at - index_bytes) / sizeof(std::uint64_t);
-  const std::size_t words = cells_.lay_out(painted, room);
-  if (words > room) return false;
-  painter.paint_octants();
+  const std::size_t capacity = (filled_at - index_bytes) / sizeof(std::uint64_t);
+  const std::size_t words = cells_.lay_out(filled, capacity);
+  if (words > capacity) return false;
+  builder.fill_octants();
   const std::size_t records = cells_.count_records(blocks);
   const std::size_t cell_bytes = index_bytes + whole_records(words * sizeof(std::uint64_t));
-  if (cell_bytes + records * sizeof(MapRecord) > memory.size()) return false;
-  cells_.records = reinterpret_cast<MapRecord*>(memory.data() + cell_bytes);
+  if (cell_bytes + records * sizeof(SideGridRecord) > memory.size()) return false;
+  cells_.records = reinterpret_cast<SideGridRecord*>(memory.data() + cell_bytes);
   std::uninitialized_value_construct_n(cells_.records, records);
-  painter.fill_records();
+  builder.fill_records();
   return true;
 }
 
-void ColourMap::fill(const MaskFacts& mask, const TreeFacts& tree, bool clipped, int scale,
-                     const PageReader& pages, std::span<std::byte> memory) noexcept {
+void SideGrid::fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, int scale,
+                    const PageReader& pages, std::span<std::byte> memory) noexcept {
   // A forged header may tell of a box that does not fit the root.
   const Point size = tree.box_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
   if (mask.page_count == 0 || !fits) return;
-  assert(reinterpret_cast<std::uintptr_t>(memory.data()) % alignof(MapRecord) == 0);
+  assert(reinterpret_cast<std::uintptr_t>(memory.data()) % alignof(SideGridRecord) == 0);
   lower_ = mask.lower;
   // The finest that there is room for.
   for (unsigned level = kLevels - 2; level > 0; --level) {

@@ -13,45 +13,47 @@ namespace planetree::octree {
 
 /// Goes through the nodes of a mask's first pages, three times: to paint cells, to paint the
 /// octants of those that are grey, and to fill in what is known of grey octants.
-class ColourMap::Painter {
+class SideGrid::SideGridBuilder {
  public:
   /// cells  the codes of blocks, to be painted; of no use when these are laid out.
-  Painter(ColourMap& map, std::span<MapCells::Codes> cells, const MaskFacts& mask,
-          const PageReader& pages, bool clipped)
+  SideGridBuilder(SideGrid& map, std::span<SideGridCells::Codes> cells, const MaskInfo& mask,
+                  const PageReader& pages, bool clipped)
       : map_(map), cells_(cells), mask_(mask), pages_(pages), clipped_(clipped) {}
 
-  void paint_cells() {
-    paint_rim();
+  void fill_cells() {
+    fill_rim();
     run(Pass::kCells);
   }
-  void paint_octants() { run(Pass::kOctants); }
+  void fill_octants() { run(Pass::kOctants); }
   void fill_records() { run(Pass::kRecords); }
 
  private:
-  using Place = std::array<std::uint32_t, 3>;
+  using Position = std::array<std::uint32_t, 3>;
   enum class Pass { kCells, kOctants, kRecords };
-  static constexpr std::uint32_t kRim = MapSteps::kRim;
+  static constexpr std::uint32_t kRim = GridCoordinates::kRim;
 
   // Pages that are not in memory, as often as they are brought: what opening a model may take for a
   // level of cells.
-  static constexpr std::uint64_t kMostBrought = 1 << 12;
+  static constexpr std::uint64_t kMaxBrought = 1 << 12;
   // Larger leaves would fill the map with their records.
-  static constexpr unsigned kMostAbove = 2;
+  static constexpr unsigned kMaxAbove = 2;
 
   // Without the rim.
   std::uint32_t width(unsigned axis) const { return map_.width_[axis] - 2 * kRim; }
 
   // As far as blocks go.
-  void paint_rim() {
+  void fill_rim() {
     const auto in_rim = [&](unsigned axis, std::uint32_t at) {
       return at < kRim || at >= width(axis) + kRim;
     };
-    const auto end = [&](unsigned axis) { return map_.blocks_along(axis) << MapCells::kBlockBits; };
+    const auto end = [&](unsigned axis) {
+      return map_.blocks_along(axis) << SideGridCells::kBlockBits;
+    };
     for (std::uint32_t z = 0; z < end(2); ++z)
       for (std::uint32_t y = 0; y < end(1); ++y) {
         const bool all = in_rim(2, z) || in_rim(1, y);
         for (std::uint32_t x = 0; x < end(0); ++x)
-          if (all || in_rim(0, x)) set({x, y, z}, MapCells::kWhite);
+          if (all || in_rim(0, x)) set({x, y, z}, SideGridCells::kWhite);
       }
   }
 
@@ -70,7 +72,7 @@ class ColourMap::Painter {
       if ((node.grey >> octant & 1) != 0)
         go_to_grey(node, octant, child);
       else if (pass_ == Pass::kCells)
-        paint_colour(child, (node.black >> octant & 1) - (node.inverted >> octant & 1));
+        fill_colour(child, (node.black >> octant & 1) - (node.inverted >> octant & 1));
     }
   }
 
@@ -79,9 +81,9 @@ class ColourMap::Painter {
       if (child.at[axis] << (map_.level_ - child.level) >= width(axis)) return;
     const bool leaf = (node.leaf >> octant & 1) != 0;
     const bool listed = child.level == map_.level_ || leaf;
-    if (leaf && map_.level_ - child.level > kMostAbove) return;
+    if (leaf && map_.level_ - child.level > kMaxAbove) return;
     if (listed && pass_ == Pass::kCells)
-      return each_cell(child, [&](const Place& at) { set(at, MapCells::kListed); });
+      return each_cell(child, [&](const Position& at) { set(at, SideGridCells::kListed); });
     const std::byte* record = below(node, octant);
     if (!record) return;
     if (!listed) return go_below(record, child);
@@ -91,17 +93,17 @@ class ColourMap::Painter {
 
   // The record of a grey octant; null where its page cannot be had, or is one too many.
   const std::byte* below(const MaskNode& node, unsigned octant) {
-    if (!records_->peek(node.family) && ++brought_ > kMostBrought) return nullptr;
+    if (!records_->peek(node.family) && ++brought_ > kMaxBrought) return nullptr;
     const bool leaf = (node.leaf >> octant & 1) != 0;
     return records_->record(records_->child_link(node, octant), leaf, work_);
   }
 
   // A cell of the map's level, which is divided.
   void go_to_listed(const MaskNode node, const GridCell& cell) {
-    const Place at{cell.at[0] + kRim, cell.at[1] + kRim, cell.at[2] + kRim};
+    const Position at{cell.at[0] + kRim, cell.at[1] + kRim, cell.at[2] + kRim};
     for (unsigned octant = 0; octant < 8; ++octant) {
       if ((node.grey >> octant & 1) == 0) {
-        paint(at, octant, (node.black >> octant & 1) - (node.inverted >> octant & 1));
+        fill(at, octant, (node.black >> octant & 1) - (node.inverted >> octant & 1));
         continue;
       }
       const std::byte* record = pass_ == Pass::kRecords ? below(node, octant) : nullptr;
@@ -110,7 +112,7 @@ class ColourMap::Painter {
         note(at, octant,
              read_leaf(record, records_->child_link(node, octant), cell.child(octant)).record(0));
       else
-        note(at, octant, MapRecord::of_node(*reinterpret_cast<const MaskNode*>(record)));
+        note(at, octant, SideGridRecord::of_node(*reinterpret_cast<const MaskNode*>(record)));
     }
   }
 
@@ -123,9 +125,9 @@ class ColourMap::Painter {
     CellSlab slab{};
     unsigned touched = 0xff;  // octants of it
 
-    MapRecord record(unsigned above) const {
-      return listed ? MapRecord::of_list(head, link, slab, touched, above)
-                    : MapRecord::of_leaf(link, above);
+    SideGridRecord record(unsigned above) const {
+      return listed ? SideGridRecord::of_list(head, link, slab, touched, above)
+                    : SideGridRecord::of_leaf(link, above);
     }
   };
 
@@ -134,7 +136,7 @@ class ColourMap::Painter {
     const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
     if (!is_listed(corners)) return leaf;
     const auto& listed = *reinterpret_cast<const MaskListed*>(record);
-    if (!MapRecord::has(listed)) return leaf;
+    if (!SideGridRecord::has(listed)) return leaf;
     MaskBlocks blocks;
     copy_list(records_->slot(0), listed, blocks);
     leaf.link = records_->link_to(listed.list_slot);
@@ -150,41 +152,41 @@ class ColourMap::Painter {
   // A leaf of the map's level or above.
   void go_to_leaf(const Leaf& leaf) {
     const unsigned above = map_.level_ + 1 - leaf.cell.level;
-    each_cell(leaf.cell, [&](const Place& at) {
+    each_cell(leaf.cell, [&](const Position& at) {
       const GridCell cell{map_.level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
       for (unsigned octant = 0; octant < 8; ++octant) {
         const unsigned of_leaf = cell.child(octant).octant_of(leaf.cell.level + 1);
         if ((leaf.touched >> of_leaf & 1) == 0)
-          paint(at, octant, corner_of(leaf.head, of_leaf));
+          fill(at, octant, corner_of(leaf.head, of_leaf));
         else
           note(at, octant, leaf.record(above));
       }
     });
   }
 
-  void paint(const Place& at, unsigned octant, int winding) {
-    if (!is_told(winding)) return note(at, octant, MapRecord::of_colour(winding));
+  void fill(const Position& at, unsigned octant, int winding) {
+    if (!is_certain(winding)) return note(at, octant, SideGridRecord::of_colour(winding));
     if (pass_ != Pass::kOctants || !is_listed_at(at)) return;
-    const MapCells::Octant painted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
-    painted.group.unknown &= ~painted.bit;
-    if (winding != 0) painted.group.inside |= painted.bit;
+    const SideGridCells::Octant filled = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
+    filled.group.unknown &= ~filled.bit;
+    if (winding != 0) filled.group.inside |= filled.bit;
   }
-  void note(const Place& at, unsigned octant, const MapRecord& record) {
+  void note(const Position& at, unsigned octant, const SideGridRecord& record) {
     if (pass_ != Pass::kRecords || !is_listed_at(at)) return;
-    const MapCells::Octant noted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
+    const SideGridCells::Octant noted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
     if (noted.is_unknown()) map_.cells_.records[noted.record()] = record;
   }
   // A page may be had the second time alone; then its cells are not listed.
-  bool is_listed_at(const Place& at) const {
-    return map_.cells_.code_of(map_.steps_.cell_at(at)) == MapCells::kListed;
+  bool is_listed_at(const Position& at) const {
+    return map_.cells_.code_of(map_.steps_.cell_at(at)) == SideGridCells::kListed;
   }
-  void set(const Place& at, MapCells::Code code) {
-    const MapCells::Cell cell = map_.steps_.cell_at(at);
+  void set(const Position& at, SideGridCells::Code code) {
+    const SideGridCells::Cell cell = map_.steps_.cell_at(at);
     cells_[cell.block].set(cell.at, code);
   }
 
   // Insides of one sign alone: the first one's.
-  bool is_told(int winding) {
+  bool is_certain(int winding) {
     if (winding != 0 && !has_inside_) {
       has_inside_ = true;
       map_.cells_.inside = winding;
@@ -192,10 +194,10 @@ class ColourMap::Painter {
     return winding == 0 || winding == map_.cells_.inside;
   }
 
-  void paint_colour(const GridCell& cell, int winding) {
-    if (is_told(winding))
-      each_cell(cell, [&](const Place& at) {
-        set(at, winding == 0 ? MapCells::kWhite : MapCells::kInside);
+  void fill_colour(const GridCell& cell, int winding) {
+    if (is_certain(winding))
+      each_cell(cell, [&](const Position& at) {
+        set(at, winding == 0 ? SideGridCells::kWhite : SideGridCells::kInside);
       });
   }
   // Calls with the place of each of the map's cells that are in a cell.
@@ -209,15 +211,15 @@ class ColourMap::Painter {
     }
     for (std::uint32_t z = first[2]; z < end[2]; ++z)
       for (std::uint32_t y = first[1]; y < end[1]; ++y)
-        for (std::uint32_t x = first[0]; x < end[0]; ++x) call(Place{x, y, z});
+        for (std::uint32_t x = first[0]; x < end[0]; ++x) call(Position{x, y, z});
   }
-  ColourMap& map_;
-  const std::span<MapCells::Codes> cells_;
-  const MaskFacts& mask_;
+  SideGrid& map_;
+  const std::span<SideGridCells::Codes> cells_;
+  const MaskInfo& mask_;
   const PageReader pages_;
   const bool clipped_;
   MaskRecords* records_ = nullptr;
-  TreeWork work_;
+  TraversalStats work_;
   std::uint64_t brought_ = 0;
   Pass pass_ = Pass::kCells;
   bool has_inside_ = false;

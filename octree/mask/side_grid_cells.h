@@ -11,11 +11,11 @@
 
 namespace planetree::octree {
 
-/// The cells of a ColourMap: the colour of each, and of what is below the grey ones. Cubes of them,
+/// The cells of a SideGrid: the colour of each, and of what is below the grey ones. Cubes of them,
 /// blocks, are looked up by number; what is known of a block's cells stands together, for whoever
 /// looks at one seldom needs others. All pointers are into the map's memory.
-struct MapCells {
-  static constexpr int kUnknown = MapRecord::kUnknown;
+struct SideGridCells {
+  static constexpr int kUnknown = SideGridRecord::kUnknown;
 
   enum Code : unsigned {
     kWhite = 0,
@@ -47,7 +47,7 @@ struct MapCells {
     bool operator==(const Codes&) const = default;
   };
   static constexpr std::uint64_t kAll = ~std::uint64_t{0};
-  static constexpr Codes kUnpainted{kAll, kAll};
+  static constexpr Codes kUnfilled{kAll, kAll};
 
   /// Listed cells of a block that follow each other, by the colours of their octants: `inside` are
   /// those of its sign.
@@ -59,7 +59,7 @@ struct MapCells {
 
   std::uint32_t* first_word = nullptr;  ///< of each block
   std::uint64_t* words = nullptr;       ///< a block's Codes, and its groups
-  MapRecord* records = nullptr;
+  SideGridRecord* records = nullptr;
   int inside = 1;  ///< or -1
 
   static constexpr std::size_t groups_in(const Codes& codes) {
@@ -69,17 +69,17 @@ struct MapCells {
   /// Sets up the words of blocks of these codes, with all octants of listed cells unknown; blocks
   /// of one colour share theirs. Returns how many words there are; where that is more than `room`,
   /// there was none for some.
-  std::size_t lay_out(std::span<const Codes> blocks, std::size_t room) {
-    constexpr std::array kShared{Codes{0, 0}, Codes{kAll, 0}, kUnpainted};
+  std::size_t lay_out(std::span<const Codes> blocks, std::size_t capacity) {
+    constexpr std::array kShared{Codes{0, 0}, Codes{kAll, 0}, kUnfilled};
     constexpr std::size_t kCodeWords = sizeof(Codes) / sizeof(std::uint64_t);
     std::size_t size = 0;
-    for (const Codes& codes : kShared) size = add_block(size, codes, room);
-    for (std::size_t block = 0; block < blocks.size() && size <= room; ++block) {
+    for (const Codes& codes : kShared) size = add_block(size, codes, capacity);
+    for (std::size_t block = 0; block < blocks.size() && size <= capacity; ++block) {
       const auto shared = static_cast<std::size_t>(
           std::find(kShared.begin(), kShared.end(), blocks[block]) - kShared.begin());
       const bool shares = shared < kShared.size();
       first_word[block] = static_cast<std::uint32_t>(shares ? kCodeWords * shared : size);
-      if (!shares) size = add_block(size, blocks[block], room);
+      if (!shares) size = add_block(size, blocks[block], capacity);
     }
     return size;
   }
@@ -98,8 +98,8 @@ struct MapCells {
   const Codes& codes_of(std::size_t block) const {
     return *reinterpret_cast<const Codes*>(words + first_word[block]);
   }
-  /// Asks for so many lines behind the codes', too, where groups of listed cells are: the first two
-  /// at least are in one, nearly all in three.
+  /// Queries for so many lines behind the codes', too, where groups of listed cells are: the first
+  /// two at least are in one, nearly all in three.
   template <std::size_t kLines = 0>
   Code code_of(Cell cell) const {
     const Codes& codes = codes_of(cell.block);
@@ -126,8 +126,9 @@ struct MapCells {
 
   /// What is known of a place.
   struct Found {
-    int winding;                        ///< its sign, or kUnknown
-    const MapRecord* record = nullptr;  ///< then: of the octant; null if the cell is not listed
+    int winding;  ///< its sign, or kUnknown
+    const SideGridRecord* record =
+        nullptr;  ///< then: of the octant; null if the cell is not listed
   };
   /// In a cell that has a code and is not listed.
   Found find_by_code(unsigned code) const {
@@ -151,9 +152,9 @@ struct MapCells {
   static constexpr std::size_t kGroupWords = sizeof(Group) / sizeof(std::uint64_t);
 
   // Behind the words that there are; returns how many there are then.
-  std::size_t add_block(std::size_t size, const Codes& codes, std::size_t room) {
+  std::size_t add_block(std::size_t size, const Codes& codes, std::size_t capacity) {
     const std::size_t groups = groups_in(codes), end = size + 2 + kGroupWords * groups;
-    if (end > room) return room + 1;
+    if (end > capacity) return capacity + 1;
     std::construct_at(reinterpret_cast<Codes*>(words + size), codes);
     std::size_t octants = 8 * std::size_t{count(codes.listed())};
     for (std::size_t i = 0; i < groups; ++i, octants -= 64)

@@ -47,14 +47,15 @@ HWY_INLINE unsigned bits_at(Steps steps) {
 // Of which the compiler is told nothing: gcc 12, where it sees that a function leaves vectors
 // alone, calls it and returns with their upper halves in use, for which whatever comes next then
 // waits.
-[[gnu::noipa]] int winding_below(const MapCells& cells, MapCells::Cell cell, unsigned octant,
-                                 unsigned part) {
+[[gnu::noipa]] int winding_below(const SideGridCells& cells, SideGridCells::Cell cell,
+                                 unsigned octant, unsigned part) {
   return cells.find_below(cell, octant, part).winding;
 }
 
-// MapSteps::find(), an axis a lane, of the digits of CellSteps. The fourth lane is never in doubt
-// where others are not.
-int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, double y, double z) {
+// GridCoordinates::find(), an axis a lane, of the digits of FixedPoint. The fourth lane is never in
+// doubt where others are not.
+int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells, double x,
+                        double y, double z) {
   const WordTag words;
   const StepTag signs;
   const Words bits = bits_of(x, y, z);
@@ -66,32 +67,33 @@ int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, dou
   const Steps sign = hn::BroadcastSignBit(hn::BitCast(signs, bits));
   const Steps from_zero = hn::Sub(hn::Xor(hn::BitCast(signs, shown), sign), sign);
   const Steps beyond = hn::Sub(from_zero, hn::Load(signs, steps.first.data()));
-  const Steps step = hn::Min(hn::Max(beyond, hn::Set(signs, MapSteps::kRimMiddle)),
+  const Steps step = hn::Min(hn::Max(beyond, hn::Set(signs, GridCoordinates::kRimMiddle)),
                              hn::Load(signs, steps.last_middle.data()));
-  const Steps past_side = hn::And(step, hn::Set(signs, MapSteps::kLeast - 1));
-  const auto doubtful =
-      hn::Or(hn::Lt(shift, hn::Zero(signs)), hn::Lt(past_side, hn::Set(signs, steps.doubtful)));
-  if (!hn::AllFalse(signs, doubtful)) return MapCells::kUnknown;
-  constexpr int kBlockShift = CellSteps::kBits + int{MapCells::kBlockBits};
-  const MapCells::Cell cell{
+  const Steps past_side = hn::And(step, hn::Set(signs, GridCoordinates::kMin - 1));
+  const auto uncertainty =
+      hn::Or(hn::Lt(shift, hn::Zero(signs)), hn::Lt(past_side, hn::Set(signs, steps.uncertainty)));
+  if (!hn::AllFalse(signs, uncertainty)) return SideGridCells::kUnknown;
+  constexpr int kBlockShift = FixedPoint::kBits + int{SideGridCells::kBlockBits};
+  const SideGridCells::Cell cell{
       weighted_sum(hn::ShiftRight<kBlockShift>(hn::BitCast(words, step)),
                    hn::Load(words, steps.stride.data())),
-      bits_at<CellSteps::kBits + 1>(step) << 3 | bits_at<CellSteps::kBits>(step)};
+      bits_at<FixedPoint::kBits + 1>(step) << 3 | bits_at<FixedPoint::kBits>(step)};
   // Points that a glance is enough for are seldom in the block of the one before, so that none of
   // its lines is likely to be near.
   const unsigned code = cells.code_of<3>(cell);
-  if (code != MapCells::kListed) return cells.find_by_code(code).winding;
-  return winding_below(cells, cell, bits_at<MapSteps::kOctantBits>(step),
-                       bits_at<MapSteps::kLeastBits>(step));
+  if (code != SideGridCells::kListed) return cells.find_by_code(code).winding;
+  return winding_below(cells, cell, bits_at<GridCoordinates::kOctantBits>(step),
+                       bits_at<GridCoordinates::kMinBits>(step));
 }
 
 #else
 
-int glance_on_target(const MapSteps& steps, const MapCells& cells, double x, double y, double z) {
+int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells, double x,
+                        double y, double z) {
   const std::array<double, 3> point{x, y, z};
-  MapSteps::Place place;
-  if (!steps.find(point.data(), steps.input, place)) return MapCells::kUnknown;
-  return find(steps, cells, place).winding;
+  GridCoordinates::Position position;
+  if (!steps.find(point.data(), steps.input, position)) return SideGridCells::kUnknown;
+  return find(steps, cells, position).winding;
 }
 
 #endif
@@ -103,12 +105,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace planetree::octree {
 
-HWY_EXPORT(glance_on_target);
+HWY_EXPORT(find_fast_on_target);
 
-MapGlance map_glance() noexcept {
+SideGridLookup map_glance() noexcept {
   // Else it might be the one that chooses.
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  return &HWY_DYNAMIC_DISPATCH(glance_on_target);
+  return &HWY_DYNAMIC_DISPATCH(find_fast_on_target);
 }
 
 }  // namespace planetree::octree

@@ -7,9 +7,9 @@
 
 namespace planetree::octree {
 
-/// What a ColourMap has of a grey cell of a mask: a node as the mask has it, where a leaf is, or
+/// What a SideGrid has of a grey cell of a mask: a node as the mask has it, where a leaf is, or
 /// where its list of blocks is, and its slab. None is in two cache lines.
-struct alignas(16) MapRecord {
+struct alignas(16) SideGridRecord {
   static constexpr int kUnknown = 2;  ///< no sign of a winding number
 
   std::uint32_t link = 0;                  ///< to a node's family, a leaf's record, or its list
@@ -20,7 +20,7 @@ struct alignas(16) MapRecord {
   std::uint8_t inverted = 0;
   std::uint8_t touched = 0xff;  ///< octants of this cell, by what is listed
 
-  static constexpr MapRecord of_node(const MaskNode& node) {
+  static constexpr SideGridRecord of_node(const MaskNode& node) {
     return {.link = node.family,
             .grey = node.grey,
             .leaf = node.grey != 0 ? node.leaf : kOneColour,
@@ -28,20 +28,20 @@ struct alignas(16) MapRecord {
             .inverted = node.inverted};
   }
   /// A cell of one colour.
-  static constexpr MapRecord of_colour(int winding) {
+  static constexpr SideGridRecord of_colour(int winding) {
     MaskNode node{};
     (winding < 0 ? node.inverted : node.black) = winding != 0 ? 0xff : 0;
     return of_node(node);
   }
   /// levels_above  the leaf is of a cell so many levels above this one, up to 7.
-  static constexpr MapRecord of_leaf(std::uint32_t link, unsigned levels_above) {
+  static constexpr SideGridRecord of_leaf(std::uint32_t link, unsigned levels_above) {
     return {.link = link, .leaf = static_cast<std::uint8_t>(kLeaf | levels_above)};
   }
   /// A leaf that has() a list at `link`.
-  static constexpr MapRecord of_list(const MaskListed& listed, std::uint32_t link,
-                                     const CellSlab& slab, unsigned touched,
-                                     unsigned levels_above) {
-    const unsigned least = listed.least == 0 ? 0 : kLeastIsMinus1;
+  static constexpr SideGridRecord of_list(const MaskListed& listed, std::uint32_t link,
+                                          const CellSlab& slab, unsigned touched,
+                                          unsigned levels_above) {
+    const unsigned least = listed.least == 0 ? 0 : kMinIsMinus1;
     return {.link = link,
             .slab = slab.word(),
             .leaf = static_cast<std::uint8_t>(kListed | least | levels_above),
@@ -62,20 +62,20 @@ struct alignas(16) MapRecord {
   constexpr MaskNode node() const { return {link, grey, leaf, black, inverted}; }
   /// The leaf of a list, which is from `slot` on.
   constexpr MaskListed listed(std::uint32_t slot) const {
-    return {kListedTag, black, static_cast<std::int8_t>((leaf & kLeastIsMinus1) != 0 ? -1 : 0),
+    return {kListedTag, black, static_cast<std::int8_t>((leaf & kMinIsMinus1) != 0 ? -1 : 0),
             inverted, slot};
   }
   /// The sign of the winding number in an octant of this cell; kUnknown where it is grey.
   constexpr int winding(unsigned octant) const {
     if (is_listed()) return (touched >> octant & 1) != 0 ? kUnknown : corner_of(listed(0), octant);
-    const bool told = grey != 0 ? (grey >> octant & 1) == 0 : leaf == kOneColour;
-    return told ? (black >> octant & 1) - (inverted >> octant & 1) : kUnknown;
+    const bool certain = grey != 0 ? (grey >> octant & 1) == 0 : leaf == kOneColour;
+    return certain ? (black >> octant & 1) - (inverted >> octant & 1) : kUnknown;
   }
 
  private:
-  static constexpr std::uint8_t kOneColour = 0, kLeaf = 0x80, kListed = 0x40, kLeastIsMinus1 = 0x20,
+  static constexpr std::uint8_t kOneColour = 0, kLeaf = 0x80, kListed = 0x40, kMinIsMinus1 = 0x20,
                                 kNothing = 0x10, kLevelsAbove = 7;
 };
-static_assert(sizeof(MapRecord) == 16);
+static_assert(sizeof(SideGridRecord) == 16);
 
 }  // namespace planetree::octree

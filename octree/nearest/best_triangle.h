@@ -20,9 +20,9 @@ class BestTriangle {
   bool found() const { return triangle_ != kNoTriangle; }
   std::uint64_t triangle() const { return triangle_; }
   const Triangle& corners() const { return corners_; }
-  bool in_sheet() const { return in_sheet_; }
+  bool is_height_field() const { return is_height_field_; }
   /// Writes its nearest point.
-  void place_nearest(NearestOnTriangle& nearest) const { place(corners_, finding_, nearest); }
+  void place_nearest(NearestOnTriangle& nearest) const { locate(corners_, finding_, nearest); }
 
   /// Nothing farther than this is of interest.
   double reach() const { return reach_; }
@@ -36,17 +36,18 @@ class BestTriangle {
   double lower() const { return lower_; }
 
   /// Some triangle has a value of at most `distance`: it will be offered, or is left unread.
-  void promise(double distance) {
+  void tighten(double distance) {
     if (!(distance < reach_)) return;
     reach_ = distance;
     bounded_ = true;
     refresh();
   }
 
-  /// Keeps a triangle that was evaluated if (value, index) is less; `in_sheet` is its block's,
-  /// `corners(to)` writes its corners.
+  /// Keeps a triangle that was evaluated if (value, index) is less; `is_height_field` is its
+  /// block's, `corners(to)` writes its corners.
   template <class Corners>
-  void offer(const TriangleFinding& finding, std::uint64_t index, bool in_sheet, Corners corners) {
+  void offer(const TriangleFinding& finding, std::uint64_t index, bool is_height_field,
+             Corners corners) {
     const double squared = finding.value.squared;
     const double distance = std::sqrt(squared);
     lower_ = std::min(lower_, distance - finding.value.error);
@@ -55,7 +56,7 @@ class BestTriangle {
     if (distance > farthest_) return;
     finding_ = finding;
     triangle_ = index;
-    in_sheet_ = in_sheet;
+    is_height_field_ = is_height_field;
     corners(corners_);
     if (distance >= reach_) return;
     reach_ = distance;
@@ -83,7 +84,7 @@ class BestTriangle {
   double farthest_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
-  bool in_sheet_ = false;
+  bool is_height_field_ = false;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   TriangleFinding finding_;
   double reach_ = farthest_;

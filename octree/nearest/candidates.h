@@ -11,14 +11,15 @@ namespace planetree::octree {
 /// nothing nearer is likely to be found. Corners are copied: their page may be gone by then.
 class Candidates {
  public:
-  static constexpr std::size_t kMost = 32;
+  static constexpr std::size_t kMax = 32;
 
   std::size_t size() const { return size_; }
-  bool full() const { return size_ == kMost; }
+  bool full() const { return size_ == kMax; }
 
-  /// `squared` is the filter's value (octree/traversal/bounds.h), `extent` and `in_sheet` are the
-  /// block's.
-  void add(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
+  /// `squared` is the filter's value (octree/traversal/bounds.h), `extent` and `is_height_field`
+  /// are the block's.
+  void add(const Triangle& corners, std::uint64_t id, float extent, bool is_height_field,
+           float squared) {
     // The first of a group stands in all its lanes, so that kernels need no mask.
     if (size_ % kTrianglesAtOnce == 0)
       rows_.fill(size_, corners);
@@ -26,7 +27,7 @@ class Candidates {
       rows_.set(size_, corners);
     id_[size_] = id;
     extent_[size_] = extent;
-    in_sheet_[size_] = in_sheet;
+    is_height_field_[size_] = is_height_field;
     squared_[size_++] = squared;
   }
 
@@ -45,25 +46,25 @@ class Candidates {
   void clear() { size_ = 0; }
 
   /// Up to the next multiple of kTrianglesAtOnce there are triangles, of no meaning.
-  const TriangleRows<kMost>& rows() const { return rows_; }
+  const TriangleRows<kMax>& rows() const { return rows_; }
   std::uint64_t id(std::size_t at) const { return id_[at]; }
-  bool in_sheet(std::size_t at) const { return in_sheet_[at]; }
+  bool is_height_field(std::size_t at) const { return is_height_field_[at]; }
 
  private:
   void copy(std::size_t from, std::size_t to) {
     rows_.copy(from, to);
     id_[to] = id_[from];
     extent_[to] = extent_[from];
-    in_sheet_[to] = in_sheet_[from];
+    is_height_field_[to] = is_height_field_[from];
     squared_[to] = squared_[from];
   }
 
   std::size_t size_ = 0;
-  TriangleRows<kMost> rows_;
-  std::uint64_t id_[kMost];
-  float extent_[kMost];
-  bool in_sheet_[kMost];
-  float squared_[kMost];
+  TriangleRows<kMax> rows_;
+  std::uint64_t id_[kMax];
+  float extent_[kMax];
+  bool is_height_field_[kMax];
+  float squared_[kMax];
 };
 
 }  // namespace planetree::octree

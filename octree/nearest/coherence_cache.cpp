@@ -17,7 +17,8 @@ namespace {
 // Records by their links, up to so many: a forged tree could lead to one again and again.
 class LimitedFinder {
  public:
-  LimitedFinder(const TreeFacts& tree, std::uint64_t most, const PageReader& pages, TreeWork& work)
+  LimitedFinder(const TreeInfo& tree, std::uint64_t most, const PageReader& pages,
+                TraversalStats& work)
       : records_(tree, pages), work_(work), left_(std::min(most, tree.record_count)) {}
 
   // Null where it cannot be had, or no more may be visited.
@@ -33,15 +34,15 @@ class LimitedFinder {
   }
 
  private:
-  RecordFinder records_;
-  TreeWork& work_;
+  LinkResolver records_;
+  TraversalStats& work_;
   std::uint64_t left_;
 };
 
 // A ball as the children of nodes and the triangles of blocks are held against it.
 class Ball {
  public:
-  Ball(const TreeFacts& tree, const Point& centre, double radius)
+  Ball(const TreeInfo& tree, const Point& centre, double radius)
       : centre_(centre),
         radius_(radius),
         query_(FloatQuery::from(centre, tree.centre)),
@@ -85,7 +86,7 @@ class SubtreeSearch {
   // Puts nodes' near children in their places. False where none was opened.
   bool open_level() {
     bool opened = false;
-    for (std::size_t i = found_.size(); i-- > 0 && found_.has_room();) {
+    for (std::size_t i = found_.size(); i-- > 0 && found_.has_capacity();) {
       const Node* opening = node(found_.link(i));
       if (!opening) continue;
       found_.remove(i);
@@ -108,14 +109,14 @@ class SubtreeSearch {
 // The triangles of some blocks that reach into a ball.
 class TriangleSearch {
  public:
-  TriangleSearch(const TreeFacts& tree, const Ball& ball) : tree_(tree), ball_(ball) {}
+  TriangleSearch(const TreeInfo& tree, const Ball& ball) : tree_(tree), ball_(ball) {}
 
   // More blocks than these do not keep to so few triangles.
-  static constexpr std::size_t kMostBlocks = 28;
+  static constexpr std::size_t kMaxBlocks = 28;
 
   // False where they are too many, or a page is lost.
   bool run(const NearbySubtrees& blocks, LimitedFinder& records) {
-    if (blocks.size() > kMostBlocks) return false;
+    if (blocks.size() > kMaxBlocks) return false;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const std::byte* record = records.find(blocks.link(i));
       if (!record) return false;
@@ -133,21 +134,23 @@ class TriangleSearch {
     if (count_ + static_cast<unsigned>(std::popcount(near)) > found_.size()) return false;
     for (; near != 0; near &= near - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(near));
-      found_[count_++] = {block.triangle(i), block.id(i), nearest[i], block.header().in_sheet()};
+      found_[count_++] = {block.triangle(i), block.id(i), nearest[i],
+                          block.header().is_height_field()};
     }
     return true;
   }
 
-  const TreeFacts& tree_;
+  const TreeInfo& tree_;
   const Ball& ball_;
   std::size_t count_ = 0;
-  std::array<NearbyTriangle, NearbyTriangles::kMost> found_;
+  std::array<NearbyTriangle, NearbyTriangles::kMax> found_;
 };
 
 }  // namespace
 
-void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
-                     std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) noexcept {
+void CoherenceCache::renew(const TreeInfo& tree, const Point& query, double distance,
+                           std::uint64_t max_work, const PageReader& pages,
+                           TraversalStats& work) noexcept {
   const double diagonal = (tree.box_upper - tree.box_lower).norm();
   const double radius = wanted_radius(query, distance, diagonal);
   if (!(radius > 0)) return;
@@ -155,7 +158,7 @@ void Vicinity::renew(const TreeFacts& tree, const Point& query, double distance,
   radius_ = radius;
   triangles_.clear();
   const Ball ball(tree, centre_, radius_);
-  LimitedFinder records(tree, max_nodes, pages, work);
+  LimitedFinder records(tree, max_work, pages, work);
   if (!SubtreeSearch(ball, records, subtrees_).run(tree.root_link)) return forget();
   if (!subtrees_.are_blocks()) return;
   TriangleSearch search(tree, ball);

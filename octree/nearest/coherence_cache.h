@@ -16,7 +16,7 @@ namespace planetree::octree {
 /// A query's nearest triangle is no farther than the last one's nearest point. Where the ball holds
 /// all that is so near, nothing outside it can matter, so that answers are the same bits as from
 /// the root. Plain memory: links and copies, no pointers into frames. One thread.
-class Vicinity {
+class CoherenceCache {
  public:
   /// How near to the ball's centre a triangle is at most that may be nearest to `query`, or as near
   /// to the last bits.
@@ -50,8 +50,8 @@ class Vicinity {
 
   /// Keeps what reaches into a new ball, if `query` is near enough to the last one for that to
   /// be worth its while. `distance` is the answer to it. Visits at most so many nodes and blocks.
-  void renew(const TreeFacts& tree, const Point& query, double distance, std::uint64_t max_nodes,
-             const PageReader& pages, TreeWork& work) noexcept;
+  void renew(const TreeInfo& tree, const Point& query, double distance, std::uint64_t max_work,
+             const PageReader& pages, TraversalStats& work) noexcept;
 
   /// An exact answer.
   void note(const Point& query, const Point& nearest) {
@@ -77,7 +77,7 @@ class Vicinity {
   double step_to(const Point& query) const { return (query - last_).norm(); }
   // That lasts for a while, about a query `distance` away from the surface.
   double radius_for(double step, double distance) const {
-    return distance + steps_ * std::max(step, distance * kLeastStep);
+    return distance + steps_ * std::max(step, distance * kMinStep);
   }
 
   // How far a nearest point may be from the surface, for it is rounded as its coordinates are:
@@ -86,7 +86,7 @@ class Vicinity {
 
   static constexpr double kSlack = 0x1p-24;       ///< far above what bounds and sums may err
   static constexpr double kLongestStep = 0x1p-6;  ///< as a share of the diagonal
-  static constexpr double kLeastStep = 0x1p-6;    ///< as a share of the distance
+  static constexpr double kMinStep = 0x1p-6;      ///< as a share of the distance
   static constexpr double kPathSteps = 24;        ///< that a ball's radius is wider than wanted
   static constexpr double kCurveSteps = 3;
   static constexpr double kTooWide = 16;  ///< so many times what is wanted

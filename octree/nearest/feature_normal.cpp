@@ -100,7 +100,7 @@ class Fan {
     count_ = 0;
   }
 
-  static constexpr std::size_t kSorted = NearbyTriangles::kMost;
+  static constexpr std::size_t kSorted = NearbyTriangles::kMax;
 
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
@@ -121,7 +121,7 @@ void normal_of_face(const Point& query, const NearestAnswer& nearest, FeatureNor
     found.normal = Point::Zero();
     return;
   }
-  if (!nearest.in_sheet) return;
+  if (!nearest.is_height_field) return;
   FacingSides sides(query);
   sides.add(nearest.corners, found.normal, area2);
   sides.end_after(*std::min_element(nearest.barycentric.begin(), nearest.barycentric.end()) *
@@ -139,12 +139,12 @@ void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) 
 }
 
 // From some subtrees down, or from the root.
-bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, const TreeFacts& tree,
-             std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) {
+bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, const TreeInfo& tree,
+             std::uint64_t max_work, const PageReader& pages, TraversalStats& work) {
   const Outcodes outcodes(vertex, vertex);
   BoxWalk walk(tree, vertex, vertex, pages, work);
   if (subtrees) walk.begin_with(*subtrees);
-  return walk.run(max_nodes, [&](const BlockView& block, std::uint32_t) {
+  return walk.run(max_work, [&](const BlockView& block, std::uint32_t) {
     for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(around));
       fan.add(block.triangle(i), block.id(i));
@@ -170,9 +170,9 @@ bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept 
   return !flat;
 }
 
-void feature_normal(const TreeFacts& tree, const Point& query, const NearestAnswer& nearest,
-                    const Vicinity* vicinity, std::uint64_t max_nodes, const PageReader& pages,
-                    TreeWork& work, FeatureNormal& found) noexcept {
+void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswer& nearest,
+                    const CoherenceCache* coherence_cache, std::uint64_t max_work,
+                    const PageReader& pages, TraversalStats& work, FeatureNormal& found) noexcept {
   found.complete = true;
   found.side = 0;
   if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, found);
@@ -188,22 +188,22 @@ void feature_normal(const TreeFacts& tree, const Point& query, const NearestAnsw
   const Point& vertex = *ends[0];
   const bool on_edge = nearest.feature == Feature::kEdge;
   FacingSides sides(query);
-  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.in_sheet ? &sides : nullptr);
+  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.is_height_field ? &sides : nullptr);
   if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
-  const bool nearby = vicinity && vicinity->has_all_at(nearest.point);
-  if (nearby && vicinity->triangles().complete()) {
-    add_faces(vertex, vicinity->triangles(), fan);
+  const bool nearby = coherence_cache && coherence_cache->has_all_at(nearest.point);
+  if (nearby && coherence_cache->triangles().complete()) {
+    add_faces(vertex, coherence_cache->triangles(), fan);
   } else {
     const std::uint64_t before = work.nodes + work.blocks;
-    const NearbySubtrees* subtrees = nearby ? &vicinity->subtrees() : nullptr;
-    found.complete = walk_to(vertex, subtrees, fan, tree, max_nodes, pages, work);
+    const NearbySubtrees* subtrees = nearby ? &coherence_cache->subtrees() : nullptr;
+    found.complete = walk_to(vertex, subtrees, fan, tree, max_work, pages, work);
     // So many are summed up as the tree has them.
     if (subtrees && !fan.is_sorted())
       return feature_normal(tree, query, nearest, nullptr,
-                            max_nodes - (work.nodes + work.blocks - before), pages, work, found);
+                            max_work - (work.nodes + work.blocks - before), pages, work, found);
   }
   found.normal = fan.normal();
-  if (found.complete && nearest.in_sheet) found.side = sides.common();
+  if (found.complete && nearest.is_height_field) found.side = sides.common();
   // Not even the nearest triangle's own page was to be had.
   double area2 = 0;
   if (!found.complete && found.normal.squaredNorm() == 0 &&

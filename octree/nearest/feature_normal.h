@@ -18,7 +18,7 @@ bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept;
 struct FeatureNormal {
   /// Of length 1; zero where no face at the feature has an area.
   Point normal = Point::Zero();
-  bool complete = true;  ///< false: pages missing or `max_nodes` spent; of what was found
+  bool complete = true;  ///< false: pages missing or `max_work` spent; of what was found
   int side = 0;  ///< FacingSides::common(), where all faces were found and one is in a sheet
 };
 
@@ -30,13 +30,13 @@ struct FeatureNormal {
 /// query, nearest  of one answer, that names a triangle.
 /// vicinity   of that answer; where it has all faces there no page is looked at, and where it has
 ///            the subtrees that they are in no other. May be null.
-/// max_nodes  most nodes and blocks to visit.
+/// max_work  most nodes and blocks to visit.
 /// found      what it is; written where it is wanted, for to copy it takes longer.
 /// threads    any; no allocation, no lock, no exception of its own.
 /// source     Baerentzen & Aanaes 2005, "Signed distance computation using the
 ///            angle weighted pseudonormal".
-void feature_normal(const TreeFacts& tree, const Point& query, const NearestAnswer& nearest,
-                    const Vicinity* vicinity, std::uint64_t max_nodes, const PageReader& pages,
-                    TreeWork& work, FeatureNormal& found) noexcept;
+void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswer& nearest,
+                    const CoherenceCache* coherence_cache, std::uint64_t max_work,
+                    const PageReader& pages, TraversalStats& work, FeatureNormal& found) noexcept;
 
 }  // namespace planetree::octree

@@ -20,10 +20,10 @@ namespace HWY_NAMESPACE {
 // has been looked at, fewer of these may be nearest.
 class FilteredBlocks {
  public:
-  static constexpr unsigned kMost = 8;
+  static constexpr unsigned kMax = 8;
 
   bool empty() const { return size_ == 0; }
-  bool full() const { return size_ == kMost; }
+  bool full() const { return size_ == kMax; }
 
   // Where there is room, float's findings of a block go to next(); add() then keeps them.
   FilteredTriangles& next() { return triangles_[size_]; }
@@ -48,8 +48,8 @@ class FilteredBlocks {
 
  private:
   unsigned size_ = 0;
-  const BlockHeader* block_[kMost];
-  FilteredTriangles triangles_[kMost];
+  const BlockHeader* block_[kMax];
+  FilteredTriangles triangles_[kMax];
 };
 
 }  // namespace HWY_NAMESPACE

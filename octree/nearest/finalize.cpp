@@ -17,7 +17,7 @@ double down(double value) { return std::max(0.0, value - std::fabs(value) * 0x1p
 double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<double>::min(); }
 
 // A bound on the whole model from its box alone.
-double distance_to_box(const TreeFacts& tree, const Point& query) {
+double distance_to_box(const TreeInfo& tree, const Point& query) {
   const Point gap = (tree.box_lower - query).cwiseMax(query - tree.box_upper).cwiseMax(0.0);
   return std::max(0.0, gap.norm() * (1 - 0x1p-48) - kUnresolved);
 }
@@ -31,7 +31,7 @@ NearestAnswer beyond(const NearestLimits& limits) {
 }
 
 // Nothing was reached: all that is known is one vertex and what was left out.
-NearestAnswer nothing_read(const TreeFacts& tree, const Point& query, double lower, double within) {
+NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lower, double within) {
   NearestAnswer answer;
   const double distance = (query - tree.sample).norm();
   answer.point = tree.sample;
@@ -57,39 +57,39 @@ void answer_with(const BestTriangle& best, NearestAnswer& answer) {
   answer.upper = up(answer.distance + answer.value.error);
   answer.triangle = best.triangle();
   answer.corners = best.corners();
-  answer.in_sheet = best.in_sheet();
+  answer.is_height_field = best.is_height_field();
   answer.status = Status::kExact;
 }
 
 }  // namespace
 
-NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
+NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& wide,
-                       const LeftOut& left_out) noexcept {
+                       const SkippedBounds& skipped) noexcept {
   // One answer, made where the caller wants it.
   NearestAnswer answer;
-  const bool spent = may_matter(left_out.unread, best);
+  const bool spent = may_matter(skipped.unread, best);
   const auto bound_of = [&](float squared) {
     return std::max(distance_to_box(tree, query), certified(wide, squared));
   };
   if (!best.found()) {
     answer =
-        spent ? nothing_read(tree, query, std::min(limits.max_distance, bound_of(left_out.unread)),
-                             left_out.within)
+        spent ? nothing_read(tree, query, std::min(limits.max_distance, bound_of(skipped.unread)),
+                             skipped.within)
               : beyond(limits);
     return answer;
   }
   answer_with(best, answer);
-  if (may_matter(left_out.pruned, best)) {
-    answer.lower = std::min(answer.lower, bound_of(left_out.pruned));
+  if (may_matter(skipped.pruned, best)) {
+    answer.lower = std::min(answer.lower, bound_of(skipped.pruned));
     answer.status = Status::kWithinError;
   }
   // Only now: what max_error left out may be nearer than what was found.
   if (answer.lower > limits.max_distance && !spent) {
     answer = beyond(limits);
   } else if (spent) {
-    answer.lower = std::min(answer.lower, bound_of(left_out.unread));
-    answer.upper = std::min(answer.upper, up(left_out.within));
+    answer.lower = std::min(answer.lower, bound_of(skipped.unread));
+    answer.upper = std::min(answer.upper, up(skipped.within));
     answer.status = Status::kDegraded;
   }
   return answer;

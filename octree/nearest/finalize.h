@@ -8,7 +8,7 @@
 namespace planetree::octree {
 
 /// The children that a descent did not visit.
-struct LeftOut {
+struct SkippedBounds {
   float pruned = std::numeric_limits<float>::infinity();  ///< least squared bound of those that
                                                           ///< max_error allowed to leave out,
   float unread = std::numeric_limits<float>::infinity();  ///< and of those whose page was not to
@@ -18,8 +18,8 @@ struct LeftOut {
 };
 
 /// The answer of a finished descent.
-NearestAnswer conclude(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
+NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& wide,
-                       const LeftOut& left_out) noexcept;
+                       const SkippedBounds& skipped) noexcept;
 
 }  // namespace planetree::octree

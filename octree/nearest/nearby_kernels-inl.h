@@ -31,11 +31,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 // that their bits order as they do; the last of these tell the place in the list instead.
 class SubtreeKeys {
  public:
-  static constexpr std::int32_t kPlaceBits = NearbySubtrees::kMost - 1;
+  static constexpr std::int32_t kIndexBits = NearbySubtrees::kMax - 1;
 
   std::size_t size() const { return size_; }
-  std::size_t place(std::size_t i) const { return static_cast<std::size_t>(at_[i] & kPlaceBits); }
-  float bound(std::size_t i) const { return std::bit_cast<float>(at_[i] & ~kPlaceBits); }
+  std::size_t index(std::size_t i) const { return static_cast<std::size_t>(at_[i] & kIndexBits); }
+  float bound(std::size_t i) const { return std::bit_cast<float>(at_[i] & ~kIndexBits); }
 
   // Those of a register's keys that are near.
   template <class Near, class Keys>
@@ -59,7 +59,7 @@ class SubtreeKeys {
  private:
   std::size_t size_ = 0;
   // A vector may be written behind the last.
-  HWY_ALIGN std::int32_t at_[NearbySubtrees::kMost + kMaxBlockTriangles];
+  HWY_ALIGN std::int32_t at_[NearbySubtrees::kMax + kMaxBlockTriangles];
 };
 
 // Finds the subtrees whose boxes come as near as a threshold.
@@ -75,7 +75,7 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
     const TriangleFloats squared = dot(gaps, gaps);
     const auto beyond = hn::Gt(squared, hn::Set(d, threshold));
     const PackedLanes near(d, hn::AndNot(beyond, hn::FirstN(d, list.size() - i)));
-    found.add(near, bound_keys(squared, SubtreeKeys::kPlaceBits, i));
+    found.add(near, bound_keys(squared, SubtreeKeys::kIndexBits, i));
   }
   found.sort();
 }
@@ -87,7 +87,7 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
   evaluate_some(list.exact().view(first), near, query, findings);
   for (; near != 0; near &= near - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(near));
-    best.offer(findings.of(lane), list.id(first + lane), list.in_sheet(first + lane),
+    best.offer(findings.of(lane), list.id(first + lane), list.is_height_field(first + lane),
                [&](Triangle& to) { list.exact().view(0).copy_triangle(first + lane, to); });
   }
 }
@@ -95,12 +95,12 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
 // Offers what may be nearest of a list. No triangle matters that is farther from the list's
 // centre than `reach`.
 HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Point& query,
-                             const FloatQuery& wide, BestTriangle& best, TreeWork& work) {
+                             const FloatQuery& wide, BestTriangle& best, TraversalStats& work) {
   const TriangleTag d;
   const std::size_t count = list.count_within(reach);
   const FloatOffset from(query, list.centre());
   const ListedTriangles triangles(list, from.at);
-  HWY_ALIGN float squared[NearbyTriangles::kMost];  // lower bounds
+  HWY_ALIGN float squared[NearbyTriangles::kMax];  // lower bounds
   const TriangleFloats none = hn::Set(d, std::numeric_limits<float>::infinity());
   TriangleFloats least = none;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
@@ -110,8 +110,8 @@ HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Po
     const auto listed = hn::FirstN(d, count - i);
     least = hn::Min(least, hn::IfThenElse(listed, bounds.upper, none));
   }
-  const float least_upper = hn::GetLane(hn::MinOfLanes(d, least));
-  const double upper = std::min(best.reach(), filter_upper(least_upper, list.extent()));
+  const float min_upper = hn::GetLane(hn::MinOfLanes(d, least));
+  const double upper = std::min(best.reach(), filter_upper(min_upper, list.extent()));
   const float limit = filter_threshold(wide, upper, list.extent());
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     unsigned near = bits_not_above(hn::Load(d, squared + i), limit);

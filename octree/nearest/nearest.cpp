@@ -20,51 +20,50 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
 // All triangles that may be nearest are in the list, no farther than `reach` from its centre.
-NearestAnswer nearest_of_list(const TreeFacts& tree, const Point& query,
-                              const NearestLimits& limits, const NearbyTriangles& list,
-                              double reach, TreeWork& work) {
+NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
+                              const NearbyTriangles& list, double reach, TraversalStats& work) {
   const FloatQuery wide = FloatQuery::from(query, tree.centre);
   BestTriangle best(wide, limits);
   offer_nearby(list, reach, query, wide, best, work);
-  return conclude(tree, query, limits, best, wide, {});
+  return finalize(tree, query, limits, best, wide, {});
 }
 
-NearestAnswer nearest_on_target(const TreeFacts& tree, const Point& query,
+NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
                                 const NearestLimits& limits, const PageReader& pages,
-                                TreeWork& work, Vicinity* vicinity) {
+                                TraversalStats& work, CoherenceCache* coherence_cache) {
   const std::uint64_t before = work.nodes + work.blocks;
-  const double reach = vicinity ? vicinity->reach_of(query) : 0;
-  const bool held = vicinity && vicinity->holds(reach);
-  const bool listed = held && vicinity->triangles().complete();
+  const double reach = coherence_cache ? coherence_cache->reach_of(query) : 0;
+  const bool held = coherence_cache && coherence_cache->holds(reach);
+  const bool listed = held && coherence_cache->triangles().complete();
   const auto descend = [&](bool from_ball) {
-    Descent descent(tree, query, limits, pages, work);
-    from_ball ? descent.run_from(*vicinity) : descent.run_from_root();
+    NearestTraversal descent(tree, query, limits, pages, work);
+    from_ball ? descent.run_from(*coherence_cache) : descent.run_from_root();
     if (limits.known) descent.fall_back_on(*limits.known);
-    return conclude(tree, query, limits, descent.best(), descent.wide(),
-                    descent.what_is_left_out());
+    return finalize(tree, query, limits, descent.best(), descent.wide(), descent.skipped_bounds());
   };
   NearestAnswer answer =
-      listed ? nearest_of_list(tree, query, limits, vicinity->triangles(), reach, work)
+      listed ? nearest_of_list(tree, query, limits, coherence_cache->triangles(), reach, work)
              : descend(held);
   if (listed) {
     if (answer.status == Status::kExact) {
-      vicinity->note(query, answer.point);
+      coherence_cache->note(query, answer.point);
       return answer;
     }
     answer = descend(true);
   }
   if (held) {
-    if (answer.status == Status::kExact) vicinity->outlive(query, answer.distance, answer.point);
+    if (answer.status == Status::kExact)
+      coherence_cache->outlive(query, answer.distance, answer.point);
     if (answer.status == Status::kExact || limits.known) return answer;
     // Lost pages, or nothing so near as asked: told from the root, as ever.
-    vicinity->forget();
+    coherence_cache->forget();
     answer = descend(false);
   }
-  if (vicinity && answer.status == Status::kExact) {
+  if (coherence_cache && answer.status == Status::kExact) {
     const std::uint64_t spent = work.nodes + work.blocks - before;
-    const std::uint64_t left = limits.max_nodes - std::min<std::uint64_t>(spent, limits.max_nodes);
-    vicinity->renew(tree, query, answer.distance, left, pages, work);
-    vicinity->note(query, answer.point);
+    const std::uint64_t left = limits.max_work - std::min<std::uint64_t>(spent, limits.max_work);
+    coherence_cache->renew(tree, query, answer.distance, left, pages, work);
+    coherence_cache->note(query, answer.point);
   }
   return answer;
 }
@@ -78,12 +77,13 @@ namespace planetree::octree {
 
 HWY_EXPORT(nearest_on_target);
 
-NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      const PageReader& pages, TreeWork& work, Vicinity* vicinity) noexcept {
+NearestAnswer nearest(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
+                      const PageReader& pages, TraversalStats& work,
+                      CoherenceCache* coherence_cache) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
   const bool any_way = limits.known || limits.allow_any_way();
   return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
-                                                 any_way ? vicinity : nullptr);
+                                                 any_way ? coherence_cache : nullptr);
 }
 
 }  // namespace planetree::octree

@@ -23,7 +23,7 @@ struct NearestAnswer : NearestOnTriangle {
   double upper = 0;
   std::uint64_t triangle = kNoTriangle;
   Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< of `triangle`
-  bool in_sheet = false;  ///< `triangle` is known to be in a sheet (BlockHeader)
+  bool is_height_field = false;  ///< `triangle` is known to be in a sheet (BlockHeader)
   Status status = Status::kBadQuery;
 };
 
@@ -31,7 +31,7 @@ struct NearestAnswer : NearestOnTriangle {
 struct NearestLimits {
   double max_error = 0;
   double max_distance = std::numeric_limits<double>::infinity();
-  std::uint32_t max_nodes = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t max_work = std::numeric_limits<std::uint32_t>::max();
   /// One with a triangle of this tree, to fall back upon where pages are missing: its
   /// triangle, not its distance, counts. Limited work, too, may then start from what the last
   /// query left, so that answers that are not exact depend on the queries before. May be null.
@@ -40,7 +40,7 @@ struct NearestLimits {
   /// Whether all ways lead to the same answer. Limited work and errors depend on the way, which
   /// what is resident must not steer, and what was asked before only where there is a `known`.
   bool allow_any_way() const {
-    return max_error == 0 && max_nodes == std::numeric_limits<std::uint32_t>::max();
+    return max_error == 0 && max_work == std::numeric_limits<std::uint32_t>::max();
   }
 };
 
@@ -57,8 +57,8 @@ struct NearestLimits {
 ///         kExact where none of them can matter.
 /// threads any; no allocation, no lock, no exception of its own.
 /// source  descent and float filter are ours; bounds in octree/traversal/bounds.h.
-NearestAnswer nearest(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-                      const PageReader& pages, TreeWork& work,
-                      Vicinity* vicinity = nullptr) noexcept;
+NearestAnswer nearest(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
+                      const PageReader& pages, TraversalStats& work,
+                      CoherenceCache* coherence_cache = nullptr) noexcept;
 
 }  // namespace planetree::octree

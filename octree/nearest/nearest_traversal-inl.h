@@ -1,10 +1,10 @@
 // A descent of a tree to the triangle that is nearest to a query.
 
-#if defined(PLANETREE_OCTREE_DESCENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef PLANETREE_OCTREE_DESCENT_INL_H_
-#undef PLANETREE_OCTREE_DESCENT_INL_H_
+#if defined(PLANETREE_OCTREE_NEAREST_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_NEAREST_TRAVERSAL_INL_H_
+#undef PLANETREE_OCTREE_NEAREST_TRAVERSAL_INL_H_
 #else
-#define PLANETREE_OCTREE_DESCENT_INL_H_
+#define PLANETREE_OCTREE_NEAREST_TRAVERSAL_INL_H_
 #endif
 
 #include <algorithm>
@@ -32,65 +32,65 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
 // One descent; the parts that touch nodes and blocks are compiled per target.
-class Descent {
+class NearestTraversal {
  public:
-  Descent(const TreeFacts& tree, const Point& query, const NearestLimits& limits,
-          const PageReader& pages, TreeWork& work)
+  NearestTraversal(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
+                   const PageReader& pages, TraversalStats& work)
       : tree_(tree),
         query_(query),
         wide_(FloatQuery::from(query, tree.centre)),
         limits_(limits),
-        visits_left_(std::min<std::uint64_t>(limits.max_nodes, tree.record_count)),
+        visits_left_(std::min<std::uint64_t>(limits.max_work, tree.record_count)),
         work_(work),
-        keeper_(limits.allow_any_way() ? pages.keeper : nullptr),
+        release_hook_(limits.allow_any_way() ? pages.release_hook : nullptr),
         records_(tree, pages),
         best_(wide_, limits_) {
-    if (keeper_) *keeper_ = {this, &let_go};
+    if (release_hook_) *release_hook_ = {this, &on_release};
   }
-  ~Descent() {
-    if (keeper_) *keeper_ = {};
+  ~NearestTraversal() {
+    if (release_hook_) *release_hook_ = {};
   }
-  Descent(const Descent&) = delete;
-  Descent& operator=(const Descent&) = delete;
+  NearestTraversal(const NearestTraversal&) = delete;
+  NearestTraversal& operator=(const NearestTraversal&) = delete;
 
   void run_from_root() {
     search(0, tree_.root_link);
     finish();
   }
   // From the subtrees that a ball holds, nearest first.
-  void run_from(const Vicinity& vicinity) {
-    subtrees_ = &vicinity.subtrees();
-    if (limits_.max_error == 0 && wide_.usable) best_.promise(vicinity.nearest_of(query_));
+  void run_from(const CoherenceCache& coherence_cache) {
+    subtrees_ = &coherence_cache.subtrees();
+    if (limits_.max_error == 0 && wide_.usable) best_.tighten(coherence_cache.nearest_of(query_));
     SubtreeKeys keys;
     find_near(*subtrees_, wide_, best_.exact_threshold(), keys);
     for (std::size_t i = 0; i < keys.size(); ++i) {
       if (keys.bound(i) > best_.threshold()) {
-        left_out_.pruned = std::min(left_out_.pruned, keys.bound(i));
+        skipped_.pruned = std::min(skipped_.pruned, keys.bound(i));
         break;
       }
-      search(keys.bound(i), subtrees_->link(keys.place(i)));
+      search(keys.bound(i), subtrees_->link(keys.index(i)));
     }
     finish();
   }
 
   // Where something is left out that may matter, a triangle known from elsewhere helps.
   void fall_back_on(const NearestAnswer& known) {
-    if (known.triangle == kNoTriangle || left_out_.unread > best_.exact_threshold()) return;
-    note(known.corners, known.triangle, 0, known.in_sheet, 0);
+    if (known.triangle == kNoTriangle || skipped_.unread > best_.exact_threshold()) return;
+    note(known.corners, known.triangle, 0, known.is_height_field, 0);
     settle();
   }
 
   const BestTriangle& best() const { return best_; }
   const FloatQuery& wide() const { return wide_; }
-  const LeftOut& what_is_left_out() const { return left_out_; }
+  const SkippedBounds& skipped_bounds() const { return skipped_; }
 
  private:
   static constexpr unsigned kPrefetched = 3;  // children, nearest first
-  static constexpr unsigned kMostSought = 4;  // parents of children that cannot be had
+  static constexpr unsigned kMaxSought = 4;   // parents of children that cannot be had
 
   // All of a subtree that is near. Compiled once: there is much of it.
   HWY_NOINLINE void search(float bound, std::uint32_t link) {
-    FrontierEntry entry{bound, link, RecordFinder::kNoPage}, second{};
+    FrontierEntry entry{bound, link, LinkResolver::kNoPage}, second{};
     bool has_second = false;
     do {
       // From nearest child to nearest child, as long as nodes are near.
@@ -108,24 +108,24 @@ class Descent {
       return true;
     }
     const Frontier::Order order = order_;
-    if (!frontier_.pop(order, best_.threshold(), entry, left_out_.pruned)) return false;
+    if (!frontier_.pop(order, best_.threshold(), entry, skipped_.pruned)) return false;
     if (order == Frontier::Order::kNearest && frontier_.is_ordered())
-      has_second = frontier_.pop(order, best_.threshold(), second, left_out_.pruned);
+      has_second = frontier_.pop(order, best_.threshold(), second, skipped_.pruned);
     return true;
   }
 
   // Whether to go on with a child, which `entry` then is.
   HWY_INLINE bool visit(FrontierEntry& entry) {
     if (visits_left_ == 0) {
-      left_out_.unread = std::min(left_out_.unread, entry.bound);
+      skipped_.unread = std::min(skipped_.unread, entry.bound);
       return false;
     }
     --visits_left_;
     // Another page may take the place of theirs.
-    if (!keeper_ && !blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
+    if (!release_hook_ && !blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
-      leave_out(entry);
+      skip(entry);
     } else if (LinkFormat::is_leaf(entry.link)) {
       ++work_.blocks;
       visit_block(BlockView(record, tree_.shape));
@@ -137,28 +137,27 @@ class Descent {
   }
 
   // A page that cannot be had: the box of what is there is all that is known.
-  void leave_out(const FrontierEntry& entry) {
-    left_out_.unread = std::min(left_out_.unread, entry.bound);
-    if (sought_ == kMostSought) return;
+  void skip(const FrontierEntry& entry) {
+    skipped_.unread = std::min(skipped_.unread, entry.bound);
+    if (sought_ == kMaxSought) return;
     ++sought_;
-    if (entry.from == RecordFinder::kNoPage) return leave_out_listed(entry.link);
-    const RecordFinder::Child child = records_.find_parent(entry.link, entry.from);
+    if (entry.from == LinkResolver::kNoPage) return skip_listed(entry.link);
+    const LinkResolver::Child child = records_.find_parent(entry.link, entry.from);
     if (!child.node) return;
-    const FloatBox box = child_box(*child.node, child.place);
-    left_out_.within = std::min(left_out_.within, farthest_in_box(box, query_ - tree_.centre));
+    const FloatBox box = child_box(*child.node, child.index);
+    skipped_.within = std::min(skipped_.within, farthest_in_box(box, query_ - tree_.centre));
   }
 
   // A subtree that a ball holds; or the root, of whose box nothing is said here.
-  void leave_out_listed(std::uint32_t link) {
+  void skip_listed(std::uint32_t link) {
     for (std::size_t i = 0; subtrees_ && i < subtrees_->size(); ++i)
       if (subtrees_->link(i) == link)
-        left_out_.within =
-            std::min(left_out_.within, subtrees_->farthest(i, query_ - tree_.centre));
+        skipped_.within = std::min(skipped_.within, subtrees_->farthest(i, query_ - tree_.centre));
   }
 
   HWY_INLINE bool visit_node(FrontierEntry& entry, const Node& node, std::uint32_t page) {
-    if (!frontier_.has_room()) {
-      left_out_.unread = std::min(left_out_.unread, entry.bound);
+    if (!frontier_.has_capacity()) {
+      skipped_.unread = std::min(skipped_.unread, entry.bound);
       return false;
     }
     FrontierGroup& group = frontier_.next();
@@ -169,8 +168,8 @@ class Descent {
     const unsigned near = children.count;
     // By no branch.
     const float first_left = group.bound(near % kFanOut);
-    left_out_.pruned =
-        std::min(left_out_.pruned,
+    skipped_.pruned =
+        std::min(skipped_.pruned,
                  near < node.child_count ? first_left : std::numeric_limits<float>::infinity());
     // The nearest child is visited at once, unless from afar another is nearer; the last
     // lines of a node are looked at from afar alone.
@@ -208,7 +207,7 @@ class Descent {
     filter_block(header, from.at, limit_of(header.extent), filtered);
     if (filtered.near == 0) return;
     blocks_.add(header);
-    best_.promise(filter_upper(filtered.least_upper, header.extent));
+    best_.tighten(filter_upper(filtered.min_upper, header.extent));
   }
 
   // Of the values that the filter has for the triangles of a block.
@@ -222,14 +221,16 @@ class Descent {
   }
 
   void note(const BlockView& block, unsigned i, float squared) {
-    note(block.triangle(i), block.id(i), block.header().extent, block.header().in_sheet(), squared);
+    note(block.triangle(i), block.id(i), block.header().extent, block.header().is_height_field(),
+         squared);
   }
-  void note(const Triangle& corners, std::uint64_t id, float extent, bool in_sheet, float squared) {
+  void note(const Triangle& corners, std::uint64_t id, float extent, bool is_height_field,
+            float squared) {
     if (candidates_.full()) {
       keep_possible();
       if (candidates_.full()) settle();
     }
-    candidates_.add(corners, id, extent, in_sheet, squared);
+    candidates_.add(corners, id, extent, is_height_field, squared);
   }
 
   void keep_possible() {
@@ -237,7 +238,9 @@ class Descent {
   }
 
   // Blocks whose frames may go are noted by what is known so far.
-  static void let_go(void* descent) noexcept { static_cast<Descent*>(descent)->note_blocks(); }
+  static void on_release(void* descent) noexcept {
+    static_cast<NearestTraversal*>(descent)->note_blocks();
+  }
 
   void finish() {
     note_blocks();
@@ -254,29 +257,30 @@ class Descent {
       const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
       evaluate_some(rows.view(i), (1U << count) - 1, query_, findings);
       for (std::size_t lane = 0; lane < count; ++lane)
-        best_.offer(findings.of(lane), candidates_.id(i + lane), candidates_.in_sheet(i + lane),
+        best_.offer(findings.of(lane), candidates_.id(i + lane),
+                    candidates_.is_height_field(i + lane),
                     [&](Triangle& to) { rows.view(0).copy_triangle(i + lane, to); });
     }
     work_.triangles += candidates_.size();
     candidates_.clear();
   }
 
-  const TreeFacts& tree_;
+  const TreeInfo& tree_;
   const Point query_;
   const FloatQuery wide_;
   const NearestLimits limits_;
   // An honest tree cannot be visited longer than it is; a forged one could.
   std::uint64_t visits_left_;
-  TreeWork& work_;
-  FrameKeeper* const keeper_;
-  RecordFinder records_;
+  TraversalStats& work_;
+  FrameReleaseHook* const release_hook_;
+  LinkResolver records_;
   BestTriangle best_;
   FilteredBlocks blocks_;  // without a keeper, all of the page that was found last
   Candidates candidates_;
   Frontier frontier_;
   Frontier::Order order_ = Frontier::Order::kLast;
   const NearbySubtrees* subtrees_ = nullptr;  // where a descent does not begin at the root
-  LeftOut left_out_;
+  SkippedBounds skipped_;
   unsigned sought_ = 0;
 };
 

@@ -51,27 +51,27 @@ const char* BlockDecoder::decode_last(std::byte* record) noexcept {
   BlockHeader header{};
   header.triangle_count = streams_.triangle_count(block_);
   header.form = streams_.vertex_counts[block_];
-  if (streams_.in_sheet(block_)) header.form |= BlockHeader::kInSheet;
+  if (streams_.is_height_field(block_)) header.form |= BlockHeader::kHeightField;
   if (streams_.compact(block_)) header.form |= BlockHeader::kCompact;
-  Places places;
-  if (const char* fault = find_vertices(header, places)) return fault;
+  VertexIndices indices;
+  if (const char* fault = find_vertices(header, indices)) return fault;
   if (const char* fault = store_corners(header)) return fault;
   if (shape_.float64)
-    store_float64_vertices(header, places, record);
+    store_float64_vertices(header, indices, record);
   else
-    store_vertices(header, places, record);
+    store_vertices(header, indices, record);
   if (const char* fault = store_ids(header, record)) return fault;
   std::memcpy(record, &header, sizeof header);
   return nullptr;
 }
 
-const char* BlockDecoder::find_vertices(const BlockHeader& header, Places& places) {
+const char* BlockDecoder::find_vertices(const BlockHeader& header, VertexIndices& indices) {
   const unsigned new_count = streams_.new_counts[block_];
   const unsigned old_count = header.vertex_count() - new_count;
   new_vertices_ -= new_count;
   refs_ -= old_count;
   const BlockVertices block{refs_, old_count, new_vertices_, header.vertex_count()};
-  return unpack_places(streams_.vertex_refs, block, header.stride(), places.data())
+  return unpack_indices(streams_.vertex_refs, block, header.stride(), indices.data())
              ? nullptr
              : "a block names a vertex twice, or one the page has not had";
 }
@@ -95,7 +95,7 @@ const char* BlockDecoder::store_corners(BlockHeader& header) {
 }
 
 // A record that begins among its vertices takes their rows when all are there.
-void BlockDecoder::store_vertices(BlockHeader& header, const Places& places,
+void BlockDecoder::store_vertices(BlockHeader& header, const VertexIndices& indices,
                                   std::byte* record) const {
   const auto* all = reinterpret_cast<const float*>(vertices_);
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
@@ -103,15 +103,15 @@ void BlockDecoder::store_vertices(BlockHeader& header, const Places& places,
   // One float more is read.
   const float* end_read = all + 3 * (new_vertices_ + streams_.new_counts[block_]) + 1;
   if (end_read <= rows) {
-    header.extent = extent_of(unpack_rows(all, places.data(), header.stride(), rows));
+    header.extent = extent_of(unpack_rows(all, indices.data(), header.stride(), rows));
   } else {
     std::array<float, 3 * kMaxBlockVertices> apart;
-    header.extent = extent_of(unpack_rows(all, places.data(), header.stride(), apart.data()));
+    header.extent = extent_of(unpack_rows(all, indices.data(), header.stride(), apart.data()));
     std::copy_n(apart.data(), length, rows);
   }
 }
 
-void BlockDecoder::store_float64_vertices(BlockHeader& header, const Places& places,
+void BlockDecoder::store_float64_vertices(BlockHeader& header, const VertexIndices& indices,
                                           std::byte* record) const {
   const auto* all = reinterpret_cast<const double*>(vertices_);
   const unsigned stride = header.stride();
@@ -119,11 +119,11 @@ void BlockDecoder::store_float64_vertices(BlockHeader& header, const Places& pla
   std::array<float, 3 * kMaxBlockVertices + 1> local{};
   for (unsigned i = 0; i < stride; ++i)
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double value = all[3 * std::size_t{places[i]} + axis];
+      const double value = all[3 * std::size_t{indices[i]} + axis];
       exact[axis * stride + i] = value;
       local[3 * i + axis] = static_cast<float>(value - exact[axis * stride]);
     }
-  Places in_turn;
+  VertexIndices in_turn;
   std::iota(in_turn.begin(), in_turn.end(), std::uint16_t{0});
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
   header.extent = extent_of(unpack_rows(local.data(), in_turn.data(), stride, rows));

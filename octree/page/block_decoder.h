@@ -32,12 +32,13 @@ class BlockDecoder {
  private:
   // Where a block's vertices are among those of the page: some that blocks before have, ascending,
   // then new ones, then the first again up to the block's stride.
-  using Places = std::array<std::uint16_t, kMaxBlockVertices>;
+  using VertexIndices = std::array<std::uint16_t, kMaxBlockVertices>;
 
-  const char* find_vertices(const BlockHeader& header, Places& places);
+  const char* find_vertices(const BlockHeader& header, VertexIndices& indices);
   const char* store_corners(BlockHeader& header);
-  void store_vertices(BlockHeader& header, const Places& places, std::byte* record) const;
-  void store_float64_vertices(BlockHeader& header, const Places& places, std::byte* record) const;
+  void store_vertices(BlockHeader& header, const VertexIndices& indices, std::byte* record) const;
+  void store_float64_vertices(BlockHeader& header, const VertexIndices& indices,
+                              std::byte* record) const;
   const char* store_ids(BlockHeader& header, std::byte* record);
 
   const RawStreams& streams_;

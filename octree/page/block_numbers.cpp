@@ -12,25 +12,25 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-bool places_one_by_one(const Shuffled<std::uint16_t>& refs, const BlockVertices& block,
-                       unsigned stride, std::uint16_t* places) {
-  std::size_t place = 0;
+bool indices_one_by_one(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
+                        unsigned stride, std::uint16_t* indices) {
+  std::size_t index = 0;
   bool good = true;
   for (unsigned i = 0; i < block.ref_count; ++i) {
     const std::uint16_t step = refs[block.first_ref + i];
     good &= i == 0 || step > 0;
-    place += step;
-    places[i] = static_cast<std::uint16_t>(place);
+    index += step;
+    indices[i] = static_cast<std::uint16_t>(index);
   }
-  good &= block.ref_count == 0 || place < block.first_new;
+  good &= block.ref_count == 0 || index < block.first_new;
   for (unsigned i = block.ref_count; i < block.vertex_count; ++i)
-    places[i] = static_cast<std::uint16_t>(block.first_new + (i - block.ref_count));
-  std::fill(places + block.vertex_count, places + stride, places[0]);
+    indices[i] = static_cast<std::uint16_t>(block.first_new + (i - block.ref_count));
+  std::fill(indices + block.vertex_count, indices + stride, indices[0]);
   return good;
 }
 
 template <class Id>
-bool ids_one_by_one(Id first, const Shuffled<Id>& steps, std::size_t first_step, unsigned count,
+bool ids_one_by_one(Id first, const ByteSplit<Id>& steps, std::size_t first_step, unsigned count,
                     Id* ids) {
   Id id = ids[0] = first;
   bool ascend = true;
@@ -58,8 +58,8 @@ HWY_INLINE std::size_t count_rising(Lanes sums, Lanes steps) {
 }
 
 // Needs `stride` refs from the first on.
-bool places_by_lanes(const Shuffled<std::uint16_t>& refs, const BlockVertices& block,
-                     unsigned stride, std::uint16_t* places) {
+bool indices_by_lanes(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
+                      unsigned stride, std::uint16_t* indices) {
   const PairTag pairs;
   const auto wide = [&](std::size_t number) {
     return hn::Set(pairs, static_cast<std::uint16_t>(number));
@@ -84,15 +84,15 @@ bool places_by_lanes(const Shuffled<std::uint16_t>& refs, const BlockVertices& b
       rising -= block.ref_count > 0 && hn::GetLane(steps) > 0 ? 1 : 0;
     }
     const auto known = hn::FirstN(pairs, left_of(block.vertex_count, i));
-    hn::StoreU(hn::IfThenElse(known, all, first), pairs, places + i);
+    hn::StoreU(hn::IfThenElse(known, all, first), pairs, indices + i);
   }
   return block.ref_count == 0 ||
-         (rising == block.ref_count - 1 && places[block.ref_count - 1] < block.first_new);
+         (rising == block.ref_count - 1 && indices[block.ref_count - 1] < block.first_new);
 }
 
 // Needs a step before the first one, and kMaxBlockTriangles - 1 from there on.
-bool ids_by_lanes(std::uint32_t first, const Shuffled<std::uint32_t>& steps, std::size_t first_step,
-                  unsigned count, std::uint32_t* ids) {
+bool ids_by_lanes(std::uint32_t first, const ByteSplit<std::uint32_t>& steps,
+                  std::size_t first_step, unsigned count, std::uint32_t* ids) {
   const ByteTag bytes;
   const QuadTag quads;
   Bytes planes[4];
@@ -116,15 +116,16 @@ bool ids_by_lanes(std::uint32_t first, const Shuffled<std::uint32_t>& steps, std
 #endif
 
 // Lanes read whole registers, and all that they read must be the array's.
-bool places_on_target(const Shuffled<std::uint16_t>& refs, const BlockVertices& block,
-                      unsigned stride, std::uint16_t* places) {
+bool indices_on_target(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
+                       unsigned stride, std::uint16_t* indices) {
 #if HWY_TARGET != HWY_SCALAR
-  if (block.first_ref + stride <= refs.size()) return places_by_lanes(refs, block, stride, places);
+  if (block.first_ref + stride <= refs.size())
+    return indices_by_lanes(refs, block, stride, indices);
 #endif
-  return places_one_by_one(refs, block, stride, places);
+  return indices_one_by_one(refs, block, stride, indices);
 }
 
-bool ids_on_target(std::uint32_t first, const Shuffled<std::uint32_t>& steps,
+bool ids_on_target(std::uint32_t first, const ByteSplit<std::uint32_t>& steps,
                    std::size_t first_step, unsigned count, std::uint32_t* ids) {
 #if HWY_TARGET != HWY_SCALAR
   if (first_step > 0 && first_step - 1 + kMaxBlockTriangles <= steps.size())
@@ -133,7 +134,7 @@ bool ids_on_target(std::uint32_t first, const Shuffled<std::uint32_t>& steps,
   return ids_one_by_one(first, steps, first_step, count, ids);
 }
 
-bool wide_ids_on_target(std::uint64_t first, const Shuffled<std::uint64_t>& steps,
+bool wide_ids_on_target(std::uint64_t first, const ByteSplit<std::uint64_t>& steps,
                         std::size_t first_step, unsigned count, std::uint64_t* ids) {
   return ids_one_by_one(first, steps, first_step, count, ids);
 }
@@ -145,21 +146,21 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace planetree::octree {
 
-HWY_EXPORT(places_on_target);
+HWY_EXPORT(indices_on_target);
 HWY_EXPORT(ids_on_target);
 HWY_EXPORT(wide_ids_on_target);
 
-bool unpack_places(const Shuffled<std::uint16_t>& refs, const BlockVertices& block, unsigned stride,
-                   std::uint16_t* places) noexcept {
-  return HWY_DYNAMIC_DISPATCH(places_on_target)(refs, block, stride, places);
+bool unpack_indices(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
+                    unsigned stride, std::uint16_t* indices) noexcept {
+  return HWY_DYNAMIC_DISPATCH(indices_on_target)(refs, block, stride, indices);
 }
 
-bool unpack_ids(std::uint32_t first, const Shuffled<std::uint32_t>& steps, std::size_t first_step,
+bool unpack_ids(std::uint32_t first, const ByteSplit<std::uint32_t>& steps, std::size_t first_step,
                 unsigned count, std::uint32_t* ids) noexcept {
   return HWY_DYNAMIC_DISPATCH(ids_on_target)(first, steps, first_step, count, ids);
 }
 
-bool unpack_ids(std::uint64_t first, const Shuffled<std::uint64_t>& steps, std::size_t first_step,
+bool unpack_ids(std::uint64_t first, const ByteSplit<std::uint64_t>& steps, std::size_t first_step,
                 unsigned count, std::uint64_t* ids) noexcept {
   return HWY_DYNAMIC_DISPATCH(wide_ids_on_target)(first, steps, first_step, count, ids);
 }

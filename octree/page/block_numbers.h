@@ -24,17 +24,17 @@ struct BlockVertices {
 /// refs    has all that the block names.
 /// places  room for `stride`.
 /// return  false if those of blocks before do not ascend or are not below first_new.
-bool unpack_places(const Shuffled<std::uint16_t>& refs, const BlockVertices& block, unsigned stride,
-                   std::uint16_t* places) noexcept;
+bool unpack_indices(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
+                    unsigned stride, std::uint16_t* indices) noexcept;
 
 /// Writes the indices of a block's triangles, the last one again up to kMaxBlockTriangles.
 ///
 /// first       index; the others by the `count` - 1 steps from `first_step` on, which there are.
 /// count       1 to kMaxBlockTriangles.
 /// return      false if they do not ascend.
-bool unpack_ids(std::uint32_t first, const Shuffled<std::uint32_t>& steps, std::size_t first_step,
+bool unpack_ids(std::uint32_t first, const ByteSplit<std::uint32_t>& steps, std::size_t first_step,
                 unsigned count, std::uint32_t* ids) noexcept;
-bool unpack_ids(std::uint64_t first, const Shuffled<std::uint64_t>& steps, std::size_t first_step,
+bool unpack_ids(std::uint64_t first, const ByteSplit<std::uint64_t>& steps, std::size_t first_step,
                 unsigned count, std::uint64_t* ids) noexcept;
 
 }  // namespace planetree::octree

@@ -111,7 +111,7 @@ class BlockTriangles {
 // Calls look<stride, compact>() with how a block's vertices and corners lie.
 template <class Look>
 HWY_INLINE auto by_layout(const BlockHeader& block, const Look& look) {
-  if (block.compact()) return look.template operator()<BlockHeader::kMostCompactVertices, true>();
+  if (block.compact()) return look.template operator()<BlockHeader::kMaxCompactVertices, true>();
   switch (block.stride()) {
     case 16:
       return look.template operator()<16, false>();

@@ -24,8 +24,8 @@ using FourTag = hn::Repartition<float, ByteTag>;
 using Four = hn::Vec<FourTag>;
 
 // Of whole sixteens of the vertices; how many those are.
-std::size_t vertices_on_target(const std::byte* shuffled, std::size_t vertex_count, float* vertices,
-                               bool& good) {
+std::size_t vertices_on_target(const std::byte* byte_split, std::size_t vertex_count,
+                               float* vertices, bool& good) {
   const FourTag four;
   const Quads sign = hn::Set(QuadTag(), 0x80000000U);
   const std::size_t whole = vertex_count / 16 * 16;
@@ -34,7 +34,7 @@ std::size_t vertices_on_target(const std::byte* shuffled, std::size_t vertex_cou
     Quads x[4], y[4], z[4];
     const auto load = [&](std::size_t at, Quads(&floats)[4]) {
       Bytes planes[4];
-      load_sixteen(shuffled, 3 * vertex_count, at, planes);
+      load_sixteen(byte_split, 3 * vertex_count, at, planes);
       join_planes(planes, floats);
     };
     load(first, x);
@@ -158,17 +158,17 @@ bool corners_on_target(const std::uint8_t* stored, unsigned triangle_count, unsi
 }
 
 // Four vertices at a time: a row of each coordinate.
-float rows_on_target(const float* vertices, const std::uint16_t* places, unsigned stride,
+float rows_on_target(const float* vertices, const std::uint16_t* indices, unsigned stride,
                      float* rows) {
   const FourTag four;
   const hn::Repartition<std::uint64_t, FourTag> two;
-  const auto vertex = [&](unsigned i) { return hn::LoadU(four, vertices + 3 * places[i]); };
+  const auto vertex = [&](unsigned i) { return hn::LoadU(four, vertices + 3 * indices[i]); };
   const auto halves = [&](Four low, Four high, auto join) {
     return hn::BitCast(four, join(two, hn::BitCast(two, low), hn::BitCast(two, high)));
   };
   const auto lower = [](auto tag, auto a, auto b) { return hn::InterleaveLower(tag, a, b); };
   const auto upper = [](auto tag, auto a, auto b) { return hn::InterleaveUpper(tag, a, b); };
-  const float* first = vertices + 3 * places[0];
+  const float* first = vertices + 3 * indices[0];
   const Four x0 = hn::Set(four, first[0]), y0 = hn::Set(four, first[1]);
   const Four z0 = hn::Set(four, first[2]);
   Four greatest = hn::Zero(four);
@@ -206,11 +206,11 @@ bool corners_on_target(const std::uint8_t* stored, unsigned triangle_count, unsi
   return good;
 }
 
-float rows_on_target(const float* vertices, const std::uint16_t* places, unsigned stride,
+float rows_on_target(const float* vertices, const std::uint16_t* indices, unsigned stride,
                      float* rows) {
   float greatest = 0;
   for (unsigned i = 0; i < stride; ++i) {
-    const float* vertex = vertices + 3 * places[i];
+    const float* vertex = vertices + 3 * indices[i];
     for (unsigned axis = 0; axis < 3; ++axis) rows[axis * stride + i] = vertex[axis];
     const float x = vertex[0] - rows[0], y = vertex[1] - rows[stride];
     const float z = vertex[2] - rows[2 * stride];
@@ -230,12 +230,12 @@ namespace planetree::octree {
 namespace {
 
 template <class T>
-bool unpack_one_by_one(const Shuffled<T>& shuffled, std::size_t first, T* vertices) {
-  const std::size_t count = shuffled.size() / 3;
+bool unpack_one_by_one(const ByteSplit<T>& byte_split, std::size_t first, T* vertices) {
+  const std::size_t count = byte_split.size() / 3;
   bool good = true;
   for (std::size_t i = first; i < count; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const T value = shuffled[axis * count + i];
+      const T value = byte_split[axis * count + i];
       good &= std::fabs(value) <= T{kFarthestVertex};
       vertices[3 * i + axis] = value;
     }
@@ -248,15 +248,15 @@ HWY_EXPORT(vertices_on_target);
 HWY_EXPORT(corners_on_target);
 HWY_EXPORT(rows_on_target);
 
-bool unpack_vertices(const Shuffled<float>& shuffled, float* vertices) noexcept {
+bool unpack_vertices(const ByteSplit<float>& byte_split, float* vertices) noexcept {
   bool good = true;
   const std::size_t whole = HWY_DYNAMIC_DISPATCH(vertices_on_target)(
-      shuffled.bytes(), shuffled.size() / 3, vertices, good);
-  return good && unpack_one_by_one(shuffled, whole, vertices);
+      byte_split.bytes(), byte_split.size() / 3, vertices, good);
+  return good && unpack_one_by_one(byte_split, whole, vertices);
 }
 
-bool unpack_vertices(const Shuffled<double>& shuffled, double* vertices) noexcept {
-  return unpack_one_by_one(shuffled, 0, vertices);
+bool unpack_vertices(const ByteSplit<double>& byte_split, double* vertices) noexcept {
+  return unpack_one_by_one(byte_split, 0, vertices);
 }
 
 bool unpack_corners(std::span<const std::byte> stored, unsigned triangle_count,
@@ -273,9 +273,9 @@ bool unpack_corners(std::span<const std::byte> stored, unsigned triangle_count,
                                                  triangle_count, vertex_count, corners);
 }
 
-float unpack_rows(const float* vertices, const std::uint16_t* places, unsigned stride,
+float unpack_rows(const float* vertices, const std::uint16_t* indices, unsigned stride,
                   float* rows) noexcept {
-  return HWY_DYNAMIC_DISPATCH(rows_on_target)(vertices, places, stride, rows);
+  return HWY_DYNAMIC_DISPATCH(rows_on_target)(vertices, indices, stride, rows);
 }
 
 }  // namespace planetree::octree

@@ -20,8 +20,8 @@ inline constexpr double kFarthestVertex = 0x1p60;
 /// shuffled  as stored: x of all vertices, then y, then z.
 /// vertices  room for x, y and z of each vertex in turn.
 /// return    false if one is not a number, or beyond kFarthestVertex.
-bool unpack_vertices(const Shuffled<float>& shuffled, float* vertices) noexcept;
-bool unpack_vertices(const Shuffled<double>& shuffled, double* vertices) noexcept;
+bool unpack_vertices(const ByteSplit<float>& byte_split, float* vertices) noexcept;
+bool unpack_vertices(const ByteSplit<double>& byte_split, double* vertices) noexcept;
 
 /// The vertices of a block's corners, as either form of a block's head has them.
 struct BlockCorners {
@@ -45,7 +45,7 @@ bool unpack_corners(std::span<const std::byte> stored, unsigned triangle_count,
 /// stride    a multiple of 8.
 /// rows      room for `stride` x, as many y, as many z; apart from `vertices` up to the last place.
 /// return    the greatest square of a distance from the first.
-float unpack_rows(const float* vertices, const std::uint16_t* places, unsigned stride,
+float unpack_rows(const float* vertices, const std::uint16_t* indices, unsigned stride,
                   float* rows) noexcept;
 
 }  // namespace planetree::octree

@@ -72,23 +72,23 @@ inline constexpr unsigned kMomentSlots = 2;
 /// A compact block has its ids in its head, and four bits a corner: of most float32 models nine
 /// blocks in ten are.
 struct alignas(kSlotBytes) BlockHeader {
-  static constexpr unsigned kMostCompactVertices = 16;
-  static constexpr std::uint32_t kMostCompactSpan = 0xffff;  ///< last index less the first
+  static constexpr unsigned kMaxCompactVertices = 16;
+  static constexpr std::uint32_t kMaxCompactSpan = 0xffff;  ///< last index less the first
 
   float extent;                 ///< at least the distance of any vertex from vertex 0
   std::uint8_t triangle_count;  ///< 1 to 16
-  std::uint8_t form;            ///< vertices, 1 to 48; kInSheet, kCompact
+  std::uint8_t form;            ///< vertices, 1 to 48; kHeightField, kCompact
   // Of compact blocks; others have corner_row() here.
   std::uint16_t id_step[kMaxBlockTriangles - 1];  ///< index less the first, from the second on
   std::uint32_t first_id;
   std::uint64_t packed_corners[3];  ///< vertex of each corner, by corner: bits at corner_bit()
 
-  static constexpr std::uint8_t kInSheet =
+  static constexpr std::uint8_t kHeightField =
       0x40;  ///< known to be in one (octree/nearest/height_field.h)
   static constexpr std::uint8_t kCompact = 0x80;
 
   unsigned vertex_count() const { return form & 0x3fU; }
-  bool in_sheet() const { return (form & kInSheet) != 0; }
+  bool is_height_field() const { return (form & kHeightField) != 0; }
   bool compact() const { return (form & kCompact) != 0; }
   /// From one coordinate of the vertices to the next: 16, 24, 32 or 48.
   unsigned stride() const;
@@ -137,11 +137,11 @@ struct BlockShape {
   }
   /// Whether a block is compact, of which the last index is so much above the first.
   constexpr bool is_compact(unsigned vertex_count, std::uint64_t span) const {
-    return may_be_compact(vertex_count) && span <= BlockHeader::kMostCompactSpan;
+    return may_be_compact(vertex_count) && span <= BlockHeader::kMaxCompactSpan;
   }
   /// Whether it is if its indices are near enough to each other.
   constexpr bool may_be_compact(unsigned vertex_count) const {
-    return !float64 && !wide_ids && vertex_count <= BlockHeader::kMostCompactVertices;
+    return !float64 && !wide_ids && vertex_count <= BlockHeader::kMaxCompactVertices;
   }
   constexpr unsigned slots(unsigned vertex_count, bool compact) const {
     const std::size_t ids = compact ? 0 : kMaxBlockTriangles * (wide_ids ? 8 : 4);

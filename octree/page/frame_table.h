@@ -22,9 +22,9 @@ struct FrameTable {
 };
 
 /// Whoever keeps pointers to frames from call to call: told before these may go.
-struct FrameKeeper {
+struct FrameReleaseHook {
   void* who = nullptr;
-  void (*let_go)(void* who) noexcept = nullptr;
+  void (*on_release)(void* who) noexcept = nullptr;
 };
 
 }  // namespace planetree::octree

@@ -20,16 +20,13 @@ constexpr double kFarthestPlane = 0x1p60;
 
 class MaskDecoder {
  public:
-  MaskDecoder(const PageFacts& facts, std::span<std::byte> frame)
-      : facts_(facts),
-        links_(facts.page_bytes),
-        block_links_(facts.page_bytes),
-        frame_(frame.data()) {}
+  MaskDecoder(const PageInfo& info, std::span<std::byte> frame)
+      : info_(info), links_(info.page_bytes), block_links_(info.page_bytes), frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
-    if (const char* fault = streams_.cut(raw, facts_.shape.float64)) return fault;
-    if (head().page_number != facts_.page_number) return "it is another page's bytes";
-    if (head().octcode != facts_.octcode || head().ordinal != facts_.ordinal)
+    if (const char* fault = streams_.cut(raw, info_.shape.float64)) return fault;
+    if (head().page_number != info_.page_number) return "it is another page's bytes";
+    if (head().octcode != info_.octcode || head().ordinal != info_.ordinal)
       return "its key is not the page table's";
     if (const char* fault = write_header()) return fault;
     next_family_ = head().root_count;
@@ -57,7 +54,7 @@ class MaskDecoder {
 
   static bool is_leaf(std::uint8_t kind) { return kind > static_cast<int>(MaskKind::kNodeAbove); }
 
-  const PageFacts& facts_;
+  const PageInfo& info_;
   MaskLinkFormat links_;
   LinkFormat block_links_;
   std::byte* frame_;
@@ -77,12 +74,12 @@ class MaskDecoder {
 };
 
 const char* MaskDecoder::write_header() {
-  first_record_slot_ = mask_head_slots(facts_.page_bytes);
+  first_record_slot_ = mask_head_slots(info_.page_bytes);
   first_plane_slot_ = first_record_slot_ + head().record_count;
   next_list_slot_ = first_plane_slot_ + kPlaneSlots * head().plane_count;
   std::size_t end = next_list_slot_;
   if (const char* fault = count_lists(end)) return fault;
-  if (end * kMaskSlotBytes > facts_.page_bytes) return "its records do not fit a page";
+  if (end * kMaskSlotBytes > info_.page_bytes) return "its records do not fit a page";
   std::memset(frame_, 0, first_record_slot_ * kMaskSlotBytes);
   MaskHeader header{};
   header.page_number = head().page_number;
@@ -102,7 +99,7 @@ const char* MaskDecoder::count_lists(std::size_t& slots) const {
   std::size_t blocks = 0;
   for (std::size_t i = 0; i < head().listed_count; ++i) {
     const unsigned count = streams_.block_counts[i];
-    if (count == 0 || count > kMostListed) return "a list's count of blocks is out of range";
+    if (count == 0 || count > kMaxListed) return "a list's count of blocks is out of range";
     slots += list_slots(count);
     blocks += count;
   }
@@ -154,7 +151,7 @@ const char* MaskDecoder::link_family(MaskNode& node) {
     if (is_leaf(streams_.kinds[member++]) != ((node.leaf >> octant & 1) != 0))
       return "a record is not of the kind its parent says";
   }
-  node.family = links_.make(facts_.page_number - facts_.first_page,
+  node.family = links_.make(info_.page_number - info_.first_page,
                             static_cast<std::uint32_t>(first_record_slot_ + first));
   return nullptr;
 }
@@ -165,8 +162,8 @@ const char* MaskDecoder::link_above(MaskNode& node) {
   const std::uint64_t page = links_.page(node.family);
   const std::size_t end =
       links_.slot(node.family) + static_cast<std::size_t>(std::popcount(node.grey));
-  if (page <= facts_.page_number - facts_.first_page || page >= facts_.page_count ||
-      end * kMaskSlotBytes > facts_.page_bytes)
+  if (page <= info_.page_number - info_.first_page || page >= info_.page_count ||
+      end * kMaskSlotBytes > info_.page_bytes)
     return "a link leads to a page that cannot be below it";
   return nullptr;
 }
@@ -250,10 +247,10 @@ const char* MaskDecoder::decode_slab(std::size_t at, std::byte* slab) const {
 
 // By copies that no byte written can change, as far as the compiler knows.
 const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
-  const Shuffled<std::uint8_t> all_octants = streams_.block_octants;
-  const Shuffled<std::uint32_t> all_links = streams_.block_links;
+  const ByteSplit<std::uint8_t> all_octants = streams_.block_octants;
+  const ByteSplit<std::uint32_t> all_links = streams_.block_links;
   const LinkFormat format = block_links_;
-  const std::uint32_t page_count = facts_.first_page;
+  const std::uint32_t page_count = info_.first_page;
   const std::size_t first = next_block_;
   next_block_ += count;
   bool all_touch = true, all_lead = true, ascend = true;
@@ -283,13 +280,13 @@ const char* MaskDecoder::check_sums() const {
 
 }  // namespace
 
-Result<void> decode_mask_page(std::span<const std::byte> raw, const PageFacts& facts,
+Result<void> decode_mask_page(std::span<const std::byte> raw, const PageInfo& info,
                               std::span<std::byte> frame) noexcept {
-  assert(frame.size() == facts.page_bytes);
-  const char* fault = MaskDecoder(facts, frame).decode(raw);
+  assert(frame.size() == info.page_bytes);
+  const char* fault = MaskDecoder(info, frame).decode(raw);
   if (!fault) return {};
-  return make_error(ErrorCode::kDamaged, facts.page_number, Error::kNowhere,
-                    "mask page %u is damaged: %s; build the file again", facts.page_number, fault);
+  return make_error(ErrorCode::kDamaged, info.page_number, Error::kNowhere,
+                    "mask page %u is damaged: %s; build the file again", info.page_number, fault);
 }
 
 }  // namespace planetree::octree

@@ -17,7 +17,7 @@ namespace planetree::octree {
 /// no octant has two colours, planes are finite.
 /// threads any; no allocation, no exception.
 /// source  format-spec/v1/spec.md, "Mask page".
-Result<void> decode_mask_page(std::span<const std::byte> raw, const PageFacts& facts,
+Result<void> decode_mask_page(std::span<const std::byte> raw, const PageInfo& info,
                               std::span<std::byte> frame) noexcept;
 
 }  // namespace planetree::octree

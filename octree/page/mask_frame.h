@@ -97,13 +97,13 @@ static_assert(sizeof(MaskSpecial) == kMaskSlotBytes);
 
 inline constexpr unsigned kPlaneSlots = 9;
 
-inline constexpr unsigned kMostListed = 16;
+inline constexpr unsigned kMaxListed = 16;
 
 /// A cell whose corners have one of two winding numbers, and of which it is known what blocks of
 /// the tree have triangles in it.
 struct MaskListed {
   std::int8_t tag;           ///< kListedTag
-  std::uint8_t block_count;  ///< 1 to kMostListed
+  std::uint8_t block_count;  ///< 1 to kMaxListed
   std::int8_t least;         ///< winding number of the corners that are not `higher`
   std::uint8_t higher;       ///< corners whose winding number is `least` + 1
   std::uint32_t list_slot;   ///< in this page: for each block a u8, the octants of the cell that
@@ -127,12 +127,12 @@ constexpr unsigned list_slots(unsigned block_count) {
 struct MaskBlocks {
   std::uint8_t count = 0;
   alignas(kMaskSlotBytes)
-      std::array<std::uint8_t, kMostListed> octants;  ///< the first `count`, as the links
-  std::array<std::uint32_t, kMostListed> links;
+      std::array<std::uint8_t, kMaxListed> octants;  ///< the first `count`, as the links
+  std::array<std::uint32_t, kMaxListed> links;
   CellSlab slab;
 
   /// Puts together the links of those that touch an octant. Returns how many.
-  unsigned in_octant(unsigned octant, std::array<std::uint32_t, kMostListed>& found) const {
+  unsigned in_octant(unsigned octant, std::array<std::uint32_t, kMaxListed>& found) const {
     unsigned size = 0;
     for (unsigned i = 0; i < count; ++i) {
       found[size] = links[i];

@@ -26,30 +26,30 @@ const char* MaskStreams::cut(std::span<const std::byte> raw, bool float64) noexc
   if (raw.size() < sizeof head) return kShort;
   std::memcpy(&head, raw.data(), sizeof head);
   if (const char* fault = check_head(head)) return fault;
-  StreamCutter cutter(raw.subspan(sizeof head));
-  cutter.take(kinds, head.record_count);
-  for (auto* masks : {&grey, &leaf, &black, &inverted}) cutter.take(*masks, head.node_count);
-  cutter.take(page_links, head.page_link_count);
-  cutter.take(plain_corners, head.plain_count);
-  cutter.take(corners, 8 * std::size_t{head.corners_count});
-  cutter.take(plane_counts, head.special_count);
-  cutter.take(behind, head.special_count);
-  cutter.take(beyond, head.special_count);
+  StreamReader layout(raw.subspan(sizeof head));
+  layout.take(kinds, head.record_count);
+  for (auto* masks : {&grey, &leaf, &black, &inverted}) layout.take(*masks, head.node_count);
+  layout.take(page_links, head.page_link_count);
+  layout.take(plain_corners, head.plain_count);
+  layout.take(corners, 8 * std::size_t{head.corners_count});
+  layout.take(plane_counts, head.special_count);
+  layout.take(behind, head.special_count);
+  layout.take(beyond, head.special_count);
   const std::size_t coordinates = 9 * std::size_t{head.plane_count};
   if (float64)
-    cutter.take(planes64, coordinates);
+    layout.take(planes64, coordinates);
   else
-    cutter.take(planes32, coordinates);
-  cutter.take(least, head.listed_count);
-  cutter.take(higher, head.listed_count);
-  cutter.take(block_counts, head.listed_count);
-  cutter.take(slab_directions, head.listed_count);
-  cutter.take(slab_lowers, head.listed_count);
-  cutter.take(slab_uppers, head.listed_count);
-  cutter.take(block_octants, head.block_link_count);
-  cutter.take(block_links, head.block_link_count);
-  if (!cutter.whole()) return kShort;
-  return cutter.empty() ? nullptr : "the page is longer than its counts say";
+    layout.take(planes32, coordinates);
+  layout.take(least, head.listed_count);
+  layout.take(higher, head.listed_count);
+  layout.take(block_counts, head.listed_count);
+  layout.take(slab_directions, head.listed_count);
+  layout.take(slab_lowers, head.listed_count);
+  layout.take(slab_uppers, head.listed_count);
+  layout.take(block_octants, head.block_link_count);
+  layout.take(block_links, head.block_link_count);
+  if (!layout.whole()) return kShort;
+  return layout.empty() ? nullptr : "the page is longer than its counts say";
 }
 
 }  // namespace planetree::octree

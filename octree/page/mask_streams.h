@@ -64,20 +64,20 @@ static_assert(sizeof(MaskPageHead) == 40);
 /// The streams of a mask page, cut and length-checked but not yet believed.
 struct MaskStreams {
   MaskPageHead head{};
-  Shuffled<std::uint8_t> kinds;
-  Shuffled<std::uint8_t> grey, leaf, black, inverted;
-  Shuffled<std::uint32_t> page_links;
-  Shuffled<std::uint8_t> plain_corners;
-  Shuffled<std::int8_t> corners;
-  Shuffled<std::uint8_t> plane_counts;
-  Shuffled<std::int8_t> behind, beyond;
-  Shuffled<float> planes32;
-  Shuffled<double> planes64;
-  Shuffled<std::int8_t> least;
-  Shuffled<std::uint8_t> higher, block_counts;
-  Shuffled<std::uint16_t> slab_directions;
-  Shuffled<std::uint8_t> slab_lowers, slab_uppers, block_octants;
-  Shuffled<std::uint32_t> block_links;
+  ByteSplit<std::uint8_t> kinds;
+  ByteSplit<std::uint8_t> grey, leaf, black, inverted;
+  ByteSplit<std::uint32_t> page_links;
+  ByteSplit<std::uint8_t> plain_corners;
+  ByteSplit<std::int8_t> corners;
+  ByteSplit<std::uint8_t> plane_counts;
+  ByteSplit<std::int8_t> behind, beyond;
+  ByteSplit<float> planes32;
+  ByteSplit<double> planes64;
+  ByteSplit<std::int8_t> least;
+  ByteSplit<std::uint8_t> higher, block_counts;
+  ByteSplit<std::uint16_t> slab_directions;
+  ByteSplit<std::uint8_t> slab_lowers, slab_uppers, block_octants;
+  ByteSplit<std::uint32_t> block_links;
 
   /// Cuts `raw`. Returns null, or what is wrong.
   const char* cut(std::span<const std::byte> raw, bool float64) noexcept;

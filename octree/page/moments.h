@@ -18,7 +18,7 @@ namespace planetree::octree {
 
 /// A float without its lower 16 bits: 8 bits of precision, positive.
 using ShortFloat = std::uint16_t;
-inline constexpr ShortFloat kLeastShortFloat = 0x0080;     ///< 2^-126
+inline constexpr ShortFloat kMinShortFloat = 0x0080;       ///< 2^-126
 inline constexpr ShortFloat kGreatestShortFloat = 0x7f7f;  ///< below 2^128
 
 constexpr float unpack_short(ShortFloat packed) {
@@ -31,7 +31,7 @@ constexpr ShortFloat pack_short_above(double value) {
   if (!(value < kGreatest)) return kGreatestShortFloat;
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   auto packed = static_cast<ShortFloat>(bits >> 16);
-  if (packed < kLeastShortFloat) packed = kLeastShortFloat;
+  if (packed < kMinShortFloat) packed = kMinShortFloat;
   // The next in size is the next in bits.
   return static_cast<double>(unpack_short(packed)) < value ? static_cast<ShortFloat>(packed + 1)
                                                            : packed;

@@ -24,14 +24,14 @@ struct FramePlan {
 
 class PageDecoder {
  public:
-  PageDecoder(const PageFacts& facts, std::span<std::byte> frame)
-      : facts_(facts), links_(facts.page_bytes), frame_(frame.data()) {}
+  PageDecoder(const PageInfo& info, std::span<std::byte> frame)
+      : info_(info), links_(info.page_bytes), frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
-    if (const char* fault = streams_.cut(raw, facts_.shape)) return fault;
+    if (const char* fault = streams_.cut(raw, info_.shape)) return fault;
     const PageHead& head = streams_.head;
-    if (head.page_number != facts_.page_number) return "it is another page's bytes";
-    if (head.octcode != facts_.octcode || head.ordinal != facts_.ordinal)
+    if (head.page_number != info_.page_number) return "it is another page's bytes";
+    if (head.octcode != info_.octcode || head.ordinal != info_.ordinal)
       return "its key is not the page table's";
     if (const char* fault = plan()) return fault;
     write_header();
@@ -42,7 +42,7 @@ class PageDecoder {
  private:
   const char* plan();
   unsigned block_slots(std::size_t block) const {
-    return facts_.shape.slots(streams_.vertex_counts[block], streams_.compact(block));
+    return info_.shape.slots(streams_.vertex_counts[block], streams_.compact(block));
   }
   void write_header();
   const char* decode_nodes();
@@ -61,10 +61,10 @@ class PageDecoder {
     return reinterpret_cast<Node*>(frame_ + node_slot(index) * kSlotBytes);
   }
   std::size_t node_slot(std::size_t index) const {
-    return plan_.first_node_slot + facts_.shape.node_slots() * index;
+    return plan_.first_node_slot + info_.shape.node_slots() * index;
   }
 
-  const PageFacts& facts_;
+  const PageInfo& info_;
   LinkFormat links_;
   std::byte* frame_;
   RawStreams streams_;
@@ -78,16 +78,16 @@ class PageDecoder {
 
 const char* PageDecoder::plan() {
   const PageHead& head = streams_.head;
-  std::size_t slots = frame_head_slots(facts_.page_bytes);
+  std::size_t slots = frame_head_slots(info_.page_bytes);
   plan_.first_node_slot = static_cast<std::uint16_t>(slots);
-  slots += std::size_t{facts_.shape.node_slots()} * head.node_count;
+  slots += std::size_t{info_.shape.node_slots()} * head.node_count;
   const std::size_t first_block_slot = slots;
   for (std::size_t i = 0; i < head.block_count; ++i) {
-    if (streams_.compact(i) && !facts_.shape.may_be_compact(streams_.vertex_counts[i]))
+    if (streams_.compact(i) && !info_.shape.may_be_compact(streams_.vertex_counts[i]))
       return "a block is compact that cannot be";
     slots += block_slots(i);
   }
-  if (slots * kSlotBytes > facts_.page_bytes) return "its records do not fit a page";
+  if (slots * kSlotBytes > info_.page_bytes) return "its records do not fit a page";
   plan_.first_block_slot = static_cast<std::uint16_t>(first_block_slot);
   plan_.used_bytes = static_cast<std::uint32_t>(slots * kSlotBytes);
   next_block_slot_ = first_block_slot;
@@ -150,7 +150,7 @@ const char* PageDecoder::decode_node(std::size_t index) {
   if (const char* fault = decode_bounds(target, count)) return fault;
   std::memset(target.link, 0, sizeof target.link);
   std::memset(target.reserved, 0, sizeof target.reserved);
-  if (facts_.shape.moments) std::memset(static_cast<void*>(&target + 1), 0, sizeof(NodeMoments));
+  if (info_.shape.moments) std::memset(static_cast<void*>(&target + 1), 0, sizeof(NodeMoments));
   target.child_count = static_cast<std::uint8_t>(count);
   target.height = height;
   target.gate = gate;
@@ -200,7 +200,7 @@ const char* PageDecoder::decode_bounds(Node& parent, std::size_t count) const {
 }
 
 const char* PageDecoder::decode_child(Node& parent, std::size_t child, ChildKind kind) {
-  if (facts_.shape.moments)
+  if (info_.shape.moments)
     if (const char* fault = decode_moments(parent, child)) return fault;
   switch (kind) {
     case ChildKind::kNode:
@@ -218,17 +218,17 @@ const char* PageDecoder::decode_moments(Node& parent, std::size_t child) {
   const std::size_t count = streams_.head.child_count;
   Moments moments;
   for (std::size_t i = 0; i < 3; ++i) {
-    moments.vector[i] = streams_.child_vectors[i * count + next_child_];
+    moments.vector[i] = streams_.child_dipoles[i * count + next_child_];
     if (moments.vector[i] < -Moments::kVectorSteps) return kOutOfRange;
   }
   for (std::size_t i = 0; i < 5; ++i) {
-    moments.first[i] = streams_.child_firsts[i * count + next_child_];
+    moments.first[i] = streams_.child_quadrupoles[i * count + next_child_];
     if (moments.first[i] < -Moments::kFirstSteps) return kOutOfRange;
   }
   moments.area = streams_.child_areas[next_child_];
-  moments.second = streams_.child_seconds[next_child_];
+  moments.second = streams_.child_second_moments[next_child_];
   for (const ShortFloat value : {moments.area, moments.second})
-    if (value < kLeastShortFloat || value > kGreatestShortFloat) return kOutOfRange;
+    if (value < kMinShortFloat || value > kGreatestShortFloat) return kOutOfRange;
   reinterpret_cast<NodeMoments*>(&parent + 1)->set(child, moments);
   return nullptr;
 }
@@ -237,7 +237,7 @@ const char* PageDecoder::link_to_node(Node& parent, std::size_t child) {
   if (next_node_ >= streams_.head.node_count) return "its children do not add up";
   if (streams_.heights[next_node_] >= parent.height) return "a node is higher than its parent";
   const std::size_t slot = node_slot(next_node_);
-  parent.link[child] = links_.make(false, facts_.page_number, static_cast<std::uint32_t>(slot));
+  parent.link[child] = links_.make(false, info_.page_number, static_cast<std::uint32_t>(slot));
   node(next_node_)->box = child_box(parent, child);
   ++next_node_;
   return nullptr;
@@ -246,7 +246,7 @@ const char* PageDecoder::link_to_node(Node& parent, std::size_t child) {
 const char* PageDecoder::link_to_block(Node& parent, std::size_t child) {
   if (next_block_ >= streams_.head.block_count) return "its children do not add up";
   parent.link[child] =
-      links_.make(true, facts_.page_number, static_cast<std::uint32_t>(next_block_slot_));
+      links_.make(true, info_.page_number, static_cast<std::uint32_t>(next_block_slot_));
   next_block_slot_ += block_slots(next_block_);
   ++next_block_;
   return nullptr;
@@ -256,14 +256,14 @@ const char* PageDecoder::link_to_page(Node& parent, std::size_t child) {
   if (next_page_link_ >= streams_.head.page_link_count) return "its page links do not add up";
   const std::uint32_t link = streams_.page_links[next_page_link_++];
   const std::uint32_t page = links_.page(link);
-  if (page <= facts_.page_number || page >= facts_.page_count)
+  if (page <= info_.page_number || page >= info_.page_count)
     return "a link leads to a page that cannot be below it";
   parent.link[child] = link;
   return nullptr;
 }
 
 const char* PageDecoder::decode_blocks() {
-  BlockDecoder blocks(streams_, facts_.shape);
+  BlockDecoder blocks(streams_, info_.shape);
   if (const char* fault = blocks.start(frame_ + plan_.first_block_slot * kSlotBytes)) return fault;
   std::size_t slot = plan_.used_bytes / kSlotBytes;
   auto* starts = reinterpret_cast<std::uint64_t*>(frame_ + kSlotBytes);
@@ -277,13 +277,13 @@ const char* PageDecoder::decode_blocks() {
 
 }  // namespace
 
-Result<void> decode_page(std::span<const std::byte> raw, const PageFacts& facts,
+Result<void> decode_page(std::span<const std::byte> raw, const PageInfo& info,
                          std::span<std::byte> frame) noexcept {
-  assert(frame.size() == facts.page_bytes);
-  const char* fault = PageDecoder(facts, frame).decode(raw);
+  assert(frame.size() == info.page_bytes);
+  const char* fault = PageDecoder(info, frame).decode(raw);
   if (!fault) return {};
-  return make_error(ErrorCode::kDamaged, facts.page_number, Error::kNowhere,
-                    "page %u is damaged: %s; build the file again", facts.page_number, fault);
+  return make_error(ErrorCode::kDamaged, info.page_number, Error::kNowhere,
+                    "page %u is damaged: %s; build the file again", info.page_number, fault);
 }
 
 }  // namespace planetree::octree

@@ -10,7 +10,7 @@
 namespace planetree::octree {
 
 /// What decoding a page must know of its file and of its table entry.
-struct PageFacts {
+struct PageInfo {
   std::uint32_t page_bytes = 0;  ///< of every frame
   std::uint32_t first_page = 0;  ///< of the page's section
   std::uint32_t page_count = 0;  ///< of the page's section
@@ -30,7 +30,7 @@ struct PageFacts {
 /// lie within their parents', floats are finite, corner indices are in range.
 /// threads any; no allocation, no exception.
 /// source  format-spec/v1/spec.md, "Distance page".
-Result<void> decode_page(std::span<const std::byte> raw, const PageFacts& facts,
+Result<void> decode_page(std::span<const std::byte> raw, const PageInfo& info,
                          std::span<std::byte> frame) noexcept;
 
 }  // namespace planetree::octree

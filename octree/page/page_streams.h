@@ -20,7 +20,7 @@
 ///   child areas      u16, a ShortFloat                      } (octree/page/moments.h)
 ///   child seconds    u16, a ShortFloat                      }
 ///   page links       u32 a child of kind kPage
-///   triangle counts  u8 a block, and kSheetBit, kCompactBit
+///   triangle counts  u8 a block, and kHeightFieldBit, kCompactBit
 ///   vertex counts    u8 a block
 ///   new counts       u8 a block: how many of its vertices the page has not had
 ///   vertex refs      u16 a vertex the page has had; ascending, as differences
@@ -39,8 +39,8 @@ enum class ChildKind : std::uint8_t {
   kPage = 2,   ///< a node or block of another page, by a link of its own
 };
 
-/// Of a block's count of triangles: it is in a sheet (BlockHeader::in_sheet()).
-inline constexpr std::uint8_t kSheetBit = 0x80;
+/// Of a block's count of triangles: it is in a sheet (BlockHeader::is_height_field()).
+inline constexpr std::uint8_t kHeightFieldBit = 0x80;
 /// And it is compact: of up to 16 vertices, its indices no more than 65,535 above the first.
 inline constexpr std::uint8_t kCompactBit = 0x40;
 /// What is left of the count.

@@ -20,30 +20,31 @@ const char* check_head(const PageHead& head) {
   return nullptr;
 }
 
-void take_nodes(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
+void take_nodes(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   const PageHead& head = s.head;
-  cutter.take(s.root_boxes, 6 * std::size_t{head.root_node_count});
-  cutter.take(s.child_counts, head.node_count);
-  cutter.take(s.heights, head.node_count);
-  cutter.take(s.child_kinds, head.node_count);
-  cutter.take(s.child_boxes, 6 * std::size_t{head.child_count});
-  cutter.take(s.child_normals, 2 * std::size_t{head.child_count});
-  cutter.take(s.child_slabs, 2 * std::size_t{head.child_count});
-  cutter.take(s.child_radii, head.child_count);
+  layout.take(s.root_boxes, 6 * std::size_t{head.root_node_count});
+  layout.take(s.child_counts, head.node_count);
+  layout.take(s.heights, head.node_count);
+  layout.take(s.child_kinds, head.node_count);
+  layout.take(s.child_boxes, 6 * std::size_t{head.child_count});
+  layout.take(s.child_normals, 2 * std::size_t{head.child_count});
+  layout.take(s.child_slabs, 2 * std::size_t{head.child_count});
+  layout.take(s.child_radii, head.child_count);
   if (shape.moments) {
-    cutter.take(s.child_vectors, 3 * std::size_t{head.child_count});
-    cutter.take(s.child_firsts, 5 * std::size_t{head.child_count});
-    cutter.take(s.child_areas, head.child_count);
-    cutter.take(s.child_seconds, head.child_count);
+    layout.take(s.child_dipoles, 3 * std::size_t{head.child_count});
+    layout.take(s.child_quadrupoles, 5 * std::size_t{head.child_count});
+    layout.take(s.child_areas, head.child_count);
+    layout.take(s.child_second_moments, head.child_count);
   }
-  cutter.take(s.page_links, head.page_link_count);
+  layout.take(s.page_links, head.page_link_count);
 }
 
 // The corner stream's length follows from the counts just taken.
-const char* take_corners(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
+const char* take_corners(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   std::size_t bytes = 0, triangles = 0;
   for (std::size_t i = 0; i < s.head.block_count; ++i) {
-    if (s.in_sheet(i) && shape.moments) return "a surface that is not watertight has a sheet";
+    if (s.is_height_field(i) && shape.moments)
+      return "a surface that is not watertight has a sheet";
     const unsigned triangle_count = s.triangle_count(i);
     const unsigned vertex_count = s.vertex_counts[i];
     if (triangle_count == 0 || triangle_count > kMaxBlockTriangles || vertex_count == 0 ||
@@ -53,24 +54,24 @@ const char* take_corners(StreamCutter& cutter, RawStreams& s, const BlockShape& 
     triangles += triangle_count;
   }
   if (triangles != s.head.triangle_count) return "the blocks' triangles do not add up";
-  s.corners = cutter.take_bytes(bytes);
+  s.corners = layout.take_bytes(bytes);
   return nullptr;
 }
 
-void take_blocks(StreamCutter& cutter, RawStreams& s, const BlockShape& shape) {
+void take_blocks(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   const PageHead& head = s.head;
   const std::size_t coordinates = 3 * std::size_t{head.vertex_count};
   const std::size_t steps = std::size_t{head.triangle_count} - head.block_count;
   if (shape.float64)
-    cutter.take(s.vertices64, coordinates);
+    layout.take(s.vertices64, coordinates);
   else
-    cutter.take(s.vertices32, coordinates);
+    layout.take(s.vertices32, coordinates);
   if (shape.wide_ids) {
-    cutter.take(s.first_ids64, head.block_count);
-    cutter.take(s.id_steps64, steps);
+    layout.take(s.first_ids64, head.block_count);
+    layout.take(s.id_steps64, steps);
   } else {
-    cutter.take(s.first_ids32, head.block_count);
-    cutter.take(s.id_steps32, steps);
+    layout.take(s.first_ids32, head.block_count);
+    layout.take(s.id_steps32, steps);
   }
 }
 
@@ -81,17 +82,17 @@ const char* RawStreams::cut(std::span<const std::byte> raw, const BlockShape& sh
   if (raw.size() < sizeof(PageHead)) return kShort;
   std::memcpy(&head, raw.data(), sizeof head);
   if (const char* fault = check_head(head)) return fault;
-  StreamCutter cutter(raw.subspan(sizeof head));
-  take_nodes(cutter, *this, shape);
-  cutter.take(triangle_counts, head.block_count);
-  cutter.take(vertex_counts, head.block_count);
-  cutter.take(new_counts, head.block_count);
-  cutter.take(vertex_refs, head.vertex_ref_count);
-  if (!cutter.whole()) return kShort;
-  if (const char* fault = take_corners(cutter, *this, shape)) return fault;
-  take_blocks(cutter, *this, shape);
-  if (!cutter.whole()) return kShort;
-  return cutter.empty() ? nullptr : "the page is longer than its counts say";
+  StreamReader layout(raw.subspan(sizeof head));
+  take_nodes(layout, *this, shape);
+  layout.take(triangle_counts, head.block_count);
+  layout.take(vertex_counts, head.block_count);
+  layout.take(new_counts, head.block_count);
+  layout.take(vertex_refs, head.vertex_ref_count);
+  if (!layout.whole()) return kShort;
+  if (const char* fault = take_corners(layout, *this, shape)) return fault;
+  take_blocks(layout, *this, shape);
+  if (!layout.whole()) return kShort;
+  return layout.empty() ? nullptr : "the page is longer than its counts say";
 }
 
 }  // namespace planetree::octree

@@ -13,10 +13,10 @@ namespace planetree::octree {
 
 /// A byte-shuffled array: byte k of element i is at [k * count + i].
 template <class T>
-class Shuffled {
+class ByteSplit {
  public:
-  Shuffled() = default;
-  Shuffled(const std::byte* bytes, std::size_t count) : bytes_(bytes), count_(count) {}
+  ByteSplit() = default;
+  ByteSplit(const std::byte* bytes, std::size_t count) : bytes_(bytes), count_(count) {}
   static constexpr std::size_t bytes_for(std::size_t count) { return count * sizeof(T); }
   std::size_t size() const { return count_; }
   const std::byte* bytes() const { return bytes_; }
@@ -44,29 +44,31 @@ class Shuffled {
 /// believed: only their sizes are known to be right.
 struct RawStreams {
   PageHead head{};
-  Shuffled<float> root_boxes;
-  Shuffled<std::uint8_t> child_counts, heights;
-  Shuffled<std::uint16_t> child_kinds;
-  Shuffled<std::uint8_t> child_boxes;  ///< 6 planes of child_count
-  Shuffled<std::int16_t> child_normals, child_slabs;
-  Shuffled<std::uint16_t> child_radii;
-  Shuffled<std::int16_t> child_vectors;  ///< 3 planes of child_count, or none
-  Shuffled<std::int8_t> child_firsts;    ///< 5 planes
-  Shuffled<std::uint16_t> child_areas, child_seconds;
-  Shuffled<std::uint32_t> page_links;
-  Shuffled<std::uint8_t> triangle_counts;  ///< with kSheetBit, kCompactBit
-  Shuffled<std::uint8_t> vertex_counts, new_counts;
-  Shuffled<std::uint16_t> vertex_refs;
+  ByteSplit<float> root_boxes;
+  ByteSplit<std::uint8_t> child_counts, heights;
+  ByteSplit<std::uint16_t> child_kinds;
+  ByteSplit<std::uint8_t> child_boxes;  ///< 6 planes of child_count
+  ByteSplit<std::int16_t> child_normals, child_slabs;
+  ByteSplit<std::uint16_t> child_radii;
+  ByteSplit<std::int16_t> child_dipoles;     ///< 3 planes of child_count, or none
+  ByteSplit<std::int8_t> child_quadrupoles;  ///< 5 planes
+  ByteSplit<std::uint16_t> child_areas, child_second_moments;
+  ByteSplit<std::uint32_t> page_links;
+  ByteSplit<std::uint8_t> triangle_counts;  ///< with kHeightFieldBit, kCompactBit
+  ByteSplit<std::uint8_t> vertex_counts, new_counts;
+  ByteSplit<std::uint16_t> vertex_refs;
   std::span<const std::byte> corners;
-  Shuffled<float> vertices32;
-  Shuffled<double> vertices64;
-  Shuffled<std::uint32_t> first_ids32, id_steps32;
-  Shuffled<std::uint64_t> first_ids64, id_steps64;
+  ByteSplit<float> vertices32;
+  ByteSplit<double> vertices64;
+  ByteSplit<std::uint32_t> first_ids32, id_steps32;
+  ByteSplit<std::uint64_t> first_ids64, id_steps64;
 
   std::uint8_t triangle_count(std::size_t block) const {
     return triangle_counts[block] & kCountBits;
   }
-  bool in_sheet(std::size_t block) const { return (triangle_counts[block] & kSheetBit) != 0; }
+  bool is_height_field(std::size_t block) const {
+    return (triangle_counts[block] & kHeightFieldBit) != 0;
+  }
   bool compact(std::size_t block) const { return (triangle_counts[block] & kCompactBit) != 0; }
 
   /// Cuts `raw`. Returns null, or what is wrong.

@@ -1,12 +1,12 @@
-// Elements of byte-shuffled arrays (Shuffled, octree/page/raw_streams.h) put together in registers
+// Elements of byte-shuffled arrays (ByteSplit, octree/page/raw_streams.h) put together in registers
 // of 16 bytes, compiled once for each instruction set that Highway knows at hand, but for the one
 // that has no such registers.
 
-#if defined(PLANETREE_OCTREE_SHUFFLED_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef PLANETREE_OCTREE_SHUFFLED_LANES_INL_H_
-#undef PLANETREE_OCTREE_SHUFFLED_LANES_INL_H_
+#if defined(PLANETREE_OCTREE_SPLIT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLANETREE_OCTREE_SPLIT_LANES_INL_H_
+#undef PLANETREE_OCTREE_SPLIT_LANES_INL_H_
 #else
-#define PLANETREE_OCTREE_SHUFFLED_LANES_INL_H_
+#define PLANETREE_OCTREE_SPLIT_LANES_INL_H_
 #endif
 
 #include <cstddef>
@@ -29,19 +29,19 @@ using Pairs = hn::Vec<PairTag>;
 using Quads = hn::Vec<QuadTag>;
 
 // Eight of an array of `count` two-byte elements, from an index on.
-HWY_INLINE Pairs load_eight(const std::byte* shuffled, std::size_t count, std::size_t first) {
+HWY_INLINE Pairs load_eight(const std::byte* byte_split, std::size_t count, std::size_t first) {
   const PairTag pairs;
   const hn::Rebind<std::uint8_t, PairTag> bytes;
-  const auto* low = reinterpret_cast<const std::uint8_t*>(shuffled) + first;
+  const auto* low = reinterpret_cast<const std::uint8_t*>(byte_split) + first;
   return hn::Or(hn::PromoteTo(pairs, hn::LoadU(bytes, low)),
                 hn::ShiftLeft<8>(hn::PromoteTo(pairs, hn::LoadU(bytes, low + count))));
 }
 
 // The bytes of sixteen of an array of `count` four-byte elements, from an index on: all first
 // bytes, all second bytes and so on.
-HWY_INLINE void load_sixteen(const std::byte* shuffled, std::size_t count, std::size_t first,
+HWY_INLINE void load_sixteen(const std::byte* byte_split, std::size_t count, std::size_t first,
                              Bytes (&planes)[4]) {
-  const auto* at = reinterpret_cast<const std::uint8_t*>(shuffled) + first;
+  const auto* at = reinterpret_cast<const std::uint8_t*>(byte_split) + first;
   for (std::size_t k = 0; k < 4; ++k) planes[k] = hn::LoadU(ByteTag(), at + k * count);
 }
 

@@ -8,15 +8,15 @@
 namespace planetree::octree {
 
 /// Takes arrays off the front of some bytes, until they do not suffice.
-class StreamCutter {
+class StreamReader {
  public:
-  explicit StreamCutter(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit StreamReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <class T>
-  void take(Shuffled<T>& stream, std::size_t count) {
-    const std::size_t bytes = Shuffled<T>::bytes_for(count);
+  void take(ByteSplit<T>& stream, std::size_t count) {
+    const std::size_t bytes = ByteSplit<T>::bytes_for(count);
     const std::byte* start = skip(bytes);
-    stream = start ? Shuffled<T>(start, count) : Shuffled<T>();
+    stream = start ? ByteSplit<T>(start, count) : ByteSplit<T>();
   }
   std::span<const std::byte> take_bytes(std::size_t bytes) {
     const std::byte* start = skip(bytes);

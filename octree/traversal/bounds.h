@@ -117,11 +117,11 @@ inline constexpr float kFlatSine2 = 0x1p-6f;
 inline constexpr double kFilterSlack = 0x1p-19;
 
 /// Blocks smaller than this have squares that float cannot hold.
-inline constexpr float kLeastFilterExtent = 0x1p-40f;
+inline constexpr float kMinFilterExtent = 0x1p-40f;
 
 /// Whether float has squares for a query's distances to the triangles of a block.
 inline bool filter_tells(const FloatQuery& query, float block_extent) {
-  return query.usable && block_extent >= kLeastFilterExtent;
+  return query.usable && block_extent >= kMinFilterExtent;
 }
 
 /// A triangle of this filter value is at most so far away.

@@ -17,8 +17,8 @@ namespace planetree::octree {
 class BoxWalk {
  public:
   /// lower, upper  model frame.
-  BoxWalk(const TreeFacts& tree, const Point& lower, const Point& upper, const PageReader& pages,
-          TreeWork& work)
+  BoxWalk(const TreeInfo& tree, const Point& lower, const Point& upper, const PageReader& pages,
+          TraversalStats& work)
       : box_(rounded_outward(lower, upper, tree.centre)), walk_(tree, pages, work) {}
 
   /// Begins with those of some subtrees that meet the box, where one does, and not with the root.
@@ -30,14 +30,14 @@ class BoxWalk {
 
   /// Calls visit(BlockView, link). False as TreeWalk's.
   template <class Visit>
-  bool run(std::uint64_t max_nodes, const Visit& visit) {
-    return run_while(max_nodes, visit, [] { return true; });
+  bool run(std::uint64_t max_work, const Visit& visit) {
+    return run_while(max_work, visit, [] { return true; });
   }
   /// See TreeWalk.
   template <class Visit, class GoingOn>
-  bool run_while(std::uint64_t max_nodes, const Visit& visit, const GoingOn& going_on) {
+  bool run_while(std::uint64_t max_work, const Visit& visit, const GoingOn& going_on) {
     return walk_.run_while(
-        max_nodes, visit, [this](const Node& node) { return children_meeting(node, box_); },
+        max_work, visit, [this](const Node& node) { return children_meeting(node, box_); },
         going_on);
   }
 

@@ -30,8 +30,8 @@ std::uint64_t subtrees_on_target(const NearbySubtrees& list, const FloatBox& box
     }
     found |= std::uint64_t{mask_bits(d, hn::Not(apart))} << i;
   }
-  return list.size() < NearbySubtrees::kMost ? found & ((std::uint64_t{1} << list.size()) - 1)
-                                             : found;
+  return list.size() < NearbySubtrees::kMax ? found & ((std::uint64_t{1} << list.size()) - 1)
+                                            : found;
 }
 
 void add_within_on_target(const Node& node, const FloatQuery& query, float threshold,
@@ -73,7 +73,7 @@ std::uint64_t subtrees_meeting(const NearbySubtrees& list, const FloatBox& box) 
 
 void add_children_within(const Node& node, const FloatQuery& query, float threshold,
                          NearbySubtrees& list) noexcept {
-  assert(list.has_room());
+  assert(list.has_capacity());
   HWY_DYNAMIC_DISPATCH(add_within_on_target)(node, query, threshold, list);
 }
 

@@ -34,11 +34,11 @@ class Frontier {
   enum class Order { kNearest, kLast };
   /// From more groups only the last is taken, so that depth bounds how many are added. Few asks
   /// have as many at once.
-  static constexpr std::size_t kMostToOrder = 48;
+  static constexpr std::size_t kMaxToOrder = 48;
 
-  bool has_room() const { return size_ < kMaxGroups; }
+  bool has_capacity() const { return size_ < kMaxGroups; }
   /// Whether the nearest of all is taken, where that is asked for.
-  bool is_ordered() const { return size_ <= kMostToOrder; }
+  bool is_ordered() const { return size_ <= kMaxToOrder; }
 
   /// Where the next group is to be written; push() then counts it in.
   FrontierGroup& next() { return groups_[size_]; }
@@ -54,9 +54,9 @@ class Frontier {
   /// not, if less. False when nothing is left.
   bool pop(Order order, float threshold, FrontierEntry& entry, float& dropped) {
     // In a register: from memory each that is dropped would wait for the one before.
-    float least_dropped = dropped;
-    const bool found = pop_near(order, threshold, entry, least_dropped);
-    dropped = least_dropped;
+    float min_dropped = dropped;
+    const bool found = pop_near(order, threshold, entry, min_dropped);
+    dropped = min_dropped;
     return found;
   }
 
@@ -86,7 +86,7 @@ class Frontier {
     std::uint8_t next, end;  // of the group's entries
   };
   // Two are taken at a time as long as groups are ordered; the way down from each adds one a level.
-  static constexpr std::size_t kMaxGroups = kMostToOrder + std::size_t{2} * (kMaxHeight + 1);
+  static constexpr std::size_t kMaxGroups = kMaxToOrder + std::size_t{2} * (kMaxHeight + 1);
 
   // A group's least bound, and its place, so that the last of equals comes first.
   void set_key(std::size_t at, std::int32_t bound_bits) {

@@ -10,9 +10,9 @@ namespace planetree::octree {
 
 /// Link to record, by way of its page. Looks a page up only where the page
 /// changes.
-class RecordFinder {
+class LinkResolver {
  public:
-  RecordFinder(const TreeFacts& tree, const PageReader& pages)
+  LinkResolver(const TreeInfo& tree, const PageReader& pages)
       : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
 
   /// No page has this number.
@@ -21,11 +21,11 @@ class RecordFinder {
   /// The node or block that `link` leads to, good until the next call; null
   /// where its page cannot be had or holds no such record. `from` is the page of the node
   /// that has the link, as page() said then.
-  const std::byte* find(std::uint32_t link, TreeWork& work, std::uint32_t from = kNoPage) {
+  const std::byte* find(std::uint32_t link, TraversalStats& work, std::uint32_t from = kNoPage) {
     const std::uint32_t page = links_.page(link);
     const std::uint32_t slot = links_.slot(link);
     if (!is_at_hand(link)) {
-      ++work.page_turns;
+      ++work.page_switches;
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
     }
@@ -42,7 +42,7 @@ class RecordFinder {
   /// A child of a node, by its place there.
   struct Child {
     const Node* node = nullptr;
-    unsigned place = 0;
+    unsigned index = 0;
   };
   /// Looks through the nodes of a page, as far as it is in memory, for the one that has `link`.
   Child find_parent(std::uint32_t link, std::uint32_t page) const {
@@ -53,14 +53,14 @@ class RecordFinder {
     for (unsigned i = 0; i < header.node_count; ++i) {
       const unsigned slot = header.first_node_slot + i * node_slots_;
       const auto* node = reinterpret_cast<const Node*>(frame + slot * kSlotBytes);
-      for (unsigned place = 0; place < node->child_count; ++place)
-        if (node->link[place] == link) return {node, place};
+      for (unsigned index = 0; index < node->child_count; ++index)
+        if (node->link[index] == link) return {node, index};
     }
     return {};
   }
 
-  /// Asks for the record's first cache lines, as far as it is in memory: of a node those that near
-  /// queries look at, unless other numbers are asked for. No answer depends on it.
+  /// Queries for the record's first cache lines, as far as it is in memory: of a node those that
+  /// near queries look at, unless other numbers are asked for. No answer depends on it.
   ///
   /// By no branch that depends on the link: those would be mispredicted.
   template <std::size_t kNodeLines = kNearNodeSlots>

@@ -13,15 +13,15 @@ namespace planetree::octree {
 /// with these and not at the root. Boxes as in the nodes that have them, side by side.
 class NearbySubtrees {
  public:
-  static constexpr std::size_t kMost = 64;
+  static constexpr std::size_t kMax = 64;
 
   /// Forgets what was there.
   void clear() { size_ = 0; }
 
   /// Whether the children of any node find room.
-  bool has_room() const { return size_ + kFanOut <= kMost; }
-  /// Where more of them go while has_room(): to each a vector of kFanOut numbers may be written, of
-  /// which add() counts the first ones in.
+  bool has_capacity() const { return size_ + kFanOut <= kMax; }
+  /// Where more of them go while has_capacity(): to each a vector of kFanOut numbers may be
+  /// written, of which add() counts the first ones in.
   float* next_lower(std::size_t axis) { return lower_[axis] + size_; }
   float* next_upper(std::size_t axis) { return upper_[axis] + size_; }
   std::uint32_t* next_link() { return link_ + size_; }
@@ -51,12 +51,12 @@ class NearbySubtrees {
 
  private:
   static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
-  static_assert(kMost % kLanes == 0);
+  static_assert(kMax % kLanes == 0);
 
   std::size_t size_ = 0;
-  alignas(kSlotBytes) float lower_[3][kMost] = {};
-  alignas(kSlotBytes) float upper_[3][kMost] = {};
-  std::uint32_t link_[kMost] = {};
+  alignas(kSlotBytes) float lower_[3][kMax] = {};
+  alignas(kSlotBytes) float upper_[3][kMax] = {};
+  std::uint32_t link_[kMax] = {};
 };
 
 }  // namespace planetree::octree

@@ -16,8 +16,8 @@ namespace planetree::octree {
 struct NearbyTriangle {
   Triangle corners;
   std::uint64_t id;
-  double nearest;         ///< it is no nearer to the centre than this
-  bool in_sheet = false;  ///< its block is
+  double nearest;                ///< it is no nearer to the centre than this
+  bool is_height_field = false;  ///< its block is
 };
 
 /// All triangles that reach into a ball, where they are few: queries within it look at no
@@ -25,7 +25,7 @@ struct NearbyTriangle {
 /// at few.
 class NearbyTriangles {
  public:
-  static constexpr std::size_t kMost = 192;
+  static constexpr std::size_t kMax = 192;
 
   /// Forgets what was there.
   void clear() {
@@ -33,7 +33,7 @@ class NearbyTriangles {
     complete_ = false;
   }
 
-  /// Takes all that reach into the ball, kMost at most; `nearest` is the distance of the
+  /// Takes all that reach into the ball, kMax at most; `nearest` is the distance of the
   /// nearest from the centre.
   void fill(std::span<const NearbyTriangle> found, const Point& centre, double nearest,
             double radius) {
@@ -42,7 +42,7 @@ class NearbyTriangles {
     rings_per_length_ = radius > nearest ? kRings / (radius - nearest) : 0;
     extent_ = 0;
     size_ = found.size();
-    std::array<std::uint8_t, kMost> ring;
+    std::array<std::uint8_t, kMax> ring;
     std::array<std::size_t, kRings + 1> next{};
     for (std::size_t i = 0; i < size_; ++i) {
       ring[i] = static_cast<std::uint8_t>(ring_at(found[i].nearest));
@@ -55,7 +55,7 @@ class NearbyTriangles {
       extent2 = std::max(extent2, set(next[ring[i]]++, found[i]));
     extent_ = round_up(std::sqrt(extent2));
     for (std::size_t i = size_; i % kLanes != 0; ++i) repeat_last(i);
-    complete_ = size_ > 0 && extent_ >= kLeastFilterExtent;
+    complete_ = size_ > 0 && extent_ >= kMinFilterExtent;
   }
 
   /// Whether there is a list, and of all.
@@ -70,15 +70,15 @@ class NearbyTriangles {
   /// repeated up to the next multiple of sixteen.
   const float* row(std::size_t corner, std::size_t axis) const { return row_[corner][axis]; }
   /// The exact corners, repeated in the same way.
-  const TriangleRows<kMost>& exact() const { return exact_; }
+  const TriangleRows<kMax>& exact() const { return exact_; }
 
   Triangle triangle(std::size_t i) const { return exact_.triangle(i); }
   std::uint64_t id(std::size_t i) const { return id_[i]; }
-  bool in_sheet(std::size_t i) const { return in_sheet_[i]; }
+  bool is_height_field(std::size_t i) const { return is_height_field_[i]; }
 
  private:
   static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
-  static_assert(kMost % kLanes == 0 && kMost <= 255);
+  static_assert(kMax % kLanes == 0 && kMax <= 255);
   static constexpr std::size_t kRings = 16;
 
   // Greater distances have no smaller rings, however they are rounded.
@@ -98,7 +98,7 @@ class NearbyTriangles {
     }
     exact_.set(i, found.corners);
     id_[i] = found.id;
-    in_sheet_[i] = found.in_sheet;
+    is_height_field_[i] = found.is_height_field;
     return farthest2;
   }
 
@@ -115,10 +115,10 @@ class NearbyTriangles {
   float extent_ = 0;
   bool complete_ = false;
   std::array<std::uint8_t, kRings> end_;  // of each ring's triangles
-  alignas(kLanes * sizeof(float)) float row_[3][3][kMost];
-  TriangleRows<kMost> exact_;
-  std::uint64_t id_[kMost];
-  bool in_sheet_[kMost];
+  alignas(kLanes * sizeof(float)) float row_[3][3][kMax];
+  TriangleRows<kMax> exact_;
+  std::uint64_t id_[kMax];
+  bool is_height_field_[kMax];
 };
 
 }  // namespace planetree::octree

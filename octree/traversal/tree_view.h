@@ -18,12 +18,12 @@ struct PageReader {
   const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
   /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
   const std::byte* (*peek)(void* context, std::uint32_t number) noexcept = nullptr;
-  FrameTable frames{};            ///< without cells: nothing is asked for ahead
-  FrameKeeper* keeper = nullptr;  ///< one at a time; null: frames may go with each call
+  FrameTable frames{};                       ///< without cells: nothing is asked for ahead
+  FrameReleaseHook* release_hook = nullptr;  ///< one at a time; null: frames may go with each call
 };
 
 /// What a descent must know of a tree; lengths are in the model frame.
-struct TreeFacts {
+struct TreeInfo {
   std::uint32_t page_bytes = 0;
   std::uint32_t root_link = 0;
   BlockShape shape;
@@ -36,11 +36,11 @@ struct TreeFacts {
 };
 
 /// What reading a tree took; for tests and benchmarks.
-struct TreeWork {
+struct TraversalStats {
   std::uint64_t nodes = 0;
   std::uint64_t blocks = 0;
   std::uint64_t triangles = 0;  ///< evaluated in double
-  std::uint64_t page_turns = 0;
+  std::uint64_t page_switches = 0;
 };
 
 }  // namespace planetree::octree

@@ -15,27 +15,27 @@ namespace planetree::octree {
 /// the tree and the test alone. No allocation, no lock.
 class TreeWalk {
  public:
-  TreeWalk(const TreeFacts& tree, const PageReader& pages, TreeWork& work)
+  TreeWalk(const TreeInfo& tree, const PageReader& pages, TraversalStats& work)
       : tree_(tree), work_(work), records_(tree, pages) {}
 
   /// Begins with this record, and others so named, in place of the root; a list of
   /// NearbySubtrees at most.
-  void begin_with(std::uint32_t link) { links_[size_++] = {link, RecordFinder::kNoPage}; }
+  void begin_with(std::uint32_t link) { links_[size_++] = {link, LinkResolver::kNoPage}; }
 
   /// Calls meeting(Node) for a bit for each child to go to, and visit(BlockView, link). False where
-  /// pages are missing or there was more than `max_nodes` nodes and blocks to visit: some
+  /// pages are missing or there was more than `max_work` nodes and blocks to visit: some
   /// blocks were not.
   template <class Visit, class Meeting>
-  bool run(std::uint64_t max_nodes, const Visit& visit, const Meeting& meeting) {
-    return run_while(max_nodes, visit, meeting, [] { return true; });
+  bool run(std::uint64_t max_work, const Visit& visit, const Meeting& meeting) {
+    return run_while(max_work, visit, meeting, [] { return true; });
   }
 
   /// The same for as long as going_on() says so: then false, too.
   template <class Visit, class Meeting, class GoingOn>
-  bool run_while(std::uint64_t max_nodes, const Visit& visit, const Meeting& meeting,
+  bool run_while(std::uint64_t max_work, const Visit& visit, const Meeting& meeting,
                  const GoingOn& going_on) {
     // An honest tree cannot be visited longer than it is; a forged one could.
-    std::uint64_t left = std::min(max_nodes, tree_.record_count);
+    std::uint64_t left = std::min(max_work, tree_.record_count);
     bool complete = true;
     if (size_ == 0) begin_with(tree_.root_link);
     Link next = links_[--size_];
@@ -80,9 +80,9 @@ class TreeWalk {
     return {node.link[static_cast<unsigned>(std::countr_zero(children))], page};
   }
 
-  const TreeFacts& tree_;
-  TreeWork& work_;
-  RecordFinder records_;
+  const TreeInfo& tree_;
+  TraversalStats& work_;
+  LinkResolver records_;
   std::size_t size_ = 0;
   std::array<Link, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
 };

@@ -47,9 +47,10 @@ HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole,
                                      TriangleFloats sides, TriangleFloats longest2) {
   const TriangleTag d;
   const TriangleFloats zero = hn::Zero(d);
-  const TriangleFloats doubt = hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
+  const TriangleFloats uncertainty =
+      hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
   const TriangleFloats rise =
-      hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), doubt)), hn::Sqrt(longest2));
+      hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), uncertainty)), hn::Sqrt(longest2));
   const TriangleFloats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
   return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
 }
@@ -142,7 +143,7 @@ class ListedTriangles {
 struct FilteredTriangles {
   HWY_ALIGN float squared[kMaxBlockTriangles];  // lower bounds
   unsigned near;                                // a bit for each whose bound is not above the limit
-  float least_upper;                            // of TriangleBounds::upper
+  float min_upper;                              // of TriangleBounds::upper
 };
 
 // Lanes past the last triangle must repeat one.
@@ -167,7 +168,7 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
     near |= mask_bits(d, hn::Not(far)) << i;
   }
   filtered.near = near & (~0u >> (32 - count));
-  filtered.least_upper = hn::GetLane(hn::MinOfLanes(d, least));
+  filtered.min_upper = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
 // A block's, of so many vertices; called, so that these are in registers and nowhere else.

@@ -21,7 +21,7 @@ unsigned triangles_within(const BlockView& block, const Point& point, const Floa
 
 /// Those that may have this corner, by one coordinate in float; the others do not. Sixty-four a
 /// word.
-using ListedBits = std::array<std::uint64_t, NearbyTriangles::kMost / 64>;
+using ListedBits = std::array<std::uint64_t, NearbyTriangles::kMax / 64>;
 ListedBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept;
 
 }  // namespace planetree::octree

@@ -80,12 +80,12 @@ HWY_INLINE CrossedTriangles cross_vector(const TriangleRows<kTrianglesAtOnce>& r
                               hn::And(hn::And(ab.negative, bc.negative), ca.negative));
   const auto forward = hn::And(through, hn::And(start.positive, end.negative));
   const auto backward = hn::And(through, hn::And(start.negative, end.positive));
-  const auto told = hn::Or(hn::Or(same_side, beside), hn::Or(forward, backward));
-  return {mask_bits(d, forward), mask_bits(d, backward), mask_bits(d, hn::Not(told))};
+  const auto certain = hn::Or(hn::Or(same_side, beside), hn::Or(forward, backward));
+  return {mask_bits(d, forward), mask_bits(d, backward), mask_bits(d, hn::Not(certain))};
 }
 
 HWY_INLINE CrossedTriangles cross_triangles(const TriangleRows<kTrianglesAtOnce>& rows,
-                                            const MovedSegment& segment) {
+                                            const PerturbedSegment& segment) {
   const DoubleTag d;
   const auto all = [&](const Point& point) {
     return Doubles3{hn::Set(d, point.x()), hn::Set(d, point.y()), hn::Set(d, point.z())};

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 // Gathers triangles until there are as many as are tested at once.
 class CrossingSum {
  public:
-  explicit CrossingSum(const MovedSegment& segment) : segment_(segment) {}
+  explicit CrossingSum(const PerturbedSegment& segment) : segment_(segment) {}
 
   void add(const Triangle& triangle) {
     if (size_ == 0)
@@ -51,7 +51,7 @@ class CrossingSum {
     size_ = 0;
   }
 
-  const MovedSegment& segment_;
+  const PerturbedSegment& segment_;
   std::size_t size_ = 0;
   TriangleRows<kTrianglesAtOnce> rows_;
   Crossings sum_;
@@ -59,7 +59,7 @@ class CrossingSum {
 
 // As triangles_met(), where vertices are doubles: those whose boxes are not apart from the
 // segment's.
-unsigned boxes_met(const BlockView& block, const MovedSegment& segment) {
+unsigned boxes_met(const BlockView& block, const PerturbedSegment& segment) {
   const Point lower = segment.from.cwiseMin(segment.to);
   const Point upper = segment.from.cwiseMax(segment.to);
   unsigned found = 0;
@@ -75,7 +75,7 @@ unsigned boxes_met(const BlockView& block, const MovedSegment& segment) {
 // What a segment crosses of the blocks that are visited.
 class BlockCrossings {
  public:
-  BlockCrossings(const TreeFacts& tree, const MovedSegment& segment, TreeWork& work)
+  BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, TraversalStats& work)
       : segment_(segment),
         in_blocks_(FloatSegment::between(
             segment.from, segment.to, Point::Zero(),
@@ -100,28 +100,28 @@ class BlockCrossings {
   }
 
  private:
-  const MovedSegment& segment_;
+  const PerturbedSegment& segment_;
   const FloatSegment in_blocks_;
   CrossingSum crossings_;
-  TreeWork& work_;
+  TraversalStats& work_;
 };
 
-Crossings count_on_target(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, const PageReader& pages, TreeWork& work) {
+Crossings count_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
+                          std::uint64_t max_work, const PageReader& pages, TraversalStats& work) {
   const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
   BlockCrossings crossings(tree, segment, work);
   const auto visit = [&](const BlockView& block, std::uint32_t)
                          HWY_ATTR { crossings.visit(block); };
   const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, in_nodes); };
-  const bool complete = TreeWalk(tree, pages, work).run(max_nodes, visit, meeting);
+  const bool complete = TreeWalk(tree, pages, work).run(max_work, visit, meeting);
   return crossings.found(complete);
 }
 
-Crossings count_in_blocks_on_target(const TreeFacts& tree, const MovedSegment& segment,
-                                    std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
-                                    const PageReader& pages, TreeWork& work) {
-  if (blocks.size() > max_nodes) return {.complete = false};
-  RecordFinder records(tree, pages);
+Crossings count_in_blocks_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
+                                    std::span<const std::uint32_t> blocks, std::uint64_t max_work,
+                                    const PageReader& pages, TraversalStats& work) {
+  if (blocks.size() > max_work) return {.complete = false};
+  LinkResolver records(tree, pages);
   for (const std::uint32_t link : blocks) records.prefetch(link);
   BlockCrossings crossings(tree, segment, work);
   bool complete = true;
@@ -145,16 +145,16 @@ namespace planetree::octree {
 HWY_EXPORT(count_on_target);
 HWY_EXPORT(count_in_blocks_on_target);
 
-Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
-                          std::uint64_t max_nodes, const PageReader& pages,
-                          TreeWork& work) noexcept {
-  return HWY_DYNAMIC_DISPATCH(count_on_target)(tree, segment, max_nodes, pages, work);
+Crossings count_crossings(const TreeInfo& tree, const PerturbedSegment& segment,
+                          std::uint64_t max_work, const PageReader& pages,
+                          TraversalStats& work) noexcept {
+  return HWY_DYNAMIC_DISPATCH(count_on_target)(tree, segment, max_work, pages, work);
 }
 
-Crossings count_crossings(const TreeFacts& tree, const MovedSegment& segment,
-                          std::span<const std::uint32_t> blocks, std::uint64_t max_nodes,
-                          const PageReader& pages, TreeWork& work) noexcept {
-  return HWY_DYNAMIC_DISPATCH(count_in_blocks_on_target)(tree, segment, blocks, max_nodes, pages,
+Crossings count_crossings(const TreeInfo& tree, const PerturbedSegment& segment,
+                          std::span<const std::uint32_t> blocks, std::uint64_t max_work,
+                          const PageReader& pages, TraversalStats& work) noexcept {
+  return HWY_DYNAMIC_DISPATCH(count_in_blocks_on_target)(tree, segment, blocks, max_work, pages,
                                                          work);
 }
 

@@ -48,10 +48,10 @@ class Multipoles {
  public:
   struct Share {
     double value;
-    double error;  ///< above kMostError: nothing is known
+    double error;  ///< above kMaxError: nothing is known
   };
   /// A share less certain than this decides nothing.
-  static constexpr double kMostError = 1;
+  static constexpr double kMaxError = 1;
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
   Multipoles(const Point& query, const Point& centre)

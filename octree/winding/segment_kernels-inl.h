@@ -84,9 +84,9 @@ class SegmentSides {
           least(hn::Set(FloatTag(), aside.least)),
           most(hn::Set(FloatTag(), aside.most)) {}
     HWY_INLINE Ints code(Floats z, Floats at, std::int32_t bit) const {
-      const Floats place = hn::Mul(slope, z);
-      return hn::Or(bit_where(hn::Lt(at, hn::Add(place, least)), bit),
-                    bit_where(hn::Gt(at, hn::Add(place, most)), 2 * bit));
+      const Floats offset = hn::Mul(slope, z);
+      return hn::Or(bit_where(hn::Lt(at, hn::Add(offset, least)), bit),
+                    bit_where(hn::Gt(at, hn::Add(offset, most)), 2 * bit));
     }
     Floats slope, least, most;
   };

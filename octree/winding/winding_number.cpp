@@ -16,15 +16,15 @@ namespace planetree::octree {
 namespace {
 
 /// A child that stands in the sum with its moments.
-struct Standin {
+struct Proxy {
   Multipoles::Share share;
   std::uint32_t link;
   std::uint32_t order;  ///< of its coming
 
-  bool known() const { return share.error <= Multipoles::kMostError; }
+  bool known() const { return share.error <= Multipoles::kMaxError; }
   /// The most uncertain first, of equals the last to come: so unknown ones are
   /// opened depth first.
-  friend bool operator<(const Standin& a, const Standin& b) {
+  friend bool operator<(const Proxy& a, const Proxy& b) {
     return a.share.error < b.share.error || (a.share.error == b.share.error && a.order < b.order);
   }
 };
@@ -32,19 +32,19 @@ struct Standin {
 /// Children still to be opened: the most uncertain on top while there is room
 /// for all, and once there is not, those below the one that found no room, the
 /// last to come first.
-class Openings {
+class OpenList {
  public:
   bool empty() const { return size_ == 0 && deep_size_ == 0; }
-  bool has_room() const { return size_ + kFanOut <= heap_.size(); }
-  bool deep_has_room() const { return deep_size_ + kFanOut <= deep_.size(); }
+  bool has_capacity() const { return size_ + kFanOut <= heap_.size(); }
+  bool deep_has_capacity() const { return deep_size_ + kFanOut <= deep_.size(); }
   bool is_deep() const { return deep_size_ > 0; }
 
-  void push(const Standin& standin) {
-    heap_[size_++] = standin;
+  void push(const Proxy& proxy) {
+    heap_[size_++] = proxy;
     std::push_heap(heap_.begin(), heap_.begin() + size_);
   }
-  void push_deep(const Standin& standin) { deep_[deep_size_++] = standin; }
-  Standin pop() {
+  void push_deep(const Proxy& proxy) { deep_[deep_size_++] = proxy; }
+  Proxy pop() {
     if (deep_size_ > 0) return deep_[--deep_size_];
     std::pop_heap(heap_.begin(), heap_.begin() + size_);
     return heap_[--size_];
@@ -52,34 +52,35 @@ class Openings {
 
  private:
   std::size_t size_ = 0, deep_size_ = 0;
-  std::array<Standin, 1024> heap_;
-  std::array<Standin, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> deep_;
+  std::array<Proxy, 1024> heap_;
+  std::array<Proxy, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> deep_;
 };
 
 class WindingSum {
  public:
-  WindingSum(const TreeFacts& tree, const Point& point, const PageReader& pages, TreeWork& work)
+  WindingSum(const TreeInfo& tree, const Point& point, const PageReader& pages,
+             TraversalStats& work)
       : tree_(tree),
         point_(point),
         work_(work),
         multipoles_(point, tree.centre),
         records_(tree, pages) {}
 
-  WindingNumber run(std::uint64_t max_nodes) {
+  WindingNumber run(std::uint64_t max_work) {
     // An honest tree cannot be visited longer than it is; a forged one could.
-    std::uint64_t left = std::min(max_nodes, tree_.record_count);
-    stand_in({{0, Multipoles::kUnknown}, tree_.root_link, 0});
-    openings_.push({{0, Multipoles::kUnknown}, tree_.root_link, 0});
-    while (!openings_.empty() && !decided()) {
-      const Standin standin = openings_.pop();
+    std::uint64_t left = std::min(max_work, tree_.record_count);
+    add_proxy({{0, Multipoles::kUnknown}, tree_.root_link, 0});
+    open_list_.push({{0, Multipoles::kUnknown}, tree_.root_link, 0});
+    while (!open_list_.empty() && !decided()) {
+      const Proxy proxy = open_list_.pop();
       // Where something unknown is lost, only the surface can still be found,
       // and that is not where anything is known.
-      if (lost_unknown_ && standin.known()) continue;
+      if (lost_unknown_ && proxy.known()) continue;
       if (left-- == 0) {
         complete_ = false;
         break;
       }
-      open(standin);
+      open(proxy);
     }
     WindingNumber result = sum();
     result.complete = complete_ || decided();
@@ -104,35 +105,35 @@ class WindingSum {
     return std::fabs(so_far.value) > so_far.error || so_far.error < 0.125;
   }
 
-  void stand_in(const Standin& standin) {
-    if (standin.known()) {
-      value_.add(standin.share.value);
-      error_.add(standin.share.error);
+  void add_proxy(const Proxy& proxy) {
+    if (proxy.known()) {
+      value_.add(proxy.share.value);
+      error_.add(proxy.share.error);
     } else {
       ++unknown_;
     }
   }
-  void stand_back(const Standin& standin) {
-    if (standin.known()) {
-      value_.add(-standin.share.value);
-      error_.add(-standin.share.error);
+  void remove_proxy(const Proxy& proxy) {
+    if (proxy.known()) {
+      value_.add(-proxy.share.value);
+      error_.add(-proxy.share.error);
     } else {
       --unknown_;
     }
   }
 
   // A record that cannot be had is left to its moments.
-  void open(const Standin& standin) {
-    const bool deep = openings_.is_deep() || !openings_.has_room();
-    const std::byte* record = records_.find(standin.link, work_);
-    const bool leaf = LinkFormat::is_leaf(standin.link);
+  void open(const Proxy& proxy) {
+    const bool deep = open_list_.is_deep() || !open_list_.has_capacity();
+    const std::byte* record = records_.find(proxy.link, work_);
+    const bool leaf = LinkFormat::is_leaf(proxy.link);
     // A tree deeper than its header may say is forged.
-    if (!record || (!leaf && deep && !openings_.deep_has_room())) {
+    if (!record || (!leaf && deep && !open_list_.deep_has_capacity())) {
       complete_ = false;
-      lost_unknown_ = lost_unknown_ || !standin.known();
+      lost_unknown_ = lost_unknown_ || !proxy.known();
       return;
     }
-    stand_back(standin);
+    remove_proxy(proxy);
     if (leaf)
       add_block(BlockView(record, tree_.shape));
     else
@@ -144,12 +145,12 @@ class WindingSum {
     std::array<Multipoles::Share, kFanOut> shares;
     multipoles_.shares(node, shares);
     for (unsigned child = 0; child < node.child_count; ++child) {
-      const Standin standin{shares[child], node.link[child], ++order_};
-      stand_in(standin);
+      const Proxy proxy{shares[child], node.link[child], ++order_};
+      add_proxy(proxy);
       if (deep)
-        openings_.push_deep(standin);
+        open_list_.push_deep(proxy);
       else
-        openings_.push(standin);
+        open_list_.push(proxy);
     }
   }
 
@@ -164,12 +165,12 @@ class WindingSum {
     }
   }
 
-  const TreeFacts& tree_;
+  const TreeInfo& tree_;
   const Point& point_;
-  TreeWork& work_;
+  TraversalStats& work_;
   const Multipoles multipoles_;
-  RecordFinder records_;
-  Openings openings_;
+  LinkResolver records_;
+  OpenList open_list_;
   CertainSum value_, error_;
   std::uint64_t unknown_ = 0;  ///< children that stand in without being known
   std::uint32_t order_ = 0;
@@ -180,9 +181,9 @@ class WindingSum {
 
 }  // namespace
 
-WindingNumber winding_number(const TreeFacts& tree, const Point& point, std::uint64_t max_nodes,
-                             const PageReader& pages, TreeWork& work) noexcept {
-  return WindingSum(tree, point, pages, work).run(max_nodes);
+WindingNumber winding_number(const TreeInfo& tree, const Point& point, std::uint64_t max_work,
+                             const PageReader& pages, TraversalStats& work) noexcept {
+  return WindingSum(tree, point, pages, work).run(max_work);
 }
 
 }  // namespace planetree::octree

@@ -11,7 +11,7 @@ struct WindingNumber {
   double value = 0;
   double error = 0;  ///< the true one is within this of `value`; infinite if nothing is known
   bool on_surface = false;  ///< the point is on a triangle; such have no part in `value`
-  bool complete = true;     ///< false: pages missing or `max_nodes` spent before it was decided
+  bool complete = true;     ///< false: pages missing or `max_work` spent before it was decided
 
   /// |w| is certainly more, or less, than one half.
   bool above_half() const { return value - error > 0.5 || value + error < -0.5; }
@@ -25,7 +25,7 @@ struct WindingNumber {
 ///
 /// tree       of nodes with moments, or a single block.
 /// point      model frame, no coordinate beyond kFarthestQuery.
-/// max_nodes  most nodes and blocks to visit.
+/// max_work  most nodes and blocks to visit.
 /// return     on the surface it is enough to know the sign, or that the
 ///            magnitude is below 1/4. A page that cannot be had is left to the
 ///            moments of the child that leads to it.
@@ -34,7 +34,7 @@ struct WindingNumber {
 ///            generalized winding numbers"; Barill et al. 2018, "Fast winding
 ///            numbers for soups and clouds". Certain intervals and the order of
 ///            opening are ours.
-WindingNumber winding_number(const TreeFacts& tree, const Point& point, std::uint64_t max_nodes,
-                             const PageReader& pages, TreeWork& work) noexcept;
+WindingNumber winding_number(const TreeInfo& tree, const Point& point, std::uint64_t max_work,
+                             const PageReader& pages, TraversalStats& work) noexcept;
 
 }  // namespace planetree::octree

@@ -24,7 +24,7 @@ double largest_coordinate(const octree::Triangle& triangle) {
 /// -1, or 0 where that cannot be told from rounding.
 int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
                   const Point& normal) {
-  if (nearest.feature == Feature::kFace) return octree::moved_side(nearest.corners, query);
+  if (nearest.feature == Feature::kFace) return octree::perturbed_side(nearest.corners, query);
   if (side == Side::kOnSurface || nearest.distance < kNoWay * largest_coordinate(nearest.corners))
     return 0;
   const double along = (query - nearest.point).dot(normal);
@@ -36,22 +36,22 @@ int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side
 /// which way round the faces are; so it does on a surface that is not watertight,
 /// where a step aside may be outside on either side.
 bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
-                   const Standing& standing, const Point& normal) {
-  if (standing.side == Side::kUnknown) return false;
+                   const SideResult& side_result, const Point& normal) {
+  if (side_result.side == Side::kUnknown) return false;
   // Only of the nearest triangle is it known that nothing is between it and the query.
-  if (nearest.status != Status::kExact || !standing.beside) return standing.winding < 0;
-  const int towards = towards_query(query, nearest, standing.side, normal);
-  if (towards == 0) return standing.winding < 0;
-  return (towards > 0) == (standing.winding != 0);
+  if (nearest.status != Status::kExact || !side_result.beside) return side_result.winding < 0;
+  const int towards = towards_query(query, nearest, side_result.side, normal);
+  if (towards == 0) return side_result.winding < 0;
+  return (towards > 0) == (side_result.winding != 0);
 }
 
 }  // namespace
 
 Point contact_normal(const Point& query, const octree::NearestAnswer& nearest,
-                     const octree::FeatureNormal& feature, const Standing& standing) noexcept {
+                     const octree::FeatureNormal& feature, const SideResult& side_result) noexcept {
   if (!(feature.normal.squaredNorm() > 0)) return {0, 0, 1};
-  return points_inward(query, nearest, standing, feature.normal) ? Point(-feature.normal)
-                                                                 : feature.normal;
+  return points_inward(query, nearest, side_result, feature.normal) ? Point(-feature.normal)
+                                                                    : feature.normal;
 }
 
 }  // namespace planetree::query

@@ -13,6 +13,6 @@ namespace planetree::query {
 /// feature         that of both.
 octree::Point contact_normal(const octree::Point& query, const octree::NearestAnswer& nearest,
                              const octree::FeatureNormal& feature,
-                             const Standing& standing) noexcept;
+                             const SideResult& side_result) noexcept;
 
 }  // namespace planetree::query

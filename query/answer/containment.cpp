@@ -7,42 +7,45 @@ namespace planetree::query {
 namespace {
 
 // Apart from what most asks come to, which needs few registers.
-[[gnu::noinline]] Containment find_containment(ProbeState& probe, const Vec3& query, const Ask& ask,
-                                               const octree::Point& placed,
-                                               const octree::ColourMap::Spot& spot, TouchLog* log) {
+[[gnu::noinline]] Containment find_containment(ProbeState& probe, const Vec3& query,
+                                               const QueryOptions& options,
+                                               const octree::Point& scaled,
+                                               const octree::SideGrid::Lookup& lookup,
+                                               PageTraceWriter* log) {
   // What stands for a point that far away may be beyond another wall of a region.
-  if (is_far(placed))
-    if (const auto known = side_at_once(probe.model(), placed, spot))
+  if (is_far(scaled))
+    if (const auto known = side_without_pages(probe.model(), scaled, lookup))
       return {known->side, known->status};
-  const Ask limited = with_defaults(ask);
-  PageTurner turner(probe.reader(), ask.wait, probe.model().asking_terms());
-  turner.log_to(log);
-  octree::TreeWork work;
-  const Standing standing = side_of(probe, within_reach(placed, query), spot, 0, may_remember(ask),
-                                    limited.max_nodes, turner, work);
-  if (standing.status == Status::kDegraded) {
-    Ask side_alone = limited;
+  const QueryOptions limited = with_defaults(options);
+  PageAccessor accessor(probe.reader(), options.wait, probe.model().query_terms());
+  accessor.set_trace(log);
+  octree::TraversalStats work;
+  const SideResult side_result =
+      side_of(probe, within_reach(scaled, query), lookup, 0, may_use_coherence(options),
+              limited.max_work, accessor, work);
+  if (side_result.status == Status::kDegraded) {
+    QueryOptions side_alone = limited;
     side_alone.parts = kSide;
-    note_loss(probe, query, side_alone, turner);
+    note_loss(probe, query, side_alone, accessor);
     probe.model().count_degraded();
   }
-  return {standing.side, standing.status};
+  return {side_result.side, side_result.status};
 }
 
 }  // namespace
 
-Containment contains(ProbeState& probe, const Vec3& query, const Ask& ask) noexcept {
-  if (!makes_sense(query, ask)) return {};
-  const octree::Point placed = probe.model().scale().in(query);
+Containment contains(ProbeState& probe, const Vec3& query, const QueryOptions& options) noexcept {
+  if (!is_valid(query, options)) return {};
+  const octree::Point scaled = probe.model().scale().in(query);
   probe.last_parts() = kSide;
-  TouchLog* const log = probe.touches().begin_ask(ask.wait);
-  const octree::ColourMap::Spot spot =
-      look_at_colours(probe.model(), placed, frames_of(probe.reader()));
+  PageTraceWriter* const log = probe.touches().begin_query(options.wait);
+  const octree::SideGrid::Lookup lookup =
+      look_up_side_grid(probe.model(), scaled, frames_of(probe.reader()));
   // What most asks come to.
-  probe.colours_told() = spot.winding != octree::ColourMap::kUnknown;
-  if (probe.colours_told())
-    return {spot.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
-  return find_containment(probe, query, ask, placed, spot, log);
+  probe.side_grid_answered() = lookup.winding != octree::SideGrid::kUnknown;
+  if (probe.side_grid_answered())
+    return {lookup.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+  return find_containment(probe, query, options, scaled, lookup, log);
 }
 
 }  // namespace planetree::query

@@ -11,13 +11,13 @@
 namespace planetree::query {
 
 /// Whether a point, model frame, is strictly outside of a model's box.
-inline bool outside_box(const octree::TreeFacts& tree, const octree::Point& point) {
+inline bool outside_box(const octree::TreeInfo& tree, const octree::Point& point) {
   return (point.array() < tree.box_lower.array()).any() ||
          (point.array() > tree.box_upper.array()).any();
 }
 
 /// The ways straight out of a model's box along the axes, the shortest first.
-class WaysOut {
+class ExitSegments {
  public:
   struct Way {
     double length = 0;
@@ -25,7 +25,7 @@ class WaysOut {
   };
 
   /// from  within the box, model frame.
-  WaysOut(const octree::TreeFacts& tree, const octree::Point& from) {
+  ExitSegments(const octree::TreeInfo& tree, const octree::Point& from) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       add(from, axis, tree.box_lower[axis], -1);
       add(from, axis, tree.box_upper[axis], 1);

@@ -41,42 +41,43 @@ struct SideReason {
 /// Which side of a model's surface a point is on.
 ///
 /// point      model frame.
-/// max_nodes  most nodes and blocks to visit.
+/// max_work  most nodes and blocks to visit.
 /// reason     filled if not null.
 /// return     kUnknown where degraded, and where the winding number of a model
 ///            that is not watertight is one half to rounding.
-Standing find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
-                   const octree::PageReader& pages, octree::TreeWork& work,
-                   SideReason* reason = nullptr) noexcept;
+SideResult find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_work,
+                     const octree::PageReader& pages, octree::TraversalStats& work,
+                     SideReason* reason = nullptr) noexcept;
 
-/// What octree::ColourMap knows of a point, as far as the file knows it. The point may be any.
+/// What octree::SideGrid knows of a point, as far as the file knows it. The point may be any.
 /// Models that are not watertight have no colours.
-inline octree::ColourMap::Spot look_at_colours(const ModelState& model, const octree::Point& point,
-                                               const octree::FrameTable& frames) noexcept {
+inline octree::SideGrid::Lookup look_up_side_grid(const ModelState& model,
+                                                  const octree::Point& point,
+                                                  const octree::FrameTable& frames) noexcept {
   const bool known = !model.region().has_walls() || model.region().holds(point);
-  const auto ahead = [&](const octree::MapRecord& record) {
+  const auto ahead = [&](const octree::SideGridRecord& record) {
     octree::MaskRecords::prefetch(model.mask(), record.link, frames);
   };
-  return known ? model.colours().look(point, ahead) : octree::ColourMap::Spot{};
+  return known ? model.side_grid().look(point, ahead) : octree::SideGrid::Lookup{};
 }
 
 /// The same as find_side() where one look tells: beyond a wall of a region, outside of a
 /// watertight model's box, or in a white or black cell. The point may be any.
-std::optional<Standing> side_at_once(const ModelState& model, const octree::Point& point,
-                                     const octree::ColourMap::Spot& spot) noexcept;
+std::optional<SideResult> side_without_pages(const ModelState& model, const octree::Point& point,
+                                             const octree::SideGrid::Lookup& lookup) noexcept;
 
 /// Whether the point cannot but stand where the last one that `memory` knows does, which then is
 /// what it knows of this one. No surface is nearer to the point than `clear`.
 bool is_side_as_before(const ModelState& model, const octree::Point& point, double clear,
-                       SideMemory& memory) noexcept;
+                       SideCache& memory) noexcept;
 
 /// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
 /// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
 /// to the point than `clear`, which may be 0.
-/// spot  what look_at_colours() says.
-Standing find_side(const ModelState& model, const octree::Point& point,
-                   const octree::ColourMap::Spot& spot, double clear, SideMemory& memory,
-                   std::uint64_t max_nodes, const octree::PageReader& pages,
-                   octree::TreeWork& work) noexcept;
+/// spot  what look_up_side_grid() says.
+SideResult find_side(const ModelState& model, const octree::Point& point,
+                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
+                     std::uint64_t max_work, const octree::PageReader& pages,
+                     octree::TraversalStats& work) noexcept;
 
 }  // namespace planetree::query

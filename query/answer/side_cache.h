@@ -12,20 +12,20 @@ namespace planetree::query {
 /// What a probe's last asks found out about sides, for the next ones nearby. Of watertight
 /// models alone: elsewhere winding numbers are not constant off the surface. Plain memory,
 /// one thread.
-class SideMemory {
+class SideCache {
  public:
   /// The cell of the mask that the point is in, if it is the last one; else null.
-  const octree::MaskFinding* cell_with(const octree::Point& point) const {
+  const octree::MaskLookup* cell_with(const octree::Point& point) const {
     const bool within =
         (point.array() >= cell_lower_.array()).all() && (point.array() < cell_upper_.array()).all();
     return within ? &cell_ : nullptr;
   }
   /// Whether asks come from about the same place, so that a cell is worth its bounds.
-  bool is_near(const octree::Point& point, const octree::TreeFacts& tree) const {
+  bool is_near(const octree::Point& point, const octree::TreeInfo& tree) const {
     const double diagonal2 = (tree.box_upper - tree.box_lower).squaredNorm();
     return (point - point_).squaredNorm() < diagonal2 * (kNear * kNear);
   }
-  void note_cell(const octree::MaskFacts& mask, const octree::MaskFinding& found) {
+  void note_cell(const octree::MaskInfo& mask, const octree::MaskLookup& found) {
     const octree::CellGrid grid(mask.lower);
     cell_ = found;
     cell_lower_ = grid.lower(found.cell);
@@ -35,7 +35,7 @@ class SideMemory {
   /// The last point whose side was found.
   const octree::Point& point() const { return point_; }
   /// Its side; unknown before any was found.
-  const Standing& standing() const { return standing_; }
+  const SideResult& side_result() const { return side_result_; }
   /// Whether its winding number is right, and not of the right sign alone.
   bool counted() const { return counted_; }
 
@@ -49,14 +49,15 @@ class SideMemory {
   }
 
   /// A point's side; no surface is nearer to it than `clear`, which may be 0.
-  void note(const octree::Point& point, const Standing& standing, bool counted, double clear) {
-    standing_ = standing;
+  void note(const octree::Point& point, const SideResult& side_result, bool counted, double clear) {
+    side_result_ = side_result;
     counted_ = counted;
     go_to(point, clear);
   }
   /// The same of a point that stands where the last one does.
   void go_to(const octree::Point& point, double clear) {
-    const bool off_surface = standing_.side == Side::kInside || standing_.side == Side::kOutside;
+    const bool off_surface =
+        side_result_.side == Side::kInside || side_result_.side == Side::kOutside;
     point_ = point;
     clear_ = off_surface ? clear : 0;
   }
@@ -66,11 +67,11 @@ class SideMemory {
   static constexpr double kNear = 0x1p-6;  ///< as a share of the model's diagonal
   static constexpr double kRounding = 0x1p-40;
 
-  octree::MaskFinding cell_;
+  octree::MaskLookup cell_;
   octree::Point cell_lower_ = octree::Point::Constant(kNowhere);
   octree::Point cell_upper_ = octree::Point::Constant(kNowhere);
   octree::Point point_ = octree::Point::Constant(kNowhere);
-  Standing standing_;
+  SideResult side_result_;
   bool counted_ = false;
   double clear_ = 0;
 };

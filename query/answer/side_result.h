@@ -7,7 +7,7 @@
 namespace planetree::query {
 
 /// Where a point stands with respect to a model's surface.
-struct Standing {
+struct SideResult {
   Side side = Side::kUnknown;
   Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
   /// Of watertight models as much as 0, and of the sign of, the winding number of

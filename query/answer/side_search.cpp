@@ -11,27 +11,27 @@ namespace planetree::query {
 
 using octree::Point;
 
-Standing SideSearch::run() {
-  if (ask_mask()) return standing_;
+SideResult SideSearch::run() {
+  if (query_mask()) return side_result_;
   // Usually the first way tells; another may do without a page that is lost.
   const octree::Region& region = model_.region();
-  const WaysOut ways(model_.tree(), point_);
-  for (const WaysOut::Way& way : ways.all())
-    if (region.holds(way.end) && go(way.end, 0, SideReason::Rule::kWayOut)) return standing_;
+  const ExitSegments ways(model_.tree(), point_);
+  for (const ExitSegments::Way& way : ways.all())
+    if (region.holds(way.end) && go(way.end, 0, SideReason::Rule::kWayOut)) return side_result_;
   if (region.has_walls() &&
       go(model_.region_corner(), model_.region_winding(), SideReason::Rule::kWayOut))
-    return standing_;
+    return side_result_;
   return {Side::kUnknown, Status::kDegraded};
 }
 
-bool SideSearch::ask_mask() {
-  using Kind = octree::MaskFinding::Kind;
+bool SideSearch::query_mask() {
+  using Kind = octree::MaskLookup::Kind;
   if (memory_)
-    if (const octree::MaskFinding* last = memory_->cell_with(point_)) return go_from(*last);
+    if (const octree::MaskLookup* last = memory_->cell_with(point_)) return go_from(*last);
   // What is resident, answers that remember depend on anyway. Lists are long: made where it stays.
-  const octree::MaskFinding found =
-      spot_ ? octree::look_up(model_.mask(), *spot_, point_, nodes_left(), pages_, work_)
-            : octree::look_up(model_.mask(), point_, nodes_left(), pages_, work_);
+  const octree::MaskLookup found =
+      lookup_ ? octree::look_up(model_.mask(), *lookup_, point_, work_left(), pages_, work_)
+              : octree::look_up(model_.mask(), point_, work_left(), pages_, work_);
   // What a special cell knows is of this point alone.
   const bool of_all = found.kind == Kind::kColour || found.kind == Kind::kCorners;
   if (memory_ && of_all && memory_->is_near(point_, model_.tree()))
@@ -39,8 +39,8 @@ bool SideSearch::ask_mask() {
   return go_from(found);
 }
 
-bool SideSearch::go_from(const octree::MaskFinding& found) {
-  using Kind = octree::MaskFinding::Kind;
+bool SideSearch::go_from(const octree::MaskLookup& found) {
+  using Kind = octree::MaskLookup::Kind;
   if (reason_) {
     reason_->in_mask = model_.mask().page_count > 0;
     reason_->cell = found.cell;
@@ -56,12 +56,12 @@ bool SideSearch::go_from(const octree::MaskFinding& found) {
 }
 
 // What is beyond the planes of a cell has the winding number of its corner there.
-bool SideSearch::ask_slab(const octree::MaskFinding& found) {
+bool SideSearch::query_slab(const octree::MaskLookup& found) {
   const octree::CellSlab& slab = found.blocks.slab;
   if (!slab.says_something()) return false;
   const Point lower = octree::CellGrid(model_.mask().lower).lower(found.cell);
   const unsigned corner =
-      slab.corner_beyond(octree::CellSlab::place_in(point_, lower, found.cell.level));
+      slab.corner_beyond(octree::CellSlab::position_in(point_, lower, found.cell.level));
   if (corner == octree::CellSlab::kNoCorner) return false;
   if (reason_) reason_->rule = SideReason::Rule::kSlab;
   counted_ = true;
@@ -72,29 +72,29 @@ bool SideSearch::ask_slab(const octree::MaskFinding& found) {
 // To the corner of the octant that the point is in: past those blocks alone that have triangles
 // in the octant.
 template <class Grid>
-bool SideSearch::go_within_octant(const octree::MaskFinding& found, const Grid& grid) {
+bool SideSearch::go_within_octant(const octree::MaskLookup& found, const Grid& grid) {
   const unsigned octant = grid.octant(found.cell, point_);
-  std::array<std::uint32_t, octree::kMostListed> links;
+  std::array<std::uint32_t, octree::kMaxListed> links;
   const unsigned count = found.blocks.in_octant(octant, links);
   const Point corner = grid.corner(found.cell, octant);
   const int winding = octree::corner_of(found.listed, octant);
-  if (count == 0) return conclude(corner, winding, {}, SideReason::Rule::kCorner);
+  if (count == 0) return finalize(corner, winding, {}, SideReason::Rule::kCorner);
   const octree::Crossings crossings = octree::count_crossings(
-      model_.tree(), {point_, corner}, std::span(links).first(count), nodes_left(), pages_, work_);
-  return conclude(corner, winding, crossings, SideReason::Rule::kCorner);
+      model_.tree(), {point_, corner}, std::span(links).first(count), work_left(), pages_, work_);
+  return finalize(corner, winding, crossings, SideReason::Rule::kCorner);
 }
 
-bool SideSearch::go_to_corner(const octree::MaskFinding& found) {
+bool SideSearch::go_to_corner(const octree::MaskLookup& found) {
   if (found.blocks.count == 0) return go_to_nearest(found);
   const Point& lower = model_.mask().lower;
   // Most often there is nothing to clip.
   if (!model_.region().has_walls())
-    return ask_slab(found) || go_within_octant(found, octree::CellGrid(lower));
+    return query_slab(found) || go_within_octant(found, octree::CellGrid(lower));
   return go_within_octant(found, octree::ClippedGrid(lower, model_.region()));
 }
 
 // The nearest corner, or the last point if that is nearer: few triangles are between.
-bool SideSearch::go_to_nearest(const octree::MaskFinding& found) {
+bool SideSearch::go_to_nearest(const octree::MaskLookup& found) {
   const octree::ClippedGrid grid(model_.mask().lower, model_.region());
   Point corner = grid.lower(found.cell);
   const Point upper = grid.upper(found.cell);
@@ -106,21 +106,21 @@ bool SideSearch::go_to_nearest(const octree::MaskFinding& found) {
   }
   if (memory_ && memory_->counted() &&
       (memory_->point() - point_).squaredNorm() < (corner - point_).squaredNorm() &&
-      go(memory_->point(), memory_->standing().winding, SideReason::Rule::kCorner))
+      go(memory_->point(), memory_->side_result().winding, SideReason::Rule::kCorner))
     return true;
   return go(corner, found.corners[nearest], SideReason::Rule::kCorner);
 }
 
 // To where the winding number is known. False if that way cannot be gone.
 bool SideSearch::go(const Point& end, std::int64_t winding, SideReason::Rule rule) {
-  if (nodes_left() == 0) return false;
-  return conclude(
-      end, winding,
-      octree::count_crossings(model_.tree(), {point_, end}, nodes_left(), pages_, work_), rule);
+  if (work_left() == 0) return false;
+  return finalize(end, winding,
+                  octree::count_crossings(model_.tree(), {point_, end}, work_left(), pages_, work_),
+                  rule);
 }
 
 // From what lies between the point and an end where the winding number is known.
-bool SideSearch::conclude(const Point& end, std::int64_t winding,
+bool SideSearch::finalize(const Point& end, std::int64_t winding,
                           const octree::Crossings& crossings, SideReason::Rule rule) {
   if (!crossings.complete) return false;
   if (reason_) {
@@ -136,7 +136,7 @@ bool SideSearch::conclude(const Point& end, std::int64_t winding,
 
 void SideSearch::settle(std::int64_t winding, bool on_surface) {
   const Side off_surface = winding != 0 ? Side::kInside : Side::kOutside;
-  standing_ = {on_surface ? Side::kOnSurface : off_surface, Status::kExact, winding};
+  side_result_ = {on_surface ? Side::kOnSurface : off_surface, Status::kExact, winding};
 }
 
 }  // namespace planetree::query

@@ -14,8 +14,8 @@ namespace planetree::query {
 
 /// What a search may go on from; null where its answer may not depend on it.
 struct Remembered {
-  SideMemory* memory = nullptr;
-  const octree::ColourMap::Spot* spot = nullptr;  ///< what look_at_colours() says
+  SideCache* memory = nullptr;
+  const octree::SideGrid::Lookup* lookup = nullptr;  ///< what look_up_side_grid() says
 };
 
 /// One search for the side of a point in the box of a watertight model and within its region, and
@@ -24,38 +24,38 @@ struct Remembered {
 class SideSearch {
  public:
   /// All must outlive this; `reason` may be null.
-  SideSearch(const ModelState& model, const octree::Point& point, std::uint64_t max_nodes,
-             const octree::PageReader& pages, octree::TreeWork& work, SideReason* reason,
+  SideSearch(const ModelState& model, const octree::Point& point, std::uint64_t max_work,
+             const octree::PageReader& pages, octree::TraversalStats& work, SideReason* reason,
              const Remembered& remembered = {})
       : model_(model),
         point_(point),
-        max_nodes_(max_nodes),
+        max_nodes_(max_work),
         pages_(pages),
         work_(work),
         reason_(reason),
         memory_(remembered.memory),
-        spot_(remembered.spot),
+        lookup_(remembered.lookup),
         before_(work.nodes + work.blocks) {}
 
-  Standing run();
+  SideResult run();
 
   /// Whether the winding number itself is known, not its sign alone.
   bool counted() const { return counted_; }
 
  private:
-  std::uint64_t nodes_left() const {
+  std::uint64_t work_left() const {
     const std::uint64_t spent = work_.nodes + work_.blocks - before_;
     return spent < max_nodes_ ? max_nodes_ - spent : 0;
   }
-  bool ask_mask();
-  bool go_from(const octree::MaskFinding& found);
-  bool go_to_corner(const octree::MaskFinding& found);
-  bool ask_slab(const octree::MaskFinding& found);
+  bool query_mask();
+  bool go_from(const octree::MaskLookup& found);
+  bool go_to_corner(const octree::MaskLookup& found);
+  bool query_slab(const octree::MaskLookup& found);
   template <class Grid>
-  bool go_within_octant(const octree::MaskFinding& found, const Grid& grid);
-  bool go_to_nearest(const octree::MaskFinding& found);
+  bool go_within_octant(const octree::MaskLookup& found, const Grid& grid);
+  bool go_to_nearest(const octree::MaskLookup& found);
   bool go(const octree::Point& end, std::int64_t winding, SideReason::Rule rule);
-  bool conclude(const octree::Point& end, std::int64_t winding, const octree::Crossings& crossings,
+  bool finalize(const octree::Point& end, std::int64_t winding, const octree::Crossings& crossings,
                 SideReason::Rule rule);
   void settle(std::int64_t winding, bool on_surface);
 
@@ -63,12 +63,12 @@ class SideSearch {
   const octree::Point& point_;
   const std::uint64_t max_nodes_;
   const octree::PageReader& pages_;
-  octree::TreeWork& work_;
+  octree::TraversalStats& work_;
   SideReason* const reason_;  // null where nobody asks why
-  SideMemory* const memory_;  // null where nothing is remembered
-  const octree::ColourMap::Spot* const spot_;
+  SideCache* const memory_;   // null where nothing is remembered
+  const octree::SideGrid::Lookup* const lookup_;
   const std::uint64_t before_;
-  Standing standing_;
+  SideResult side_result_;
   bool counted_ = false;
 };
 

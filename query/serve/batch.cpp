@@ -18,8 +18,8 @@ namespace {
 
 // A place on the Morton curve over the model's box and as much around it;
 // neighbours there share pages. Only the order of asking depends on it.
-std::uint64_t place(const ModelState& model, const Vec3& query) {
-  const octree::TreeFacts& tree = model.tree();
+std::uint64_t curve_key(const ModelState& model, const Vec3& query) {
+  const octree::TreeInfo& tree = model.tree();
   const octree::Point from = (model.scale().in(query)-tree.centre) * 0.25;
   const auto coordinate = [](double value) {
     constexpr double kCells = 1 << octree::kLevels;
@@ -30,7 +30,8 @@ std::uint64_t place(const ModelState& model, const Vec3& query) {
   return octree::morton_code(coordinate(from.x()), coordinate(from.y()), coordinate(from.z()));
 }
 
-// Asks for all cache lines of an object. Inline, for gcc 12 drops calls of what does nothing else.
+// Queries for all cache lines of an object. Inline, for gcc 12 drops calls of what does nothing
+// else.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(const T& object) noexcept {
   constexpr std::size_t kLineBytes = 64;
@@ -45,12 +46,12 @@ struct Window {
   const BatchOrder& order;
   std::span<const Vec3> queries;
   std::span<Answer> answers;
-  const Ask& ask;
-  Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept;
+  const QueryOptions& options;
+  Answer (*answer)(ProbeState&, const Vec3&, const QueryOptions&) noexcept;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
     constexpr std::size_t kAhead = 2;  // asks
-    probe.vicinity().follow(octree::Vicinity::Course::kCurve);
+    probe.coherence_cache().follow(octree::CoherenceCache::Course::kCurve);
     for (std::size_t i = first; i < end; ++i) {
       // In order of the curve, queries and answers are anywhere in memory.
       if (i + kAhead < end) {
@@ -59,9 +60,9 @@ struct Window {
       }
       const std::size_t at = order.query(i);
       // What was there may have been keys.
-      ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at], ask));
+      ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at], options));
     }
-    probe.vicinity().follow(octree::Vicinity::Course::kPath);
+    probe.coherence_cache().follow(octree::CoherenceCache::Course::kPath);
   }
   static void run_piece(const void* window, ProbeState& probe, std::size_t first,
                         std::size_t end) noexcept {
@@ -77,9 +78,9 @@ constexpr std::size_t kKeysPerAnswer = sizeof(Answer) / sizeof(std::uint64_t);
 // or more, whose keys the last answers' memory takes. Those are asked once the others are answered.
 template <class Answer>
 std::size_t window_size(std::size_t count) {
-  if (count <= BatchRoom::kMost) return count;
-  if (kKeysPerAnswer<Answer> == 0) return BatchRoom::kMost;
-  return std::max(BatchRoom::kMost, count - (count / (kKeysPerAnswer<Answer> + 1) + 1));
+  if (count <= BatchBuffers::kMax) return count;
+  if (kKeysPerAnswer<Answer> == 0) return BatchBuffers::kMax;
+  return std::max(BatchBuffers::kMax, count - (count / (kKeysPerAnswer<Answer> + 1) + 1));
 }
 
 // Memory of answers for keys instead, until new ones are made there.
@@ -96,27 +97,30 @@ std::span<std::uint64_t> keys_in(std::span<Answer> answers, std::size_t count) {
 
 // For the first `count` of the queries of these answers.
 template <class Answer>
-std::span<std::uint64_t> keys_for(BatchRoom& room, std::span<Answer> answers, std::size_t count) {
+std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answers,
+                                  std::size_t count) {
   if constexpr (kKeysPerAnswer<Answer> != 0)
-    if (count > BatchRoom::kMost) return keys_in(answers.subspan(count), count);
-  return std::span(room.keys).first(count);
+    if (count > BatchBuffers::kMax) return keys_in(answers.subspan(count), count);
+  return std::span(storage.keys).first(count);
 }
 
-// Asks every query, in an order that turns pages seldom.
+// Queries every query, in an order that turns pages seldom.
 template <class Answer>
-void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
-                  const Ask& ask,
-                  Answer (*answer)(ProbeState&, const Vec3&, const Ask&) noexcept) noexcept {
+void query_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
+                    const QueryOptions& options,
+                    Answer (*answer)(ProbeState&, const Vec3&,
+                                     const QueryOptions&) noexcept) noexcept {
   assert(queries.size() == answers.size());
   // Crews take locks and wait for each other.
-  BatchCrew* const crew = ask.wait == Wait::kNever ? nullptr : probe.model().crew();
+  BatchThreads* const batch_threads =
+      options.wait == Wait::kNever ? nullptr : probe.model().batch_threads();
   while (!queries.empty()) {
     const std::size_t count = window_size<Answer>(queries.size());
-    BatchOrder order(keys_for(*probe.batch_room(), answers, count));
-    order.sort(probe.batch_room()->sorter,
-               [&](std::size_t i) { return place(probe.model(), queries[i]); });
-    const Window<Answer> window{order, queries.first(count), answers.first(count), ask, answer};
-    if (!crew || !crew->run(&window, count, &Window<Answer>::run_piece))
+    BatchOrder order(keys_for(*probe.batch_buffers(), answers, count));
+    order.sort(probe.batch_buffers()->sorter,
+               [&](std::size_t i) { return curve_key(probe.model(), queries[i]); });
+    const Window<Answer> window{order, queries.first(count), answers.first(count), options, answer};
+    if (!batch_threads || !batch_threads->run(&window, count, &Window<Answer>::run_piece))
       window.run(probe, 0, count);
     queries = queries.subspan(count);
     answers = answers.subspan(count);
@@ -126,13 +130,13 @@ void ask_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<An
 }  // namespace
 
 void closest_points(ProbeState& probe, std::span<const Vec3> queries,
-                    std::span<ClosestPoint> answers, const Ask& ask) noexcept {
-  ask_in_order(probe, queries, answers, ask, &closest_point);
+                    std::span<ClosestPoint> answers, const QueryOptions& options) noexcept {
+  query_in_order(probe, queries, answers, options, &closest_point);
 }
 
 void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
-              const Ask& ask) noexcept {
-  ask_in_order<Containment>(probe, queries, answers, ask, &contains);
+              const QueryOptions& options) noexcept {
+  query_in_order<Containment>(probe, queries, answers, options, &contains);
 }
 
 }  // namespace planetree::query

@@ -11,11 +11,11 @@
 namespace planetree::query {
 
 /// What a probe has to put batches in order with.
-struct BatchRoom {
-  static constexpr std::size_t kMost = 16384;
+struct BatchBuffers {
+  static constexpr std::size_t kMax = 16384;
 
   hwy::Sorter sorter;  // here, for where registers have no fixed size it allocates
-  std::array<std::uint64_t, kMost> keys{};  // so that none is touched for the first time later
+  std::array<std::uint64_t, kMax> keys{};  // so that none is touched for the first time later
 };
 
 /// The order in which queries of a batch are asked: by their places on a curve. Neighbours

@@ -16,28 +16,29 @@ constexpr std::size_t kPieceQueries = 128;
 
 }  // namespace
 
-Result<std::unique_ptr<BatchCrew>> BatchCrew::claim(const ModelState& model, unsigned threads) {
+Result<std::unique_ptr<BatchThreads>> BatchThreads::claim(const ModelState& model,
+                                                          unsigned threads) {
   try {
-    std::unique_ptr<BatchCrew> crew(new BatchCrew(threads));
+    std::unique_ptr<BatchThreads> batch_threads(new BatchThreads(threads));
     for (unsigned i = 0; i < threads; ++i) {
       auto reader = model.claim_reader();
       if (!reader) return reader.error();
-      crew->probes_.push_back(ProbeState::create(model, std::move(*reader)));
+      batch_threads->probes_.push_back(ProbeState::create(model, std::move(*reader)));
     }
-    return crew;
+    return batch_threads;
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for %u batch threads; free some or ask for fewer", threads);
   }
 }
 
-bool BatchCrew::run(const void* batch, std::size_t count, Work work) noexcept {
+bool BatchThreads::run(const void* batch, std::size_t count, Work work) noexcept {
   // Acquire and release: a batch sees what the last one left in the probes.
   if (busy_.exchange(true, std::memory_order_acquire)) return false;
   const auto do_piece = [&](const tbb::blocked_range<std::size_t>& piece) {
-    const HostArithmetic host;
-    const int place = tbb::this_task_arena::current_thread_index();
-    work(batch, *probes_[static_cast<std::size_t>(place)], piece.begin(), piece.end());
+    const FpEnvironmentGuard host;
+    const int curve_key = tbb::this_task_arena::current_thread_index();
+    work(batch, *probes_[static_cast<std::size_t>(curve_key)], piece.begin(), piece.end());
   };
   bool done = true;
   try {

@@ -14,12 +14,12 @@ namespace planetree::query {
 
 /// Threads that answer a batch together, each with a probe of its own, claimed when the model
 /// is opened. The threads are oneTBB's; the caller's is one of them.
-class BatchCrew {
+class BatchThreads {
  public:
   /// errors  kNoMemory.
-  static Result<std::unique_ptr<BatchCrew>> claim(const ModelState& model, unsigned threads);
+  static Result<std::unique_ptr<BatchThreads>> claim(const ModelState& model, unsigned threads);
 
-  /// Asks the queries [first, end) of a batch by way of a probe.
+  /// Queries the queries [first, end) of a batch by way of a probe.
   using Work = void (*)(const void* batch, ProbeState& probe, std::size_t first,
                         std::size_t end) noexcept;
 
@@ -30,7 +30,7 @@ class BatchCrew {
   bool run(const void* batch, std::size_t count, Work work) noexcept;
 
  private:
-  explicit BatchCrew(unsigned threads) : arena_(static_cast<int>(threads)) {}
+  explicit BatchThreads(unsigned threads) : arena_(static_cast<int>(threads)) {}
 
   tbb::task_arena arena_;
   std::vector<std::unique_ptr<ProbeState>> probes_;  // by the thread's place in the arena

@@ -9,11 +9,11 @@ namespace planetree::query {
 
 /// A question that was answered without all the pages it needs: who asks it again, waiting for
 /// them, makes them resident.
-struct Wish {
+struct FetchRequest {
   Vec3 point;
   double max_error = 0;
   double max_distance = 0;
-  std::uint64_t max_nodes = 0;
+  std::uint64_t max_work = 0;
   std::uint64_t parts = 0;
 };
 
@@ -25,9 +25,9 @@ struct Motion {
 };
 
 /// What one probe would like to have in memory.
-struct Wishes {
-  LatestValue<Wish> missed;
-  LatestValue<Motion> motion;
+struct FetchRequests {
+  SeqLock<FetchRequest> missed;
+  SeqLock<Motion> motion;
 };
 
 }  // namespace planetree::query

@@ -34,46 +34,48 @@ void become_ordinary() noexcept {
 // As much of the stack as is ever used, so that the process does not grow later.
 [[gnu::noinline]] void claim_stack() noexcept {
   constexpr std::size_t kLineBytes = 64;
-  volatile std::byte stack[FetchCrew::kThreadBytes / 4 * 3];
+  volatile std::byte stack[FetchThreads::kThreadBytes / 4 * 3];
   for (std::size_t at = 0; at < sizeof stack; at += kLineBytes) stack[at] = std::byte{};
 }
 
 }  // namespace
 
-void FetchCrew::run(FetchWorker& worker) noexcept {
+void FetchThreads::run(FetchWorker& worker) noexcept {
   claim_stack();
   become_ordinary();
-  const HostArithmetic host;
+  const FpEnvironmentGuard host;
   Clock::time_point last = Clock::now() - kLately;
   while (!stopping_.load(std::memory_order_relaxed)) {
     const FetchWorker::Did did = worker.work();
-    if (did == FetchWorker::Did::kReadForAnAsk) continue;
+    if (did == FetchWorker::Did::kReadForAQuery) continue;
     if (did == FetchWorker::Did::kNothing) {
-      cache_.wait_for_errand(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
+      cache_.wait_for_read(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
       continue;
     }
     last = Clock::now();
-    (did == FetchWorker::Did::kServedAWish ? wishes_fetched_ : places_prefetched_)
+    (did == FetchWorker::Did::kServedARequest ? requests_served_ : positions_prefetched_)
         .fetch_add(1, std::memory_order_relaxed);
   }
 }
 
-Result<std::unique_ptr<FetchCrew>> FetchCrew::start(const ModelState& model, unsigned threads) {
+Result<std::unique_ptr<FetchThreads>> FetchThreads::start(const ModelState& model,
+                                                          unsigned threads) {
   const auto refused = [&] {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "the system refused %u fetch threads; free memory or ask for fewer", threads);
   };
   try {
-    std::unique_ptr<FetchCrew> crew(new FetchCrew(model.cache()));
+    std::unique_ptr<FetchThreads> fetch_threads(new FetchThreads(model.cache()));
     for (unsigned i = 0; i < threads; ++i) {
       auto reader = model.claim_reader();
       if (!reader) return reader.error();
-      crew->workers_.push_back(std::make_unique<FetchWorker>(model, *std::move(reader), i, threads,
-                                                             &time_now, crew->stopping_));
+      fetch_threads->workers_.push_back(std::make_unique<FetchWorker>(
+          model, *std::move(reader), i, threads, &time_now, fetch_threads->stopping_));
     }
-    for (const auto& worker : crew->workers_)
-      crew->threads_.emplace_back([&crew = *crew, &worker = *worker] { crew.run(worker); });
-    return crew;
+    for (const auto& worker : fetch_threads->workers_)
+      fetch_threads->threads_.emplace_back(
+          [&fetch_threads = *fetch_threads, &worker = *worker] { fetch_threads.run(worker); });
+    return fetch_threads;
   } catch (const std::bad_alloc&) {
     return refused();
   } catch (const std::system_error&) {
@@ -81,7 +83,7 @@ Result<std::unique_ptr<FetchCrew>> FetchCrew::start(const ModelState& model, uns
   }
 }
 
-FetchCrew::~FetchCrew() {
+FetchThreads::~FetchThreads() {
   stopping_.store(true, std::memory_order_relaxed);
   cache_.wake_helpers();
   for (std::thread& thread : threads_) thread.join();

@@ -12,37 +12,37 @@
 
 namespace planetree::query {
 
-/// A model's fetch threads, a FetchWorker each. Asks that wait for pages wake them. Those that do
-/// not wait cannot, for that would call the system: so the threads look for wishes, often while
+/// A model's fetch threads, a FetchWorker each. Queries that wait for pages wake them. Those that
+/// do not wait cannot, for that would call the system: so the threads look for wishes, often while
 /// there have been some lately.
-class FetchCrew {
+class FetchThreads {
  public:
   /// What a thread takes besides its probe: its stack, as far as it is used.
   static constexpr std::uint64_t kThreadBytes = 65536;
 
   /// errors  kNoMemory.
-  static Result<std::unique_ptr<FetchCrew>> start(const ModelState& model, unsigned threads);
+  static Result<std::unique_ptr<FetchThreads>> start(const ModelState& model, unsigned threads);
   /// Waits for the page being read.
-  ~FetchCrew();
+  ~FetchThreads();
 
   /// Any thread; waits for nobody.
-  std::uint64_t wishes_fetched() const noexcept {
-    return wishes_fetched_.load(std::memory_order_relaxed);
+  std::uint64_t fetch_requests_served() const noexcept {
+    return requests_served_.load(std::memory_order_relaxed);
   }
-  std::uint64_t places_prefetched() const noexcept {
-    return places_prefetched_.load(std::memory_order_relaxed);
+  std::uint64_t positions_prefetched() const noexcept {
+    return positions_prefetched_.load(std::memory_order_relaxed);
   }
 
  private:
-  explicit FetchCrew(cache::PageCache& cache) : cache_(cache) {}
+  explicit FetchThreads(cache::PageCache& cache) : cache_(cache) {}
   void run(FetchWorker& worker) noexcept;
 
   cache::PageCache& cache_;
   std::vector<std::unique_ptr<FetchWorker>> workers_;
   std::vector<std::thread> threads_;
   std::atomic<bool> stopping_{false};
-  std::atomic<std::uint64_t> wishes_fetched_{0};
-  std::atomic<std::uint64_t> places_prefetched_{0};
+  std::atomic<std::uint64_t> requests_served_{0};
+  std::atomic<std::uint64_t> positions_prefetched_{0};
 };
 
 }  // namespace planetree::query

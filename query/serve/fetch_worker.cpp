@@ -9,14 +9,14 @@ namespace planetree::query {
 namespace {
 
 // How far ahead of a moving probe to look, by how long pages take to come.
-constexpr FetchWorker::Seconds kLeastAhead{0.005}, kMostAhead{0.2};
-constexpr unsigned kPlacesAhead = 4;
+constexpr FetchWorker::Seconds kMinAhead{0.005}, kMaxAhead{0.2};
+constexpr unsigned kPositionsAhead = 4;
 
-Ask waiting(std::uint64_t parts) {
-  Ask ask;
-  ask.parts = static_cast<std::uint32_t>(parts);
-  ask.max_nodes = Ask::kRealTimeNodes;
-  return ask;
+QueryOptions waiting(std::uint64_t parts) {
+  QueryOptions options;
+  options.parts = static_cast<std::uint32_t>(parts);
+  options.max_work = QueryOptions::kRealTimeWork;
+  return options;
 }
 
 bool is_moving(const Motion& motion) {
@@ -45,47 +45,47 @@ FetchWorker::FetchWorker(const ModelState& model, cache::Reader reader, std::siz
 FetchWorker::Did FetchWorker::work() noexcept {
   const auto any_of_mine = [this](bool (FetchWorker::*serve)(std::size_t) noexcept) {
     for (std::size_t left = first_; left < seen_.size(); left += step_) {
-      const std::size_t place = next_;
-      next_ = place + step_ < seen_.size() ? place + step_ : first_;
-      if ((this->*serve)(place)) return true;
+      const std::size_t index = next_;
+      next_ = index + step_ < seen_.size() ? index + step_ : first_;
+      if ((this->*serve)(index)) return true;
     }
     return false;
   };
   // The pages of a wish are read with those of asks in between.
-  ask_was_last_ = !ask_was_last_ && read_for_an_ask();
-  if (ask_was_last_) return Did::kReadForAnAsk;
-  if (any_of_mine(&FetchWorker::serve_wish)) return Did::kServedAWish;
-  ask_was_last_ = read_for_an_ask();
-  if (ask_was_last_) return Did::kReadForAnAsk;
+  query_was_last_ = !query_was_last_ && read_for_a_query();
+  if (query_was_last_) return Did::kReadForAQuery;
+  if (any_of_mine(&FetchWorker::serve_request)) return Did::kServedARequest;
+  query_was_last_ = read_for_a_query();
+  if (query_was_last_) return Did::kReadForAQuery;
   return any_of_mine(&FetchWorker::look_ahead) ? Did::kLookedAhead : Did::kNothing;
 }
 
-bool FetchWorker::serve_wish(std::size_t place) noexcept {
-  Wish wish;
-  if (!wishes(place).missed.take(seen_[place].wish, wish)) return false;
-  Ask ask = waiting(wish.parts);
-  ask.max_error = wish.max_error;
-  ask.max_distance = wish.max_distance;
+bool FetchWorker::serve_request(std::size_t index) noexcept {
+  FetchRequest request;
+  if (!fetch_requests(index).missed.take(seen_[index].request, request)) return false;
+  QueryOptions options = waiting(request.parts);
+  options.max_error = request.max_error;
+  options.max_distance = request.max_distance;
   // A probe that remembers may spend its work elsewhere than one from the root.
-  ask.max_nodes = std::clamp(static_cast<std::uint32_t>(wish.max_nodes), Ask::kRealTimeNodes,
-                             Ask::kNoLimit - 1);
+  options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
+                                QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
   const Seconds began = clock_();
-  bring_pages(probe_, wish.point, ask, stop_);
+  bring_pages(probe_, request.point, options, stop_);
   note_time(clock_() - began);
   return true;
 }
 
 // One place at a time, so that wishes need not wait for all.
-bool FetchWorker::look_ahead(std::size_t place) noexcept {
-  Seen& seen = seen_[place];
-  if (wishes(place).motion.take(seen.motion, seen.moving))
-    seen.places_left = is_moving(seen.moving) ? kPlacesAhead : 0;
-  if (seen.places_left == 0) return false;
-  const unsigned at = kPlacesAhead - --seen.places_left;
-  const Seconds ahead = std::clamp(2 * slowest_, kLeastAhead, kMostAhead);
+bool FetchWorker::look_ahead(std::size_t index) noexcept {
+  Seen& seen = seen_[index];
+  if (fetch_requests(index).motion.take(seen.motion, seen.moving))
+    seen.slots_left = is_moving(seen.moving) ? kPositionsAhead : 0;
+  if (seen.slots_left == 0) return false;
+  const unsigned at = kPositionsAhead - --seen.slots_left;
+  const Seconds ahead = std::clamp(2 * slowest_, kMinAhead, kMaxAhead);
   probe_.touches().set_looks_ahead(true);
-  bring_pages(probe_, ahead_of(seen.moving, ahead * at / kPlacesAhead), waiting(seen.moving.parts),
-              stop_);
+  bring_pages(probe_, ahead_of(seen.moving, ahead * at / kPositionsAhead),
+              waiting(seen.moving.parts), stop_);
   probe_.touches().set_looks_ahead(false);
   return true;
 }

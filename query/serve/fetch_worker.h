@@ -29,25 +29,25 @@ class FetchWorker {
   FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first, std::size_t step,
               Clock clock, const std::atomic<bool>& stop);
 
-  enum class Did : std::uint8_t { kNothing, kServedAWish, kLookedAhead, kReadForAnAsk };
+  enum class Did : std::uint8_t { kNothing, kServedARequest, kLookedAhead, kReadForAQuery };
   /// Does one thing that there is to do: reads a page that an ask waits for, and wishes, come
   /// before plans, and of these two neither comes twice while the other waits.
   Did work() noexcept;
 
  private:
   struct Seen {
-    std::uint64_t wish = 0, motion = 0;
+    std::uint64_t request = 0, motion = 0;
     Motion moving;
-    unsigned places_left = 0;  // of those to look at ahead of the last motion
+    unsigned slots_left = 0;  // of those to look at ahead of the last motion
   };
   static_assert(sizeof(Seen) <= kProbeBytes);
 
-  bool read_for_an_ask() noexcept { return probe_.reader().help(); }
-  bool serve_wish(std::size_t place) noexcept;
-  bool look_ahead(std::size_t place) noexcept;
+  bool read_for_a_query() noexcept { return probe_.reader().help(); }
+  bool serve_request(std::size_t index) noexcept;
+  bool look_ahead(std::size_t index) noexcept;
   void note_time(Seconds taken) noexcept;
-  Wishes& wishes(std::size_t place) const noexcept {
-    return model_.wishes(static_cast<std::uint32_t>(place));
+  FetchRequests& fetch_requests(std::size_t index) const noexcept {
+    return model_.fetch_requests(static_cast<std::uint32_t>(index));
   }
 
   const ModelState& model_;
@@ -57,7 +57,7 @@ class FetchWorker {
   const std::atomic<bool>& stop_;
   std::vector<Seen> seen_;  // by place
   std::size_t next_ = 0;    // the place served next: none is kept waiting by another
-  bool ask_was_last_ = false;
+  bool query_was_last_ = false;
   Seconds slowest_{0};
 };
 

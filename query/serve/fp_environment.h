@@ -14,21 +14,21 @@ namespace planetree::query {
 ///
 /// cost     reads one register where the thread has asked for nothing.
 /// threads  of this thread alone; end it on the thread that made it.
-class HostArithmetic {
+class FpEnvironmentGuard {
  public:
 #if defined(__SSE2__)
-  HostArithmetic() noexcept : before_(__builtin_ia32_stmxcsr()) {
+  FpEnvironmentGuard() noexcept : before_(__builtin_ia32_stmxcsr()) {
     if ((before_ & ~kFlags) != kDefault) __builtin_ia32_ldmxcsr(kDefault);
   }
-  ~HostArithmetic() {
+  ~FpEnvironmentGuard() {
     if ((before_ & ~kFlags) != kDefault) __builtin_ia32_ldmxcsr(before_);
   }
 #else
-  HostArithmetic() noexcept { std::fegetenv(&before_), std::fesetenv(FE_DFL_ENV); }
-  ~HostArithmetic() { std::fesetenv(&before_); }
+  FpEnvironmentGuard() noexcept { std::fegetenv(&before_), std::fesetenv(FE_DFL_ENV); }
+  ~FpEnvironmentGuard() { std::fesetenv(&before_); }
 #endif
-  HostArithmetic(const HostArithmetic&) = delete;
-  HostArithmetic& operator=(const HostArithmetic&) = delete;
+  FpEnvironmentGuard(const FpEnvironmentGuard&) = delete;
+  FpEnvironmentGuard& operator=(const FpEnvironmentGuard&) = delete;
 
  private:
 #if defined(__SSE2__)

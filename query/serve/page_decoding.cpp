@@ -11,7 +11,7 @@ octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept {
   octree::BlockShape shape;
   shape.float64 = model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = model.triangle_id_bytes == 8;
-  shape.moments = model.open_edge_count != 0;
+  shape.moments = model.unbalanced_edge_count != 0;
   return shape;
 }
 
@@ -20,16 +20,15 @@ Result<void> decode_frame(const storage::FileHeader& header, const storage::Page
                           std::span<std::byte> frame) noexcept {
   const std::uint32_t first_mask_page = header.first_mask_page();
   const bool mask = page >= first_mask_page;
-  octree::PageFacts facts;
-  facts.page_bytes = header.page_bytes;
-  facts.first_page = mask ? first_mask_page : 0;
-  facts.page_count = mask ? header.page_count - first_mask_page : first_mask_page;
-  facts.shape = block_shape(header.model);
-  facts.page_number = page;
-  facts.octcode = entry.octcode;
-  facts.ordinal = entry.ordinal;
-  return mask ? octree::decode_mask_page(raw, facts, frame)
-              : octree::decode_page(raw, facts, frame);
+  octree::PageInfo info;
+  info.page_bytes = header.page_bytes;
+  info.first_page = mask ? first_mask_page : 0;
+  info.page_count = mask ? header.page_count - first_mask_page : first_mask_page;
+  info.shape = block_shape(header.model);
+  info.page_number = page;
+  info.octcode = entry.octcode;
+  info.ordinal = entry.ordinal;
+  return mask ? octree::decode_mask_page(raw, info, frame) : octree::decode_page(raw, info, frame);
 }
 
 bool leads_to_pages(const storage::FileHeader& header, std::uint32_t page,

@@ -9,17 +9,17 @@
 
 namespace planetree::query {
 
-/// A PageTouch, less what is known elsewhere.
-struct Touch {
-  std::uint64_t ask = 0;
+/// A PageAccess, less what is known elsewhere.
+struct TracedAccess {
+  std::uint64_t query = 0;
   std::uint32_t page = 0;
-  PageTouch::Kind kind = PageTouch::Kind::kHit;
+  PageAccess::Kind kind = PageAccess::Kind::kHit;
 };
 
-/// What the probes of one place leave for Model::take_touches.
-struct TouchTrace {
-  cache::TraceRing<Touch> ring;
-  std::uint64_t asks = 0;  ///< the probe's; the next one there goes on
+/// What the probes of one place leave for Model::drain_page_trace.
+struct PageTrace {
+  cache::SpscRing<TracedAccess> ring;
+  std::uint64_t queries = 0;  ///< the probe's; the next one there goes on
 };
 
 /// Says which pages were brought because a probe was moving there, and not looked for since.
@@ -27,16 +27,16 @@ struct TouchTrace {
 using PrefetchMark = std::atomic<std::uint8_t>;
 
 /// One probe's notes of the pages it looks for, where the model keeps a trace.
-class TouchLog {
+class PageTraceWriter {
  public:
   /// Both null where there is no trace.
-  TouchLog(TouchTrace* trace, PrefetchMark* marks) noexcept : trace_(trace), marks_(marks) {}
+  PageTraceWriter(PageTrace* trace, PrefetchMark* marks) noexcept : trace_(trace), marks_(marks) {}
 
   /// At the beginning of an ask; null where there is nothing to note.
-  TouchLog* begin_ask(Wait wait) noexcept {
+  PageTraceWriter* begin_query(Wait wait) noexcept {
     if (trace_ == nullptr) return nullptr;
     waits_ = wait == Wait::kForPages;
-    if (!waits_) ++trace_->asks;
+    if (!waits_) ++trace_->queries;
     return this;
   }
   /// Whether what is fetched is for later.
@@ -45,19 +45,19 @@ class TouchLog {
   void found(std::uint32_t page) noexcept {
     const bool prefetched = marks_[page].load(std::memory_order_relaxed) != 0;
     if (prefetched && !looks_ahead_) marks_[page].store(0, std::memory_order_relaxed);
-    if (!waits_) note(page, prefetched ? PageTouch::Kind::kPrefetched : PageTouch::Kind::kHit);
+    if (!waits_) note(page, prefetched ? PageAccess::Kind::kPrefetched : PageAccess::Kind::kHit);
   }
-  void missed(std::uint32_t page) noexcept { note(page, PageTouch::Kind::kMissed); }
+  void missed(std::uint32_t page) noexcept { note(page, PageAccess::Kind::kMissed); }
   void fetched(std::uint32_t page) noexcept {
     marks_[page].store(looks_ahead_ ? 1 : 0, std::memory_order_relaxed);
   }
 
  private:
-  void note(std::uint32_t page, PageTouch::Kind kind) noexcept {
-    trace_->ring.give({trace_->asks - 1, page, kind});
+  void note(std::uint32_t page, PageAccess::Kind kind) noexcept {
+    trace_->ring.give({trace_->queries - 1, page, kind});
   }
 
-  TouchTrace* trace_;
+  PageTrace* trace_;
   PrefetchMark* marks_;
   bool waits_ = false;
   bool looks_ahead_ = false;

@@ -30,20 +30,19 @@ std::uint64_t Pager::scratch_bytes() const noexcept {
   return file_.header().max_raw_bytes + (stored_fits_frame() ? 0 : file_.header().max_stored_bytes);
 }
 
-AskingMemory::Needs Pager::asking_needs(const Limits& limits) const noexcept {
+QueryArena::Needs Pager::arena_needs(const Limits& limits) const noexcept {
   const storage::ModelRecord& model = file_.header().model;
-  AskingMemory::Needs needs;
+  QueryArena::Needs needs;
   needs.readers = limits.readers();
-  if (model.mask_page_count > 0)
-    needs.colour_bytes = octree::ColourMap::bytes(model.triangle_count);
-  needs.trace_touches = limits.trace_touches;
+  if (model.mask_page_count > 0) needs.colour_bytes = octree::SideGrid::bytes(model.triangle_count);
+  needs.page_trace_capacity = limits.page_trace_capacity;
   needs.page_count = file_.header().page_count;
   return needs;
 }
 
 Result<void> Pager::claim(const Limits& limits) {
   const storage::FileHeader& header = file_.header();
-  const AskingMemory::Needs needs = asking_needs(limits);
+  const QueryArena::Needs needs = arena_needs(limits);
   cache::CacheLimits cache_limits{};
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
@@ -51,26 +50,26 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
   // pin() is one more.
-  const std::uint64_t owner_count = std::uint64_t{cache_limits.max_readers} + 1;
-  most_waited_ = std::min(limits.wait_limit, kMostWaited);
+  const std::uint64_t fetcher_count = std::uint64_t{cache_limits.max_readers} + 1;
+  max_waited_ = std::min(limits.wait_limit, kMaxWaited);
   const std::uint64_t wait_bytes =
-      owner_count * sizeof(OwnWait) +
-      std::min(owner_count, kMostWaits) * storage::ReadWait::kMappedBytes;
-  cache_limits.reserved_bytes = file_.table_memory_bytes() + owner_count * scratch_bytes() +
-                                wait_bytes + sizeof(Pager) + AskingMemory::bytes(needs) +
-                                limits.probe_bytes * limits.max_probes + limits.crew_bytes;
+      fetcher_count * sizeof(OwnWait) +
+      std::min(fetcher_count, kMaxWaits) * storage::ReadWait::kMappedBytes;
+  cache_limits.reserved_bytes = file_.table_memory_bytes() + fetcher_count * scratch_bytes() +
+                                wait_bytes + sizeof(Pager) + QueryArena::bytes(needs) +
+                                limits.probe_bytes * limits.max_probes + limits.thread_bytes;
   const auto fill = [](void* context, const cache::FillRequest& request) {
     return static_cast<Pager*>(context)->fill(request);
   };
   auto cache = cache::PageCache::create(cache_limits, fill, this);
   if (!cache) return cache.error();
   cache_ = std::move(*cache);
-  auto asking = AskingMemory::claim(needs);
-  if (!asking) return asking.error();
-  asking_.emplace(*std::move(asking));
+  auto querying = QueryArena::claim(needs);
+  if (!querying) return querying.error();
+  query_arena_.emplace(*std::move(querying));
   if (const auto locked = lock(limits.locking); !locked) return locked;
-  scratch_.reset(new (std::nothrow) std::byte[owner_count * scratch_bytes()]);
-  waits_.reset(new (std::nothrow) OwnWait[owner_count]);
+  scratch_.reset(new (std::nothrow) std::byte[fetcher_count * scratch_bytes()]);
+  waits_.reset(new (std::nothrow) OwnWait[fetcher_count]);
   if (!scratch_ || !waits_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
@@ -80,9 +79,9 @@ Result<void> Pager::claim(const Limits& limits) {
 Result<void> Pager::lock(Locking locking) noexcept {
   if (locking == Locking::kNever) return {};
   // The smaller part first: the system may allow no more.
-  asking_is_locked_ = asking_->lock();
+  query_arena_is_locked_ = query_arena_->lock();
   const bool cache_is_locked = cache_->lock_memory();
-  if ((asking_is_locked_ && cache_is_locked) || locking != Locking::kRequire) return {};
+  if ((query_arena_is_locked_ && cache_is_locked) || locking != Locking::kRequire) return {};
   return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                     "the system does not let memory be locked; raise the limit (ulimit -l), "
                     "lower the memory budget, or open the model without locking");
@@ -91,7 +90,7 @@ Result<void> Pager::lock(Locking locking) noexcept {
 Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file_.header();
   const storage::PageEntry& entry = file_.entries()[request.page];
-  std::byte* const scratch = scratch_.get() + request.owner * scratch_bytes();
+  std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes();
   const std::span<std::byte> raw(scratch, entry.raw_bytes);
   // A frame is written last, so that it may hold the stored bytes before.
   const std::span<std::byte> stored =
@@ -112,24 +111,24 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
 
 storage::SoonTerms Pager::soon_terms(const cache::FillRequest& request) noexcept {
   storage::SoonTerms terms;
-  if (most_waited_.count() > 0) terms.wait = wait_of(request.owner);
-  terms.most_waited = most_waited_;
+  if (max_waited_.count() > 0) terms.wait = wait_of(request.fetcher);
+  terms.max_waited = max_waited_;
   terms.soon_written = request.frame;
   return terms;
 }
 
-storage::ReadWait* Pager::wait_of(std::uint32_t owner) noexcept {
-  OwnWait& own = waits_[owner];
-  if (!own.is_given && waits_given_.load(std::memory_order_relaxed) < kMostWaits)
-    own.is_given = waits_given_.fetch_add(1, std::memory_order_relaxed) < kMostWaits;
+storage::ReadWait* Pager::wait_of(std::uint32_t fetcher) noexcept {
+  OwnWait& own = waits_[fetcher];
+  if (!own.is_given && waits_given_.load(std::memory_order_relaxed) < kMaxWaits)
+    own.is_given = waits_given_.fetch_add(1, std::memory_order_relaxed) < kMaxWaits;
   return own.is_given ? &own.wait : nullptr;
 }
 
 // Pages of asks come first, one for each that this thread wants: neither waits for all of the
 // other's.
-const std::byte* PageTurner::fetch(std::uint32_t number) noexcept {
+const std::byte* PageAccessor::fetch(std::uint32_t number) noexcept {
   if (log_) log_->fetched(number);
-  let_frames_go();
+  release_frames();
   if (stop_) {
     reader_.leave();
     reader_.help();

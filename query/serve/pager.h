@@ -27,16 +27,16 @@ class Pager {
  public:
   struct Limits {
     std::uint64_t budget_bytes = 0;
-    std::uint64_t probe_bytes = 0;  ///< what each probe takes beyond its AskingMemory
+    std::uint64_t probe_bytes = 0;  ///< what each probe takes beyond its QueryArena
     unsigned max_probes = 0;
-    std::uint64_t crew_bytes = 0;  ///< the same of the probes of the model's own threads,
-    unsigned crew_probes = 0;      ///< all together
+    std::uint64_t thread_bytes = 0;  ///< the same of the probes of the model's own threads,
+    unsigned thread_probes = 0;      ///< all together
     Locking locking = Locking::kTry;
     std::chrono::milliseconds wait_limit{};  ///< of an ask, for one page
-    std::uint32_t trace_touches = 0;
+    std::uint32_t page_trace_capacity = 0;
     cache::Policy policy = cache::Policy::kClock;
 
-    unsigned readers() const noexcept { return max_probes + crew_probes; }
+    unsigned readers() const noexcept { return max_probes + thread_probes; }
   };
 
   /// Opens the file, claims and locks the memory, loads and pins the root page.
@@ -49,14 +49,14 @@ class Pager {
   /// What each thread that may read a page takes to unpack it.
   std::uint64_t scratch_bytes() const noexcept;
   /// Of the model and its probes; claimed and locked with the cache's.
-  AskingMemory& asking_memory() noexcept { return *asking_; }
+  QueryArena& query_arena() noexcept { return *query_arena_; }
   std::uint64_t locked_bytes() const noexcept {
-    return cache_->stats().locked_bytes + (asking_is_locked_ ? asking_->bytes() : 0);
+    return cache_->stats().locked_bytes + (query_arena_is_locked_ ? query_arena_->bytes() : 0);
   }
 
  private:
   explicit Pager(storage::PageFile file) : file_(std::move(file)) {}
-  AskingMemory::Needs asking_needs(const Limits& limits) const noexcept;
+  QueryArena::Needs arena_needs(const Limits& limits) const noexcept;
   Result<void> claim(const Limits& limits);
   Result<void> lock(Locking locking) noexcept;
   bool stored_fits_frame() const noexcept {
@@ -64,14 +64,14 @@ class Pager {
   }
   Result<cache::Filled> fill(const cache::FillRequest& request) noexcept;
   storage::SoonTerms soon_terms(const cache::FillRequest& request) noexcept;
-  storage::ReadWait* wait_of(std::uint32_t owner) noexcept;
+  storage::ReadWait* wait_of(std::uint32_t fetcher) noexcept;
 
   storage::PageFile file_;
   // Each takes a descriptor while its model is open, and is given to who first needs one; owners
   // without look for what they wait for.
-  static constexpr std::uint64_t kMostWaits = 16;
+  static constexpr std::uint64_t kMaxWaits = 16;
   // Longer than disks take that move; others are left to a thread that gets pages.
-  static constexpr std::chrono::milliseconds kMostWaited{20};
+  static constexpr std::chrono::milliseconds kMaxWaited{20};
 
   std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() of each owner of the cache
   struct OwnWait {
@@ -80,10 +80,10 @@ class Pager {
   };
   std::unique_ptr<OwnWait[]> waits_;  // of each owner, who may use it if it is given
   std::atomic<std::uint64_t> waits_given_{0};
-  std::chrono::milliseconds most_waited_{};
+  std::chrono::milliseconds max_waited_{};
   std::unique_ptr<cache::PageCache> cache_;
-  std::optional<AskingMemory> asking_;
-  bool asking_is_locked_ = false;
+  std::optional<QueryArena> query_arena_;
+  bool query_arena_is_locked_ = false;
 };
 
 /// Where pages are, for asking ahead.
@@ -102,36 +102,36 @@ inline octree::FrameTable frames_of(const cache::Reader& reader) noexcept {
 /// terms  how pages are waited for.
 /// stop   of a fetch thread, which reads for others in between: once true, what is not resident
 ///        cannot be had any more. Else null.
-class PageTurner {
+class PageAccessor {
  public:
-  PageTurner(cache::Reader& reader, Wait wait, const cache::FetchTerms& terms = {},
-             const std::atomic<bool>* stop = nullptr) noexcept
+  PageAccessor(cache::Reader& reader, Wait wait, const cache::FetchTerms& terms = {},
+               const std::atomic<bool>* stop = nullptr) noexcept
       : pages_(pages_of(reader)),
         reader_(reader),
         terms_(terms),
         stop_(stop),
         wait_(wait),
         waits_(wait == Wait::kForPages) {}
-  ~PageTurner() {
+  ~PageAccessor() {
     if (reader_.inside()) reader_.leave();
   }
-  PageTurner(const PageTurner&) = delete;
-  PageTurner& operator=(const PageTurner&) = delete;
+  PageAccessor(const PageAccessor&) = delete;
+  PageAccessor& operator=(const PageAccessor&) = delete;
 
   /// What goes on a step with every few pages, to its end or to the next call; null: nothing.
-  void take_along(octree::MaskAhead* ahead) noexcept { ahead_ = ahead; }
+  void set_prefetcher(octree::MaskPrefetcher* ahead) noexcept { prefetcher_ = ahead; }
   /// Where to note what is looked for; null: nowhere.
-  void log_to(TouchLog* log) noexcept { log_ = log; }
+  void set_trace(PageTraceWriter* log) noexcept { log_ = log; }
 
   /// The page's frame, good until the next call, or until the keeper that pages() names is told;
   /// null if it cannot be had.
   const std::byte* page(std::uint32_t number) noexcept {
-    if (++turns_ % kTurnsPerSection == 0) {
-      let_frames_go();
+    if (++lookups_ % kLookupsPerSection == 0) {
+      release_frames();
       reader_.leave();
     }
     begin();
-    if (ahead_ && turns_ % kTurnsPerStep == 0) go_ahead();
+    if (prefetcher_ && lookups_ % kLookupsPerStep == 0) step_prefetcher();
     if (const std::byte* frame = reader_.find(number)) {
       if (log_) log_->found(number);
       return frame;
@@ -158,42 +158,42 @@ class PageTurner {
     if (!reader_.inside()) reader_.enter();
   }
   // Before a section ends of which there are pointers.
-  void let_frames_go() noexcept {
-    if (keeper_.let_go) keeper_.let_go(keeper_.who);
+  void release_frames() noexcept {
+    if (release_hook_.on_release) release_hook_.on_release(release_hook_.who);
   }
-  void go_ahead() noexcept {
-    ahead_->step(pages_);
-    if (!ahead_->goes_on()) ahead_ = nullptr;
+  void step_prefetcher() noexcept {
+    prefetcher_->step(pages_);
+    if (!prefetcher_->goes_on()) prefetcher_ = nullptr;
   }
   const std::byte* fetch(std::uint32_t number) noexcept;
 
   // Evicted frames are reused only after sections that may see them end.
-  static constexpr std::uint32_t kTurnsPerSection = 256;
+  static constexpr std::uint32_t kLookupsPerSection = 256;
   // What a step asks for takes about as long to come.
-  static constexpr std::uint32_t kTurnsPerStep = 2;
+  static constexpr std::uint32_t kLookupsPerStep = 2;
 
   octree::PageReader pages_of(const cache::Reader& reader) noexcept {
     return {this,
             [](void* context, std::uint32_t number) noexcept {
-              return static_cast<PageTurner*>(context)->page(number);
+              return static_cast<PageAccessor*>(context)->page(number);
             },
             [](void* context, std::uint32_t number) noexcept {
-              return static_cast<PageTurner*>(context)->peek(number);
+              return static_cast<PageAccessor*>(context)->peek(number);
             },
-            frames_of(reader), &keeper_};
+            frames_of(reader), &release_hook_};
   }
 
   const octree::PageReader pages_;
   cache::Reader& reader_;
   const cache::FetchTerms terms_;
   const std::atomic<bool>* const stop_;
-  octree::FrameKeeper keeper_;
-  octree::MaskAhead* ahead_ = nullptr;
-  TouchLog* log_ = nullptr;
+  octree::FrameReleaseHook release_hook_;
+  octree::MaskPrefetcher* prefetcher_ = nullptr;
+  PageTraceWriter* log_ = nullptr;
   const Wait wait_;
   bool waits_;  // until it has waited long enough
   bool missed_ = false;
-  std::uint32_t turns_ = 0;
+  std::uint32_t lookups_ = 0;
 };
 
 }  // namespace planetree::query

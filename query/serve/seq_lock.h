@@ -9,25 +9,25 @@
 
 namespace planetree::query {
 
-/// The steps of LatestValue, below, at which the order of memory matters.
-enum class LatestStep : std::uint8_t {
+/// The steps of SeqLock, below, at which the order of memory matters.
+enum class SeqLockStep : std::uint8_t {
   kGiveWord,    ///< G2
   kGiveNumber,  ///< G3
   kTakeNumber,  ///< T1
   kTakeWord,    ///< T2
 };
 
-constexpr std::memory_order order_of(LatestStep step) noexcept {
-  return step == LatestStep::kGiveWord || step == LatestStep::kGiveNumber
+constexpr std::memory_order order_of(SeqLockStep step) noexcept {
+  return step == SeqLockStep::kGiveWord || step == SeqLockStep::kGiveNumber
              ? std::memory_order_release
              : std::memory_order_acquire;
 }
 
-struct StdLatest {
+struct StdSeqLock {
   template <class T>
   using Atomic = std::atomic<T>;
 
-  static constexpr std::memory_order order(LatestStep step) noexcept { return order_of(step); }
+  static constexpr std::memory_order order(SeqLockStep step) noexcept { return order_of(step); }
 };
 
 /// The latest of the values that one thread gives away; any number of others look for it. The
@@ -49,8 +49,8 @@ struct StdLatest {
 /// Value    of 8-byte words, trivially copyable.
 /// Atomics  what it is made of; tests run it over atomics that show every behaviour the
 ///          language allows, and with one order weakened at a time.
-template <class Value, class Atomics = StdLatest>
-class alignas(64) LatestValue {
+template <class Value, class Atomics = StdSeqLock>
+class alignas(64) SeqLock {
   static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(std::uint64_t) == 0);
   static constexpr std::size_t kWords = sizeof(Value) / sizeof(std::uint64_t);
 
@@ -61,8 +61,8 @@ class alignas(64) LatestValue {
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, std::memory_order_relaxed);
     for (std::size_t i = 0; i < kWords; ++i)
-      words_[i].store(words[i], Atomics::order(LatestStep::kGiveWord));
-    sequence_.store(sequence + 2, Atomics::order(LatestStep::kGiveNumber));
+      words_[i].store(words[i], Atomics::order(SeqLockStep::kGiveWord));
+    sequence_.store(sequence + 2, Atomics::order(SeqLockStep::kGiveNumber));
   }
 
   /// Any thread: how many values were given so far.
@@ -71,11 +71,11 @@ class alignas(64) LatestValue {
   /// Any thread. False, and nothing changed, where there is no value newer than `seen`, which
   /// is 0 at first, or one is being written: to be looked for again later.
   bool take(std::uint64_t& seen, Value& value) const noexcept {
-    const std::uint64_t first = sequence_.load(Atomics::order(LatestStep::kTakeNumber));
+    const std::uint64_t first = sequence_.load(Atomics::order(SeqLockStep::kTakeNumber));
     if (first == seen || first % 2 == 1) return false;
     std::array<std::uint64_t, kWords> words;
     for (std::size_t i = 0; i < kWords; ++i)
-      words[i] = words_[i].load(Atomics::order(LatestStep::kTakeWord));
+      words[i] = words_[i].load(Atomics::order(SeqLockStep::kTakeWord));
     if (sequence_.load(std::memory_order_relaxed) != first) return false;
     value = std::bit_cast<Value>(words);
     seen = first;

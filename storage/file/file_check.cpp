@@ -15,7 +15,7 @@ namespace {
 constexpr int kMaxHeight = 96;
 constexpr int kMaxMaskLevel = 19;
 constexpr std::int32_t kMaxScaleExponent = 1200;
-constexpr std::uint64_t kMostWinding = std::uint64_t{1} << 62;
+constexpr std::uint64_t kMaxWinding = std::uint64_t{1} << 62;
 
 Error damaged(std::uint64_t page, std::uint64_t offset, const char* cause) noexcept {
   return make_error(ErrorCode::kDamaged, page, offset,
@@ -135,17 +135,17 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
   return {};
 }
 
-Result<void> check_open_edges(const ModelRecord& model) noexcept {
-  constexpr OpenEdge kNothing{};
-  for (std::uint64_t i = 0; i < std::size(model.open_edge); ++i) {
-    const OpenEdge& edge = model.open_edge[i];
+Result<void> check_unbalanced_edges(const ModelRecord& model) noexcept {
+  constexpr UnbalancedEdge kNothing{};
+  for (std::uint64_t i = 0; i < std::size(model.unbalanced_edge); ++i) {
+    const UnbalancedEdge& edge = model.unbalanced_edge[i];
     const bool listed = std::memcmp(&edge, &kNothing, sizeof edge) != 0;
-    if (listed != (i < model.open_edge_count)) {
-      return bad_model(offsetof(ModelRecord, open_edge),
+    if (listed != (i < model.unbalanced_edge_count)) {
+      return bad_model(offsetof(ModelRecord, unbalanced_edge),
                        "the list of open edges is not as long as their number says");
     }
     if (!all_finite(edge.from) || !all_finite(edge.to) || (listed && edge.along == edge.against)) {
-      return bad_model(offsetof(ModelRecord, open_edge), "an open edge is not one");
+      return bad_model(offsetof(ModelRecord, unbalanced_edge), "an open edge is not one");
     }
   }
   return {};
@@ -180,7 +180,7 @@ Result<void> check_region(const ModelRecord& model) noexcept {
                      "a region has more triangles than the input");
   }
   // A triangle counts for one at most. Sums of windings must not overflow.
-  const auto most = static_cast<std::int64_t>(std::min(model.input_triangles, kMostWinding));
+  const auto most = static_cast<std::int64_t>(std::min(model.input_triangles, kMaxWinding));
   if (model.region_winding > most || model.region_winding < -most) {
     return bad_model(offsetof(ModelRecord, region_winding),
                      "the winding number at the region's corner is out of range");
@@ -189,7 +189,7 @@ Result<void> check_region(const ModelRecord& model) noexcept {
 }
 
 Result<void> check_mask(const ModelRecord& model) noexcept {
-  if (model.mask_page_count > 0 && model.open_edge_count > 0) {
+  if (model.mask_page_count > 0 && model.unbalanced_edge_count > 0) {
     return bad_model(offsetof(ModelRecord, mask_page_count),
                      "there is a mask of a surface that is not watertight");
   }
@@ -262,7 +262,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   }
   if (const Result<void> checked = check_mask(model); !checked) return checked;
   if (const Result<void> checked = check_region(model); !checked) return checked;
-  return check_open_edges(model);
+  return check_unbalanced_edges(model);
 }
 
 Result<void> check_table(const FileHeader& header, std::span<const PageEntry> entries) noexcept {

@@ -30,41 +30,41 @@ inline constexpr std::uint64_t kNoTriangle = ~std::uint64_t{0};
 enum class VertexKind : std::uint8_t { kFloat32 = 0, kFloat64 = 1 };
 
 /// An edge along which as many faces do not run one way as the other.
-struct OpenEdge {
+struct UnbalancedEdge {
   double from[3];          ///< input coordinates, exact: the edge as `triangle` runs along it
   double to[3];            ///< input coordinates, exact
   std::uint64_t triangle;  ///< the least index of a triangle that has it
   std::uint32_t along;     ///< triangles that run from `from` to `to`
   std::uint32_t against;   ///< triangles that run the other way
 };
-static_assert(sizeof(OpenEdge) == 64);
+static_assert(sizeof(UnbalancedEdge) == 64);
 
 /// What the whole model is. "Model frame" is the input's coordinates times
 /// 2^scale_exponent, so that the longest box edge lies in [1, 2).
 struct ModelRecord {
-  std::uint64_t triangle_count;    ///< triangles that answer: of the region, if there is one
-  std::uint64_t set_aside_count;   ///< triangles of bad input records, which do not
-  std::uint64_t first_set_aside;   ///< the first such triangle's index, or kNoTriangle
-  std::uint64_t vertex_count;      ///< vertex records of the input
-  std::uint64_t node_count;        ///< inner nodes of the distance tree
-  std::uint64_t block_count;       ///< triangle blocks of the distance tree
-  double box_lower[3];             ///< of the whole input: its coordinates, exact
-  double box_upper[3];             ///< likewise
-  double centre[3];                ///< model frame; boxes and planes are relative to it
-  double sample[3];                ///< model frame; a vertex of sample_triangle
-  std::uint64_t sample_triangle;   ///< the least index of a triangle that answers
-  std::int32_t scale_exponent;     ///< model frame = input * 2^scale_exponent
-  std::uint32_t root_link;         ///< link to the tree's root, a node or a block
-  VertexKind vertex_kind;          ///< width of stored coordinates
-  std::uint8_t triangle_id_bytes;  ///< width of stored triangle indices: 4 or 8
-  std::uint8_t height;             ///< most nodes on a path from root to block
-  std::uint8_t reserved[5];        ///< zero
-  std::uint64_t open_edge_count;   ///< of the whole input; 0: the surface is watertight
-  OpenEdge open_edge[3];           ///< the first, by triangle, then corner; else zero
-  std::uint64_t mask_cell_count;   ///< grey cells of the mask
-  std::uint32_t mask_page_count;   ///< the last pages of the file; 0: there is no mask
-  std::uint8_t mask_levels;        ///< level of the finest grey cell
-  std::uint8_t mask_reserved[3];   ///< zero
+  std::uint64_t triangle_count;         ///< triangles that answer: of the region, if there is one
+  std::uint64_t skipped_count;          ///< triangles of bad input records, which do not
+  std::uint64_t first_skipped;          ///< the first such triangle's index, or kNoTriangle
+  std::uint64_t vertex_count;           ///< vertex records of the input
+  std::uint64_t node_count;             ///< inner nodes of the distance tree
+  std::uint64_t block_count;            ///< triangle blocks of the distance tree
+  double box_lower[3];                  ///< of the whole input: its coordinates, exact
+  double box_upper[3];                  ///< likewise
+  double centre[3];                     ///< model frame; boxes and planes are relative to it
+  double sample[3];                     ///< model frame; a vertex of sample_triangle
+  std::uint64_t sample_triangle;        ///< the least index of a triangle that answers
+  std::int32_t scale_exponent;          ///< model frame = input * 2^scale_exponent
+  std::uint32_t root_link;              ///< link to the tree's root, a node or a block
+  VertexKind vertex_kind;               ///< width of stored coordinates
+  std::uint8_t triangle_id_bytes;       ///< width of stored triangle indices: 4 or 8
+  std::uint8_t height;                  ///< most nodes on a path from root to block
+  std::uint8_t reserved[5];             ///< zero
+  std::uint64_t unbalanced_edge_count;  ///< of the whole input; 0: the surface is watertight
+  UnbalancedEdge unbalanced_edge[3];    ///< the first, by triangle, then corner; else zero
+  std::uint64_t mask_cell_count;        ///< grey cells of the mask
+  std::uint32_t mask_page_count;        ///< the last pages of the file; 0: there is no mask
+  std::uint8_t mask_levels;             ///< level of the finest grey cell
+  std::uint8_t mask_reserved[3];        ///< zero
   /// Of a file that holds only what touches a region: how many triangles of the input could be
   /// used. 0: the file is of the whole input, and what follows is zero.
   std::uint64_t input_triangles;

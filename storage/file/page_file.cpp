@@ -32,7 +32,7 @@ Result<std::uint64_t> length_of(const FileHandle& file) noexcept {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-Error placed(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
+Error scaled(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
   error.offset = offset;
   return error;
@@ -113,7 +113,7 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
   if (const Result<void> read = file_.read_at(entry.offset, stored); !read) {
-    return placed(read.error(), page, entry.offset);
+    return scaled(read.error(), page, entry.offset);
   }
   return unpack(page, stored, raw_out);
 }
@@ -142,7 +142,7 @@ Result<void> PageFile::unpack(std::uint32_t page, std::span<const std::byte> sto
         "the page's checksum is wrong; restore the file from a copy or build it again");
   }
   if (const Result<void> decoded = decode_page(entry.codec, stored, raw_out); !decoded) {
-    return placed(decoded.error(), page, entry.offset);
+    return scaled(decoded.error(), page, entry.offset);
   }
   return {};
 }

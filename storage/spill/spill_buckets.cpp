@@ -9,13 +9,13 @@ namespace {
 
 // Below the first a disk would be busy with blocks rather than bytes; above the second nothing
 // is gained.
-constexpr std::uint64_t kLeastBlockBytes = 256;
-constexpr std::uint64_t kMostBlockBytes = std::uint64_t{256} << 10;
+constexpr std::uint64_t kMinBlockBytes = 256;
+constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{256} << 10;
 
 std::size_t block_records(std::size_t record_bytes, std::size_t bucket_count,
                           std::uint64_t buffer_bytes) {
   const std::uint64_t bytes =
-      std::clamp(buffer_bytes / bucket_count, kLeastBlockBytes, kMostBlockBytes);
+      std::clamp(buffer_bytes / bucket_count, kMinBlockBytes, kMaxBlockBytes);
   const std::uint64_t payload = bytes - sizeof(std::uint64_t);
   return static_cast<std::size_t>(std::max<std::uint64_t>(payload / record_bytes, 1));
 }
@@ -31,7 +31,7 @@ SpillBuckets::SpillBuckets(std::size_t record_bytes, std::size_t bucket_count,
   assert(record_bytes > 0 && bucket_count > 0);
 }
 
-bool SpillBuckets::make_room(Bucket& bucket) {
+bool SpillBuckets::make_space(Bucket& bucket) {
   if (!bucket.records) {
     bucket.records = std::make_unique_for_overwrite<std::byte[]>(block_bytes());
     return true;

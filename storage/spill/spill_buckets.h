@@ -31,7 +31,7 @@ class SpillBuckets {
   std::byte* add(std::size_t bucket) {
     Bucket& to = buckets_[bucket];
     if (to.size == block_records_ || !to.records)
-      if (!make_room(to)) return nullptr;
+      if (!make_space(to)) return nullptr;
     return to.records.get() + to.size++ * record_bytes_;
   }
   [[nodiscard]] const Error& failure() const { return *failure_; }
@@ -78,7 +78,7 @@ class SpillBuckets {
                                                       std::size_t count) const {
     return {records, count * record_bytes_};
   }
-  bool make_room(Bucket& bucket);
+  bool make_space(Bucket& bucket);
   Result<std::uint64_t> read_block(std::uint64_t offset);
 
   const std::size_t record_bytes_;

@@ -7,11 +7,11 @@
 
 namespace planetree::storage {
 
-Result<SpillRuns::Place> SpillRuns::add(std::vector<std::byte> records) {
+Result<SpillRuns::Extent> SpillRuns::add(std::vector<std::byte> records) {
   assert(record_bytes_ >= sizeof(SpillKey) && records.size() % record_bytes_ == 0);
-  if (records.empty()) return Place{};
+  if (records.empty()) return Extent{};
   Run run;
-  run.place.size = records.size() / record_bytes_;
+  run.extent.size = records.size() / record_bytes_;
   bool held = false;
   {
     const std::lock_guard lock(adding_);
@@ -23,41 +23,41 @@ Result<SpillRuns::Place> SpillRuns::add(std::vector<std::byte> records) {
   } else {
     const auto offset = file_.append(records);
     if (!offset) return offset.error();
-    run.place.offset = *offset;
-    run.place.marks = marks_of(records);
+    run.extent.offset = *offset;
+    run.extent.marks = marks_of(records);
   }
   const std::lock_guard lock(adding_);
-  size_ += run.place.size;
-  return runs_.emplace_back(std::move(run)).place;
+  size_ += run.extent.size;
+  return runs_.emplace_back(std::move(run)).extent;
 }
 
-void SpillRuns::add_placed(Place place) {
-  if (place.size == 0) return;
-  assert(place.offset + place.size * record_bytes_ <= file_.size_bytes());
-  assert(place.marks.size() == mark_count(place.size));
+void SpillRuns::add_extents(Extent extent) {
+  if (extent.size == 0) return;
+  assert(extent.offset + extent.size * record_bytes_ <= file_.size_bytes());
+  assert(extent.marks.size() == mark_count(extent.size));
   const std::lock_guard lock(adding_);
-  size_ += place.size;
-  runs_.push_back({std::move(place), {}});
+  size_ += extent.size;
+  runs_.push_back({std::move(extent), {}});
 }
 
-std::vector<SpillRuns::Place> SpillRuns::places() const {
-  std::vector<Place> places;
+std::vector<SpillRuns::Extent> SpillRuns::extents() const {
+  std::vector<Extent> extents;
   for (const Run& run : runs_) {
     assert(run.held.empty());
-    places.push_back(run.place);
+    extents.push_back(run.extent);
   }
-  return places;
+  return extents;
 }
 
 SpillRuns::Cut SpillRuns::end() const {
   Cut cut;
-  for (const Run& run : runs_) cut.push_back(run.place.size);
+  for (const Run& run : runs_) cut.push_back(run.extent.size);
   return cut;
 }
 
 Result<void> SpillRuns::get(const Run& run, std::uint64_t from, std::span<std::byte> out) const {
   const std::uint64_t offset = from * record_bytes_;
-  if (run.held.empty()) return file_.read(run.place.offset + offset, out);
+  if (run.held.empty()) return file_.read(run.extent.offset + offset, out);
   if (!out.empty()) std::memcpy(out.data(), run.held.data() + offset, out.size());
   return {};
 }
@@ -74,13 +74,13 @@ std::vector<std::uint64_t> SpillRuns::marks_of(std::span<const std::byte> record
 // Marks tell where the record is to within a stretch between two of them, or more where many
 // records have one first half.
 Result<std::uint64_t> SpillRuns::find(const Run& run, const SpillKey& key) const {
-  const std::vector<std::uint64_t>& marks = run.place.marks;
+  const std::vector<std::uint64_t>& marks = run.extent.marks;
   const auto [same, after] = std::equal_range(marks.begin(), marks.end(), key.first);
   const auto records_before = [&](auto mark) {
     return static_cast<std::uint64_t>(mark - marks.begin()) * kMarkRecords;
   };
   const std::uint64_t first = same == marks.begin() ? 0 : records_before(same - 1);
-  const std::uint64_t last = after == marks.end() ? run.place.size : records_before(after);
+  const std::uint64_t last = after == marks.end() ? run.extent.size : records_before(after);
   return find_within(run, first, last, key);
 }
 
@@ -110,9 +110,9 @@ Result<std::uint64_t> SpillRuns::find_within(const Run& run, std::uint64_t first
 Result<SpillRuns::Cut> SpillRuns::cut(const SpillKey& key) const {
   Cut cut;
   for (const Run& run : runs_) {
-    const auto place = find(run, key);
-    if (!place) return place.error();
-    cut.push_back(*place);
+    const auto extent = find(run, key);
+    if (!extent) return extent.error();
+    cut.push_back(*extent);
   }
   return cut;
 }

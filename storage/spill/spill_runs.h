@@ -31,7 +31,7 @@ class SpillRuns {
   /// Where a key is in every run.
   using Cut = std::vector<std::uint64_t>;
   /// Where a run is that is not in memory.
-  struct Place {
+  struct Extent {
     std::uint64_t offset = 0;  ///< in the file
     std::uint64_t size = 0;    ///< records
     /// The first halves of the keys of every kMarkRecords-th record: with them one read finds any.
@@ -50,11 +50,11 @@ class SpillRuns {
       : record_bytes_(record_bytes), held_bytes_(held_bytes), file_(file) {}
 
   /// Adds a run of whole records, ascending by key. Returns its place, if it is not in memory.
-  Result<Place> add(std::vector<std::byte> records);
+  Result<Extent> add(std::vector<std::byte> records);
   /// Adds a run that is in the file.
-  void add_placed(Place place);
+  void add_extents(Extent extent);
   /// Of all runs, none of which is in memory.
-  std::vector<Place> places() const;
+  std::vector<Extent> extents() const;
 
   std::uint64_t size() const noexcept { return size_; }
   std::size_t record_bytes() const noexcept { return record_bytes_; }
@@ -71,7 +71,7 @@ class SpillRuns {
 
  private:
   struct Run {
-    Place place;                  // of which only the size counts where it is
+    Extent extent;                // of which only the size counts where it is
     std::vector<std::byte> held;  // in memory
   };
 

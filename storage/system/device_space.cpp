@@ -12,12 +12,12 @@ DeviceSpace DeviceSpace::of(const std::filesystem::path& directory, FileCalls& c
   struct stat status;
   if (calls.fstatat(AT_FDCWD, path, &status, 0) == 0)
     space.device = static_cast<std::uint64_t>(status.st_dev);
-  struct statvfs room;
+  struct statvfs found;
   // A device without a single block is one that does not count them.
-  if (calls.statvfs(path, &room) != 0 || room.f_blocks == 0) return space;
+  if (calls.statvfs(path, &found) != 0 || found.f_blocks == 0) return space;
   std::uint64_t bytes = 0;
   const bool too_many =
-      __builtin_mul_overflow(std::uint64_t{room.f_bavail}, std::uint64_t{room.f_frsize}, &bytes);
+      __builtin_mul_overflow(std::uint64_t{found.f_bavail}, std::uint64_t{found.f_frsize}, &bytes);
   space.free_bytes = too_many ? std::numeric_limits<std::uint64_t>::max() : bytes;
   return space;
 }

@@ -24,8 +24,8 @@ int FileCalls::fstatat(int directory, const char* path, struct stat* status, int
   return ::fstatat(directory, path, status, flags);
 }
 
-int FileCalls::statvfs(const char* path, struct statvfs* room) noexcept {
-  return ::statvfs(path, room);
+int FileCalls::statvfs(const char* path, struct statvfs* space) noexcept {
+  return ::statvfs(path, space);
 }
 
 ssize_t FileCalls::pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept {

@@ -26,7 +26,7 @@ class FileCalls {
   virtual int close(int descriptor) noexcept;
   virtual int fstat(int descriptor, struct stat* status) noexcept;
   virtual int fstatat(int directory, const char* path, struct stat* status, int flags) noexcept;
-  virtual int statvfs(const char* path, struct statvfs* room) noexcept;
+  virtual int statvfs(const char* path, struct statvfs* space) noexcept;
   virtual ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept;
   virtual ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
                           int flags) noexcept;

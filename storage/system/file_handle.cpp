@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLineBytes = 64;  // of the processor's memory
 
 // Of a page that comes in parts, as a device may give it.
-constexpr unsigned kMostWaits = 4;
+constexpr unsigned kMaxWaits = 4;
 
 // Not by giving up the processor: whoever gets it may keep it for milliseconds.
 void pause_a_little() noexcept {
@@ -87,10 +87,10 @@ bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
   // Not by a function, which would be one of no effect to the compiler, and left out.
   for (std::size_t at = 0; at < terms.soon_written.size(); at += kLineBytes)
     __builtin_prefetch(&terms.soon_written[at], 1);
-  const auto end = std::chrono::steady_clock::now() + terms.most_waited;
+  const auto end = std::chrono::steady_clock::now() + terms.max_waited;
   // What lies last mostly comes last.
   std::size_t awaited = out.size() - 1;
-  for (unsigned i = 0; terms.wait != nullptr && i < kMostWaits; ++i) {
+  for (unsigned i = 0; terms.wait != nullptr && i < kMaxWaits; ++i) {
     const auto waited = terms.wait->wait_until(*calls_, descriptor_, offset + awaited, end);
     if (waited == ReadWait::Outcome::kRefused) break;
     look = look_once(offset, out);
@@ -98,7 +98,7 @@ bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
     if (waited == ReadWait::Outcome::kLate) return false;
     awaited = look.bytes;
   }
-  return look_until(std::chrono::steady_clock::now() + terms.most_looked, offset, out);
+  return look_until(std::chrono::steady_clock::now() + terms.max_looked, offset, out);
 }
 
 bool FileHandle::look_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,

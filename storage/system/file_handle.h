@@ -16,10 +16,10 @@ namespace planetree::storage {
 /// How a thread goes about bytes that a device is to give.
 struct SoonTerms {
   /// How long it may look for them: about as long as it takes to be put to sleep and woken.
-  std::chrono::microseconds most_looked{300};
+  std::chrono::microseconds max_looked{300};
   /// The thread's, and how long it may wait by it; null: it only looks.
   ReadWait* wait = nullptr;
-  std::chrono::microseconds most_waited{0};
+  std::chrono::microseconds max_waited{0};
   /// What it writes next: brought near the processor while the device works.
   std::span<const std::byte> soon_written{};
 };

@@ -49,18 +49,18 @@ TEST(ClockPolicy, InstalledFramesStartAtTwoUses) {
 }
 
 // Pages that frame 1 is given, one after another, before the page in frame 0 goes.
-unsigned outlived_by(PageRank rank) {
+unsigned outlived_by(PageTier tier) {
   Frames<2> frames;
   EXPECT_EQ(frames.evict(), 0u);
-  frames.clock.install(0, rank);
+  frames.clock.install(0, tier);
   unsigned outlived = 0;
   for (; frames.evict() == 1; ++outlived) frames.clock.install(1);
   return outlived;
 }
 
 TEST(ClockPolicy, UpperPagesKeepAUseForMoreRounds) {
-  EXPECT_EQ(outlived_by(PageRank::kLower), 1u);
-  EXPECT_EQ(outlived_by(PageRank::kUpper), 3u);
+  EXPECT_EQ(outlived_by(PageTier::kLower), 1u);
+  EXPECT_EQ(outlived_by(PageTier::kUpper), 3u);
 }
 
 TEST(ClockPolicy, UpperPagesOfMoreThanHalfTheFramesAreAsOthers) {
@@ -68,7 +68,7 @@ TEST(ClockPolicy, UpperPagesOfMoreThanHalfTheFramesAreAsOthers) {
     Frames<3> frames;
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
       EXPECT_EQ(frames.evict(), frame);
-      frames.clock.install(frame, frame < upper ? PageRank::kUpper : PageRank::kLower);
+      frames.clock.install(frame, frame < upper ? PageTier::kUpper : PageTier::kLower);
       frames.mark(frame, 5);
     }
     EXPECT_EQ(frames.evict(), upper == 1 ? 1u : 0u);
@@ -79,7 +79,7 @@ TEST(ClockPolicy, UpperPagesGoInTheEnd) {
   Frames<2> frames;
   for (std::uint32_t frame = 0; frame < 2; ++frame) {
     EXPECT_EQ(frames.evict(), frame);
-    frames.clock.install(frame, PageRank::kUpper);
+    frames.clock.install(frame, PageTier::kUpper);
     frames.mark(frame, 5);
   }
   EXPECT_EQ(frames.evict(), 0u);
@@ -89,12 +89,12 @@ TEST(ClockPolicy, UpperPagesGoInTheEnd) {
 TEST(ClockPolicy, WhatIsLeftOfAnUpperPagesUseIsLostWholeWhereOthersAreToo) {
   Frames<2> frames;
   EXPECT_EQ(frames.evict(), 0u);
-  frames.clock.install(0, PageRank::kUpper);
+  frames.clock.install(0, PageTier::kUpper);
   EXPECT_EQ(frames.evict(), 1u);
   frames.clock.install(1);
   // Takes from the upper page less than a use.
   EXPECT_EQ(frames.evict(), 1u);
-  frames.clock.install(1, PageRank::kUpper);
+  frames.clock.install(1, PageTier::kUpper);
   EXPECT_EQ(frames.evict(), 0u);
   EXPECT_EQ(frames.evict(), 1u);
 }
@@ -102,7 +102,7 @@ TEST(ClockPolicy, WhatIsLeftOfAnUpperPagesUseIsLostWholeWhereOthersAreToo) {
 TEST(ClockPolicy, UpperPagesStopAtThreeUsesToo) {
   Frames<1> frames;
   EXPECT_EQ(frames.evict(), 0u);
-  frames.clock.install(0, PageRank::kUpper);
+  frames.clock.install(0, PageTier::kUpper);
   const unsigned two_uses = frames.scores[0].load();
   frames.mark(0, 5);
   EXPECT_EQ(frames.scores[0].load(), two_uses + ClockPolicy::kUse);

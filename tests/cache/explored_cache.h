@@ -25,12 +25,12 @@ class ExploredCache {
 
   /// Pages 0 ... frame_count - 1 are in the frames of the same number.
   ExploredCache(std::uint32_t slot_count, std::uint32_t frame_count, std::uint32_t page_count,
-                std::uint32_t owner_count)
+                std::uint32_t fetcher_count)
       : slots_(slot_count),
         frames_(frame_count),
         cells_(page_count),
-        places_(owner_count),
-        stamps_(std::size_t{owner_count} * slot_count) {
+        entries_(fetcher_count),
+        stamps_(std::size_t{fetcher_count} * slot_count) {
     for (std::uint32_t i = 0; i < frame_count; ++i) install(i, i);
   }
 
@@ -68,10 +68,10 @@ class ExploredCache {
   std::vector<Slot> slots_;
   std::vector<Frame> frames_;
   std::vector<Map::Cell> cells_;
-  std::vector<Limbo::Place> places_;
+  std::vector<Limbo::Entry> entries_;
   std::vector<std::uint64_t> stamps_;
   Map map_{cells_};
-  Limbo limbo_{slots_, places_, stamps_};
+  Limbo limbo_{slots_, entries_, stamps_};
 };
 
 }  // namespace planetree::cache

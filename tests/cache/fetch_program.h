@@ -29,7 +29,7 @@ class FetchProgram final : public explorer::Program {
       : fetching_(fetching),
         cache_(fetching.threads, fetching.threads + 1, fetching.threads + 2, fetching.threads),
         table_(fetching.threads),
-        errands_(table_) {}
+        in_flight_reads_(table_) {}
 
   std::uint32_t thread_count() const noexcept override { return fetching_.threads; }
 
@@ -66,63 +66,63 @@ class FetchProgram final : public explorer::Program {
       explorer::Execution::current().yield();
     }
     mutex_.lock();
-    errands_.end(thread);
+    in_flight_reads_.end(thread);
     mutex_.unlock();
     return kNoFrame;
   }
 
-  std::uint32_t make_resident(std::uint32_t owner, std::uint32_t page) {
-    cache_.limbo().set_awaited(owner, false);
-    const Errand errand = errands_.of(owner);
-    if (errand.stage == Errand::Stage::kWaits) return kNoFrame;
-    errands_.end(owner);
-    if (errand.stage == Errand::Stage::kServed) return errand.frame;
+  std::uint32_t make_resident(std::uint32_t fetcher, std::uint32_t page) {
+    cache_.limbo().set_awaited(fetcher, false);
+    const InFlightRead in_flight = in_flight_reads_.of(fetcher);
+    if (in_flight.stage == InFlightRead::Stage::kWaits) return kNoFrame;
+    in_flight_reads_.end(fetcher);
+    if (in_flight.stage == InFlightRead::Stage::kServed) return in_flight.frame;
     if (const std::uint32_t frame = cache_.map().frame_of(page); frame != kNoFrame) return frame;
-    if (errands_.is_read(page)) {
-      errands_.wait(owner, page, true);
+    if (in_flight_reads_.is_read(page)) {
+      in_flight_reads_.wait(fetcher, page, true);
       return kNoFrame;
     }
-    const std::uint32_t frame = take_frame(owner);
+    const std::uint32_t frame = take_frame(fetcher);
     if (frame == kNoFrame) {
-      cache_.limbo().set_awaited(owner, true);
+      cache_.limbo().set_awaited(fetcher, true);
     } else {
-      read(owner, page, frame);
+      read(fetcher, page, frame);
     }
     return frame;
   }
 
-  void read(std::uint32_t owner, std::uint32_t page, std::uint32_t frame) {
-    errands_.read(owner, page);
+  void read(std::uint32_t fetcher, std::uint32_t page, std::uint32_t frame) {
+    in_flight_reads_.read(fetcher, page);
     mutex_.unlock();
     cache_.fill(frame, page);
     mutex_.lock();
-    errands_.end(owner);
+    in_flight_reads_.end(fetcher);
     cache_.map().publish(page, frame);
-    errands_.serve(page, frame, [](std::uint32_t) {});
+    in_flight_reads_.serve(page, frame, [](std::uint32_t) {});
   }
 
-  std::uint32_t take_frame(std::uint32_t owner) {
+  std::uint32_t take_frame(std::uint32_t fetcher) {
     ExploredCache::Limbo& limbo = cache_.limbo();
-    if (const std::uint32_t frame = limbo.take(owner); frame != kNoFrame) return frame;
+    if (const std::uint32_t frame = limbo.take(fetcher); frame != kNoFrame) return frame;
     if (const std::uint32_t frame = limbo.take_unawaited(); frame != kNoFrame) return frame;
-    if (limbo.holds(owner)) return kNoFrame;
+    if (limbo.holds(fetcher)) return kNoFrame;
     const std::uint32_t victim = choose_victim();
     if (victim != kNoFrame) {
       cache_.map().withdraw(cache_.page_in(victim));
-      limbo.retire(owner, victim);
-    } else if (!limbo.adopt(owner)) {
+      limbo.retire(fetcher, victim);
+    } else if (!limbo.adopt(fetcher)) {
       explorer::Execution::current().fail("no frame, not even in limbo");
       return kNoFrame;
     }
-    return limbo.take(owner);
+    return limbo.take(fetcher);
   }
 
   /// Any resident one that nobody waits for: what CLOCK prefers must not matter.
   std::uint32_t choose_victim() {
-    std::array<std::uint32_t, explorer::kMostThreads + 1> resident;
+    std::array<std::uint32_t, explorer::kMaxThreads + 1> resident;
     std::uint32_t count = 0;
     for (std::uint32_t frame = 0; frame <= fetching_.threads; ++frame) {
-      if (errands_.holds(frame) && !fetching_.does_not_hold_frames) continue;
+      if (in_flight_reads_.holds(frame) && !fetching_.does_not_hold_frames) continue;
       if (cache_.map().frame_of(cache_.page_in(frame)) == frame) resident[count++] = frame;
     }
     if (count == 0) return kNoFrame;
@@ -131,8 +131,8 @@ class FetchProgram final : public explorer::Program {
 
   const Fetching fetching_;
   ExploredCache cache_;
-  std::vector<Errand> table_;
-  Errands errands_;
+  std::vector<InFlightRead> table_;
+  InFlightReads in_flight_reads_;
   explorer::Mutex mutex_;
 };
 

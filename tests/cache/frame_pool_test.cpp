@@ -47,11 +47,11 @@ TEST(FramePool, MovesWithItsFrames) {
   ASSERT_TRUE(pool);
   std::byte* const frame = pool->frame(3);
   *frame = std::byte{42};
-  FramePool moved = *std::move(pool);
-  EXPECT_EQ(moved.frame(3), frame);
+  FramePool perturbed = *std::move(pool);
+  EXPECT_EQ(perturbed.frame(3), frame);
   Result<FramePool> other = FramePool::create(2, 64);
   ASSERT_TRUE(other);
-  *other = std::move(moved);
+  *other = std::move(perturbed);
   EXPECT_EQ(other->frame(3), frame);
   EXPECT_EQ(*other->frame(3), std::byte{42});
 }

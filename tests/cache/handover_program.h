@@ -30,7 +30,7 @@ class HandoverProgram final : public explorer::Program {
       explorer::Execution::current().yield();
       if (!slot.try_claim()) return;
     }
-    owners_.write(owners_.read() + 1);
+    fetchers_.write(fetchers_.read() + 1);
     slot.enter();
     if (const std::uint32_t frame = cache_.map().find(0); frame != kNoFrame) cache_.read(frame, 0);
     slot.leave();
@@ -50,7 +50,7 @@ class HandoverProgram final : public explorer::Program {
 
   ExploredCache cache_{1, 1, 2, 1};
   /// For all that belongs to a slot's owner: it races if this is not handed on.
-  explorer::Plain<std::uint32_t> owners_{0};
+  explorer::Plain<std::uint32_t> fetchers_{0};
 };
 
 }  // namespace planetree::cache

@@ -16,55 +16,55 @@
 namespace planetree::cache {
 namespace {
 
-constexpr std::uint32_t kErrandFrameBytes = 4096;
+constexpr std::uint32_t kReadFrameBytes = 4096;
 
-TEST(Errands, ServesAllWhoWaitForAPage) {
-  std::vector<Errand> table(4);
-  Errands errands(table);
-  errands.read(0, 7);
-  EXPECT_TRUE(errands.is_read(7));
-  errands.wait(1, 7, false);
-  errands.wait(2, 7, true);
-  errands.wait(3, 8, false);
-  EXPECT_EQ(errands.page_wanted(), 8u);
+TEST(InFlightReads, ServesAllWhoWaitForAPage) {
+  std::vector<InFlightRead> table(4);
+  InFlightReads in_flight_reads(table);
+  in_flight_reads.read(0, 7);
+  EXPECT_TRUE(in_flight_reads.is_read(7));
+  in_flight_reads.wait(1, 7, false);
+  in_flight_reads.wait(2, 7, true);
+  in_flight_reads.wait(3, 8, false);
+  EXPECT_EQ(in_flight_reads.page_wanted(), 8u);
   std::set<std::uint32_t> woken;
-  const auto wake = [&](std::uint32_t owner) { woken.insert(owner); };
-  errands.end(0);
-  EXPECT_EQ(errands.serve(7, 5, wake), 2u);
+  const auto wake = [&](std::uint32_t fetcher) { woken.insert(fetcher); };
+  in_flight_reads.end(0);
+  EXPECT_EQ(in_flight_reads.serve(7, 5, wake), 2u);
   EXPECT_EQ(woken, (std::set<std::uint32_t>{1, 2}));
-  errands.end(1);
-  EXPECT_TRUE(errands.holds(5));
-  errands.end(2);
-  EXPECT_FALSE(errands.holds(5));
+  in_flight_reads.end(1);
+  EXPECT_TRUE(in_flight_reads.holds(5));
+  in_flight_reads.end(2);
+  EXPECT_FALSE(in_flight_reads.holds(5));
 }
 
-TEST(Errands, WantsThePageThatWasWaitedForLongest) {
-  std::vector<Errand> table(4);
-  Errands errands(table);
-  EXPECT_EQ(errands.page_wanted(), Errands::kNobody);
-  errands.wait(3, 8, false);
-  errands.wait(0, 9, false);
-  errands.wait(1, 8, false);
-  EXPECT_EQ(errands.page_wanted(), 8u);
-  errands.read(2, 8);
-  EXPECT_EQ(errands.page_wanted(), 9u);
-  errands.end(0);
-  EXPECT_EQ(errands.page_wanted(), Errands::kNobody);
+TEST(InFlightReads, WantsThePageThatWasWaitedForLongest) {
+  std::vector<InFlightRead> table(4);
+  InFlightReads in_flight_reads(table);
+  EXPECT_EQ(in_flight_reads.page_wanted(), InFlightReads::kNobody);
+  in_flight_reads.wait(3, 8, false);
+  in_flight_reads.wait(0, 9, false);
+  in_flight_reads.wait(1, 8, false);
+  EXPECT_EQ(in_flight_reads.page_wanted(), 8u);
+  in_flight_reads.read(2, 8);
+  EXPECT_EQ(in_flight_reads.page_wanted(), 9u);
+  in_flight_reads.end(0);
+  EXPECT_EQ(in_flight_reads.page_wanted(), InFlightReads::kNobody);
 }
 
-TEST(Errands, PutBackWakesThoseWhoReadThemselves) {
-  std::vector<Errand> table(3);
-  Errands errands(table);
-  errands.read(0, 7);
-  errands.wait(1, 7, true);
-  errands.wait(2, 7, false);
-  EXPECT_EQ(errands.page_wanted(), Errands::kNobody);
-  errands.end(0);
+TEST(InFlightReads, PutBackWakesThoseWhoReadThemselves) {
+  std::vector<InFlightRead> table(3);
+  InFlightReads in_flight_reads(table);
+  in_flight_reads.read(0, 7);
+  in_flight_reads.wait(1, 7, true);
+  in_flight_reads.wait(2, 7, false);
+  EXPECT_EQ(in_flight_reads.page_wanted(), InFlightReads::kNobody);
+  in_flight_reads.end(0);
   std::set<std::uint32_t> woken;
-  errands.put_back(7, [&](std::uint32_t owner) { woken.insert(owner); });
+  in_flight_reads.put_back(7, [&](std::uint32_t fetcher) { woken.insert(fetcher); });
   EXPECT_EQ(woken, std::set<std::uint32_t>{1});
-  EXPECT_EQ(errands.of(1).stage, Errand::Stage::kRetry);
-  EXPECT_EQ(errands.page_wanted(), 7u);
+  EXPECT_EQ(in_flight_reads.of(1).stage, InFlightRead::Stage::kRetry);
+  EXPECT_EQ(in_flight_reads.page_wanted(), 7u);
 }
 
 /// Pages of which some stand still until they are let go, and are nothing for those who do not
@@ -73,7 +73,7 @@ struct SlowPages {
   TaggedPages tags;
   std::set<std::uint32_t> slow;
   std::atomic<bool> moves{false};
-  std::atomic<int> standing{0};
+  std::atomic<int> side_result{0};
   std::atomic<int> refused{0};
 
   static Result<Filled> fill(void* context, const FillRequest& request) {
@@ -83,9 +83,9 @@ struct SlowPages {
         ++pages.refused;
         return Filled::kWouldWait;
       }
-      ++pages.standing;
+      ++pages.side_result;
       while (!pages.moves) std::this_thread::yield();
-      --pages.standing;
+      --pages.side_result;
     }
     return TaggedPages::fill(&pages.tags, request);
   }
@@ -106,15 +106,15 @@ class SideBySide : public testing::Test {
       reader.enter();
       const Fetched fetched = reader.fetch(page, terms);
       if (fetched.given_up) ++given_up_;
-      if (fetched.frame && TaggedPages::matches(fetched.frame, kErrandFrameBytes, page)) ++right_;
+      if (fetched.frame && TaggedPages::matches(fetched.frame, kReadFrameBytes, page)) ++right_;
       reader.leave();
     });
   }
 
   /// The same, which has come upon a slow page.
-  std::thread standing_at(std::uint32_t page) {
+  std::thread classify_at(std::uint32_t page) {
     std::thread thread = fetching(page);
-    while (pages_.standing == 0) std::this_thread::yield();
+    while (pages_.side_result == 0) std::this_thread::yield();
     return thread;
   }
 
@@ -130,7 +130,7 @@ constexpr FetchTerms kAtOnceOrNot{.reads_itself = false,
 TEST_F(SideBySide, OneReadsWhatTwoWant) {
   open(6);
   pages_.slow = {7};
-  std::thread first = standing_at(7);
+  std::thread first = classify_at(7);
   std::thread second = fetching(7);
   pages_.moves = true;
   first.join();
@@ -142,11 +142,11 @@ TEST_F(SideBySide, OneReadsWhatTwoWant) {
 TEST_F(SideBySide, OthersReadWhileOneStandsStill) {
   open(6);
   pages_.slow = {7};
-  std::thread stuck = standing_at(7);
+  std::thread stuck = classify_at(7);
   // In the smallest cache too, where pages are evicted meanwhile.
   for (std::uint32_t page = 8; page < 50; ++page) fetching(page).join();
   EXPECT_EQ(right_, 42);
-  EXPECT_EQ(pages_.standing, 1);
+  EXPECT_EQ(pages_.side_result, 1);
   pages_.moves = true;
   stuck.join();
   EXPECT_EQ(right_, 43);
@@ -191,7 +191,7 @@ TEST_F(SideBySide, WaitsNoLongerThanTheLimit) {
 TEST_F(SideBySide, WhoReadsItselfGoesOnWhereAnotherGaveUp) {
   open(6);
   pages_.slow = {7};
-  std::thread stuck = standing_at(7);
+  std::thread stuck = classify_at(7);
   std::thread patient = fetching(7), hasty = fetching(7, kAtOnceOrNot);
   hasty.join();
   EXPECT_EQ(given_up_, 1);
@@ -206,7 +206,7 @@ TEST_F(SideBySide, UnreadablePagesAreToldToAllWhoWait) {
   open(6);
   pages_.slow = {7};
   pages_.tags.make_unreadable(7);
-  std::thread first = standing_at(7);
+  std::thread first = classify_at(7);
   std::thread second = fetching(7), third = fetching(7, kByHelpers);
   pages_.moves = true;
   first.join();
@@ -227,13 +227,13 @@ TEST_F(SideBySide, NobodyWaitsForEver) {
   std::thread helper([&] {
     Reader reader = *cache_->claim_reader();
     while (!stop) {
-      cache_->wait_for_errand(std::chrono::microseconds(100), stop);
+      cache_->wait_for_read(std::chrono::microseconds(100), stop);
       reader.help();
     }
   });
-  std::vector<std::thread> askers;
+  std::vector<std::thread> queriers;
   for (std::uint64_t seed = 1; seed <= 3; ++seed)
-    askers.emplace_back([&, seed] {
+    queriers.emplace_back([&, seed] {
       Reader reader = *cache_->claim_reader();
       Numbers numbers(seed);
       for (int i = 0; i < 3000; ++i) {
@@ -241,11 +241,11 @@ TEST_F(SideBySide, NobodyWaitsForEver) {
         // Few pages, so that many want the same.
         const std::uint32_t page = numbers.below(12);
         const Fetched fetched = reader.fetch(page, seed == 3 ? FetchTerms{} : kByHelpers);
-        wrong += !fetched.frame || !TaggedPages::matches(fetched.frame, kErrandFrameBytes, page);
+        wrong += !fetched.frame || !TaggedPages::matches(fetched.frame, kReadFrameBytes, page);
         reader.leave();
       }
     });
-  for (std::thread& asker : askers) asker.join();
+  for (std::thread& querier : queriers) querier.join();
   stop = true;
   cache_->wake_helpers();
   helper.join();

@@ -11,9 +11,9 @@ namespace {
 /// Two readers, and so three owners.
 struct LimboOfTwo {
   std::array<ReaderSlot, 2> slots{};
-  std::array<Limbo::Place, 3> places{};
+  std::array<Limbo::Entry, 3> entries{};
   std::array<std::uint64_t, 6> stamps{};
-  Limbo limbo{slots, places, stamps};
+  Limbo limbo{slots, entries, stamps};
 };
 
 TEST(Limbo, GivesAFrameBackAtOnceWhenNobodyIsInside) {

@@ -48,7 +48,7 @@ TEST(LruPolicy, PassesOverWhatIsPinnedOrHeld) {
   EXPECT_EQ(frames.evict(), 2u);
   EXPECT_EQ(frames.evict(), 3u);
   EXPECT_EQ(frames.evict(), kNoFrame);
-  frames.lru.let_go(1);
+  frames.lru.release(1);
   EXPECT_EQ(frames.evict(), 1u);
   EXPECT_EQ(frames.evict(), kNoFrame);
 }

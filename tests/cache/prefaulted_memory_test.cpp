@@ -10,25 +10,25 @@ namespace {
 
 constexpr std::uint64_t kHuge = std::uint64_t{2} << 20;
 
-TEST(ClaimedMemory, TakesWholePages) {
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(1), 4096u);
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(4096), 4096u);
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(4097), 8192u);
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(~std::uint64_t{0}), ~std::uint64_t{0}) << "no wrapping";
+TEST(PrefaultedMemory, TakesWholePages) {
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(1), 4096u);
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(4096), 4096u);
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(4097), 8192u);
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(~std::uint64_t{0}), ~std::uint64_t{0}) << "no wrapping";
 }
 
-TEST(ClaimedMemory, TakesAHugePageWhereLittleIsMissing) {
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge / 4 * 3 - 4096), kHuge / 4 * 3 - 4096);
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge / 4 * 3), kHuge);
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge), kHuge);
-  EXPECT_EQ(ClaimedMemory::claimed_bytes(kHuge + 1), kHuge + 4096);
+TEST(PrefaultedMemory, TakesAHugePageWhereLittleIsMissing) {
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge / 4 * 3 - 4096), kHuge / 4 * 3 - 4096);
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge / 4 * 3), kHuge);
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge), kHuge);
+  EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge + 1), kHuge + 4096);
 }
 
-TEST(ClaimedMemory, GivesWhatItSaysInZeros) {
+TEST(PrefaultedMemory, GivesWhatItSaysInZeros) {
   for (const std::uint64_t bytes : {std::uint64_t{100}, kHuge / 10 * 9, kHuge + 5000}) {
-    const auto memory = ClaimedMemory::claim(bytes);
+    const auto memory = PrefaultedMemory::claim(bytes);
     ASSERT_TRUE(memory);
-    EXPECT_EQ(memory->bytes(), ClaimedMemory::claimed_bytes(bytes));
+    EXPECT_EQ(memory->bytes(), PrefaultedMemory::claimed_bytes(bytes));
     EXPECT_TRUE(std::all_of(memory->data(), memory->data() + memory->bytes(),
                             [](std::byte byte) { return byte == std::byte{0}; }));
     if (memory->bytes() >= kHuge) {

@@ -20,7 +20,7 @@ namespace planetree::cache {
 
 struct StressGoal {
   std::uint32_t readers = 2;
-  std::uint64_t asks = 0;      ///< of all readers together, at least
+  std::uint64_t queries = 0;   ///< of all readers together, at least
   std::uint64_t installs = 0;  ///< at least
   /// Ends at the first wrong word, for runs that are to have one.
   bool until_wrong = false;
@@ -28,9 +28,9 @@ struct StressGoal {
 
 /// What a run came to.
 struct StressCount {
-  std::uint64_t asks = 0;   ///< sections, of up to kLookups pages
-  std::uint64_t found = 0;  ///< pages, each of which was read again at the section's end
-  std::uint64_t wrong = 0;  ///< pages with a word of another page or of none
+  std::uint64_t queries = 0;  ///< sections, of up to kLookups pages
+  std::uint64_t found = 0;    ///< pages, each of which was read again at the section's end
+  std::uint64_t wrong = 0;    ///< pages with a word of another page or of none
   std::uint64_t installs = 0;
 };
 
@@ -41,11 +41,11 @@ class StressProgress {
 
   bool is_over() const noexcept {
     if (goal_.until_wrong && wrong_.load(std::memory_order_relaxed) > 0) return true;
-    return asks_.load(std::memory_order_relaxed) >= goal_.asks &&
+    return queries_.load(std::memory_order_relaxed) >= goal_.queries &&
            installs_.load(std::memory_order_relaxed) >= goal_.installs;
   }
-  void count_asks(std::uint64_t asks, bool wrong) noexcept {
-    asks_.fetch_add(asks, std::memory_order_relaxed);
+  void count_queries(std::uint64_t queries, bool wrong) noexcept {
+    queries_.fetch_add(queries, std::memory_order_relaxed);
     if (wrong) wrong_.store(1, std::memory_order_relaxed);
   }
   void count_installs(std::uint64_t installs) noexcept {
@@ -54,7 +54,7 @@ class StressProgress {
 
  private:
   const StressGoal goal_;
-  std::atomic<std::uint64_t> asks_{0}, installs_{0}, wrong_{0};
+  std::atomic<std::uint64_t> queries_{0}, installs_{0}, wrong_{0};
 };
 
 /// One reader's part.
@@ -66,11 +66,11 @@ class StressReading {
       : reader_(reader), page_count_(page_count), frame_bytes_(frame_bytes), numbers_(seed) {}
 
   StressCount run(StressProgress& progress) {
-    constexpr std::uint32_t kAsksAtOnce = 256;
+    constexpr std::uint32_t kQueriesAtOnce = 256;
     while (!progress.is_over()) {
-      for (std::uint32_t i = 0; i < kAsksAtOnce; ++i) ask();
-      count_.asks += kAsksAtOnce;
-      progress.count_asks(kAsksAtOnce, count_.wrong > 0);
+      for (std::uint32_t i = 0; i < kQueriesAtOnce; ++i) read_all();
+      count_.queries += kQueriesAtOnce;
+      progress.count_queries(kQueriesAtOnce, count_.wrong > 0);
       // Be seen outside a section too, on few cores.
       if (numbers_.below(4) == 0) std::this_thread::yield();
     }
@@ -80,7 +80,7 @@ class StressReading {
  private:
   static constexpr std::uint32_t kLookups = 4;
 
-  void ask() {
+  void read_all() {
     std::array<const std::byte*, kLookups> frames;
     std::array<std::uint32_t, kLookups> pages;
     std::uint32_t kept = 0;
@@ -119,8 +119,8 @@ inline StressCount run_stress(
   StressProgress progress(goal);
   std::vector<StressCount> counts(goal.readers);
   std::vector<std::thread> threads;
-  for (std::uint32_t place = 0; place < goal.readers; ++place)
-    threads.emplace_back([&, place] { counts[place] = read(place, progress); });
+  for (std::uint32_t index = 0; index < goal.readers; ++index)
+    threads.emplace_back([&, index] { counts[index] = read(index, progress); });
   StressCount sum;
   while (!progress.is_over()) {
     const bool installed = install();
@@ -130,7 +130,7 @@ inline StressCount run_stress(
   }
   for (std::thread& thread : threads) thread.join();
   for (const StressCount& count : counts) {
-    sum.asks += count.asks;
+    sum.queries += count.queries;
     sum.found += count.found;
     sum.wrong += count.wrong;
   }
@@ -145,9 +145,9 @@ StressCount stress_protocol(const StressGoal& goal, WriterMistake mistake = Writ
   Numbers numbers(99);
   return run_stress(
       goal, [&] { return cache.install_another(numbers); },
-      [&](std::uint32_t place, StressProgress& progress) {
-        typename Cache::Reader reader(cache, place);
-        return StressReading(reader, Cache::kPages, Cache::kFrameBytes, place + 1).run(progress);
+      [&](std::uint32_t index, StressProgress& progress) {
+        typename Cache::Reader reader(cache, index);
+        return StressReading(reader, Cache::kPages, Cache::kFrameBytes, index + 1).run(progress);
       });
 }
 
@@ -168,9 +168,9 @@ inline StressCount stress_page_cache(const StressGoal& goal) {
     writer.leave();
     return pages.fill_calls() > before;
   };
-  return run_stress(goal, install, [&](std::uint32_t place, StressProgress& progress) {
+  return run_stress(goal, install, [&](std::uint32_t index, StressProgress& progress) {
     Reader reader = *(*cache)->claim_reader();
-    return StressReading(reader, kStressPages, kStressFrameBytes, place + 1).run(progress);
+    return StressReading(reader, kStressPages, kStressFrameBytes, index + 1).run(progress);
   });
 }
 

@@ -9,14 +9,14 @@
 namespace planetree::cache {
 namespace {
 
-constexpr StressGoal kShort{.readers = 2, .asks = 50000, .installs = 5000};
+constexpr StressGoal kShort{.readers = 2, .queries = 50000, .installs = 5000};
 // One that fetches sleeps while a reader that was stopped inside a section has no processor.
-constexpr StressGoal kShortest{.readers = 1, .asks = 20000, .installs = 500};
+constexpr StressGoal kShortest{.readers = 1, .queries = 20000, .installs = 500};
 
 void expect_right(const StressCount& count, const StressGoal& goal) {
-  EXPECT_GE(count.asks, goal.asks);
+  EXPECT_GE(count.queries, goal.queries);
   EXPECT_GE(count.installs, goal.installs);
-  EXPECT_GT(count.found, count.asks);
+  EXPECT_GT(count.found, count.queries);
   EXPECT_EQ(count.wrong, 0u);
 }
 
@@ -33,7 +33,7 @@ class WriterMistakes : public testing::TestWithParam<WriterMistake> {};
 TEST_P(WriterMistakes, AreSeenAsWordsOfAnotherPage) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer would end the program";
   constexpr std::uint64_t kMany = 20'000'000;
-  const StressGoal goal{.readers = 2, .asks = kMany, .installs = kMany, .until_wrong = true};
+  const StressGoal goal{.readers = 2, .queries = kMany, .installs = kMany, .until_wrong = true};
   EXPECT_GT(stress_protocol(goal, GetParam()).wrong, 0u);
 }
 

@@ -12,9 +12,9 @@
 namespace planetree::cache {
 namespace {
 
-using IntRing = TraceRing<int>;
+using IntRing = SpscRing<int>;
 
-TEST(TraceRing, GivesInOrderAndCountsWhatItDrops) {
+TEST(SpscRing, GivesInOrderAndCountsWhatItDrops) {
   std::vector<IntRing::Slot> slots(IntRing::slots_for(3));
   ASSERT_EQ(slots.size(), 4u);
   IntRing ring;
@@ -31,7 +31,7 @@ TEST(TraceRing, GivesInOrderAndCountsWhatItDrops) {
   }
 }
 
-TEST(TraceRing, WithoutSlotsDropsAll) {
+TEST(SpscRing, WithoutSlotsDropsAll) {
   IntRing ring;
   ring.give(1);
   std::vector<int> taken(1);
@@ -83,7 +83,7 @@ class RingProgram final : public explorer::Program {
 
   std::uint64_t& lasts_taken_;
   std::array<explorer::Plain<int>, 2> slots_;
-  TraceRing<int, ExploredRing> ring_;
+  SpscRing<int, ExploredRing> ring_;
 };
 
 explorer::Report explore_ring() {
@@ -94,7 +94,7 @@ explorer::Report explore_ring() {
   return report;
 }
 
-TEST(TraceRingOrder, HoldsInEveryRun) { EXPECT_EQ(explore_ring().failure, ""); }
+TEST(SpscRingOrder, HoldsInEveryRun) { EXPECT_EQ(explore_ring().failure, ""); }
 
 class WeakenedRing : public testing::TestWithParam<RingStep> {
  protected:

@@ -38,16 +38,16 @@ class StressedCache {
   StressedCache(std::uint32_t reader_count, WriterMistake mistake)
       : mistake_(mistake),
         slots_(reader_count),
-        stamps_(std::size_t{kOwners} * slots_waited_for().size()),
-        limbo_(slots_waited_for(), places_, stamps_) {
+        stamps_(std::size_t{kFetchers} * slots_waited_for().size()),
+        limbo_(slots_waited_for(), entries_, stamps_) {
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) install(frame, frame);
   }
 
   /// One reader's way in: as cache::Reader, without its counts.
   class Reader {
    public:
-    Reader(StressedCache& cache, std::uint32_t place)
-        : map_(cache.map_), frames_(cache.frames_), slot_(cache.slots_[place]) {}
+    Reader(StressedCache& cache, std::uint32_t index)
+        : map_(cache.map_), frames_(cache.frames_), slot_(cache.slots_[index]) {}
     void enter() noexcept { slot_.enter(); }
     void leave() noexcept { slot_.leave(); }
     const std::byte* find(std::uint32_t page) noexcept {
@@ -72,7 +72,7 @@ class StressedCache {
   }
 
  private:
-  static constexpr std::uint32_t kOwners = 4;
+  static constexpr std::uint32_t kFetchers = 4;
 
   std::span<const Slot> slots_waited_for() const {
     const std::span<const Slot> all(slots_);
@@ -82,23 +82,23 @@ class StressedCache {
   // Nothing comes between finding that a frame's sections are over and writing it: looking at
   // other sections would acquire what that had to.
   std::uint32_t take_frame(Numbers& numbers) {
-    for (std::uint32_t owner = 0; owner < kOwners; ++owner) {
-      if (limbo_.holds(owner)) continue;
-      const std::uint32_t frame = evict(owner, numbers);
+    for (std::uint32_t fetcher = 0; fetcher < kFetchers; ++fetcher) {
+      if (limbo_.holds(fetcher)) continue;
+      const std::uint32_t frame = evict(fetcher, numbers);
       if (mistake_ == WriterMistake::kReusesAtOnce) return frame;
     }
-    for (std::uint32_t owner = 0; owner < kOwners; ++owner)
-      if (const std::uint32_t frame = limbo_.take(owner); frame != kNoFrame) return frame;
+    for (std::uint32_t fetcher = 0; fetcher < kFetchers; ++fetcher)
+      if (const std::uint32_t frame = limbo_.take(fetcher); frame != kNoFrame) return frame;
     return kNoFrame;
   }
 
-  std::uint32_t evict(std::uint32_t owner, Numbers& numbers) {
+  std::uint32_t evict(std::uint32_t fetcher, Numbers& numbers) {
     const std::uint32_t frame = resident_frame(numbers);
-    if (mistake_ == WriterMistake::kNotesTooEarly) limbo_.retire(owner, frame);
+    if (mistake_ == WriterMistake::kNotesTooEarly) limbo_.retire(fetcher, frame);
     map_.withdraw(pages_[frame]);
     pages_[frame] = kNoFrame;
     if (mistake_ != WriterMistake::kNotesTooEarly && mistake_ != WriterMistake::kReusesAtOnce)
-      limbo_.retire(owner, frame);
+      limbo_.retire(fetcher, frame);
     return frame;
   }
 
@@ -121,7 +121,7 @@ class StressedCache {
   FramePool frames_ = *FramePool::create(kFrames, kFrameBytes);
   // The writer's.
   std::array<std::uint32_t, kFrames> pages_;
-  std::array<typename BasicLimbo<Atomics>::Place, kOwners> places_;
+  std::array<typename BasicLimbo<Atomics>::Entry, kFetchers> entries_;
   std::vector<std::uint64_t> stamps_;
   BasicLimbo<Atomics> limbo_;
 };

@@ -59,8 +59,8 @@ class TurnoverProgram final : public explorer::Program {
     for (std::uint32_t round = 0; round < turnover_.rounds; ++round) {
       // All frames before one is filled, so that pages change frames.
       for (std::uint32_t frame = 0; frame < turnover_.frames; ++frame) evict(frame);
-      for (std::uint32_t owner = 0; owner < turnover_.frames; ++owner) {
-        const std::uint32_t frame = turnover_.waits_for_nobody ? owner : take(owner);
+      for (std::uint32_t fetcher = 0; fetcher < turnover_.frames; ++fetcher) {
+        const std::uint32_t frame = turnover_.waits_for_nobody ? fetcher : take(fetcher);
         if (frame == kNoFrame) return;
         const std::uint32_t page = 1 - cache_.page_in(frame);
         cache_.install(frame, page);
@@ -76,13 +76,13 @@ class TurnoverProgram final : public explorer::Program {
     if (!turnover_.notes_sections_too_early) cache_.limbo().retire(frame, frame);
   }
 
-  std::uint32_t take(std::uint32_t owner) {
+  std::uint32_t take(std::uint32_t fetcher) {
     for (std::uint32_t i = 1; i < kTries; ++i) {
-      const std::uint32_t frame = cache_.limbo().take(owner);
+      const std::uint32_t frame = cache_.limbo().take(fetcher);
       if (frame != kNoFrame) return frame;
       explorer::Execution::current().yield();
     }
-    return cache_.limbo().take(owner);
+    return cache_.limbo().take(fetcher);
   }
 
   Turnover turnover_;

@@ -45,8 +45,8 @@ class Patient {
 class StabilityBitFlip : public testing::Test {
  protected:
   StabilityBitFlip()
-      : sample_(octree::sheet(12)),
-        budget_(sample_.least_budget()),
+      : sample_(octree::height_field(12)),
+        budget_(sample_.min_budget()),
         queries_(query::random_queries(3, -0.5, 1.5)) {
     const Model model = sample_.open(budget_);
     Probe probe = make_probe(model);

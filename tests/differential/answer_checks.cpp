@@ -18,13 +18,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::string words(const Vec3& query, const Ask& ask, const ClosestPoint& answer) {
+std::string words(const Vec3& query, const QueryOptions& options, const ClosestPoint& answer) {
   char line[512];
   std::snprintf(line, sizeof line,
                 "query %a %a %a (%g %g %g), max_error %g max_distance %g max_nodes %u: "
                 "distance %.17g in [%.17g, %.17g] triangle %lld status %d",
-                query.x, query.y, query.z, query.x, query.y, query.z, ask.max_error,
-                ask.max_distance, ask.max_nodes, answer.distance, answer.lower, answer.upper,
+                query.x, query.y, query.z, query.x, query.y, query.z, options.max_error,
+                options.max_distance, options.max_work, answer.distance, answer.lower, answer.upper,
                 static_cast<long long>(answer.triangle), static_cast<int>(answer.status));
   return line;
 }
@@ -209,14 +209,14 @@ void expect_side(BuiltModel& model, const Vec3& query) {
   expect_true_side(model, query, found.side);
 }
 
-ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) {
-  const ClosestPoint answer = model.ask(query, ask);
-  SCOPED_TRACE(words(query, ask, answer));
-  expect_same_bits(answer, model.ask(query, ask));
+ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const QueryOptions& options) {
+  const ClosestPoint answer = model.closest_point(query, options);
+  SCOPED_TRACE(words(query, options, answer));
+  expect_same_bits(answer, model.closest_point(query, options));
   const Wide truth = exact_distance(query, model.triangles());
   expect_interval_holds(answer, truth);
-  const bool unlimited = ask.max_error == 0 && ask.max_distance == kInfinity &&
-                         ask.max_nodes == std::numeric_limits<std::uint32_t>::max();
+  const bool unlimited = options.max_error == 0 && options.max_distance == kInfinity &&
+                         options.max_work == std::numeric_limits<std::uint32_t>::max();
   if (unlimited) {
     EXPECT_EQ(answer.status, Status::kExact);
   }
@@ -226,16 +226,16 @@ ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask) 
       if (unlimited) expect_narrow(model, query, answer);
       break;
     case Status::kWithinError:
-      EXPECT_LE(answer.upper - answer.lower, ask.max_error);
+      EXPECT_LE(answer.upper - answer.lower, options.max_error);
       break;
     case Status::kDegraded:
       // Visited for the distance, for each of six ways out and for the normal.
-      EXPECT_LT(ask.max_nodes, 8 * (model.model().info().nodes + model.model().info().blocks));
+      EXPECT_LT(options.max_work, 8 * (model.model().info().nodes + model.model().info().blocks));
       break;
     case Status::kBeyondMaxDistance:
       EXPECT_EQ(answer.triangle, kNoTriangle);
       EXPECT_EQ(answer.distance, kInfinity);
-      EXPECT_LE(answer.lower, ask.max_distance);
+      EXPECT_LE(answer.lower, options.max_distance);
       return answer;
     case Status::kBadQuery:
       ADD_FAILURE() << "a query of finite numbers was refused";

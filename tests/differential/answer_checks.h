@@ -6,15 +6,15 @@
 /// What must hold of every answer, as expectations of googletest.
 namespace planetree::oracle {
 
-/// Asks, checks and returns the answer. Expected of every one: the same bits
+/// Queries, checks and returns the answer. Expected of every one: the same bits
 /// when asked again, no number that is not finite, the exact distance within
 /// [lower, upper], an interval that is honest but not lazy. Of an exact one:
 /// the triangle of least (value, index) among all, found by evaluating each,
 /// and a point that lies on it at that distance. Of an inexact one: that the
 /// limits asked for allow it. A side that is told must be the exact one.
-ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const Ask& ask = {});
+ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const QueryOptions& options = {});
 
-/// Asks for the side alone; it must be the exact one. Where a model is not
+/// Queries for the side alone; it must be the exact one. Where a model is not
 /// watertight and the winding number is one half, nearly, it may be any.
 void expect_side(BuiltModel& model, const Vec3& query);
 

@@ -31,8 +31,8 @@ class JudgedMesh {
   explicit JudgedMesh(const Soup& soup) : model_(soup) { write_ply(mesh(), soup); }
 
   std::filesystem::path mesh() const { return folder_ / "mesh.ply"; }
-  AnswerRow ask(const Vec3& query, const Ask& ask = {}) {
-    return row_of(query, model_.ask(query, ask));
+  AnswerRow closest_point(const Vec3& query, const QueryOptions& options = {}) {
+    return row_of(query, model_.closest_point(query, options));
   }
   Judgement judge(std::span<const AnswerRow> rows, const JudgeLimits& limits = kShortRounds) const {
     auto judgement = judge_answers(mesh(), rows, limits);
@@ -83,7 +83,7 @@ TEST(AnswerJudge, LetsRightAnswersOfAWatertightMeshPass) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
   std::vector<AnswerRow> rows;
-  for (const Vec3& query : points_about(soup)) rows.push_back(mesh.ask(query));
+  for (const Vec3& query : points_about(soup)) rows.push_back(mesh.closest_point(query));
   for (const JudgeLimits& limits : {kShortRounds, JudgeLimits{}}) {
     const Judgement judgement = mesh.judge(rows, limits);
     expect_all_right(soup, judgement);
@@ -97,7 +97,7 @@ TEST(AnswerJudge, LetsRightAnswersOfAnOpenMeshPass) {
   const Soup soup = open_solids();
   JudgedMesh mesh(soup);
   std::vector<AnswerRow> rows;
-  for (const Vec3& query : points_about(soup)) rows.push_back(mesh.ask(query));
+  for (const Vec3& query : points_about(soup)) rows.push_back(mesh.closest_point(query));
   const Judgement judgement = mesh.judge(rows);
   expect_all_right(soup, judgement);
   EXPECT_FALSE(judgement.watertight);
@@ -109,7 +109,7 @@ TEST(AnswerJudge, LetsRightAnswersOfAnOpenMeshPass) {
 TEST(AnswerJudge, SumsSolidAnglesWithinItsLimits) {
   for (const Soup& soup : {solids(), open_solids()}) {
     JudgedMesh mesh(soup);
-    const std::vector<AnswerRow> rows(100, mesh.ask({0, 0, 0}));
+    const std::vector<AnswerRow> rows(100, mesh.closest_point({0, 0, 0}));
     for (const std::size_t affordable : {0, 1, 7, 10, 20}) {
       const JudgeLimits limits{100, 30, soup.size() * affordable + 1};
       const Judgement judgement = mesh.judge(rows, limits);
@@ -126,10 +126,10 @@ TEST(AnswerJudge, LetsHonestInexactAnswersPass) {
   std::vector<AnswerRow> rows;
   std::map<Status, std::size_t> counts;
   for (const Vec3& query : points_about(soup)) {
-    rows.push_back(mesh.ask(query, {.max_error = 0.5}));
-    rows.push_back(mesh.ask(query, {.max_distance = 0.5}));
-    rows.push_back(mesh.ask(query, {.max_nodes = 1}));
-    rows.push_back(mesh.ask(query, {.max_error = -1}));
+    rows.push_back(mesh.closest_point(query, {.max_error = 0.5}));
+    rows.push_back(mesh.closest_point(query, {.max_distance = 0.5}));
+    rows.push_back(mesh.closest_point(query, {.max_work = 1}));
+    rows.push_back(mesh.closest_point(query, {.max_error = -1}));
   }
   for (const AnswerRow& row : rows) ++counts[row.status];
   EXPECT_EQ(counts.size(), 5U);
@@ -157,7 +157,7 @@ void expect_found(const JudgedMesh& mesh, const AnswerRow& right, const Lie& lie
 TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
-  const AnswerRow right = mesh.ask({3.5, 0.25, 0.5});
+  const AnswerRow right = mesh.closest_point({3.5, 0.25, 0.5});
   const std::uint64_t far = 0;
   const Lie lies[] = {
       {"is nearer than the interval",
@@ -168,7 +168,7 @@ TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
       {"is nearer than the interval",
        [&](AnswerRow& row) {
          // As if the nearest had been overlooked: another, as far away as it is.
-         const AnswerRow other = mesh.ask({3.5, 0.25, 0.5});
+         const AnswerRow other = mesh.closest_point({3.5, 0.25, 0.5});
          const auto distance = static_cast<double>(extended_distance(other.query, soup[far]));
          row.triangle = far;
          row.distance = distance;
@@ -199,7 +199,7 @@ TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
 TEST(AnswerJudge, FindsThatAnEqualTriangleComesFirst) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
-  const AnswerRow right = mesh.ask({4, 2, 2});
+  const AnswerRow right = mesh.closest_point({4, 2, 2});
   std::size_t others = 0;
   for (std::uint64_t i = 0; i < soup.size(); ++i) {
     if (i == right.triangle || extended_distance(right.query, soup[i]) > right.upper) continue;
@@ -212,9 +212,9 @@ TEST(AnswerJudge, FindsThatAnEqualTriangleComesFirst) {
 TEST(AnswerJudge, FindsWrongSidesWhereverThePointIs) {
   JudgedMesh mesh(solids());
   const auto says = [](Side side) { return [side](AnswerRow& row) { row.side = side; }; };
-  const AnswerRow inside = mesh.ask({0.75, 0, 0});  // of two solids
+  const AnswerRow inside = mesh.closest_point({0.75, 0, 0});  // of two solids
   expect_found(mesh, inside, {"point is inside", says(Side::kOutside)});
-  const AnswerRow on = mesh.ask({3, 0, 0});
+  const AnswerRow on = mesh.closest_point({3, 0, 0});
   expect_found(mesh, on, {"on the surface", says(Side::kOutside)});
   expect_found(mesh, on, {"on the surface", says(Side::kInside)});
 }
@@ -222,9 +222,9 @@ TEST(AnswerJudge, FindsWrongSidesWhereverThePointIs) {
 TEST(AnswerJudge, FindsWrongSidesOfAnOpenMesh) {
   JudgedMesh mesh(open_solids());
   const auto says = [](Side side) { return [side](AnswerRow& row) { row.side = side; }; };
-  expect_found(mesh, mesh.ask({2.5, 0, 0}), {"point is inside", says(Side::kOutside)});
-  expect_found(mesh, mesh.ask({4, 0, 0}), {"point is outside", says(Side::kInside)});
-  expect_found(mesh, mesh.ask({3, 0, 0}), {"on the surface", says(Side::kInside)});
+  expect_found(mesh, mesh.closest_point({2.5, 0, 0}), {"point is inside", says(Side::kOutside)});
+  expect_found(mesh, mesh.closest_point({4, 0, 0}), {"point is outside", says(Side::kInside)});
+  expect_found(mesh, mesh.closest_point({3, 0, 0}), {"on the surface", says(Side::kInside)});
 }
 
 TEST(AnswerJudge, FindsLiesInInexactAnswers) {
@@ -235,12 +235,12 @@ TEST(AnswerJudge, FindsLiesInInexactAnswers) {
     row.lower = 0;
     row.distance = row.upper = std::nextafter(0.5, 0);
   };
-  const AnswerRow within = mesh.ask(query, {.max_error = 1});
+  const AnswerRow within = mesh.closest_point(query, {.max_error = 1});
   expect_found(mesh, within, {"not within the interval", [](AnswerRow& row) { row.upper = 0.1; }});
   expect_found(mesh, within, {"farther than the interval", too_low});
-  const AnswerRow beyond = mesh.ask(query, {.max_distance = 0.25});
+  const AnswerRow beyond = mesh.closest_point(query, {.max_distance = 0.25});
   expect_found(mesh, beyond, {"nearer than the interval", too_high});
-  const AnswerRow degraded = mesh.ask(query, {.max_nodes = 0});
+  const AnswerRow degraded = mesh.closest_point(query, {.max_work = 0});
   ASSERT_EQ(degraded.triangle, kNoTriangle);
   expect_found(mesh, degraded, {"no triangle is within", too_low});
 }

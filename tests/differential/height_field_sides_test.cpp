@@ -20,15 +20,15 @@ Vec3 off_middle(const Corners& face, double height) {
           (a.z + b.z + c.z) / 3 + height * normal.z};
 }
 
-class SheetSides {
+class HeightFieldSides {
  public:
-  explicit SheetSides(const Soup& soup)
+  explicit HeightFieldSides(const Soup& soup)
       : model_(soup, {.max_probes = 2}), other_(*Probe::create(model_.model())) {}
 
   // How many of the points off faces have their side told for the pages of the distance alone,
   // of all that are not known at a look.
   double share_spared(double height) {
-    unsigned asked = 0, spared = 0;
+    unsigned queried = 0, spared = 0;
     for (const Corners& face : model_.triangles()) {
       const Vec3 query = off_middle(face, height);
       const std::uint64_t first = hits();
@@ -36,15 +36,15 @@ class SheetSides {
       const std::uint64_t before = hits();
       const ClosestPoint distance = other_.closest_point(query, {.parts = kDistance});
       const std::uint64_t middle = hits();
-      const ClosestPoint all = model_.ask(query);
+      const ClosestPoint all = model_.closest_point(query);
       EXPECT_EQ(all.side, exact_side(query, model_.triangles()));
       EXPECT_EQ(all.distance, distance.distance);
       if (before == first) continue;
-      ++asked;
+      ++queried;
       spared += hits() - middle == middle - before ? 1 : 0;
     }
-    EXPECT_GT(asked, model_.triangles().size() / 2);
-    return double{1} * spared / asked;
+    EXPECT_GT(queried, model_.triangles().size() / 2);
+    return double{1} * spared / queried;
   }
 
  private:
@@ -54,16 +54,16 @@ class SheetSides {
   Probe other_;
 };
 
-TEST(SheetSides, TakeNoPagesBesideThoseOfDistances) {
-  SheetSides sides(ball(4));
+TEST(HeightFieldSides, TakeNoPagesBesideThoseOfDistances) {
+  HeightFieldSides sides(ball(4));
   EXPECT_GT(sides.share_spared(0.3), 0.9);
   EXPECT_GT(sides.share_spared(-0.3), 0.9);
 }
 
 // Where a solid is everywhere inside twice, or inside out, no face tells a side by itself.
-TEST(SheetSides, AreLookedForWhereFacesDoNotTellThem) {
+TEST(HeightFieldSides, AreLookedForWhereFacesDoNotTellThem) {
   for (const Soup& soup : {ball(4) + ball(4), inside_out(ball(4))}) {
-    SheetSides sides(soup);
+    HeightFieldSides sides(soup);
     EXPECT_EQ(sides.share_spared(0.3), 0);
     EXPECT_EQ(sides.share_spared(-0.3), 0);
   }

@@ -170,8 +170,8 @@ void expect_filter_passes(const std::vector<Triangle>& triangles, const FloatQue
                                                << " distance " << reach << " extent " << extent;
     nearest = std::min(nearest, reach);
   }
-  if (wide.usable && extent >= octree::kLeastFilterExtent) {
-    EXPECT_GE(octree::filter_upper(filtered.least_upper, extent), nearest);
+  if (wide.usable && extent >= octree::kMinFilterExtent) {
+    EXPECT_GE(octree::filter_upper(filtered.min_upper, extent), nearest);
   }
 }
 

@@ -66,14 +66,14 @@ class Parted {
   const Walls& walls() const { return walls_; }
   const Seen& seen() const { return seen_; }
 
-  void check(const Vec3& query, const Ask& ask = {}) {
-    const ClosestPoint truth = whole_.ask(query);
-    const ClosestPoint answer = part_.ask(query, ask);
+  void check(const Vec3& query, const QueryOptions& options = {}) {
+    const ClosestPoint truth = whole_.closest_point(query);
+    const ClosestPoint answer = part_.closest_point(query, options);
     SCOPED_TRACE(testing::Message() << "at " << query.x << ' ' << query.y << ' ' << query.z);
     check_interval(query, truth, answer);
     if (answer.status == Status::kExact) expect_same_bits(answer, as_far_as_told(answer, truth));
-    check_status(query, ask, truth, answer);
-    check_side(query, ask, truth, answer);
+    check_status(query, options, truth, answer);
+    check_side(query, options, truth, answer);
   }
 
  private:
@@ -95,18 +95,19 @@ class Parted {
     }
   }
 
-  void check_status(const Vec3& query, const Ask& ask, const ClosestPoint& truth,
+  void check_status(const Vec3& query, const QueryOptions& options, const ClosestPoint& truth,
                     const ClosestPoint& answer) {
-    const bool plain = ask.max_error == 0 && ask.max_distance == kNoWall && ask.max_nodes > 1000;
-    const double room = walls_.distance(query) - size_ * 1e-10;
-    if (plain && truth.upper < room) {
+    const bool plain =
+        options.max_error == 0 && options.max_distance == kNoWall && options.max_work > 1000;
+    const double capacity = walls_.distance(query) - size_ * 1e-10;
+    if (plain && truth.upper < capacity) {
       EXPECT_EQ(answer.status, Status::kExact);
     }
-    if (plain && truth.lower > room + size_ * 2e-10) {
+    if (plain && truth.lower > capacity + size_ * 2e-10) {
       EXPECT_EQ(answer.status, Status::kDegraded);
     }
     if (answer.status == Status::kWithinError) {
-      EXPECT_LE(answer.upper - answer.lower, ask.max_error);
+      EXPECT_LE(answer.upper - answer.lower, options.max_error);
     }
     seen_.exact += answer.status == Status::kExact;
     seen_.degraded += answer.status == Status::kDegraded;
@@ -114,16 +115,16 @@ class Parted {
     seen_.beyond += answer.status == Status::kBeyondMaxDistance;
   }
 
-  void check_side(const Vec3& query, const Ask& ask, const ClosestPoint& truth,
+  void check_side(const Vec3& query, const QueryOptions& options, const ClosestPoint& truth,
                   const ClosestPoint& answer) {
     const Containment alone = part_.probe().contains(query);
     seen_.inside += answer.side == Side::kInside;
     seen_.outside += answer.side == Side::kOutside;
     seen_.unknown += answer.side == Side::kUnknown;
-    const bool told =
+    const bool certain =
         walls_.distance(query) >= 0 && (part_.model().info().watertight() || !walls_.any());
-    EXPECT_EQ(alone.side, told ? truth.side : Side::kUnknown);
-    if (ask.max_nodes > 1000) {
+    EXPECT_EQ(alone.side, certain ? truth.side : Side::kUnknown);
+    if (options.max_work > 1000) {
       EXPECT_EQ(answer.side, alone.side);
     }
   }
@@ -179,7 +180,7 @@ inline RegionBox random_box(Random& random, const Soup& soup, double size) {
   const Corners& triangle = soup[random.below(soup.size())];
   const Vec3 corner = triangle[random.below(3)];
   const Vec3 other = soup[random.below(soup.size())][random.below(3)];
-  const Vec3 place = random.one_in(2) ? corner : (corner + triangle[random.below(3)]) * 0.5;
+  const Vec3 point = random.one_in(2) ? corner : (corner + triangle[random.below(3)]) * 0.5;
   // As far from there on as rounding may have taken it off the triangle.
   const double margin = size * 1e-12;
   Vec3 first = random.in_some_cube(-6, 0), second = random.in_some_cube(-6, 0);
@@ -192,16 +193,16 @@ inline RegionBox random_box(Random& random, const Soup& soup, double size) {
     case 1:
       return {corner, corner};
     case 2: {
-      RegionBox box{place - first - about, place + second + about};
+      RegionBox box{point - first - about, point + second + about};
       box.lower.z = box.upper.z = corner.z;
       box.lower = least(box.lower, corner);
       box.upper = greatest(box.upper, corner);
       return box;
     }
     case 3:
-      return {place - first * 1e3 - about, place + second + about};
+      return {point - first * 1e3 - about, point + second + about};
     default:
-      return {place - first - about, place + second + about};
+      return {point - first - about, point + second + about};
   }
 }
 

@@ -56,7 +56,7 @@ Probe new_probe(const Model& model) {
   return *std::move(probe);
 }
 
-// Asks for this and that along a path, of one probe all the time and each time of a new one.
+// Queries for this and that along a path, of one probe all the time and each time of a new one.
 void expect_same_as_new(const Soup& soup, const std::vector<Vec3>& path, Random& random) {
   BuiltModel built(soup, kTwoProbes);
   for (const Vec3& query : path) {
@@ -68,14 +68,14 @@ void expect_same_as_new(const Soup& soup, const std::vector<Vec3>& path, Random&
       continue;
     }
     constexpr std::uint32_t kParts[] = {kDistance, kSide, kDistance | kSide, kAllParts};
-    Ask ask;
-    ask.parts = kParts[random.below(4)];
-    if (random.one_in(6)) ask.max_distance = random.magnitude(-10, 1);
-    if (random.one_in(6)) ask.max_error = random.magnitude(-20, -1);
-    if (random.one_in(6)) ask.max_nodes = static_cast<std::uint32_t>(random.below(40));
-    ASSERT_EQ(bits_of(built.probe().closest_point(query, ask)),
-              bits_of(fresh.closest_point(query, ask)))
-        << query.x << ' ' << query.y << ' ' << query.z << " parts " << ask.parts;
+    QueryOptions options;
+    options.parts = kParts[random.below(4)];
+    if (random.one_in(6)) options.max_distance = random.magnitude(-10, 1);
+    if (random.one_in(6)) options.max_error = random.magnitude(-20, -1);
+    if (random.one_in(6)) options.max_work = static_cast<std::uint32_t>(random.below(40));
+    ASSERT_EQ(bits_of(built.probe().closest_point(query, options)),
+              bits_of(fresh.closest_point(query, options)))
+        << query.x << ' ' << query.y << ' ' << query.z << " parts " << options.parts;
   }
 }
 
@@ -98,7 +98,7 @@ TEST(ProbeMemory, ChangesNoAnswerOfClosedModels) { expect_same_for_all(closed_fa
 // Winding numbers of 2 and of 0 within, and more triangles than are kept at once.
 TEST(ProbeMemory, ChangesNoAnswerAlongASurface) {
   Random random(14);
-  const Soup twice = ball(5) + moved(scaled(ball(5), 0.75), {0.5, 0.25, 0});
+  const Soup twice = ball(5) + perturbed(scaled(ball(5), 0.75), {0.5, 0.25, 0});
   const Soup hollow = ball(5) + inside_out(scaled(ball(4), 0.5));
   const Soup nested = ball(4) + scaled(ball(5), 0.75);
   for (const Soup& soup : {twice, hollow, nested, ball(3)})

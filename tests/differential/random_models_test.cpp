@@ -57,44 +57,45 @@ TEST(RandomModels, AnswerExactly) {
 
 TEST(RandomModels, KeepTheErrorAskedFor) {
   each_nasty_case(2, [](Random& random, NastyModel& model, const Vec3& query) {
-    Ask ask;
-    ask.max_error = model.size * random.magnitude(-52, 2);
-    expect_sound(model.built, query, ask);
+    QueryOptions options;
+    options.max_error = model.size * random.magnitude(-52, 2);
+    expect_sound(model.built, query, options);
   });
 }
 
 TEST(RandomModels, LookNoFartherThanAsked) {
   each_nasty_case(3, [](Random& random, NastyModel& model, const Vec3& query) {
-    const double distance = model.built.ask(query).distance;
-    Ask ask;
+    const double distance = model.built.closest_point(query).distance;
+    QueryOptions options;
     switch (random.below(4)) {
       case 0:
-        ask.max_distance = distance;
+        options.max_distance = distance;
         break;
       case 1:
-        ask.max_distance = std::nextafter(distance, 0);
+        options.max_distance = std::nextafter(distance, 0);
         break;
       case 2:
-        ask.max_distance = distance * random.between(0, 2);
+        options.max_distance = distance * random.between(0, 2);
         break;
       default:
-        ask.max_distance = model.size * random.magnitude(-40, 3);
+        options.max_distance = model.size * random.magnitude(-40, 3);
     }
-    if (random.one_in(2)) ask.max_error = model.size * random.magnitude(-30, 2);
-    const ClosestPoint answer = expect_sound(model.built, query, ask);
-    if (ask.max_distance >= distance && distance > 0x1p-1022) {
-      EXPECT_NE(answer.status, Status::kBeyondMaxDistance) << distance << ' ' << ask.max_distance;
+    if (random.one_in(2)) options.max_error = model.size * random.magnitude(-30, 2);
+    const ClosestPoint answer = expect_sound(model.built, query, options);
+    if (options.max_distance >= distance && distance > 0x1p-1022) {
+      EXPECT_NE(answer.status, Status::kBeyondMaxDistance)
+          << distance << ' ' << options.max_distance;
     }
   });
 }
 
 TEST(RandomModels, StopAfterTheNodesAskedFor) {
   each_nasty_case(4, [](Random& random, NastyModel& model, const Vec3& query) {
-    Ask ask;
-    ask.max_nodes = static_cast<std::uint32_t>(random.below(12));
-    if (random.one_in(3)) ask.max_error = model.size * random.magnitude(-30, 2);
-    if (random.one_in(3)) ask.max_distance = model.size * random.magnitude(-20, 3);
-    expect_sound(model.built, query, ask);
+    QueryOptions options;
+    options.max_work = static_cast<std::uint32_t>(random.below(12));
+    if (random.one_in(3)) options.max_error = model.size * random.magnitude(-30, 2);
+    if (random.one_in(3)) options.max_distance = model.size * random.magnitude(-20, 3);
+    expect_sound(model.built, query, options);
   });
 }
 
@@ -102,7 +103,7 @@ TEST(RandomModels, AnswerAlikeWithHardlyAnyMemoryAndInBatches) {
   for (const NastyFamily& family : nasty_families()) {
     Random random(5);
     const Soup triangles = family.make(random);
-    BuiltModel roomy(triangles, {4096});
+    BuiltModel spacious(triangles, {4096});
     BuiltModel cramped(triangles, {4096, std::uint64_t{340} << 10, 1});
     std::vector<Vec3> queries;
     for (int k = 0; k < kQueriesPerModel; ++k) queries.push_back(nasty_query(random, triangles, 1));
@@ -110,8 +111,8 @@ TEST(RandomModels, AnswerAlikeWithHardlyAnyMemoryAndInBatches) {
     cramped.probe().closest_points(queries, answers);
     for (std::size_t k = 0; k < queries.size(); ++k) {
       SCOPED_TRACE(std::string(family.name) + " query " + std::to_string(k));
-      expect_same_bits(roomy.ask(queries[k]), answers[k]);
-      expect_same_bits(roomy.ask(queries[k]), cramped.ask(queries[k]));
+      expect_same_bits(spacious.closest_point(queries[k]), answers[k]);
+      expect_same_bits(spacious.closest_point(queries[k]), cramped.closest_point(queries[k]));
     }
   }
 }

@@ -7,17 +7,17 @@
 namespace planetree::oracle {
 namespace {
 
-constexpr std::size_t kAsksPerModel = 2500;
+constexpr std::size_t kQueriesPerModel = 2500;
 constexpr std::size_t kModelsPerTest = 4;
 
 // So that no test takes long with a sanitizer.
-class RandomAsks : public testing::TestWithParam<std::size_t> {};
+class RandomQueries : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(RandomAsks, AreAnsweredRight) {
-  AskTally tally;
+TEST_P(RandomQueries, AreAnsweredRight) {
+  QueryTally tally;
   for (std::size_t i = 0; i < kModelsPerTest; ++i)
-    tally += ask_at_random(GetParam() * kModelsPerTest + i, kAsksPerModel);
-  EXPECT_EQ(tally.asks, kModelsPerTest * kAsksPerModel);
+    tally += query_at_random(GetParam() * kModelsPerTest + i, kQueriesPerModel);
+  EXPECT_EQ(tally.queries, kModelsPerTest * kQueriesPerModel);
   EXPECT_EQ(tally.not_finite, 0u);
   EXPECT_EQ(tally.interval, 0u);
   EXPECT_EQ(tally.side, 0u);
@@ -25,8 +25,8 @@ TEST_P(RandomAsks, AreAnsweredRight) {
   EXPECT_EQ(tally.first_miss, "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, RandomAsks,
-                         testing::Range(std::size_t{0}, kAskedModels / kModelsPerTest));
+INSTANTIATE_TEST_SUITE_P(Models, RandomQueries,
+                         testing::Range(std::size_t{0}, kQueriedModels / kModelsPerTest));
 
 }  // namespace
 }  // namespace planetree::oracle

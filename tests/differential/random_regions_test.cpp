@@ -24,11 +24,11 @@ void check_families(std::span<const NastyFamily> families, std::uint64_t seed,
       const RegionBox box = random_box(random, soup, size);
       Parted model(soup, box, size, random.one_in(2) ? 65536 : 4096);
       for (int k = 0; k < 60 && !testing::Test::HasFailure(); ++k) {
-        Ask ask;
-        if (random.one_in(4)) ask.max_error = size * random.magnitude(-20, 1);
-        if (random.one_in(4)) ask.max_distance = size * random.magnitude(-10, 1);
-        if (random.one_in(10)) ask.max_nodes = static_cast<std::uint32_t>(random.below(12));
-        model.check(some_query(random, soup, box, size), ask);
+        QueryOptions options;
+        if (random.one_in(4)) options.max_error = size * random.magnitude(-20, 1);
+        if (random.one_in(4)) options.max_distance = size * random.magnitude(-10, 1);
+        if (random.one_in(10)) options.max_work = static_cast<std::uint32_t>(random.below(12));
+        model.check(some_query(random, soup, box, size), options);
       }
       seen.exact += model.seen().exact;
       seen.degraded += model.seen().degraded;

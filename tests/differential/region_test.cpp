@@ -13,7 +13,7 @@
 namespace planetree::oracle {
 namespace {
 
-// Asked all over it and about it; what is inside of the box is told a side.
+// Recorded all over it and about it; what is inside of the box is told a side.
 void check_solid(const Soup& soup, const RegionBox& box, Seen* seen = nullptr) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
     Parted model(soup, box, 1, page_bytes);
@@ -38,7 +38,7 @@ TEST(Region, CutsThinParts) {
 
 TEST(Region, KnowsNestedAndOverlappingSolids) {
   const Soup nested = ball(3) + scaled(inside_out(ball(3)), 0.75) + scaled(ball(2), 0.5);
-  const Soup twice = ball(3) + moved(ball(3), {0.3, 0.1, 0.2});
+  const Soup twice = ball(3) + perturbed(ball(3), {0.3, 0.1, 0.2});
   for (const Soup& soup : {nested, twice, inside_out(twice), twice + twice}) {
     Seen seen;
     check_solid(soup, {{0.1, -0.2, -0.3}, {0.9, 0.4, 0.35}}, &seen);
@@ -89,7 +89,7 @@ TEST(Region, ThatHoldsAllAnswersAsTheWholeDoesEverywhere) {
                 model.whole().model().info().content_id[0]);
       for (int k = 0; k < 200; ++k) {
         const Vec3 query = nasty_query(random, soup, 1);
-        expect_same_bits(model.part().ask(query), model.whole().ask(query));
+        expect_same_bits(model.part().closest_point(query), model.whole().closest_point(query));
       }
     }
   }
@@ -101,14 +101,14 @@ TEST(Region, HasWallsOnlyWithinTheModel) {
   Parted model(solid, {{-5, -5, 0.2}, {5, 5, 5}});
   for (const Vec3& query : {Vec3{0, 0, 3}, Vec3{0.9, 0, 1.5}, Vec3{0, 0, 1e4}}) {
     model.check(query);
-    EXPECT_EQ(model.part().ask(query).status, Status::kExact);
-    EXPECT_EQ(model.part().ask(query).side, Side::kOutside);
+    EXPECT_EQ(model.part().closest_point(query).status, Status::kExact);
+    EXPECT_EQ(model.part().closest_point(query).side, Side::kOutside);
   }
   model.check({0, 0, -3});
-  EXPECT_EQ(model.part().ask({0, 0, -3}).status, Status::kDegraded);
-  EXPECT_EQ(model.part().ask({0, 0, -3}).side, Side::kUnknown);
+  EXPECT_EQ(model.part().closest_point({0, 0, -3}).status, Status::kDegraded);
+  EXPECT_EQ(model.part().closest_point({0, 0, -3}).side, Side::kUnknown);
   for (const double far : {1e200, -1e200, 1e308, -1e308}) {
-    const ClosestPoint answer = model.part().ask({0, 0, far});
+    const ClosestPoint answer = model.part().closest_point({0, 0, far});
     EXPECT_EQ(answer.status, Status::kDegraded) << far;
     EXPECT_LE(answer.lower, std::fabs(far));
     EXPECT_GE(answer.upper, std::fabs(far));
@@ -128,9 +128,9 @@ TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
         const bool within = box.lower.x <= x && x <= box.upper.x;
         const Side side = within ? Side::kOutside : Side::kUnknown;
         for (const Vec3& query : {Vec3{x, 0.5, far}, Vec3{x, far, 0.5}}) {
-          EXPECT_EQ(model.part().ask(query).side, side) << x << " " << far;
+          EXPECT_EQ(model.part().closest_point(query).side, side) << x << " " << far;
           EXPECT_EQ(model.part().probe().contains(query).side, side);
-          EXPECT_EQ(model.part().ask(query, {.max_nodes = 1000}).side, side);
+          EXPECT_EQ(model.part().closest_point(query, {.max_work = 1000}).side, side);
         }
       }
     }
@@ -143,29 +143,29 @@ TEST(Region, IsCarefulWhereTheWallIsAsNearAsTheSurface) {
   Parted model(two, {{-1, -1, -1}, {2, 2, 2}});
   for (const double step : {0.0, 0x1p-52, -0x1p-52, 1e-9, -1e-9})
     model.check({1.5 + step, 0.5, 0.5});
-  EXPECT_EQ(model.part().ask({1.5, 0.5, 0.5}).status, Status::kDegraded);
-  EXPECT_EQ(model.part().ask({1.5 - 1e-9, 0.5, 0.5}).status, Status::kExact);
+  EXPECT_EQ(model.part().closest_point({1.5, 0.5, 0.5}).status, Status::kDegraded);
+  EXPECT_EQ(model.part().closest_point({1.5 - 1e-9, 0.5, 0.5}).status, Status::kExact);
 }
 
 TEST(Region, LooksNoFartherThanAskedIfThatIsProven) {
   const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
   Parted model(two, {{-1, -1, -1}, {2.5, 2, 2}});
-  Ask ask;
-  ask.max_distance = 0.25;
-  model.check({2, 0.5, 0.5}, ask);
-  EXPECT_EQ(model.part().ask({2, 0.5, 0.5}, ask).status, Status::kBeyondMaxDistance);
+  QueryOptions options;
+  options.max_distance = 0.25;
+  model.check({2, 0.5, 0.5}, options);
+  EXPECT_EQ(model.part().closest_point({2, 0.5, 0.5}, options).status, Status::kBeyondMaxDistance);
   // The wall is nearer than what was asked for, the other box not.
-  const ClosestPoint answer = model.part().ask({2.375, 0.5, 0.5}, ask);
+  const ClosestPoint answer = model.part().closest_point({2.375, 0.5, 0.5}, options);
   EXPECT_EQ(answer.status, Status::kDegraded);
   EXPECT_EQ(answer.triangle, kNoTriangle);
   EXPECT_NEAR(answer.lower, 0.125, 1e-9);
   EXPECT_GE(answer.upper, 0.625);
-  ask.max_error = 10;
-  EXPECT_EQ(model.part().ask({2.375, 0.5, 0.5}, ask).status, Status::kWithinError);
+  options.max_error = 10;
+  EXPECT_EQ(model.part().closest_point({2.375, 0.5, 0.5}, options).status, Status::kWithinError);
 }
 
 TEST(Region, AnswersBatchesAndRealTimeAsksAlike) {
-  const Soup solid = ball(4) + moved(ball(3), {0.4, 0.3, 0.2});
+  const Soup solid = ball(4) + perturbed(ball(3), {0.4, 0.3, 0.2});
   const RegionBox box{{-0.1, -0.2, 0.1}, {0.7, 0.6, 1}};
   Parted model(solid, box);
   Random random(31);
@@ -173,13 +173,13 @@ TEST(Region, AnswersBatchesAndRealTimeAsksAlike) {
   for (int k = 0; k < 400; ++k) queries.push_back(some_query(random, solid, box, 1));
   std::vector<ClosestPoint> answers(queries.size());
   model.part().probe().closest_points(queries, answers);
-  Ask at_once;
+  QueryOptions at_once;
   at_once.wait = Wait::kNever;
   for (std::size_t k = 0; k < queries.size(); ++k) {
-    expect_same_bits(model.part().ask(queries[k]), answers[k]);
+    expect_same_bits(model.part().closest_point(queries[k]), answers[k]);
     model.check(queries[k]);
     // All pages are there by now.
-    expect_same_bits(model.part().ask(queries[k], at_once), answers[k]);
+    expect_same_bits(model.part().closest_point(queries[k], at_once), answers[k]);
   }
 }
 

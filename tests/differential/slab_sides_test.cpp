@@ -18,7 +18,7 @@ double share_told_by_the_mask(const Soup& soup, double reach) {
   Probe probe = *Probe::create(model.model());
   Random random(7);
   const auto hits = [&] { return model.model().stats().page_hits; };
-  unsigned asked = 0, told = 0;
+  unsigned queried = 0, certain = 0;
   for (const Corners& face : model.triangles())
     for (int k = 0; k < 2; ++k) {
       const auto [a, b, c] = face;
@@ -30,11 +30,11 @@ double share_told_by_the_mask(const Soup& soup, double reach) {
       EXPECT_EQ(found.status, Status::kExact);
       EXPECT_EQ(found.side, exact_side(query, model.triangles()));
       const std::uint64_t taken = hits() - before;
-      asked += taken > 0;
-      told += taken == 1;
+      queried += taken > 0;
+      certain += taken == 1;
     }
-  EXPECT_GT(asked, model.triangles().size() / 4);
-  return double{1} * told / asked;
+  EXPECT_GT(queried, model.triangles().size() / 4);
+  return double{1} * certain / queried;
 }
 
 TEST(SlabSides, TakeNoPageOfTheTree) {

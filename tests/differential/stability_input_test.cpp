@@ -23,19 +23,20 @@ namespace {
 using octree::TemporaryFile;
 
 // One bad record between two good ones; the good ones keep their indices.
-void expect_set_aside(const std::string& obj) {
+void expect_skipped(const std::string& obj) {
   const TemporaryFile file(obj, ".obj");
   BuiltModel model(file.path());
   const ModelInfo& info = model.model().info();
   EXPECT_EQ(info.triangles, 2U);
-  EXPECT_EQ(info.set_aside, 1U);
-  EXPECT_EQ(info.first_set_aside, 1U);
-  const ClosestPoint first = model.ask({0.2, 0.2, 1}), last = model.ask({0.2, 0.2, 9});
+  EXPECT_EQ(info.skipped, 1U);
+  EXPECT_EQ(info.first_skipped, 1U);
+  const ClosestPoint first = model.closest_point({0.2, 0.2, 1}),
+                     last = model.closest_point({0.2, 0.2, 9});
   EXPECT_EQ(first.triangle, 0U);
   EXPECT_EQ(first.distance, 1);
   EXPECT_EQ(last.triangle, 2U);
   EXPECT_EQ(last.distance, 1);
-  expect_same_bits(first, model.ask({0.2, 0.2, 1}));
+  expect_same_bits(first, model.closest_point({0.2, 0.2, 1}));
 }
 
 const std::string kVertices =
@@ -43,11 +44,11 @@ const std::string kVertices =
     "v 0 0 10\nv 1 0 10\nv 0 1 10\n";
 
 TEST(StabilityInput, FaceOfAVertexThatIsNotThereIsSetAside) {
-  expect_set_aside(kVertices + "f 1 2 3\nf 1 2 99\nf 4 5 6\n");
+  expect_skipped(kVertices + "f 1 2 3\nf 1 2 99\nf 4 5 6\n");
 }
 
 TEST(StabilityInput, FaceOfTwoCornersIsSetAside) {
-  expect_set_aside(kVertices + "f 1 2 3\nf 1 2\nf 4 5 6\n");
+  expect_skipped(kVertices + "f 1 2 3\nf 1 2\nf 4 5 6\n");
 }
 
 // In every format: a vertex that is infinite and, where there are such, an index that
@@ -66,12 +67,12 @@ TEST(StabilityInput, BadRecordsOfEveryFormatAreSetAsideAndTheRestAnswers) {
     const TemporaryFile file(format.write(mesh, {}), format.extension);
     BuiltModel model(file.path());
     EXPECT_EQ(model.model().info().triangles, 2U) << format.name;
-    EXPECT_EQ(model.model().info().set_aside, last - 1) << format.name;
-    EXPECT_EQ(model.model().info().first_set_aside, 0U) << format.name;
-    EXPECT_EQ(model.ask({0.25, 0.25, 1}).triangle, 1U) << format.name;
-    EXPECT_EQ(model.ask({0.25, 0.25, 1}).distance, 1) << format.name;
-    EXPECT_EQ(model.ask({0.25, 0.25, 9}).triangle, last) << format.name;
-    EXPECT_EQ(model.ask({0.25, 0.25, 9}).distance, 1) << format.name;
+    EXPECT_EQ(model.model().info().skipped, last - 1) << format.name;
+    EXPECT_EQ(model.model().info().first_skipped, 0U) << format.name;
+    EXPECT_EQ(model.closest_point({0.25, 0.25, 1}).triangle, 1U) << format.name;
+    EXPECT_EQ(model.closest_point({0.25, 0.25, 1}).distance, 1) << format.name;
+    EXPECT_EQ(model.closest_point({0.25, 0.25, 9}).triangle, last) << format.name;
+    EXPECT_EQ(model.closest_point({0.25, 0.25, 9}).distance, 1) << format.name;
   }
 }
 
@@ -83,10 +84,10 @@ TEST(StabilityInput, VertexThatIsNoNumberIsSetAside) {
                          {Vec3{0, 0, 5}, Vec3{bad, 0, 5}, Vec3{0, 1, 5}},
                          {Vec3{0, 0, 10}, Vec3{1, 0, 10}, Vec3{0, 1, 10}}};
     BuiltModel model(triangles);
-    EXPECT_EQ(model.model().info().set_aside, 1U);
-    EXPECT_EQ(model.model().info().first_set_aside, 1U);
-    EXPECT_EQ(model.ask({0.2, 0.2, 5}).triangle, 0U);
-    EXPECT_EQ(model.ask({0.2, 0.2, 9}).triangle, 2U);
+    EXPECT_EQ(model.model().info().skipped, 1U);
+    EXPECT_EQ(model.model().info().first_skipped, 1U);
+    EXPECT_EQ(model.closest_point({0.2, 0.2, 5}).triangle, 0U);
+    EXPECT_EQ(model.closest_point({0.2, 0.2, 9}).triangle, 2U);
   }
 }
 
@@ -135,10 +136,10 @@ TEST(StabilityInput, OffsetsPast32BitsAndIndicesPast31) {
   BuiltModel model(mesh.path());
   EXPECT_EQ(model.model().info().vertices, SparseMesh::kVertices);
   EXPECT_EQ(model.model().info().triangles, 2U);
-  EXPECT_EQ(model.ask({-3, -4, 0}).distance, 5);
-  EXPECT_EQ(model.ask({-3, -4, 0}).triangle, 0U);
-  EXPECT_EQ(model.ask({1, 1, 5}).distance, 2);
-  EXPECT_EQ(model.ask({1, 1, 5}).triangle, 1U);
+  EXPECT_EQ(model.closest_point({-3, -4, 0}).distance, 5);
+  EXPECT_EQ(model.closest_point({-3, -4, 0}).triangle, 0U);
+  EXPECT_EQ(model.closest_point({1, 1, 5}).distance, 2);
+  EXPECT_EQ(model.closest_point({1, 1, 5}).triangle, 1U);
 }
 
 }  // namespace

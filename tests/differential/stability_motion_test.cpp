@@ -43,32 +43,32 @@ TEST(StabilityMotion, ScalingByAPowerOfTwo) {
   for (int exponent = -40; exponent <= 40; exponent += 5) {
     BuiltModel model(scaled(triangles, std::ldexp(1.0, exponent)));
     for (const Vec3& query : queries) {
-      ClosestPoint expected = original.ask(query);
+      ClosestPoint expected = original.closest_point(query);
       expected.distance = std::ldexp(expected.distance, exponent);
       expected.lower = std::ldexp(expected.lower, exponent);
       expected.upper = std::ldexp(expected.upper, exponent);
       expected.point = by_power_of_two(expected.point, exponent);
-      expect_same_bits(model.ask(by_power_of_two(query, exponent)), expected);
+      expect_same_bits(model.closest_point(by_power_of_two(query, exponent)), expected);
     }
   }
 }
 
-// Moved by a power of two that loses no bit of any coordinate, distances keep
+// Perturbed by a power of two that loses no bit of any coordinate, distances keep
 // all of theirs.
 TEST(StabilityMotion, TranslationByAPowerOfTwo) {
   Random random(2);
   const auto coordinate = [&] { return static_cast<double>(random.below(1 << 20)) * 0x1p-20; };
-  const auto place = [&] { return Vec3{coordinate(), coordinate(), coordinate()}; };
+  const auto index = [&] { return Vec3{coordinate(), coordinate(), coordinate()}; };
   Soup triangles;
-  for (int i = 0; i < 150; ++i) triangles.push_back({place(), place(), place()});
+  for (int i = 0; i < 150; ++i) triangles.push_back({index(), index(), index()});
   BuiltModel original(triangles);
   std::vector<Vec3> queries;
-  for (int i = 0; i < 100; ++i) queries.push_back(place());
+  for (int i = 0; i < 100; ++i) queries.push_back(index());
   for (const int exponent : {1, 8, 16, 24, 31}) {
     const Vec3 offset = Vec3{1, -1, 1} * std::ldexp(1.0, exponent);
-    BuiltModel model(moved(triangles, offset));
+    BuiltModel model(perturbed(triangles, offset));
     for (const Vec3& query : queries) {
-      const ClosestPoint expected = original.ask(query);
+      const ClosestPoint expected = original.closest_point(query);
       const ClosestPoint answer = expect_sound(model, query + offset);
       EXPECT_EQ(answer.distance, expected.distance);
       EXPECT_EQ(answer.triangle, expected.triangle);
@@ -93,7 +93,7 @@ TEST(StabilityMotion, Rotation) {
       for (Vec3& corner : triangle) corner = turned(corner);
     BuiltModel model(around);
     for (const Vec3& query : queries) {
-      const double before = original.ask(query).distance;
+      const double before = original.closest_point(query).distance;
       const double largest = 3 + std::fabs(query.x) + std::fabs(query.y) + std::fabs(query.z);
       EXPECT_NEAR(expect_sound(model, turned(query)).distance, before, 8 * 0x1p-53 * largest);
     }
@@ -104,13 +104,13 @@ TEST(StabilityMotion, Rotation) {
 Soup closed_model(std::uint64_t seed) {
   Random random(seed);
   const auto coordinate = [&] { return static_cast<double>(random.below(1 << 20)) * 0x1p-20; };
-  const auto place = [&] {
+  const auto index = [&] {
     const double x = coordinate(), y = coordinate(), z = coordinate();
     return Vec3{x, y, z};
   };
   Soup soup;
   for (int i = 0; i < 20; ++i) {
-    const Vec3 a = place(), b = place(), c = place(), d = place();
+    const Vec3 a = index(), b = index(), c = index(), d = index();
     soup = soup + tetrahedron(a, b, c, d);
   }
   return soup;
@@ -129,7 +129,7 @@ void expect_direction(const Vec3& found, const Vec3& expected) {
 }
 
 // Whether a normal can be turned by the way to the query.
-bool can_be_told(const ClosestPoint& answer) { return answer.distance > 1e-9; }
+bool can_be_certain(const ClosestPoint& answer) { return answer.distance > 1e-9; }
 
 TEST(StabilityMotion, ScalingAWatertightModelByAPowerOfTwo) {
   const Soup triangles = closed_model(5);
@@ -139,8 +139,8 @@ TEST(StabilityMotion, ScalingAWatertightModelByAPowerOfTwo) {
   for (int exponent = -40; exponent <= 40; exponent += 10) {
     BuiltModel model(scaled(triangles, std::ldexp(1.0, exponent)));
     for (const Vec3& query : queries) {
-      const ClosestPoint expected = original.ask(query);
-      const ClosestPoint answer = model.ask(by_power_of_two(query, exponent));
+      const ClosestPoint expected = original.closest_point(query);
+      const ClosestPoint answer = model.closest_point(by_power_of_two(query, exponent));
       EXPECT_EQ(answer.distance, std::ldexp(expected.distance, exponent));
       EXPECT_EQ(answer.side, expected.side);
       EXPECT_EQ(answer.normal.x, expected.normal.x);
@@ -155,7 +155,7 @@ TEST(StabilityMotion, TranslationOfAWatertightModel) {
   Random random(6);
   BuiltModel original(triangles);
   for (const Vec3& offset : {Vec3{1, -3, 0.5}, Vec3{-4096, 0, 1024.25}, Vec3{1, 1, 1} * 0x1p30}) {
-    BuiltModel model(moved(triangles, offset));
+    BuiltModel model(perturbed(triangles, offset));
     for (int i = 0; i < 100; ++i) {
       const Vec3 on_lattice = [&] {
         const auto coordinate = [&] {
@@ -165,7 +165,8 @@ TEST(StabilityMotion, TranslationOfAWatertightModel) {
         return Vec3{x, y, z};
       }();
       const Vec3 query = i % 3 == 0 ? triangles[random.below(triangles.size())][0] : on_lattice;
-      const ClosestPoint expected = original.ask(query), answer = model.ask(query + offset);
+      const ClosestPoint expected = original.closest_point(query),
+                         answer = model.closest_point(query + offset);
       expect_same_place(answer, expected);
       EXPECT_EQ(answer.triangle, expected.triangle);
       expect_direction(answer.normal, expected.normal);
@@ -188,7 +189,8 @@ TEST(StabilityMotion, OrderOfTriangles) {
   }
   BuiltModel model(triangles);
   for (const Vec3& query : queries) {
-    const ClosestPoint expected = original.ask(query), answer = expect_sound(model, query);
+    const ClosestPoint expected = original.closest_point(query),
+                       answer = expect_sound(model, query);
     expect_same_place(answer, expected);
     if (was[answer.triangle] != expected.triangle) continue;  // as far, and now the first
     EXPECT_EQ(answer.lower, expected.lower);
@@ -208,7 +210,7 @@ TEST(StabilityMotion, OrderOfCorners) {
       triangles[i] = {triangles[i][1], triangles[i][2], triangles[i][0]};
   BuiltModel turned(triangles), reversed(inside_out(triangles));
   for (const Vec3& query : queries) {
-    const ClosestPoint expected = original.ask(query);
+    const ClosestPoint expected = original.closest_point(query);
     for (BuiltModel* model : {&turned, &reversed}) {
       const ClosestPoint answer = expect_sound(*model, query);
       expect_same_place(answer, expected);
@@ -216,9 +218,9 @@ TEST(StabilityMotion, OrderOfCorners) {
       EXPECT_EQ(answer.feature, expected.feature);
     }
     // Out of the solid, however its faces are made.
-    if (can_be_told(expected)) {
-      expect_direction(turned.ask(query).normal, expected.normal);
-      expect_direction(reversed.ask(query).normal, expected.normal);
+    if (can_be_certain(expected)) {
+      expect_direction(turned.closest_point(query).normal, expected.normal);
+      expect_direction(reversed.closest_point(query).normal, expected.normal);
     }
   }
 }
@@ -236,13 +238,13 @@ TEST(StabilityMotion, Mirror) {
     BuiltModel model(triangles);
     EXPECT_EQ(model.model().info().watertight(), original.model().info().watertight());
     for (const Vec3& query : queries) {
-      const ClosestPoint expected = original.ask(query);
+      const ClosestPoint expected = original.closest_point(query);
       const ClosestPoint answer = expect_sound(model, mirrored(query));
       EXPECT_EQ(answer.side, expected.side);
       EXPECT_LE(answer.lower, expected.upper);
       EXPECT_GE(answer.upper, expected.lower);
       if (answer.triangle != expected.triangle || answer.feature != expected.feature) continue;
-      if (can_be_told(expected)) expect_direction(answer.normal, mirrored(expected.normal));
+      if (can_be_certain(expected)) expect_direction(answer.normal, mirrored(expected.normal));
     }
   }
 }
@@ -278,7 +280,8 @@ TEST(StabilityMotion, PageSizeDoesNotMatter) {
   const std::vector<Vec3> queries = some_queries(triangles, 200);
   for (const std::uint32_t page_bytes : {4096U, 16384U, 262144U}) {
     BuiltModel model(triangles, {page_bytes, 8 << 20, 1});
-    for (const Vec3& query : queries) expect_same_bits(model.ask(query), original.ask(query));
+    for (const Vec3& query : queries)
+      expect_same_bits(model.closest_point(query), original.closest_point(query));
   }
 }
 

@@ -39,7 +39,7 @@ TEST(StabilityNormal, AcuteTetrahedronFromFar) {
   expect_normals(spike, 1, 300);
   BuiltModel model(spike);
   for (const double x : {-100.0, 0.0, 100.0}) {
-    const ClosestPoint answer = model.ask({x, 50, 100});
+    const ClosestPoint answer = model.closest_point({x, 50, 100});
     EXPECT_EQ(answer.feature, Feature::kVertex);
     EXPECT_EQ(answer.side, Side::kOutside);
     EXPECT_GT(answer.normal.z, 0.9);
@@ -51,7 +51,7 @@ TEST(StabilityNormal, AcuteEdgeBetweenATinyAndAHugeFace) {
   const Soup wedge = tetrahedron({0, 0, 0}, {-1e6, 0.5, 1e5}, {0, 1, 0}, {-1e-3, 0.5, -1e-4});
   expect_normals(wedge, 1e-3, 300);
   BuiltModel model(wedge);
-  const ClosestPoint answer = model.ask({1, 0.5, 0});
+  const ClosestPoint answer = model.closest_point({1, 0.5, 0});
   EXPECT_EQ(answer.feature, Feature::kEdge);
   EXPECT_EQ(answer.side, Side::kOutside);
   EXPECT_GT(answer.normal.x, 0);
@@ -69,10 +69,10 @@ TEST(StabilityNormal, VertexOfAThousandFaces) {
     cone.push_back({Vec3{0, 0, 0}, rim(i + 1), rim(i)});
   }
   BuiltModel model(cone, {4096, 1 << 20, 1});
-  const ClosestPoint tip = model.ask({0.1, -0.2, 3});
+  const ClosestPoint tip = model.closest_point({0.1, -0.2, 3});
   EXPECT_EQ(tip.feature, Feature::kVertex);
   expect_direction(tip.normal, {0, 0, 1});
-  expect_direction(model.ask({0, 0, -2}).normal, {0, 0, -1});
+  expect_direction(model.closest_point({0, 0, -2}).normal, {0, 0, -1});
 }
 
 // Half of the faces around it lean one way, half the other.
@@ -88,7 +88,7 @@ TEST(StabilityNormal, SaddleVertex) {
     saddle.push_back({Vec3{0, 0, -5}, rim(i + 1), rim(i)});
   }
   BuiltModel model(saddle);
-  const ClosestPoint above = model.ask({0, 0, 0.1});
+  const ClosestPoint above = model.closest_point({0, 0, 0.1});
   EXPECT_EQ(above.side, Side::kOutside);
   EXPECT_GT(above.normal.z, 0.5);
   expect_normals(saddle, 0.3, 300);
@@ -104,10 +104,10 @@ TEST(StabilityNormal, SubdividedFlatFace) {
   }
   BuiltModel left(coarse), right(fine);
   for (const Vec3& query : {Vec3{2, 2, 2}, Vec3{-1, -2, -3}, Vec3{1.5, 0.3, 1.5}, Vec3{2, 2, -1}}) {
-    const Vec3 found = right.ask(query).normal;
-    expect_direction(left.ask(query).normal, found);
+    const Vec3 found = right.closest_point(query).normal;
+    expect_direction(left.closest_point(query).normal, found);
   }
-  expect_direction(left.ask({2, 2, 2}).normal, {1, 1, 1});
+  expect_direction(left.closest_point({2, 2, 2}).normal, {1, 1, 1});
 }
 
 // From beyond where doubles can measure, normals turn as they do from near.
@@ -117,7 +117,8 @@ TEST(StabilityNormal, FarQueriesOfAnInsideOutModel) {
   const Vec3 ways[] = {{1, 0.25, 0.125}, {-0.5, 1, 0.25}, {-0.25, -0.5, -1}};
   for (const Vec3& way : ways)
     for (const double far : {1e3, 1e80, 1e92, 1e200, 1e308}) {
-      const ClosestPoint left = outward.ask(way * far), right = inward.ask(way * far);
+      const ClosestPoint left = outward.closest_point(way * far),
+                         right = inward.closest_point(way * far);
       EXPECT_GT(dot(left.normal, way), 0) << far;
       EXPECT_GT(dot(right.normal, way), 0) << far;
       EXPECT_EQ(left.side, Side::kOutside);
@@ -130,7 +131,7 @@ TEST(StabilityNormal, OppositeDuplicateFaces) {
   const Corners back{face[0], face[2], face[1]};
   BuiltModel model({back, face});
   for (const Vec3& query : {Vec3{-1, -1, 1}, Vec3{0.5, -1, 1}}) {
-    const ClosestPoint answer = model.ask(query);
+    const ClosestPoint answer = model.closest_point(query);
     EXPECT_NE(answer.feature, Feature::kFace);
     EXPECT_EQ(std::fabs(answer.normal.z), 1);
     EXPECT_GT(answer.normal.z, 0);  // nothing is inside: it points to the query
@@ -148,15 +149,15 @@ TEST(StabilityNormal, EdgeOfThreeFaces) {
 // Outside on both sides: it points to the query.
 TEST(StabilityNormal, OpenBorder) {
   BuiltModel model({{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}});
-  expect_direction(model.ask({-1, -1, 0.5}).normal, {0, 0, 1});
-  expect_direction(model.ask({-1, -1, -0.5}).normal, {0, 0, -1});
+  expect_direction(model.closest_point({-1, -1, 0.5}).normal, {0, 0, 1});
+  expect_direction(model.closest_point({-1, -1, -0.5}).normal, {0, 0, -1});
 }
 
 TEST(StabilityNormal, FacesWithoutArea) {
   const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{2, 0, 0};
   BuiltModel model({{a, b, c}, {a, a, a}});
-  expect_direction(model.ask({0.5, 1, 0}).normal, {0, 0, 1});
-  expect_direction(model.ask({-1, 0, 0}).normal, {0, 0, 1});
+  expect_direction(model.closest_point({0.5, 1, 0}).normal, {0, 0, 1});
+  expect_direction(model.closest_point({-1, 0, 0}).normal, {0, 0, 1});
 }
 
 }  // namespace

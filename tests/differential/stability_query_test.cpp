@@ -36,10 +36,10 @@ TEST(StabilityQuery, OnTheSurface) {
     EXPECT_EQ(answer.distance, 0);
     EXPECT_EQ(answer.lower, 0);
   }
-  EXPECT_EQ(model.ask({4, 0, 0}).feature, Feature::kVertex);
-  EXPECT_EQ(model.ask({4, 0, 0}).triangle, 0U);
-  EXPECT_EQ(model.ask({2, 2, 0}).feature, Feature::kEdge);
-  EXPECT_EQ(model.ask({1, 1, 0}).feature, Feature::kFace);
+  EXPECT_EQ(model.closest_point({4, 0, 0}).feature, Feature::kVertex);
+  EXPECT_EQ(model.closest_point({4, 0, 0}).triangle, 0U);
+  EXPECT_EQ(model.closest_point({2, 2, 0}).feature, Feature::kEdge);
+  EXPECT_EQ(model.closest_point({1, 1, 0}).feature, Feature::kFace);
 }
 
 // The least step there is beside a corner, in all 26 directions.
@@ -75,13 +75,13 @@ TEST(StabilityQuery, NotANumber) {
   BuiltModel model(strip(3));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity})
     for (const Vec3& query : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}, Vec3{0, 0, bad}}) {
-      const ClosestPoint answer = model.ask(query);
+      const ClosestPoint answer = model.closest_point(query);
       EXPECT_EQ(answer.status, Status::kBadQuery);
       EXPECT_EQ(answer.lower, 0);
       EXPECT_EQ(answer.distance, kInfinity);
       EXPECT_EQ(answer.upper, kInfinity);
       EXPECT_EQ(answer.triangle, kNoTriangle);
-      expect_same_bits(answer, model.ask(query));
+      expect_same_bits(answer, model.closest_point(query));
     }
 }
 
@@ -90,12 +90,12 @@ TEST(StabilityQuery, LimitsThatAreNoNumbers) {
   BuiltModel model(strip(3));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {nan, -1.0, -kInfinity, kInfinity}) {
-    Ask ask;
-    ask.max_error = bad;
-    EXPECT_EQ(model.ask({0, 0, 0}, ask).status, Status::kBadQuery);
-    ask = {};
-    ask.max_distance = bad;
-    EXPECT_EQ(model.ask({0, 0, 0}, ask).status,
+    QueryOptions options;
+    options.max_error = bad;
+    EXPECT_EQ(model.closest_point({0, 0, 0}, options).status, Status::kBadQuery);
+    options = {};
+    options.max_distance = bad;
+    EXPECT_EQ(model.closest_point({0, 0, 0}, options).status,
               bad == kInfinity ? Status::kExact : Status::kBadQuery);
   }
 }
@@ -107,7 +107,7 @@ TEST(StabilityQuery, DistanceBeyondDoubles) {
   const Soup triangles{{Vec3{-h, -h, -h}, Vec3{-h, -h, -h / 2}, Vec3{-h, -h / 2, -h}}};
   BuiltModel model(triangles);
   for (const Vec3& query : {Vec3{h, h, h}, Vec3{h, -h, h}, Vec3{kGreatest, 0, 0}}) {
-    const ClosestPoint answer = model.ask(query);
+    const ClosestPoint answer = model.closest_point(query);
     EXPECT_EQ(answer.status, Status::kExact);
     EXPECT_EQ(answer.triangle, 0U);
     EXPECT_TRUE(std::isfinite(answer.lower));
@@ -118,13 +118,13 @@ TEST(StabilityQuery, DistanceBeyondDoubles) {
 
 // What lies within max_distance is found, however large an error is allowed.
 TEST(StabilityQuery, ErrorAndDistanceLimitsTogether) {
-  BuiltModel model(moved(strip(100), {0, 9.5, 0}));
-  Ask ask;
-  ask.max_error = 1;
-  ask.max_distance = 10;
-  EXPECT_NE(expect_sound(model, {50, 0, 0}, ask).status, Status::kBeyondMaxDistance);
-  ask.max_distance = 9;
-  EXPECT_EQ(expect_sound(model, {50, 0, 0}, ask).status, Status::kBeyondMaxDistance);
+  BuiltModel model(perturbed(strip(100), {0, 9.5, 0}));
+  QueryOptions options;
+  options.max_error = 1;
+  options.max_distance = 10;
+  EXPECT_NE(expect_sound(model, {50, 0, 0}, options).status, Status::kBeyondMaxDistance);
+  options.max_distance = 9;
+  EXPECT_EQ(expect_sound(model, {50, 0, 0}, options).status, Status::kBeyondMaxDistance);
 }
 
 // A limit an ulp below the distance found: "beyond it" must be true in truth,
@@ -135,21 +135,21 @@ TEST(StabilityQuery, DistanceLimitAtTheDistance) {
   BuiltModel model(triangles);
   for (int i = 0; i < 500; ++i) {
     const Vec3 query = random.in_cube();
-    Ask ask;
-    ask.max_distance = model.ask(query).distance;
-    EXPECT_EQ(expect_sound(model, query, ask).status, Status::kExact);
-    ask.max_distance = std::nextafter(ask.max_distance, 0);
-    expect_sound(model, query, ask);
+    QueryOptions options;
+    options.max_distance = model.closest_point(query).distance;
+    EXPECT_EQ(expect_sound(model, query, options).status, Status::kExact);
+    options.max_distance = std::nextafter(options.max_distance, 0);
+    expect_sound(model, query, options);
   }
 }
 
 // No work at all still gives bounds, at once.
 TEST(StabilityQuery, NoNodes) {
   BuiltModel model(strip(300));
-  Ask ask;
-  ask.max_nodes = 0;
+  QueryOptions options;
+  options.max_work = 0;
   for (const Vec3& query : {Vec3{150, 0.5, 0.2}, Vec3{-70, 3, 1}, Vec3{0, 0, 1e12}}) {
-    const ClosestPoint answer = expect_sound(model, query, ask);
+    const ClosestPoint answer = expect_sound(model, query, options);
     EXPECT_EQ(answer.status, Status::kDegraded);
     EXPECT_EQ(answer.triangle, kNoTriangle);
   }

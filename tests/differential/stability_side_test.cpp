@@ -40,7 +40,7 @@ TEST(StabilitySide, LatticeQueriesOfACube) {
                                                             : Side::kInside;
         const Vec3 query{x * 0.25, y * 0.25, z * 0.25};
         EXPECT_EQ(side_of(cube, query), expected) << x << ' ' << y << ' ' << z;
-        EXPECT_EQ(cube.ask(query).side, expected);
+        EXPECT_EQ(cube.closest_point(query).side, expected);
       }
 }
 
@@ -78,8 +78,8 @@ TEST(StabilitySide, InsideOutModel) {
   BuiltModel model(inside_out(ball(2)));
   EXPECT_EQ(side_of(model, {0, 0, 0}), Side::kInside);
   EXPECT_EQ(side_of(model, {1.1, 0, 0}), Side::kOutside);
-  EXPECT_LT(model.ask({0, 0, 0}).signed_distance(), 0);
-  EXPECT_GT(model.ask({2, 0, 0}).signed_distance(), 0);
+  EXPECT_LT(model.closest_point({0, 0, 0}).signed_distance(), 0);
+  EXPECT_GT(model.closest_point({2, 0, 0}).signed_distance(), 0);
   expect_sides(inside_out(ball(2)), 200);
 }
 
@@ -172,7 +172,7 @@ TEST(StabilitySide, CentreOfASphere) {
   for (unsigned levels = 0; levels < 4; ++levels) {
     BuiltModel model(ball(levels));
     EXPECT_EQ(side_of(model, {0, 0, 0}), Side::kInside);
-    EXPECT_EQ(model.ask({0, 0, 0}).side, Side::kInside);
+    EXPECT_EQ(model.closest_point({0, 0, 0}).side, Side::kInside);
   }
 }
 
@@ -180,7 +180,7 @@ TEST(StabilitySide, FarQueries) {
   BuiltModel model(ball(2));
   for (const double far : {1.5, 1e10, 1e100, 1e300, 1e308, -1e308}) {
     EXPECT_EQ(side_of(model, {far, 0, 0}), Side::kOutside);
-    EXPECT_EQ(model.ask({0, far, 0}).side, Side::kOutside);
+    EXPECT_EQ(model.closest_point({0, far, 0}).side, Side::kOutside);
   }
   EXPECT_EQ(side_of(model, {kInfinity, 0, 0}), Side::kUnknown);
   EXPECT_EQ(model.probe().contains({0, kInfinity, 0}).status, Status::kBadQuery);

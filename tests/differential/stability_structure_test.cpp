@@ -74,14 +74,14 @@ TEST(StabilityStructure, MillionCoincidentTriangles) {
   EXPECT_LE(info.levels, 20U);
   ClosestPoint answer;
   for (const Vec3& query : {Vec3{0, 0, 0}, Vec3{0.5, 0.5, 0.5}, Vec3{9, 9, 9}}) {
-    answer = model.ask(query, {.parts = kDistance});
+    answer = model.closest_point(query, {.parts = kDistance});
     EXPECT_EQ(answer.triangle, 0U);
     EXPECT_EQ(answer.status, Status::kExact);
     const Wide truth = exact_distance(query, std::span(&triangle, 1));
     EXPECT_LE(Wide(answer.lower), truth);
     EXPECT_LE(truth, Wide(answer.upper));
   }
-  expect_same_bits(answer, model.ask({9, 9, 9}, {.parts = kDistance}));
+  expect_same_bits(answer, model.closest_point({9, 9, 9}, {.parts = kDistance}));
   const Stats stats = model.model().stats();
   EXPECT_LE(stats.page_misses, 2 * info.pages);
 }
@@ -89,7 +89,7 @@ TEST(StabilityStructure, MillionCoincidentTriangles) {
 // A fine part and a coarse one: no mean edge length describes both.
 TEST(StabilityStructure, EdgeLengthsOfTwoScales) {
   Random random(11);
-  Soup triangles = moved(scaled(scattered(random, 300, 0.1), 1e-7), {0.4, 0.5, 0.6});
+  Soup triangles = perturbed(scaled(scattered(random, 300, 0.1), 1e-7), {0.4, 0.5, 0.6});
   for (const Corners& triangle : scattered(random, 100, 1)) triangles.push_back(triangle);
   BuiltModel model(triangles, {4096, 1 << 20, 1});
   expect_sound_around(model, 1e-7, 100);

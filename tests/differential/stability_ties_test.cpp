@@ -1,4 +1,4 @@
-// Places that are equally far from many triangles: axes, centres, medial planes.
+// Indices that are equally far from many triangles: axes, centres, medial planes.
 
 #include <gtest/gtest.h>
 
@@ -92,20 +92,20 @@ TEST(StabilityTies, MedialSurfaceOfABox) {
       for (const double step : {0x1p-53, -0x1p-53, 0x1p-30, -0x1p-30})
         expect_sound(model, query + Vec3{0, step, 0});
     }
-    EXPECT_EQ(model.ask({t, t, t}).distance, t);
+    EXPECT_EQ(model.closest_point({t, t, t}).distance, t);
   }
   // One step nearer to one face than to the other: that face.
-  EXPECT_EQ(model.ask({0.25, 0.25 - 0x1p-54, 2}).normal.y, -1);
-  EXPECT_EQ(model.ask({0.25 - 0x1p-54, 0.25, 2}).normal.x, -1);
+  EXPECT_EQ(model.closest_point({0.25, 0.25 - 0x1p-54, 2}).normal.y, -1);
+  EXPECT_EQ(model.closest_point({0.25 - 0x1p-54, 0.25, 2}).normal.x, -1);
 }
 
 // Outside, between two solids.
 TEST(StabilityTies, MidwayBetweenTwoSolids) {
   BuiltModel model(box({0, 0, 0}, {1, 1, 1}) + box({2, 0, 0}, {3, 1, 1}));
   for (int y = -2; y <= 6; ++y) expect_sound(model, {1.5, y / 4.0, 0.5});
-  EXPECT_EQ(model.ask({1.5, 0.5, 0.5}).point.x, 1);  // the first
-  EXPECT_EQ(model.ask({1.5 + 0x1p-52, 0.5, 0.5}).normal.x, -1);
-  EXPECT_EQ(model.ask({1.5 - 0x1p-52, 0.5, 0.5}).normal.x, 1);
+  EXPECT_EQ(model.closest_point({1.5, 0.5, 0.5}).point.x, 1);  // the first
+  EXPECT_EQ(model.closest_point({1.5 + 0x1p-52, 0.5, 0.5}).normal.x, -1);
+  EXPECT_EQ(model.closest_point({1.5 - 0x1p-52, 0.5, 0.5}).normal.x, 1);
 }
 
 }  // namespace

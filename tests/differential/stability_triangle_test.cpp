@@ -14,7 +14,7 @@
 namespace planetree::oracle {
 namespace {
 
-// Asks all about a model whose features are about `size` large.
+// Queries all about a model whose features are about `size` large.
 void expect_sound_around(const Soup& triangles, double size, int queries = 300) {
   BuiltModel model(triangles);
   Random random(17);
@@ -182,7 +182,8 @@ TEST(StabilityTriangle, OrderDoesNotMatter) {
     const Corners turned{corners[order[0]], corners[order[1]], corners[order[2]]};
     BuiltModel model({other, turned, {a, b, c}, other});
     for (const Vec3& query : queries) {
-      const ClosestPoint expected = reference.ask(query), answer = expect_sound(model, query);
+      const ClosestPoint expected = reference.closest_point(query),
+                         answer = expect_sound(model, query);
       EXPECT_EQ(answer.distance, expected.distance);
       EXPECT_EQ(answer.triangle, expected.triangle == 0 ? 1U : 0U);
     }

@@ -86,7 +86,8 @@ TEST(StabilityWinding, AnInsideOutBowl) {
   for (int i = 0; i < 200; ++i) {
     const Vec3 query = random.in_cube() * 1.2;
     EXPECT_EQ(side_of(model, query), side_of(turned, query));
-    const Vec3 normal = model.ask(query).normal, other = turned.ask(query).normal;
+    const Vec3 normal = model.closest_point(query).normal,
+               other = turned.closest_point(query).normal;
     EXPECT_EQ(normal.x, other.x);
     EXPECT_EQ(normal.y, other.y);
     EXPECT_EQ(normal.z, other.z);
@@ -99,7 +100,7 @@ TEST(StabilityWinding, OnATriangle) {
   BuiltModel model(faces);
   for (const Corners& t : faces) {
     for (const Vec3& corner : t) EXPECT_EQ(side_of(model, corner), Side::kOnSurface);
-    const ClosestPoint answer = model.ask(t[0]);
+    const ClosestPoint answer = model.closest_point(t[0]);
     EXPECT_EQ(answer.distance, 0);
     const Vec3 normal = answer.normal;
     EXPECT_GT(normal.x * t[0].x + normal.y * t[0].y + normal.z * t[0].z, 0.5);
@@ -134,21 +135,21 @@ TEST(StabilityWinding, WorkThatEnds) {
   Random random(37);
   std::vector<Vec3> queries;
   for (int i = 0; i < 60; ++i) queries.push_back(random.in_cube() * 1.1);
-  std::size_t told_before = 0;
+  std::size_t certain_before = 0;
   for (std::uint32_t nodes = 1; nodes < 2 * (info.nodes + info.blocks); nodes *= 2) {
-    std::size_t told = 0;
+    std::size_t certain = 0;
     for (const Vec3& query : queries) {
-      const Containment found = model.probe().contains(query, {.max_nodes = nodes});
+      const Containment found = model.probe().contains(query, {.max_work = nodes});
       ASSERT_EQ(found.side == Side::kUnknown, found.status == Status::kDegraded);
       if (found.side == Side::kUnknown) continue;
-      ++told;
+      ++certain;
       const long double w = std::fabs(open_winding(query, faces).value);
       EXPECT_EQ(found.side, w > 0.5L ? Side::kInside : Side::kOutside) << nodes;
     }
-    EXPECT_GE(told, told_before);
-    told_before = told;
+    EXPECT_GE(certain, certain_before);
+    certain_before = certain;
   }
-  EXPECT_EQ(told_before, queries.size());
+  EXPECT_EQ(certain_before, queries.size());
 }
 
 // Eighths of a sphere that sum to one half: nothing can tell, and that is known.
@@ -166,7 +167,7 @@ TEST(StabilityWinding, FarQueries) {
   BuiltModel model(bowl(3, 0.0));
   for (const double far : {1.5, 1e10, 1e100, 1e300, 1e308, -1e308}) {
     EXPECT_EQ(side_of(model, {far, 0, 0}), Side::kOutside);
-    EXPECT_EQ(model.ask({0, 0, far}).side, Side::kOutside);
+    EXPECT_EQ(model.closest_point({0, 0, far}).side, Side::kOutside);
   }
 }
 

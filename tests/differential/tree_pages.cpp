@@ -31,23 +31,23 @@ TreePages::TreePages(const std::filesystem::path& path) {
   model_ = header.model;
   shape_.float64 = model_.vertex_kind == storage::VertexKind::kFloat64;
   shape_.wide_ids = model_.triangle_id_bytes == 8;
-  shape_.moments = model_.open_edge_count != 0;
+  shape_.moments = model_.unbalanced_edge_count != 0;
   links_ = octree::LinkFormat(header.page_bytes);
   std::vector<std::byte> stored(header.max_stored_bytes), raw(header.max_raw_bytes);
   for (std::uint32_t page = 0; page < header.page_count; ++page) {
     const storage::PageEntry& entry = file.entries()[page];
     const std::span<std::byte> bytes(raw.data(), entry.raw_bytes);
     need(file.read_page(page, stored, bytes));
-    octree::PageFacts facts;
-    facts.page_bytes = header.page_bytes;
-    facts.page_count = header.page_count;
-    facts.shape = shape_;
-    facts.page_number = page;
-    facts.octcode = entry.octcode;
-    facts.ordinal = entry.ordinal;
+    octree::PageInfo info;
+    info.page_bytes = header.page_bytes;
+    info.page_count = header.page_count;
+    info.shape = shape_;
+    info.page_number = page;
+    info.octcode = entry.octcode;
+    info.ordinal = entry.ordinal;
     auto* frame = new (std::align_val_t{64}) std::byte[header.page_bytes];
     frames_.emplace_back(frame);
-    need(octree::decode_page(bytes, facts, {frame, header.page_bytes}));
+    need(octree::decode_page(bytes, info, {frame, header.page_bytes}));
   }
 }
 

@@ -13,15 +13,15 @@ namespace planetree::oracle {
 /// Hands a mesh on round by round, so that no more than one round of it is in memory.
 class TriangleRounds : public octree::TriangleSink {
  public:
-  explicit TriangleRounds(std::size_t most) : most_(most) {}
+  explicit TriangleRounds(std::size_t most) : max_(most) {}
 
   Result<void> triangle(std::uint64_t index, const Corners& corners) final {
     indices_.push_back(index);
     triangles_.push_back(corners);
-    if (triangles_.size() == most_) finish_round();
+    if (triangles_.size() == max_) finish_round();
     return {};
   }
-  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) final {}
+  void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) final {}
   void progress(std::uint64_t, std::uint64_t) final {}
 
   /// The last round: to be called once the mesh was read.
@@ -42,7 +42,7 @@ class TriangleRounds : public octree::TriangleSink {
     indices_.clear();
   }
 
-  std::size_t most_;
+  std::size_t max_;
   std::uint64_t count_ = 0;
   std::vector<Corners> triangles_;
   std::vector<std::uint64_t> indices_;

@@ -32,20 +32,20 @@ struct Pages {
   Frame* other;  // null if it does not decode
 };
 
-bool decode(std::span<const std::byte> bytes, PageFacts facts, Frame& frame) {
+bool decode(std::span<const std::byte> bytes, PageInfo info, Frame& frame) {
   std::vector<std::byte> raw(bytes.begin(), bytes.end());
   MaskPageHead head{};
   const std::size_t head_bytes = std::min(raw.size(), sizeof head);
   std::copy_n(raw.begin(), head_bytes, reinterpret_cast<std::byte*>(&head));
-  head.page_number = facts.page_number;
+  head.page_number = info.page_number;
   std::copy_n(reinterpret_cast<const std::byte*>(&head), head_bytes, raw.begin());
-  facts.octcode = head.octcode;
-  facts.ordinal = head.ordinal;
-  return static_cast<bool>(decode_mask_page(raw, facts, frame.bytes()));
+  info.octcode = head.octcode;
+  info.ordinal = head.ordinal;
+  return static_cast<bool>(decode_mask_page(raw, info, frame.bytes()));
 }
 
 void check(const MaskBlocks& blocks, const LinkFormat& links) {
-  if (blocks.count > kMostListed) std::abort();
+  if (blocks.count > kMaxListed) std::abort();
   if (blocks.count > 0 &&
       (!blocks.slab.direction_is_valid() || blocks.slab.lower > blocks.slab.upper))
     std::abort();
@@ -57,8 +57,8 @@ void check(const MaskBlocks& blocks, const LinkFormat& links) {
   }
 }
 
-void check(const MaskFinding& found, const Point& point, const MaskFacts& mask) {
-  using Kind = MaskFinding::Kind;
+void check(const MaskLookup& found, const Point& point, const MaskInfo& mask) {
+  using Kind = MaskLookup::Kind;
   const auto fits = [](int number) { return -128 < number && number < 128; };
   if (!fits(found.winding) || found.cell.level > kLevels) std::abort();
   if (found.kind == Kind::kColour && std::abs(found.winding) > 1) std::abort();
@@ -78,7 +78,7 @@ void check(const MaskFinding& found, const Point& point, const MaskFacts& mask) 
     std::abort();
 }
 
-void look_up_points(const MaskFacts& mask, Pages& pages) {
+void look_up_points(const MaskInfo& mask, Pages& pages) {
   const PageReader reader{&pages,
                           [](void* context, std::uint32_t page) noexcept -> const std::byte* {
                             const auto& both = *static_cast<Pages*>(context);
@@ -94,27 +94,27 @@ void look_up_points(const MaskFacts& mask, Pages& pages) {
   };
   for (int i = 0; i < 60; ++i) points.emplace_back(step(), step(), step());
   for (const Point& point : points)
-    for (const std::uint64_t max_nodes : {std::uint64_t{1000}, std::uint64_t{2}}) {
-      TreeWork work;
-      check(look_up(mask, point, max_nodes, reader, work), point, mask);
-      if (work.nodes > std::min<std::uint64_t>(max_nodes, kLevels)) std::abort();
-      if (work.page_turns > kLevels + 1) std::abort();
+    for (const std::uint64_t max_work : {std::uint64_t{1000}, std::uint64_t{2}}) {
+      TraversalStats work;
+      check(look_up(mask, point, max_work, reader, work), point, mask);
+      if (work.nodes > std::min<std::uint64_t>(max_work, kLevels)) std::abort();
+      if (work.page_switches > kLevels + 1) std::abort();
     }
 }
 
 void decode_and_look_up(std::uint8_t choices, std::span<const std::byte> first,
                         std::span<const std::byte> second) {
-  PageFacts facts;
-  facts.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
-  facts.first_page = kFirstPage;
-  facts.page_count = kPageCount;
-  facts.shape.float64 = (choices & kFloat64) != 0;
-  facts.page_number = kFirstPage;
-  Frame root(facts.page_bytes), other(facts.page_bytes);
-  if (!decode(first, facts, root)) return;
-  facts.page_number += 1 + choices / 16;
-  Pages pages{&root, decode(second, facts, other) ? &other : nullptr};
-  look_up_points({facts.page_bytes, kFirstPage, kPageCount, Point(-1, -1, -1)}, pages);
+  PageInfo info;
+  info.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
+  info.first_page = kFirstPage;
+  info.page_count = kPageCount;
+  info.shape.float64 = (choices & kFloat64) != 0;
+  info.page_number = kFirstPage;
+  Frame root(info.page_bytes), other(info.page_bytes);
+  if (!decode(first, info, root)) return;
+  info.page_number += 1 + choices / 16;
+  Pages pages{&root, decode(second, info, other) ? &other : nullptr};
+  look_up_points({info.page_bytes, kFirstPage, kPageCount, Point(-1, -1, -1)}, pages);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class CheckingSink : public TriangleSink {
     return {};
   }
 
-  void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) override {
+  void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override {
     expect(first_index == next_index_ && count >= 1);
     next_index_ += count;
     const std::string text = why.text();

@@ -36,16 +36,16 @@ struct Pages {
   Frame* other;  // null if it does not decode
 };
 
-bool decode(std::span<const std::byte> bytes, PageFacts facts, Frame& frame) {
+bool decode(std::span<const std::byte> bytes, PageInfo info, Frame& frame) {
   std::vector<std::byte> raw(bytes.begin(), bytes.end());
   PageHead head{};
   const std::size_t head_bytes = std::min(raw.size(), sizeof head);
   std::copy_n(raw.begin(), head_bytes, reinterpret_cast<std::byte*>(&head));
-  head.page_number = facts.page_number;
+  head.page_number = info.page_number;
   std::copy_n(reinterpret_cast<const std::byte*>(&head), head_bytes, raw.begin());
-  facts.octcode = head.octcode;
-  facts.ordinal = head.ordinal;
-  return static_cast<bool>(decode_page(raw, facts, frame.bytes()));
+  info.octcode = head.octcode;
+  info.ordinal = head.ordinal;
+  return static_cast<bool>(decode_page(raw, info, frame.bytes()));
 }
 
 void check(const NearestAnswer& answer) {
@@ -64,14 +64,14 @@ void check(const NearestAnswer& answer) {
   if (!(answer.lower < answer.upper) || answer.lower < 0) std::abort();
 }
 
-void ask_winding(const TreeFacts& tree, const Point& query, PageReader reader) {
-  TreeWork work;
+void query_winding(const TreeInfo& tree, const Point& query, PageReader reader) {
+  TraversalStats work;
   const WindingNumber found = winding_number(tree, query, tree.record_count, reader, work);
   if (!std::isfinite(found.value) || !(found.error >= 0)) std::abort();
   if (work.nodes + work.blocks > tree.record_count) std::abort();
 }
 
-void ask(const TreeFacts& tree, Pages& pages) {
+void query_tree(const TreeInfo& tree, Pages& pages) {
   const PageReader reader{&pages,
                           [](void* context, std::uint32_t page) noexcept -> const std::byte* {
                             const auto& both = *static_cast<Pages*>(context);
@@ -84,35 +84,35 @@ void ask(const TreeFacts& tree, Pages& pages) {
   some.max_distance = 0.7;
   for (const Point& query : queries)
     for (const NearestLimits& limits : {NearestLimits{}, some}) {
-      TreeWork work;
+      TraversalStats work;
       check(nearest(tree, query, limits, reader, work));
       if (work.nodes + work.blocks > tree.record_count) std::abort();
     }
   if (LinkFormat::is_leaf(tree.root_link) || tree.shape.moments)
-    for (const Point& query : queries) ask_winding(tree, query, reader);
+    for (const Point& query : queries) query_winding(tree, query, reader);
 }
 
-void decode_and_ask(std::uint8_t choices, std::span<const std::byte> first,
-                    std::span<const std::byte> second) {
-  PageFacts facts;
-  facts.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
-  facts.page_count = kPageCount;
-  facts.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0, (choices & kMoments) != 0};
-  Frame root(facts.page_bytes), other(facts.page_bytes);
-  if (!decode(first, facts, root)) return;
-  facts.page_number = 1 + choices / 32;
-  Pages pages{&root, decode(second, facts, other) ? &other : nullptr};
-  TreeFacts tree;
-  tree.page_bytes = facts.page_bytes;
-  tree.shape = facts.shape;
+void decode_and_query(std::uint8_t choices, std::span<const std::byte> first,
+                      std::span<const std::byte> second) {
+  PageInfo info;
+  info.page_bytes = (choices & kLargePages) != 0 ? 65536 : 4096;
+  info.page_count = kPageCount;
+  info.shape = {(choices & kFloat64) != 0, (choices & kWideIds) != 0, (choices & kMoments) != 0};
+  Frame root(info.page_bytes), other(info.page_bytes);
+  if (!decode(first, info, root)) return;
+  info.page_number = 1 + choices / 32;
+  Pages pages{&root, decode(second, info, other) ? &other : nullptr};
+  TreeInfo tree;
+  tree.page_bytes = info.page_bytes;
+  tree.shape = info.shape;
   tree.record_count = 1000;
   tree.box_lower = Point(-1, -1, -1);
   tree.box_upper = Point(1, 1, 1);
   const bool leaf = (choices & kRootIsBlock) != 0;
   tree.root_link =
-      LinkFormat(facts.page_bytes)
+      LinkFormat(info.page_bytes)
           .make(leaf, 0, leaf ? root.header().first_block_slot : root.header().first_node_slot);
-  ask(tree, pages);
+  query_tree(tree, pages);
 }
 
 }  // namespace
@@ -122,6 +122,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 3) return 0;
   const std::span bytes(reinterpret_cast<const std::byte*>(data + 3), size - 3);
   const std::size_t first_bytes = std::min<std::size_t>(data[1] | data[2] << 8, bytes.size());
-  planetree::octree::decode_and_ask(data[0], bytes.first(first_bytes), bytes.subspan(first_bytes));
+  planetree::octree::decode_and_query(data[0], bytes.first(first_bytes),
+                                      bytes.subspan(first_bytes));
   return 0;
 }

@@ -69,8 +69,8 @@ FormatStruct model_fields() {
   using storage::ModelRecord;
   return FieldList<ModelRecord>("Model record")
       .PLANETREE_FIELD(ModelRecord, triangle_count)
-      .PLANETREE_FIELD(ModelRecord, set_aside_count)
-      .PLANETREE_FIELD(ModelRecord, first_set_aside)
+      .PLANETREE_FIELD(ModelRecord, skipped_count)
+      .PLANETREE_FIELD(ModelRecord, first_skipped)
       .PLANETREE_FIELD(ModelRecord, vertex_count)
       .PLANETREE_FIELD(ModelRecord, node_count)
       .PLANETREE_FIELD(ModelRecord, block_count)
@@ -85,8 +85,8 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, triangle_id_bytes)
       .PLANETREE_FIELD(ModelRecord, height)
       .PLANETREE_FIELD(ModelRecord, reserved)
-      .PLANETREE_FIELD(ModelRecord, open_edge_count)
-      .PLANETREE_FIELD(ModelRecord, open_edge)
+      .PLANETREE_FIELD(ModelRecord, unbalanced_edge_count)
+      .PLANETREE_FIELD(ModelRecord, unbalanced_edge)
       .PLANETREE_FIELD(ModelRecord, mask_cell_count)
       .PLANETREE_FIELD(ModelRecord, mask_page_count)
       .PLANETREE_FIELD(ModelRecord, mask_levels)
@@ -98,14 +98,14 @@ FormatStruct model_fields() {
       .take();
 }
 
-FormatStruct open_edge_fields() {
-  using storage::OpenEdge;
-  return FieldList<OpenEdge>("Open edges")
-      .PLANETREE_FIELD(OpenEdge, from)
-      .PLANETREE_FIELD(OpenEdge, to)
-      .PLANETREE_FIELD(OpenEdge, triangle)
-      .PLANETREE_FIELD(OpenEdge, along)
-      .PLANETREE_FIELD(OpenEdge, against)
+FormatStruct unbalanced_edge_fields() {
+  using storage::UnbalancedEdge;
+  return FieldList<UnbalancedEdge>("Open edges")
+      .PLANETREE_FIELD(UnbalancedEdge, from)
+      .PLANETREE_FIELD(UnbalancedEdge, to)
+      .PLANETREE_FIELD(UnbalancedEdge, triangle)
+      .PLANETREE_FIELD(UnbalancedEdge, along)
+      .PLANETREE_FIELD(UnbalancedEdge, against)
       .take();
 }
 
@@ -166,9 +166,9 @@ FormatStruct mask_page_head_fields() {
 }  // namespace
 
 const std::vector<FormatStruct>& format_structs() {
-  static const std::vector<FormatStruct> all = {header_fields(),    model_fields(),
-                                                open_edge_fields(), entry_fields(),
-                                                page_head_fields(), mask_page_head_fields()};
+  static const std::vector<FormatStruct> all = {header_fields(),          model_fields(),
+                                                unbalanced_edge_fields(), entry_fields(),
+                                                page_head_fields(),       mask_page_head_fields()};
   return all;
 }
 

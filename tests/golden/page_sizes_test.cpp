@@ -23,7 +23,7 @@ std::vector<std::byte> sphere_with_pages(std::uint32_t page_bytes) {
   return build_bytes(sphere_sample().mesh_path(), page_bytes, 2);
 }
 
-std::vector<ClosestPoint> ask(const std::vector<std::byte>& file) {
+std::vector<ClosestPoint> answer(const std::vector<std::byte>& file) {
   const storage::TemporaryDirectory folder;
   storage::write_bytes(folder / "model.ptree", file);
   const auto model = Model::open(folder / "model.ptree");
@@ -41,9 +41,9 @@ std::vector<ClosestPoint> ask(const std::vector<std::byte>& file) {
 bool is_same(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 TEST(PageSizes, GiveTheSameAnswers) {
-  const std::vector<ClosestPoint> expected = ask(sphere_with_pages(kPageSizes[0]));
+  const std::vector<ClosestPoint> expected = answer(sphere_with_pages(kPageSizes[0]));
   for (const std::uint32_t page_bytes : kPageSizes) {
-    const std::vector<ClosestPoint> found = ask(sphere_with_pages(page_bytes));
+    const std::vector<ClosestPoint> found = answer(sphere_with_pages(page_bytes));
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_EQ(found[i].status, Status::kExact);
       EXPECT_EQ(found[i].triangle, expected[i].triangle) << page_bytes;

@@ -23,7 +23,7 @@ class Collector final : public octree::TriangleSink {
     found.push_back({index, corners});
     return {};
   }
-  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) override {}
+  void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
   void progress(std::uint64_t, std::uint64_t) override {}
 
   std::vector<MeshTriangle> found;

@@ -1,4 +1,4 @@
-// "Sheets", held against the samples as the independent reader decodes them, and against sums
+// "HeightFields", held against the samples as the independent reader decodes them, and against sums
 // of solid angles.
 
 #include <gtest/gtest.h>
@@ -24,17 +24,17 @@ SpecPoint normal_of(const SpecTriangle& triangle) {
   return cross(b - a, c - a);
 }
 
-struct SheetSample {
-  explicit SheetSample(const Sample& sample)
+struct HeightFieldSample {
+  explicit HeightFieldSample(const Sample& sample)
       : tree(SpecFile(read_file(sample.ptree_path()))),
         all(tree.triangles(tree.header().root_link)) {}
 
   // The number of blocks that `look` is called with.
-  std::size_t each_in_sheet(const std::function<void(const SpecBlock&)>& look) const {
+  std::size_t each_height_field(const std::function<void(const SpecBlock&)>& look) const {
     std::size_t count = 0;
     for (const SpecPage& page : tree.pages())
       for (const auto& [link, block] : page.blocks)
-        if (block.in_sheet) {
+        if (block.is_height_field) {
           look(block);
           ++count;
         }
@@ -45,10 +45,10 @@ struct SheetSample {
   std::vector<SpecTriangle> all;
 };
 
-TEST(SpecSheets, AreOfBlocksThatHaveTheOutsideInFrontAndTheInsideBehind) {
+TEST(SpecHeightFields, AreOfBlocksThatHaveTheOutsideInFrontAndTheInsideBehind) {
   for (const Sample& sample : {sphere_sample(), boxes_sample()}) {
-    const SheetSample file(sample);
-    const std::size_t count = file.each_in_sheet([&](const SpecBlock& block) {
+    const HeightFieldSample file(sample);
+    const std::size_t count = file.each_height_field([&](const SpecBlock& block) {
       for (const SpecTriangle& triangle : block.triangles) {
         const auto& [a, b, c] = triangle.corners;
         const SpecPoint centre = sum(sum(sum({}, 1. / 3, a), 1. / 3, b), 1. / 3, c);
@@ -66,9 +66,9 @@ TEST(SpecSheets, AreOfBlocksThatHaveTheOutsideInFrontAndTheInsideBehind) {
 }
 
 // The direction of the box is not told, but there is one for all triangles of the block.
-TEST(SpecSheets, RiseInOneDirection) {
-  const SheetSample file(sphere_sample());
-  file.each_in_sheet([](const SpecBlock& block) {
+TEST(SpecHeightFields, RiseInOneDirection) {
+  const HeightFieldSample file(sphere_sample());
+  file.each_height_field([](const SpecBlock& block) {
     SpecPoint direction{};
     for (const SpecTriangle& triangle : block.triangles)
       direction = sum(direction, 1, normal_of(triangle));
@@ -81,11 +81,11 @@ TEST(SpecSheets, RiseInOneDirection) {
 }
 
 // Most of a sphere is simple enough; and what a reader may ask there is its side.
-TEST(SpecSheets, TellTheSideByTheFaceAtANearestPoint) {
-  const SheetSample file(sphere_sample());
-  std::size_t blocks = 0, told = 0;
+TEST(SpecHeightFields, TellTheSideByTheFaceAtANearestPoint) {
+  const HeightFieldSample file(sphere_sample());
+  std::size_t blocks = 0, certain = 0;
   for (const SpecPage& page : file.tree.pages()) blocks += page.blocks.size();
-  const std::size_t count = file.each_in_sheet([&](const SpecBlock& block) {
+  const std::size_t count = file.each_height_field([&](const SpecBlock& block) {
     const SpecTriangle& triangle = block.triangles.front();
     const auto& [a, b, c] = triangle.corners;
     const SpecPoint foot = sum(sum(sum({}, 0.5, a), 0.3, b), 0.2, c);
@@ -94,16 +94,17 @@ TEST(SpecSheets, TellTheSideByTheFaceAtANearestPoint) {
       const SpecPoint point = sum(foot, by / std::sqrt(dot(normal, normal)), normal);
       if (file.tree.nearest(point).triangle != triangle.id) continue;
       EXPECT_NEAR(winding_number(file.all, point), by > 0 ? 0 : 1, 1e-6);
-      ++told;
+      ++certain;
     }
   });
   EXPECT_GT(2 * count, blocks);
-  EXPECT_GT(told, count);
+  EXPECT_GT(certain, count);
 }
 
-TEST(SpecSheets, AreNotInFilesOfRegionsOrOpenSurfaces) {
+TEST(SpecHeightFields, AreNotInFilesOfRegionsOrOpenSurfaces) {
   for (const Sample& sample : {region_sample(), samples()[1]})
-    EXPECT_EQ(SheetSample(sample).each_in_sheet([](const SpecBlock&) {}), 0u) << sample.ptree;
+    EXPECT_EQ(HeightFieldSample(sample).each_height_field([](const SpecBlock&) {}), 0u)
+        << sample.ptree;
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST_P(SpecLists, HaveEveryBlockThatTouchesAnOctant) {
 }
 
 TEST_P(SpecLists, LeaveOctantsOfOneWindingNumber) {
-  std::size_t told = 0;
+  std::size_t certain = 0;
   each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
     unsigned met = 0;
     for (const SpecListedBlock& listed : record.blocks) met |= listed.octants;
@@ -170,11 +170,11 @@ TEST_P(SpecLists, LeaveOctantsOfOneWindingNumber) {
         ASSERT_GT(whole_.nearest(point).distance, 0);
         const double number = winding_number(all_, point);
         EXPECT_NEAR(number, record.corners[i], 1e-6) << "octant " << i;
-        ++told;
+        ++certain;
       }
     }
   });
-  EXPECT_GT(told, 0u);
+  EXPECT_GT(certain, 0u);
 }
 
 // In 256ths of the width, which are what bounds count in. Clipping rounds, by far less than
@@ -214,10 +214,10 @@ TEST_P(SpecLists, HaveSlabsWithOneWindingNumberOnEitherSide) {
     const SpecPoint lower = mask_.corner(cell, 0);
     const SpecPoint size = mask_.corner(cell, 7) - lower;
     for (int at = 0; at < 27; ++at) {
-      const std::array<int, 3> place = {at % 3, at / 3 % 3, at / 9};
+      const std::array<int, 3> index = {at % 3, at / 3 % 3, at / 9};
       SpecPoint point = lower;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        point[axis] += (0.03 + 0.46 * place[axis]) * size[axis];
+        point[axis] += (0.03 + 0.46 * index[axis]) * size[axis];
       const SpecPoint u = mask_.in_cell(cell, point);
       const bool is_above = slab.is_above(u), is_below = slab.is_below(u);
       ASSERT_FALSE(is_above && is_below);

@@ -23,8 +23,8 @@ static_assert(sizeof(Head) == 40);
 class MaskPageReader {
  public:
   MaskPageReader(std::span<const std::byte> raw, std::uint32_t number, const SpecHeader& header)
-      : header_(header), number_(number), cutter_(raw) {
-    std::memcpy(&head_, cutter_.bytes(40).data(), 40);
+      : header_(header), number_(number), layout_(raw) {
+    std::memcpy(&head_, layout_.bytes(40).data(), 40);
     require(head_.page_number == number, "another page");
     require(head_.reserved == 0, "reserved bytes");
   }
@@ -49,25 +49,25 @@ class MaskPageReader {
 
  private:
   void cut() {
-    kinds_ = cutter_.shuffled<std::uint8_t>(head_.records);
+    kinds_ = layout_.byte_split<std::uint8_t>(head_.records);
     for (std::vector<std::uint8_t>& masks : masks_)
-      masks = cutter_.shuffled<std::uint8_t>(head_.nodes);
-    page_links_ = cutter_.shuffled<std::uint32_t>(head_.page_links);
-    corner_bits_ = cutter_.shuffled<std::uint8_t>(head_.plain);
-    corner_numbers_ = cutter_.shuffled<std::int8_t>(8u * head_.corners);
-    plane_counts_ = cutter_.shuffled<std::uint8_t>(head_.special);
-    behind_ = cutter_.shuffled<std::int8_t>(head_.special);
-    beyond_ = cutter_.shuffled<std::int8_t>(head_.special);
-    coordinates_ = cutter_.either<float, double>(header_.float64, 9u * head_.planes);
-    least_ = cutter_.shuffled<std::int8_t>(head_.listed);
-    higher_ = cutter_.shuffled<std::uint8_t>(head_.listed);
-    block_counts_ = cutter_.shuffled<std::uint8_t>(head_.listed);
-    slab_directions_ = cutter_.shuffled<std::uint16_t>(head_.listed);
-    slab_lowers_ = cutter_.shuffled<std::uint8_t>(head_.listed);
-    slab_uppers_ = cutter_.shuffled<std::uint8_t>(head_.listed);
-    block_octants_ = cutter_.shuffled<std::uint8_t>(head_.block_links);
-    block_links_ = cutter_.shuffled<std::uint32_t>(head_.block_links);
-    require(cutter_.empty(), "the page is too long");
+      masks = layout_.byte_split<std::uint8_t>(head_.nodes);
+    page_links_ = layout_.byte_split<std::uint32_t>(head_.page_links);
+    corner_bits_ = layout_.byte_split<std::uint8_t>(head_.plain);
+    corner_numbers_ = layout_.byte_split<std::int8_t>(8u * head_.corners);
+    plane_counts_ = layout_.byte_split<std::uint8_t>(head_.special);
+    behind_ = layout_.byte_split<std::int8_t>(head_.special);
+    beyond_ = layout_.byte_split<std::int8_t>(head_.special);
+    coordinates_ = layout_.either<float, double>(header_.float64, 9u * head_.planes);
+    min_ = layout_.byte_split<std::int8_t>(head_.listed);
+    higher_ = layout_.byte_split<std::uint8_t>(head_.listed);
+    block_counts_ = layout_.byte_split<std::uint8_t>(head_.listed);
+    slab_directions_ = layout_.byte_split<std::uint16_t>(head_.listed);
+    slab_lowers_ = layout_.byte_split<std::uint8_t>(head_.listed);
+    slab_uppers_ = layout_.byte_split<std::uint8_t>(head_.listed);
+    block_octants_ = layout_.byte_split<std::uint8_t>(head_.block_links);
+    block_links_ = layout_.byte_split<std::uint32_t>(head_.block_links);
+    require(layout_.empty(), "the page is too long");
   }
 
   SpecMaskRecord read_record(unsigned kind) {
@@ -129,7 +129,7 @@ class MaskPageReader {
   }
 
   void read_listed(SpecMaskRecord& record) {
-    const int least = least_.at(listed_);
+    const int least = min_.at(listed_);
     require(least >= -126 && least <= 126, "numbers of corners");
     for (unsigned i = 0; i < 8; ++i)
       record.corners[i] = least + static_cast<int>(higher_.at(listed_) >> i & 1);
@@ -161,14 +161,14 @@ class MaskPageReader {
 
   const SpecHeader& header_;
   std::uint32_t number_;
-  StreamCutter cutter_;
+  StreamReader layout_;
   Head head_{};
   std::vector<std::uint8_t> kinds_, corner_bits_, plane_counts_;
   std::vector<std::uint8_t> higher_, block_counts_, block_octants_, slab_lowers_, slab_uppers_;
   std::vector<std::uint16_t> slab_directions_;
   std::array<std::vector<std::uint8_t>, 4> masks_;
   std::vector<std::uint32_t> page_links_, block_links_;
-  std::vector<std::int8_t> corner_numbers_, behind_, beyond_, least_;
+  std::vector<std::int8_t> corner_numbers_, behind_, beyond_, min_;
   std::vector<double> coordinates_;
   std::size_t next_family_ = 0;
   std::size_t node_ = 0, link_ = 0, plain_ = 0, corners_ = 0, special_ = 0, plane_ = 0;
@@ -212,13 +212,13 @@ SpecMask::SpecMask(const SpecFile& file) : header_(file.header()) {
     pages_.push_back(decode_spec_mask_page(file.raw_page(k), k, header_));
 }
 
-std::pair<std::size_t, std::size_t> SpecMask::place_of(std::uint32_t link) const {
+std::pair<std::size_t, std::size_t> SpecMask::index_of(std::uint32_t link) const {
   const std::uint32_t slots = header_.page_bytes / 8;
   return {link / slots, link % slots - (8 + header_.page_bytes / 512)};
 }
 
 const SpecMaskRecord& SpecMask::octant(const SpecMaskRecord& node, unsigned number) const {
-  const auto [page, first] = place_of(node.family);
+  const auto [page, first] = index_of(node.family);
   const unsigned before = node.grey & ((1U << number) - 1);
   return pages_.at(page).records.at(first + static_cast<unsigned>(std::popcount(before)));
 }

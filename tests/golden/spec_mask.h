@@ -79,7 +79,7 @@ class SpecMask {
   const std::vector<SpecMaskPage>& pages() const { return pages_; }
   const SpecMaskRecord& root() const { return pages_.at(0).records.at(0); }
   /// A link as (page within the mask, record).
-  std::pair<std::size_t, std::size_t> place_of(std::uint32_t link) const;
+  std::pair<std::size_t, std::size_t> index_of(std::uint32_t link) const;
   /// The record of a grey octant.
   const SpecMaskRecord& octant(const SpecMaskRecord& node, unsigned number) const;
   /// Corner `number` of a cell, model frame; of a region clamped to it.

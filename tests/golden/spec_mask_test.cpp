@@ -120,7 +120,7 @@ TEST_P(SpecMasks, PagesHaveOneParentAndTheKeysOfTheirFirstFamilies) {
     for (const SpecMaskRecord& record : mask_.pages()[k].records) page_of[&record] = k;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     if (record.kind != 1) return;
-    const auto [page, first] = mask_.place_of(record.family);
+    const auto [page, first] = mask_.index_of(record.family);
     EXPECT_GT(page, page_of[&record]);
     EXPECT_LT(first, mask_.pages().at(page).root_count);
     EXPECT_EQ(parent_of.emplace(page, page_of[&record]).first->second, page_of[&record]);
@@ -135,7 +135,7 @@ TEST_P(SpecMasks, PagesHaveOneParentAndTheKeysOfTheirFirstFamilies) {
 }
 
 TEST_P(SpecMasks, ColoursAreWindingNumbers) {
-  std::size_t told = 0;
+  std::size_t certain = 0;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     if (!record.is_node()) return;
     for (unsigned i = 0; i < 8; ++i) {
@@ -144,24 +144,24 @@ TEST_P(SpecMasks, ColoursAreWindingNumbers) {
       ASSERT_TRUE(number);
       EXPECT_EQ(*number > 0, (record.black >> i & 1) != 0);
       EXPECT_EQ(*number < 0, (record.inverted >> i & 1) != 0);
-      ++told;
+      ++certain;
     }
   });
-  EXPECT_EQ(told == 0, triangles_.size() <= 64);
+  EXPECT_EQ(certain == 0, triangles_.size() <= 64);
 }
 
 TEST_P(SpecMasks, CornersAreWindingNumbers) {
-  std::size_t told = 0;
+  std::size_t certain = 0;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     if (!record.has_corners()) return;
     for (unsigned i = 0; i < 8; ++i) {
       const auto number = winding(mask_.corner(cell, i));
       if (!number) continue;
       EXPECT_EQ(record.corners[i], *number);
-      ++told;
+      ++certain;
     }
   });
-  EXPECT_GT(told, 0u);
+  EXPECT_GT(certain, 0u);
 }
 
 // Signs by double: points so near a plane that it may be wrong are left out.

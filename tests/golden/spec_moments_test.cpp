@@ -148,16 +148,16 @@ TEST(SpecMoments, TellSharesOfWindingNumbers) {
   const SpecTree tree = open_sample();
   std::mt19937_64 random(7);
   const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-51 - 2; };
-  int told = 0;
+  int certain = 0;
   for (int i = 0; i < 200; ++i) {
     const SpecPoint p = {coordinate(), coordinate(), coordinate()};
     each_child(tree, [&](const SpecChild& child) {
       const auto [value, error] = far(tree, child, p);
       EXPECT_LE(std::fabs(value - winding(tree, child.link, p)), error + 1e-14);
-      told += error < 0.01;
+      certain += error < 0.01;
     });
   }
-  EXPECT_GT(told, 200);
+  EXPECT_GT(certain, 200);
 }
 
 TEST(SpecMoments, AreOnlyInFilesOfOpenSurfaces) {

@@ -20,15 +20,15 @@ static_assert(sizeof(Head) == 40);
 class PageReader {
  public:
   PageReader(std::span<const std::byte> raw, std::uint32_t number, const SpecHeader& header)
-      : header_(header), number_(number), cutter_(raw) {
-    std::memcpy(&head_, cutter_.bytes(40).data(), 40);
+      : header_(header), number_(number), layout_(raw) {
+    std::memcpy(&head_, layout_.bytes(40).data(), 40);
     require(head_.page_number == number, "another page");
   }
 
   SpecPage read() {
     cut_node_streams();
     cut_block_streams();
-    require(cutter_.empty(), "the page is too long");
+    require(layout_.empty(), "the page is too long");
     place_records();
     SpecPage page{head_.octcode, head_.ordinal, {}, {}, {}};
     read_nodes(page);
@@ -40,41 +40,42 @@ class PageReader {
 
  private:
   void cut_node_streams() {
-    root_boxes_ = cutter_.shuffled<float>(6u * head_.root_nodes);
-    child_counts_ = cutter_.shuffled<std::uint8_t>(head_.nodes);
-    heights_ = cutter_.shuffled<std::uint8_t>(head_.nodes);
-    kinds_ = cutter_.shuffled<std::uint16_t>(head_.nodes);
-    boxes_ = cutter_.shuffled<std::uint8_t>(6u * head_.children);
-    normals_ = cutter_.shuffled<std::int16_t>(2u * head_.children);
-    slabs_ = cutter_.shuffled<std::int16_t>(2u * head_.children);
-    radii_ = cutter_.shuffled<std::uint16_t>(head_.children);
+    root_boxes_ = layout_.byte_split<float>(6u * head_.root_nodes);
+    child_counts_ = layout_.byte_split<std::uint8_t>(head_.nodes);
+    heights_ = layout_.byte_split<std::uint8_t>(head_.nodes);
+    kinds_ = layout_.byte_split<std::uint16_t>(head_.nodes);
+    boxes_ = layout_.byte_split<std::uint8_t>(6u * head_.children);
+    normals_ = layout_.byte_split<std::int16_t>(2u * head_.children);
+    slabs_ = layout_.byte_split<std::int16_t>(2u * head_.children);
+    radii_ = layout_.byte_split<std::uint16_t>(head_.children);
     if (header_.open) {
-      vectors_ = cutter_.shuffled<std::int16_t>(3u * head_.children);
-      firsts_ = cutter_.shuffled<std::int8_t>(5u * head_.children);
-      areas_ = cutter_.shuffled<std::uint16_t>(head_.children);
-      seconds_ = cutter_.shuffled<std::uint16_t>(head_.children);
+      vectors_ = layout_.byte_split<std::int16_t>(3u * head_.children);
+      firsts_ = layout_.byte_split<std::int8_t>(5u * head_.children);
+      areas_ = layout_.byte_split<std::uint16_t>(head_.children);
+      seconds_ = layout_.byte_split<std::uint16_t>(head_.children);
     }
-    page_links_ = cutter_.shuffled<std::uint32_t>(head_.page_links);
+    page_links_ = layout_.byte_split<std::uint32_t>(head_.page_links);
   }
 
   void cut_block_streams() {
-    triangle_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
+    triangle_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
     for (std::uint8_t& count : triangle_counts_) {
-      in_sheet_.push_back(count >> 7 != 0);
+      is_height_field_.push_back(count >> 7 != 0);
       compact_.push_back((count >> 6 & 1) != 0);
       count &= 0x3f;
     }
-    require((!header_.open && !header_.has_walls()) || std::ranges::count(in_sheet_, true) == 0,
-            "a sheet of an open surface or of a region with walls");
-    vertex_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
-    new_counts_ = cutter_.shuffled<std::uint8_t>(head_.blocks);
-    vertex_refs_ = cutter_.shuffled<std::uint16_t>(head_.vertex_refs);
+    require(
+        (!header_.open && !header_.has_walls()) || std::ranges::count(is_height_field_, true) == 0,
+        "a sheet of an open surface or of a region with walls");
+    vertex_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
+    new_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
+    vertex_refs_ = layout_.byte_split<std::uint16_t>(head_.vertex_refs);
     for (std::size_t j = 0; j < head_.blocks; ++j)
-      corners_.push_back(cutter_.bytes((3u * triangle_counts_[j] * corner_bits(j) + 7) / 8));
-    vertices_ = cutter_.either<float, double>(header_.float64, 3u * head_.vertices);
-    first_ids_ = cutter_.either<std::uint32_t, std::uint64_t>(header_.wide_ids, head_.blocks);
+      corners_.push_back(layout_.bytes((3u * triangle_counts_[j] * corner_bits(j) + 7) / 8));
+    vertices_ = layout_.either<float, double>(header_.float64, 3u * head_.vertices);
+    first_ids_ = layout_.either<std::uint32_t, std::uint64_t>(header_.wide_ids, head_.blocks);
     const std::size_t steps = std::size_t{head_.triangles} - head_.blocks;
-    id_steps_ = cutter_.either<std::uint32_t, std::uint64_t>(header_.wide_ids, steps);
+    id_steps_ = layout_.either<std::uint32_t, std::uint64_t>(header_.wide_ids, steps);
   }
 
   unsigned corner_bits(std::size_t block) const {
@@ -176,7 +177,7 @@ class PageReader {
     for (std::size_t i = 0; i < old_count; ++i)
       vertices.push_back((i == 0 ? 0 : vertices.back()) + vertex_refs_.at(next_ref_++));
     while (vertices.size() < vertex_counts_[block]) vertices.push_back(next_vertex_++);
-    SpecBlock read{{}, vertices.size(), in_sheet_[block]};
+    SpecBlock read{{}, vertices.size(), is_height_field_[block]};
     std::uint64_t id = first_ids_[block];
     for (std::size_t i = 0; i < triangle_counts_[block]; ++i) {
       if (i > 0) id += id_steps_.at(next_step_++);
@@ -209,12 +210,12 @@ class PageReader {
 
   const SpecHeader& header_;
   std::uint32_t number_;
-  StreamCutter cutter_;
+  StreamReader layout_;
   Head head_{};
   std::vector<float> root_boxes_;
   std::vector<std::uint8_t> child_counts_, heights_, boxes_;
   std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
-  std::vector<bool> in_sheet_, compact_;
+  std::vector<bool> is_height_field_, compact_;
   std::vector<std::uint16_t> kinds_, radii_, areas_, seconds_, vertex_refs_;
   std::vector<std::int16_t> normals_, slabs_, vectors_;
   std::vector<std::int8_t> firsts_;

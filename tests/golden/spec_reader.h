@@ -76,7 +76,7 @@ struct SpecTriangle {
 struct SpecBlock {
   std::vector<SpecTriangle> triangles;
   std::size_t vertex_count;
-  bool in_sheet;
+  bool is_height_field;
 };
 
 /// A decoded page: its records by their links, which are unique in a file.

@@ -117,7 +117,7 @@ TEST_F(SpecRegion, HoldsWhatTouchesIt) {
 }
 
 TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
-  std::size_t colours = 0, corners = 0, beyond = 0;
+  std::size_t side_grid = 0, corners = 0, beyond = 0;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     for (unsigned i = 0; i < 8; ++i) {
       if (record.is_node() && (record.grey >> i & 1) == 0) {
@@ -132,7 +132,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
         ASSERT_TRUE(number);
         EXPECT_EQ(*number > 0, (record.black >> i & 1) != 0);
         EXPECT_EQ(*number < 0, (record.inverted >> i & 1) != 0);
-        ++colours;
+        ++side_grid;
       } else if (record.has_corners()) {
         const auto number = winding(mask_.corner(cell, i));
         if (!number) continue;
@@ -141,7 +141,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
       }
     }
   });
-  EXPECT_GT(colours, 0u);
+  EXPECT_GT(side_grid, 0u);
   EXPECT_GT(corners, 0u);
   EXPECT_GT(beyond, 0u);
   const auto number = winding(mask_.corner({}, 0));

@@ -13,9 +13,9 @@ inline void require(bool holds, const char* what) {
 }
 
 /// Takes streams off the front of the raw bytes.
-class StreamCutter {
+class StreamReader {
  public:
-  explicit StreamCutter(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit StreamReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   std::span<const std::byte> bytes(std::size_t count) {
     require(count <= rest_.size(), "the page is too short");
@@ -25,7 +25,7 @@ class StreamCutter {
   }
   /// Element i has its byte k at k n + i.
   template <class T>
-  std::vector<T> shuffled(std::size_t count) {
+  std::vector<T> byte_split(std::size_t count) {
     const auto stream = bytes(count * sizeof(T));
     std::vector<T> values(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -35,8 +35,8 @@ class StreamCutter {
   }
   template <class Narrow, class Wide>
   std::vector<Wide> either(bool wide, std::size_t count) {
-    if (wide) return shuffled<Wide>(count);
-    const std::vector<Narrow> values = shuffled<Narrow>(count);
+    if (wide) return byte_split<Wide>(count);
+    const std::vector<Narrow> values = byte_split<Narrow>(count);
     return {values.begin(), values.end()};
   }
   bool empty() const { return rest_.empty(); }

@@ -45,8 +45,8 @@ void AnswerEvidence::see_near(std::uint64_t index, const Corners& triangle) {
       octree::triangle_value(point(query),
                              {point(triangle[0]), point(triangle[1]), point(triangle[2])})
           .squared;
-  if (squared > least_squared_ || (squared == least_squared_ && index >= first_)) return;
-  least_squared_ = squared;
+  if (squared > min_squared_ || (squared == min_squared_ && index >= first_)) return;
+  min_squared_ = squared;
   first_ = index;
 }
 

@@ -37,7 +37,7 @@ class AnswerEvidence {
   bool on_surface_ = false;
   bool named_seen_ = false, named_within_ = false;
   // The first of those that are nearest in double.
-  double least_squared_ = std::numeric_limits<double>::infinity();
+  double min_squared_ = std::numeric_limits<double>::infinity();
   std::uint64_t first_ = kNoTriangle;
   std::int64_t crossings_ = 0;
 };

@@ -88,12 +88,12 @@ class Hearing final : public TriangleRounds {
     for (const Part& part : round.parts) {
       found.clear();
       part.triangles.find_near(answer.query, evidence.reach(), found);
-      for (const std::uint32_t place : found)
-        evidence.see_near(round.indices[part.first + place], round.triangles[part.first + place]);
+      for (const std::uint32_t index : found)
+        evidence.see_near(round.indices[part.first + index], round.triangles[part.first + index]);
       found.clear();
       part.triangles.find_ahead(answer.query, found);
-      for (const std::uint32_t place : found)
-        evidence.see_ahead(round.triangles[part.first + place]);
+      for (const std::uint32_t index : found)
+        evidence.see_ahead(round.triangles[part.first + index]);
     }
   }
 
@@ -140,26 +140,26 @@ std::vector<std::size_t> chosen(std::span<const AnswerRow> answers, const Judgem
   if (affordable == 0 || (judgement.watertight && affordable < wanted)) return {};
   std::size_t step = kSolidAnglesOfEach;
   while ((answers.size() + step - 1) / step > affordable) ++step;
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < answers.size(); i += step)
-    if (is_heard(answers[i])) places.push_back(i);
-  return places;
+    if (is_heard(answers[i])) indices.push_back(i);
+  return indices;
 }
 
 Result<void> judge_solid_angles(const std::filesystem::path& mesh,
                                 std::span<const AnswerRow> answers, const JudgeLimits& limits,
                                 Judgement& judgement) {
-  const std::vector<std::size_t> places = chosen(answers, judgement, limits);
-  if (places.empty()) return {};
-  std::vector<const AnswerRow*> asked;
-  for (const std::size_t i : places) asked.push_back(&answers[i]);
-  SolidAngles angles(std::move(asked), limits.round_triangles);
+  const std::vector<std::size_t> indices = chosen(answers, judgement, limits);
+  if (indices.empty()) return {};
+  std::vector<const AnswerRow*> queried;
+  for (const std::size_t i : indices) queried.push_back(&answers[i]);
+  SolidAngles angles(std::move(queried), limits.round_triangles);
   if (const auto read = octree::read_mesh(mesh, angles); !read) return read.error();
   angles.finish();
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (std::string& fault = judgement.faults[places[k]]; fault.empty())
+  for (std::size_t k = 0; k < indices.size(); ++k)
+    if (std::string& fault = judgement.faults[indices[k]]; fault.empty())
       fault = angles.side_fault(k);
-  judgement.sides_by_solid_angles = places.size();
+  judgement.sides_by_solid_angles = indices.size();
   return {};
 }
 

@@ -27,7 +27,7 @@ constexpr std::pair<std::string_view, Status> kStatuses[] = {
 enum Column : std::size_t { kX, kY, kZ, kLength, kLower, kUpper, kSideWord, kTriangle, kStatus };
 constexpr std::array<std::string_view, 9> kColumns = {
     "x", "y", "z", "distance", "lower", "upper", "side", "triangle", "status"};
-using Places = std::array<std::size_t, kColumns.size()>;
+using Indices = std::array<std::size_t, kColumns.size()>;
 
 Error bad(std::size_t line, const std::string& why) {
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
@@ -41,15 +41,15 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-Result<Places> places_in(const std::string& header) {
+Result<Indices> places_in(const std::string& header) {
   const std::vector<std::string> names = fields_of(header);
-  Places places{};
+  Indices indices{};
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     const auto found = std::find(names.begin(), names.end(), kColumns[i]);
     if (found == names.end()) return bad(1, "no column " + std::string(kColumns[i]));
-    places[i] = static_cast<std::size_t>(found - names.begin());
+    indices[i] = static_cast<std::size_t>(found - names.begin());
   }
-  return places;
+  return indices;
 }
 
 std::optional<double> number(const std::string& field) {
@@ -82,11 +82,11 @@ bool put(const std::optional<T>& from, T& into) {
   return from.has_value();
 }
 
-Result<AnswerRow> row_of(std::string text, const Places& places, std::size_t line) {
+Result<AnswerRow> row_of(std::string text, const Indices& indices, std::size_t line) {
   const std::vector<std::string> fields = fields_of(text);
-  if (fields.size() <= *std::max_element(places.begin(), places.end()))
+  if (fields.size() <= *std::max_element(indices.begin(), indices.end()))
     return bad(line, "too few columns");
-  const auto field = [&](Column column) { return fields[places[column]]; };
+  const auto field = [&](Column column) { return fields[indices[column]]; };
   AnswerRow row;
   const bool sound =
       put(number(field(kX)), row.query.x) && put(number(field(kY)), row.query.y) &&
@@ -109,11 +109,11 @@ bool is_finite(const Vec3& query) {
 Result<std::vector<AnswerRow>> read_answers(std::istream& csv, std::size_t most) {
   std::string line;
   std::getline(csv, line);
-  const Result<Places> places = places_in(line);
-  if (!places) return places.error();
+  const Result<Indices> indices = places_in(line);
+  if (!indices) return indices.error();
   std::vector<AnswerRow> rows;
   while (rows.size() < most && std::getline(csv, line)) {
-    Result<AnswerRow> row = row_of(std::move(line), *places, rows.size() + 2);
+    Result<AnswerRow> row = row_of(std::move(line), *indices, rows.size() + 2);
     if (!row) return row.error();
     rows.push_back(std::move(*row));
   }

@@ -117,8 +117,8 @@ RoughBounds rough_bounds(const Vec3& query, const Corners& triangle) {
   };
   const Vector<long double> gap{outside(low.x, high.x, p.x), outside(low.y, high.y, p.y),
                                 outside(low.z, high.z, p.z)};
-  constexpr long double kRoom = 0x1p-50L;
-  return {std::sqrt(dot(gap, gap)) * (1 - kRoom), nearest * (1 + kRoom)};
+  constexpr long double kCapacity = 0x1p-50L;
+  return {std::sqrt(dot(gap, gap)) * (1 - kCapacity), nearest * (1 + kCapacity)};
 }
 
 }  // namespace

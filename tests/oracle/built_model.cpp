@@ -61,9 +61,9 @@ void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& ch
   octree::BuildSeams seams;
   if (choices.page_bytes < options.page_bytes) {
     // As a large model is built: of many patches, spilled, and a mask of many regions.
-    seams.patch_triangles = 60;
-    seams.region_triangles = 90;
-    seams.memory = octree::BuildMemory{.threads = 2, .chunk_triangles = 100};
+    seams.chunk_triangles = 60;
+    seams.sector_triangles = 90;
+    seams.memory = octree::BuildMemory{.threads = 2, .batch_triangles = 100};
   }
   options.page_bytes = choices.page_bytes;
   options.box = choices.box;

@@ -44,8 +44,8 @@ class BuiltModel {
   /// model frame = input * 2^scale_exponent().
   [[nodiscard]] int scale_exponent() const { return scale_exponent_; }
 
-  ClosestPoint ask(const Vec3& query, const Ask& ask = {}) {
-    return probe_->closest_point(query, ask);
+  ClosestPoint closest_point(const Vec3& query, const QueryOptions& options = {}) {
+    return probe_->closest_point(query, options);
   }
   Probe& probe() { return *probe_; }
 

@@ -15,10 +15,10 @@ Vec3 on_lattice(Random& random, std::size_t steps) {
 }
 
 template <class Place>
-Soup tetrahedra(std::size_t count, const Place& place) {
+Soup tetrahedra(std::size_t count, const Place& index) {
   Soup soup;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 a = place(), b = place(), c = place(), d = place();
+    const Vec3 a = index(), b = index(), c = index(), d = index();
     soup = soup + tetrahedron(a, b, c, d);
   }
   return soup;
@@ -71,7 +71,7 @@ Soup rotated_ball(Random& random) {
 
 // As far from the origin as maps are, and as fine.
 Soup far_away(Random& random) {
-  return moved(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
+  return perturbed(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
 }
 
 Vec3 on_sphere(const Vec3& a, const Vec3& b) {

@@ -24,10 +24,10 @@ Axes random_axes(Random& random) {
 }
 
 // A triangle of one long edge, `height` high above it at `place` of its length.
-Corners slender(Random& random, double height, double place) {
+Corners slender(Random& random, double height, double point) {
   const Axes axes = random_axes(random);
   const Vec3 start = random.in_cube();
-  Corners triangle{start, start + axes.x, start + axes.x * place + axes.y * height};
+  Corners triangle{start, start + axes.x, start + axes.x * point + axes.y * height};
   std::swap(triangle[random.below(3)], triangle[0]);
   return triangle;
 }
@@ -67,8 +67,8 @@ Soup thresholds(Random& random) {
     constexpr double kSines[] = {0x1p-4, 0x1p-5, 0x1p-50};
     const double about = kSines[r.below(3)];
     const double sine = about * (1 + r.signed_magnitude(-40, -3));
-    const double place = r.one_in(3) ? r.magnitude(-20, 0) : 0.5;
-    return slender(r, sine * place, place);
+    const double point = r.one_in(3) ? r.magnitude(-20, 0) : 0.5;
+    return slender(r, sine * point, point);
   });
 }
 
@@ -123,12 +123,12 @@ Soup degenerates(Random& random) {
 // Everything from very small to very large about one place.
 Soup mixed_scales(Random& random) {
   Soup triangles;
-  const Vec3 place = random.in_cube();
+  const Vec3 point = random.in_cube();
   const double least = random.one_in(2) ? -60 : random.between(-250, -20);
   for (std::size_t i = 5 + random.below(200); i > 0; --i) {
     const double size = random.magnitude(least, 0);
     const Vec3 aside = random.in_cube() * size;
-    const Vec3 at = random.one_in(3) ? place : place + aside;
+    const Vec3 at = random.one_in(3) ? point : point + aside;
     triangles.push_back({at, at + random.in_cube() * size, at + random.in_cube() * size});
   }
   return triangles;
@@ -155,7 +155,7 @@ Soup grid(Random& random) {
 Soup map_coordinates(Random& random) {
   const double distance = random.magnitude(5, 45);
   const Soup near = soup(random);
-  return moved(near, random.in_cube() * distance);
+  return perturbed(near, random.in_cube() * distance);
 }
 
 // Bits fall off by doubling the angle to the point where all meet.
@@ -222,7 +222,7 @@ Soup scaled(Soup triangles, double factor) {
   return triangles;
 }
 
-Soup moved(Soup triangles, const Vec3& offset) {
+Soup perturbed(Soup triangles, const Vec3& offset) {
   for (Corners& triangle : triangles)
     for (Vec3& corner : triangle) corner = corner + offset;
   return triangles;

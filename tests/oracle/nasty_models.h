@@ -33,7 +33,7 @@ std::array<double, 2> on_circle(double turn);
 /// Every corner times `factor`.
 Soup scaled(Soup triangles, double factor);
 /// Every corner plus `offset`.
-Soup moved(Soup triangles, const Vec3& offset);
+Soup perturbed(Soup triangles, const Vec3& offset);
 
 /// A point of the triangle's plane, inside it where `random` says so.
 Vec3 point_on(Random& random, const Corners& triangle);

@@ -15,7 +15,7 @@ namespace planetree::oracle {
 namespace {
 
 constexpr double kScales[] = {1, 1e-300, 1e150, 37, 1e-12, 1e20, 1};
-constexpr std::size_t kMostTriangles = 500;
+constexpr std::size_t kMaxTriangles = 500;
 
 const NastyFamily& family_of(std::size_t number) {
   const std::size_t nasty = nasty_families().size();
@@ -27,7 +27,7 @@ double scale_of(std::size_t number) { return kScales[number % std::size(kScales)
 
 BuiltModel built_model(std::size_t number, Random& random) {
   Soup soup = family_of(number).make(random);
-  if (soup.size() > kMostTriangles) soup.resize(kMostTriangles);
+  if (soup.size() > kMaxTriangles) soup.resize(kMaxTriangles);
   return BuiltModel(scaled(std::move(soup), scale_of(number)), {4096, 1 << 20, 1});
 }
 
@@ -49,7 +49,7 @@ bool all_finite(const ClosestPoint& a) {
 
 class Judge {
  public:
-  explicit Judge(AskedModel& model)
+  explicit Judge(QueriedModel& model)
       : model_(model),
         intervals_(model.built.triangles()),
         watertight_(model.built.model().info().watertight()),
@@ -59,10 +59,10 @@ class Judge {
       for (Vec3& corner : triangle) corner = in_frame(corner);
   }
 
-  void ask(const Vec3& query, AskTally& tally) {
-    const ClosestPoint answer = model_.built.ask(query);
+  void check_query(const Vec3& query, QueryTally& tally) {
+    const ClosestPoint answer = model_.built.closest_point(query);
     const std::size_t before = tally.misses();
-    ++tally.asks;
+    ++tally.queries;
     tally.not_finite += !all_finite(answer);
     tally.interval += !interval_holds(query, answer);
     judge_side(query, answer, tally);
@@ -93,7 +93,7 @@ class Judge {
     return exact_side(at, in_frame_);
   }
 
-  void judge_side(const Vec3& query, const ClosestPoint& answer, AskTally& tally) {
+  void judge_side(const Vec3& query, const ClosestPoint& answer, QueryTally& tally) {
     const Containment alone = model_.built.probe().contains(query);
     const std::optional<Side> expected = watertight_ ? true_side(query) : open_side(query);
     tally.sides += expected.has_value();
@@ -111,14 +111,14 @@ class Judge {
     return size > 0.5L ? Side::kInside : Side::kOutside;
   }
 
-  void judge_normal(const Vec3& query, const ClosestPoint& a, AskTally& tally) const {
+  void judge_normal(const Vec3& query, const ClosestPoint& a, QueryTally& tally) const {
     bool good = std::fabs(dot(a.normal, a.normal) - 1) < 1e-15;
     const Vec3 way = query - a.point;
     // Not the length, which may overflow.
     const double reach = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
     // What has no area has no normal.
-    const bool told = a.normal.x != 0 || a.normal.y != 0 || a.normal.z != 1;
-    if (told && (a.side == Side::kInside || a.side == Side::kOutside) && std::isfinite(reach) &&
+    const bool certain = a.normal.x != 0 || a.normal.y != 0 || a.normal.z != 1;
+    if (certain && (a.side == Side::kInside || a.side == Side::kOutside) && std::isfinite(reach) &&
         a.triangle < model_.built.triangles().size() &&
         reach > 1e-9 * largest_coordinate(model_.built.triangles()[a.triangle])) {
       const Vec3 direction{way.x / reach, way.y / reach, way.z / reach};
@@ -140,7 +140,7 @@ class Judge {
     return line;
   }
 
-  AskedModel& model_;
+  QueriedModel& model_;
   IntervalOracle intervals_;
   bool watertight_;
   Soup in_frame_;
@@ -150,7 +150,7 @@ class Judge {
 
 std::string_view name_of(std::size_t number) { return family_of(number).name; }
 
-AskedModel::AskedModel(std::size_t number)
+QueriedModel::QueriedModel(std::size_t number)
     : family(family_of(number).name),
       closed(number % (nasty_families().size() + closed_families().size()) >=
              nasty_families().size()),
@@ -158,7 +158,7 @@ AskedModel::AskedModel(std::size_t number)
       random(900000 + number),
       built(built_model(number, random)) {}
 
-Vec3 AskedModel::query() {
+Vec3 QueriedModel::query() {
   const Soup& triangles = built.triangles();
   const auto anywhere = [](double low, double high, double share) {
     return low + share * (high - low);
@@ -186,8 +186,8 @@ Vec3 AskedModel::query() {
   }
 }
 
-AskTally& AskTally::operator+=(const AskTally& other) {
-  asks += other.asks;
+QueryTally& QueryTally::operator+=(const QueryTally& other) {
+  queries += other.queries;
   sides += other.sides;
   normals += other.normals;
   not_finite += other.not_finite;
@@ -198,11 +198,11 @@ AskTally& AskTally::operator+=(const AskTally& other) {
   return *this;
 }
 
-AskTally ask_at_random(std::size_t number, std::size_t count) {
-  AskedModel model(number);
+QueryTally query_at_random(std::size_t number, std::size_t count) {
+  QueriedModel model(number);
   Judge judge(model);
-  AskTally tally;
-  for (std::size_t i = 0; i < count; ++i) judge.ask(model.query(), tally);
+  QueryTally tally;
+  for (std::size_t i = 0; i < count; ++i) judge.check_query(model.query(), tally);
   if (model.closed && !model.built.model().info().watertight()) {
     ++tally.side;
     tally.first_miss = std::string(model.family) + " is not watertight";

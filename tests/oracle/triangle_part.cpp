@@ -35,13 +35,13 @@ Box box_of(const Corners& t) {
 std::vector<Entry> entries_of(std::span<const Corners> triangles) {
   std::vector<Entry> entries;
   entries.reserve(triangles.size());
-  for (std::uint32_t place = 0; place < triangles.size(); ++place)
-    entries.emplace_back(box_of(triangles[place]), place);
+  for (std::uint32_t index = 0; index < triangles.size(); ++index)
+    entries.emplace_back(box_of(triangles[index]), index);
   return entries;
 }
 
 // Where an R-tree puts what it finds.
-auto places(std::vector<std::uint32_t>& found) {
+auto indices(std::vector<std::uint32_t>& found) {
   return boost::make_function_output_iterator(
       [&found](const Entry& entry) { found.push_back(entry.second); });
 }
@@ -80,12 +80,12 @@ class TrianglePart::Tree {
     const auto nearest = boxes_.qbegin(tree::nearest(ball.centre, 1));
     if (!ball.may_meet(nearest->first)) return;
     const auto may_meet = [&ball](const Entry& entry) { return ball.may_meet(entry.first); };
-    boxes_.query(tree::intersects(ball.box) && tree::satisfies(may_meet), places(found));
+    boxes_.query(tree::intersects(ball.box) && tree::satisfies(may_meet), indices(found));
   }
 
   void find_ahead(const Vec3& query, std::vector<std::uint32_t>& found) const {
     const Box ray(BoxCorner(query.x, query.y, query.z), BoxCorner(kInfinity, query.y, query.z));
-    if (geometry::intersects(ray, bounds_)) boxes_.query(tree::intersects(ray), places(found));
+    if (geometry::intersects(ray, bounds_)) boxes_.query(tree::intersects(ray), indices(found));
   }
 
  private:

@@ -11,10 +11,10 @@ namespace planetree::oracle {
 
 /// The boxes of some triangles in an R-tree (Boost.Geometry), to find those that a ball or a
 /// ray may meet. None that does is left out; some that do not are found besides.
-/// Asking is for any number of threads.
+/// ClosestPointQuery is for any number of threads.
 class TrianglePart {
  public:
-  /// Places are those in `triangles`, which are not none.
+  /// Indices are those in `triangles`, which are not none.
   explicit TrianglePart(std::span<const Corners> triangles);
   ~TrianglePart();
   TrianglePart(TrianglePart&&) noexcept;

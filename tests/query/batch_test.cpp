@@ -16,7 +16,7 @@ namespace {
 
 class Batch : public testing::Test {
  protected:
-  static constexpr std::size_t kWindow = BatchRoom::kMost;
+  static constexpr std::size_t kWindow = BatchBuffers::kMax;
 
   // So many more than the probe has room for that the last answers lend theirs; some of them odd.
   Batch() : sample_(octree::sphere(4)), queries_(random_queries(kWindow * 5 / 4, -1.5, 1.5)) {
@@ -27,13 +27,13 @@ class Batch : public testing::Test {
     queries_[2001] = {1e20, 1, 1};
   }
 
-  void expect_as_one_by_one(const Ask& ask, unsigned threads = 1) {
+  void expect_as_one_by_one(const QueryOptions& options, unsigned threads = 1) {
     const Model model = sample_.open_for_batches(threads);
     Probe probe = make_probe(model);
     std::vector<ClosestPoint> answers(queries_.size());
-    probe.closest_points(queries_, answers, ask);
+    probe.closest_points(queries_, answers, options);
     for (std::size_t i = 0; i < queries_.size(); ++i)
-      ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries_[i], ask))) << i;
+      ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries_[i], options))) << i;
   }
 
   SampleModel sample_;
@@ -61,10 +61,10 @@ TEST_F(Batch, TellsSidesWithSeveralThreadsToo) {
 TEST_F(Batch, MayBeAskedByManyAtOnce) {
   const Model model = sample_.open_for_batches(2, 4);
   std::vector<std::vector<ClosestPoint>> answers(4, std::vector<ClosestPoint>(queries_.size()));
-  std::vector<std::thread> askers;
+  std::vector<std::thread> queriers;
   for (auto& own : answers)
-    askers.emplace_back([&] { make_probe(model).closest_points(queries_, own); });
-  for (std::thread& asker : askers) asker.join();
+    queriers.emplace_back([&] { make_probe(model).closest_points(queries_, own); });
+  for (std::thread& querier : queriers) querier.join();
   for (std::size_t i = 0; i < queries_.size(); ++i)
     for (const auto& own : answers) ASSERT_EQ(bits_of(own[i]), bits_of(answers[0][i])) << i;
 }
@@ -84,11 +84,11 @@ TEST_F(Batch, ComputesAsEverInThreadsOfOddArithmetic) {
 }
 
 TEST_F(Batch, HasThemUnderLimitsToo) {
-  expect_as_one_by_one({.max_error = 0.1, .max_distance = 0.5, .max_nodes = 12});
+  expect_as_one_by_one({.max_error = 0.1, .max_distance = 0.5, .max_work = 12});
 }
 
 TEST_F(Batch, HasThemInAnyOrderAndAnyMemory) {
-  const Model large = sample_.open(), small = sample_.open(sample_.least_budget());
+  const Model large = sample_.open(), small = sample_.open(sample_.min_budget());
   Probe of_large = make_probe(large), of_small = make_probe(small);
   std::vector<ClosestPoint> answers(queries_.size()), turned(queries_.size());
   of_large.closest_points(queries_, answers);
@@ -123,14 +123,14 @@ TEST_F(Batch, MayBeSoLargeThatWhatIsLeftIsLargeToo) {
   Probe probe = make_probe(model);
   const std::vector<Vec3> queries = random_queries(18 * kWindow, -1.5, 1.5);
   std::vector<ClosestPoint> answers(queries.size());
-  const Ask ask{.parts = kDistance};
-  probe.closest_points(queries, answers, ask);
+  const QueryOptions options{.parts = kDistance};
+  probe.closest_points(queries, answers, options);
   for (std::size_t i = 0; i < queries.size(); ++i)
-    ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries[i], ask))) << i;
+    ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries[i], options))) << i;
 }
 
 TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
-  const std::uint64_t budget = sample_.least_budget() + sample_.page_count() / 3 * 4096;
+  const std::uint64_t budget = sample_.min_budget() + sample_.page_count() / 3 * 4096;
   const Model one = sample_.open(budget), batch = sample_.open(budget);
   ASSERT_LT(one.stats().frames, sample_.page_count());
   Probe of_one = make_probe(one), of_batch = make_probe(batch);
@@ -142,7 +142,7 @@ TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
 
 // Put in order all together, and not as many at a time as a probe has room for.
 TEST_F(Batch, TurnsFewerPagesTheLargerItIs) {
-  const std::uint64_t budget = sample_.least_budget() + sample_.page_count() / 3 * 4096;
+  const std::uint64_t budget = sample_.min_budget() + sample_.page_count() / 3 * 4096;
   const std::vector<Vec3> queries = random_queries(8 * kWindow, -1.5, 1.5);
   std::vector<ClosestPoint> answers(queries.size());
   const auto pages_read = [&](std::size_t size) {

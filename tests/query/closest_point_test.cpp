@@ -52,7 +52,7 @@ TEST(ClosestPoint, RefusesWhatMakesNoSense) {
   Probe probe = make_probe(model);
   struct Row {
     Vec3 query;
-    Ask ask;
+    QueryOptions options;
   };
   std::vector<Row> rows;
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
@@ -66,7 +66,7 @@ TEST(ClosestPoint, RefusesWhatMakesNoSense) {
   rows.push_back({{}, {.max_distance = -1}});
   rows.push_back({{}, {.max_distance = -kInfinity}});
   for (const Row& row : rows) {
-    const ClosestPoint answer = probe.closest_point(row.query, row.ask);
+    const ClosestPoint answer = probe.closest_point(row.query, row.options);
     EXPECT_EQ(answer.status, Status::kBadQuery);
     EXPECT_EQ(answer.lower, 0);
     EXPECT_EQ(answer.upper, kInfinity);
@@ -125,11 +125,11 @@ TEST(ClosestPoint, LooksNoFartherThanTold) {
   for (const Vec3& query : random_queries(200, -2, 2)) {
     const double truth = sample.distance(query);
     for (const double share : {0.0, 0.5, 0.999999, 1.000001, 3.0}) {
-      const Ask ask{.max_distance = truth * share};
-      const ClosestPoint answer = probe.closest_point(query, ask);
+      const QueryOptions options{.max_distance = truth * share};
+      const ClosestPoint answer = probe.closest_point(query, options);
       if (share < 1) {
         EXPECT_EQ(answer.status, Status::kBeyondMaxDistance);
-        EXPECT_EQ(answer.lower, ask.max_distance);
+        EXPECT_EQ(answer.lower, options.max_distance);
         EXPECT_EQ(answer.upper, kInfinity);
         EXPECT_EQ(answer.distance, kInfinity);
         EXPECT_EQ(answer.triangle, kNoTriangle);
@@ -169,11 +169,11 @@ TEST(ClosestPoint, HoldsTheTruthWhateverTheLimits) {
   octree::Noise noise(9);
   int counts[5] = {};
   for (const Vec3& query : random_queries(600, -1, 2)) {
-    Ask ask;
-    if (noise.bits() % 2 == 0) ask.max_nodes = noise.bits() % 40;
-    if (noise.bits() % 2 == 0) ask.max_error = noise.uniform(0, 0.3);
-    if (noise.bits() % 3 == 0) ask.max_distance = noise.uniform(0, 1);
-    const ClosestPoint answer = probe.closest_point(query, ask);
+    QueryOptions options;
+    if (noise.bits() % 2 == 0) options.max_work = noise.bits() % 40;
+    if (noise.bits() % 2 == 0) options.max_error = noise.uniform(0, 0.3);
+    if (noise.bits() % 3 == 0) options.max_distance = noise.uniform(0, 1);
+    const ClosestPoint answer = probe.closest_point(query, options);
     EXPECT_TRUE(sample.interval_holds(answer, query));
     ++counts[static_cast<int>(answer.status)];
   }
@@ -188,7 +188,7 @@ TEST(ClosestPoint, AnswersAtOnceWithoutAnyNode) {
   Probe probe = make_probe(model);
   const std::uint64_t hits = model.stats().page_hits;
   const Vec3 query{0.5, 0.25, 3};
-  const ClosestPoint answer = probe.closest_point(query, {.max_nodes = 0});
+  const ClosestPoint answer = probe.closest_point(query, {.max_work = 0});
   EXPECT_EQ(answer.status, Status::kDegraded);
   EXPECT_EQ(answer.triangle, kNoTriangle);
   EXPECT_EQ(answer.distance, answer.upper);
@@ -204,15 +204,15 @@ TEST(ClosestPoint, KnowsMoreTheMoreNodesItMayVisit) {
   Probe probe = make_probe(model);
   for (const Vec3& query : random_queries(15, -1.5, 1.5)) {
     for (std::uint32_t nodes = 0; nodes < 60; ++nodes)
-      EXPECT_TRUE(sample.interval_holds(probe.closest_point(query, {.max_nodes = nodes}), query));
-    EXPECT_EQ(probe.closest_point(query, {.max_nodes = 1}).status, Status::kDegraded);
-    EXPECT_EQ(probe.closest_point(query, {.max_nodes = 5000}).status, Status::kExact);
+      EXPECT_TRUE(sample.interval_holds(probe.closest_point(query, {.max_work = nodes}), query));
+    EXPECT_EQ(probe.closest_point(query, {.max_work = 1}).status, Status::kDegraded);
+    EXPECT_EQ(probe.closest_point(query, {.max_work = 5000}).status, Status::kExact);
   }
 }
 
 TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
   const SampleModel sample(scattered(3000, 0.05));
-  const Model large = sample.open(), small = sample.open(sample.least_budget());
+  const Model large = sample.open(), small = sample.open(sample.min_budget());
   ASSERT_GT(large.stats().frames, 4 * small.stats().frames);
   Probe of_large = make_probe(large), of_small = make_probe(small);
   const std::vector<Vec3> queries = random_queries(400, -0.2, 1.2);
@@ -226,16 +226,17 @@ TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
 // Where very many triangles are nearly as near, so that more of them are noted than are kept.
 TEST(ClosestPoint, DoesNotDependOnMemoryWhereErrorsAndWorkAreAllowed) {
   const SampleModel sample(octree::sphere(6));
-  const Model large = sample.open(), small = sample.open(sample.least_budget());
+  const Model large = sample.open(), small = sample.open(sample.min_budget());
   Probe of_large = make_probe(large), of_small = make_probe(small);
   std::set<Status> seen;
   for (const double aside : {0.0, 1e-6, 1e-5, 1e-3})
     for (const Vec3& query : random_queries(60, -aside, aside, 13))
       for (const double max_error : {1e-6, 1e-4, 1e-3, 1e-2})
-        for (const std::uint32_t max_nodes : {Ask::kNoLimit, 500u, 3000u}) {
-          const Ask ask{.parts = kDistance, .max_error = max_error, .max_nodes = max_nodes};
-          const ClosestPoint expected = of_large.closest_point(query, ask);
-          EXPECT_EQ(bits_of(of_small.closest_point(query, ask)), bits_of(expected));
+        for (const std::uint32_t max_work : {QueryOptions::kNoLimit, 500u, 3000u}) {
+          const QueryOptions options{
+              .parts = kDistance, .max_error = max_error, .max_work = max_work};
+          const ClosestPoint expected = of_large.closest_point(query, options);
+          EXPECT_EQ(bits_of(of_small.closest_point(query, options)), bits_of(expected));
           seen.insert(expected.status);
         }
   EXPECT_GT(small.stats().pages_evicted, 100u);

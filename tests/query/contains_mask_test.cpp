@@ -42,12 +42,12 @@ class CountedSides {
   explicit CountedSides(const SampleModel& sample)
       : state_(open(sample)), reader_(*state_->claim_reader()) {}
 
-  Standing ask(const Vec3& query, octree::TreeWork& work) {
+  SideResult side(const Vec3& query, octree::TraversalStats& work) {
     const octree::Point point = state_->scale().in(query);
-    PageTurner turner(reader_, Wait::kForPages);
-    return find_side(*state_, point, ~std::uint64_t{0}, turner.pages(), work);
+    PageAccessor accessor(reader_, Wait::kForPages);
+    return find_side(*state_, point, ~std::uint64_t{0}, accessor.pages(), work);
   }
-  const octree::MaskFacts& mask() const { return state_->mask(); }
+  const octree::MaskInfo& mask() const { return state_->mask(); }
 
  private:
   static std::unique_ptr<ModelState> open(const SampleModel& sample) {
@@ -72,12 +72,12 @@ TEST(ContainsMask, AnswersMostFromOneCell) {
   const FileImage image(storage::read_bytes(with.path()));
   const unsigned levels = image.header().model.mask_levels;
   int at_once = 0;
-  octree::TreeWork all, all_bare;
+  octree::TraversalStats all, all_bare;
   const std::vector<Vec3> queries = random_queries(2000, -1, 1);
   for (const Vec3& query : queries) {
-    octree::TreeWork work;
-    const Standing found = masked.ask(query, work);
-    ASSERT_EQ(found.side, bare.ask(query, all_bare).side);
+    octree::TraversalStats work;
+    const SideResult found = masked.side(query, work);
+    ASSERT_EQ(found.side, bare.side(query, all_bare).side);
     ASSERT_EQ(found.status, Status::kExact);
     if (work.blocks == 0 && work.nodes <= levels) ++at_once;
     all.blocks += work.blocks;
@@ -93,7 +93,7 @@ std::vector<Soup> nasty_soups() {
           joined({box({0, 0, 0}, {1, 1, 1}, 8), box({0.25, 0.25, 0.25}, {0.5, 0.75, 1}, 6),
                   inside_out(box({0.5, 0.5, 0}, {1, 0.75, 0.25}, 6))}),
           grains(300, 0.4),
-          joined({sheet(12), inside_out(sheet(12))}),
+          joined({height_field(12), inside_out(height_field(12))}),
           shells(130),
           box({0, 0, 0}, {0.9, 0.8, 0.7}, 30)};
 }
@@ -104,8 +104,8 @@ TEST(ContainsMask, SaysTheSidesThatAreSaidWithoutIt) {
     CountedSides masked(with), bare(without);
     ASSERT_GT(masked.mask().page_count, 0u);
     for (const Vec3& query : points_about(with, 600)) {
-      octree::TreeWork work;
-      const Standing found = masked.ask(query, work), expected = bare.ask(query, work);
+      octree::TraversalStats work;
+      const SideResult found = masked.side(query, work), expected = bare.side(query, work);
       ASSERT_EQ(found.status, Status::kExact);
       ASSERT_EQ(found.side, expected.side) << query.x << ' ' << query.y << ' ' << query.z;
       // Of a cell of one colour only the sign is known.
@@ -119,13 +119,13 @@ class DamagedMask : public testing::Test {
  protected:
   DamagedMask() : sample_(SampleModel::masked(octree::sphere(5))) {
     queries_ = points_about(sample_, 400);
-    answers_ = ask();
+    answers_ = containments();
     EXPECT_GT(mask_pages(), 2u);
   }
   std::uint32_t mask_pages() const {
     return FileImage(storage::read_bytes(sample_.path())).header().model.mask_page_count;
   }
-  std::vector<Containment> ask() {
+  std::vector<Containment> containments() {
     const Model model = sample_.open();
     Probe probe = make_probe(model);
     std::vector<Containment> answers;
@@ -159,12 +159,12 @@ TEST_F(DamagedMask, ChangesNoAnswer) {
   for (std::uint32_t page = 0; page < count; ++page) {
     SCOPED_TRACE(page);
     damage(page);
-    expect_same(ask());
+    expect_same(containments());
     EXPECT_EQ(quarantined_, 1u);
     damage(page);
   }
   for (std::uint32_t page = 0; page < count; ++page) damage(page);
-  expect_same(ask());
+  expect_same(containments());
   EXPECT_EQ(quarantined_, 1u);
 }
 
@@ -172,13 +172,14 @@ TEST_F(DamagedMask, IsNotReadForDistances) {
   for (std::uint32_t page = 0; page < mask_pages(); ++page) damage(page);
   const SampleModel without(octree::sphere(5));
   const Model model = sample_.open(), bare = without.open();
-  // Its first page is looked for once, for ColourMap.
+  // Its first page is looked for once, for SideGrid.
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
   EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
   Probe probe = make_probe(model), of_bare = make_probe(bare);
   for (const Vec3& query : queries_) {
-    const Ask ask{.parts = kDistance};
-    ASSERT_EQ(probe.closest_point(query, ask).triangle, of_bare.closest_point(query, ask).triangle);
+    const QueryOptions query_options{.parts = kDistance};
+    ASSERT_EQ(probe.closest_point(query, query_options).triangle,
+              of_bare.closest_point(query, query_options).triangle);
   }
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
   EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
@@ -192,13 +193,13 @@ TEST(ContainsMask, EndsItsWorkWhereItIsTold) {
   int known = 0, unknown = 0;
   for (const Vec3& query : points_about(sample, 100)) {
     const Side side = probe.contains(query).side;
-    bool told = false;
+    bool certain = false;
     for (std::uint32_t most = 0; most < 40; ++most) {
-      const Containment found = probe.contains(query, {.max_nodes = most});
-      told = found.status == Status::kExact;
-      ASSERT_EQ(found.side, told ? side : Side::kUnknown);
-      ASSERT_TRUE(told || found.status == Status::kDegraded);
-      ++(told ? known : unknown);
+      const Containment found = probe.contains(query, {.max_work = most});
+      certain = found.status == Status::kExact;
+      ASSERT_EQ(found.side, certain ? side : Side::kUnknown);
+      ASSERT_TRUE(certain || found.status == Status::kDegraded);
+      ++(certain ? known : unknown);
     }
   }
   EXPECT_GT(known, 1000);

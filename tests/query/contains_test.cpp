@@ -54,7 +54,7 @@ TEST_F(Contains, TellsTheSideOfEveryPoint) {
 }
 
 TEST_F(Contains, HasInBatchesWhatItHasOneByOne) {
-  const Model model = sample_.open(), small = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(), small = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model), of_small = make_probe(small);
   std::vector<Containment> answers(queries_.size());
   of_small.contains(queries_, answers);
@@ -115,11 +115,11 @@ TEST_F(Contains, LeavesOutWhatIsNotAsked) {
 TEST_F(Contains, IsDegradedWhenTheWorkEnds) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  const Containment found = probe.contains({0.2, 0.3, 0.4}, {.max_nodes = 2});
+  const Containment found = probe.contains({0.2, 0.3, 0.4}, {.max_work = 2});
   EXPECT_EQ(found.side, Side::kUnknown);
   EXPECT_EQ(found.status, Status::kDegraded);
   EXPECT_EQ(model.stats().degraded_answers, 1u);
-  EXPECT_EQ(probe.contains({5, 0, 0}, {.max_nodes = 0}).side, Side::kOutside);
+  EXPECT_EQ(probe.contains({5, 0, 0}, {.max_work = 0}).side, Side::kOutside);
 }
 
 // A way that another page can tell of is taken where one is lost.
@@ -196,7 +196,7 @@ TEST_F(ContainsOpen, TellsTheSideByTheWindingNumber) {
 }
 
 TEST_F(ContainsOpen, HasInBatchesAndWithHardlyAnyMemoryWhatItHasOneByOne) {
-  const Model model = sample_.open(), small = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(), small = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model), of_small = make_probe(small);
   std::vector<Containment> answers(queries_.size());
   of_small.contains(queries_, answers);
@@ -210,14 +210,14 @@ TEST_F(ContainsOpen, HasInBatchesAndWithHardlyAnyMemoryWhatItHasOneByOne) {
 TEST_F(ContainsOpen, IsDegradedWhenTheWorkEnds) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  const Containment found = probe.contains({0.2, 0.3, -0.4}, {.max_nodes = 1});
+  const Containment found = probe.contains({0.2, 0.3, -0.4}, {.max_work = 1});
   EXPECT_EQ(found.side, Side::kUnknown);
   EXPECT_EQ(found.status, Status::kDegraded);
   EXPECT_EQ(model.stats().degraded_answers, 1u);
   // Sooner or later it is told, and then for good.
   Side side = Side::kUnknown;
   for (std::uint32_t nodes = 2; nodes < 300; ++nodes) {
-    const Containment now = probe.contains({0.2, 0.3, -0.4}, {.max_nodes = nodes});
+    const Containment now = probe.contains({0.2, 0.3, -0.4}, {.max_work = nodes});
     EXPECT_EQ(now.side == Side::kUnknown, now.status == Status::kDegraded);
     if (side != Side::kUnknown) {
       EXPECT_EQ(now.side, side);
@@ -266,7 +266,7 @@ TEST_F(ContainsOpen, TurnsNormalsOutOfTheSolid) {
 }
 
 TEST_F(ContainsOpen, IsOutsideOnBothSidesOfASheet) {
-  const SampleModel sample(octree::sheet(10));
+  const SampleModel sample(octree::height_field(10));
   const Model model = sample.open();
   Probe probe = make_probe(model);
   for (const double z : {-0.3, 0.3}) {

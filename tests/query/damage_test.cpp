@@ -29,7 +29,7 @@ class DamagedWhileOpen : public testing::Test {
   struct Outcome {
     std::size_t exact = 0, degraded = 0;
   };
-  Outcome ask_everything(Probe& probe) {
+  Outcome query_everything(Probe& probe) {
     Outcome outcome;
     for (const Vec3& query : queries_) {
       const ClosestPoint answer = probe.closest_point(query);
@@ -53,7 +53,7 @@ TEST_F(DamagedWhileOpen, DegradesWhatNeedsThePageAndNothingElse) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   damage_page(sample_.page_count() - 1);
-  const Outcome outcome = ask_everything(probe);
+  const Outcome outcome = query_everything(probe);
   EXPECT_GT(outcome.degraded, 0u);
   EXPECT_GT(outcome.exact, outcome.degraded);
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
@@ -64,9 +64,9 @@ TEST_F(DamagedWhileOpen, QuarantinesAPageForGood) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   damage_page(sample_.page_count() - 1);
-  const Outcome first = ask_everything(probe);
+  const Outcome first = query_everything(probe);
   damage_page(sample_.page_count() - 1);  // which puts it right again
-  const Outcome second = ask_everything(probe);
+  const Outcome second = query_everything(probe);
   EXPECT_EQ(first.degraded, second.degraded);
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
 }
@@ -74,36 +74,36 @@ TEST_F(DamagedWhileOpen, QuarantinesAPageForGood) {
 TEST_F(DamagedWhileOpen, ServesWhatIsResidentUnharmed) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  ASSERT_EQ(ask_everything(probe).degraded, 0u);
+  ASSERT_EQ(query_everything(probe).degraded, 0u);
   for (std::uint32_t page = 0; page < sample_.page_count(); ++page) damage_page(page);
-  EXPECT_EQ(ask_everything(probe).degraded, 0u);
+  EXPECT_EQ(query_everything(probe).degraded, 0u);
 }
 
 TEST_F(DamagedWhileOpen, GoesOnThoughEveryPageButTheRootIsLost) {
-  const Model model = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   for (std::uint32_t page = 1; page < sample_.page_count(); ++page) damage_page(page);
-  const Outcome outcome = ask_everything(probe);
+  const Outcome outcome = query_everything(probe);
   EXPECT_EQ(outcome.exact, 0u);
   EXPECT_GT(model.stats().quarantined_pages, 0u);
 }
 
 TEST_F(DamagedWhileOpen, SurvivesAFileCutShort) {
-  const Model model = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   std::filesystem::resize_file(sample_.path(), std::filesystem::file_size(sample_.path()) / 2);
-  const Outcome outcome = ask_everything(probe);
+  const Outcome outcome = query_everything(probe);
   EXPECT_GT(outcome.degraded, 0u);
   EXPECT_GT(model.stats().quarantined_pages, 0u);
 }
 
 TEST_F(DamagedWhileOpen, KeepsTheFileItOpened) {
-  const Model model = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   const std::filesystem::path other = sample_.path().string() + ".new";
   std::ofstream(other) << "something else";
   std::filesystem::rename(other, sample_.path());
-  EXPECT_EQ(ask_everything(probe).degraded, 0u);
+  EXPECT_EQ(query_everything(probe).degraded, 0u);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace planetree::query {
 namespace {
 
-constexpr Ask kHastily{.wait = Wait::kNever};
+constexpr QueryOptions kHastily{.wait = Wait::kNever};
 
 // A clock that a test turns on: it goes a tick each time it is looked at.
 double simulated_seconds = 0;
@@ -55,16 +55,16 @@ class Simulation : public testing::Test {
   Model open(storage::FileCalls& calls, std::uint64_t more_bytes) {
     OpenOptions options;
     options.max_probes = 3;  // one of them for the worker
-    options.memory_budget_bytes = sample_.least_budget(3) + more_bytes;
+    options.memory_budget_bytes = sample_.min_budget(3) + more_bytes;
     auto model = ModelState::open_model(sample_.path(), options, {calls, false});
     EXPECT_TRUE(model);
     return *std::move(model);
   }
 
-  std::vector<ClosestPoint> exact_answers(const std::vector<Vec3>& places) {
+  std::vector<ClosestPoint> exact_answers(const std::vector<Vec3>& points) {
     const Model model = sample_.open();
-    std::vector<ClosestPoint> answers(places.size());
-    make_probe(model).closest_points(places, answers);
+    std::vector<ClosestPoint> answers(points.size());
+    make_probe(model).closest_points(points, answers);
     return answers;
   }
 
@@ -78,19 +78,19 @@ class Simulation : public testing::Test {
     const ModelState& state = ModelState::of(model);
     FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
     Probe probes[] = {make_probe(model), make_probe(model)};
-    std::vector<Vec3> places = random_queries(40, -1.2, 1.2, seed);
-    places.push_back({1e300, 0, 0});
-    places.push_back({0, 1e30, -3});
-    const std::vector<ClosestPoint> exact = exact_answers(places);
+    std::vector<Vec3> points = random_queries(40, -1.2, 1.2, seed);
+    points.push_back({1e300, 0, 0});
+    points.push_back({0, 1e30, -3});
+    const std::vector<ClosestPoint> exact = exact_answers(points);
     std::mt19937 random(seed);
     std::vector<std::uint64_t> seen;
     for (int step = 0; step < 3000; ++step) {
       Probe& probe = probes[random() % 2];
-      const std::size_t at = random() % places.size();
-      const Vec3& place = places[at];
+      const std::size_t at = random() % points.size();
+      const Vec3& point = points[at];
       switch (random() % 8) {
         case 0:
-          probe.motion(place, {place.y, place.z, place.x});
+          probe.motion(point, {point.y, point.z, point.x});
           break;
         case 1:
         case 2:
@@ -98,7 +98,7 @@ class Simulation : public testing::Test {
           seen.push_back(static_cast<std::uint64_t>(worker.work()));
           break;
         default: {
-          const ClosestPoint answer = probe.closest_point(place, kHastily);
+          const ClosestPoint answer = probe.closest_point(point, kHastily);
           EXPECT_LE(answer.lower, exact[at].upper);
           EXPECT_GE(answer.upper, exact[at].lower);
           for (const std::uint64_t bits : bits_of(answer)) seen.push_back(bits);
@@ -129,11 +129,11 @@ TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
   FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
   Probe probe = make_probe(model);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
-  for (const Vec3& place : random_queries(100, -1.2, 1.2)) {
-    if (probe.closest_point(place, kHastily).status == Status::kExact) continue;
-    EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
+  for (const Vec3& point : random_queries(100, -1.2, 1.2)) {
+    if (probe.closest_point(point, kHastily).status == Status::kExact) continue;
+    EXPECT_EQ(worker.work(), FetchWorker::Did::kServedARequest);
     EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
-    EXPECT_EQ(probe.closest_point(place, kHastily).status, Status::kExact);
+    EXPECT_EQ(probe.closest_point(point, kHastily).status, Status::kExact);
   }
 }
 
@@ -145,19 +145,19 @@ TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
   Probe other = make_probe(model);
   const std::vector<Vec3> elsewhere = random_queries(150, -1.2, 1.2, 9);
   const auto drive_out = [&] {
-    for (const Vec3& place : elsewhere) (void)other.closest_point(place);
+    for (const Vec3& point : elsewhere) (void)other.closest_point(point);
   };
-  for (const Vec3& place : random_queries(10, -1.05, 1.05, 4)) {
+  for (const Vec3& point : random_queries(10, -1.05, 1.05, 4)) {
     Probe probe = make_probe(model);
     for (int round = 0; round < 3; ++round) {
       drive_out();
-      (void)probe.closest_point(place, kHastily);
+      (void)probe.closest_point(point, kHastily);
       worker.work();
     }
     drive_out();
     Status status = Status::kDegraded;
     for (int round = 0; round < 4 && status != Status::kExact; ++round) {
-      status = probe.closest_point(place, kHastily).status;
+      status = probe.closest_point(point, kHastily).status;
       worker.work();
     }
     EXPECT_EQ(status, Status::kExact);
@@ -171,10 +171,10 @@ TEST_F(Simulation, ServesWishesForMoreWorkThanIsUsual) {
   Probe probe = make_probe(model);
   // From so far away nothing is pruned: every node is visited.
   const Vec3 far{1e30, 2e29, 0};
-  const Ask ask{.parts = kDistance, .wait = Wait::kNever, .max_nodes = 1000000};
-  EXPECT_EQ(probe.closest_point(far, ask).status, Status::kDegraded);
+  const QueryOptions query_options{.parts = kDistance, .wait = Wait::kNever, .max_work = 1000000};
+  EXPECT_EQ(probe.closest_point(far, query_options).status, Status::kDegraded);
   worker.work();
-  EXPECT_EQ(probe.closest_point(far, ask).status, Status::kExact);
+  EXPECT_EQ(probe.closest_point(far, query_options).status, Status::kExact);
 }
 
 TEST_F(Simulation, StopsBeforeTheNextPage) {
@@ -185,7 +185,7 @@ TEST_F(Simulation, StopsBeforeTheNextPage) {
   Probe probe = make_probe(model);
   (void)probe.closest_point({0, 1.1, 0.3}, kHastily);
   const std::uint64_t read = model.stats().pages_read;
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedARequest);
   EXPECT_EQ(model.stats().pages_read, read);
 }
 
@@ -196,8 +196,8 @@ TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
   FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
   Probe probe = make_probe(model);
   std::size_t degraded = 0;
-  for (const Vec3& place : random_queries(600, -1.2, 1.2, 6)) {
-    const ClosestPoint answer = probe.closest_point(place, kHastily);
+  for (const Vec3& point : random_queries(600, -1.2, 1.2, 6)) {
+    const ClosestPoint answer = probe.closest_point(point, kHastily);
     if (degraded % 3 == 0) worker.work();
     if (answer.status != Status::kDegraded || answer.triangle == kNoTriangle) continue;
     ++degraded;
@@ -215,7 +215,7 @@ TEST_F(Simulation, WishesComeBeforePlans) {
   moving.motion({-1.2, 0, 0}, {1, 0, 0});
   EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
   EXPECT_EQ(waiting.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedAWish);
+  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedARequest);
   for (int left = 3; left > 0; --left) EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
 }
@@ -235,14 +235,14 @@ TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
       EXPECT_NE(reader.fetch(page, {.reads_itself = false}).frame, nullptr);
       reader.leave();
     });
-    state.cache().wait_for_errand(std::chrono::minutes(1), never_);
+    state.cache().wait_for_read(std::chrono::minutes(1), never_);
     const FetchWorker::Did did = worker.work();
     waiting.join();
     return did;
   };
-  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 1), FetchWorker::Did::kReadForAnAsk);
+  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 1), FetchWorker::Did::kReadForAQuery);
   // Its page is read too, in between.
-  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 2), FetchWorker::Did::kServedAWish);
+  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 2), FetchWorker::Did::kServedARequest);
   EXPECT_EQ(probe.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kExact);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
 }
@@ -253,8 +253,8 @@ TEST_F(Simulation, NoProbeIsKeptWaitingByAnother) {
   FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
   Probe greedy = make_probe(model), modest = make_probe(model);
   EXPECT_EQ(modest.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
-  for (const Vec3& place : random_queries(3, -1.2, 1.2, 5)) {
-    (void)greedy.closest_point(place, kHastily);
+  for (const Vec3& point : random_queries(3, -1.2, 1.2, 5)) {
+    (void)greedy.closest_point(point, kHastily);
     worker.work();
   }
   EXPECT_EQ(modest.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kExact);

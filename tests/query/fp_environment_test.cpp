@@ -47,17 +47,17 @@ class StabilityHostThread : public testing::Test {
     return bits;
   }
   template <class Answer>
-  Bits in_a_batch(void (Probe::*verb)(std::span<const Vec3>, std::span<Answer>,
-                                      const Ask&) noexcept) const {
+  Bits in_a_batch(void (Probe::*subcommand)(std::span<const Vec3>, std::span<Answer>,
+                                            const QueryOptions&) noexcept) const {
     Probe probe = make_probe(model_);
     std::vector<Answer> answers(queries_.size());
-    (probe.*verb)(queries_, answers, {});
+    (probe.*subcommand)(queries_, answers, {});
     Bits bits;
     for (const Answer& answer : answers) add(answer, bits);
     return bits;
   }
 
-  std::vector<std::function<Bits()>> verbs() const {
+  std::vector<std::function<Bits()>> subcommands() const {
     return {[this] { return one_by_one(false); }, [this] { return one_by_one(true); },
             [this] { return in_a_batch<ClosestPoint>(&Probe::closest_points); },
             [this] { return in_a_batch<Containment>(&Probe::contains); }};
@@ -71,11 +71,11 @@ class StabilityHostThread : public testing::Test {
 constexpr int kRoundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
 TEST_F(StabilityHostThread, MayRoundAnotherWayAndFlushToZero) {
-  for (const auto& verb : verbs()) {
-    const Bits expected = verb();
+  for (const auto& subcommand : subcommands()) {
+    const Bits expected = subcommand();
     for (const int rounding : kRoundings) {
       const OddArithmetic odd(rounding);
-      EXPECT_EQ(verb(), expected) << rounding;
+      EXPECT_EQ(subcommand(), expected) << rounding;
       EXPECT_EQ(std::fegetround(), rounding);
     }
   }
@@ -99,15 +99,15 @@ TEST_F(StabilityHostThread, MayOpenAModelWhileItRoundsAnotherWay) {
 #if defined(__SSE2__)
 // A trap on an inexact result would end this program.
 TEST_F(StabilityHostThread, MayTrapInexactResults) {
-  for (const auto& verb : verbs()) {
-    const Bits expected = verb();
+  for (const auto& subcommand : subcommands()) {
+    const Bits expected = subcommand();
     const unsigned before = _mm_getcsr();
     ASSERT_EQ(before & 0x1f80, 0x1f80U);
     Bits found;
     {
       const auto trapping = [&] {
         _mm_setcsr(before & ~0x1fffU);
-        found = verb();
+        found = subcommand();
         const unsigned after = _mm_getcsr();
         _mm_setcsr(before);
         return after;
@@ -122,8 +122,8 @@ TEST_F(StabilityHostThread, FindsItsModeAsItWas) {
   const unsigned before = _mm_getcsr();
   for (const unsigned mode : {0x9fc0U, 0x7f80U, 0x1f80U, 0x1fc0U}) {
     _mm_setcsr(mode);
-    for (const auto& verb : verbs()) {
-      verb();
+    for (const auto& subcommand : subcommands()) {
+      subcommand();
       EXPECT_EQ(_mm_getcsr() & ~0x3fU, mode);
     }
   }

@@ -18,9 +18,9 @@ class NoWitness final : public octree::BuildProgress {
 
 FetchWorker::Seconds still_time() { return FetchWorker::Seconds(1); }
 
-class SheetWishes : public octree::SmallPatches {
+class HeightFieldRequests : public octree::SmallChunks {
  protected:
-  SheetWishes() {
+  HeightFieldRequests() {
     write(octree::sphere(5));
     NoWitness witness;
     octree::BuildOptions options;
@@ -45,18 +45,18 @@ class SheetWishes : public octree::SmallPatches {
 
 // A thread that fetches has no last answers: what it finds without the mask, the probe that wished
 // may not.
-TEST_F(SheetWishes, BringTheMaskWhereFacesTellTheSide) {
+TEST_F(HeightFieldRequests, BringTheMaskWhereFacesTellTheSide) {
   const Model model = open();
   const ModelState& state = ModelState::of(model);
   FetchWorker worker(state, *state.claim_reader(), 0, 1, &still_time, never_);
-  constexpr Ask kHasty{.wait = Wait::kNever};
+  constexpr QueryOptions kHasty{.wait = Wait::kNever};
   Probe probe = make_probe(model);
   unsigned wished = 0;
-  for (const Vec3& place : random_queries(300, -1, 1)) {
+  for (const Vec3& point : random_queries(300, -1, 1)) {
     // Near the surface, where no colour of the mask's upper cells tells the side.
-    const double length = std::sqrt(place.x * place.x + place.y * place.y + place.z * place.z);
+    const double length = std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z);
     const double share = 0.999 / length;
-    const Vec3 near{place.x * share, place.y * share, place.z * share};
+    const Vec3 near{point.x * share, point.y * share, point.z * share};
     if (probe.closest_point(near, kHasty).status == Status::kExact) continue;
     ++wished;
     while (worker.work() != FetchWorker::Did::kNothing) {

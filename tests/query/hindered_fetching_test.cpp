@@ -18,7 +18,7 @@
 namespace planetree::query {
 namespace {
 
-constexpr Ask kUnhindered{.wait = Wait::kNever};
+constexpr QueryOptions kUnhindered{.wait = Wait::kNever};
 
 /// A disk so slow that much is asked while it reads one page: here, on the reading thread itself,
 /// so that an ask which waited for anything the reader has would wait for ever.
@@ -35,16 +35,16 @@ class HinderedFetching : public testing::Test {
  protected:
   HinderedFetching()
       : sample_(SampleModel::masked(octree::sphere(5))),
-        places_(random_queries(400, -1.3, 1.3)),
-        exact_(places_.size()) {
+        points_(random_queries(400, -1.3, 1.3)),
+        exact_(points_.size()) {
     const Model model = sample_.open();
-    make_probe(model).closest_points(places_, exact_);
+    make_probe(model).closest_points(points_, exact_);
   }
 
   // The next place's answer.
-  Status ask(Probe& probe) {
-    const std::size_t at = next_++ % places_.size();
-    const ClosestPoint answer = probe.closest_point(places_[at], kUnhindered);
+  Status query_once(Probe& probe) {
+    const std::size_t at = next_++ % points_.size();
+    const ClosestPoint answer = probe.closest_point(points_[at], kUnhindered);
     EXPECT_LE(answer.lower, exact_[at].upper);
     EXPECT_GE(answer.upper, exact_[at].lower);
     degraded_ += answer.status == Status::kDegraded;
@@ -60,7 +60,7 @@ class HinderedFetching : public testing::Test {
   }
 
   SampleModel sample_;
-  std::vector<Vec3> places_;
+  std::vector<Vec3> points_;
   std::vector<ClosestPoint> exact_;
   std::size_t next_ = 0;
   std::uint64_t degraded_ = 0;
@@ -73,24 +73,24 @@ TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
   SlowDisk disk;
   OpenOptions options;
   options.max_probes = 2;  // one of them for the worker
-  options.memory_budget_bytes = sample_.least_budget(2) + 8 * 4096;
+  options.memory_budget_bytes = sample_.min_budget(2) + 8 * 4096;
   const auto model = ModelState::open_model(sample_.path(), options, {disk, false});
   ASSERT_TRUE(model);
   const ModelState& state = ModelState::of(*model);
   const std::atomic<bool> never{false};
   FetchWorker worker(state, *state.claim_reader(), 0, 1, &still_time, never);
   Probe probe = make_probe(*model);
-  std::uint64_t reads = 0, asks = 0;
+  std::uint64_t reads = 0, queries = 0;
   disk.meanwhile = [&] {
     ++reads;
-    for (int tick = 0; tick < 100; ++tick, ++asks) (void)ask(probe);
+    for (int tick = 0; tick < 100; ++tick, ++queries) (void)query_once(probe);
   };
   const Stats before = model->stats();
   const std::uint64_t allocations = cache::allocation_count();
   std::uint64_t served = 0;
-  for (int step = 0; step < 20; ++step, ++asks) {
-    (void)ask(probe);
-    served += worker.work() == FetchWorker::Did::kServedAWish;
+  for (int step = 0; step < 20; ++step, ++queries) {
+    (void)query_once(probe);
+    served += worker.work() == FetchWorker::Did::kServedARequest;
   }
   if (cache::allocations_are_counted()) {
     EXPECT_EQ(cache::allocation_count(), allocations);
@@ -101,14 +101,14 @@ TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
   EXPECT_GT(after.pages_evicted, 0u);
   EXPECT_EQ(after.degraded_answers, degraded_);
   // Each degraded answer lacked pages, and all wishes but the last of each stretch were overtaken.
-  EXPECT_EQ(after.wishes_made, degraded_);
-  EXPECT_GT(after.wishes_made, 40 * served);
+  EXPECT_EQ(after.fetch_requests, degraded_);
+  EXPECT_GT(after.fetch_requests, 40 * served);
 }
 
 // What a reader may be looking at is not written again, however long it looks.
 TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) {
   const unsigned probes = 2;
-  const Model model = sample_.open(sample_.least_budget(probes) + 8 * 4096, probes);
+  const Model model = sample_.open(sample_.min_budget(probes) + 8 * 4096, probes);
   Probe probe = make_probe(model);
   {
     auto stuck = ModelState::of(model).claim_reader();
@@ -119,7 +119,7 @@ TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) 
     std::uint64_t read = ~std::uint64_t{0};
     ASSERT_TRUE(eventually([&] {
       const std::uint64_t last = std::exchange(read, model.stats().pages_read);
-      for (int i = 0; i < 400; ++i) (void)ask(probe);
+      for (int i = 0; i < 400; ++i) (void)query_once(probe);
       return read == last && read >= model.stats().frames / 2;
     }));
     const Stats after = model.stats();
@@ -127,11 +127,11 @@ TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) 
     // A frame in limbo for each that may fetch, and no more.
     EXPECT_LE(after.pages_evicted - before.pages_evicted, probes + 2);
     EXPECT_GT(degraded_, 0u);
-    EXPECT_GT(after.wishes_made, after.wishes_fetched);
+    EXPECT_GT(after.fetch_requests, after.fetch_requests_served);
     stuck->leave();
   }
   EXPECT_TRUE(eventually(
-      [&] { return probe.closest_point(places_[0], kUnhindered).status == Status::kExact; }));
+      [&] { return probe.closest_point(points_[0], kUnhindered).status == Status::kExact; }));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(Model, RefusesAFileWhoseRootIsDamaged) {
 TEST(Model, NamesTheLeastBudgetThatWillDo) {
   const SampleModel sample(sphere(5));
   for (const unsigned probes : {1u, 3u, 16u}) {
-    const std::uint64_t least = sample.least_budget(probes);
+    const std::uint64_t least = sample.min_budget(probes);
     ASSERT_GT(least, 0u);
     OpenOptions options;
     options.max_probes = probes;
@@ -79,7 +79,7 @@ void expect_bad_argument(const SampleModel& sample, const OpenOptions& options) 
 
 TEST(Model, RefusesBatchThreadsThatMakeNoSense) {
   const SampleModel sample(repeated(1));
-  for (const unsigned threads : {0u, OpenOptions::kMostBatchThreads + 1, ~0u}) {
+  for (const unsigned threads : {0u, OpenOptions::kMaxBatchThreads + 1, ~0u}) {
     OpenOptions options;
     options.batch_threads = threads;
     expect_bad_argument(sample, options);
@@ -91,7 +91,7 @@ TEST(Model, CountsBatchThreadsIntoTheBudget) {
   const SampleModel sample(sphere(5));
   OpenOptions options;
   options.max_probes = 1;
-  options.memory_budget_bytes = sample.least_budget(1);
+  options.memory_budget_bytes = sample.min_budget(1);
   ASSERT_TRUE(Model::open(sample.path(), options));
   options.batch_threads = 8;
   const auto refused = Model::open(sample.path(), options);
@@ -113,8 +113,8 @@ TEST(Model, SaysWhatTheFileHolds) {
   const Model model = sample.open();
   const ModelInfo& info = model.info();
   EXPECT_EQ(info.triangles, 8u * 1024);
-  EXPECT_EQ(info.set_aside, 0u);
-  EXPECT_EQ(info.first_set_aside, kNoTriangle);
+  EXPECT_EQ(info.skipped, 0u);
+  EXPECT_EQ(info.first_skipped, kNoTriangle);
   EXPECT_EQ(info.vertices, 3u * 8 * 1024);
   EXPECT_EQ(info.box_lower.x, -1);
   EXPECT_EQ(info.box_upper.z, 1);
@@ -160,7 +160,7 @@ TEST(Model, CountsWhatItDoes) {
 
 TEST(Model, StaysWithinItsBudgetAndEvicts) {
   const SampleModel sample(sphere(5));
-  const std::uint64_t budget = sample.least_budget();
+  const std::uint64_t budget = sample.min_budget();
   const Model model = sample.open(budget);
   Probe probe = make_probe(model);
   for (const Vec3& query : random_queries(300, -1.2, 1.2)) probe.closest_point(query);

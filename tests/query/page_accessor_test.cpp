@@ -12,11 +12,11 @@
 #include "query/serve/pager.h"
 #include "tests/query/sample_model.h"
 
-// What is promised of frames that a PageTurner has handed out.
+// What is promised of frames that a PageAccessor has handed out.
 namespace planetree::query {
 namespace {
 
-class PageTurnerTest : public testing::Test {
+class PageAccessorTest : public testing::Test {
  protected:
   void open(std::uint64_t budget_bytes) {
     OpenOptions options;
@@ -39,53 +39,53 @@ class PageTurnerTest : public testing::Test {
 // Frames that were handed out, and the pages that were in them, until they may go.
 class Kept {
  public:
-  explicit Kept(octree::FrameKeeper& keeper) {
-    keeper = {this, [](void* kept) noexcept { static_cast<Kept*>(kept)->let_go(); }};
+  explicit Kept(octree::FrameReleaseHook& release_hook) {
+    release_hook = {this, [](void* kept) noexcept { static_cast<Kept*>(kept)->on_release(); }};
   }
   void add(const std::byte* frame, std::uint32_t page) { frames_.emplace_back(frame, page); }
-  void let_go() {
+  void on_release() {
     check();
     frames_.clear();
-    ++times_told_;
+    ++times_called_;
   }
   void check() const {
     for (const auto& [frame, page] : frames_)
       EXPECT_EQ(reinterpret_cast<const octree::FrameHeader*>(frame)->page_number, page);
   }
   std::size_t size() const { return frames_.size(); }
-  unsigned times_told() const { return times_told_; }
+  unsigned times_called() const { return times_called_; }
 
  private:
   std::vector<std::pair<const std::byte*, std::uint32_t>> frames_;
-  unsigned times_told_ = 0;
+  unsigned times_called_ = 0;
 };
 
-TEST_F(PageTurnerTest, TellsItsKeeperBeforeAnotherPageTakesAFrame) {
-  open(sample_.least_budget());
+TEST_F(PageAccessorTest, TellsItsKeeperBeforeAnotherPageTakesAFrame) {
+  open(sample_.min_budget());
   const std::uint64_t frames = state_->cache().stats().frame_count;
   ASSERT_LT(2 * frames, sample_.page_count()) << "each round has to take frames of others";
-  PageTurner turner(*reader_, Wait::kForPages);
-  Kept kept(*turner.pages().keeper);
+  PageAccessor accessor(*reader_, Wait::kForPages);
+  Kept kept(*accessor.pages().release_hook);
   for (unsigned round = 0; round < 3; ++round)
     for (std::uint32_t page = 0; page < sample_.page_count(); ++page) {
-      const std::byte* frame = turner.page(page);
+      const std::byte* frame = accessor.page(page);
       ASSERT_NE(frame, nullptr) << page;
       kept.add(frame, page);
       kept.check();
     }
-  EXPECT_GT(kept.times_told(), sample_.page_count());
+  EXPECT_GT(kept.times_called(), sample_.page_count());
 }
 
-TEST_F(PageTurnerTest, KeepsFramesFromCallToCallOfWhatIsResident) {
+TEST_F(PageAccessorTest, KeepsFramesFromCallToCallOfWhatIsResident) {
   open(std::uint64_t{64} << 20);
   for (std::uint32_t page = 0; page < sample_.page_count(); ++page)
-    ASSERT_NE(PageTurner(*reader_, Wait::kForPages).page(page), nullptr);
-  PageTurner turner(*reader_, Wait::kForPages);
-  Kept kept(*turner.pages().keeper);
+    ASSERT_NE(PageAccessor(*reader_, Wait::kForPages).page(page), nullptr);
+  PageAccessor accessor(*reader_, Wait::kForPages);
+  Kept kept(*accessor.pages().release_hook);
   std::size_t most = 0;
   for (unsigned call = 0; call < 2000; ++call) {
     const std::uint32_t page = call % sample_.page_count();
-    kept.add(turner.page(page), page);
+    kept.add(accessor.page(page), page);
     most = std::max(most, kept.size());
   }
   // Sections are long, but they end: others wait for that.
@@ -93,16 +93,16 @@ TEST_F(PageTurnerTest, KeepsFramesFromCallToCallOfWhatIsResident) {
   EXPECT_LT(most, 1000u);
 }
 
-TEST_F(PageTurnerTest, SaysWhereFramesAre) {
+TEST_F(PageAccessorTest, SaysWhereFramesAre) {
   open(std::uint64_t{64} << 20);
   const octree::FrameTable table = frames_of(*reader_);
   const std::uint32_t last = sample_.page_count() - 1;
-  PageTurner turner(*reader_, Wait::kForPages);
-  const std::byte* const first_frame = turner.page(0);
+  PageAccessor accessor(*reader_, Wait::kForPages);
+  const std::byte* const first_frame = accessor.page(0);
   EXPECT_EQ(table.frame_of(0), first_frame);
-  ASSERT_EQ(turner.peek(last), nullptr);
+  ASSERT_EQ(accessor.peek(last), nullptr);
   EXPECT_EQ(table.frame_of(last), table.frames) << "of what is not resident some frame";
-  const std::byte* const last_frame = turner.page(last);
+  const std::byte* const last_frame = accessor.page(last);
   EXPECT_EQ(table.frame_of(last), last_frame);
   EXPECT_EQ(number_in(last_frame), last);
 }

@@ -16,7 +16,7 @@
 namespace planetree::query {
 namespace {
 
-using Kind = PageTouch::Kind;
+using Kind = PageAccess::Kind;
 using TouchRow = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, unsigned, Kind>;
 
 FetchWorker::Seconds no_time() { return FetchWorker::Seconds(0); }
@@ -25,11 +25,12 @@ class PageTouches : public testing::Test {
  protected:
   PageTouches() : sample_(SampleModel::masked(octree::sphere(5))) {}
 
-  Model open(std::uint32_t trace_touches, std::uint64_t budget_bytes = std::uint64_t{64} << 20) {
+  Model open(std::uint32_t page_trace_capacity,
+             std::uint64_t budget_bytes = std::uint64_t{64} << 20) {
     OpenOptions options;
     options.max_probes = 2;  // one of them for the worker
     options.memory_budget_bytes = budget_bytes;
-    options.trace_touches = trace_touches;
+    options.page_trace_capacity = page_trace_capacity;
     auto model =
         ModelState::open_model(sample_.path(), options, {storage::FileCalls::real(), false});
     EXPECT_TRUE(model);
@@ -41,35 +42,35 @@ class PageTouches : public testing::Test {
     return {state, *state.claim_reader(), 0, 1, &no_time, never_};
   }
 
-  static std::vector<PageTouch> take_all(const Model& model) {
-    std::vector<PageTouch> all(1 << 16);
-    all.resize(model.take_touches(all));
+  static std::vector<PageAccess> take_all(const Model& model) {
+    std::vector<PageAccess> all(1 << 16);
+    all.resize(model.drain_page_trace(all));
     return all;
   }
 
-  static ClosestPoint ask(Probe& probe, const Vec3& place) {
-    return probe.closest_point(place, {.wait = Wait::kNever});
+  static ClosestPoint query_once(Probe& probe, const Vec3& point) {
+    return probe.closest_point(point, {.wait = Wait::kNever});
   }
 
   // A tip that wanders, while a worker gets what it misses and where it goes.
   std::vector<TouchRow> wander(std::uint64_t more_bytes) {
-    const Model model = open(4096, least_budget_with(4096) + more_bytes);
+    const Model model = open(4096, min_budget_with(4096) + more_bytes);
     FetchWorker worker = worker_of(model);
     Probe probe = make_probe(model);
     std::vector<TouchRow> rows;
-    for (const Vec3& place : random_queries(200, -1.2, 1.2, 3)) {
-      probe.motion(place, {place.y, place.z, place.x});
-      (void)ask(probe, place);
+    for (const Vec3& point : random_queries(200, -1.2, 1.2, 3)) {
+      probe.motion(point, {point.y, point.z, point.x});
+      (void)query_once(probe, point);
       worker.work();
-      for (const PageTouch& touch : take_all(model))
-        rows.emplace_back(touch.ask, touch.probe, touch.page, touch.level, touch.kind);
+      for (const PageAccess& access : take_all(model))
+        rows.emplace_back(access.query, access.probe, access.page, access.level, access.kind);
     }
-    EXPECT_EQ(model.stats().touches_dropped, 0u);
+    EXPECT_EQ(model.stats().page_trace_dropped, 0u);
     return rows;
   }
 
-  std::uint64_t least_budget_with(std::uint32_t touches) const {
-    return sample_.least_budget(2) + 4 * std::uint64_t{touches} * 16;
+  std::uint64_t min_budget_with(std::uint32_t accesses) const {
+    return sample_.min_budget(2) + 4 * std::uint64_t{accesses} * 16;
   }
 
   SampleModel sample_;
@@ -90,23 +91,23 @@ TEST_F(PageTouches, ReplayToWhatTheCacheCounted) {
   FetchWorker worker = worker_of(model);
   Probe probe = make_probe(model);
   std::set<std::uint32_t> resident;
-  std::uint64_t all_misses = 0, asks = 0;
-  for (const Vec3& place : random_queries(100, -1.2, 1.2, 3)) {
+  std::uint64_t all_misses = 0, queries = 0;
+  for (const Vec3& point : random_queries(100, -1.2, 1.2, 3)) {
     const Stats before = model.stats();
-    const ClosestPoint answer = ask(probe, place);
+    const ClosestPoint answer = query_once(probe, point);
     const Stats after = model.stats();
     std::uint64_t hits = 0, misses = 0;
-    for (const PageTouch& touch : take_all(model)) {
-      EXPECT_EQ(touch.ask, asks);
-      ++(touch.kind == Kind::kMissed ? misses : hits);
-      if (touch.kind != Kind::kMissed) resident.insert(touch.page);
-      EXPECT_FALSE(touch.kind == Kind::kMissed && resident.contains(touch.page));
+    for (const PageAccess& access : take_all(model)) {
+      EXPECT_EQ(access.query, queries);
+      ++(access.kind == Kind::kMissed ? misses : hits);
+      if (access.kind != Kind::kMissed) resident.insert(access.page);
+      EXPECT_FALSE(access.kind == Kind::kMissed && resident.contains(access.page));
     }
     EXPECT_EQ(hits, after.page_hits - before.page_hits);
     EXPECT_EQ(misses, after.page_misses - before.page_misses);
     EXPECT_TRUE(misses > 0 || answer.status == Status::kExact);
     all_misses += misses;
-    ++asks;
+    ++queries;
     worker.work();
   }
   EXPECT_GT(all_misses, 20u);
@@ -124,11 +125,11 @@ TEST_F(PageTouches, TellPagesThatCameAheadOfTheirTime) {
   std::map<Kind, int> counts[2];
   std::set<std::uint32_t> touched;
   for (auto& count : counts) {
-    (void)ask(probe, {1.2, 0, 0});
-    for (const PageTouch& touch : take_all(model)) {
-      ++count[touch.kind];
-      const bool again = !touched.insert(touch.page).second;
-      EXPECT_TRUE(touch.kind == Kind::kHit || !again);
+    (void)query_once(probe, {1.2, 0, 0});
+    for (const PageAccess& access : take_all(model)) {
+      ++count[access.kind];
+      const bool again = !touched.insert(access.page).second;
+      EXPECT_TRUE(access.kind == Kind::kHit || !again);
     }
   }
   EXPECT_GT(counts[0][Kind::kPrefetched], 0);
@@ -140,15 +141,15 @@ TEST_F(PageTouches, TellPagesThatCameAheadOfTheirTime) {
 TEST_F(PageTouches, TellTheLevelsOfPages) {
   const Model model = open(4096);
   Probe probe = make_probe(model);
-  for (const Vec3& place : random_queries(50, -1.2, 1.2)) {
-    (void)probe.closest_point(place);  // waits, and is not traced
-    (void)ask(probe, place);
+  for (const Vec3& point : random_queries(50, -1.2, 1.2)) {
+    (void)probe.closest_point(point);  // waits, and is not traced
+    (void)query_once(probe, point);
   }
   std::map<std::uint32_t, unsigned> levels;  // of pages
-  for (const PageTouch& touch : take_all(model)) {
-    levels.emplace(touch.page, touch.level);
-    EXPECT_EQ(levels[touch.page], touch.level);
-    EXPECT_LT(touch.ask, 50u);
+  for (const PageAccess& access : take_all(model)) {
+    levels.emplace(access.page, access.level);
+    EXPECT_EQ(levels[access.page], access.level);
+    EXPECT_LT(access.query, 50u);
   }
   // Pages are in the order of their keys, coarse cells first.
   unsigned last = 0;
@@ -161,16 +162,16 @@ TEST_F(PageTouches, TellTheLevelsOfPages) {
 }
 
 TEST_F(PageTouches, AreDroppedAndCountedWhereNobodyTakesThem) {
-  const std::vector<Vec3> places = random_queries(100, -1.2, 1.2);
+  const std::vector<Vec3> points = random_queries(100, -1.2, 1.2);
   std::uint64_t all = 0;
-  for (const std::uint32_t touches : {4096u, 50u}) {
-    const Model model = open(touches);
+  for (const std::uint32_t accesses : {4096u, 50u}) {
+    const Model model = open(accesses);
     Probe probe = make_probe(model);
-    for (const Vec3& place : places) (void)ask(probe, place);
+    for (const Vec3& point : points) (void)query_once(probe, point);
     const std::size_t kept = take_all(model).size();
-    if (touches == 4096) all = kept;
-    EXPECT_EQ(kept + model.stats().touches_dropped, all);
-    if (touches == 50) {
+    if (accesses == 4096) all = kept;
+    EXPECT_EQ(kept + model.stats().page_trace_dropped, all);
+    if (accesses == 50) {
       EXPECT_EQ(kept, 64u);
     }
   }
@@ -180,26 +181,26 @@ TEST_F(PageTouches, AreDroppedAndCountedWhereNobodyTakesThem) {
 TEST_F(PageTouches, AreTakenAsFarAsThereIsRoom) {
   const Model model = open(4096);
   Probe probe = make_probe(model);
-  for (const Vec3& place : random_queries(100, -1.2, 1.2)) (void)ask(probe, place);
-  std::vector<PageTouch> few(70);
-  ASSERT_EQ(model.take_touches(few), 70u);
-  EXPECT_EQ(few[0].ask, 0u);
-  const std::uint64_t last = few.back().ask;
-  ASSERT_GE(model.take_touches(few), 1u);
-  EXPECT_GE(few[0].ask, last);
+  for (const Vec3& point : random_queries(100, -1.2, 1.2)) (void)query_once(probe, point);
+  std::vector<PageAccess> few(70);
+  ASSERT_EQ(model.drain_page_trace(few), 70u);
+  EXPECT_EQ(few[0].query, 0u);
+  const std::uint64_t last = few.back().query;
+  ASSERT_GE(model.drain_page_trace(few), 1u);
+  EXPECT_GE(few[0].query, last);
 }
 
 TEST_F(PageTouches, TakeNoMemoryUnlessWanted) {
   const Model off = open(0), on = open(1000);
   Probe probe = make_probe(off);
-  (void)ask(probe, {0, 1.1, 0.3});
+  (void)query_once(probe, {0, 1.1, 0.3});
   EXPECT_TRUE(take_all(off).empty());
-  EXPECT_GE(on.stats().table_bytes, off.stats().table_bytes + 3 * 1024 * sizeof(Touch));
+  EXPECT_GE(on.stats().table_bytes, off.stats().table_bytes + 3 * 1024 * sizeof(TracedAccess));
 }
 
 TEST_F(PageTouches, RefuseToBeTooMany) {
   OpenOptions options;
-  options.trace_touches = OpenOptions::kMostTraceTouches + 1;
+  options.page_trace_capacity = OpenOptions::kMaxPageTraceCapacity + 1;
   const auto model = Model::open(sample_.path(), options);
   ASSERT_FALSE(model);
   EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);

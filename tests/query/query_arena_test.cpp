@@ -27,9 +27,9 @@ std::uint64_t kernel_locked_bytes() {
   return 0;
 }
 
-class AskingMemoryTest : public testing::Test {
+class QueryArenaTest : public testing::Test {
  protected:
-  AskingMemoryTest() : sample_(SampleModel::masked(octree::sphere(4))) {
+  QueryArenaTest() : sample_(SampleModel::masked(octree::sphere(4))) {
     options_.memory_budget_bytes = std::uint64_t{2} << 20;
     options_.max_probes = 4;
   }
@@ -38,7 +38,7 @@ class AskingMemoryTest : public testing::Test {
   OpenOptions options_;
 };
 
-TEST_F(AskingMemoryTest, IsLockedAsMuchAsIsSaid) {
+TEST_F(QueryArenaTest, IsLockedAsMuchAsIsSaid) {
   if (!cache::allocations_are_counted()) GTEST_SKIP() << "sanitizers lock nothing";
   options_.locking = Locking::kRequire;
   const std::uint64_t before = kernel_locked_bytes();
@@ -46,15 +46,15 @@ TEST_F(AskingMemoryTest, IsLockedAsMuchAsIsSaid) {
   if (!model) GTEST_SKIP() << model.error().text;
   const Stats stats = model->stats();
   EXPECT_EQ(kernel_locked_bytes() - before, stats.locked_bytes);
-  const AskingMemory::Needs needs{.readers = 5, .colour_bytes = 64};
-  EXPECT_GE(stats.locked_bytes, stats.arena_bytes + AskingMemory::bytes(needs));
+  const QueryArena::Needs needs{.readers = 5, .colour_bytes = 64};
+  EXPECT_GE(stats.locked_bytes, stats.arena_bytes + QueryArena::bytes(needs));
 }
 
-TEST_F(AskingMemoryTest, HoldsProbesOneAfterAnother) {
-  const Vec3 place{0.3, -1.2, 0.1};
+TEST_F(QueryArenaTest, HoldsProbesOneAfterAnother) {
+  const Vec3 point{0.3, -1.2, 0.1};
   const auto model = Model::open(sample_.path(), options_);
   ASSERT_TRUE(model);
-  const AnswerBits bits = bits_of(make_probe(*model).closest_point(place));
+  const AnswerBits bits = bits_of(make_probe(*model).closest_point(point));
   for (int round = 0; round < 20; ++round) {
     std::vector<std::thread> threads;
     for (unsigned i = 0; i < options_.max_probes; ++i)
@@ -63,14 +63,14 @@ TEST_F(AskingMemoryTest, HoldsProbesOneAfterAnother) {
         std::optional<Probe> probe;
         while (!probe)
           if (auto created = Probe::create(*model)) probe.emplace(*std::move(created));
-        EXPECT_EQ(bits_of(probe->closest_point(place)), bits);
+        EXPECT_EQ(bits_of(probe->closest_point(point)), bits);
       });
     for (std::thread& thread : threads) thread.join();
   }
 }
 
 // A probe has its room; what is allocated for it is for batches.
-TEST_F(AskingMemoryTest, IsAllThatProbesAndAsksTake) {
+TEST_F(QueryArenaTest, IsAllThatProbesAndAsksTake) {
   if (!cache::allocations_are_counted()) GTEST_SKIP() << "a sanitizer counts instead";
   const auto model = Model::open(sample_.path(), options_);
   ASSERT_TRUE(model);
@@ -79,8 +79,8 @@ TEST_F(AskingMemoryTest, IsAllThatProbesAndAsksTake) {
   EXPECT_EQ(cache::allocation_count(), before + 1);
 }
 
-TEST_F(AskingMemoryTest, IsOfTheBudget) {
-  const std::uint64_t few = sample_.least_budget(4);
+TEST_F(QueryArenaTest, IsOfTheBudget) {
+  const std::uint64_t few = sample_.min_budget(4);
   const std::uint64_t before = resident_memory_bytes();
   const Model model = sample_.open(few, 4);
   EXPECT_LE(resident_memory_bytes(), before + few);

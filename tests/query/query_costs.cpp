@@ -51,7 +51,7 @@ std::uint64_t faults_of(pid_t thread) noexcept {
 }
 
 // How far the asking thread is. It waits for nobody but by looking: its calls are trapped.
-enum class Stage : int { kWarmingUp, kReady, kAsking, kDone, kOver };
+enum class Stage : int { kWarmingUp, kReady, kQuerying, kDone, kOver };
 
 void wait_busily(const std::atomic<Stage>& stage, Stage wanted) noexcept {
   while (stage.load(std::memory_order_acquire) != wanted) {
@@ -79,7 +79,7 @@ constexpr std::size_t kStackBytes = std::size_t{1} << 17;
 // Code that no ask before has run is not mapped yet: as a thread does that locks its memory.
 void touch_code() noexcept {
   using Header = ElfW(Phdr);
-  const auto touch = [](dl_phdr_info* object, std::size_t, void*) {
+  const auto access = [](dl_phdr_info* object, std::size_t, void*) {
     for (const Header& part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
       if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
       const auto address = object->dlpi_addr + part.p_vaddr;
@@ -89,17 +89,18 @@ void touch_code() noexcept {
     }
     return 0;
   };
-  ::dl_iterate_phdr(touch, nullptr);
+  ::dl_iterate_phdr(access, nullptr);
 }
 
-std::uint64_t ask(Probe& probe, std::span<const Vec3> places, std::uint64_t asks) noexcept {
-  constexpr Ask kNow{.wait = Wait::kNever};
+std::uint64_t run_queries(Probe& probe, std::span<const Vec3> points,
+                          std::uint64_t queries) noexcept {
+  constexpr QueryOptions kNow{.wait = Wait::kNever};
   std::uint64_t degraded = 0;
-  for (std::uint64_t i = 0; i < asks; ++i) {
-    const Vec3& place = places[i % places.size()];
-    degraded += probe.closest_point(place, kNow).status == Status::kDegraded;
-    probe.contains(place, kNow);
-    probe.motion(place, {1, 0, 0});
+  for (std::uint64_t i = 0; i < queries; ++i) {
+    const Vec3& point = points[i % points.size()];
+    degraded += probe.closest_point(point, kNow).status == Status::kDegraded;
+    probe.contains(point, kNow);
+    probe.motion(point, {1, 0, 0});
   }
   return degraded;
 }
@@ -116,23 +117,23 @@ std::uint64_t resident_memory_bytes() noexcept {
   return at == nullptr ? 0 : 1024 * std::strtoull(at + sizeof "Anonymous:", nullptr, 10);
 }
 
-AskingCosts measure_asking(const Model& model, Probe& probe, std::span<const Vec3> places,
-                           std::uint64_t warm_up, std::uint64_t asks,
+QueryCosts measure_queries(const Model& model, Probe& probe, std::span<const Vec3> points,
+                           std::uint64_t warm_up, std::uint64_t queries,
                            std::uint64_t resident_bytes) {
-  AskingCosts costs;
-  costs.asks = asks;
+  QueryCosts costs;
+  costs.queries = queries;
   std::atomic<Stage> stage{Stage::kWarmingUp};
   std::atomic<pid_t> id{0};
   std::thread thread([&] {
     id = ::gettid();
     touch_code();
     touch_stack();
-    (void)ask(probe, places, warm_up);
+    (void)run_queries(probe, points, warm_up);
     costs.calls_are_counted = set_call_trap();
     stage.store(Stage::kReady, std::memory_order_release);
-    wait_busily(stage, Stage::kAsking);
+    wait_busily(stage, Stage::kQuerying);
     const std::uint64_t locks = lock_count(), calls = trapped_calls();
-    costs.degraded = ask(probe, places, asks);
+    costs.degraded = run_queries(probe, points, queries);
     costs.locks = lock_count() - locks;
     costs.calls = trapped_calls() - calls;
     stage.store(Stage::kDone, std::memory_order_release);
@@ -143,7 +144,7 @@ AskingCosts measure_asking(const Model& model, Probe& probe, std::span<const Vec
   const std::uint64_t faults = faults_of(id), resident = resident_memory_bytes();
   const std::uint64_t allocations = cache::allocation_count();
   std::uint64_t most = resident;
-  stage.store(Stage::kAsking, std::memory_order_release);
+  stage.store(Stage::kQuerying, std::memory_order_release);
   wait_asleep(stage, Stage::kDone, [&] { most = std::max(most, resident_memory_bytes()); });
   most = std::max(most, resident_memory_bytes());
   costs.allocations = cache::allocation_count() - allocations;

@@ -21,9 +21,9 @@ namespace {
 
 using cache::allocation_count;
 
-class AskingPath : public testing::Test {
+class QueryPath : public testing::Test {
  protected:
-  AskingPath() : sample_(octree::sphere(5)), queries_(random_queries(1500, -1.5, 1.5)) {
+  QueryPath() : sample_(octree::sphere(5)), queries_(random_queries(1500, -1.5, 1.5)) {
     answers_.resize(queries_.size());
   }
   void SetUp() override {
@@ -31,11 +31,11 @@ class AskingPath : public testing::Test {
       GTEST_SKIP() << "a sanitizer counts instead";
   }
 
-  void ask_everything(Probe& probe) {
+  void query_everything(Probe& probe) {
     for (std::size_t i = 0; i < queries_.size(); ++i)
       answers_[i] = probe.closest_point(queries_[i]);
     probe.closest_points(queries_, answers_, {.max_error = 0.01});
-    probe.closest_points(queries_, answers_, {.max_nodes = 7});
+    probe.closest_points(queries_, answers_, {.max_work = 7});
     probe.closest_point({1e300, 0, 0});
     probe.closest_point({0, 0, 1e30}, {.max_distance = 1});
   }
@@ -45,7 +45,7 @@ class AskingPath : public testing::Test {
   std::vector<ClosestPoint> answers_;
 };
 
-TEST_F(AskingPath, IsCounted) {
+TEST_F(QueryPath, IsCounted) {
   const std::uint64_t allocations = allocation_count(), locks = lock_count();
   std::mutex mutex;
   {
@@ -56,29 +56,29 @@ TEST_F(AskingPath, IsCounted) {
   EXPECT_GT(lock_count(), locks);
 }
 
-TEST_F(AskingPath, NeitherAllocatesNorLocksWhenAllIsResident) {
+TEST_F(QueryPath, NeitherAllocatesNorLocksWhenAllIsResident) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  ask_everything(probe);
+  query_everything(probe);
   const std::uint64_t read = model.stats().pages_read;
   const std::uint64_t allocations = allocation_count(), locks = lock_count();
-  ask_everything(probe);
+  query_everything(probe);
   EXPECT_EQ(allocation_count(), allocations);
   EXPECT_EQ(lock_count(), locks);
   EXPECT_EQ(model.stats().pages_read, read);
 }
 
-TEST_F(AskingPath, DoesNotAllocateWhileItFetches) {
-  const Model model = sample_.open(sample_.least_budget());
+TEST_F(QueryPath, DoesNotAllocateWhileItFetches) {
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   const std::uint64_t allocations = allocation_count();
-  ask_everything(probe);
+  query_everything(probe);
   EXPECT_EQ(allocation_count(), allocations);
   EXPECT_GT(model.stats().pages_evicted, 1000u);
 }
 
 // On a thread of its own, because a trap is set for good.
-class RealTimePath : public AskingPath {
+class RealTimePath : public QueryPath {
  protected:
   static std::uint64_t page_faults() {
     rusage usage{};
@@ -86,7 +86,7 @@ class RealTimePath : public AskingPath {
     return static_cast<std::uint64_t>(usage.ru_minflt + usage.ru_majflt);
   }
 
-  void ask_at_once(Probe& probe, int rounds) {
+  void query_at_once(Probe& probe, int rounds) {
     for (int round = 0; round < rounds; ++round)
       for (const Vec3& query : queries_) {
         const ClosestPoint answer = probe.closest_point(query, {.wait = Wait::kNever});
@@ -97,11 +97,11 @@ class RealTimePath : public AskingPath {
   }
 
   // Of some rounds: the system itself may take pages away to look whether they are used.
-  std::uint64_t least_faults(Probe& probe) {
+  std::uint64_t min_faults(Probe& probe) {
     std::uint64_t least = ~std::uint64_t{0};
     for (int round = 0; round < 5; ++round) {
       const std::uint64_t before = page_faults();
-      ask_at_once(probe, 1);
+      query_at_once(probe, 1);
       least = std::min(least, page_faults() - before);
     }
     return least;
@@ -121,16 +121,16 @@ TEST_F(RealTimePath, IsTrapped) {
 
 // While the fetch thread turns every page there is, again and again.
 TEST_F(RealTimePath, NeitherAllocatesNorLocksNorCallsTheSystemNorFaults) {
-  const Model model = sample_.open(sample_.least_budget() + 8 * 4096);
+  const Model model = sample_.open(sample_.min_budget() + 8 * 4096);
   Probe probe = make_probe(model);
   std::thread([&] {
-    ask_at_once(probe, 1);
-    EXPECT_EQ(least_faults(probe), 0u);
+    query_at_once(probe, 1);
+    EXPECT_EQ(min_faults(probe), 0u);
     const bool trapping = set_call_trap();
     const std::uint64_t allocations = allocation_count(), locks = lock_count();
     const std::uint64_t calls = trapped_calls();
     for (int most = 5000; most > 0 && model.stats().pages_evicted < 300; --most)
-      ask_at_once(probe, 1);
+      query_at_once(probe, 1);
     EXPECT_EQ(lock_count(), locks);
     EXPECT_EQ(allocation_count(), allocations);
     if (trapping) {

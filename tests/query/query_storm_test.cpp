@@ -1,4 +1,4 @@
-// What check_asking counts over ten million asks, over as many as there is time for here.
+// What check_query_costs counts over ten million asks, over as many as there is time for here.
 
 #include <gtest/gtest.h>
 
@@ -10,26 +10,26 @@
 namespace planetree::query {
 namespace {
 
-class AskingStorm : public testing::TestWithParam<std::uint32_t> {};
+class QueryStorm : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(AskingStorm, TakesNothingButTheProcessor) {
+TEST_P(QueryStorm, TakesNothingButTheProcessor) {
   if (!cache::allocations_are_counted() || !locks_are_counted())
     GTEST_SKIP() << "a sanitizer counts instead";
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
-  const std::vector<Vec3> places = random_queries(3000, -1.2, 1.2);
+  const std::vector<Vec3> points = random_queries(3000, -1.2, 1.2);
   const std::uint64_t resident = resident_memory_bytes();
   ASSERT_GT(resident, 0u);
   OpenOptions options;
   options.max_probes = 1;
-  options.trace_touches = GetParam();
-  options.memory_budget_bytes = sample.least_budget() + 8 * 4096 + GetParam() * 100;
+  options.page_trace_capacity = GetParam();
+  options.memory_budget_bytes = sample.min_budget() + 8 * 4096 + GetParam() * 100;
   const auto opened = Model::open(sample.path(), options);
   ASSERT_TRUE(opened);
   const Model& model = *opened;
   Probe probe = make_probe(model);
   std::uint64_t evicted = 0, degraded = 0;
   for (int most = 100; most > 0 && evicted < 300; --most) {
-    const AskingCosts costs = measure_asking(model, probe, places, 6000, 6000, resident);
+    const QueryCosts costs = measure_queries(model, probe, points, 6000, 6000, resident);
     EXPECT_EQ(costs.allocations, 0u);
     EXPECT_EQ(costs.locks, 0u);
     EXPECT_EQ(costs.calls, 0u);
@@ -42,10 +42,10 @@ TEST_P(AskingStorm, TakesNothingButTheProcessor) {
   EXPECT_GE(evicted, 300u);
   EXPECT_GT(degraded, 0u);
   // Nobody took any.
-  EXPECT_EQ(model.stats().touches_dropped > 0, GetParam() > 0);
+  EXPECT_EQ(model.stats().page_trace_dropped > 0, GetParam() > 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(TracedTouches, AskingStorm, testing::Values(0, 128));
+INSTANTIATE_TEST_SUITE_P(TracedAccesses, QueryStorm, testing::Values(0, 128));
 
 }  // namespace
 }  // namespace planetree::query

@@ -1,4 +1,4 @@
-// Asks that do not wait for pages: answered at once, refined by the fetch threads.
+// Queries that do not wait for pages: answered at once, refined by the fetch threads.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace planetree::query {
 namespace {
 
-constexpr Ask kAtOnce{.wait = Wait::kNever};
+constexpr QueryOptions kAtOnce{.wait = Wait::kNever};
 
 class RealTime : public testing::Test {
  protected:
@@ -28,7 +28,7 @@ class RealTime : public testing::Test {
     return answers;
   }
 
-  // Asks again and again, until each of the first `count` answers is exact: then to the bit.
+  // Queries again and again, until each of the first `count` answers is exact: then to the bit.
   void expect_refined(Probe& probe, std::size_t count) {
     const std::vector<ClosestPoint> exact = exact_answers();
     for (std::size_t i = 0; i < count; ++i) {
@@ -46,7 +46,7 @@ class RealTime : public testing::Test {
 };
 
 TEST_F(RealTime, AnswersAtOnceByAnIntervalThatHolds) {
-  const Model model = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   std::size_t degraded = 0;
   for (int round = 0; round < 2; ++round)
@@ -72,18 +72,18 @@ TEST_F(RealTime, IsRefinedToTheBitsOfAnAskThatWaits) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   expect_refined(probe, queries_.size());
-  EXPECT_GT(model.stats().wishes_fetched, 0u);
+  EXPECT_GT(model.stats().fetch_requests_served, 0u);
 }
 
 TEST_F(RealTime, IsRefinedWhereOneQuestionsPagesFit) {
-  const Model model = sample_.open(sample_.least_budget() + 24 * 4096);
+  const Model model = sample_.open(sample_.min_budget() + 24 * 4096);
   Probe probe = make_probe(model);
   expect_refined(probe, 30);
   EXPECT_GT(model.stats().pages_evicted, 0u);
 }
 
 TEST_F(RealTime, TellsSidesAtOnceOrNotAtAll) {
-  const Model model = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   std::size_t known = 0, unknown = 0;
   for (const Vec3& query : queries_) {
@@ -104,7 +104,7 @@ TEST_F(RealTime, TellsSidesAtOnceOrNotAtAll) {
 }
 
 TEST_F(RealTime, KeepsTheLastTriangleWhereNothingElseIsKnown) {
-  const Model model = sample_.open(sample_.least_budget());
+  const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   const Vec3 here{1.1, 0.1, 0.2}, beside{1.0, 0.2, 0.35};
   ASSERT_TRUE(
@@ -121,12 +121,12 @@ TEST_F(RealTime, StopsWhereTheWorkIsSpent) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   for (const Vec3& query : queries_) (void)probe.closest_point(query);
-  const std::uint64_t wishes = model.stats().wishes_fetched;
+  const std::uint64_t fetch_requests = model.stats().fetch_requests_served;
   const ClosestPoint answer =
-      probe.closest_point({0.01, 0, 0}, {.parts = kDistance, .wait = Wait::kNever, .max_nodes = 3});
+      probe.closest_point({0.01, 0, 0}, {.parts = kDistance, .wait = Wait::kNever, .max_work = 3});
   EXPECT_EQ(answer.status, Status::kDegraded);
   // All is resident: there is nothing to wish for.
-  EXPECT_EQ(model.stats().wishes_fetched, wishes);
+  EXPECT_EQ(model.stats().fetch_requests_served, fetch_requests);
 }
 
 TEST_F(RealTime, FetchesWhatAMotionLeadsTo) {
@@ -134,7 +134,7 @@ TEST_F(RealTime, FetchesWhatAMotionLeadsTo) {
   Probe probe = make_probe(model);
   // 5 ms ahead, at least, the probe will be at the other end.
   probe.motion({-1.2, 0, 0}, {2.4 / 0.005, 0, 0});
-  ASSERT_TRUE(eventually([&] { return model.stats().places_prefetched == 4; }));
+  ASSERT_TRUE(eventually([&] { return model.stats().positions_prefetched == 4; }));
   EXPECT_EQ(probe.closest_point({1.2, 0, 0}, kAtOnce).status, Status::kExact);
 }
 
@@ -159,7 +159,7 @@ TEST_F(RealTime, ManyProbesAreServedByFewThreads) {
 
 TEST_F(RealTime, RefusesThreadsThatMakeNoSense) {
   OpenOptions options;
-  for (const unsigned threads : {0u, OpenOptions::kMostFetchThreads + 1}) {
+  for (const unsigned threads : {0u, OpenOptions::kMaxFetchThreads + 1}) {
     options.fetch_threads = threads;
     const auto model = Model::open(sample_.path(), options);
     ASSERT_FALSE(model);

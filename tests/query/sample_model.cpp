@@ -19,22 +19,22 @@ namespace {
 }
 
 storage::ModelRecord describe(const octree::SampleTree& sample) {
-  const octree::TreeFacts facts = octree::tree_facts(sample);
+  const octree::TreeInfo info = octree::tree_info(sample);
   storage::ModelRecord model{};
   model.triangle_count = sample.mesh.size();
-  model.first_set_aside = storage::kNoTriangle;
+  model.first_skipped = storage::kNoTriangle;
   model.vertex_count = std::uint64_t{3} * sample.mesh.size();
   model.node_count = sample.tree.nodes.size();
   model.block_count = sample.tree.blocks.size();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     model.box_lower[axis] = sample.mesh.frame.input_lower[axis];
     model.box_upper[axis] = sample.mesh.frame.input_upper[axis];
-    model.centre[axis] = facts.centre[axis];
-    model.sample[axis] = facts.sample[axis];
+    model.centre[axis] = info.centre[axis];
+    model.sample[axis] = info.sample[axis];
   }
-  model.sample_triangle = facts.sample_triangle;
+  model.sample_triangle = info.sample_triangle;
   model.scale_exponent = sample.mesh.frame.scale_exponent;
-  model.root_link = facts.root_link;
+  model.root_link = info.root_link;
   model.vertex_kind =
       sample.shape.float64 ? storage::VertexKind::kFloat64 : storage::VertexKind::kFloat32;
   model.triangle_id_bytes = sample.shape.wide_ids ? 8 : 4;
@@ -87,7 +87,7 @@ SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64
 SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index,
                          bool masked)
     : sample_(octree::build_sample(soup, page_bytes, first_index,
-                                   octree::balance_of(octree::store(soup)).open_edges > 0)) {
+                                   octree::balance_of(octree::store(soup)).unbalanced_edges > 0)) {
   write(sample_, masked, path());
 }
 
@@ -95,7 +95,7 @@ SampleModel SampleModel::masked(const Soup& soup, std::uint32_t page_bytes) {
   return {soup, page_bytes, 0, true};
 }
 
-std::uint64_t SampleModel::least_budget(unsigned max_probes) const {
+std::uint64_t SampleModel::min_budget(unsigned max_probes) const {
   OpenOptions options;
   options.memory_budget_bytes = 0;
   options.max_probes = max_probes;

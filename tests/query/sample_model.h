@@ -29,7 +29,7 @@ class SampleModel {
   std::uint32_t page_count() const { return static_cast<std::uint32_t>(sample_.plan.pages.size()); }
 
   /// Least budget the model opens with, as the error names it.
-  std::uint64_t least_budget(unsigned max_probes = 1) const;
+  std::uint64_t min_budget(unsigned max_probes = 1) const;
   Model open(std::uint64_t budget_bytes = std::uint64_t{64} << 20, unsigned max_probes = 1) const;
 
   /// Batches are answered by several threads.

@@ -1,4 +1,4 @@
-// LatestValue over atomics that show every behaviour the language allows.
+// SeqLock over atomics that show every behaviour the language allows.
 
 #include <gtest/gtest.h>
 
@@ -12,18 +12,18 @@
 namespace planetree::explorer {
 namespace {
 
-using query::LatestStep;
-using query::LatestValue;
+using query::SeqLock;
+using query::SeqLockStep;
 
 /// One step may be weaker than it ships.
-struct ExploredLatest {
+struct ExploredSeqLock {
   template <class T>
   using Atomic = explorer::Atomic<T>;
 
-  static std::memory_order order(LatestStep step) noexcept {
+  static std::memory_order order(SeqLockStep step) noexcept {
     return weakened && step == *weakened ? std::memory_order_relaxed : query::order_of(step);
   }
-  static inline const LatestStep* weakened = nullptr;
+  static inline const SeqLockStep* weakened = nullptr;
 };
 
 struct Twice {
@@ -31,9 +31,9 @@ struct Twice {
 };
 
 /// One thread gives 1 and 2, the others look for each.
-class LatestProgram final : public Program {
+class SeqLockProgram final : public Program {
  public:
-  LatestProgram(std::uint32_t takers, std::uint64_t& lasts_taken)
+  SeqLockProgram(std::uint32_t takers, std::uint64_t& lasts_taken)
       : takers_(takers), lasts_taken_(lasts_taken) {}
 
   std::uint32_t thread_count() const noexcept override { return takers_ + 1; }
@@ -60,36 +60,34 @@ class LatestProgram final : public Program {
 
   const std::uint32_t takers_;
   std::uint64_t& lasts_taken_;
-  LatestValue<Twice, ExploredLatest> latest_;
+  SeqLock<Twice, ExploredSeqLock> latest_;
 };
 
-Report explore_latest(std::uint32_t takers, std::uint32_t stops) {
+Report explore_seq_lock(std::uint32_t takers, std::uint32_t stops) {
   std::uint64_t lasts_taken = 0;
   Report report =
-      explore_all([&] { return std::make_unique<LatestProgram>(takers, lasts_taken); }, stops);
+      explore_all([&] { return std::make_unique<SeqLockProgram>(takers, lasts_taken); }, stops);
   EXPECT_TRUE(lasts_taken > 0 || !report.failure.empty());
   return report;
 }
 
-TEST(LatestValueOrder, TearsNothingInAnyRun) {
-  EXPECT_EQ(explore_latest(1, kAnyStops).failure, "");
+TEST(SeqLockOrder, TearsNothingInAnyRun) { EXPECT_EQ(explore_seq_lock(1, kAnyStops).failure, ""); }
+
+TEST(SeqLockOrder, TearsNothingForTwoTakers) {
+  EXPECT_EQ(explore_seq_lock(2, kFewStops).failure, "");
 }
 
-TEST(LatestValueOrder, TearsNothingForTwoTakers) {
-  EXPECT_EQ(explore_latest(2, kFewStops).failure, "");
-}
-
-class WeakenedLatest : public testing::TestWithParam<LatestStep> {
+class WeakenedSeqLock : public testing::TestWithParam<SeqLockStep> {
  protected:
-  void SetUp() override { ExploredLatest::weakened = &GetParam(); }
-  void TearDown() override { ExploredLatest::weakened = nullptr; }
+  void SetUp() override { ExploredSeqLock::weakened = &GetParam(); }
+  void TearDown() override { ExploredSeqLock::weakened = nullptr; }
 };
 
-TEST_P(WeakenedLatest, IsCaught) { EXPECT_NE(explore_latest(1, kFewStops).failure, ""); }
+TEST_P(WeakenedSeqLock, IsCaught) { EXPECT_NE(explore_seq_lock(1, kFewStops).failure, ""); }
 
-INSTANTIATE_TEST_SUITE_P(Steps, WeakenedLatest,
-                         testing::Values(LatestStep::kGiveWord, LatestStep::kGiveNumber,
-                                         LatestStep::kTakeNumber, LatestStep::kTakeWord));
+INSTANTIATE_TEST_SUITE_P(Steps, WeakenedSeqLock,
+                         testing::Values(SeqLockStep::kGiveWord, SeqLockStep::kGiveNumber,
+                                         SeqLockStep::kTakeNumber, SeqLockStep::kTakeWord));
 
 }  // namespace
 }  // namespace planetree::explorer

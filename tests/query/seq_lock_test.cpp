@@ -11,15 +11,15 @@ struct Pair {
   std::uint64_t first = 0, second = 0;
 };
 
-TEST(LatestValue, HasNothingAtFirst) {
-  const LatestValue<Pair> latest;
+TEST(SeqLock, HasNothingAtFirst) {
+  const SeqLock<Pair> latest;
   std::uint64_t seen = 0;
   Pair value;
   EXPECT_FALSE(latest.take(seen, value));
 }
 
-TEST(LatestValue, IsTakenOnceByEachTaker) {
-  LatestValue<Pair> latest;
+TEST(SeqLock, IsTakenOnceByEachTaker) {
+  SeqLock<Pair> latest;
   latest.give({1, 2});
   latest.give({3, 4});
   for (int taker = 0; taker < 2; ++taker) {
@@ -32,8 +32,8 @@ TEST(LatestValue, IsTakenOnceByEachTaker) {
   }
 }
 
-TEST(LatestValue, IsNeverTornAndNeverOlder) {
-  LatestValue<Pair> latest;
+TEST(SeqLock, IsNeverTornAndNeverOlder) {
+  SeqLock<Pair> latest;
   constexpr std::uint64_t kLast = 200000;
   std::thread giver([&] {
     for (std::uint64_t i = 1; i <= kLast; ++i) latest.give({i, ~i});

@@ -19,7 +19,7 @@
 namespace planetree::query {
 namespace {
 
-constexpr Ask kNow{.wait = Wait::kNever};
+constexpr QueryOptions kNow{.wait = Wait::kNever};
 
 /// A disk that can be made to stand still, or to fail; and whether the system has what is on it
 /// in memory.
@@ -93,7 +93,7 @@ class StuckDisk : public testing::Test {
   }
 
   // Every query once; how many answers were degraded.
-  std::size_t ask_all(Probe& probe) {
+  std::size_t query_all(Probe& probe) {
     std::size_t degraded = 0;
     for (const Vec3& query : queries_) {
       const ClosestPoint answer = probe.closest_point(query, kNow);
@@ -112,17 +112,17 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   const Model model = open(std::uint64_t{64} << 20);
   Probe probe = make_probe(model);
   disk_.stands_still = true;
-  EXPECT_GT(ask_all(probe), 0u);
+  EXPECT_GT(query_all(probe), 0u);
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
   // A page is being read now, and will be for as long as this takes.
   const std::uint64_t read = model.stats().pages_read;
-  for (int round = 0; round < 3; ++round) EXPECT_GT(ask_all(probe), 0u);
+  for (int round = 0; round < 3; ++round) EXPECT_GT(query_all(probe), 0u);
   EXPECT_EQ(model.stats().pages_read, read);
   EXPECT_EQ(disk_.waiting, 1);
   disk_.stands_still = false;
   EXPECT_TRUE(
       eventually([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
-  // Asks that do not wait leave even that to others, who wait in any case.
+  // Queries that do not wait leave even that to others, who wait in any case.
   EXPECT_EQ(disk_.looks, 0);
 }
 
@@ -137,7 +137,7 @@ TEST_F(StuckDisk, HoldsUpThoseThatWait) {
   });
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
   EXPECT_GT(disk_.looks, 2);
-  EXPECT_GT(ask_all(hasty), 0u);
+  EXPECT_GT(query_all(hasty), 0u);
   EXPECT_FALSE(answered);
   disk_.stands_still = false;
   waiting.join();
@@ -163,7 +163,7 @@ TEST_F(StuckDisk, IsWaitedForByTheAskItself) {
 TEST_F(StuckDisk, IsWaitedForByFewAtATime) {
   if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
   constexpr unsigned kProbes = 20;
-  const Model model = open(sample_.least_budget(kProbes), 60'000, kProbes);
+  const Model model = open(sample_.min_budget(kProbes), 60'000, kProbes);
   std::vector<Probe> probes;
   while (probes.size() < kProbes) probes.push_back(make_probe(model));
   for (std::size_t i = 0; i < queries_.size(); ++i)
@@ -187,12 +187,12 @@ TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
   const Model model = open(std::uint64_t{64} << 20, 20);
   Probe probe = make_probe(model);
   disk_.stands_still = true;
-  for (std::uint64_t asked = 1; asked <= 3; ++asked) {
+  for (std::uint64_t queried = 1; queried <= 3; ++queried) {
     const ClosestPoint answer = probe.closest_point(queries_[0]);
     EXPECT_EQ(answer.status, Status::kDegraded);
     EXPECT_TRUE(sample_.interval_holds(answer, queries_[0]));
     // It waits for one page, not for one after the other.
-    EXPECT_EQ(model.stats().waits_given_up, asked);
+    EXPECT_EQ(model.stats().waits_given_up, queried);
   }
   EXPECT_EQ(model.stats().degraded_answers, 3u);
   const Vec3 near_surface{0.6, 0.8, 0.001};  // where no colour tells
@@ -240,15 +240,15 @@ TEST_F(StuckDisk, IsAskedOnceForAPageThatManyWaitFor) {
 }
 
 TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
-  const Model model = open(sample_.least_budget(4));
+  const Model model = open(sample_.min_budget(4));
   Probe probe = make_probe(model);
   disk_.fails = true;
   ASSERT_TRUE(eventually([&] {
-    ask_all(probe);
+    query_all(probe);
     return model.stats().quarantined_pages > 0;
   }));
   disk_.fails = false;
-  EXPECT_GT(ask_all(probe), 0u);
+  EXPECT_GT(query_all(probe), 0u);
 }
 
 // What is known of a page that is missing is the box of what is there.

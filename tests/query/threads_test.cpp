@@ -26,7 +26,7 @@ TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
     Probe probe = make_probe(model);
     for (const Vec3& query : queries) expected.push_back(bits_of(probe.closest_point(query)));
   }
-  const Model model = sample.open(sample.least_budget(kThreads), kThreads);
+  const Model model = sample.open(sample.min_budget(kThreads), kThreads);
   ASSERT_LT(model.stats().frames, sample.page_count() / 2);
   std::vector<std::vector<ClosestPoint>> answers(kThreads);
   std::vector<std::thread> threads;
@@ -56,7 +56,7 @@ TEST(Threads, GetThemWhicheverPageGoesFirst) {
     OpenOptions options;
     options.max_probes = 4;
     // Uses take some bytes more than scores.
-    options.memory_budget_bytes = sample.least_budget(4) + 4096;
+    options.memory_budget_bytes = sample.min_budget(4) + 4096;
     const auto model =
         ModelState::open_model(sample.path(), options, {.starts_fetching = true, .policy = policy});
     ASSERT_TRUE(model);
@@ -84,7 +84,7 @@ TEST(Threads, WaitOrDoNotWaitSideBySide) {
     Probe probe = make_probe(model);
     for (const Vec3& query : queries) exact.push_back(probe.closest_point(query));
   }
-  const Model model = sample.open(sample.least_budget(kThreads), kThreads);
+  const Model model = sample.open(sample.min_budget(kThreads), kThreads);
   std::atomic<unsigned> waiting{kThreads / 2}, wrong{0}, degraded{0};
   const auto wait = [&] {
     Probe probe = make_probe(model);
@@ -117,7 +117,7 @@ TEST(Threads, WaitOrDoNotWaitSideBySide) {
 TEST(Threads, ShareBatchesToo) {
   const SampleModel sample(octree::scattered(2000, 0.1));
   const std::vector<Vec3> queries = random_queries(1500, -0.2, 1.2);
-  const Model model = sample.open(sample.least_budget(kThreads), kThreads);
+  const Model model = sample.open(sample.min_budget(kThreads), kThreads);
   std::vector<std::vector<ClosestPoint>> answers(kThreads,
                                                  std::vector<ClosestPoint>(queries.size()));
   std::vector<std::thread> threads;

@@ -15,7 +15,7 @@ constexpr std::uint32_t kPageBytes = 16384;
 
 std::uint64_t pages_read(const SampleModel& sample, cache::Policy policy) {
   OpenOptions options;
-  options.memory_budget_bytes = sample.least_budget() + sample.page_count() / 8 * kPageBytes;
+  options.memory_budget_bytes = sample.min_budget() + sample.page_count() / 8 * kPageBytes;
   options.max_probes = 1;
   const auto model =
       ModelState::open_model(sample.path(), options, {.starts_fetching = false, .policy = policy});

@@ -76,14 +76,14 @@ class Collection {
   std::ofstream answers_, files_;
 };
 
-void collect(std::size_t asks, Collection& collection) {
-  const std::size_t share = (asks + kAskedModels) / (kAskedModels + 1);
-  for (std::size_t number = 0; number < kAskedModels; ++number) {
-    AskedModel model(number);
+void collect(std::size_t queries, Collection& collection) {
+  const std::size_t share = (queries + kQueriedModels) / (kQueriedModels + 1);
+  for (std::size_t number = 0; number < kQueriedModels; ++number) {
+    QueriedModel model(number);
     collection.add_file(model.built.path());
     for (std::size_t i = 0; i < share; ++i) {
       const Vec3 query = model.query();
-      collection.add(model.built.ask(query));
+      collection.add(model.built.closest_point(query));
       collection.add(model.built.probe().contains(query));
     }
   }
@@ -91,7 +91,8 @@ void collect(std::size_t asks, Collection& collection) {
   BuiltModel large(ball(6), {4096, 1 << 22, 1});
   collection.add_file(large.path());
   Random random(7);
-  for (std::size_t i = 0; i < share; ++i) collection.add(large.ask(random.in_cube() * 1.5));
+  for (std::size_t i = 0; i < share; ++i)
+    collection.add(large.closest_point(random.in_cube() * 1.5));
 }
 
 std::string output_of(const std::string& command) {
@@ -104,8 +105,8 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-int compare(const std::string& program, const std::string& asks) {
-  std::vector<std::string> commands{"'" + program + "' " + asks};
+int compare(const std::string& program, const std::string& queries) {
+  std::vector<std::string> commands{"'" + program + "' " + queries};
   commands.push_back(std::string("env ") + kOldLibm + " " + commands[0]);
   for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets != 0;
        targets &= targets - 1)
@@ -128,10 +129,10 @@ int run(const std::vector<std::string>& arguments) {
   if (arguments.size() > (named ? 4 : 2)) give_up("usage: check_bits [COUNT] [--target NAME]");
   if (named) use_only(arguments.back());
   const bool counted = arguments.size() == (named ? 4 : 2);
-  const std::size_t asks = counted ? std::strtoull(arguments[1].c_str(), nullptr, 10) : 1000000;
-  if (asks == 0) give_up("COUNT is a number");
+  const std::size_t queries = counted ? std::strtoull(arguments[1].c_str(), nullptr, 10) : 1000000;
+  if (queries == 0) give_up("COUNT is a number");
   Collection collection;
-  collect(asks, collection);
+  collect(queries, collection);
   collection.print();
   return 0;
 }

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/soak/killed_builds.h"
+#include "tests/tools/cli/killed_builds.h"
 
 int main(int argc, char** argv) {
   using planetree::tools::KilledBuilds;

@@ -1,5 +1,5 @@
 // Counts what asks that do not wait take besides the processor.
-// usage: check_asking MODEL.ptree [ASKS]
+// usage: check_query_costs MODEL.ptree [QUERIES]
 //
 // Ten million by default, with the least memory that the model opens with, each at another place
 // anywhere in its box, as fast as they go: every page is evicted again and again meanwhile. Exit
@@ -20,7 +20,7 @@ namespace planetree::query {
 namespace {
 
 // The error names it.
-std::uint64_t least_budget(const std::string& file, OpenOptions options) {
+std::uint64_t min_budget(const std::string& file, OpenOptions options) {
   options.memory_budget_bytes = 1;
   const auto refused = Model::open(file, options);
   const std::string text = refused ? "" : refused.error().text;
@@ -33,13 +33,13 @@ std::vector<Vec3> places_in(const ModelInfo& info, std::size_t count) {
   const auto any = [&](double from, double to) {
     return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
   };
-  std::vector<Vec3> places(count);
-  for (Vec3& place : places) {
-    place.x = any(info.box_lower.x, info.box_upper.x);
-    place.y = any(info.box_lower.y, info.box_upper.y);
-    place.z = any(info.box_lower.z, info.box_upper.z);
+  std::vector<Vec3> points(count);
+  for (Vec3& point : points) {
+    point.x = any(info.box_lower.x, info.box_upper.x);
+    point.y = any(info.box_lower.y, info.box_upper.y);
+    point.z = any(info.box_lower.z, info.box_upper.z);
   }
-  return places;
+  return points;
 }
 
 // Whether it is none.
@@ -48,11 +48,11 @@ bool report(const char* what, std::uint64_t count) {
   return count == 0;
 }
 
-int run(const std::string& file, std::uint64_t asks) {
+int run(const std::string& file, std::uint64_t queries) {
   OpenOptions options;
   options.max_probes = 1;
-  options.memory_budget_bytes = least_budget(file, options);
-  std::vector<Vec3> places(100003);
+  options.memory_budget_bytes = min_budget(file, options);
+  std::vector<Vec3> points(100003);
   const std::uint64_t resident = resident_memory_bytes();
   const auto model = Model::open(file, options);
   if (!model) {
@@ -60,12 +60,13 @@ int run(const std::string& file, std::uint64_t asks) {
     return 1;
   }
   auto probe = Probe::create(*model);
-  places = places_in(model->info(), places.size());
-  const AskingCosts costs = measure_asking(*model, *probe, places, places.size(), asks, resident);
+  points = places_in(model->info(), points.size());
+  const QueryCosts costs =
+      measure_queries(*model, *probe, points, points.size(), queries, resident);
   std::printf(
       "%llu asks with %llu bytes of memory, %llu of them locked: %llu degraded; %llu pages "
       "read, %llu evicted meanwhile\n",
-      static_cast<unsigned long long>(asks),
+      static_cast<unsigned long long>(queries),
       static_cast<unsigned long long>(options.memory_budget_bytes),
       static_cast<unsigned long long>(model->stats().locked_bytes),
       static_cast<unsigned long long>(costs.degraded),

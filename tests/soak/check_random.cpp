@@ -1,4 +1,4 @@
-// Asks nasty models at random and judges every answer.
+// Queries nasty models at random and judges every answer.
 // usage: check_random [COUNT]
 // COUNT asks, shared out among the models; default: a million. Exit status 1 if
 // any answer is wrong.
@@ -11,27 +11,27 @@
 
 int main(int count, char** arguments) {
   using namespace planetree::oracle;
-  const auto asks =
+  const auto queries =
       static_cast<std::size_t>(count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 1000000);
-  if (asks == 0) {
+  if (queries == 0) {
     std::fprintf(stderr, "usage: check_random [COUNT]\n");
     return 2;
   }
-  AskTally all;
+  QueryTally all;
   std::printf("%-20s %8s %8s %8s | misses: finite interval side normal\n", "model", "asks", "sides",
               "normals");
-  for (std::size_t model = 0; model < kAskedModels; ++model) {
-    const std::size_t share = (asks + kAskedModels - 1) / kAskedModels;
-    const AskTally tally = ask_at_random(model, share);
+  for (std::size_t model = 0; model < kQueriedModels; ++model) {
+    const std::size_t share = (queries + kQueriedModels - 1) / kQueriedModels;
+    const QueryTally tally = query_at_random(model, share);
     all += tally;
     std::printf("%-20.*s %8zu %8zu %8zu | %zu %zu %zu %zu\n",
-                static_cast<int>(name_of(model).size()), name_of(model).data(), tally.asks,
+                static_cast<int>(name_of(model).size()), name_of(model).data(), tally.queries,
                 tally.sides, tally.normals, tally.not_finite, tally.interval, tally.side,
                 tally.normal);
     std::fflush(stdout);
   }
   if (all.misses() > 0) std::printf("%s\n", all.first_miss.c_str());
-  std::printf("%zu asks, %zu sides, %zu normals: %zu wrong\n", all.asks, all.sides, all.normals,
+  std::printf("%zu asks, %zu sides, %zu normals: %zu wrong\n", all.queries, all.sides, all.normals,
               all.misses());
   return all.misses() > 0 ? 1 : 0;
 }

@@ -49,7 +49,7 @@ class MeshTriangles final : public octree::TriangleSink {
     triangles.push_back(corners);
     return {};
   }
-  void set_aside(std::uint64_t, std::uint64_t, const octree::SetAside&) override {}
+  void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
   void progress(std::uint64_t, std::uint64_t) override {}
 
   std::vector<Corners> triangles;
@@ -159,7 +159,7 @@ class MeshCheck {
 
   // The same bits with hardly any memory, and no more memory than that.
   void run_paged() {
-    const PagedAnswers paged = ask_in_new_process(tree_, tree_.parent_path(), queries_);
+    const PagedAnswers paged = query_in_new_process(tree_, tree_.parent_path(), queries_);
     resident_bytes_ = paged.peak_resident_bytes;
     for (std::size_t i = 0; i < answers_.size(); ++i)
       misses_.paging += paged.answers.at(i) != bits_of(answers_[i]);
@@ -200,16 +200,16 @@ class MeshCheck {
   // By every triangle, quickly, and with care where the answer differs. Nothing is
   // asked of points whose winding number is within a thousandth of one half.
   void judge_open_side(const Vec3& query, Side side) {
-    constexpr double kLeastDifference = 0.001;
-    const auto told = [](double w) { return std::fabs(std::fabs(w) - 0.5) > kLeastDifference; };
+    constexpr double kMinDifference = 0.001;
+    const auto certain = [](double w) { return std::fabs(std::fabs(w) - 0.5) > kMinDifference; };
     const auto of = [](double w) { return std::fabs(w) > 0.5 ? Side::kInside : Side::kOutside; };
     const double quick = quick_winding(query, triangles_);
-    if (told(quick) && side == of(quick)) return;
+    if (certain(quick) && side == of(quick)) return;
     const OpenWinding careful = open_winding(query, triangles_);
     const auto value = static_cast<double>(careful.value);
     if (careful.on_surface)
       misses_.side += side != Side::kOnSurface;
-    else if (told(value))
+    else if (certain(value))
       misses_.side += side != of(value);
   }
 

@@ -1,5 +1,5 @@
 // Holds answers that did not wait for pages against ones that did.
-// usage: check_real_time MODEL.ptree [ASKS]
+// usage: check_real_time MODEL.ptree [QUERIES]
 //
 // Budgets of 5, 10, 25 and 50 % of what the whole model takes (of a small one, those that it opens
 // with), each way that a tip moves, by a disk that is well, one that stalls and one that fails,
@@ -29,7 +29,7 @@ namespace {
 using tools::TouchMotion;
 
 struct Count {
-  std::size_t asked = 0, degraded = 0, wrong = 0;
+  std::size_t queried = 0, degraded = 0, wrong = 0;
 };
 
 enum class Health { kWell, kStalls, kFails };
@@ -67,7 +67,7 @@ class Disk final : public storage::FileCalls {
   const Health health_;
 };
 
-// Asks of any of some points that wait for pages, until it ends.
+// Queries of any of some points that wait for pages, until it ends.
 class Rival {
  public:
   Rival(const Model& model, const std::vector<Vec3>& points)
@@ -94,7 +94,7 @@ bool agrees(const ClosestPoint& answer, const ClosestPoint& exact) {
          answer.upper >= exact.lower && answer.distance >= exact.lower;
 }
 
-// Asks nothing where a model does not open with so little memory.
+// Queries nothing where a model does not open with so little memory.
 Count check(const std::string& file, std::uint64_t budget_bytes, Health health,
             const std::vector<Vec3>& path, const std::vector<ClosestPoint>& exact) {
   OpenOptions options;
@@ -113,42 +113,42 @@ Count check(const std::string& file, std::uint64_t budget_bytes, Health health,
   Count count;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const ClosestPoint answer = probe->closest_point(path[i], {.wait = Wait::kNever});
-    ++count.asked;
+    ++count.queried;
     count.degraded += answer.status == Status::kDegraded;
     count.wrong += !agrees(answer, exact[i]);
   }
   return count;
 }
 
-int run(const std::string& file, std::size_t asks) {
-  OpenOptions roomy;
-  roomy.memory_budget_bytes = ~std::uint64_t{0} / 2;
-  roomy.locking = Locking::kNever;
-  const auto model = Model::open(file, roomy);
+int run(const std::string& file, std::size_t queries) {
+  OpenOptions spacious;
+  spacious.memory_budget_bytes = ~std::uint64_t{0} / 2;
+  spacious.locking = Locking::kNever;
+  const auto model = Model::open(file, spacious);
   if (!model) {
     std::fprintf(stderr, "%s: %s\n", file.c_str(), model.error().text);
     return 1;
   }
   auto probe = Probe::create(*model);
   const std::uint64_t whole = model->stats().arena_bytes + model->stats().table_bytes;
-  std::size_t asked = 0, wrong = 0;
+  std::size_t queried = 0, wrong = 0;
   for (const TouchMotion motion : tools::kAllTouchMotions) {
-    const std::vector<Vec3> path = tools::touch_path(*model, *probe, motion, asks / 36);
+    const std::vector<Vec3> path = tools::touch_path(*model, *probe, motion, queries / 36);
     std::vector<ClosestPoint> exact(path.size());
     probe->closest_points(path, exact);
     for (const Health health : kAllHealths)
       for (const unsigned percent : {5u, 10u, 25u, 50u}) {
         const Count count = check(file, whole * percent / 100, health, path, exact);
         std::printf("%-9s the disk %-7s %3u %% of memory: %zu asks, %zu degraded, %zu wrong\n",
-                    name_of(motion), name_of(health), percent, count.asked, count.degraded,
+                    name_of(motion), name_of(health), percent, count.queried, count.degraded,
                     count.wrong);
-        asked += count.asked;
+        queried += count.queried;
         wrong += count.wrong;
       }
   }
-  if (asked == 0)
+  if (queried == 0)
     std::fprintf(stderr, "%s: too small to be asked with less memory\n", file.c_str());
-  return wrong > 0 || asked == 0;
+  return wrong > 0 || queried == 0;
 }
 
 }  // namespace

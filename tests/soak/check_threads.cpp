@@ -1,5 +1,5 @@
 // Readers and a writer of the cache at full speed: is every word of the page asked for?
-// usage: check_threads [ASKS INSTALLS]
+// usage: check_threads [QUERIES INSTALLS]
 //        check_threads --weakened NAME
 //
 // The first has the protocol's own classes do 10 million asks against a million installs at
@@ -60,7 +60,7 @@ const std::map<std::string, Stress>& wrong_ways() {
 // Whether no word was wrong.
 bool report(const char* what, const StressCount& count) {
   std::printf("%s: %llu asks found %llu pages, %llu installs, %llu wrong\n", what,
-              static_cast<unsigned long long>(count.asks),
+              static_cast<unsigned long long>(count.queries),
               static_cast<unsigned long long>(count.found),
               static_cast<unsigned long long>(count.installs),
               static_cast<unsigned long long>(count.wrong));
@@ -70,21 +70,21 @@ bool report(const char* what, const StressCount& count) {
 int run_wrong_way(const std::string& name) {
   const auto found = wrong_ways().find(name);
   if (found == wrong_ways().end()) return 2;
-  constexpr std::uint64_t kAsks = 20'000'000, kInstalls = 2'000'000;
-  const StressGoal goal{.asks = kAsks, .installs = kInstalls, .until_wrong = true};
+  constexpr std::uint64_t kQueries = 20'000'000, kInstalls = 2'000'000;
+  const StressGoal goal{.queries = kQueries, .installs = kInstalls, .until_wrong = true};
   return report(name.c_str(), found->second(goal)) ? 0 : 1;
 }
 
-int run(std::uint64_t asks, std::uint64_t installs) {
+int run(std::uint64_t queries, std::uint64_t installs) {
   bool right = true;
   for (const std::uint32_t readers : {1u, 2u, 4u}) {
-    const StressGoal goal{.readers = readers, .asks = asks, .installs = installs};
+    const StressGoal goal{.readers = readers, .queries = queries, .installs = installs};
     const std::string what = "protocol, " + std::to_string(readers) + " readers";
     right &= report(what.c_str(), stress_protocol(goal));
   }
   // The thread that fetches sleeps where a reader stands still inside a section: each wants a
   // processor.
-  const StressGoal goal{.readers = 1, .asks = asks, .installs = installs};
+  const StressGoal goal{.readers = 1, .queries = queries, .installs = installs};
   right &= report("page cache, 1 reader", stress_page_cache(goal));
   return right ? 0 : 1;
 }

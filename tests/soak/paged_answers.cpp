@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAsk = "--ask";
+constexpr const char* kQuery = "--ask";
 
 struct Messages {
   explicit Messages(const fs::path& folder)
@@ -68,13 +68,13 @@ std::vector<ClosestPoint> answers_of(const fs::path& tree, std::uint64_t budget_
   return answers;
 }
 
-PagedAnswers ask_in_new_process(const fs::path& tree, const fs::path& folder,
-                                const std::vector<Vec3>& queries) {
+PagedAnswers query_in_new_process(const fs::path& tree, const fs::path& folder,
+                                  const std::vector<Vec3>& queries) {
   const Messages messages(folder);
   save(messages.queries, queries);
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl("/proc/self/exe", "check_real", kAsk, tree.c_str(), folder.c_str(), nullptr);
+    ::execl("/proc/self/exe", "check_real", kQuery, tree.c_str(), folder.c_str(), nullptr);
     std::_Exit(127);
   }
   int status = 0;
@@ -84,7 +84,7 @@ PagedAnswers ask_in_new_process(const fs::path& tree, const fs::path& folder,
 }
 
 bool is_new_process(int count, char** arguments) {
-  return count == 4 && std::strcmp(arguments[1], kAsk) == 0;
+  return count == 4 && std::strcmp(arguments[1], kQuery) == 0;
 }
 
 int run_new_process(char** arguments) {

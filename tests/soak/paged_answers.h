@@ -10,7 +10,7 @@
 #include "planetree/types.h"
 #include "tests/query/answer_bits.h"
 
-/// Asking with much memory, and with little in a process of its own, so that
+/// ClosestPointQuery with much memory, and with little in a process of its own, so that
 /// its memory can be measured. For check_real: what fails ends the program.
 namespace planetree::oracle {
 
@@ -38,9 +38,9 @@ struct PagedAnswers {
 
 /// Starts this program again to ask within kSmallBudgetBytes. `folder` takes
 /// what the two tell each other.
-PagedAnswers ask_in_new_process(const std::filesystem::path& tree,
-                                const std::filesystem::path& folder,
-                                const std::vector<Vec3>& queries);
+PagedAnswers query_in_new_process(const std::filesystem::path& tree,
+                                  const std::filesystem::path& folder,
+                                  const std::vector<Vec3>& queries);
 
 /// What the program started so does: its arguments, from the first on, are
 /// "--ask" and two paths.

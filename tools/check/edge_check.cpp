@@ -17,7 +17,7 @@ using octree::Point;
 EdgeCheck::EdgeCheck(const storage::ModelRecord& model) : model_(model) {
   const query::Scale scale(model.scale_exponent);
   for (std::size_t i = 0; i < listed_.size(); ++i) {
-    const storage::OpenEdge& edge = model.open_edge[i];
+    const storage::UnbalancedEdge& edge = model.unbalanced_edge[i];
     listed_[i].from = scale.in(Vec3{edge.from[0], edge.from[1], edge.from[2]});
     listed_[i].to = scale.in(Vec3{edge.to[0], edge.to[1], edge.to[2]});
   }
@@ -39,15 +39,16 @@ void EdgeCheck::count(const Point& from, const Point& to) {
 
 std::optional<std::string> EdgeCheck::finding() const {
   const bool watertight = edges_.is_watertight();
-  if (watertight != (model_.open_edge_count == 0))
+  if (watertight != (model_.unbalanced_edge_count == 0))
     return watertight ? "the header says that edges are open and none is"
                       : "the header says that the surface is watertight and it is not";
-  for (std::size_t i = 0; i < std::min<std::uint64_t>(model_.open_edge_count, listed_.size()); ++i)
-    if (listed_[i].along != model_.open_edge[i].along ||
-        listed_[i].against != model_.open_edge[i].against)
+  for (std::size_t i = 0; i < std::min<std::uint64_t>(model_.unbalanced_edge_count, listed_.size());
+       ++i)
+    if (listed_[i].along != model_.unbalanced_edge[i].along ||
+        listed_[i].against != model_.unbalanced_edge[i].against)
       return fmt::format("{} triangles run along open edge {} and {} against it, not {} and {}",
-                         listed_[i].along, i, listed_[i].against, model_.open_edge[i].along,
-                         model_.open_edge[i].against);
+                         listed_[i].along, i, listed_[i].against, model_.unbalanced_edge[i].along,
+                         model_.unbalanced_edge[i].against);
   return std::nullopt;
 }
 

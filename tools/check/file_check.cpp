@@ -108,7 +108,7 @@ CheckReport TreeCheck::run(const CheckProgress& progress) {
   if (geometry_) geometry_->finish(complete_);
   const auto is_proving = [this] { return geometry_ && report_.issues.count() == 0; };
   check_mask(parts_, is_proving(), report_, progress);
-  if (is_proving()) check_sheets(parts_, report_.issues);
+  if (is_proving()) check_height_fields(parts_, report_.issues);
   return std::move(report_);
 }
 
@@ -120,11 +120,11 @@ void TreeCheck::check_model() {
         {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
   };
   if (model.triangle_count == 0) wrong("the header says that there is no triangle");
-  if (model.set_aside_count > ~std::uint64_t{0} - model.usable_triangles())
+  if (model.skipped_count > ~std::uint64_t{0} - model.usable_triangles())
     return wrong("the header's counts of triangles overflow");
-  const std::uint64_t indices = model.usable_triangles() + model.set_aside_count;
-  const bool names_one = model.first_set_aside != storage::kNoTriangle;
-  if (names_one != (model.set_aside_count > 0) || (names_one && model.first_set_aside >= indices))
+  const std::uint64_t indices = model.usable_triangles() + model.skipped_count;
+  const bool names_one = model.first_skipped != storage::kNoTriangle;
+  if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
     wrong("the first triangle set aside does not fit their count");
   if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
 }
@@ -136,8 +136,8 @@ void TreeCheck::check_page(std::uint32_t page) {
   if (issue) {
     report_.issues.add(*std::move(issue));
     complete_ = false;
-    pending_.finish_page(page, [this](const Links::Target&, const Promise& promise) {
-      open_nodes_.erase(promise.parent);
+    pending_.finish_page(page, [this](const Links::Target&, const Promise& tighten) {
+      open_nodes_.erase(tighten.parent);
     });
     return;
   }
@@ -166,48 +166,48 @@ void TreeCheck::check_roots() {
   }
   frame_->for_each_block([&](std::uint32_t index, std::uint32_t slot) {
     if (index >= header.root_block_count) return;
-    const auto promise = pending_.take({page_, slot, true});
-    if (promise) {
-      block_bounds_[slot] = promise->bounds;
-      if (promise->is_root && header_.model.height != 0)
+    const auto tighten = pending_.take({page_, slot, true});
+    if (tighten) {
+      block_bounds_[slot] = tighten->bounds;
+      if (tighten->is_root && header_.model.height != 0)
         report(IssueCode::kHeight, "the root is a block, but the header's height is not 0");
     } else if (complete_) {
       report(IssueCode::kSubtreeUnlinked,
              fmt::format("no link leads to the block in slot {}", slot));
     }
   });
-  pending_.finish_page(page_, [this](const Links::Target& target, const Promise& promise) {
+  pending_.finish_page(page_, [this](const Links::Target& target, const Promise& tighten) {
     report(IssueCode::kLinkTarget,
            fmt::format("a link leads to slot {}, where no subtree's {} begins", target.slot,
                        target.leaf ? "block" : "root node"));
-    open_nodes_.erase(promise.parent);
+    open_nodes_.erase(tighten.parent);
     complete_ = false;
   });
 }
 
 void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   const std::uint32_t slot = frame_->node_slot(index);
-  const auto promise = pending_.take({page_, slot, false});
-  if (!promise) {
+  const auto tighten = pending_.take({page_, slot, false});
+  if (!tighten) {
     if (complete_)
       report(IssueCode::kSubtreeUnlinked,
              fmt::format("no link leads to the node in slot {}", slot));
     return;
   }
   const std::uint8_t height = frame_->node(index).height;
-  if (promise->is_root) {
+  if (tighten->is_root) {
     check_root_box(box);
     if (height != header_.model.height)
       report(IssueCode::kHeight, fmt::format("the root's height is {} and the header's {}", height,
                                              header_.model.height));
     return;
   }
-  node_bounds_[index] = promise->bounds;
-  if (!promise->bounds->box.holds(box))
+  node_bounds_[index] = tighten->bounds;
+  if (!tighten->bounds->box.holds(box))
     report(IssueCode::kSubtreeBox,
            fmt::format("the box of the node in slot {} is not within the one its parent states",
                        slot));
-  settle_height(promise->parent, height);
+  settle_height(tighten->parent, height);
 }
 
 /// The root's box holds the header's, which is that of the input, if all of that is there.
@@ -265,13 +265,13 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
   const Node& node = frame_->node(index);
   const std::uint32_t link = node.link[child];
   const bool leaf = octree::LinkFormat::is_leaf(link);
-  Promise promise;
-  promise.bounds =
+  Promise tighten;
+  tighten.bounds =
       std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
                                             frame_->moments(node, child), node_bounds_[index]});
-  promise.parent = key_of(index);
+  tighten.parent = key_of(index);
   if (!leaf) ++open.children_left;
-  if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(promise))) {
+  if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(tighten))) {
     if (!leaf) --open.children_left;
     report(IssueCode::kLinkTwice, fmt::format("a second link leads to page {}, slot {}",
                                               links_.page(link), links_.slot(link)));
@@ -279,7 +279,7 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
 }
 
 void TreeCheck::check_blocks() {
-  const std::uint64_t indices = header_.model.usable_triangles() + header_.model.set_aside_count;
+  const std::uint64_t indices = header_.model.usable_triangles() + header_.model.skipped_count;
   frame_->for_each_block([&](std::uint32_t, std::uint32_t slot) {
     const octree::BlockView block = frame_->block(slot);
     report_.triangles += block.triangle_count();

@@ -10,14 +10,14 @@
 
 namespace planetree::tools {
 
-/// The issues found: the first kMostKept in full, the others counted.
+/// The issues found: the first kMaxKept in full, the others counted.
 class IssueList {
  public:
-  static constexpr std::size_t kMostKept = 1000;
+  static constexpr std::size_t kMaxKept = 1000;
 
   void add(Issue issue) {
     ++count_;
-    if (kept_.size() < kMostKept) kept_.push_back(std::move(issue));
+    if (kept_.size() < kMaxKept) kept_.push_back(std::move(issue));
   }
   std::uint64_t count() const { return count_; }
   const std::vector<Issue>& kept() const { return kept_; }
@@ -36,7 +36,7 @@ struct CheckReport {
   std::uint64_t mask_cells = 0;
 };
 
-/// Told after each page.
+/// Certain after each page.
 using CheckProgress = std::function<void(std::uint32_t pages_done)>;
 
 /// Holds a file against every promise of the format (format-spec/ISSUES.md);

@@ -37,14 +37,14 @@ bool is_inside(const octree::FloatBox& box, const Point& point) {
 /// 8 units of 2^-24 times the box's diagonal.
 bool is_inside(const Bounds& bounds, const Point& point) {
   const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
-  const double room = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
+  const double capacity = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
   const Point normal = point_of(bounds.disc.normal);
   const Point from = point - point_of(bounds.box.centre());
   const double height = from.dot(normal);
   const Point across = from - height * normal;
-  return static_cast<double>(bounds.disc.slab_lower) + room <= height &&
-         height + room <= static_cast<double>(bounds.disc.slab_upper) &&
-         across.norm() + room <= static_cast<double>(bounds.disc.radius);
+  return static_cast<double>(bounds.disc.slab_lower) + capacity <= height &&
+         height + capacity <= static_cast<double>(bounds.disc.slab_upper) &&
+         across.norm() + capacity <= static_cast<double>(bounds.disc.radius);
 }
 
 Point point_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
@@ -78,7 +78,7 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
   for (unsigned i = 0; i < block.triangle_count(); ++i) add_triangle(block.triangle(i), page);
   if (bounds == nullptr) return;
   check_vertices(block, page, *bounds);
-  if (model_.open_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
+  if (model_.unbalanced_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
     report(IssueCode::kMoments, page,
            fmt::format("the moments of the block of triangle {} are not its own", block.id(0)));
 }
@@ -90,14 +90,14 @@ void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t
 }
 
 void GeometryCheck::add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds) {
-  if (model_.open_edge_count != 0 && !moments_fit(bounds, node))
+  if (model_.unbalanced_edge_count != 0 && !moments_fit(bounds, node))
     report(IssueCode::kMoments, page, "a node's moments are not the sums of its children's");
 }
 
 void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) {
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     const std::uint64_t id = block.id(i);
-    least_id_ = std::min(least_id_, id);
+    min_id_ = std::min(min_id_, id);
     if (!insert(id))
       report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} is there twice", id));
     if (id == model_.sample_triangle) look_for_sample(block, i, page);
@@ -164,10 +164,10 @@ void GeometryCheck::finish(bool complete) {
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
                fmt::format("the header's sample triangle {} is not there", model_.sample_triangle));
-  else if (least_id_ != model_.sample_triangle)
+  else if (min_id_ != model_.sample_triangle)
     whole_file(IssueCode::kSample,
                fmt::format("the header's sample triangle is {} and the least triangle {}",
-                           model_.sample_triangle, least_id_));
+                           model_.sample_triangle, min_id_));
 }
 
 }  // namespace planetree::tools

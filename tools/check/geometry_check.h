@@ -50,7 +50,7 @@ class GeometryCheck {
   IssueList& issues_;
   // Bits of triangles seen, in pieces, so that the file's claims cost nothing.
   std::unordered_map<std::uint64_t, std::array<std::uint64_t, 8>> seen_;
-  std::uint64_t least_id_ = storage::kNoTriangle;
+  std::uint64_t min_id_ = storage::kNoTriangle;
   bool sample_seen_ = false;
   EdgeCheck edges_;
   octree::Point lower_, upper_;            // of all vertices, model frame

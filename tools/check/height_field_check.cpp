@@ -14,9 +14,9 @@
 namespace planetree::tools {
 namespace {
 
-class SheetCheck {
+class HeightFieldCheck {
  public:
-  SheetCheck(FileParts& parts, IssueList& issues) : parts_(parts), issues_(issues) {}
+  HeightFieldCheck(FileParts& parts, IssueList& issues) : parts_(parts), issues_(issues) {}
 
   void run() {
     for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
@@ -25,7 +25,7 @@ class SheetCheck {
       if (issue) return issues_.add(*std::move(issue));
       const FrameView frame = parts_.frame();
       frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-        if (frame.block(slot).header().in_sheet()) check(page, slot, frame.block(slot));
+        if (frame.block(slot).header().is_height_field()) check(page, slot, frame.block(slot));
       });
       if (lost_) return;
     }
@@ -40,9 +40,9 @@ class SheetCheck {
 
   bool is_proven(const octree::BlockView& block) {
     if (!open()) return false;
-    query::PageTurner turner(proof_->reader, Wait::kForPages);
-    const octree::SheetFinder finder(proof_->model->tree(), proof_->model->mask());
-    return finder.is_in_sheet(block, turner.pages());
+    query::PageAccessor accessor(proof_->reader, Wait::kForPages);
+    const octree::HeightFieldFinder finder(proof_->model->tree(), proof_->model->mask());
+    return finder.is_height_field(block, accessor.pages());
   }
 
   bool open() {
@@ -58,7 +58,7 @@ class SheetCheck {
   }
 
   void report(std::uint32_t page, std::uint32_t slot, const char* what) {
-    issues_.add({IssueCode::kBlockSheet, page, Error::kNowhere,
+    issues_.add({IssueCode::kBlockHeightField, page, Error::kNowhere,
                  fmt::format("the block in slot {} is said to be {}", slot, what)});
   }
 
@@ -70,6 +70,8 @@ class SheetCheck {
 
 }  // namespace
 
-void check_sheets(FileParts& parts, IssueList& issues) { SheetCheck(parts, issues).run(); }
+void check_height_fields(FileParts& parts, IssueList& issues) {
+  HeightFieldCheck(parts, issues).run();
+}
 
 }  // namespace planetree::tools

@@ -10,6 +10,6 @@ namespace planetree::tools {
 ///
 /// issues  what is found is added to it.
 /// memory  one page and, where any block is said to be, 256 MiB
-void check_sheets(FileParts& parts, IssueList& issues);
+void check_height_fields(FileParts& parts, IssueList& issues);
 
 }  // namespace planetree::tools

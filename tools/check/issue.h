@@ -44,7 +44,7 @@ enum class IssueCode : std::uint8_t {
   kMaskPlanes,
   kMaskBlocks,
   kMaskSlab,
-  kBlockSheet,
+  kBlockHeightField,
   kRegion,
 };
 inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kRegion) + 1;

@@ -129,17 +129,17 @@ void MaskProof::check_corners(const GreyCell& grey, const octree::MaskCorners& c
 
 void MaskProof::check_list(const GreyCell& grey) {
   if (grey.cell.level == octree::kLevels) return;
-  query::PageTurner turner(reader_, Wait::kForPages);
+  query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::MaskBlocks found;
   const octree::BlockLister lister(model_->tree(), grid_);
-  const auto outcome = lister.list(grey.cell, turner.pages(), found);
+  const auto outcome = lister.list(grey.cell, accessor.pages(), found);
   if (outcome == octree::BlockLister::Outcome::kLost) return;
   const bool all = outcome == octree::BlockLister::Outcome::kListed;
   if (!all || !has_all(grey.blocks, found))
     report(IssueCode::kMaskBlocks, grey.page,
            fmt::format("cell {} does not list all blocks that touch it", cell_name(grey.cell)));
-  octree::RecordFinder records(model_->tree(), turner.pages());
-  octree::TreeWork work;
+  octree::LinkResolver records(model_->tree(), accessor.pages());
+  octree::TraversalStats work;
   if (model_->region().has_walls() && grey.blocks.slab.says_something())
     report(IssueCode::kMaskSlab, grey.page,
            fmt::format("cell {} has a slab, but the region has walls", cell_name(grey.cell)));
@@ -150,7 +150,7 @@ void MaskProof::check_list(const GreyCell& grey) {
     // What is wrong with a page that cannot be had is said elsewhere.
     if (const std::byte* record = records.find(link, work))
       outside = outside || !keeps_to_slab(grey, octree::BlockView(record, model_->tree().shape));
-    else if (turner.peek(links.page(link)) != nullptr)
+    else if (accessor.peek(links.page(link)) != nullptr)
       report(IssueCode::kMaskBlocks, grey.page,
              fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
   }
@@ -186,26 +186,26 @@ void MaskProof::check_special(const GreyCell& grey) {
 }
 
 std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned corner) {
-  const auto [place, added] = counted_.try_emplace(corner_key(cell, corner));
-  if (added) place->second = recount(grid_.corner(cell, corner));
-  return place->second;
+  const auto [position, added] = counted_.try_emplace(corner_key(cell, corner));
+  if (added) position->second = recount(grid_.corner(cell, corner));
+  return position->second;
 }
 
 std::optional<std::int64_t> MaskProof::recount(const Point& point) {
-  const octree::TreeFacts& tree = model_->tree();
+  const octree::TreeInfo& tree = model_->tree();
   if (query::outside_box(tree, point)) return 0;
-  query::PageTurner turner(reader_, Wait::kForPages);
-  octree::TreeWork work;
+  query::PageAccessor accessor(reader_, Wait::kForPages);
+  octree::TraversalStats work;
   if (model_->region().has_walls()) {
     const octree::Crossings crossings = octree::count_crossings(
-        tree, {point, model_->region_corner()}, kAllNodes, turner.pages(), work);
+        tree, {point, model_->region_corner()}, kAllNodes, accessor.pages(), work);
     if (!crossings.complete) return std::nullopt;
     return model_->region_winding() + crossings.difference;
   }
-  const query::WaysOut ways(tree, point);
-  for (const query::WaysOut::Way& way : ways.all()) {
+  const query::ExitSegments ways(tree, point);
+  for (const query::ExitSegments::Way& way : ways.all()) {
     const octree::Crossings crossings =
-        octree::count_crossings(tree, {point, way.end}, kAllNodes, turner.pages(), work);
+        octree::count_crossings(tree, {point, way.end}, kAllNodes, accessor.pages(), work);
     if (crossings.complete) return crossings.difference;
   }
   return std::nullopt;
@@ -213,10 +213,10 @@ std::optional<std::int64_t> MaskProof::recount(const Point& point) {
 
 std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
   const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
-  query::PageTurner turner(reader_, Wait::kForPages);
-  octree::TreeWork work;
+  query::PageAccessor accessor(reader_, Wait::kForPages);
+  octree::TraversalStats work;
   std::vector<Triangle> found;
-  octree::BoxWalk(model_->tree(), lower, upper, turner.pages(), work)
+  octree::BoxWalk(model_->tree(), lower, upper, accessor.pages(), work)
       .run(kAllNodes, [&](const octree::BlockView& block, std::uint32_t) {
         for (unsigned i = 0; i < block.triangle_count(); ++i)
           if (const Triangle triangle = block.triangle(i);

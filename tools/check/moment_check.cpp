@@ -36,20 +36,20 @@ Matrix first_of(const octree::Moments& moments) {
 /// Rounding of doubles, and of points relative to the centre, is far below the
 /// share that is added.
 bool fits(const octree::Moments& stated, const Expected& expected) {
-  constexpr double kRoom = 0x1p-30;
+  constexpr double kCapacity = 0x1p-30;
   const double area = octree::Moments::wide(stated.area);
   const double second = octree::Moments::wide(stated.second);
   const double extent = std::sqrt(second / area);
-  const double moved = octree::kAbsoluteSlack * area;
-  if (area * (1 + kRoom) < expected.area) return false;
-  if (second * (1 + kRoom) + moved * (extent + octree::kAbsoluteSlack) < expected.second)
+  const double perturbed = octree::kAbsoluteSlack * area;
+  if (area * (1 + kCapacity) < expected.area) return false;
+  if (second * (1 + kCapacity) + perturbed * (extent + octree::kAbsoluteSlack) < expected.second)
     return false;
-  const double vector_error = (octree::kVectorError + kRoom) * area + expected.vector_error;
+  const double vector_error = (octree::kVectorError + kCapacity) * area + expected.vector_error;
   if (!((vector_of(stated) - expected.vector).norm() <= vector_error)) return false;
   const Matrix symmetric = (expected.first + expected.first.transpose()) / 2 -
                            expected.first.trace() / 3 * Matrix::Identity();
-  const double first_error = octree::kFirstError * stated.first_unit() + kRoom * area * extent +
-                             moved + expected.first_error;
+  const double first_error = octree::kFirstError * stated.first_unit() + kCapacity * area * extent +
+                             perturbed + expected.first_error;
   return (first_of(stated) - symmetric).norm() <= first_error;
 }
 
@@ -88,7 +88,7 @@ bool moments_fit(const Bounds& stated, const octree::Node& node) {
     const double area = octree::Moments::wide(moments.area);
     const double second = octree::Moments::wide(moments.second);
     // A writer may have rounded the least of them up from nothing.
-    const double least = 2 * octree::Moments::wide(octree::kLeastShortFloat);
+    const double least = 2 * octree::Moments::wide(octree::kMinShortFloat);
     const double kept = area > least ? area * kKept : 0;
     expected.vector += vector;
     expected.vector_error += octree::kVectorError * area;

@@ -40,10 +40,10 @@ bool keeps_to_slab(const octree::CellSlab& slab, const octree::Triangle& triangl
   };
   Polygon polygon;
   for (const Point& corner : triangle)
-    polygon.push_back(octree::CellSlab::place_in(corner, lower, level));
+    polygon.push_back(octree::CellSlab::position_in(corner, lower, level));
   // Mostly so, and told without clipping.
   if (std::all_of(polygon.begin(), polygon.end(), is_within)) return true;
-  const Point end = octree::CellSlab::place_in(upper, lower, level);
+  const Point end = octree::CellSlab::position_in(upper, lower, level);
   for (unsigned axis = 0; axis < 3; ++axis) {
     polygon = clipped(polygon, axis, 0, 1);
     polygon = clipped(polygon, axis, end[axis], -1);

@@ -27,10 +27,10 @@ Result<void> LineReader::refill() {
             buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
   end_ -= begin_;
   begin_ = 0;
-  const auto room = std::as_writable_bytes(std::span(buffer_).subspan(end_));
-  const auto bytes = file_.read(room);
+  const auto capacity = std::as_writable_bytes(std::span(buffer_).subspan(end_));
+  const auto bytes = file_.read(capacity);
   if (!bytes) return bytes.error();
-  ended_ = *bytes < room.size();
+  ended_ = *bytes < capacity.size();
   end_ += *bytes;
   return {};
 }

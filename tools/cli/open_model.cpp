@@ -13,7 +13,7 @@ Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory
   options.max_probes = 1;
   options.wait_limit_ms = wait_limit_ms;
   if (batch_threads == 0) batch_threads = std::max(std::thread::hardware_concurrency(), 1u);
-  options.batch_threads = std::min(batch_threads, OpenOptions::kMostBatchThreads);
+  options.batch_threads = std::min(batch_threads, OpenOptions::kMaxBatchThreads);
   auto model = Model::open(path, options);
   if (model && model->stats().header_copy_damaged)
     console.warn(path.string(),

@@ -32,34 +32,36 @@ std::string length_complaint(const std::string& text, bool infinite) {
 
 }  // namespace
 
-VerbOptions::VerbOptions(CLI::App& app, const std::string& name, const std::string& help)
-    : verb_(*app.add_subcommand(name, help)) {}
+SubcommandOptions::SubcommandOptions(CLI::App& app, const std::string& name,
+                                     const std::string& help)
+    : subcommand_(*app.add_subcommand(name, help)) {}
 
-VerbOptions::Option VerbOptions::path(const std::string& name, const char* type,
-                                      std::filesystem::path& value, const std::string& help) {
-  return verb_.add_option(name, value, help)->type_name(type);
+SubcommandOptions::Option SubcommandOptions::path(const std::string& name, const char* type,
+                                                  std::filesystem::path& value,
+                                                  const std::string& help) {
+  return subcommand_.add_option(name, value, help)->type_name(type);
 }
 
-VerbOptions::Option VerbOptions::flag(const std::string& name, bool& value,
-                                      const std::string& help) {
-  return verb_.add_flag(name, value, help);
+SubcommandOptions::Option SubcommandOptions::flag(const std::string& name, bool& value,
+                                                  const std::string& help) {
+  return subcommand_.add_flag(name, value, help);
 }
 
-VerbOptions::Option VerbOptions::bytes(const std::string& name, std::uint64_t& value,
-                                       const std::string& help) {
+SubcommandOptions::Option SubcommandOptions::bytes(const std::string& name, std::uint64_t& value,
+                                                   const std::string& help) {
   const auto take = [&value](const std::string& given) { value = *parse_bytes(given); };
   return text(name, "SIZE", bytes_complaint, take, help);
 }
 
-VerbOptions::Option VerbOptions::count(const std::string& name, std::uint64_t& value,
-                                       std::uint64_t most, const std::string& help) {
+SubcommandOptions::Option SubcommandOptions::count(const std::string& name, std::uint64_t& value,
+                                                   std::uint64_t most, const std::string& help) {
   const auto complaint = [most](const std::string& given) { return count_complaint(given, most); };
   const auto take = [&value](const std::string& given) { value = *parse_count(given); };
   return text(name, "N", complaint, take, help);
 }
 
-VerbOptions::Option VerbOptions::length(const std::string& name, double& value, bool infinite,
-                                        const std::string& help) {
+SubcommandOptions::Option SubcommandOptions::length(const std::string& name, double& value,
+                                                    bool infinite, const std::string& help) {
   const auto complaint = [infinite](const std::string& given) {
     return length_complaint(given, infinite);
   };
@@ -67,38 +69,38 @@ VerbOptions::Option VerbOptions::length(const std::string& name, double& value, 
   return text(name, "LENGTH", complaint, take, help);
 }
 
-VerbOptions::Option VerbOptions::word(const std::string& name,
-                                      const std::vector<std::string>& words,
-                                      std::function<void(const std::string&)> take,
-                                      const std::string& help) {
-  return verb_.add_option_function<std::string>(name, take, help)
+SubcommandOptions::Option SubcommandOptions::word(const std::string& name,
+                                                  const std::vector<std::string>& words,
+                                                  std::function<void(const std::string&)> take,
+                                                  const std::string& help) {
+  return subcommand_.add_option_function<std::string>(name, take, help)
       ->type_name("NAME")
       ->check(CLI::IsMember(words).description(""));
 }
 
-VerbOptions::Option VerbOptions::text(const std::string& name, const char* type,
-                                      std::function<std::string(const std::string&)> complaint,
-                                      std::function<void(const std::string&)> take,
-                                      const std::string& help) {
-  return verb_.add_option_function<std::string>(name, take, help)
+SubcommandOptions::Option SubcommandOptions::text(
+    const std::string& name, const char* type,
+    std::function<std::string(const std::string&)> complaint,
+    std::function<void(const std::string&)> take, const std::string& help) {
+  return subcommand_.add_option_function<std::string>(name, take, help)
       ->type_name(type)
       ->check(CLI::Validator([complaint](std::string& given) { return complaint(given); }, "", ""));
 }
 
-VerbOptions::Option VerbOptions::require(Option option) { return option->required(); }
+SubcommandOptions::Option SubcommandOptions::require(Option option) { return option->required(); }
 
-VerbOptions::Option VerbOptions::default_text(Option option, const std::string& text) {
+SubcommandOptions::Option SubcommandOptions::default_text(Option option, const std::string& text) {
   return option->default_str(text);
 }
 
-void VerbOptions::need(Option option, Option other) { option->needs(other); }
+void SubcommandOptions::need(Option option, Option other) { option->needs(other); }
 
-void VerbOptions::exclude(Option option, Option other) { option->excludes(other); }
+void SubcommandOptions::exclude(Option option, Option other) { option->excludes(other); }
 
-bool VerbOptions::given(Option option) { return option->count() > 0; }
+bool SubcommandOptions::given(Option option) { return option->count() > 0; }
 
-void VerbOptions::on_given(std::function<std::string()> act) {
-  verb_.callback([act] {
+void SubcommandOptions::on_given(std::function<std::string()> act) {
+  subcommand_.callback([act] {
     const std::string complaint = act();
     if (!complaint.empty()) throw CLI::ValidationError(complaint);
   });

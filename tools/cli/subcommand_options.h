@@ -15,14 +15,14 @@ namespace planetree::tools {
 
 /// The command line of one verb, declared option by option; each kind of value
 /// is read and refused in one way. Values are written while the command line is
-/// parsed: what they refer to must live until then. verb_options.cpp and
+/// parsed: what they refer to must live until then. subcommand_options.cpp and
 /// command.cpp alone know CLI11, which takes long to compile.
-class VerbOptions {
+class SubcommandOptions {
  public:
   /// An option that others refer to.
   using Option = CLI::Option*;
 
-  VerbOptions(CLI::App& app, const std::string& name, const std::string& help);
+  SubcommandOptions(CLI::App& app, const std::string& name, const std::string& help);
 
   /// A name with dashes is an option, one without is an argument.
   Option path(const std::string& name, const char* type, std::filesystem::path& value,
@@ -57,7 +57,7 @@ class VerbOptions {
   void on_given(std::function<std::string()> act);
 
  private:
-  CLI::App& verb_;
+  CLI::App& subcommand_;
 };
 
 }  // namespace planetree::tools

@@ -34,9 +34,9 @@ Result<PlyHeader> parse_header(std::string_view file) {
     if (keyword != "end_header") continue;
     std::string inserted(kNoFaces);
     if (carriage_returns) std::replace(inserted.begin(), inserted.end(), '\n', '\r');
-    std::string copy(file.substr(0, lines.place().offset));
+    std::string copy(file.substr(0, lines.position().offset));
     copy += inserted;
-    copy += file.substr(lines.place().offset, lines.after().offset - lines.place().offset);
+    copy += file.substr(lines.position().offset, lines.after().offset - lines.position().offset);
     auto header = octree::parse_ply_header(copy);
     if (!header) return header;
     header->body.offset -= inserted.size();
@@ -61,7 +61,7 @@ bool parse_number(const octree::PlyProperty& property, std::string_view word, do
 
 Result<std::unique_ptr<PointReader>> PlyPoints::create(const std::string& path,
                                                        octree::MeshFile file) {
-  auto header = octree::parse_front(file, parse_header);
+  auto header = octree::parse_prefix(file, parse_header);
   if (!header) return header.error();
   std::unique_ptr<PlyPoints> points(new PlyPoints(path, std::move(file), *std::move(header)));
   if (const auto found = points->find_vertices(); !found) return found.error();
@@ -135,7 +135,7 @@ Result<void> PlyPoints::read_record(Vec3& point) {
 
 Error PlyPoints::refusal(const char* cause) const {
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                    "line %" PRIu64 ": %s; export the file again", lines_.place().line, cause);
+                    "line %" PRIu64 ": %s; export the file again", lines_.position().line, cause);
 }
 
 Result<void> PlyPoints::read_line(Vec3& point) {

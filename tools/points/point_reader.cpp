@@ -45,7 +45,7 @@ Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
   if (!raw && is_regular(path)) {
     auto file = octree::MeshFile::open(path);
     if (!file) return file.error();
-    const auto front = file->front(kPlyBytes);
+    const auto front = file->prefix(kPlyBytes);
     if (!front) return front.error();
     if (octree::is_ply(*front)) return PlyPoints::create(path, *std::move(file));
   }

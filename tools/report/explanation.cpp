@@ -60,16 +60,16 @@ std::string because(const Explanation& explanation) {
       fmt::format("cell {} of the mask", cell_text(explanation.reason.cell.octcode()));
   switch (explanation.reason.rule) {
     case Rule::kNone:
-      return explanation.standing.status == Status::kDegraded ? "pages cannot be read"
-                                                              : "the surface is not watertight";
+      return explanation.side_result.status == Status::kDegraded ? "pages cannot be read"
+                                                                 : "the surface is not watertight";
     case Rule::kRegion:
       return "the file is of a region, and the point outside of that or the surface not watertight";
     case Rule::kOutsideBox:
       return "the point is outside of the model's box";
     case Rule::kColour:
-      return cell + (explanation.standing.winding == 0  ? " is white"
-                     : explanation.standing.winding > 0 ? " is black"
-                                                        : " is inverted");
+      return cell + (explanation.side_result.winding == 0  ? " is white"
+                     : explanation.side_result.winding > 0 ? " is black"
+                                                           : " is inverted");
     case Rule::kPlanes:
       return cell + " is special, and the point's side of its planes says it";
     case Rule::kSlab:
@@ -87,16 +87,16 @@ std::string because(const Explanation& explanation) {
   return {};
 }
 
-Json work_json(const octree::TreeWork& work) {
+Json work_json(const octree::TraversalStats& work) {
   return {{"nodes", work.nodes},
           {"blocks", work.blocks},
           {"triangles", work.triangles},
-          {"page_turns", work.page_turns}};
+          {"page_turns", work.page_switches}};
 }
 
-std::string work_text(const octree::TreeWork& work) {
+std::string work_text(const octree::TraversalStats& work) {
   return fmt::format("{} nodes, {} blocks, {} triangles evaluated, {} page turns", work.nodes,
-                     work.blocks, work.triangles, work.page_turns);
+                     work.blocks, work.triangles, work.page_switches);
 }
 
 }  // namespace
@@ -117,10 +117,10 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   Explanation result;
   result.query = query;
   result.answer = query::closest_point(probe, query, {});
-  query::PageTurner turner(probe.reader(), Wait::kForPages);
+  query::PageAccessor accessor(probe.reader(), Wait::kForPages);
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
-  result.standing =
-      query::find_side(model, point, kAllNodes, turner.pages(), result.side_work, &result.reason);
+  result.side_result =
+      query::find_side(model, point, kAllNodes, accessor.pages(), result.side_work, &result.reason);
   result.pages_lost = model.stats().quarantined_pages > 0;
   const octree::CellGrid grid(model.mask().lower);
   result.cell_lower = scale.out(grid.lower(result.reason.cell));
@@ -128,7 +128,7 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   result.end = scale.out(result.reason.end);
   if (point.cwiseAbs().maxCoeff() > octree::kFarthestQuery) return result;
   const octree::NearestAnswer nearest =
-      octree::nearest(model.tree(), point, {}, turner.pages(), result.nearest_work);
+      octree::nearest(model.tree(), point, {}, accessor.pages(), result.nearest_work);
   for (int i = 0; i < 3; ++i) result.corners[i] = scale.out(nearest.corners[i]);
   return result;
 }
@@ -140,7 +140,7 @@ Json explanation_json(const Explanation& explanation) {
                {"side", side_word(answer.side)},
                {"rule", rule_word(reason.rule)},
                {"because", because(explanation)},
-               {"winding", explanation.standing.winding}};
+               {"winding", explanation.side_result.winding}};
   if (reason.in_mask)
     json["cell"] = {{"name", cell_text(reason.cell.octcode())},
                     {"lower", vector_json(explanation.cell_lower)},

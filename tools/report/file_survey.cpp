@@ -51,7 +51,7 @@ class Surveyor {
     row.head = add_streams<octree::RawStreams>(survey_.streams);
     const FrameView frame = parts_.frame();
     frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
-      survey_.sheets += frame.block(slot).header().in_sheet() ? 1 : 0;
+      survey_.height_fields += frame.block(slot).header().is_height_field() ? 1 : 0;
     });
     add_levels(row.number);
   }
@@ -110,19 +110,19 @@ class Surveyor {
       node_depths[i] = pending_.take({page, frame.node_slot(i), false});
     for (std::uint32_t i = 0; i < header.node_count; ++i)
       if (node_depths[i]) add_node(page, frame, i, *node_depths[i], node_depths, block_depths);
-    bool placed = true;
+    bool scaled = true;
     frame.for_each_block([&](std::uint32_t index, std::uint32_t slot) {
       if (index < header.root_block_count)
         if (const auto depth = pending_.take({page, slot, true})) block_depths[slot] = *depth;
       const auto depth = block_depths.find(slot);
-      placed = placed && depth != block_depths.end();
+      scaled = scaled && depth != block_depths.end();
       if (depth == block_depths.end()) return;
       LevelRow& row = level(depth->second);
       ++row.blocks;
       row.triangles += frame.block(slot).triangle_count();
     });
-    for (const auto& depth : node_depths) placed = placed && depth.has_value();
-    if (!placed) ++survey_.unplaced_pages;
+    for (const auto& depth : node_depths) scaled = scaled && depth.has_value();
+    if (!scaled) ++survey_.unwritten_pages;
     pending_.finish_page(page, [](const auto&, const auto&) {});
   }
 

@@ -45,11 +45,11 @@ struct FileSurvey {
   IssueList issues;
   /// Sums over all pages of either kind; empty if none can be read.
   std::vector<StreamRow> streams, mask_streams;
-  std::uint64_t lists = 0;           ///< cells of the mask that list blocks
-  std::uint64_t sheets = 0;          ///< blocks that are in one
-  std::vector<LevelRow> levels;      ///< by depth
-  std::vector<MaskLevelRow> mask;    ///< by level; empty without a mask
-  std::uint64_t unplaced_pages = 0;  ///< that hang from what cannot be read, so not in `levels`
+  std::uint64_t lists = 0;            ///< cells of the mask that list blocks
+  std::uint64_t height_fields = 0;    ///< blocks that are in one
+  std::vector<LevelRow> levels;       ///< by depth
+  std::vector<MaskLevelRow> mask;     ///< by level; empty without a mask
+  std::uint64_t unwritten_pages = 0;  ///< that hang from what cannot be read, so not in `levels`
 };
 
 /// Shown each page in its order; false ends the walk.

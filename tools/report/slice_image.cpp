@@ -32,9 +32,9 @@ Colour mix(const Colour& a, const Colour& b, double share) {
 }
 
 Colour palette(double share) {
-  const double place = std::clamp(share, 0.0, 1.0) * (kPalette.size() - 1);
-  const auto index = std::min(static_cast<std::size_t>(place), kPalette.size() - 2);
-  return mix(kPalette[index], kPalette[index + 1], place - static_cast<double>(index));
+  const double position = std::clamp(share, 0.0, 1.0) * (kPalette.size() - 1);
+  const auto index = std::min(static_cast<std::size_t>(position), kPalette.size() - 2);
+  return mix(kPalette[index], kPalette[index + 1], position - static_cast<double>(index));
 }
 
 Rgb rounded(const Colour& colour) {
@@ -106,9 +106,9 @@ class Raster {
 };
 
 std::vector<double> distances(const Raster& raster, Probe& probe, const SliceProgress& progress) {
-  Ask ask;
-  ask.parts = kDistance;
-  ask.max_error = raster.pixel() * kErrorPixels;
+  QueryOptions options;
+  options.parts = kDistance;
+  options.max_error = raster.pixel() * kErrorPixels;
   const std::size_t total = std::size_t{raster.width()} * raster.height();
   std::vector<double> found;
   found.reserve(total);
@@ -123,7 +123,7 @@ std::vector<double> distances(const Raster& raster, Probe& probe, const SlicePro
       for (std::uint32_t column = 0; column < raster.width(); ++column)
         points.push_back(raster.centre(column, row));
     answers.resize(points.size());
-    probe.closest_points(points, answers, ask);
+    probe.closest_points(points, answers, options);
     for (const ClosestPoint& answer : answers) found.push_back(answer.distance);
     if (progress) progress(found.size(), total);
   }

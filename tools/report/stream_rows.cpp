@@ -6,8 +6,8 @@ namespace planetree::tools {
 namespace {
 
 template <class T>
-StreamRow row(std::string_view name, StreamGroup group, const octree::Shuffled<T>& stream) {
-  return {name, group, stream.size(), octree::Shuffled<T>::bytes_for(stream.size())};
+StreamRow row(std::string_view name, StreamGroup group, const octree::ByteSplit<T>& stream) {
+  return {name, group, stream.size(), octree::ByteSplit<T>::bytes_for(stream.size())};
 }
 
 }  // namespace
@@ -29,10 +29,10 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
       row("child_normals", kNodes, s.child_normals),     row("child_slabs", kNodes, s.child_slabs),
       row("child_radii", kNodes, s.child_radii)};
   if (shape.moments) {
-    rows.push_back(row("child_vectors", kNodes, s.child_vectors));
-    rows.push_back(row("child_firsts", kNodes, s.child_firsts));
+    rows.push_back(row("child_vectors", kNodes, s.child_dipoles));
+    rows.push_back(row("child_firsts", kNodes, s.child_quadrupoles));
     rows.push_back(row("child_areas", kNodes, s.child_areas));
-    rows.push_back(row("child_seconds", kNodes, s.child_seconds));
+    rows.push_back(row("child_seconds", kNodes, s.child_second_moments));
   }
   const std::vector<StreamRow> others = {
       row("page_links", kNodes, s.page_links),

@@ -97,7 +97,7 @@ std::string point_text(const double (&values)[3]) {
 
 // How sides are found, in a word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
-  if (model.open_edge_count == 0) return "crossings";
+  if (model.unbalanced_edge_count == 0) return "crossings";
   return query::region_of(model).has_walls() ? "none" : "winding";
 }
 
@@ -115,15 +115,16 @@ std::string region_text(const storage::ModelRecord& model) {
                      grouped_count(model.triangle_count), grouped_count(model.input_triangles));
 }
 
-std::span<const storage::OpenEdge> listed_open_edges(const storage::ModelRecord& model) {
+std::span<const storage::UnbalancedEdge> listed_unbalanced_edges(
+    const storage::ModelRecord& model) {
   const std::uint64_t listed =
-      std::min<std::uint64_t>(model.open_edge_count, std::size(model.open_edge));
-  return std::span(model.open_edge).first(static_cast<std::size_t>(listed));
+      std::min<std::uint64_t>(model.unbalanced_edge_count, std::size(model.unbalanced_edge));
+  return std::span(model.unbalanced_edge).first(static_cast<std::size_t>(listed));
 }
 
-Json open_edges_json(const storage::ModelRecord& model) {
+Json unbalanced_edges_json(const storage::ModelRecord& model) {
   Json edges = Json::array();
-  for (const storage::OpenEdge& edge : listed_open_edges(model))
+  for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     edges.push_back({{"triangle", edge.triangle},
                      {"from", edge.from},
                      {"to", edge.to},
@@ -133,13 +134,14 @@ Json open_edges_json(const storage::ModelRecord& model) {
 }
 
 std::string surface_text(const storage::ModelRecord& model) {
-  if (model.open_edge_count == 0) return "  surface     watertight; sides by crossings, exactly\n";
+  if (model.unbalanced_edge_count == 0)
+    return "  surface     watertight; sides by crossings, exactly\n";
   std::string text =
       fmt::format("  surface     not watertight; {}: {} open edges\n",
                   query::region_of(model).has_walls() ? "sides unknown, for not all of it is here"
                                                       : "sides by winding number",
-                  grouped_count(model.open_edge_count));
-  for (const storage::OpenEdge& edge : listed_open_edges(model))
+                  grouped_count(model.unbalanced_edge_count));
+  for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
                         edge.against);
@@ -176,20 +178,20 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
   const storage::FileHeader& header = *parts.header();
   const storage::ModelRecord& model = header.model;
   Json json = {{"triangles", model.triangle_count},
-               {"set_aside", model.set_aside_count},
+               {"set_aside", model.skipped_count},
                {"first_set_aside", nullptr},
                {"vertices", model.vertex_count},
                {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
                {"region", region_json(model)},
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
-               {"watertight", model.open_edge_count == 0},
+               {"watertight", model.unbalanced_edge_count == 0},
                {"sign_rule", sign_rule(model)},
-               {"open_edges", model.open_edge_count},
-               {"first_open_edges", open_edges_json(model)},
+               {"open_edges", model.unbalanced_edge_count},
+               {"first_open_edges", unbalanced_edges_json(model)},
                {"levels", model.height},
                {"nodes", model.node_count},
                {"blocks", model.block_count},
-               {"blocks_in_sheets", survey.sheets},
+               {"blocks_in_sheets", survey.height_fields},
                {"pages", header.page_count},
                {"page_bytes", header.page_bytes},
                {"file_bytes", parts.actual_bytes()},
@@ -200,8 +202,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"special_configurations", mask_sum(survey).special},
                {"lists_of_blocks", survey.lists},
                {"bytes", bytes_json(parts, survey)}};
-  if (model.first_set_aside != storage::kNoTriangle)
-    json["first_set_aside"] = model.first_set_aside;
+  if (model.first_skipped != storage::kNoTriangle) json["first_set_aside"] = model.first_skipped;
   return json;
 }
 
@@ -215,9 +216,9 @@ std::string summary_text(const std::string& name, const FileParts& parts,
   std::string text = fmt::format(
       "{}: {} triangles, {} vertices of {}\n", name, grouped_count(model.triangle_count),
       grouped_count(model.vertex_count), parts.shape().float64 ? "float64" : "float32");
-  if (model.set_aside_count > 0)
+  if (model.skipped_count > 0)
     text += fmt::format("  set aside   {} triangles of bad records, the first is {}\n",
-                        grouped_count(model.set_aside_count), model.first_set_aside);
+                        grouped_count(model.skipped_count), model.first_skipped);
   text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
                       point_text(model.box_upper));
   text += region_text(model);
@@ -226,7 +227,7 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       "  tree        {} levels, {} nodes, {} blocks, {} of them in sheets, {:.1f} "
       "triangles a block\n",
       model.height, grouped_count(model.node_count), grouped_count(model.block_count),
-      grouped_count(survey.sheets), share(model.triangle_count, model.block_count));
+      grouped_count(survey.height_fields), share(model.triangle_count, model.block_count));
   text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
       "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, "
@@ -274,9 +275,9 @@ std::string levels_text(const FileSurvey& survey) {
                         share(row.triangles, row.blocks));
   }
   if (!survey.mask.empty()) text += mask_levels_text(survey);
-  if (survey.unplaced_pages > 0)
+  if (survey.unwritten_pages > 0)
     text += fmt::format("{} pages hang from pages that cannot be read and are not counted\n",
-                        grouped_count(survey.unplaced_pages));
+                        grouped_count(survey.unwritten_pages));
   return text;
 }
 

@@ -10,7 +10,7 @@ struct RealTimeRights {
   bool pinned = false;  ///< to one processor
 };
 
-/// Asks for the calling thread to run first, on the machine's last processor.
+/// Queries for the calling thread to run first, on the machine's last processor.
 RealTimeRights become_real_time() noexcept;
 
 /// What the calling thread has cost the system so far.

@@ -26,8 +26,8 @@ void sleep_until(nanoseconds due) noexcept {
 }
 
 std::uint32_t in_32_bits(nanoseconds time) noexcept {
-  constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
-  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMost));
+  constexpr std::int64_t kMax = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMax));
 }
 
 // Units a second; where the path begins the tip stands still.
@@ -38,8 +38,8 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds perio
   return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
 }
 
-void ask_all(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
-             TouchRecord& record) noexcept {
+void query_all(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
+               TouchRecord& record) noexcept {
   record.rights = become_real_time();
   // Once, so that what is touched for the first time is not counted.
   probe.closest_point(path.front(), {.wait = Wait::kNever});
@@ -77,9 +77,9 @@ TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseco
   record.ticks.resize(path.size());
   record.floor_ns.resize(path.size());
   const nanoseconds start = now() + std::chrono::milliseconds(20);
-  std::thread asking([&] { ask_all(probe, path, start, period, record); });
+  std::thread querying([&] { query_all(probe, path, start, period, record); });
   std::thread idle([&] { wake_only(start + period / 2, period, record.floor_ns); });
-  asking.join();
+  querying.join();
   idle.join();
   return record;
 }

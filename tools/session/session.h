@@ -15,7 +15,7 @@ namespace planetree::tools {
 /// those after it.
 struct Tick {
   std::uint32_t latency_ns = 0;  ///< from when it was due to the answer
-  std::uint32_t ask_ns = 0;      ///< the ask alone
+  std::uint32_t query_ns = 0;    ///< the ask alone
   float width = 0;               ///< upper - lower, model units
   Status status = Status::kExact;
   Side side = Side::kUnknown;

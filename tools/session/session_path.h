@@ -28,7 +28,7 @@ constexpr const char* name_of(TouchMotion motion) {
 inline constexpr std::array<TouchMotion, 3> kAllTouchMotions = {
     TouchMotion::kGlide, TouchMotion::kScratch, TouchMotion::kTeleport};
 
-/// Where the tip is at each tick: the same for the same model, motion and count. Asks the probe,
+/// Where the tip is at each tick: the same for the same model, motion and count. Queries the probe,
 /// which waits for pages.
 std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motion,
                              std::size_t ticks);

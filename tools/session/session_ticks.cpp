@@ -17,7 +17,7 @@ std::string touch_ticks(std::span<const Vec3> path, const TouchRecord& record) {
     const Tick& tick = record.ticks[i];
     fmt::format_to(std::back_inserter(text),
                    "{},{:.17g},{:.17g},{:.17g},{:.3f},{:.3f},{:.9g},{},{}\n", i, path[i].x,
-                   path[i].y, path[i].z, tick.latency_ns / 1e3, tick.ask_ns / 1e3, tick.width,
+                   path[i].y, path[i].z, tick.latency_ns / 1e3, tick.query_ns / 1e3, tick.width,
                    side_word(tick.side), status_word(tick.status));
   }
   return text;

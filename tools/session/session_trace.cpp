@@ -11,13 +11,13 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 
-const char* touch_word(PageTouch::Kind kind) {
+const char* touch_word(PageAccess::Kind kind) {
   switch (kind) {
-    case PageTouch::Kind::kHit:
+    case PageAccess::Kind::kHit:
       return "hit";
-    case PageTouch::Kind::kPrefetched:
+    case PageAccess::Kind::kPrefetched:
       return "prefetched";
-    case PageTouch::Kind::kMissed:
+    case PageAccess::Kind::kMissed:
       return "missed";
   }
   return "";
@@ -25,7 +25,7 @@ const char* touch_word(PageTouch::Kind kind) {
 
 }  // namespace
 
-TouchTaker::TouchTaker(const Model& model)
+PageTraceDrain::PageTraceDrain(const Model& model)
     : model_(model), thread_([this] {
         while (!stopping_.load(std::memory_order_relaxed)) {
           take();
@@ -33,32 +33,32 @@ TouchTaker::TouchTaker(const Model& model)
         }
       }) {}
 
-TouchTaker::~TouchTaker() { finish(); }
+PageTraceDrain::~PageTraceDrain() { finish(); }
 
-const std::vector<PageTouch>& TouchTaker::finish() {
+const std::vector<PageAccess>& PageTraceDrain::finish() {
   if (thread_.joinable()) {
     stopping_.store(true, std::memory_order_relaxed);
     thread_.join();
     take();
   }
-  return touches_;
+  return page_trace_;
 }
 
-void TouchTaker::take() {
-  std::array<PageTouch, 1024> taken;
+void PageTraceDrain::take() {
+  std::array<PageAccess, 1024> taken;
   for (std::size_t got = taken.size(); got == taken.size();) {
-    got = model_.take_touches(taken);
-    touches_.insert(touches_.end(), taken.begin(),
-                    taken.begin() + static_cast<std::ptrdiff_t>(got));
+    got = model_.drain_page_trace(taken);
+    page_trace_.insert(page_trace_.end(), taken.begin(),
+                       taken.begin() + static_cast<std::ptrdiff_t>(got));
   }
 }
 
-std::string touch_trace(std::span<const PageTouch> touches) {
-  std::string text = "tick,probe,page,level,touch\n";
-  for (const PageTouch& touch : touches)
-    if (touch.ask > 0)
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", touch.ask - 1, touch.probe,
-                     touch.page, touch.level, touch_word(touch.kind));
+std::string touch_trace(std::span<const PageAccess> accesses) {
+  std::string text = "tick,probe,page,level,access\n";
+  for (const PageAccess& access : accesses)
+    if (access.query > 0)
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", access.query - 1, access.probe,
+                     access.page, access.level, touch_word(access.kind));
   return text;
 }
 

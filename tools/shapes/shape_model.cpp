@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, kAllShapeKinds.size()> kNames = {
     "statue", "sphere", "cylinder", "cone", "terrain", "soup"};
 
 /// Far above what kMaxVertices allows any shape, far below any overflow.
-constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 40;
 
 /// The n for which triangles_per_square * n^2 is nearest to `triangles`; at least 1.
 std::uint64_t lattice_size(std::uint64_t triangles, unsigned triangles_per_square) {
@@ -57,7 +57,7 @@ Result<std::unique_ptr<Shape>> make_shape(ShapeKind kind, std::uint64_t triangle
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "a model needs triangles; ask for at least 1");
   }
-  auto shape = make_unchecked(kind, std::min(triangles, kMostTriangles), seed);
+  auto shape = make_unchecked(kind, std::min(triangles, kMaxTriangles), seed);
   if (shape->vertex_count() > Shape::kMaxVertices) {
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                       "%llu triangles need more vertices than a PLY index can tell apart (2^32); "

@@ -41,16 +41,16 @@ Corners Terrain::triangle(std::uint64_t index) const {
 
 Soup::Soup(std::uint64_t triangles, std::uint64_t seed)
     : triangles_(triangles),
-      place_stream_(mixed_bits(seed)),
-      corner_stream_(mixed_bits(place_stream_)),
+      centre_stream_(mixed_bits(seed)),
+      corner_stream_(mixed_bits(centre_stream_)),
       size_(1 / static_cast<double>(integer_cube_root(triangles) + 1)) {}
 
 Vec3 Soup::vertex(std::uint64_t index) const {
-  const Vec3 place = random_position(place_stream_, index / 3);
+  const Vec3 position = random_position(centre_stream_, index / 3);
   const Vec3 corner = random_position(corner_stream_, index);
-  const double room = 1 - size_;
-  return {room * place.x + size_ * corner.x, room * place.y + size_ * corner.y,
-          room * place.z + size_ * corner.z};
+  const double extent = 1 - size_;
+  return {extent * position.x + size_ * corner.x, extent * position.y + size_ * corner.y,
+          extent * position.z + size_ * corner.z};
 }
 
 Corners Soup::triangle(std::uint64_t index) const {

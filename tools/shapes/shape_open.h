@@ -39,7 +39,7 @@ class Soup final : public Shape {
 
  private:
   std::uint64_t triangles_;
-  std::uint64_t place_stream_;
+  std::uint64_t centre_stream_;
   std::uint64_t corner_stream_;
   double size_;
 };

@@ -18,32 +18,32 @@ std::uint64_t machine_bytes() {
 }  // namespace
 
 Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
-  if (bytes == 0) bytes = std::max(machine_bytes() / 4, kLeastBytes);
-  if (bytes < kLeastBytes)
+  if (bytes == 0) bytes = std::max(machine_bytes() / 4, kMinBytes);
+  if (bytes < kMinBytes)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "%llu MiB of memory are too little for a build; give it %llu MiB or more",
                       static_cast<unsigned long long>(bytes / kMiB),
-                      static_cast<unsigned long long>(kLeastBytes / kMiB));
+                      static_cast<unsigned long long>(kMinBytes / kMiB));
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
   const std::uint64_t most = (bytes - kFixedBytes) / kThreadBytes;
   BuildMemory memory;
   memory.threads = static_cast<int>(std::min<std::uint64_t>(threads, most));
   const std::uint64_t used = kFixedBytes + kThreadBytes * static_cast<unsigned>(memory.threads);
   const std::uint64_t left = bytes - used;
-  memory.chunk_triangles = 1 << 19;
+  memory.batch_triangles = 1 << 19;
   memory.reading_bytes = 16 * kMiB + left / 8;
-  memory.intake_bytes = left / 4;
+  memory.spool_bytes = left / 4;
   memory.runs_bytes = left / 2;
   memory.pages_bytes = left / 8;
   memory.edge_bytes = left / 16;
   memory.visitor_bytes = left / 16;
-  memory.part_bytes = memory.intake_bytes;  // by then there is nothing in that
+  memory.part_bytes = memory.spool_bytes;  // by then there is nothing in that
   return memory;
 }
 
 BuildMemory BuildMemory::holding_nothing_kept() const {
   BuildMemory memory = *this;
-  memory.intake_bytes += memory.runs_bytes;
+  memory.spool_bytes += memory.runs_bytes;
   memory.runs_bytes = 0;
   memory.pages_bytes = 0;
   memory.visitor_bytes = 0;

@@ -11,12 +11,12 @@ struct BuildMemory {
   /// The program itself; and for each thread a patch of 2^18 triangles, its trees and pages.
   static constexpr std::uint64_t kFixedBytes = std::uint64_t{64} << 20;
   static constexpr std::uint64_t kThreadBytes = std::uint64_t{96} << 20;
-  static constexpr std::uint64_t kLeastBytes = kFixedBytes + kThreadBytes;
+  static constexpr std::uint64_t kMinBytes = kFixedBytes + kThreadBytes;
 
   int threads = 1;                    ///< that it has room for
-  std::uint32_t chunk_triangles = 0;  ///< sorted at a time, by each thread
+  std::uint32_t batch_triangles = 0;  ///< sorted at a time, by each thread
   std::uint64_t reading_bytes = 0;    ///< of the input: vertices and a window of the file
-  std::uint64_t intake_bytes = 0;     ///< of triangles as they are read
+  std::uint64_t spool_bytes = 0;      ///< of triangles as they are read
   std::uint64_t runs_bytes = 0;       ///< of sorted triangles
   std::uint64_t pages_bytes = 0;      ///< of pages, until they are written
   std::uint64_t edge_bytes = 0;       ///< of edges that patches have in common

@@ -42,18 +42,18 @@ constexpr const char* name_of(BuildPhase phase) {
 }
 
 /// Where a build reads and writes.
-enum class BuildPlace : std::uint8_t { kInput, kTemporary, kOutput };
+enum class BuildDirectory : std::uint8_t { kInput, kTemporary, kOutput };
 
-/// Told how far a build is, on any thread but one at a time.
+/// Certain how far a build is, on any thread but one at a time.
 class BuildProgress {
  public:
   virtual ~BuildProgress() = default;
   /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
   /// the model otherwise.
   virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
-  /// Told, before an error is returned, which place that is about, and its path.
-  virtual void failed_at(BuildPlace, const std::filesystem::path&) {}
-  /// Told once, of a build that keeps its work, what it goes on with, or why with nothing.
+  /// Certain, before an error is returned, which place that is about, and its path.
+  virtual void failed_at(BuildDirectory, const std::filesystem::path&) {}
+  /// Certain once, of a build that keeps its work, what it goes on with, or why with nothing.
   virtual void takes_up(const std::string&) {}
 };
 

@@ -19,9 +19,9 @@ struct ModelFrame {
   Point input_lower = Point::Zero(), input_upper = Point::Zero();  ///< box, the input's units
   Point input_sample = Point::Zero();  ///< corner 0 of the first triangle, the input's units
   std::uint64_t sample_triangle = 0;   ///< its index
-  std::uint64_t set_aside_count = 0;   ///< triangle indices of records that could not be used
-  std::uint64_t first_set_aside = kNoTriangle;
-  std::string first_set_aside_text;
+  std::uint64_t skipped_count = 0;     ///< triangle indices of records that could not be used
+  std::uint64_t first_skipped = kNoTriangle;
+  std::string first_skipped_text;
 
   /// Box in the model frame.
   Point lower() const { return scaled(input_lower); }

@@ -26,8 +26,8 @@ class NearBlocks {
   const Point& upper() const { return upper_; }
 
   void look_at(const BlockView& block, std::uint32_t link) {
-    if (count_ == kRoom) drop_untouched();
-    if (count_ == kRoom) return;  // too many already
+    if (count_ == kCapacity) drop_untouched();
+    if (count_ == kCapacity) return;  // too many already
     const OctantCodes::Met met = codes_.met_by(block);
     found_[count_] = {link, static_cast<std::uint8_t>(met.with_vertex)};
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
@@ -39,10 +39,10 @@ class NearBlocks {
     ++count_;
   }
 
-  // False: there are more than kMostListed.
+  // False: there are more than kMaxListed.
   bool list(MaskBlocks& blocks) {
     drop_untouched();
-    if (count_ > kMostListed) return false;
+    if (count_ > kMaxListed) return false;
     std::sort(found_.begin(), found_.begin() + count_);
     blocks.count = static_cast<std::uint8_t>(count_);
     for (unsigned i = 0; i < count_; ++i) {
@@ -53,11 +53,12 @@ class NearBlocks {
   }
 
  private:
-  static constexpr unsigned kRoom = 4 * kMostListed;
+  static constexpr unsigned kCapacity = 4 * kMaxListed;
 
   void settle() {
-    const OctantOverlap::Told told = overlap_.take();
-    for (unsigned k = 0; k < told.count; ++k) found_[told.places[k]].second |= told.octants[k];
+    const OctantOverlap::Certain certain = overlap_.take();
+    for (unsigned k = 0; k < certain.count; ++k)
+      found_[certain.indices[k]].second |= certain.octants[k];
   }
   void drop_untouched() {
     settle();
@@ -68,8 +69,8 @@ class NearBlocks {
 
   const Point lower_, upper_;
   const OctantCodes codes_;
-  OctantOverlap overlap_;                                            // by places among those found
-  std::array<std::pair<std::uint32_t, std::uint8_t>, kRoom> found_;  // links, octants
+  OctantOverlap overlap_;  // by places among those found
+  std::array<std::pair<std::uint32_t, std::uint8_t>, kCapacity> found_;  // links, octants
   unsigned count_ = 0;
 };
 
@@ -78,7 +79,7 @@ class NearBlocks {
 BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& pages,
                                        MaskBlocks& blocks) const {
   NearBlocks near(grid_, cell);
-  TreeWork work;
+  TraversalStats work;
   const bool complete =
       BoxWalk(tree_, near.lower(), near.upper(), pages, work)
           .run(std::numeric_limits<std::uint64_t>::max(),

@@ -13,11 +13,11 @@ namespace planetree::octree {
 class BlockLister {
  public:
   /// Both must outlive this.
-  BlockLister(const TreeFacts& tree, const ClippedGrid& grid) : tree_(tree), grid_(grid) {}
+  BlockLister(const TreeInfo& tree, const ClippedGrid& grid) : tree_(tree), grid_(grid) {}
 
   enum class Outcome {
     kListed,
-    kTooMany,  ///< more than kMostListed
+    kTooMany,  ///< more than kMaxListed
     kLost,     ///< a page could not be had
   };
   /// The blocks in the order of their links.
@@ -27,7 +27,7 @@ class BlockLister {
   Outcome list(const GridCell& cell, const PageReader& pages, MaskBlocks& blocks) const;
 
  private:
-  const TreeFacts& tree_;
+  const TreeInfo& tree_;
   const ClippedGrid& grid_;
 };
 

@@ -7,26 +7,26 @@
 
 namespace planetree::octree {
 
-Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& runs,
-                              const BuiltTree* tree, const RegionCall& done) {
-  regions_.resize(regions.all().size());
-  const bool alone = regions_.size() == 1;
-  const auto known = [this](std::size_t at) -> const RegionRoot* {
+Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& runs,
+                              const BuiltTree* tree, const SectorCall& done) {
+  sectors_.resize(sectors.all().size());
+  const bool alone = sectors_.size() == 1;
+  const auto known = [this](std::size_t at) -> const SectorRoot* {
     const auto found = known_.find(static_cast<std::uint32_t>(at));
     return found != known_.end() ? &found->second.root : nullptr;
   };
   const auto take = [&](std::size_t at, const MaskTree& mask,
-                        const RegionRoot& root) -> Result<void> {
-    auto built = put_region_away(mask, {regions.all()[at].cell, !alone});
+                        const SectorRoot& root) -> Result<void> {
+    auto built = put_sector_away(mask, {sectors.all()[at].cell, !alone});
     if (!built) return built.error();
     built->root = root;
-    regions_[at].built = *std::move(built);
-    return done(static_cast<std::uint32_t>(at), regions_[at].built);
+    sectors_[at].built = *std::move(built);
+    return done(static_cast<std::uint32_t>(at), sectors_[at].built);
   };
-  auto above = build_mask(regions, runs, tree, known, take);
+  auto above = build_mask(sectors, runs, tree, known, take);
   if (!above) return above.error();
-  for (std::uint32_t at = 0; at < regions_.size(); ++at)
-    if (known(at) && regions.all()[at].touched) regions_[at].built = std::move(known_[at]);
+  for (std::uint32_t at = 0; at < sectors_.size(); ++at)
+    if (known(at) && sectors.all()[at].touched) sectors_[at].built = std::move(known_[at]);
   count_cells();
   if (!alone) {
     above_ = *std::move(above);
@@ -41,29 +41,29 @@ Result<void> BuiltMask::build(const MaskRegions& regions, const TriangleRuns& ru
                       "%zu mask pages, more than links can tell apart; build with a larger page "
                       "size",
                       pages_.size());
-  link_regions();
+  link_sectors();
   return {};
 }
 
-Result<BuiltRegion> BuiltMask::put_region_away(const MaskTree& mask, const MaskRoot& root) {
-  BuiltRegion region;
+Result<BuiltSector> BuiltMask::put_sector_away(const MaskTree& mask, const MaskRoot& root) {
+  BuiltSector sector;
   const MaskPlan plan = plan_mask(mask, page_bytes_, root);
   const MaskEncoder encoder(mask, plan, 0, float64_);
   for (const PlannedMaskPage& page : plan.pages) {
     const auto spilled = put_away(page.octcode, encoder.encode(page.number), file_);
     if (!spilled) return spilled.error();
-    region.pages.push_back(*spilled);
+    sector.pages.push_back(*spilled);
   }
-  if (root.apart && !plan.pages.empty()) region.family = plan.families[0];
-  region.cell_count = mask.entries.size() - (root.apart ? 1 : 0);
-  region.levels = mask.levels;
-  return region;
+  if (root.apart && !plan.pages.empty()) sector.family = plan.families[0];
+  sector.cell_count = mask.entries.size() - (root.apart ? 1 : 0);
+  sector.levels = mask.levels;
+  return sector;
 }
 
 void BuiltMask::count_cells() {
-  for (const Region& region : regions_) {
-    cell_count_ += region.built.cell_count;
-    levels_ = std::max(levels_, region.built.levels);
+  for (const Region& sector : sectors_) {
+    cell_count_ += sector.built.cell_count;
+    levels_ = std::max(levels_, sector.built.levels);
   }
 }
 
@@ -71,49 +71,49 @@ void BuiltMask::count_cells() {
 void BuiltMask::number_pages() {
   for (std::uint32_t i = 0; i < above_plan_.pages.size(); ++i)
     pages_.push_back({above_plan_.pages[i].octcode, kAbove, i});
-  for (std::uint32_t at = 0; at < regions_.size(); ++at) {
-    regions_[at].numbers.resize(regions_[at].built.pages.size());
-    for (std::uint32_t i = 0; i < regions_[at].built.pages.size(); ++i)
-      pages_.push_back({regions_[at].built.pages[i].octcode, at, i});
+  for (std::uint32_t at = 0; at < sectors_.size(); ++at) {
+    sectors_[at].numbers.resize(sectors_[at].built.pages.size());
+    for (std::uint32_t i = 0; i < sectors_[at].built.pages.size(); ++i)
+      pages_.push_back({sectors_[at].built.pages[i].octcode, at, i});
   }
   std::sort(pages_.begin(), pages_.end(),
             [](const Page& a, const Page& b) { return a.octcode < b.octcode; });
 }
 
-void BuiltMask::link_regions() {
+void BuiltMask::link_sectors() {
   std::vector<std::uint32_t> numbers(above_plan_.pages.size());
   for (std::uint32_t number = 0; number < pages_.size(); ++number) {
     const Page& page = pages_[number];
-    (page.region == kAbove ? numbers : regions_[page.region].numbers)[page.place] = number;
+    (page.sector == kAbove ? numbers : sectors_[page.sector].numbers)[page.index] = number;
   }
   const MaskLinkFormat links(page_bytes_);
   for (PlannedMaskPage& page : above_plan_.pages) page.number = numbers[page.number];
   for (std::size_t i = 0; i < above_.entries.size(); ++i) {
     const MaskEntry& entry = above_.entries[i];
     std::uint32_t& family = above_plan_.families[i];
-    if (entry.kind == MaskEntry::Kind::kRegion)
-      family = link(regions_[entry.first], regions_[entry.first].built.family);
+    if (entry.kind == MaskEntry::Kind::kSector)
+      family = link(sectors_[entry.first], sectors_[entry.first].built.family);
     else if (entry.kind == MaskEntry::Kind::kNode && entry.grey != 0)
       family = links.make(numbers[links.page(family)], links.slot(family));
   }
 }
 
-std::uint32_t BuiltMask::link(const Region& region, std::uint32_t link) const {
+std::uint32_t BuiltMask::link(const Region& sector, std::uint32_t link) const {
   const MaskLinkFormat links(page_bytes_);
-  return links.make(region.numbers[links.page(link)], links.slot(link));
+  return links.make(sector.numbers[links.page(link)], links.slot(link));
 }
 
 Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_page) const {
   const Page& page = pages_[number];
-  if (page.region != kAbove) {
-    const Region& region = regions_[page.region];
-    auto raw = get_back(region.built.pages[page.place], file_, first_page + number,
-                        [&](std::uint32_t below) { return link(region, below); });
+  if (page.sector != kAbove) {
+    const Region& sector = sectors_[page.sector];
+    auto raw = get_back(sector.built.pages[page.index], file_, first_page + number,
+                        [&](std::uint32_t below) { return link(sector, below); });
     if (!raw) return raw.error();
     return FilePage{page.octcode, 0, *std::move(raw)};
   }
   const MaskEncoder encoder(above_, above_plan_, first_page, float64_);
-  return FilePage{page.octcode, 0, encoder.encode(page.place).bytes};
+  return FilePage{page.octcode, 0, encoder.encode(page.index).bytes};
 }
 
 }  // namespace planetree::octree

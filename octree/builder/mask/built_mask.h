@@ -16,12 +16,12 @@
 namespace planetree::octree {
 
 /// The mask of a region, its pages put away.
-struct BuiltRegion {
+struct BuiltSector {
   std::vector<SpilledPage> pages;
   std::uint32_t family = 0;  ///< link to the root's, by the place of its page
   std::uint64_t cell_count = 0;
   unsigned levels = 0;
-  RegionRoot root;
+  SectorRoot root;
 };
 
 /// The pages of a mask: those of its regions as they were put away, and those of the cells
@@ -34,20 +34,20 @@ class BuiltMask {
       : page_bytes_(page_bytes), float64_(float64), file_(file) {}
 
   /// Takes a region that was built before, its pages being in the file; before build().
-  void take_up(std::uint32_t number, BuiltRegion region) {
-    known_.insert_or_assign(number, std::move(region));
+  void resume(std::uint32_t number, BuiltSector sector) {
+    known_.insert_or_assign(number, std::move(sector));
   }
 
   /// Given each region that triangles touch once it is built; on any thread.
-  using RegionCall = std::function<Result<void>(std::uint32_t number, const BuiltRegion& region)>;
+  using SectorCall = std::function<Result<void>(std::uint32_t number, const BuiltSector& sector)>;
 
   /// Builds it, once, but for what was taken up.
   ///
   /// tree    see build_mask().
   /// errors  those of build_mask(), SpillFile and `done`; kBadArgument when links of 32 bits cannot
   ///         tell so many pages apart: 2^19 of 64 KiB.
-  Result<void> build(const MaskRegions& regions, const TriangleRuns& runs, const BuiltTree* tree,
-                     const RegionCall& done);
+  Result<void> build(const MaskSectors& sectors, const TriangleRuns& runs, const BuiltTree* tree,
+                     const SectorCall& done);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }
   std::uint64_t cell_count() const { return cell_count_; }
@@ -60,26 +60,26 @@ class BuiltMask {
  private:
   static constexpr std::uint32_t kAbove = ~std::uint32_t{0};
   struct Region {
-    BuiltRegion built;
+    BuiltSector built;
     std::vector<std::uint32_t> numbers;  // of its pages
   };
   struct Page {
     std::uint64_t octcode = 0;
-    std::uint32_t region = kAbove;
-    std::uint32_t place = 0;  // among the region's
+    std::uint32_t sector = kAbove;
+    std::uint32_t index = 0;  // among the region's
   };
 
-  Result<BuiltRegion> put_region_away(const MaskTree& mask, const MaskRoot& root);
+  Result<BuiltSector> put_sector_away(const MaskTree& mask, const MaskRoot& root);
   void count_cells();
   void number_pages();
-  void link_regions();
-  std::uint32_t link(const Region& region, std::uint32_t link) const;
+  void link_sectors();
+  std::uint32_t link(const Region& sector, std::uint32_t link) const;
 
   const std::uint32_t page_bytes_;
   const bool float64_;
   storage::SpillFile& file_;
-  std::map<std::uint32_t, BuiltRegion> known_;
-  std::vector<Region> regions_;
+  std::map<std::uint32_t, BuiltSector> known_;
+  std::vector<Region> sectors_;
   MaskTree above_;
   MaskPlan above_plan_;
   std::vector<Page> pages_;

@@ -21,12 +21,12 @@ namespace planetree::octree {
 namespace {
 
 /// Boxes of more records than this are those of blocks far larger than others.
-constexpr std::uint64_t kMostRecords = 1024;
+constexpr std::uint64_t kMaxRecords = 1024;
 /// The ends of a prism are so many of its widths beyond its block; and its sides so little.
 constexpr double kEnds = 1;
 constexpr double kSides = 0x1p-16;
 /// What is between the ends is so far from them that no rounding brings it beyond.
-constexpr double kClear = Sheet::kRim / 2;
+constexpr double kClear = HeightField::kRim / 2;
 /// With larger coordinates a rim would be lost to rounding.
 constexpr double kLargest = 0x1p16;
 /// Sides of triangles shorter than this share of their distance are lost to it.
@@ -43,19 +43,19 @@ class Prism {
     }
     const double length = normals.norm();
     if (!(length > 0)) return;
-    turned_.row(2) = normals / length;
+    rotated_.row(2) = normals / length;
     Eigen::Index least;
     normals.cwiseAbs().minCoeff(&least);
     const Point across = Point::Unit(least).cross(normals).normalized();
-    turned_.row(0) = across;
-    turned_.row(1) = normals.cross(across) / length;
+    rotated_.row(0) = across;
+    rotated_.row(1) = normals.cross(across) / length;
     for (unsigned i = 1; i < block.header().vertex_count(); ++i) {
-      const Point at = turned(block.vertex(i));
+      const Point at = rotated(block.vertex(i));
       lower_ = lower_.cwiseMin(at);
       upper_ = upper_.cwiseMax(at);
     }
     const double width = std::max(upper_[0] - lower_[0], upper_[1] - lower_[1]);
-    const double rim = Sheet::kRim + kSides * width;
+    const double rim = HeightField::kRim + kSides * width;
     const Point beyond(rim, rim, rim + kEnds * width);
     lower_ -= beyond;
     upper_ += beyond;
@@ -63,18 +63,18 @@ class Prism {
   }
 
   /// From the block's first vertex, the last component towards its front.
-  Point turned(const Point& point) const { return turned_ * (point - origin_); }
+  Point rotated(const Point& point) const { return rotated_ * (point - origin_); }
 
-  Triangle turned(const Triangle& triangle) const {
-    return {turned(triangle[0]), turned(triangle[1]), turned(triangle[2])};
+  Triangle rotated(const Triangle& triangle) const {
+    return {rotated(triangle[0]), rotated(triangle[1]), rotated(triangle[2])};
   }
 
   bool is_good() const {
-    return turned_.row(2).squaredNorm() > 0 &&
+    return rotated_.row(2).squaredNorm() > 0 &&
            (box_centre().cwiseAbs() + box_half()).maxCoeff() < kLargest;
   }
   /// The end in front of the middle line, and the one behind.
-  MovedSegment middle_line() const {
+  PerturbedSegment middle_line() const {
     Point from = middle_, to = middle_;
     from[2] = upper_[2];
     to[2] = lower_[2];
@@ -82,12 +82,12 @@ class Prism {
   }
   /// The box around it, model frame.
   Point box_centre() const { return back(middle_); }
-  Point box_half() const { return turned_.transpose().cwiseAbs() * ((upper_ - lower_) * 0.5); }
+  Point box_half() const { return rotated_.transpose().cwiseAbs() * ((upper_ - lower_) * 0.5); }
 
   /// Whether a turned triangle does not meet it, or is between the ends with its front towards the
   /// first.
-  bool suits(const Triangle& turned) const {
-    const auto& [a, b, c] = turned;
+  bool suits(const Triangle& rotated) const {
+    const auto& [a, b, c] = rotated;
     if ((a.cwiseMin(b).cwiseMin(c).array() > upper_.array()).any() ||
         (a.cwiseMax(b).cwiseMax(c).array() < lower_.array()).any())
       return true;
@@ -99,8 +99,8 @@ class Prism {
     const double u2 = u.squaredNorm(), v2 = v.squaredNorm(), w2 = w.squaredNorm();
     const double shortest = std::min({u2, v2, w2}), longest = std::max({u2, v2, w2});
     const double other = u2 + v2 + w2 - shortest - longest;
-    constexpr double kSine2 = Sheet::kLeastSine * Sheet::kLeastSine;
-    constexpr double kRise2 = Sheet::kLeastRise * Sheet::kLeastRise;
+    constexpr double kSine2 = HeightField::kMinSine * HeightField::kMinSine;
+    constexpr double kRise2 = HeightField::kMinRise * HeightField::kMinRise;
     const double reach2 = a.squaredNorm() + longest;
     return shortest > kShortest * kShortest * reach2 && normal2 > kSine2 * other * longest &&
            normal.z() > 0 && normal.z() * normal.z() > kRise2 * normal2;
@@ -110,7 +110,7 @@ class Prism {
     for (Eigen::Index row = 0; row < 3; ++row) {
       const auto at = static_cast<std::size_t>(row);
       for (Eigen::Index k = 0; k < 3; ++k)
-        prism.turned[at][static_cast<std::size_t>(k)] = static_cast<float>(turned_(row, k));
+        prism.rotated[at][static_cast<std::size_t>(k)] = static_cast<float>(rotated_(row, k));
       prism.lower[at] = static_cast<float>(lower_[row]);
       prism.upper[at] = static_cast<float>(upper_[row]);
     }
@@ -121,58 +121,59 @@ class Prism {
   const Point& origin() const { return origin_; }
 
  private:
-  Point back(const Point& turned) const { return origin_ + turned_.transpose() * turned; }
+  Point back(const Point& rotated) const { return origin_ + rotated_.transpose() * rotated; }
 
   const Point origin_;
-  Eigen::Matrix3d turned_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rotated_ = Eigen::Matrix3d::Zero();
   Point lower_ = Point::Zero(), upper_ = Point::Zero(), middle_ = Point::Zero();
 };
 
 /// Whether all triangles of a block suit a prism, if they meet it.
 bool all_suit(const BlockView& block, const Prism& prism, const PrismTriangles& found) {
   for (unsigned unsure = found.met & ~found.rising; unsure != 0; unsure &= unsure - 1)
-    if (!prism.suits(prism.turned(block.triangle(static_cast<unsigned>(std::countr_zero(unsure))))))
+    if (!prism.suits(
+            prism.rotated(block.triangle(static_cast<unsigned>(std::countr_zero(unsure))))))
       return false;
   return true;
 }
 
 /// The winding number of a point that no triangle touches; nothing where the mask does not tell
 /// it, or too little.
-std::optional<std::int64_t> winding_at(const TreeFacts& tree, const MaskFacts& mask,
+std::optional<std::int64_t> winding_at(const TreeInfo& tree, const MaskInfo& mask,
                                        const Point& point, const PageReader& pages,
-                                       TreeWork& work) {
+                                       TraversalStats& work) {
   if ((point.array() < tree.box_lower.array()).any() ||
       (point.array() > tree.box_upper.array()).any())
     return 0;
-  const MaskFinding found = look_up(mask, point, kMostRecords, pages, work);
-  if (found.kind == MaskFinding::Kind::kPlanes) return found.winding;
-  if (found.kind == MaskFinding::Kind::kColour && found.winding == 0) return 0;
-  if (found.kind != MaskFinding::Kind::kCorners || found.blocks.count == 0) return std::nullopt;
+  const MaskLookup found = look_up(mask, point, kMaxRecords, pages, work);
+  if (found.kind == MaskLookup::Kind::kPlanes) return found.winding;
+  if (found.kind == MaskLookup::Kind::kColour && found.winding == 0) return 0;
+  if (found.kind != MaskLookup::Kind::kCorners || found.blocks.count == 0) return std::nullopt;
   const CellGrid grid(mask.lower);
   const unsigned octant = grid.octant(found.cell, point);
-  std::array<std::uint32_t, kMostListed> links;
+  std::array<std::uint32_t, kMaxListed> links;
   const unsigned count = found.blocks.in_octant(octant, links);
   const Crossings crossings =
       count_crossings(tree, {point, grid.corner(found.cell, octant)}, std::span(links).first(count),
-                      kMostRecords, pages, work);
+                      kMaxRecords, pages, work);
   if (!crossings.complete) return std::nullopt;
   return corner_of(found.listed, octant) + crossings.difference;
 }
 
 }  // namespace
 
-bool SheetFinder::may_be_in_sheet(const BlockView& block) {
+bool HeightFieldFinder::may_be_height_field(const BlockView& block) {
   const Prism prism(block);
   return prism.is_good() &&
          all_suit(block, prism, look_at_triangles(block, prism.in_float(), prism.origin()));
 }
 
-bool SheetFinder::is_in_sheet(const BlockView& block, const PageReader& pages) const {
+bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader& pages) const {
   const Prism prism(block);
   if (!prism.is_good()) return false;
   const Point centre = prism.box_centre(), half = prism.box_half();
   const FloatPrism in_float = prism.in_float();
-  const MovedSegment line = prism.middle_line();
+  const PerturbedSegment line = prism.middle_line();
   bool suits = true;
   std::int64_t difference = 0;
   const auto look_at = [&](const BlockView& near, std::uint32_t) {
@@ -181,9 +182,9 @@ bool SheetFinder::is_in_sheet(const BlockView& block, const PageReader& pages) c
     for (unsigned middle = found.met & found.middle; middle != 0; middle &= middle - 1)
       difference += crossing(line, near.triangle(static_cast<unsigned>(std::countr_zero(middle))));
   };
-  TreeWork work;
+  TraversalStats work;
   const bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
-                            .run_while(kMostRecords, look_at, [&] { return suits; });
+                            .run_while(kMaxRecords, look_at, [&] { return suits; });
   // One crossing more behind than in front.
   return complete && suits && difference == -1 &&
          winding_at(tree_, mask_, line.from, pages, work) == 0;

@@ -11,22 +11,22 @@ namespace planetree::octree {
 /// It is proven for a box around the block: nothing touches its two ends, of which the first is
 /// outside; all triangles in it rise towards the first, so that crossings only add up; and a line
 /// through the middle crosses one of them.
-class SheetFinder {
+class HeightFieldFinder {
  public:
   /// Of a whole watertight model. Both must outlive this.
-  SheetFinder(const TreeFacts& tree, const MaskFacts& mask) : tree_(tree), mask_(mask) {}
+  HeightFieldFinder(const TreeInfo& tree, const MaskInfo& mask) : tree_(tree), mask_(mask) {}
 
   /// Whether the block's own triangles do not rule it out: most of the proof's failures are theirs.
-  static bool may_be_in_sheet(const BlockView& block);
+  static bool may_be_height_field(const BlockView& block);
 
   /// block   need not be in a frame of `pages`.
   /// pages   those of the tree and of the mask.
   /// return  false where it cannot be proven, and where pages are missing.
-  bool is_in_sheet(const BlockView& block, const PageReader& pages) const;
+  bool is_height_field(const BlockView& block, const PageReader& pages) const;
 
  private:
-  const TreeFacts& tree_;
-  const MaskFacts& mask_;
+  const TreeInfo& tree_;
+  const MaskInfo& mask_;
 };
 
 }  // namespace planetree::octree

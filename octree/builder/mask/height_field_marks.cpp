@@ -8,17 +8,17 @@
 
 namespace planetree::octree {
 
-SheetMarks::SheetMarks(const BuiltTree& tree, const BuiltMask& mask)
-    : facts_(tree.facts()), desks_([&tree, &mask] {
+HeightFieldMarks::HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask)
+    : info_(tree.info()), desks_([&tree, &mask] {
         return Desk{TreeFrames(tree, &mask), {}};
       }) {
-  mask_.page_bytes = facts_.page_bytes;
+  mask_.page_bytes = info_.page_bytes;
   mask_.first_page = tree.pages().size();
   mask_.page_count = mask.size();
-  mask_.lower = facts_.box_lower;
+  mask_.lower = info_.box_lower;
 }
 
-Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
+Result<void> HeightFieldMarks::mark(std::uint32_t number, FilePage& page) {
   Desk& desk = desks_.local();
   const PageReader pages = desk.frames.reader();
   const std::byte* frame = pages.page(pages.context, number);
@@ -29,15 +29,16 @@ Result<void> SheetMarks::mark(std::uint32_t number, FilePage& page) {
   std::vector<std::pair<std::size_t, BlockView>> promising;
   std::size_t slot = header.first_block_slot;
   for (std::size_t i = 0; i < header.block_count; ++i) {
-    const BlockView block(desk.page[slot].bytes, facts_.shape);
-    if (SheetFinder::may_be_in_sheet(block)) promising.emplace_back(i, block);
+    const BlockView block(desk.page[slot].bytes, info_.shape);
+    if (HeightFieldFinder::may_be_height_field(block)) promising.emplace_back(i, block);
     slot += block.slots();
   }
   // Where few blocks may be, their neighbours prove most of those not to be.
   if (2 * promising.size() < header.block_count) promising.clear();
-  const SheetFinder finder(facts_, mask_);
+  const HeightFieldFinder finder(info_, mask_);
   for (const auto& [i, block] : promising)
-    if (finder.is_in_sheet(block, pages)) page.bytes[page.blocks_at + i] |= std::byte{kSheetBit};
+    if (finder.is_height_field(block, pages))
+      page.bytes[page.blocks_at + i] |= std::byte{kHeightFieldBit};
   return desk.frames.state();
 }
 

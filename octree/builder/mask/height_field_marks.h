@@ -18,10 +18,10 @@ namespace planetree::octree {
 /// Marks the blocks that are in sheets in the pages of a watertight model, all of which is built
 /// but not written. What is marked depends on the model alone.
 /// threads  any number.
-class SheetMarks {
+class HeightFieldMarks {
  public:
   /// Both must outlive this.
-  SheetMarks(const BuiltTree& tree, const BuiltMask& mask);
+  HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask);
 
   /// Marks those of a distance page, by its number.
   /// errors  those of TreeFrames.
@@ -37,8 +37,8 @@ class SheetMarks {
     std::vector<Line> page;  // a copy: walks may take its frame
   };
 
-  const TreeFacts facts_;
-  MaskFacts mask_;
+  const TreeInfo info_;
+  MaskInfo mask_;
   tbb::enumerable_thread_specific<Desk> desks_;
 };
 

@@ -18,36 +18,36 @@ namespace {
 /// Counts the regions' least corners, and puts their roots together.
 class MaskJoin {
  public:
-  explicit MaskJoin(const MaskRegions& regions)
-      : grid_(regions.grid()),
-        regions_(regions.all()),
-        least_(regions_.size()),
-        grey_(regions_.size()) {
-    count_corners(0, regions.winding());
+  explicit MaskJoin(const MaskSectors& sectors)
+      : grid_(sectors.grid()),
+        sectors_(sectors.all()),
+        min_(sectors_.size()),
+        grey_(sectors_.size()) {
+    count_corners(0, sectors.winding());
     // Octants come after the region they divide.
-    for (std::size_t at = regions_.size(); at-- > 0;) {
-      const MaskRegions::Region& region = regions_[at];
-      grey_[at] = region.touched;
-      for (unsigned octant = 0; region.divided() && octant < 8; ++octant)
-        if (grey_[region.first_octant + octant]) grey_[at] = true;
+    for (std::size_t at = sectors_.size(); at-- > 0;) {
+      const MaskSectors::Region& sector = sectors_[at];
+      grey_[at] = sector.touched;
+      for (unsigned octant = 0; sector.divided() && octant < 8; ++octant)
+        if (grey_[sector.first_octant + octant]) grey_[at] = true;
     }
   }
 
   // At a region's least corner.
-  std::int64_t winding(std::size_t at) const { return least_[at]; }
+  std::int64_t winding(std::size_t at) const { return min_[at]; }
 
-  MaskTree run(const std::vector<RegionRoot>& roots) const {
+  MaskTree run(const std::vector<SectorRoot>& roots) const {
     MaskTree tree;
     tree.entries.resize(1);
-    place(0, roots, tree, 0);
+    put(0, roots, tree, 0);
     return tree;
   }
 
  private:
   void count_corners(std::size_t at, std::int64_t least) {
-    least_[at] = least;
-    if (!regions_[at].divided()) return;
-    const std::size_t first = regions_[at].first_octant;
+    min_[at] = least;
+    if (!sectors_[at].divided()) return;
+    const std::size_t first = sectors_[at].first_octant;
     count_corners(first, least);
     // The least corner of an octant is a corner of the octant before it.
     for (unsigned octant = 1; octant < 8; ++octant) {
@@ -57,32 +57,32 @@ class MaskJoin {
   }
 
   std::int64_t at_corner(std::size_t at, unsigned which) const {
-    while (regions_[at].divided()) at = regions_[at].first_octant + which;
-    return least_[at] + regions_[at].rise[which];
+    while (sectors_[at].divided()) at = sectors_[at].first_octant + which;
+    return min_[at] + sectors_[at].rise[which];
   }
 
-  void place(std::size_t at, const std::vector<RegionRoot>& roots, MaskTree& tree,
-             std::size_t entry) const {
-    const MaskRegions::Region& region = regions_[at];
-    tree.levels = std::max(tree.levels, region.cell.level);
-    if (!region.divided()) return place_root(roots[at], tree, entry);
+  void put(std::size_t at, const std::vector<SectorRoot>& roots, MaskTree& tree,
+           std::size_t entry) const {
+    const MaskSectors::Region& sector = sectors_[at];
+    tree.levels = std::max(tree.levels, sector.cell.level);
+    if (!sector.divided()) return place_root(roots[at], tree, entry);
     std::array<bool, 8> grey;
     std::array<std::int64_t, 8> winding;
     for (unsigned octant = 0; octant < 8; ++octant) {
-      grey[octant] = grey_[region.first_octant + octant];
-      const bool asked_for = grid_.has_part_of(region.cell.child(octant));
-      winding[octant] = asked_for ? least_[region.first_octant + octant] : 0;
+      grey[octant] = grey_[sector.first_octant + octant];
+      const bool requested = grid_.has_part_of(sector.cell.child(octant));
+      winding[octant] = requested ? min_[sector.first_octant + octant] : 0;
     }
     tree.divide(entry, grey, winding);
     std::size_t child = tree.entries[entry].first;
     for (unsigned octant = 0; octant < 8; ++octant) {
       if (!grey[octant]) continue;
-      place(region.first_octant + octant, roots, tree, child);
+      put(sector.first_octant + octant, roots, tree, child);
       tree.note_leaf(entry, octant, child++);
     }
   }
 
-  static void place_root(const RegionRoot& root, MaskTree& tree, std::size_t entry) {
+  static void place_root(const SectorRoot& root, MaskTree& tree, std::size_t entry) {
     tree.entries[entry] = root.entry;
     if (!root.special) return;
     tree.entries[entry].first = static_cast<std::uint32_t>(tree.specials.size());
@@ -90,8 +90,8 @@ class MaskJoin {
   }
 
   const ClippedGrid& grid_;
-  const std::vector<MaskRegions::Region>& regions_;
-  std::vector<std::int64_t> least_;
+  const std::vector<MaskSectors::Region>& sectors_;
+  std::vector<std::int64_t> min_;
   std::vector<bool> grey_;
 };
 
@@ -102,8 +102,8 @@ class CellBlocks {
   CellBlocks(const BuiltTree* tree, const ClippedGrid& grid) {
     if (!tree) return;
     frames_.emplace(*tree);
-    facts_ = tree->facts();
-    lister_.emplace(facts_, grid);
+    info_ = tree->info();
+    lister_.emplace(info_, grid);
   }
   CellBlocks(const CellBlocks&) = delete;
   CellBlocks& operator=(const CellBlocks&) = delete;
@@ -115,47 +115,47 @@ class CellBlocks {
   Result<void> state() const { return frames_ ? frames_->state() : Result<void>(); }
 
  private:
-  TreeFacts facts_;
+  TreeInfo info_;
   std::optional<TreeFrames> frames_;
   std::optional<BlockLister> lister_;
 };
 
 }  // namespace
 
-RegionRoot RegionRoot::of(const MaskTree& mask, std::size_t region) {
-  RegionRoot root{mask.entries[0], {}};
+SectorRoot SectorRoot::of(const MaskTree& mask, std::size_t sector) {
+  SectorRoot root{mask.entries[0], {}};
   // Roots go with the cells above, whose pages hold no lists: of leaves so large few are asked.
   if (root.entry.kind == MaskEntry::Kind::kListed) root.entry.kind = MaskEntry::Kind::kCorners;
   if (root.entry.kind == MaskEntry::Kind::kSpecial) root.special = mask.specials[0];
   if (root.entry.kind == MaskEntry::Kind::kNode) {
-    root.entry.kind = MaskEntry::Kind::kRegion;
-    root.entry.first = static_cast<std::uint32_t>(region);
+    root.entry.kind = MaskEntry::Kind::kSector;
+    root.entry.first = static_cast<std::uint32_t>(sector);
   }
   return root;
 }
 
-Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs,
+Result<MaskTree> build_mask(const MaskSectors& sectors, const TriangleRuns& runs,
                             const BuiltTree* tree, const KnownRoots& known,
-                            const RegionSink& take) {
-  const MaskJoin join(regions);
-  std::vector<RegionRoot> roots(regions.all().size());
+                            const SectorSink& take) {
+  const MaskJoin join(sectors);
+  std::vector<SectorRoot> roots(sectors.all().size());
   tbb::enumerable_thread_specific<CellBlocks> threads(
-      [&] { return CellBlocks(tree, regions.grid()); });
+      [&] { return CellBlocks(tree, sectors.grid()); });
   const auto built = for_each_in_parallel(roots.size(), [&](std::size_t at) -> Result<void> {
-    const MaskRegions::Region& region = regions.all()[at];
-    if (region.divided() || !region.touched) return {};
-    if (const RegionRoot* const root = known(at)) {
+    const MaskSectors::Region& sector = sectors.all()[at];
+    if (sector.divided() || !sector.touched) return {};
+    if (const SectorRoot* const root = known(at)) {
       roots[at] = *root;
       return {};
     }
-    const auto triangles = regions.read(at, runs);
+    const auto triangles = sectors.read(at, runs);
     if (!triangles) return triangles.error();
     CellBlocks& blocks = threads.local();
-    const MaskTree mask = mask_of_region(
-        regions.grid(), region.cell, join.winding(at), *triangles,
+    const MaskTree mask = mask_of_sector(
+        sectors.grid(), sector.cell, join.winding(at), *triangles,
         [&](const GridCell& cell, MaskBlocks& list) { return blocks.list(cell, list); });
     if (!blocks.state()) return blocks.state().error();
-    roots[at] = RegionRoot::of(mask, at);
+    roots[at] = SectorRoot::of(mask, at);
     return take(at, mask, roots[at]);
   });
   if (!built) return built.error();

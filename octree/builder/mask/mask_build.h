@@ -13,19 +13,19 @@
 namespace planetree::octree {
 
 /// What the cells above know of a region's mask: its root.
-struct RegionRoot {
+struct SectorRoot {
   MaskEntry entry;
   std::optional<SpecialCell> special;
 
-  static RegionRoot of(const MaskTree& mask, std::size_t region);
+  static SectorRoot of(const MaskTree& mask, std::size_t sector);
 };
 
 /// Takes the mask of a region, its root the first entry; on any thread.
-using RegionSink =
-    std::function<Result<void>(std::size_t region, const MaskTree& mask, const RegionRoot& root)>;
+using SectorSink =
+    std::function<Result<void>(std::size_t sector, const MaskTree& mask, const SectorRoot& root)>;
 
 /// The root of a region whose mask was built before; null: it was not.
-using KnownRoots = std::function<const RegionRoot*(std::size_t region)>;
+using KnownRoots = std::function<const SectorRoot*(std::size_t sector)>;
 
 /// Makes the mask of a model, region by region: winding numbers are known outside the model's
 /// box, and carried from there to the least corner of every region by the crossings of regions'
@@ -41,7 +41,7 @@ using KnownRoots = std::function<const RegionRoot*(std::size_t region)>;
 /// source  white, black and grey cells: "Out-of-core real-time haptic interaction
 ///         on very large models", section 3.1; winding numbers at corners, in
 ///         place of parity along a line, are ours.
-Result<MaskTree> build_mask(const MaskRegions& regions, const TriangleRuns& runs,
-                            const BuiltTree* tree, const KnownRoots& known, const RegionSink& take);
+Result<MaskTree> build_mask(const MaskSectors& sectors, const TriangleRuns& runs,
+                            const BuiltTree* tree, const KnownRoots& known, const SectorSink& take);
 
 }  // namespace planetree::octree

@@ -53,7 +53,7 @@ class Streams {
     for (unsigned corner = 0; corner < 8; ++corner)
       higher |= static_cast<std::uint8_t>((corners[corner] - least) << corner);
     add_kind(MaskKind::kListed);
-    least_.push_back(least);
+    min_.push_back(least);
     higher_.push_back(higher);
     block_counts_.push_back(blocks.count);
     slab_directions_.push_back(blocks.slab.direction);
@@ -81,30 +81,30 @@ class Streams {
 
   // Returns where the links to other pages are.
   std::size_t write(StreamWriter& writer, bool float64) const {
-    writer.shuffled(kinds_);
-    writer.shuffled(grey_);
-    writer.shuffled(leaf_);
-    writer.shuffled(black_);
-    writer.shuffled(inverted_);
+    writer.byte_split(kinds_);
+    writer.byte_split(grey_);
+    writer.byte_split(leaf_);
+    writer.byte_split(black_);
+    writer.byte_split(inverted_);
     const std::size_t links_at = writer.size();
-    writer.shuffled(page_links_);
-    writer.shuffled(plain_);
-    writer.shuffled(corners_);
-    writer.shuffled(plane_counts_);
-    writer.shuffled(behind_);
-    writer.shuffled(beyond_);
+    writer.byte_split(page_links_);
+    writer.byte_split(plain_);
+    writer.byte_split(corners_);
+    writer.byte_split(plane_counts_);
+    writer.byte_split(behind_);
+    writer.byte_split(beyond_);
     if (float64)
-      writer.shuffled(planes_);
+      writer.byte_split(planes_);
     else
-      writer.shuffled(std::vector<float>(planes_.begin(), planes_.end()));
-    writer.shuffled(least_);
-    writer.shuffled(higher_);
-    writer.shuffled(block_counts_);
-    writer.shuffled(slab_directions_);
-    writer.shuffled(slab_lowers_);
-    writer.shuffled(slab_uppers_);
-    writer.shuffled(block_octants_);
-    writer.shuffled(block_links_);
+      writer.byte_split(std::vector<float>(planes_.begin(), planes_.end()));
+    writer.byte_split(min_);
+    writer.byte_split(higher_);
+    writer.byte_split(block_counts_);
+    writer.byte_split(slab_directions_);
+    writer.byte_split(slab_lowers_);
+    writer.byte_split(slab_uppers_);
+    writer.byte_split(block_octants_);
+    writer.byte_split(block_links_);
     return links_at;
   }
 
@@ -117,7 +117,7 @@ class Streams {
   std::vector<std::uint8_t> higher_, block_counts_, slab_lowers_, slab_uppers_, block_octants_;
   std::vector<std::uint16_t> slab_directions_;
   std::vector<std::uint32_t> page_links_, block_links_;
-  std::vector<std::int8_t> corners_, behind_, beyond_, least_;
+  std::vector<std::int8_t> corners_, behind_, beyond_, min_;
   std::vector<double> planes_;
 };
 
@@ -130,7 +130,7 @@ EncodedPage MaskEncoder::encode(std::size_t page) const {
     const MaskEntry& entry = mask_.entries[at];
     switch (entry.kind) {
       case MaskEntry::Kind::kNode:
-      case MaskEntry::Kind::kRegion:
+      case MaskEntry::Kind::kSector:
         streams.add_node(entry, plan_.families[at]);
         break;
       case MaskEntry::Kind::kCorners:

@@ -75,12 +75,12 @@ class MaskPlanner {
     }
   }
 
-  // Places families breadth first while there is room. Returns those for which
+  // Indices families breadth first while there is room. Returns those for which
   // there was none.
   std::vector<Divided> fill(Draft& draft) const {
     std::vector<Divided> queue, left;
     std::uint32_t slots = 0;
-    const auto place = [&](const Divided& divided) {
+    const auto put = [&](const Divided& divided) {
       slots += family_slots(divided.node);
       std::uint32_t member = mask_.entries[divided.node].first;
       for (unsigned octant = 0; octant < 8; ++octant) {
@@ -95,12 +95,12 @@ class MaskPlanner {
       draft.page.entries.push_back(0);
       if (has_family(0)) queue.push_back({0, root_.cell});
     }
-    for (const Divided& root : draft.roots) place(root);
+    for (const Divided& root : draft.roots) put(root);
     draft.page.root_count = static_cast<std::uint32_t>(draft.page.entries.size());
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const Divided divided = queue[i];
       if (slots + family_slots(divided.node) <= capacity_)
-        place(divided);
+        put(divided);
       else
         left.push_back(divided);
     }
@@ -134,16 +134,16 @@ class MaskPlanner {
     std::sort(
         plan_.pages.begin(), plan_.pages.end(),
         [](const PlannedMaskPage& a, const PlannedMaskPage& b) { return a.octcode < b.octcode; });
-    std::vector<std::uint32_t> places(mask_.entries.size());
+    std::vector<std::uint32_t> indices(mask_.entries.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) {
       plan_.pages[number].number = number;
       std::uint32_t slot = head_slots_;
       for (const std::uint32_t entry : plan_.pages[number].entries)
-        places[entry] = links_.make(number, slot++);
+        indices[entry] = links_.make(number, slot++);
     }
     plan_.families.resize(mask_.entries.size());
     for (std::uint32_t at = 0; at < mask_.entries.size(); ++at)
-      if (has_family(at)) plan_.families[at] = places[mask_.entries[at].first];
+      if (has_family(at)) plan_.families[at] = indices[mask_.entries[at].first];
   }
 
   const MaskTree& mask_;

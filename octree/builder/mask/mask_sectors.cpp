@@ -14,44 +14,44 @@ namespace {
 
 /// Cells are not divided any more where that has so many times over left more than half of
 /// the triangles together: their centres coincide.
-constexpr unsigned kMostWasted = 3;
+constexpr unsigned kMaxWasted = 3;
 
 }  // namespace
 
-Result<void> MaskRegions::divide(const TriangleRuns& runs, std::uint64_t most) {
+Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t most) {
   return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, most, 0);
 }
 
-Result<void> MaskRegions::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
+Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
                                  std::uint64_t most, unsigned wasted) {
-  if (stretch.size <= most || wasted > kMostWasted || regions_[at].cell.level == kLevels ||
-      !grid_.has_part_of(regions_[at].cell))
+  if (stretch.size <= most || wasted > kMaxWasted || sectors_[at].cell.level == kLevels ||
+      !grid_.has_part_of(sectors_[at].cell))
     return {};
   const auto octants = octants_of(at, stretch, runs);
   if (!octants) return octants.error();
-  const std::size_t first = regions_.size();
-  regions_[at].first_octant = static_cast<std::uint32_t>(first);
-  bool all_asked_for = true;
+  const std::size_t first = sectors_.size();
+  sectors_[at].first_octant = static_cast<std::uint32_t>(first);
+  bool all_requested = true;
   for (unsigned octant = 0; octant < 8; ++octant) {
-    regions_.push_back({regions_[at].cell.child(octant)});
-    all_asked_for = all_asked_for && grid_.has_part_of(regions_.back().cell);
+    sectors_.push_back({sectors_[at].cell.child(octant)});
+    all_requested = all_requested && grid_.has_part_of(sectors_.back().cell);
   }
   for (unsigned octant = 0; octant < 8; ++octant) {
     const Stretch& part = (*octants)[octant];
     // Around what is asked for all centres are in one octant however far apart they are.
-    const bool told_apart = part.size <= stretch.size / 2 || !all_asked_for;
+    const bool told_apart = part.size <= stretch.size / 2 || !all_requested;
     const auto divided = divide(first + octant, part, runs, most, told_apart ? 0 : wasted + 1);
     if (!divided) return divided;
   }
   return {};
 }
 
-Result<std::array<MaskRegions::Stretch, 8>> MaskRegions::octants_of(
+Result<std::array<MaskSectors::Stretch, 8>> MaskSectors::octants_of(
     std::size_t at, const Stretch& stretch, const TriangleRuns& runs) const {
   std::array<Stretch, 8> octants;
   octants[0].from = stretch.from;
   for (unsigned octant = 1; octant < 8; ++octant) {
-    auto cut = runs.cut(regions_[at].cell.child(octant).first_code());
+    auto cut = runs.cut(sectors_[at].cell.child(octant).first_code());
     if (!cut) return cut.error();
     octants[octant - 1].to = *cut;
     octants[octant].from = *std::move(cut);
@@ -61,22 +61,22 @@ Result<std::array<MaskRegions::Stretch, 8>> MaskRegions::octants_of(
   return octants;
 }
 
-std::size_t MaskRegions::region_of_code(std::uint64_t code) const {
+std::size_t MaskSectors::sector_of_code(std::uint64_t code) const {
   std::size_t at = 0;
-  while (regions_[at].divided()) {
-    const unsigned shift = 3 * (kLevels - regions_[at].cell.level - 1);
-    at = regions_[at].first_octant + (code >> shift & 7);
+  while (sectors_[at].divided()) {
+    const unsigned shift = 3 * (kLevels - sectors_[at].cell.level - 1);
+    at = sectors_[at].first_octant + (code >> shift & 7);
   }
   return at;
 }
 
 /// What one part of the model adds to the regions.
-class MaskRegions::Visit {
+class MaskSectors::Visit {
  public:
-  explicit Visit(const MaskRegions& regions) : regions_(regions), visitors_(regions.float64_) {}
+  explicit Visit(const MaskSectors& sectors) : sectors_(sectors), visitors_(sectors.float64_) {}
 
   void add(const storage::SpillKey& key, const Triangle& triangle) {
-    own_ = regions_.region_of_code(key.first);
+    own_ = sectors_.sector_of_code(key.first);
     key_ = key;
     const BoxedTriangle boxed(triangle);
     if (is_inside_own(boxed))
@@ -98,27 +98,27 @@ class MaskRegions::Visit {
 
  private:
   void touch(std::size_t at, const BoxedTriangle& triangle) {
-    const Region& region = regions_.regions_[at];
-    if (region.divided()) {
-      const unsigned near = octants_of_box(triangle, regions_.grid_.middle(region.cell));
+    const Region& sector = sectors_.sectors_[at];
+    if (sector.divided()) {
+      const unsigned near = octants_of_box(triangle, sectors_.grid_.middle(sector.cell));
       for (unsigned octant = 0; octant < 8; ++octant)
-        if ((near >> octant & 1) != 0) touch(region.first_octant + octant, triangle);
+        if ((near >> octant & 1) != 0) touch(sector.first_octant + octant, triangle);
       return;
     }
-    const Point lower = regions_.grid_.lower(region.cell),
-                upper = regions_.grid_.upper(region.cell);
+    const Point lower = sectors_.grid_.lower(sector.cell),
+                upper = sectors_.grid_.upper(sector.cell);
     if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
-    if (at != own_ && regions_.grid_.has_part_of(region.cell))
+    if (at != own_ && sectors_.grid_.has_part_of(sector.cell))
       visitors_.add({at, key_.second}, triangle.corners);
     auto& rise = rise_of(at);
-    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, region.cell, rise);
+    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, sector.cell, rise);
   }
 
   // Whether no other region is touched, nor the own one's edges.
   bool is_inside_own(const BoxedTriangle& triangle) const {
-    const GridCell& cell = regions_.regions_[own_].cell;
-    return (triangle.least.array() > regions_.grid_.lower(cell).array()).all() &&
-           (triangle.greatest.array() < regions_.grid_.upper(cell).array()).all();
+    const GridCell& cell = sectors_.sectors_[own_].cell;
+    return (triangle.least.array() > sectors_.grid_.lower(cell).array()).all() &&
+           (triangle.greatest.array() < sectors_.grid_.upper(cell).array()).all();
   }
 
   // Triangles in order mostly touch the region that the one before did.
@@ -138,7 +138,7 @@ class MaskRegions::Visit {
   void add_rise(const BoxedTriangle& triangle, const GridCell& cell,
                 std::array<std::int64_t, 8>& rise) const;
 
-  const MaskRegions& regions_;
+  const MaskSectors& sectors_;
   std::size_t own_ = 0;
   storage::SpillKey key_;
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by region
@@ -148,29 +148,29 @@ class MaskRegions::Visit {
 };
 
 // Crossings along the cell's edges, each from the corner before it on the way from the least.
-void MaskRegions::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
+void MaskSectors::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
                                   std::array<std::int64_t, 8>& rise) const {
   std::array<std::int64_t, 8> steps{};
   for (unsigned which = 1; which < 8; ++which) {
     const unsigned before = which & (which - 1);
     const DownwardSegment edge(
-        {regions_.grid_.corner(cell, which), regions_.grid_.corner(cell, before)},
+        {sectors_.grid_.corner(cell, which), sectors_.grid_.corner(cell, before)},
         axis_of_edge(which, before));
     steps[which] = steps[before] + edge.crossing(triangle);
     rise[which] += steps[which];
   }
 }
 
-void MaskRegions::sum_up(const Part& part) {
+void MaskSectors::sum_up(const Part& part) {
   const std::lock_guard lock(mutex_);
   for (const Rise& rise : part.rises) {
-    Region& region = regions_[rise.region];
-    region.touched = grid_.has_part_of(region.cell);
-    for (unsigned which = 0; which < 8; ++which) region.rise[which] += rise.corners[which];
+    Region& sector = sectors_[rise.sector];
+    sector.touched = grid_.has_part_of(sector.cell);
+    for (unsigned which = 0; which < 8; ++which) sector.rise[which] += rise.corners[which];
   }
 }
 
-Result<MaskRegions::Part> MaskRegions::add(const Triangles& triangles) {
+Result<MaskSectors::Part> MaskSectors::add(const Triangles& triangles) {
   Visit visit(*this);
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     visit.add(triangles.key(i), triangles.corners(i));
@@ -182,16 +182,16 @@ Result<MaskRegions::Part> MaskRegions::add(const Triangles& triangles) {
   return part;
 }
 
-bool MaskRegions::add_placed(const Part& part) {
+bool MaskSectors::add_extents(const Part& part) {
   for (const Rise& rise : part.rises)
-    if (rise.region >= regions_.size() || regions_[rise.region].divided()) return false;
-  visitors_.add_placed(part.visitors);
+    if (rise.sector >= sectors_.size() || sectors_[rise.sector].divided()) return false;
+  visitors_.add_extents(part.visitors);
   sum_up(part);
   return true;
 }
 
-Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) const {
-  const GridCell& cell = regions_[at].cell;
+Result<Triangles> MaskSectors::read(std::size_t at, const TriangleRuns& runs) const {
+  const GridCell& cell = sectors_[at].cell;
   const auto from = runs.cut(cell.first_code());
   if (!from) return from.error();
   // The codes of a cell are as many as the finest cells in it.
@@ -214,9 +214,9 @@ Result<Triangles> MaskRegions::read(std::size_t at, const TriangleRuns& runs) co
 }
 
 // By key; of a region's own triangles those that touch it.
-Triangles MaskRegions::joined(const Triangles& own, const Triangles& visitors,
-                              std::size_t region) const {
-  const GridCell& cell = regions_[region].cell;
+Triangles MaskSectors::joined(const Triangles& own, const Triangles& visitors,
+                              std::size_t sector) const {
+  const GridCell& cell = sectors_[sector].cell;
   const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
   Triangles all(float64_);
   all.reserve(std::size_t{own.size()} + visitors.size());
@@ -227,7 +227,7 @@ Triangles MaskRegions::joined(const Triangles& own, const Triangles& visitors,
   };
   for (std::uint32_t i = 0; i < own.size(); ++i) {
     const Triangle triangle = own.corners(i);
-    if (region != 0 && !may_touch(triangle, lower, upper)) continue;
+    if (sector != 0 && !may_touch(triangle, lower, upper)) continue;
     add_visitors_before(own.key(i));
     all.add(own.key(i), triangle);
   }

@@ -6,7 +6,7 @@
 
 namespace planetree::octree {
 
-void MaskTree::divide(std::size_t place, const std::array<bool, 8>& grey,
+void MaskTree::divide(std::size_t index, const std::array<bool, 8>& grey,
                       const std::array<std::int64_t, 8>& winding) {
   MaskEntry node;
   for (unsigned octant = 0; octant < 8; ++octant) {
@@ -20,7 +20,7 @@ void MaskTree::divide(std::size_t place, const std::array<bool, 8>& grey,
   }
   node.first = static_cast<std::uint32_t>(entries.size());
   entries.resize(entries.size() + static_cast<unsigned>(std::popcount(node.grey)));
-  entries[place] = node;
+  entries[index] = node;
 }
 
 void MaskTree::note_leaf(std::size_t node, unsigned octant, std::size_t child) {

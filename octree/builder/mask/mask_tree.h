@@ -12,8 +12,8 @@ namespace planetree::octree {
 
 /// A grey cell of the mask.
 struct MaskEntry {
-  /// kRegion is a node whose octants are in a mask of their own.
-  enum class Kind : std::uint8_t { kNode, kRegion, kCorners, kSpecial, kListed };
+  /// kSector is a node whose octants are in a mask of their own.
+  enum class Kind : std::uint8_t { kNode, kSector, kCorners, kSpecial, kListed };
 
   Kind kind = Kind::kNode;
   /// Of a node: its octants, as in MaskNode. `first` is the entry of its first
@@ -21,7 +21,7 @@ struct MaskEntry {
   std::uint8_t grey = 0, leaf = 0, black = 0, inverted = 0;
   /// Of a special cell: into MaskTree::specials; of a listed one: into MaskTree::lists.
   std::uint32_t first = 0;
-  bool is_leaf() const { return kind != Kind::kNode && kind != Kind::kRegion; }
+  bool is_leaf() const { return kind != Kind::kNode && kind != Kind::kSector; }
   MaskCorners corners{};  ///< of a listed cell too
 };
 
@@ -34,7 +34,7 @@ struct MaskTree {
 
   /// Makes the entry at `place` that of a divided cell, with room for its grey octants' entries.
   /// winding  at the octants' least corners: the colour of those that are not grey.
-  void divide(std::size_t place, const std::array<bool, 8>& grey,
+  void divide(std::size_t index, const std::array<bool, 8>& grey,
               const std::array<std::int64_t, 8>& winding);
   /// Notes in the entry at `node` whether its octant, whose entry is at `child`, is a leaf.
   void note_leaf(std::size_t node, unsigned octant, std::size_t child);

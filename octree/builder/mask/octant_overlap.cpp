@@ -26,8 +26,8 @@ namespace HWY_NAMESPACE {
 constexpr float kEdgeError = 0x1p-18f;
 constexpr float kNormalError = 0x1p-14f;
 // Of other sizes the cube of R is lost.
-constexpr float kLeastReach = 0x1p-30f;
-constexpr float kMostReach = 0x1p30f;
+constexpr float kMinReach = 0x1p-30f;
+constexpr float kMaxReach = 0x1p30f;
 
 // How far apart boxes and triangles are on axes, less than 0 where they overlap.
 class OverlapLanes {
@@ -52,7 +52,7 @@ class OverlapLanes {
     const TriangleFloats edge_error = hn::Mul(reach2, hn::Set(d, kEdgeError));
     const TriangleFloats normal_error = hn::Mul(hn::Mul(reach2, reach), hn::Set(d, kNormalError));
     const auto fits =
-        hn::And(hn::Ge(reach, hn::Set(d, kLeastReach)), hn::Le(reach, hn::Set(d, kMostReach)));
+        hn::And(hn::Ge(reach, hn::Set(d, kMinReach)), hn::Le(reach, hn::Set(d, kMaxReach)));
     auto touched = hn::Zero(di), unsure = hn::Zero(di);
 #pragma GCC unroll 8
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -64,10 +64,10 @@ class OverlapLanes {
       const auto overlap =
           hn::And(hn::And(hn::Lt(edge, hn::Neg(edge_error)), hn::Lt(normal, hn::Neg(normal_error))),
                   hn::Lt(box, hn::Zero(d)));
-      const auto told = hn::And(fits, hn::Or(apart, overlap));
-      const auto touches = hn::And(told, overlap);
+      const auto certain = hn::And(fits, hn::Or(apart, overlap));
+      const auto touches = hn::And(certain, overlap);
       touched = hn::Or(touched, hn::IfThenElseZero(hn::RebindMask(di, touches), bit));
-      unsure = hn::Or(unsure, hn::IfThenZeroElse(hn::RebindMask(di, told), bit));
+      unsure = hn::Or(unsure, hn::IfThenZeroElse(hn::RebindMask(di, certain), bit));
     }
     hn::StoreU(hn::DemoteTo(bytes, touched), bytes, sure.touched + first);
     hn::StoreU(hn::DemoteTo(bytes, unsure), bytes, sure.unsure + first);
@@ -206,7 +206,7 @@ namespace {
 
 /// Of smaller cells, as a share of how far they are from the origin, may_touch() knows the middle
 /// by so much less than what float errs by.
-constexpr double kLeastSize = 0x1p-28;
+constexpr double kMinSize = 0x1p-28;
 
 }  // namespace
 
@@ -214,27 +214,27 @@ OctantOverlap::OctantOverlap(const Point& lower, const Point& middle, const Poin
     : sides_{lower, middle, upper} {
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double farthest = std::max(std::fabs(lower[axis]), std::fabs(upper[axis]));
-    told_by_float_ = told_by_float_ && upper[axis] - lower[axis] > kLeastSize * farthest;
+    certain_by_float_ = certain_by_float_ && upper[axis] - lower[axis] > kMinSize * farthest;
     seen_.lower[axis] = static_cast<float>(lower[axis] - middle[axis]);
     seen_.upper[axis] = static_cast<float>(upper[axis] - middle[axis]);
   }
 }
 
-void OctantOverlap::add(const Triangle& triangle, unsigned octants, std::uint32_t place) {
+void OctantOverlap::add(const Triangle& triangle, unsigned octants, std::uint32_t index) {
   assert(!full());
   for (unsigned k = 0; k < 3; ++k)
     for (unsigned axis = 0; axis < 3; ++axis)
       seen_.corner[k][axis][count_] = static_cast<float>(triangle[k][axis] - sides_[1][axis]);
   triangles_[count_] = triangle;
-  places_[count_] = place;
+  indices_[count_] = index;
   octants_[count_++] = static_cast<std::uint8_t>(octants);
 }
 
-OctantOverlap::Told OctantOverlap::take() {
-  Told told;
-  if (count_ == 0) return told;
+OctantOverlap::Certain OctantOverlap::take() {
+  Certain certain;
+  if (count_ == 0) return certain;
   Sure sure{};
-  if (told_by_float_)
+  if (certain_by_float_)
     HWY_DYNAMIC_DISPATCH(tell_octants)(seen_, count_, sure);
   else
     std::fill(std::begin(sure.unsure), std::end(sure.unsure), std::uint8_t{0xff});
@@ -244,12 +244,12 @@ OctantOverlap::Told OctantOverlap::take() {
       const auto octant = static_cast<unsigned>(std::countr_zero(left));
       if (touches(at, octant)) touched |= 1U << octant;
     }
-    told.octants[at] = static_cast<std::uint8_t>(touched);
+    certain.octants[at] = static_cast<std::uint8_t>(touched);
   }
-  told.count = count_;
-  told.places = places_;
+  certain.count = count_;
+  certain.indices = indices_;
   count_ = 0;
-  return told;
+  return certain;
 }
 
 bool OctantOverlap::touches(unsigned at, unsigned octant) const {

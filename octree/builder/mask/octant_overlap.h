@@ -22,16 +22,16 @@ class OctantOverlap {
   /// A triangle, while not full.
   /// octants  those to be told, one bit each.
   /// place    the caller's, to know it by.
-  void add(const Triangle& triangle, unsigned octants, std::uint32_t place);
+  void add(const Triangle& triangle, unsigned octants, std::uint32_t index);
 
   /// Of the triangles since the last time, those of their octants that they may touch, in the order
   /// in which they were added: the first `count`.
-  struct Told {
+  struct Certain {
     unsigned count = 0;
     std::array<std::uint8_t, kAtOnce> octants;
-    std::array<std::uint32_t, kAtOnce> places;
+    std::array<std::uint32_t, kAtOnce> indices;
   };
-  Told take();
+  Certain take();
 
   /// What float sees of a cell and triangles, from the cell's middle.
   struct Seen {
@@ -48,12 +48,12 @@ class OctantOverlap {
   bool touches(unsigned at, unsigned octant) const;
 
   const std::array<Point, 3> sides_;  // lower, middle, upper
-  bool told_by_float_ = true;
+  bool certain_by_float_ = true;
   Seen seen_;
   unsigned count_ = 0;
   std::array<Triangle, kAtOnce> triangles_;
   std::array<std::uint8_t, kAtOnce> octants_;
-  std::array<std::uint32_t, kAtOnce> places_;
+  std::array<std::uint32_t, kAtOnce> indices_;
 };
 
 }  // namespace planetree::octree

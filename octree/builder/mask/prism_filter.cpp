@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-/// More than Sheet asks for, so that what float loses does not matter.
+/// More than HeightField asks for, so that what float loses does not matter.
 constexpr float kRise = 0x1p-3f;
 constexpr float kSine = 0x1p-10f;
 constexpr float kErrors = 0x1p6f;
@@ -29,19 +29,19 @@ class PrismLanes {
     assert(count > 0);
     PrismTriangles found;
     for (unsigned i = 0; i < count; i += static_cast<unsigned>(hn::Lanes(TriangleTag())))
-      add(turned(triangles.corner(0, i)), turned(triangles.corner(1, i)),
-          turned(triangles.corner(2, i)), i, found);
+      add(rotated(triangles.corner(0, i)), rotated(triangles.corner(1, i)),
+          rotated(triangles.corner(2, i)), i, found);
     const unsigned all = ~0U >> (32 - count);
     return {found.met & all, found.rising & all, found.middle & all};
   }
 
  private:
-  HWY_INLINE TriangleVectors turned(const TriangleVectors& at) const {
+  HWY_INLINE TriangleVectors rotated(const TriangleVectors& at) const {
     const TriangleTag d;
     const auto along = [&](const std::array<float, 3>& row) {
       return dot(at, {hn::Set(d, row[0]), hn::Set(d, row[1]), hn::Set(d, row[2])});
     };
-    return {along(prism_.turned[0]), along(prism_.turned[1]), along(prism_.turned[2])};
+    return {along(prism_.rotated[0]), along(prism_.rotated[1]), along(prism_.rotated[2])};
   }
 
   HWY_INLINE void add(const TriangleVectors& a, const TriangleVectors& b, const TriangleVectors& c,
@@ -56,10 +56,10 @@ class PrismLanes {
     const TriangleVectors lower{least(a.x, b.x, c.x), least(a.y, b.y, c.y), least(a.z, b.z, c.z)};
     const TriangleVectors upper{greatest(a.x, b.x, c.x), greatest(a.y, b.y, c.y),
                                 greatest(a.z, b.z, c.z)};
-    const auto reaches = [&](TriangleFloats from, TriangleFloats to, float least_at,
+    const auto reaches = [&](TriangleFloats from, TriangleFloats to, float min_at,
                              float greatest_at) {
       return hn::And(hn::Le(from, hn::Set(d, greatest_at + error_)),
-                     hn::Ge(to, hn::Set(d, least_at - error_)));
+                     hn::Ge(to, hn::Set(d, min_at - error_)));
     };
     const auto across = hn::And(reaches(lower.x, upper.x, prism_.lower[0], prism_.upper[0]),
                                 reaches(lower.y, upper.y, prism_.lower[1], prism_.upper[1]));
@@ -123,7 +123,7 @@ namespace {
 /// origin: by the rounding of a vertex, two differences, the rows, three products and two sums.
 constexpr double kError = 0x1p-19;
 /// Of blocks so small that squares underflow, which is what their extents are found by.
-constexpr double kLeastError = 0x1p-60;
+constexpr double kMinError = 0x1p-60;
 
 }  // namespace
 
@@ -133,7 +133,7 @@ PrismTriangles look_at_triangles(const BlockView& block, const FloatPrism& prism
   const float seen_from_first[3] = {static_cast<float>(way.x()), static_cast<float>(way.y()),
                                     static_cast<float>(way.z())};
   const float error =
-      static_cast<float>(kError * (way.norm() + double{block.header().extent}) + kLeastError);
+      static_cast<float>(kError * (way.norm() + double{block.header().extent}) + kMinError);
   return HWY_DYNAMIC_DISPATCH(look_on_target)(block.header(), prism, seen_from_first, error);
 }
 

@@ -9,16 +9,16 @@ namespace planetree::octree {
 
 /// An upright box, in a frame of its own: the point x is at turned * (x - origin) there.
 struct FloatPrism {
-  std::array<std::array<float, 3>, 3> turned;  ///< orthonormal rows to rounding
-  std::array<float, 3> lower, upper;           ///< the last: its ends, the upper one in front
-  float clear = 0;                             ///< what is between the ends is so far from them
-  std::array<float, 2> middle;                 ///< where a line goes from end to end
+  std::array<std::array<float, 3>, 3> rotated;  ///< orthonormal rows to rounding
+  std::array<float, 3> lower, upper;            ///< the last: its ends, the upper one in front
+  float clear = 0;                              ///< what is between the ends is so far from them
+  std::array<float, 2> middle;                  ///< where a line goes from end to end
 };
 
 /// A bit for each triangle of a block.
 struct PrismTriangles {
   unsigned met = 0;     ///< all whose boxes, in the prism's frame, meet it; some others
-  unsigned rising = 0;  ///< certainly between the ends, of normals as Sheet asks for
+  unsigned rising = 0;  ///< certainly between the ends, of normals as HeightField asks for
   unsigned middle = 0;  ///< all that the line may go through; some others
 };
 

@@ -25,10 +25,10 @@ constexpr int kFewOctants = 2;
 /// Nor are those whose triangles have been listed so many times over, in octants
 /// of octants, since their number last halved: they are larger than the cell or
 /// coincide, and smaller cells would not tell them apart.
-constexpr double kMostCopies = 3;
+constexpr double kMaxCopies = 3;
 /// A special cell pays for its planes by so many triangles each.
 constexpr std::size_t kTrianglesPerPlane = 12;
-constexpr std::size_t kMostSpecialTriangles = 4096;
+constexpr std::size_t kMaxSpecialTriangles = 4096;
 
 /// A cell and what is known of it.
 struct GreyCell {
@@ -41,9 +41,9 @@ struct GreyCell {
 
 using Octants = std::array<GreyCell, 8>;
 
-class RegionMask {
+class SectorMask {
  public:
-  RegionMask(const ClippedGrid& grid, const Triangles& triangles, const ListBlocks& list)
+  SectorMask(const ClippedGrid& grid, const Triangles& triangles, const ListBlocks& list)
       : grid_(grid), list_(list) {
     triangles_.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
@@ -52,32 +52,32 @@ class RegionMask {
 
   // winding  at the cell's least corner.
   MaskTree run(const GridCell& cell, std::int64_t winding) const {
-    GreyCell region{cell, {}, winding, triangles_.size()};
-    region.triangles.resize(triangles_.size());
-    std::iota(region.triangles.begin(), region.triangles.end(), 0);
+    GreyCell sector{cell, {}, winding, triangles_.size()};
+    sector.triangles.resize(triangles_.size());
+    std::iota(sector.triangles.begin(), sector.triangles.end(), 0);
     MaskTree tree;
     tree.entries.resize(1);
-    grow(std::move(region), tree, 0);
+    grow(std::move(sector), tree, 0);
     return tree;
   }
 
  private:
   // Makes the entry at `place` of a cell; what is below goes to the end.
-  void grow(GreyCell grey, MaskTree& tree, std::size_t place) const {
+  void grow(GreyCell grey, MaskTree& tree, std::size_t index) const {
     tree.levels = std::max(tree.levels, grey.cell.level);
-    if (make_special(grey, tree, place)) return;
+    if (make_special(grey, tree, index)) return;
     const std::size_t count = grey.triangles.size();
     if (grey.cell.level == kLevels || (count <= kFewTriangles && !in_few_octants(grey)))
-      return make_corners(grey, tree, place);
+      return make_corners(grey, tree, index);
     Octants octants = divide(grey);
-    if (!worthwhile(grey, octants)) return make_corners(grey, tree, place);
+    if (!worthwhile(grey, octants)) return make_corners(grey, tree, index);
     grey.triangles = {};
-    add_node(octants, tree, place);
-    std::size_t child = tree.entries[place].first;
+    add_node(octants, tree, index);
+    std::size_t child = tree.entries[index].first;
     for (unsigned octant = 0; octant < 8; ++octant) {
       if (octants[octant].triangles.empty()) continue;
       grow(std::move(octants[octant]), tree, child);
-      tree.note_leaf(place, octant, child++);
+      tree.note_leaf(index, octant, child++);
     }
   }
 
@@ -101,7 +101,7 @@ class RegionMask {
       octant.halved = halved ? octant.triangles.size() : grey.halved;
       octant.copies = halved ? 1 : copies;
     }
-    return copies <= kMostCopies;
+    return copies <= kMaxCopies;
   }
 
   Octants divide(const GreyCell& grey) const {
@@ -140,8 +140,8 @@ class RegionMask {
     std::vector<std::uint8_t> touched(grey.triangles.size());
     OctantOverlap overlap(grid_.lower(grey.cell), middle, grid_.upper(grey.cell));
     const auto settle = [&] {
-      const OctantOverlap::Told told = overlap.take();
-      for (unsigned k = 0; k < told.count; ++k) touched[told.places[k]] = told.octants[k];
+      const OctantOverlap::Certain certain = overlap.take();
+      for (unsigned k = 0; k < certain.count; ++k) touched[certain.indices[k]] = certain.octants[k];
     };
     constexpr std::uint32_t kAhead = 16;
     for (std::uint32_t i = 0; i < touched.size(); ++i) {
@@ -157,14 +157,14 @@ class RegionMask {
     return touched;
   }
 
-  static void add_node(const Octants& octants, MaskTree& tree, std::size_t place) {
+  static void add_node(const Octants& octants, MaskTree& tree, std::size_t index) {
     std::array<bool, 8> grey;
     std::array<std::int64_t, 8> winding;
     for (unsigned octant = 0; octant < 8; ++octant) {
       grey[octant] = !octants[octant].triangles.empty();
       winding[octant] = octants[octant].winding;
     }
-    tree.divide(place, grey, winding);
+    tree.divide(index, grey, winding);
   }
 
   std::array<Point, 8> corners_of(const GridCell& cell) const {
@@ -177,9 +177,9 @@ class RegionMask {
     return EdgeCount(corners, grey.winding, triangles_, grey.triangles);
   }
 
-  bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+  bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
     const std::size_t count = grey.triangles.size();
-    if (count < kTrianglesPerPlane || count > kMostSpecialTriangles) return false;
+    if (count < kTrianglesPerPlane || count > kMaxSpecialTriangles) return false;
     // A few of them, far apart, usually tell.
     constexpr std::size_t kSamples = 8;
     std::vector<Triangle> triangles;
@@ -193,14 +193,14 @@ class RegionMask {
     const std::array<Point, 8> corners = corners_of(grey.cell);
     const auto special = special_cell(triangles, corners, edge_count(corners, grey).all());
     if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
-    tree.entries[place].kind = MaskEntry::Kind::kSpecial;
-    tree.entries[place].first = static_cast<std::uint32_t>(tree.specials.size());
+    tree.entries[index].kind = MaskEntry::Kind::kSpecial;
+    tree.entries[index].first = static_cast<std::uint32_t>(tree.specials.size());
     tree.specials.push_back(*special);
     return true;
   }
 
-  void make_corners(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
-    MaskEntry& entry = tree.entries[place];
+  void make_corners(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
+    MaskEntry& entry = tree.entries[index];
     entry.kind = MaskEntry::Kind::kCorners;
     entry.corners.fill(kUncounted);
     const std::array<Point, 8> corners = corners_of(grey.cell);
@@ -217,13 +217,13 @@ class RegionMask {
     if (!agree) return;
     for (unsigned which = 0; which < 8; ++which)
       entry.corners[which] = static_cast<std::int8_t>(winding[which]);
-    list_blocks(grey, tree, place);
+    list_blocks(grey, tree, index);
   }
 
   // Where one bit a corner says the rest.
-  void list_blocks(const GreyCell& grey, MaskTree& tree, std::size_t place) const {
+  void list_blocks(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
     const GridCell& cell = grey.cell;
-    MaskEntry& entry = tree.entries[place];
+    MaskEntry& entry = tree.entries[index];
     const auto [least, greatest] = std::minmax_element(entry.corners.begin(), entry.corners.end());
     if (cell.level == kLevels || *greatest - *least > 1) return;
     MaskBlocks blocks;
@@ -243,9 +243,9 @@ class RegionMask {
 
 }  // namespace
 
-MaskTree mask_of_region(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
+MaskTree mask_of_sector(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
                         const Triangles& triangles, const ListBlocks& list) {
-  return RegionMask(grid, triangles, list).run(cell, winding);
+  return SectorMask(grid, triangles, list).run(cell, winding);
 }
 
 }  // namespace planetree::octree

@@ -22,7 +22,7 @@ using ListBlocks = std::function<bool(const GridCell& cell, MaskBlocks& blocks)>
 /// triangles  all that may touch the cell, at least one; only the order of planes in a special
 ///            cell depends on theirs.
 /// memory     about 150 bytes a triangle while it works.
-MaskTree mask_of_region(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
+MaskTree mask_of_sector(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
                         const Triangles& triangles, const ListBlocks& list);
 
 }  // namespace planetree::octree

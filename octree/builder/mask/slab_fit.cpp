@@ -40,7 +40,7 @@ CellSlab fit_slab(const GridCell& cell, const Point& lower,
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (const std::uint32_t position : positions)
     for (const Point& corner : triangles[position].corners) {
-      const double height = slab.height(CellSlab::place_in(corner, lower, cell.level));
+      const double height = slab.height(CellSlab::position_in(corner, lower, cell.level));
       least = std::min(least, height);
       greatest = std::max(greatest, height);
     }

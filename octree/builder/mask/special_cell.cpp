@@ -101,8 +101,8 @@ bool settle(SpecialCell& cell, const std::array<Point, 8>& corners,
   if (!behind || !beyond || *behind == *beyond ||
       std::find(passed.begin(), first_unused, false) != first_unused)
     return false;
-  constexpr std::int64_t kMost = std::numeric_limits<std::int8_t>::max();
-  if (std::max({*behind, *beyond, -*behind, -*beyond}) > kMost) return false;
+  constexpr std::int64_t kMax = std::numeric_limits<std::int8_t>::max();
+  if (std::max({*behind, *beyond, -*behind, -*beyond}) > kMax) return false;
   cell.behind = static_cast<int>(*behind);
   cell.beyond = static_cast<int>(*beyond);
   return true;

@@ -12,19 +12,19 @@ namespace planetree::octree {
 TreeFrames::TreeFrames(const BuiltTree& tree, const BuiltMask* mask)
     : tree_(tree),
       mask_(mask),
-      page_lines_(tree.facts_of_page(0).page_bytes / kSlotBytes),
-      most_(std::min<std::size_t>(tree.pages().size() + (mask ? mask->size() : 0),
-                                  kBytes / kSlotBytes / page_lines_)) {
-  lines_.reserve(most_ * page_lines_);
-  frames_.reserve(most_);
+      page_lines_(tree.info_of_page(0).page_bytes / kSlotBytes),
+      max_(std::min<std::size_t>(tree.pages().size() + (mask ? mask->size() : 0),
+                                 kBytes / kSlotBytes / page_lines_)) {
+  lines_.reserve(max_ * page_lines_);
+  frames_.reserve(max_);
 }
 
 const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
   auto& self = *static_cast<TreeFrames*>(frames);
-  const auto place = self.places_.find(number);
-  if (place != self.places_.end()) {
-    self.frames_[place->second].asked = ++self.asks_;
-    return self.bytes_of(place->second).data();
+  const auto found = self.indices_.find(number);
+  if (found != self.indices_.end()) {
+    self.frames_[found->second].last_use = ++self.uses_;
+    return self.bytes_of(found->second).data();
   }
   try {
     return self.bring(number);
@@ -38,8 +38,8 @@ const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
 
 const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
   auto& self = *static_cast<TreeFrames*>(frames);
-  const auto place = self.places_.find(number);
-  return place == self.places_.end() ? nullptr : self.bytes_of(place->second).data();
+  const auto found = self.indices_.find(number);
+  return found == self.indices_.end() ? nullptr : self.bytes_of(found->second).data();
 }
 
 Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame) const {
@@ -48,14 +48,14 @@ Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame
   const auto raw =
       of_tree ? tree_.pages().encode(number) : mask_->encode(number - tree_pages, tree_pages);
   if (!raw) return raw.error();
-  if (of_tree) return decode_page(raw->bytes, tree_.facts_of_page(number), frame);
-  PageFacts facts = tree_.facts_of_page(0);
-  facts.first_page = tree_pages;
-  facts.page_count = mask_->size();
-  facts.page_number = number;
-  facts.octcode = raw->octcode;
-  facts.ordinal = raw->ordinal;
-  return decode_mask_page(raw->bytes, facts, frame);
+  if (of_tree) return decode_page(raw->bytes, tree_.info_of_page(number), frame);
+  PageInfo info = tree_.info_of_page(0);
+  info.first_page = tree_pages;
+  info.page_count = mask_->size();
+  info.page_number = number;
+  info.octcode = raw->octcode;
+  info.ordinal = raw->ordinal;
+  return decode_mask_page(raw->bytes, info, frame);
 }
 
 const std::byte* TreeFrames::bring(std::uint32_t number) {
@@ -67,22 +67,22 @@ const std::byte* TreeFrames::bring(std::uint32_t number) {
     frames_[frame] = {};
     return nullptr;
   }
-  places_.emplace(number, frame);
-  frames_[frame] = {number, ++asks_};
+  indices_.emplace(number, frame);
+  frames_[frame] = {number, ++uses_};
   return bytes.data();
 }
 
 // The one that was not asked for the longest.
 std::size_t TreeFrames::free_one() {
-  if (frames_.size() < most_) {
+  if (frames_.size() < max_) {
     lines_.resize(lines_.size() + page_lines_);
     frames_.emplace_back();
     return frames_.size() - 1;
   }
   const auto oldest =
       std::min_element(frames_.begin(), frames_.end(),
-                       [](const Frame& a, const Frame& b) { return a.asked < b.asked; });
-  places_.erase(oldest->page);
+                       [](const Frame& a, const Frame& b) { return a.last_use < b.last_use; });
+  indices_.erase(oldest->page);
   return static_cast<std::size_t>(oldest - frames_.begin());
 }
 

@@ -35,7 +35,7 @@ class TreeFrames {
   static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
   struct Frame {
     std::uint32_t page = kNoPage;
-    std::uint64_t asked = 0;  // when last
+    std::uint64_t last_use = 0;  // when last
   };
   struct Line {
     alignas(kSlotBytes) std::byte bytes[kSlotBytes];
@@ -51,11 +51,11 @@ class TreeFrames {
   const BuiltTree& tree_;
   const BuiltMask* const mask_;
   const std::size_t page_lines_;
-  const std::size_t most_;
+  const std::size_t max_;
   std::vector<Line> lines_;
   std::vector<Frame> frames_;
-  std::unordered_map<std::uint32_t, std::size_t> places_;  // of pages among the frames
-  std::uint64_t asks_ = 0;
+  std::unordered_map<std::uint32_t, std::size_t> indices_;  // of pages among the frames
+  std::uint64_t uses_ = 0;
   Result<void> state_;
 };
 

@@ -17,16 +17,16 @@ namespace planetree::octree {
 /// parse   (text) -> Result<PlyHeader>.
 /// errors  those of reading and, of so much as a header may have, those of `parse`.
 template <class Parse>
-Result<PlyHeader> parse_front(const MeshFile& file, const Parse& parse) {
+Result<PlyHeader> parse_prefix(const MeshFile& file, const Parse& parse) {
   constexpr std::uint64_t kFirstBytes = std::uint64_t{1} << 16;
-  constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 20;
+  constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 20;
   for (std::uint64_t bytes = kFirstBytes;; bytes *= 4) {
-    const Result<std::string> front = file.front(bytes);
-    if (!front) return front.error();
-    Result<PlyHeader> header = parse(std::string_view(*front));
+    const Result<std::string> prefix = file.prefix(bytes);
+    if (!prefix) return prefix.error();
+    Result<PlyHeader> header = parse(std::string_view(*prefix));
     // What ends with the text may go on behind it.
-    const bool is_whole = front->size() == file.size_bytes();
-    if (is_whole || bytes >= kMostBytes || (header && header->body.offset < front->size()))
+    const bool is_whole = prefix->size() == file.size_bytes();
+    if (is_whole || bytes >= kMaxBytes || (header && header->body.offset < prefix->size()))
       return header;
   }
 }

@@ -24,12 +24,12 @@ std::string lower_extension(const std::filesystem::path& path) {
 }  // namespace
 
 Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path) {
-  const auto front = file.front(kProbeBytes);
-  if (!front) return front.error();
-  if (is_ply(*front)) return MeshFormat::kPly;
-  if (has_binary_stl_size(*front, file.size_bytes())) return MeshFormat::kStlBinary;
-  if (is_ascii_stl(*front)) return MeshFormat::kStlAscii;
-  if (is_off(*front)) return MeshFormat::kOff;
+  const auto prefix = file.prefix(kProbeBytes);
+  if (!prefix) return prefix.error();
+  if (is_ply(*prefix)) return MeshFormat::kPly;
+  if (has_binary_stl_size(*prefix, file.size_bytes())) return MeshFormat::kStlBinary;
+  if (is_ascii_stl(*prefix)) return MeshFormat::kStlAscii;
+  if (is_off(*prefix)) return MeshFormat::kOff;
   const std::string extension = lower_extension(path);
   if (extension == ".obj") return MeshFormat::kObj;
   // One without a keyword, as old ones are.

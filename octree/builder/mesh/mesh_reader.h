@@ -27,7 +27,7 @@ namespace planetree::octree {
 ///          What a mesh takes of both depends neither on the order of its faces nor, of memory,
 ///          on its size: vertices stay in the file, or are put away where the file is a text,
 ///          and are read again where faces name them. Faces that jump about take room on disk
-///          for their corners, while it is read (MeshJoin). Only a text's longest face is in
+///          for their corners, while it is read (FaceVertexJoin). Only a text's longest face is in
 ///          memory whole.
 /// errors   kNotFound, kPermission, kReadFailed, kNoMemory, kBadInput (structural damage, an
 ///          unsupported layout, a line of more than 32 MiB, or no usable triangle; offset is

@@ -20,7 +20,7 @@ namespace {
 
 // What the body of a PLY has beside the items of its lists, or of an ascii one at least;
 // nothing if no file could have it.
-std::uint64_t least_body_bytes(const PlyHeader& header) {
+std::uint64_t min_body_bytes(const PlyHeader& header) {
   std::uint64_t sum = 0;
   for (const PlyElement& element : header.elements) {
     const bool is_ascii = header.encoding == PlyEncoding::kAscii;
@@ -39,7 +39,7 @@ Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& 
   if (!header) return MeshSize{};
   const std::uint64_t faces = header->faces().count, vertices = header->vertices().count;
   const std::uint64_t body = file.size_bytes() - header->body.offset,
-                      least = least_body_bytes(*header);
+                      least = min_body_bytes(*header);
   if (least > body) return MeshSize{};
   MeshSize size{faces, vertices, !header->float32()};
   size.is_indexed_text = header->encoding == PlyEncoding::kAscii;
@@ -182,9 +182,9 @@ Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path, storage::F
   if (!format) return format.error();
   switch (*format) {
     case MeshFormat::kPly:
-      return size_of_records(*file, parse_front(*file, parse_ply_header));
+      return size_of_records(*file, parse_prefix(*file, parse_ply_header));
     case MeshFormat::kOff:
-      return size_of_records(*file, parse_front(*file, parse_off_header));
+      return size_of_records(*file, parse_prefix(*file, parse_off_header));
     case MeshFormat::kStlBinary:
       return size_by(size_of_binary_stl, Sample::of(*file, kStlHeadBytes));
     case MeshFormat::kStlAscii:

@@ -21,12 +21,12 @@ namespace {
 /// a backslash. A comment is never joined: a Windows path may end it.
 class ObjStatements {
  public:
-  ObjStatements(const MeshFile& file, TextPlace begin, std::size_t window_bytes)
+  ObjStatements(const MeshFile& file, TextPosition begin, std::size_t window_bytes)
       : lines_(file, begin, LineComment::kNone, window_bytes) {}
 
   bool next() {
     if (!lines_.next()) return false;
-    place_ = lines_.place();
+    position_ = lines_.position();
     text_ = lines_.line();
     if (!without_backslash(text_)) return true;
     joined_.assign(text_);
@@ -42,7 +42,7 @@ class ObjStatements {
   }
 
   [[nodiscard]] std::string_view text() const { return text_; }
-  [[nodiscard]] TextPlace place() const { return place_; }
+  [[nodiscard]] TextPosition position() const { return position_; }
   /// Why there is no next one, if not for the end.
   [[nodiscard]] const std::optional<Error>& failure() const { return lines_.failure(); }
   [[nodiscard]] std::uint64_t end_offset() const { return lines_.after().offset; }
@@ -58,7 +58,7 @@ class ObjStatements {
   }
 
   MeshLines lines_;
-  TextPlace place_;
+  TextPosition position_;
   std::string_view text_;
   std::string joined_;
 };
@@ -91,44 +91,44 @@ class Obj {
   Obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch)
       : file_(file),
         scratch_(scratch),
-        delivery_(sink, RecordKind::kLine, 2 * file.size_bytes()),
+        emitter_(sink, RecordKind::kLine, 2 * file.size_bytes()),
         vertices_(file, false, scratch) {}
 
   Result<MeshSummary> read() {
-    const Result<TextPlace> begin = text_begin(file_);
+    const Result<TextPosition> begin = text_begin(file_);
     if (!begin) return begin.error();
     if (Result<void> read = read_vertices(*begin); !read) return read.error();
-    MeshJoin join(vertices_, 1, scratch_, true, delivery_);
+    FaceVertexJoin join(vertices_, 1, scratch_, true, emitter_);
     const auto read = join.deliver(
         {*begin, 0, 0}, file_.size_bytes(),
-        [this](const FacePlace& from, const auto& take) { return each_face(from, take); });
+        [this](const FacePosition& from, const auto& take) { return each_face(from, take); });
     if (!read) return read.error();
-    return delivery_.finish(false);
+    return emitter_.finish(false);
   }
 
  private:
-  [[nodiscard]] ObjStatements statements_from(TextPlace begin) const {
+  [[nodiscard]] ObjStatements statements_from(TextPosition begin) const {
     return {file_, begin, static_cast<std::size_t>(scratch_.window_bytes())};
   }
 
-  Result<void> read_vertices(TextPlace begin) {
+  Result<void> read_vertices(TextPosition begin) {
     ObjStatements statements = statements_from(begin);
     while (statements.next()) {
       std::string_view rest = statements.text();
       if (take_word(rest) == "v") {
         if (Result<void> taken = take_vertex(statements, rest); !taken) return taken;
       }
-      delivery_.advance(statements.end_offset());
+      emitter_.advance(statements.end_offset());
     }
     if (statements.failure()) return *statements.failure();
-    delivery_.set_vertex_count(vertices_.count());
+    emitter_.set_vertex_count(vertices_.count());
     return vertices_.finish();
   }
 
-  /// As MeshJoin::deliver() wants it.
+  /// As FaceVertexJoin::deliver() wants it.
   template <class Take>
-  Result<FacePlace> each_face(const FacePlace& from, const Take& take) {
-    ObjStatements statements = statements_from(from.place);
+  Result<FacePosition> each_face(const FacePosition& from, const Take& take) {
+    ObjStatements statements = statements_from(from.position);
     std::int64_t vertices_before = from.vertices_before;
     while (statements.next()) {
       std::string_view rest = statements.text();
@@ -137,14 +137,14 @@ class Obj {
       if (keyword == "f") {
         if (Result<void> read = read_face(statements, rest); !read) return read.error();
         const Result<bool> taken =
-            take(ObjFace(statements.place().line, numbers_, vertices_before));
+            take(ObjFace(statements.position().line, numbers_, vertices_before));
         if (!taken) return taken.error();
-        if (!*taken) return FacePlace{statements.place(), 0, vertices_before};
+        if (!*taken) return FacePosition{statements.position(), 0, vertices_before};
       }
-      delivery_.advance(file_.size_bytes() + statements.end_offset());
+      emitter_.advance(file_.size_bytes() + statements.end_offset());
     }
     if (statements.failure()) return *statements.failure();
-    return FacePlace{{statements.end_offset(), 0}, 0, vertices_before};
+    return FacePosition{{statements.end_offset(), 0}, 0, vertices_before};
   }
 
   /// Colours or a weight may follow the three coordinates; they are not read.
@@ -176,14 +176,14 @@ class Obj {
   }
 
   [[nodiscard]] static Error error(const ObjStatements& statements, const std::string& cause) {
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, statements.place().offset,
-                      "line %" PRIu64 ": %s; copy or export the OBJ again", statements.place().line,
-                      cause.c_str());
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, statements.position().offset,
+                      "line %" PRIu64 ": %s; copy or export the OBJ again",
+                      statements.position().line, cause.c_str());
   }
 
   const MeshFile& file_;
   MeshScratch& scratch_;
-  MeshDelivery delivery_;
+  FanEmitter emitter_;
   TextVertices vertices_;
   std::vector<std::int64_t> numbers_;  ///< of vertices of the f being read, as written
 };

@@ -125,17 +125,17 @@ class OffHeader {
     constexpr std::uint64_t kCountBytes = 4;
     constexpr bool kSwap = std::endian::native != std::endian::big;
     PlyHeader header = records_of(PlyEncoding::kBinaryBigEndian, more_numbers);
-    TextPlace place = lines_.after();
-    if (file_.size() - place.offset < 3 * kCountBytes) return cut_off();
+    TextPosition position = lines_.after();
+    if (file_.size() - position.offset < 3 * kCountBytes) return cut_off();
     for (PlyElement& element : header.elements) {
-      const auto* const at = reinterpret_cast<const std::byte*>(file_.data()) + place.offset;
+      const auto* const at = reinterpret_cast<const std::byte*>(file_.data()) + position.offset;
       const auto count = load<std::int32_t>(at, kSwap);
-      if (count < 0) return error_at(place, "a count of " + std::to_string(count));
+      if (count < 0) return error_at(position, "a count of " + std::to_string(count));
       element.count = static_cast<std::uint64_t>(count);
-      place.offset += kCountBytes;
+      position.offset += kCountBytes;
     }
-    place.offset += kCountBytes;  // the edges
-    header.body = place;
+    position.offset += kCountBytes;  // the edges
+    header.body = position;
     return header;
   }
 
@@ -148,12 +148,12 @@ class OffHeader {
   }
 
   [[nodiscard]] Error error(const std::string& cause) const {
-    return error_at(lines_.place(), cause);
+    return error_at(lines_.position(), cause);
   }
 
-  [[nodiscard]] static Error error_at(const TextPlace& place, const std::string& cause) {
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, place.offset,
-                      "line %" PRIu64 ": %s; copy or export the OFF again", place.line,
+  [[nodiscard]] static Error error_at(const TextPosition& position, const std::string& cause) {
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, position.offset,
+                      "line %" PRIu64 ": %s; copy or export the OFF again", position.line,
                       cause.c_str());
   }
 
@@ -174,7 +174,7 @@ bool is_off(std::string_view file) noexcept {
 Result<PlyHeader> parse_off_header(std::string_view file) { return OffHeader(file).parse(); }
 
 Result<MeshSummary> read_off(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
-  const Result<PlyHeader> header = parse_front(file, parse_off_header);
+  const Result<PlyHeader> header = parse_prefix(file, parse_off_header);
   if (!header) return header.error();
   return read_ply_body(file, *header, sink, scratch);
 }

@@ -9,16 +9,16 @@ namespace planetree::octree {
 
 namespace {
 
-Error line_error(const TextPlace& place, const std::string& cause) {
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, place.offset,
-                    "line %" PRIu64 ": %s; copy or export the mesh again", place.line,
+Error line_error(const TextPosition& position, const std::string& cause) {
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, position.offset,
+                    "line %" PRIu64 ": %s; copy or export the mesh again", position.line,
                     cause.c_str());
 }
 
 /// The line's words, taken as the header declares them.
 class Row {
  public:
-  explicit Row(const MeshLines& lines) : rest_(lines.line()), place_(lines.place()) {}
+  explicit Row(const MeshLines& lines) : rest_(lines.line()), position_(lines.position()) {}
 
   Result<std::string_view> word(const PlyProperty& property) {
     const std::string_view word = take_word(rest_);
@@ -89,10 +89,10 @@ class Row {
   }
 
  private:
-  [[nodiscard]] Error error(const std::string& cause) const { return line_error(place_, cause); }
+  [[nodiscard]] Error error(const std::string& cause) const { return line_error(position_, cause); }
 
   std::string_view rest_;
-  TextPlace place_;
+  TextPosition position_;
 };
 
 }  // namespace
@@ -117,11 +117,11 @@ class PlyAscii::Face {
   const std::vector<std::int64_t>& indices_;
 };
 
-PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
                    MeshScratch& scratch)
     : file_(file),
       header_(header),
-      delivery_(delivery),
+      emitter_(emitter),
       scratch_(scratch),
       axes_(header.vertices().properties.size(), -1),
       vertices_(file, header.float32(), scratch) {
@@ -130,15 +130,15 @@ PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, MeshDelivery& 
   }
 }
 
-MeshLines PlyAscii::lines_from(TextPlace begin) const {
+MeshLines PlyAscii::lines_from(TextPosition begin) const {
   return {file_, begin, header_.has_loose_lines ? LineComment::kHash : LineComment::kNone,
           static_cast<std::size_t>(scratch_.window_bytes())};
 }
 
 template <class TakeLine>
-Result<FacePlace> PlyAscii::each_line(const PlyElement& element, const FacePlace& from,
-                                      const TakeLine& take_line) {
-  MeshLines lines = lines_from(from.place);
+Result<FacePosition> PlyAscii::each_line(const PlyElement& element, const FacePosition& from,
+                                         const TakeLine& take_line) {
+  MeshLines lines = lines_from(from.position);
   // A record without properties is an empty line, and those are passed over.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
   for (std::uint64_t record = from.record; record < count; ++record) {
@@ -150,20 +150,20 @@ Result<FacePlace> PlyAscii::each_line(const PlyElement& element, const FacePlace
     }
     const Result<bool> taken = take_line(record, lines);
     if (!taken) return taken.error();
-    if (!*taken) return FacePlace{lines.place(), record, 0};
-    delivery_.advance(lines.after().offset);
+    if (!*taken) return FacePosition{lines.position(), record, 0};
+    emitter_.advance(lines.after().offset);
   }
-  return FacePlace{lines.after(), count, 0};
+  return FacePosition{lines.after(), count, 0};
 }
 
-Result<TextPlace> PlyAscii::skip(const PlyElement& element, TextPlace begin) {
+Result<TextPosition> PlyAscii::skip(const PlyElement& element, TextPosition begin) {
   const auto end = each_line(element, {begin, 0, 0},
                              [](std::uint64_t, const MeshLines&) -> Result<bool> { return true; });
   if (!end) return end.error();
-  return end->place;
+  return end->position;
 }
 
-Result<TextPlace> PlyAscii::vertices(TextPlace begin) {
+Result<TextPosition> PlyAscii::vertices(TextPosition begin) {
   const auto end = each_line(header_.vertices(), {begin, 0, 0},
                              [this](std::uint64_t, const MeshLines& lines) -> Result<bool> {
                                if (const auto taken = take_vertex(lines); !taken)
@@ -172,13 +172,13 @@ Result<TextPlace> PlyAscii::vertices(TextPlace begin) {
                              });
   if (!end) return end.error();
   if (const auto finished = vertices_.finish(); !finished) return finished.error();
-  delivery_.set_vertex_count(vertices_.count());
-  return end->place;
+  emitter_.set_vertex_count(vertices_.count());
+  return end->position;
 }
 
-Result<TextPlace> PlyAscii::faces(TextPlace begin) {
-  MeshJoin join(vertices_, 0, scratch_, true, delivery_);
-  const auto each_face = [this](const FacePlace& from, const auto& take) {
+Result<TextPosition> PlyAscii::faces(TextPosition begin) {
+  FaceVertexJoin join(vertices_, 0, scratch_, true, emitter_);
+  const auto each_face = [this](const FacePosition& from, const auto& take) {
     return each_line(header_.faces(), from,
                      [&](std::uint64_t record, const MeshLines& lines) -> Result<bool> {
                        if (const auto taken = take_face(lines); !taken) return taken.error();
@@ -187,14 +187,14 @@ Result<TextPlace> PlyAscii::faces(TextPlace begin) {
   };
   const auto end = join.deliver({begin, 0, 0}, file_.size_bytes(), each_face);
   if (!end) return end.error();
-  return end->place;
+  return end->position;
 }
 
-Result<void> PlyAscii::expect_end(TextPlace end) {
+Result<void> PlyAscii::expect_end(TextPosition end) {
   MeshLines lines = lines_from(end);
   if (!lines.next_filled())
     return lines.failure() ? Result<void>(*lines.failure()) : Result<void>();
-  return line_error(lines.place(),
+  return line_error(lines.position(),
                     "text follows the last record, so a count in the header is too small");
 }
 

@@ -20,31 +20,31 @@ namespace planetree::octree {
 class PlyAscii final : public PlyBody {
  public:
   /// All must outlive this.
-  PlyAscii(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+  PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
            MeshScratch& scratch);
 
-  Result<TextPlace> skip(const PlyElement& element, TextPlace begin) override;
-  Result<TextPlace> vertices(TextPlace begin) override;
-  Result<TextPlace> faces(TextPlace begin) override;
-  Result<void> expect_end(TextPlace end) override;
+  Result<TextPosition> skip(const PlyElement& element, TextPosition begin) override;
+  Result<TextPosition> vertices(TextPosition begin) override;
+  Result<TextPosition> faces(TextPosition begin) override;
+  Result<void> expect_end(TextPosition end) override;
 
  private:
   class Face;
 
-  [[nodiscard]] MeshLines lines_from(TextPlace begin) const;
+  [[nodiscard]] MeshLines lines_from(TextPosition begin) const;
   /// Calls take_line(record, lines), which returns Result<bool>, on the line of each record
   /// from `from` on; stops where that is false, and returns the place of that line, or else
   /// what is behind the last.
   template <class TakeLine>
-  Result<FacePlace> each_line(const PlyElement& element, const FacePlace& from,
-                              const TakeLine& take_line);
+  Result<FacePosition> each_line(const PlyElement& element, const FacePosition& from,
+                                 const TakeLine& take_line);
   Result<void> take_vertex(const MeshLines& lines);
   /// Reads a face's line into indices_.
   Result<void> take_face(const MeshLines& lines);
 
   const MeshFile& file_;
   const PlyHeader& header_;
-  MeshDelivery& delivery_;
+  FanEmitter& emitter_;
   MeshScratch& scratch_;
   std::vector<int> axes_;  ///< per property of a vertex: 0, 1, 2 for x, y, z, or -1
   TextVertices vertices_;

@@ -47,25 +47,25 @@ class PlyBinary::Face {
   MeshWindow& window_;
 };
 
-PlyBinary::PlyBinary(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+PlyBinary::PlyBinary(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
                      MeshScratch& scratch)
     : file_(file),
       header_(header),
-      delivery_(delivery),
+      emitter_(emitter),
       scratch_(scratch),
       swap_(needs_swap(header.encoding)),
       vertices_(file, header, swap_),
       window_(file, static_cast<std::size_t>(scratch.window_bytes())) {}
 
-Result<void> PlyBinary::check_room(const PlyElement& element, std::uint64_t begin) const {
+Result<void> PlyBinary::check_space(const PlyElement& element, std::uint64_t begin) const {
   const std::uint64_t record_bytes = element.min_record_bytes();
-  const std::uint64_t room = file_.size_bytes() - begin;
-  if (record_bytes == 0 || element.count <= room / record_bytes) return {};
+  const std::uint64_t space = file_.size_bytes() - begin;
+  if (record_bytes == 0 || element.count <= space / record_bytes) return {};
   return make_error(ErrorCode::kBadInput, Error::kNowhere, begin,
                     "byte %" PRIu64 ": %" PRIu64 " records '%s' of %" PRIu64
                     " bytes or more do not fit in the %" PRIu64
                     " left: truncated or miscounted; copy or export it again",
-                    begin, element.count, printable(element.name).c_str(), record_bytes, room);
+                    begin, element.count, printable(element.name).c_str(), record_bytes, space);
 }
 
 Error PlyBinary::bad_record(const PlyElement& element, std::uint64_t record,
@@ -77,43 +77,43 @@ Error PlyBinary::bad_record(const PlyElement& element, std::uint64_t record,
                     offset, record, element.count, printable(element.name).c_str());
 }
 
-Result<TextPlace> PlyBinary::skip(const PlyElement& element, TextPlace begin) {
-  if (Result<void> room = check_room(element, begin.offset); !room) return room.error();
+Result<TextPosition> PlyBinary::skip(const PlyElement& element, TextPosition begin) {
+  if (Result<void> space = check_space(element, begin.offset); !space) return space.error();
   std::uint64_t position = begin.offset;
   if (!element.has_list()) {
-    return TextPlace{position + element.count * element.min_record_bytes(), 0};
+    return TextPosition{position + element.count * element.min_record_bytes(), 0};
   }
   ListSpan list;
   for (std::uint64_t record = 0; record < element.count; ++record) {
     const auto walked = walk_record(element, record, kNoProperty, position, list);
     if (!walked) return walked.error();
   }
-  return TextPlace{position, 0};
+  return TextPosition{position, 0};
 }
 
-Result<TextPlace> PlyBinary::vertices(TextPlace begin) {
+Result<TextPosition> PlyBinary::vertices(TextPosition begin) {
   const PlyElement& element = header_.vertices();
-  if (Result<void> room = check_room(element, begin.offset); !room) return room.error();
+  if (Result<void> space = check_space(element, begin.offset); !space) return space.error();
   vertices_.set(begin.offset, element.count);
-  delivery_.set_vertex_count(element.count);
-  return TextPlace{begin.offset + element.count * vertices_.record_bytes(), 0};
+  emitter_.set_vertex_count(element.count);
+  return TextPosition{begin.offset + element.count * vertices_.record_bytes(), 0};
 }
 
-Result<TextPlace> PlyBinary::faces(TextPlace begin) {
-  if (Result<void> room = check_room(header_.faces(), begin.offset); !room) return room.error();
-  MeshJoin join(vertices_, 0, scratch_, false, delivery_);
+Result<TextPosition> PlyBinary::faces(TextPosition begin) {
+  if (Result<void> space = check_space(header_.faces(), begin.offset); !space) return space.error();
+  FaceVertexJoin join(vertices_, 0, scratch_, false, emitter_);
   const auto end = join.deliver(
       {begin, 0, 0}, file_.size_bytes(),
-      [this](const FacePlace& from, const auto& take) { return each_face(from, take); });
+      [this](const FacePosition& from, const auto& take) { return each_face(from, take); });
   if (!end) return end.error();
-  return end->place;
+  return end->position;
 }
 
 template <class Take>
-Result<FacePlace> PlyBinary::each_face(const FacePlace& from, const Take& take) {
+Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& take) {
   const PlyElement& element = header_.faces();
   const PlyType index_type = element.properties[header_.index_list].type;
-  std::uint64_t position = from.place.offset;
+  std::uint64_t position = from.position.offset;
   ListSpan list;
   for (std::uint64_t face = from.record; face < element.count; ++face) {
     const std::uint64_t face_begin = position;
@@ -121,13 +121,13 @@ Result<FacePlace> PlyBinary::each_face(const FacePlace& from, const Take& take) 
     if (!walked) return walked.error();
     const Result<bool> taken = take(Face(face, list, index_type, swap_, window_));
     if (!taken) return taken.error();
-    if (!*taken) return FacePlace{{face_begin, 0}, face, 0};
-    delivery_.advance(position);
+    if (!*taken) return FacePosition{{face_begin, 0}, face, 0};
+    emitter_.advance(position);
   }
-  return FacePlace{{position, 0}, element.count, 0};
+  return FacePosition{{position, 0}, element.count, 0};
 }
 
-Result<void> PlyBinary::expect_end(TextPlace end) {
+Result<void> PlyBinary::expect_end(TextPosition end) {
   // A writer's last newline is no record.
   for (std::uint64_t at = end.offset; at < file_.size_bytes(); ++at) {
     const std::byte* const byte = window_.at(at, 1);

@@ -18,13 +18,13 @@ namespace planetree::octree {
 class PlyBinary final : public PlyBody {
  public:
   /// All must outlive this.
-  PlyBinary(const MeshFile& file, const PlyHeader& header, MeshDelivery& delivery,
+  PlyBinary(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
             MeshScratch& scratch);
 
-  Result<TextPlace> skip(const PlyElement& element, TextPlace begin) override;
-  Result<TextPlace> vertices(TextPlace begin) override;
-  Result<TextPlace> faces(TextPlace begin) override;
-  Result<void> expect_end(TextPlace end) override;
+  Result<TextPosition> skip(const PlyElement& element, TextPosition begin) override;
+  Result<TextPosition> vertices(TextPosition begin) override;
+  Result<TextPosition> faces(TextPosition begin) override;
+  Result<void> expect_end(TextPosition end) override;
 
  private:
   /// Items of one list in the file.
@@ -42,17 +42,17 @@ class PlyBinary final : public PlyBody {
   /// The same; false where it is bad, or with unread_ set where it cannot be read.
   bool walk_properties(const PlyElement& element, std::size_t list_property,
                        std::uint64_t& position, ListSpan& list);
-  /// As MeshJoin::deliver() wants it.
+  /// As FaceVertexJoin::deliver() wants it.
   template <class Take>
-  Result<FacePlace> each_face(const FacePlace& from, const Take& take);
+  Result<FacePosition> each_face(const FacePosition& from, const Take& take);
   /// Refuses a count of records that cannot fit behind `begin`.
-  [[nodiscard]] Result<void> check_room(const PlyElement& element, std::uint64_t begin) const;
+  [[nodiscard]] Result<void> check_space(const PlyElement& element, std::uint64_t begin) const;
   [[nodiscard]] Error bad_record(const PlyElement& element, std::uint64_t record,
                                  std::uint64_t offset) const;
 
   const MeshFile& file_;
   const PlyHeader& header_;
-  MeshDelivery& delivery_;
+  FanEmitter& emitter_;
   MeshScratch& scratch_;
   const bool swap_;
   PlyVertices vertices_;

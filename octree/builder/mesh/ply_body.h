@@ -13,13 +13,13 @@ class PlyBody {
   virtual ~PlyBody() = default;
 
   /// Passes over all records of `element`.
-  virtual Result<TextPlace> skip(const PlyElement& element, TextPlace begin) = 0;
+  virtual Result<TextPosition> skip(const PlyElement& element, TextPosition begin) = 0;
   /// Makes the vertices known; once, in front of faces().
-  virtual Result<TextPlace> vertices(TextPlace begin) = 0;
+  virtual Result<TextPosition> vertices(TextPosition begin) = 0;
   /// Delivers the faces.
-  virtual Result<TextPlace> faces(TextPlace begin) = 0;
+  virtual Result<TextPosition> faces(TextPosition begin) = 0;
   /// Refuses records that no element declares: a count in the header is wrong.
-  virtual Result<void> expect_end(TextPlace end) = 0;
+  virtual Result<void> expect_end(TextPosition end) = 0;
 };
 
 }  // namespace planetree::octree

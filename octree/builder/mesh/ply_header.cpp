@@ -23,9 +23,9 @@ std::optional<PlyType> type_named(std::string_view name) {
   return std::nullopt;
 }
 
-Error header_error(const TextPlace& place, const std::string& cause) {
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, place.offset,
-                    "line %" PRIu64 ": %s; export the mesh again", place.line, cause.c_str());
+Error header_error(const TextPosition& position, const std::string& cause) {
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, position.offset,
+                    "line %" PRIu64 ": %s; export the mesh again", position.line, cause.c_str());
 }
 
 /// Reads header lines one by one into a PlyHeader.
@@ -56,7 +56,7 @@ class HeaderParser {
   }
 
   [[nodiscard]] Error error(const std::string& cause) const {
-    return header_error(lines_.place(), cause);
+    return header_error(lines_.position(), cause);
   }
 
   Result<void> statement(std::string_view keyword, std::string_view rest) {

@@ -47,7 +47,7 @@ struct PlyHeader {
   std::size_t face_element = 0;                 ///< position in `elements`
   std::array<std::size_t, 3> coordinates = {};  ///< x, y, z: positions in the vertex's properties
   std::size_t index_list = 0;                   ///< position in the face's properties
-  TextPlace body;                               ///< where the first record begins
+  TextPosition body;                            ///< where the first record begins
 
   [[nodiscard]] const PlyElement& vertices() const { return elements[vertex_element]; }
   [[nodiscard]] const PlyElement& faces() const { return elements[face_element]; }

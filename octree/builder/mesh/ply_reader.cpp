@@ -16,20 +16,20 @@ namespace {
 /// passed over and read at the end.
 Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
   const bool faces_wait = header.face_element < header.vertex_element;
-  TextPlace faces_begin;
-  TextPlace place = header.body;
+  TextPosition faces_begin;
+  TextPosition position = header.body;
   for (std::size_t i = 0; i < header.elements.size(); ++i) {
-    if (i == header.face_element) faces_begin = place;
-    Result<TextPlace> end = i == header.vertex_element ? body.vertices(place)
-                            : i == header.face_element && !faces_wait
-                                ? body.faces(place)
-                                : body.skip(header.elements[i], place);
+    if (i == header.face_element) faces_begin = position;
+    Result<TextPosition> end = i == header.vertex_element ? body.vertices(position)
+                               : i == header.face_element && !faces_wait
+                                   ? body.faces(position)
+                                   : body.skip(header.elements[i], position);
     if (!end) return end.error();
-    place = *end;
+    position = *end;
   }
-  if (Result<void> ended = body.expect_end(place); !ended) return ended;
+  if (Result<void> ended = body.expect_end(position); !ended) return ended;
   if (!faces_wait) return {};
-  const Result<TextPlace> end = body.faces(faces_begin);
+  const Result<TextPosition> end = body.faces(faces_begin);
   if (!end) return end.error();
   return {};
 }
@@ -37,22 +37,22 @@ Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
 }  // namespace
 
 Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
-  const Result<PlyHeader> header = parse_front(file, parse_ply_header);
+  const Result<PlyHeader> header = parse_prefix(file, parse_ply_header);
   if (!header) return header.error();
   return read_ply_body(file, *header, sink, scratch);
 }
 
 Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header, TriangleSink& sink,
                                   MeshScratch& scratch) {
-  MeshDelivery delivery(sink, RecordKind::kFace, file.size_bytes());
+  FanEmitter emitter(sink, RecordKind::kFace, file.size_bytes());
   std::unique_ptr<PlyBody> body;
   if (header.encoding == PlyEncoding::kAscii) {
-    body = std::make_unique<PlyAscii>(file, header, delivery, scratch);
+    body = std::make_unique<PlyAscii>(file, header, emitter, scratch);
   } else {
-    body = std::make_unique<PlyBinary>(file, header, delivery, scratch);
+    body = std::make_unique<PlyBinary>(file, header, emitter, scratch);
   }
   if (Result<void> read = read_elements(header, *body); !read) return read.error();
-  return delivery.finish(header.float32());
+  return emitter.finish(header.float32());
 }
 
 }  // namespace planetree::octree

@@ -19,19 +19,19 @@ namespace {
 class StlAscii {
  public:
   StlAscii(const MeshFile& file, TriangleSink& sink)
-      : lines_(file, {}), delivery_(sink, RecordKind::kFacet, file.size_bytes()) {}
+      : lines_(file, {}), emitter_(sink, RecordKind::kFacet, file.size_bytes()) {}
 
   Result<MeshSummary> read() {
     while (lines_.next_filled()) {
       if (Result<void> taken = take_line(); !taken) return taken.error();
-      delivery_.advance(lines_.after().offset);
+      emitter_.advance(lines_.after().offset);
     }
     if (lines_.failure()) return *lines_.failure();
     if (depth_ != Depth::kFile) {
       return error_at(lines_.after(), "the file ends in front of 'endsolid': it is truncated");
     }
-    delivery_.set_vertex_count(vertex_count_);
-    return delivery_.finish(false);
+    emitter_.set_vertex_count(vertex_count_);
+    return emitter_.finish(false);
   }
 
  private:
@@ -93,23 +93,23 @@ class StlAscii {
 
   Result<void> end_facet() {
     depth_ = Depth::kSolid;
-    return delivery_.polygon(facet_count_++, corners_.size(), [this](std::uint64_t k) {
+    return emitter_.polygon(facet_count_++, corners_.size(), [this](std::uint64_t k) {
       return MeshCorner{corners_[k], static_cast<std::int64_t>(k), true};
     });
   }
 
   [[nodiscard]] Error error(const std::string& cause) const {
-    return error_at(lines_.place(), cause);
+    return error_at(lines_.position(), cause);
   }
 
-  [[nodiscard]] static Error error_at(const TextPlace& place, const std::string& cause) {
-    return make_error(ErrorCode::kBadInput, Error::kNowhere, place.offset,
-                      "line %" PRIu64 ": %s; copy or export the STL again", place.line,
+  [[nodiscard]] static Error error_at(const TextPosition& position, const std::string& cause) {
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, position.offset,
+                      "line %" PRIu64 ": %s; copy or export the STL again", position.line,
                       cause.c_str());
   }
 
   MeshLines lines_;
-  MeshDelivery delivery_;
+  FanEmitter emitter_;
   Depth depth_ = Depth::kFile;
   bool has_loop_ = false;
   std::vector<Vec3> corners_;  ///< of the facet being read

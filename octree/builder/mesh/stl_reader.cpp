@@ -21,8 +21,8 @@ constexpr std::uint64_t kCornerBytes = 12;
 constexpr bool kSwap = std::endian::native != std::endian::little;
 
 /// `front` has at least kFacetsOffset bytes.
-std::uint64_t facet_count(std::string_view front) {
-  return load<std::uint32_t>(reinterpret_cast<const std::byte*>(front.data()) + kCountOffset,
+std::uint64_t facet_count(std::string_view prefix) {
+  return load<std::uint32_t>(reinterpret_cast<const std::byte*>(prefix.data()) + kCountOffset,
                              kSwap);
 }
 
@@ -41,22 +41,22 @@ Result<std::uint64_t> checked_count(const MeshFile& file) {
                       "or export it again",
                       file.size_bytes());
   }
-  const Result<std::string> front = file.front(kFacetsOffset);
-  if (!front) return front.error();
-  const std::uint64_t count = facet_count(*front);
-  const std::uint64_t room = (file.size_bytes() - kFacetsOffset) / kFacetBytes;
-  if (count == room) return count;
+  const Result<std::string> prefix = file.prefix(kFacetsOffset);
+  if (!prefix) return prefix.error();
+  const std::uint64_t count = facet_count(*prefix);
+  const std::uint64_t space = (file.size_bytes() - kFacetsOffset) / kFacetBytes;
+  if (count == space) return count;
   return make_error(ErrorCode::kBadInput, Error::kNowhere, kCountOffset,
                     "byte 80: the count says %" PRIu64 " facets, the file has room for %" PRIu64
                     ": %s; copy or export it again",
-                    count, room, count > room ? "it is truncated" : "the count lies");
+                    count, space, count > space ? "it is truncated" : "the count lies");
 }
 
 }  // namespace
 
-bool has_binary_stl_size(std::string_view front, std::uint64_t size_bytes) noexcept {
-  if (front.size() < kFacetsOffset) return false;
-  return size_bytes == kFacetsOffset + facet_count(front) * kFacetBytes;
+bool has_binary_stl_size(std::string_view prefix, std::uint64_t size_bytes) noexcept {
+  if (prefix.size() < kFacetsOffset) return false;
+  return size_bytes == kFacetsOffset + facet_count(prefix) * kFacetBytes;
 }
 
 bool is_ascii_stl(std::string_view file) noexcept {
@@ -69,8 +69,8 @@ bool is_ascii_stl(std::string_view file) noexcept {
 Result<MeshSummary> read_stl_binary(const MeshFile& file, TriangleSink& sink) {
   const Result<std::uint64_t> count = checked_count(file);
   if (!count) return count.error();
-  MeshDelivery delivery(sink, RecordKind::kFacet, file.size_bytes());
-  delivery.set_vertex_count(3 * *count);
+  FanEmitter emitter(sink, RecordKind::kFacet, file.size_bytes());
+  emitter.set_vertex_count(3 * *count);
   MeshWindow window(file);
   for (std::uint64_t facet = 0; facet < *count; ++facet) {
     const std::uint64_t offset = kFacetsOffset + facet * kFacetBytes;
@@ -80,10 +80,10 @@ Result<MeshSummary> read_stl_binary(const MeshFile& file, TriangleSink& sink) {
       return MeshCorner{corner_position(record + kNormalBytes + k * kCornerBytes),
                         static_cast<std::int64_t>(k), true};
     };
-    if (Result<void> taken = delivery.polygon(facet, 3, corner_at); !taken) return taken.error();
-    delivery.advance(offset + kFacetBytes);
+    if (Result<void> taken = emitter.polygon(facet, 3, corner_at); !taken) return taken.error();
+    emitter.advance(offset + kFacetBytes);
   }
-  return delivery.finish(true);
+  return emitter.finish(true);
 }
 
 }  // namespace planetree::octree

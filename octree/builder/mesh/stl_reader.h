@@ -9,7 +9,7 @@
 namespace planetree::octree {
 
 /// Whether the size is exactly that of a binary STL with the count that the front has.
-bool has_binary_stl_size(std::string_view front, std::uint64_t size_bytes) noexcept;
+bool has_binary_stl_size(std::string_view prefix, std::uint64_t size_bytes) noexcept;
 
 /// Whether a file, of which this is the front, begins with "solid" and then goes on as text: binary
 /// files may begin so too, but have zero bytes in or near their count.

@@ -9,7 +9,7 @@ namespace {
 
 /// Triangles whose codes are `code` but for the last `bits` bits.
 struct Stretch {
-  Patch patch;
+  Chunk chunk;
   std::uint64_t code = 0;
   unsigned bits = kMortonBits;
 };
@@ -18,17 +18,17 @@ struct Halves {
   Stretch lower, upper;
 };
 
-class PatchCutter {
+class ChunkCutter {
  public:
-  PatchCutter(const TriangleRuns& runs, std::uint64_t most) : runs_(runs), most_(most) {}
+  ChunkCutter(const TriangleRuns& runs, std::uint64_t most) : runs_(runs), max_(most) {}
 
   // Makes the node of a stretch, its patches and the nodes below it.
   Result<void> add(Stretch stretch) {
     const std::size_t at = tree.nodes.size();
-    const auto begin = static_cast<std::uint32_t>(tree.patches.size());
+    const auto begin = static_cast<std::uint32_t>(tree.chunks.size());
     tree.nodes.push_back({begin, begin + 1, 0, 0});
-    if (stretch.patch.size <= most_) {
-      tree.patches.push_back(std::move(stretch.patch));
+    if (stretch.chunk.size <= max_) {
+      tree.chunks.push_back(std::move(stretch.chunk));
       return {};
     }
     auto halves = by_code(std::move(stretch));
@@ -37,11 +37,11 @@ class PatchCutter {
     if (const auto added = add(std::move(halves->lower)); !added) return added;
     tree.nodes[at].right = static_cast<std::uint32_t>(tree.nodes.size());
     if (const auto added = add(std::move(halves->upper)); !added) return added;
-    tree.nodes[at].end = static_cast<std::uint32_t>(tree.patches.size());
+    tree.nodes[at].end = static_cast<std::uint32_t>(tree.chunks.size());
     return {};
   }
 
-  PatchTree tree;
+  ChunkTree tree;
 
  private:
   // At the first bit that is not the same in all.
@@ -50,9 +50,9 @@ class PatchCutter {
       const std::uint64_t upper_code = stretch.code | std::uint64_t{1} << --stretch.bits;
       auto middle = runs_.cut(upper_code);
       if (!middle) return middle.error();
-      const std::uint64_t lower = TriangleRuns::count(stretch.patch.from, *middle);
+      const std::uint64_t lower = TriangleRuns::count(stretch.chunk.from, *middle);
       if (lower == 0) stretch.code = upper_code;
-      if (lower != 0 && lower != stretch.patch.size)
+      if (lower != 0 && lower != stretch.chunk.size)
         return halves_of(std::move(stretch), *std::move(middle), lower, upper_code);
     }
     return by_number(std::move(stretch));
@@ -60,7 +60,7 @@ class PatchCutter {
 
   // Before the least index that leaves a half before it.
   Result<Halves> by_number(Stretch stretch) const {
-    const std::uint64_t lower = stretch.patch.size / 2;
+    const std::uint64_t lower = stretch.chunk.size / 2;
     std::uint64_t least = 0, most = ~std::uint64_t{0};
     while (least < most) {
       const std::uint64_t index = least + (most - least) / 2;
@@ -68,7 +68,7 @@ class PatchCutter {
       if (!middle) return middle.error();
       // Less than none where the index is before the stretch.
       const auto before =
-          static_cast<std::int64_t>(TriangleRuns::count(stretch.patch.from, *middle));
+          static_cast<std::int64_t>(TriangleRuns::count(stretch.chunk.from, *middle));
       if (before < static_cast<std::int64_t>(lower))
         least = index + 1;
       else
@@ -83,25 +83,25 @@ class PatchCutter {
   static Halves halves_of(Stretch stretch, TriangleRuns::Cut middle, std::uint64_t lower,
                           std::uint64_t upper_code) {
     Halves halves;
-    halves.upper = {{middle, std::move(stretch.patch.to), stretch.patch.size - lower},
+    halves.upper = {{middle, std::move(stretch.chunk.to), stretch.chunk.size - lower},
                     upper_code,
                     stretch.bits};
     halves.lower = {
-        {std::move(stretch.patch.from), std::move(middle), lower}, stretch.code, stretch.bits};
+        {std::move(stretch.chunk.from), std::move(middle), lower}, stretch.code, stretch.bits};
     return halves;
   }
 
   const TriangleRuns& runs_;
-  const std::uint64_t most_;
+  const std::uint64_t max_;
 };
 
 }  // namespace
 
-Result<PatchTree> cut_patches(const TriangleRuns& runs, std::uint64_t most) {
-  PatchCutter cutter(runs, most);
-  const auto added = cutter.add({{runs.begin(), runs.end(), runs.size()}});
+Result<ChunkTree> cut_chunks(const TriangleRuns& runs, std::uint64_t most) {
+  ChunkCutter layout(runs, most);
+  const auto added = layout.add({{runs.begin(), runs.end(), runs.size()}});
   if (!added) return added.error();
-  return std::move(cutter.tree);
+  return std::move(layout.tree);
 }
 
 }  // namespace planetree::octree

@@ -18,16 +18,16 @@ namespace planetree::octree {
 /// is_done  of a patch's number; asked before any work.
 /// errors   those of SpillFile and `work`.
 template <class IsDone, class Work>
-Result<void> for_each_patch(const TriangleRuns& runs, const std::vector<Patch>& patches,
+Result<void> for_each_chunk(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                             BuildProgress& progress, BuildPhase phase, const IsDone& is_done,
                             const Work& work) {
   std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < patches.size(); ++i)
+  for (std::size_t i = 0; i < chunks.size(); ++i)
     if (!is_done(i)) left.push_back(i);
-  PhaseCount count(progress, phase, patches.size(), patches.size() - left.size());
+  PhaseCount count(progress, phase, chunks.size(), chunks.size() - left.size());
   return for_each_in_parallel(left.size(), [&](std::size_t i) -> Result<void> {
-    const Patch& patch = patches[left[i]];
-    auto triangles = runs.read_any_order(patch.from, patch.to);
+    const Chunk& chunk = chunks[left[i]];
+    auto triangles = runs.read_any_order(chunk.from, chunk.to);
     if (!triangles) return triangles.error();
     if (const Result<void> done = work(left[i], *triangles); !done) return done;
     count.add();

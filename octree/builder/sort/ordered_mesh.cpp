@@ -10,19 +10,19 @@ namespace planetree::octree {
 
 Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
-                                   MeshIntake& intake) {
+                                   TriangleSpool& spool) {
   const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
     static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
-  intake.report_progress(report, &progress);
-  const Result<MeshSummary> summary = read_mesh(input, intake, scratch);
+  spool.report_progress(report, &progress);
+  const Result<MeshSummary> summary = read_mesh(input, spool, scratch);
   if (!summary) return summary.error();
-  auto frame = intake.finish();
+  auto frame = spool.finish();
   if (!frame) return frame.error();
-  if (options.strict && frame->set_aside_count > 0)
+  if (options.strict && frame->skipped_count > 0)
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "%s; repair the mesh or build without --strict",
-                      frame->first_set_aside_text.c_str());
+                      frame->first_skipped_text.c_str());
   const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
   return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}};
 }

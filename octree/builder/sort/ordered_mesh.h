@@ -18,8 +18,8 @@ namespace planetree::octree {
 struct OrderedMesh {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
-  bool wide_ids = false;                  ///< some triangle's index takes more than 32 bits
-  std::vector<TriangleRuns::Place> runs;  ///< if none of them is in memory
+  bool wide_ids = false;                   ///< some triangle's index takes more than 32 bits
+  std::vector<TriangleRuns::Extent> runs;  ///< if none of them is in memory
 };
 
 /// Reads the mesh at `input`, which is not ordered then.
@@ -27,9 +27,9 @@ struct OrderedMesh {
 /// scratch  as read_mesh() has it.
 /// intake   takes its triangles.
 /// return   all but the runs.
-/// errors   those of read_mesh and MeshIntake; kBadInput for a bad record under options.strict.
+/// errors   those of read_mesh and TriangleSpool; kBadInput for a bad record under options.strict.
 Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
-                                   MeshIntake& intake);
+                                   TriangleSpool& spool);
 
 }  // namespace planetree::octree

@@ -7,11 +7,11 @@
 
 namespace planetree::octree {
 
-Result<void> TriangleRuns::take(MeshIntake& intake, const std::function<void()>& done) {
-  return for_each_in_parallel(intake.chunk_count(), [&](std::size_t i) -> Result<void> {
-    Result<Triangles> chunk = intake.take_chunk(i);
-    if (!chunk) return chunk.error();
-    const auto added = add(*std::move(chunk));
+Result<void> TriangleRuns::take(TriangleSpool& spool, const std::function<void()>& done) {
+  return for_each_in_parallel(spool.chunk_count(), [&](std::size_t i) -> Result<void> {
+    Result<Triangles> batch = spool.take_batch(i);
+    if (!batch) return batch.error();
+    const auto added = add(*std::move(batch));
     if (added) done();
     return added;
   });

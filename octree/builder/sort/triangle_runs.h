@@ -14,7 +14,7 @@ namespace planetree::octree {
 class TriangleRuns {
  public:
   using Cut = storage::SpillRuns::Cut;
-  using Place = storage::SpillRuns::Place;
+  using Extent = storage::SpillRuns::Extent;
 
   /// held_bytes  of them may stay in memory.
   /// file        takes the others; must outlive this.
@@ -23,17 +23,17 @@ class TriangleRuns {
 
   /// Takes every chunk of an intake. Uses the calling thread's TBB arena.
   /// done  told, on any thread, after each chunk.
-  Result<void> take(MeshIntake& intake, const std::function<void()>& done);
+  Result<void> take(TriangleSpool& spool, const std::function<void()>& done);
 
   /// Takes some triangles, in any order.
   Result<void> add(Triangles triangles);
 
   /// Takes runs that are in the file already.
-  void add_placed(const std::vector<Place>& places) {
-    for (const Place& place : places) runs_.add_placed(place);
+  void add_extents(const std::vector<Extent>& extents) {
+    for (const Extent& extent : extents) runs_.add_extents(extent);
   }
   /// Where the runs are, if none was held.
-  std::vector<Place> places() const { return runs_.places(); }
+  std::vector<Extent> extents() const { return runs_.extents(); }
 
   bool float64() const { return float64_; }
   std::uint64_t size() const { return runs_.size(); }

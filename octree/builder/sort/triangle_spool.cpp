@@ -31,11 +31,11 @@ Triangles widened(const Triangles& narrow) {
 
 }  // namespace
 
-Result<void> MeshIntake::triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) {
-  if (chunks_.empty() || chunks_.back().held.size() == chunk_triangles_) {
-    if (!chunks_.empty())
-      if (const auto put = put_away(chunks_.back()); !put) return put;
-    chunks_.push_back({Triangles(frame_.float64), 0, 0, frame_.float64});
+Result<void> TriangleSpool::triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) {
+  if (batches_.empty() || batches_.back().held.size() == batch_triangles_) {
+    if (!batches_.empty())
+      if (const auto put = put_away(batches_.back()); !put) return put;
+    batches_.push_back({Triangles(frame_.float64), 0, 0, frame_.float64});
   }
   if (!frame_.float64 && !std::all_of(corners.begin(), corners.end(), is_float)) widen_last();
   if (frame_.triangle_count == 0) {
@@ -43,12 +43,12 @@ Result<void> MeshIntake::triangle(std::uint64_t index, const std::array<Vec3, 3>
     frame_.sample_triangle = index;
   }
   note(corners);
-  chunks_.back().held.add({0, index}, points_of(corners));
+  batches_.back().held.add({0, index}, points_of(corners));
   ++frame_.triangle_count;
   return {};
 }
 
-void MeshIntake::note(const std::array<Vec3, 3>& corners) {
+void TriangleSpool::note(const std::array<Vec3, 3>& corners) {
   for (const Vec3& corner : corners) {
     const Point point(corner.x, corner.y, corner.z);
     const bool first = frame_.triangle_count == 0 && &corner == corners.data();
@@ -56,45 +56,46 @@ void MeshIntake::note(const std::array<Vec3, 3>& corners) {
     frame_.input_upper = first ? point : Point(frame_.input_upper.cwiseMax(point));
     for (const double value : {corner.x, corner.y, corner.z}) {
       const double magnitude = std::fabs(value);
-      if (magnitude > 0 && (least_magnitude_ == 0 || magnitude < least_magnitude_))
-        least_magnitude_ = magnitude;
+      if (magnitude > 0 && (min_magnitude_ == 0 || magnitude < min_magnitude_))
+        min_magnitude_ = magnitude;
     }
   }
 }
 
-void MeshIntake::widen_last() {
+void TriangleSpool::widen_last() {
   frame_.float64 = true;
-  chunks_.back().held = widened(chunks_.back().held);
-  chunks_.back().float64 = true;
+  batches_.back().held = widened(batches_.back().held);
+  batches_.back().float64 = true;
 }
 
-Result<void> MeshIntake::put_away(Chunk& chunk) {
-  const std::span<const std::byte> records = chunk.held.records();
-  chunk.bytes = records.size();
+Result<void> TriangleSpool::put_away(Batch& batch) {
+  const std::span<const std::byte> records = batch.held.records();
+  batch.bytes = records.size();
   if (records.size() <= held_bytes_) {
     held_bytes_ -= records.size();
     return {};
   }
   const auto offset = file_.append(records);
   if (!offset) return offset.error();
-  chunk.offset = *offset;
-  chunk.held = Triangles(chunk.float64);
+  batch.offset = *offset;
+  batch.held = Triangles(batch.float64);
   return {};
 }
 
-void MeshIntake::set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) {
-  if (frame_.set_aside_count == 0) {
-    frame_.first_set_aside = first_index;
-    frame_.first_set_aside_text = why.text();
+void TriangleSpool::skipped(std::uint64_t first_index, std::uint64_t count,
+                            const SkippedRecord& why) {
+  if (frame_.skipped_count == 0) {
+    frame_.first_skipped = first_index;
+    frame_.first_skipped_text = why.text();
   }
-  frame_.set_aside_count += count;
+  frame_.skipped_count += count;
 }
 
-void MeshIntake::progress(std::uint64_t bytes_done, std::uint64_t bytes_total) {
+void TriangleSpool::progress(std::uint64_t bytes_done, std::uint64_t bytes_total) {
   if (progress_) progress_(progress_context_, bytes_done, bytes_total);
 }
 
-void MeshIntake::choose_scale() {
+void TriangleSpool::choose_scale() {
   const Point &lower = frame_.input_lower, &upper = frame_.input_upper;
   // Halves, because the difference of two doubles may overflow.
   double half = (upper * 0.5 - lower * 0.5).maxCoeff();
@@ -104,26 +105,26 @@ void MeshIntake::choose_scale() {
   frame_.scale_exponent = half > 0 ? -exponent : 0;
 }
 
-Result<ModelFrame> MeshIntake::finish() {
+Result<ModelFrame> TriangleSpool::finish() {
   choose_scale();
-  if (least_magnitude_ > 0 &&
-      std::ldexp(least_magnitude_, frame_.scale_exponent) < std::numeric_limits<float>::min())
+  if (min_magnitude_ > 0 &&
+      std::ldexp(min_magnitude_, frame_.scale_exponent) < std::numeric_limits<float>::min())
     frame_.float64 = true;
-  if (!chunks_.empty())
-    if (const auto put = put_away(chunks_.back()); !put) return put.error();
+  if (!batches_.empty())
+    if (const auto put = put_away(batches_.back()); !put) return put.error();
   return frame_;
 }
 
-Result<Triangles> MeshIntake::take_chunk(std::size_t at) {
-  Chunk& chunk = chunks_[at];
-  Triangles triangles = std::move(chunk.held);
-  chunk.held = Triangles(chunk.float64);
+Result<Triangles> TriangleSpool::take_batch(std::size_t at) {
+  Batch& batch = batches_[at];
+  Triangles triangles = std::move(batch.held);
+  batch.held = Triangles(batch.float64);
   if (triangles.size() == 0) {
-    std::vector<std::byte> records(chunk.bytes);
-    if (const auto read = file_.read(chunk.offset, records); !read) return read.error();
-    triangles = Triangles(std::move(records), chunk.float64);
+    std::vector<std::byte> records(batch.bytes);
+    if (const auto read = file_.read(batch.offset, records); !read) return read.error();
+    triangles = Triangles(std::move(records), batch.float64);
   }
-  if (frame_.float64 && !chunk.float64) triangles = widened(triangles);
+  if (frame_.float64 && !batch.float64) triangles = widened(triangles);
   const Point lower = frame_.lower();
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     Triangle corners = triangles.corners(i);

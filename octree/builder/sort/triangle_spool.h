@@ -16,15 +16,15 @@ namespace planetree::octree {
 /// then on disk. What the chunks' model frame is, is known after the last.
 ///
 /// threads  one while it is filled; then any number may take chunks, each once.
-class MeshIntake final : public TriangleSink {
+class TriangleSpool final : public TriangleSink {
  public:
   using ProgressCall = void (*)(void* context, std::uint64_t done, std::uint64_t total);
 
-  /// chunk_triangles  1 to 2^31.
+  /// batch_triangles  1 to 2^31.
   /// held_bytes       of chunks may stay in memory, besides the last two.
   /// file             takes the others; must outlive this.
-  MeshIntake(std::uint32_t chunk_triangles, std::uint64_t held_bytes, storage::SpillFile& file)
-      : chunk_triangles_(chunk_triangles), held_bytes_(held_bytes), file_(file) {}
+  TriangleSpool(std::uint32_t batch_triangles, std::uint64_t held_bytes, storage::SpillFile& file)
+      : batch_triangles_(batch_triangles), held_bytes_(held_bytes), file_(file) {}
 
   void report_progress(ProgressCall call, void* context) {
     progress_ = call;
@@ -32,19 +32,19 @@ class MeshIntake final : public TriangleSink {
   }
 
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override;
-  void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) override;
+  void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override;
   void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override;
 
   /// Call once, after the last triangle.
   Result<ModelFrame> finish();
 
-  std::size_t chunk_count() const { return chunks_.size(); }
+  std::size_t chunk_count() const { return batches_.size(); }
   /// A chunk's triangles, in the order of the input, in the model frame, with their codes. Its
   /// memory is no longer held. After finish() only.
-  Result<Triangles> take_chunk(std::size_t chunk);
+  Result<Triangles> take_batch(std::size_t batch);
 
  private:
-  struct Chunk {
+  struct Batch {
     Triangles held;  // or, if empty, `bytes` at `offset` in the file
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
@@ -53,15 +53,15 @@ class MeshIntake final : public TriangleSink {
 
   void note(const std::array<Vec3, 3>& corners);
   void widen_last();
-  Result<void> put_away(Chunk& chunk);
+  Result<void> put_away(Batch& batch);
   void choose_scale();
 
-  const std::uint32_t chunk_triangles_;
+  const std::uint32_t batch_triangles_;
   std::uint64_t held_bytes_;
   storage::SpillFile& file_;
-  std::vector<Chunk> chunks_;
+  std::vector<Batch> batches_;
   ModelFrame frame_;
-  double least_magnitude_ = 0;  // of any coordinate but 0
+  double min_magnitude_ = 0;  // of any coordinate but 0
   ProgressCall progress_ = nullptr;
   void* progress_context_ = nullptr;
 };

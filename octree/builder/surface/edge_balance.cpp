@@ -44,14 +44,14 @@ static_assert(sizeof(LeftOver) == EdgeCensus::kEdgeBytes);
 /// The edges of a patch, found by their hash.
 class EdgeTable {
  public:
-  explicit EdgeTable(const Triangles& patch)
-      : patch_(patch), entries_(std::bit_ceil(std::size_t{3} * patch.size() + 1)) {
+  explicit EdgeTable(const Triangles& chunk)
+      : chunk_(chunk), entries_(std::bit_ceil(std::size_t{3} * chunk.size() + 1)) {
     std::array<Pending, 3 * std::size_t{kAtOnce}> pending;
-    for (std::uint32_t first = 0; first < patch.size(); first += kAtOnce) {
+    for (std::uint32_t first = 0; first < chunk.size(); first += kAtOnce) {
       std::size_t count = 0;
-      const std::uint32_t end = std::min(first + kAtOnce, patch.size());
+      const std::uint32_t end = std::min(first + kAtOnce, chunk.size());
       for (std::uint32_t i = first; i < end; ++i) {
-        const Triangle triangle = patch.corners(i);
+        const Triangle triangle = chunk.corners(i);
         for (unsigned corner = 0; corner < 3; ++corner) {
           const HalfEdge edge = half_edge(triangle, corner);
           if (edge.way == 0) continue;
@@ -77,14 +77,14 @@ class EdgeTable {
  private:
   // Small: what is looked at is anywhere among them.
   struct Entry {
-    std::uint32_t place = kNone;  // 4 * triangle + corner of the first face that has the edge
+    std::uint32_t index = kNone;  // 4 * triangle + corner of the first face that has the edge
     std::int32_t net = 0;
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   struct Pending {
     HalfEdge edge;
     std::uint64_t hash;
-    std::uint32_t place;
+    std::uint32_t index;
   };
   // Triangles whose entries are asked of memory before the first of them is waited for.
   static constexpr std::uint32_t kAtOnce = 16;
@@ -92,14 +92,14 @@ class EdgeTable {
   Entry& entry_at(std::uint64_t hash) { return entries_[hash & (entries_.size() - 1)]; }
 
   Ends ends_of(const Entry& entry) const {
-    return half_edge(patch_.corners(entry.place / 4), entry.place % 4).ends;
+    return half_edge(chunk_.corners(entry.index / 4), entry.index % 4).ends;
   }
 
   void add(const Pending& pending) {
     for (std::uint64_t hash = pending.hash;; ++hash) {
       Entry& entry = entry_at(hash);
-      if (entry.place == kNone)
-        entry.place = pending.place;
+      if (entry.index == kNone)
+        entry.index = pending.index;
       else if (ends_of(entry) != pending.edge.ends)
         continue;
       entry.net += pending.edge.way;
@@ -107,7 +107,7 @@ class EdgeTable {
     }
   }
 
-  const Triangles& patch_;
+  const Triangles& chunk_;
   std::vector<Entry> entries_;
 };
 
@@ -151,8 +151,8 @@ constexpr std::uint64_t kEdgesAtOnce = 1 << 17;
 EdgeCensus::EdgeCensus(std::uint64_t held_bytes, storage::SpillFile& file)
     : left_over_(sizeof(LeftOver), held_bytes, file) {}
 
-Result<void> EdgeCensus::add(const Triangles& patch) {
-  std::vector<LeftOver> edges = EdgeTable(patch).left_over();
+Result<void> EdgeCensus::add(const Triangles& chunk) {
+  std::vector<LeftOver> edges = EdgeTable(chunk).left_over();
   std::sort(edges.begin(), edges.end(),
             [](const LeftOver& a, const LeftOver& b) { return a.key < b.key; });
   std::vector<std::byte> records(edges.size() * sizeof(LeftOver));
@@ -186,7 +186,7 @@ Result<EdgeBalance> EdgeCensus::balance() {
   });
   if (!balanced) return balanced.error();
   EdgeBalance balance;
-  balance.open_edges = open.count;
+  balance.unbalanced_edges = open.count;
   for (std::size_t i = 0; i < open.least.size(); ++i) {
     const Ends& e = open.least[i];
     balance.first[i].from = {e[0], e[1], e[2]};
@@ -204,18 +204,18 @@ void EdgeFaces::Faces::join(const Faces& other) {
   first_forward = other.first_forward;
 }
 
-void EdgeFaces::look_at(const Triangles& patch) {
+void EdgeFaces::look_at(const Triangles& chunk) {
   const std::size_t listed = balance_.listed();
   std::array<Faces, EdgeBalance::kListed> found;
-  for (std::uint32_t i = 0; i < patch.size(); ++i) {
-    const Triangle triangle = patch.corners(i);
+  for (std::uint32_t i = 0; i < chunk.size(); ++i) {
+    const Triangle triangle = chunk.corners(i);
     for (unsigned corner = 0; corner < 3; ++corner) {
       const Point &from = triangle[corner], &to = triangle[(corner + 1) % 3];
       for (std::size_t k = 0; k < listed; ++k) {
-        const OpenEdge& edge = balance_.first[k];
+        const UnbalancedEdge& edge = balance_.first[k];
         const bool forward = from == edge.from && to == edge.to;
         if (forward || (from == edge.to && to == edge.from))
-          found[k].join({forward, !forward, patch.index(i), corner, forward});
+          found[k].join({forward, !forward, chunk.index(i), corner, forward});
       }
     }
   }
@@ -232,7 +232,7 @@ EdgeBalance EdgeFaces::balance() const {
   EdgeBalance balance = balance_;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Faces& faces = faces_[order[i]];
-    OpenEdge& edge = balance.first[i] = balance_.first[order[i]];
+    UnbalancedEdge& edge = balance.first[i] = balance_.first[order[i]];
     edge.triangle = faces.triangle;
     edge.along = faces.first_forward ? faces.forward : faces.back;
     edge.against = faces.first_forward ? faces.back : faces.forward;
@@ -242,9 +242,9 @@ EdgeBalance EdgeFaces::balance() const {
 }
 
 void EdgeBalance::describe(int scale_exponent, storage::ModelRecord& model) const {
-  model.open_edge_count = open_edges;
+  model.unbalanced_edge_count = unbalanced_edges;
   for (std::size_t i = 0; i < listed(); ++i) {
-    storage::OpenEdge& edge = model.open_edge[i];
+    storage::UnbalancedEdge& edge = model.unbalanced_edge[i];
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       edge.from[axis] = std::ldexp(first[i].from[axis], -scale_exponent);
       edge.to[axis] = std::ldexp(first[i].to[axis], -scale_exponent);

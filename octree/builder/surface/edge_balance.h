@@ -15,7 +15,7 @@
 namespace planetree::octree {
 
 /// An edge that more faces run along one way than the other.
-struct OpenEdge {
+struct UnbalancedEdge {
   std::uint64_t triangle = kNoTriangle;  ///< the first that has it
   Point from = Point::Zero();            ///< its ends as that triangle runs along it,
   Point to = Point::Zero();              ///< model frame
@@ -30,13 +30,13 @@ struct OpenEdge {
 struct EdgeBalance {
   static constexpr std::size_t kListed = 3;
 
-  std::uint64_t open_edges = 0;
+  std::uint64_t unbalanced_edges = 0;
   /// How many of them are listed.
   std::size_t listed() const {
-    return static_cast<std::size_t>(std::min<std::uint64_t>(open_edges, kListed));
+    return static_cast<std::size_t>(std::min<std::uint64_t>(unbalanced_edges, kListed));
   }
   /// Those of them whose ends have the least coordinates.
-  std::array<OpenEdge, kListed> first;
+  std::array<UnbalancedEdge, kListed> first;
 
   /// Writes what is known into the model's record, in the input's units.
   void describe(int scale_exponent, storage::ModelRecord& model) const;
@@ -54,7 +54,7 @@ class EdgeCensus {
   EdgeCensus(std::uint64_t held_bytes, storage::SpillFile& file);
 
   /// A part of the model. Any number of threads; the result does not depend on the parts.
-  Result<void> add(const Triangles& patch);
+  Result<void> add(const Triangles& chunk);
 
   /// After the last part: how many edges are open, and the ends of those listed.
   /// Uses the calling thread's TBB arena.
@@ -70,7 +70,7 @@ class EdgeFaces {
   explicit EdgeFaces(const EdgeBalance& balance) : balance_(balance) {}
 
   /// Any number of threads.
-  void look_at(const Triangles& patch);
+  void look_at(const Triangles& chunk);
   /// The balance with what was found, the listed edges by their first triangle, then corner.
   EdgeBalance balance() const;
 

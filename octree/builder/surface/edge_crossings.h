@@ -24,7 +24,8 @@ struct alignas(64) BoxedTriangle {
 /// A segment that leads down along one axis, from the greater end to the lesser.
 class DownwardSegment {
  public:
-  DownwardSegment(const MovedSegment& segment, unsigned axis) : segment_(segment), axis_(axis) {}
+  DownwardSegment(const PerturbedSegment& segment, unsigned axis)
+      : segment_(segment), axis_(axis) {}
 
   /// As octree::crossing(), but most triangles are told apart by their boxes. One that is no
   /// higher than the segment is below it: such are those in the sides of cells, which take long
@@ -54,7 +55,7 @@ class DownwardSegment {
   static constexpr double kError = 0x1p-49;
   static constexpr double kUnderflow = 0x1p-1000;
 
-  MovedSegment segment_;
+  PerturbedSegment segment_;
   unsigned axis_;
 };
 

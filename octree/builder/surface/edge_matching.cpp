@@ -5,25 +5,25 @@
 
 namespace planetree::octree {
 
-Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Patch>& patches,
+Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress, const PatchCall& also) {
+                                BuildProgress& progress, const ChunkCall& also) {
   const auto is_done = [](std::size_t) { return false; };
   EdgeCensus census(held_bytes, scratch);
-  const auto add = [&](std::size_t, const Triangles& patch) {
-    const auto counted = census.add(patch);
-    return counted ? also(patch) : counted;
+  const auto add = [&](std::size_t, const Triangles& chunk) {
+    const auto counted = census.add(chunk);
+    return counted ? also(chunk) : counted;
   };
-  const auto added = for_each_patch(runs, patches, progress, BuildPhase::kClosing, is_done, add);
+  const auto added = for_each_chunk(runs, chunks, progress, BuildPhase::kClosing, is_done, add);
   if (!added) return added.error();
   auto balance = census.balance();
-  if (!balance || balance->open_edges == 0) return balance;
+  if (!balance || balance->unbalanced_edges == 0) return balance;
   EdgeFaces faces(*balance);
-  const auto look = [&](std::size_t, const Triangles& patch) -> Result<void> {
-    faces.look_at(patch);
+  const auto look = [&](std::size_t, const Triangles& chunk) -> Result<void> {
+    faces.look_at(chunk);
     return {};
   };
-  const auto looked = for_each_patch(runs, patches, progress, BuildPhase::kListing, is_done, look);
+  const auto looked = for_each_chunk(runs, chunks, progress, BuildPhase::kListing, is_done, look);
   if (!looked) return looked.error();
   return faces.balance();
 }

@@ -13,8 +13,8 @@
 
 namespace planetree::octree {
 
-/// Told of the triangles of a patch, in any order; on any thread.
-using PatchCall = std::function<Result<void>(const Triangles& triangles)>;
+/// Certain of the triangles of a patch, in any order; on any thread.
+using ChunkCall = std::function<Result<void>(const Triangles& triangles)>;
 
 /// Matches the edges of a model, patch by patch, and looks for the faces of those that are open.
 ///
@@ -23,8 +23,8 @@ using PatchCall = std::function<Result<void>(const Triangles& triangles)>;
 /// scratch     takes the others.
 /// errors      those of SpillFile and `also`.
 /// Uses the calling thread's TBB arena.
-Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Patch>& patches,
+Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress, const PatchCall& also);
+                                BuildProgress& progress, const ChunkCall& also);
 
 }  // namespace planetree::octree

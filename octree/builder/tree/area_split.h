@@ -38,9 +38,9 @@ class AreaSplitter {
   std::uint32_t split(std::uint32_t begin, std::uint32_t end);
 
   /// The triangle at a place.
-  const SplitItem& at(std::uint32_t place) const { return items_[order_[0][place]]; }
-  /// Places in the order that the last split sorted them by.
-  const SplitItem& in_split_order(std::uint32_t place) const { return items_[last_[place]]; }
+  const SplitItem& at(std::uint32_t index) const { return items_[order_[0][index]]; }
+  /// Indices in the order that the last split sorted them by.
+  const SplitItem& in_split_order(std::uint32_t index) const { return items_[last_[index]]; }
 
  private:
   using Order = std::array<std::uint16_t, kMaxAreaSplit>;

@@ -50,7 +50,7 @@ void BlockEncoder::add(const WideBlock& block) {
   std::vector<std::uint32_t> vertices;
   Corners corners;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const std::array<std::uint32_t, 3>& of_triangle = of_patch_.corners(positions[i]);
+    const std::array<std::uint32_t, 3>& of_triangle = of_chunk_.corners(positions[i]);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto next = static_cast<std::uint32_t>(vertices_.size());
       const auto [at, is_new] = vertex_of_.try_emplace(of_triangle[k], next);
@@ -111,26 +111,26 @@ void BlockEncoder::describe(PageHead& head) const {
 std::vector<double> BlockEncoder::coordinates_by_axis() const {
   std::vector<double> coordinates;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
-    for (const std::uint32_t vertex : vertices_) coordinates.push_back(of_patch_[vertex][axis]);
+    for (const std::uint32_t vertex : vertices_) coordinates.push_back(of_chunk_[vertex][axis]);
   return coordinates;
 }
 
 void BlockEncoder::write(StreamWriter& writer) const {
-  writer.shuffled(triangle_counts_);
-  writer.shuffled(vertex_counts_);
-  writer.shuffled(new_counts_);
-  writer.shuffled(vertex_refs_);
+  writer.byte_split(triangle_counts_);
+  writer.byte_split(vertex_counts_);
+  writer.byte_split(new_counts_);
+  writer.byte_split(vertex_refs_);
   writer.plain(corners_.data(), corners_.size());
   if (shape_.float64)
-    writer.shuffled(coordinates_by_axis());
+    writer.byte_split(coordinates_by_axis());
   else
-    writer.shuffled(narrowed<float>(coordinates_by_axis()));
+    writer.byte_split(narrowed<float>(coordinates_by_axis()));
   if (shape_.wide_ids) {
-    writer.shuffled(first_ids_);
-    writer.shuffled(id_steps_);
+    writer.byte_split(first_ids_);
+    writer.byte_split(id_steps_);
   } else {
-    writer.shuffled(narrowed<std::uint32_t>(first_ids_));
-    writer.shuffled(narrowed<std::uint32_t>(id_steps_));
+    writer.byte_split(narrowed<std::uint32_t>(first_ids_));
+    writer.byte_split(narrowed<std::uint32_t>(id_steps_));
   }
 }
 

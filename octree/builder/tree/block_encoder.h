@@ -22,9 +22,9 @@ namespace planetree::octree {
 /// from there and need no reference.
 class BlockEncoder {
  public:
-  BlockEncoder(const Triangles& mesh, const PatchVertices& vertices,
+  BlockEncoder(const Triangles& mesh, const ChunkVertices& vertices,
                const std::vector<MortonKey>& keys, const BlockShape& shape)
-      : mesh_(mesh), of_patch_(vertices), keys_(keys), shape_(shape) {
+      : mesh_(mesh), of_chunk_(vertices), keys_(keys), shape_(shape) {
     vertex_of_.reserve(kUsualVertices);
   }
 
@@ -45,7 +45,7 @@ class BlockEncoder {
   std::vector<double> coordinates_by_axis() const;
 
   const Triangles& mesh_;
-  const PatchVertices& of_patch_;
+  const ChunkVertices& of_chunk_;
   const std::vector<MortonKey>& keys_;
   BlockShape shape_;
   std::unordered_map<std::uint32_t, std::uint32_t> vertex_of_;  // of the page, by the patch's

@@ -19,7 +19,7 @@ std::uint64_t span_of(const Triangles& triangles, const std::vector<MortonKey>& 
 
 }  // namespace
 
-std::vector<std::uint8_t> block_slots(const Triangles& triangles, const PatchVertices& vertices,
+std::vector<std::uint8_t> block_slots(const Triangles& triangles, const ChunkVertices& vertices,
                                       const std::vector<MortonKey>& keys,
                                       const std::vector<WideBlock>& blocks,
                                       const BlockShape& shape) {

@@ -12,7 +12,7 @@
 namespace planetree::octree {
 
 /// The slots that each block's record takes. The vertices of blocks must have been listed.
-std::vector<std::uint8_t> block_slots(const Triangles& triangles, const PatchVertices& vertices,
+std::vector<std::uint8_t> block_slots(const Triangles& triangles, const ChunkVertices& vertices,
                                       const std::vector<MortonKey>& keys,
                                       const std::vector<WideBlock>& blocks,
                                       const BlockShape& shape);

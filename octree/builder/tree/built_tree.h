@@ -22,7 +22,7 @@ class BuiltTree {
   /// All must outlive this.
   /// patches  those of `above`.
   /// file     has the patches' pages.
-  BuiltTree(const ModelFrame& frame, const PatchTree& above, const std::vector<BuiltPatch>& patches,
+  BuiltTree(const ModelFrame& frame, const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
             const BlockShape& shape, std::uint32_t page_bytes, const storage::SpillFile& file);
   BuiltTree(const BuiltTree&) = delete;
   BuiltTree& operator=(const BuiltTree&) = delete;
@@ -36,16 +36,16 @@ class BuiltTree {
   unsigned height() const;
 
   /// For walks in it: without a sample.
-  TreeFacts facts() const;
+  TreeInfo info() const;
   /// What decoding one of its pages needs.
-  PageFacts facts_of_page(std::uint32_t number) const;
+  PageInfo info_of_page(std::uint32_t number) const;
 
  private:
   const ModelFrame& frame_;
-  const std::vector<BuiltPatch>& patches_;
+  const std::vector<BuiltChunk>& chunks_;
   const BlockShape& shape_;
   const std::uint32_t page_bytes_;
-  Crown crown_;
+  TopTree top_tree_;
   const PageNumbers numbers_;
   const TreePages pages_;
   std::uint64_t node_count_ = 0;

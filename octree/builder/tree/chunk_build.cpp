@@ -14,55 +14,55 @@
 namespace planetree::octree {
 namespace {
 
-void describe(const Triangles& triangles, const WideTree& tree, BuiltPatch& patch) {
-  patch.node_count = tree.nodes.size();
-  patch.block_count = tree.blocks.size();
-  patch.least_code = triangles.code(0);
-  patch.greatest_code = triangles.code(triangles.size() - 1);
+void describe(const Triangles& triangles, const WideTree& tree, BuiltChunk& chunk) {
+  chunk.node_count = tree.nodes.size();
+  chunk.block_count = tree.blocks.size();
+  chunk.min_code = triangles.code(0);
+  chunk.greatest_code = triangles.code(triangles.size() - 1);
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    patch.area += area_vector(triangles.corners(i));
+    chunk.area += area_vector(triangles.corners(i));
   if (tree.nodes.empty()) {
-    patch.boxes_below = {patch.box};
+    chunk.boxes_below = {chunk.box};
     return;
   }
-  patch.height = tree.nodes[0].height;
-  patch.boxes_below = boxes_below(tree, tree.nodes[0]);
+  chunk.height = tree.nodes[0].height;
+  chunk.boxes_below = boxes_below(tree, tree.nodes[0]);
 }
 
 }  // namespace
 
-Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
+Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
                                const BlockShape& shape, std::uint32_t page_bytes,
                                storage::SpillFile& file) {
-  BuiltPatch patch;
+  BuiltChunk chunk;
   std::vector<MortonKey> keys = keys_of(triangles);
   WideTree tree;
   {
     const std::vector<BinaryNode> binary = build_binary_tree(triangles, centre, keys);
-    patch.box = binary[0].box;
+    chunk.box = binary[0].box;
     tree = collapse(binary);
   }
-  PatchVertices vertices(triangles);
+  ChunkVertices vertices(triangles);
   vertices.list_blocks(tree.blocks, keys);
   fit_discs(triangles, vertices, centre, keys, tree);
   if (shape.moments) {
-    TreeMoments moments = sum_moments(triangles, centre, keys, tree, patch.box);
+    TreeMoments moments = sum_moments(triangles, centre, keys, tree, chunk.box);
     tree.moments = std::move(moments.nodes);
-    patch.sums = moments.root;
+    chunk.sums = moments.root;
   }
-  describe(triangles, tree, patch);
+  describe(triangles, tree, chunk);
   const std::vector<std::uint8_t> of_blocks =
       block_slots(triangles, vertices, keys, tree.blocks, shape);
   const auto plan = plan_pages(tree, keys, {shape.node_slots(), of_blocks}, page_bytes);
   if (!plan) return plan.error();
-  patch.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
+  chunk.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
   const PageEncoder encoder(triangles, vertices, keys, tree, *plan, shape);
   for (const PlannedPage& page : plan->pages) {
     const auto spilled = put_away(page.octcode, encoder.encode(page.number), file);
     if (!spilled) return spilled.error();
-    patch.pages.push_back(*spilled);
+    chunk.pages.push_back(*spilled);
   }
-  return patch;
+  return chunk;
 }
 
 }  // namespace planetree::octree

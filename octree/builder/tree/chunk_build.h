@@ -15,13 +15,13 @@
 namespace planetree::octree {
 
 /// A patch that was built: what the tree above it is made from.
-struct BuiltPatch {
+struct BuiltChunk {
   std::vector<SpilledPage> pages;  ///< in the order of their keys
   std::uint32_t root_link = 0;     ///< the page by its place in `pages`
   std::uint8_t height = 0;         ///< of its root; 0 if that is a block
   std::uint64_t node_count = 0;
   std::uint64_t block_count = 0;
-  std::uint64_t least_code = 0, greatest_code = 0;
+  std::uint64_t min_code = 0, greatest_code = 0;
   FloatBox box;                       ///< the root's, relative to the model's centre
   std::vector<FloatBox> boxes_below;  ///< two levels below the root
   Point area = Point::Zero();         ///< sum of area vectors
@@ -34,7 +34,7 @@ struct BuiltPatch {
 /// centre     of the model.
 /// threads    any number, with patches of their own.
 /// errors     those of plan_pages() and SpillFile.
-Result<BuiltPatch> build_patch(const Triangles& triangles, const Point& centre,
+Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
                                const BlockShape& shape, std::uint32_t page_bytes,
                                storage::SpillFile& file);
 

@@ -14,9 +14,9 @@ namespace planetree::octree {
 
 /// The distinct vertices of some triangles, bit-equal positions counted once, and those of
 /// every block.
-class PatchVertices {
+class ChunkVertices {
  public:
-  explicit PatchVertices(const Triangles& triangles);
+  explicit ChunkVertices(const Triangles& triangles);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(positions_.size()); }
   const Point& operator[](std::uint32_t vertex) const { return positions_[vertex]; }

@@ -55,7 +55,7 @@ class DiscExtent {
 
 class DiscFitter {
  public:
-  DiscFitter(const Triangles& mesh, const PatchVertices& vertices, const Point& centre,
+  DiscFitter(const Triangles& mesh, const ChunkVertices& vertices, const Point& centre,
              const std::vector<MortonKey>& keys, const WideTree& tree)
       : mesh_(mesh), vertices_(vertices), centre_(centre), keys_(keys), tree_(tree) {}
 
@@ -92,7 +92,7 @@ class DiscFitter {
   }
 
   const Triangles& mesh_;
-  const PatchVertices& vertices_;
+  const ChunkVertices& vertices_;
   const Point& centre_;
   const std::vector<MortonKey>& keys_;
   const WideTree& tree_;
@@ -135,7 +135,7 @@ std::vector<FloatBox> boxes_below(const WideTree& tree, const WideNode& node) {
   return boxes;
 }
 
-void fit_discs(const Triangles& mesh, const PatchVertices& vertices, const Point& centre,
+void fit_discs(const Triangles& mesh, const ChunkVertices& vertices, const Point& centre,
                const std::vector<MortonKey>& keys, WideTree& tree) {
   const DiscFitter fitter(mesh, vertices, centre, keys, tree);
   for (WideNode& node : tree.nodes)

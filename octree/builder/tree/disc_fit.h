@@ -20,7 +20,7 @@ namespace planetree::octree {
 ///
 /// vertices  of the triangles, with the blocks' listed.
 /// centre    of the model; boxes are relative to it.
-void fit_discs(const Triangles& mesh, const PatchVertices& vertices, const Point& centre,
+void fit_discs(const Triangles& mesh, const ChunkVertices& vertices, const Point& centre,
                const std::vector<MortonKey>& keys, WideTree& tree);
 
 /// Twice a triangle's area times its unit normal.

@@ -20,13 +20,13 @@ SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
   sums.area = vector.norm() + 0x1p-48 * u.norm() * v.norm();
   const Point sum = a + b + c;
   sums.first = sum / 3 * vector.transpose();
-  sums.place = sums.area / 3 * sum;
+  sums.position = sums.area / 3 * sum;
   sums.second =
       sums.area / 12 * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm() + sum.squaredNorm());
   return sums;
 }
 
-/// Whole units next to a value, which is at most kMost of them but for rounding.
+/// Whole units next to a value, which is at most kMax of them but for rounding.
 template <class Integer>
 Integer steps(double value, double unit, int most) {
   const double scaled = value / unit;
@@ -98,14 +98,14 @@ void SurfaceSums::add(const SurfaceSums& other) {
   vector += other.vector;
   first += other.first;
   area += other.area;
-  place += other.place;
+  position += other.position;
   second += other.second;
 }
 
 void SurfaceSums::move(const Point& by) {
   first += by * vector.transpose();
-  second += 2 * by.dot(place) + by.squaredNorm() * area;
-  place += area * by;
+  second += 2 * by.dot(position) + by.squaredNorm() * area;
+  position += area * by;
 }
 
 Moments packed(const SurfaceSums& sums, const FloatBox& box) {

@@ -14,7 +14,7 @@ struct SurfaceSums {
   Point vector = Point::Zero();                     ///< of the normal n
   Eigen::Matrix3d first = Eigen::Matrix3d::Zero();  ///< of x n^T
   double area = 0;                                  ///< of 1, rounded up
-  Point place = Point::Zero();                      ///< of x
+  Point position = Point::Zero();                   ///< of x
   double second = 0;                                ///< of |x|^2, rounded up
 
   void add(const SurfaceSums& other);

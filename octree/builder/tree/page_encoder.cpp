@@ -40,16 +40,16 @@ class NodeEncoder {
   }
 
   void write(StreamWriter& writer) const {
-    writer.shuffled(root_boxes_);
-    writer.shuffled(child_counts_);
-    writer.shuffled(heights_);
-    writer.shuffled(kinds_);
+    writer.byte_split(root_boxes_);
+    writer.byte_split(child_counts_);
+    writer.byte_split(heights_);
+    writer.byte_split(kinds_);
     std::vector<std::uint8_t> boxes;
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const PackedChild& child : packed_) boxes.push_back(child.lower[axis]);
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const PackedChild& child : packed_) boxes.push_back(child.upper[axis]);
-    writer.shuffled(boxes);
+    writer.byte_split(boxes);
     std::vector<std::int16_t> normals, slabs;
     std::vector<std::uint16_t> radii;
     for (const PackedChild& child : packed_) normals.push_back(child.normal.u);
@@ -57,11 +57,11 @@ class NodeEncoder {
     for (const PackedChild& child : packed_) slabs.push_back(child.slab_lower);
     for (const PackedChild& child : packed_) slabs.push_back(child.slab_upper);
     for (const PackedChild& child : packed_) radii.push_back(child.radius);
-    writer.shuffled(normals);
-    writer.shuffled(slabs);
-    writer.shuffled(radii);
+    writer.byte_split(normals);
+    writer.byte_split(slabs);
+    writer.byte_split(radii);
     write_moments(writer);
-    writer.shuffled(page_links_);
+    writer.byte_split(page_links_);
   }
 
  private:
@@ -75,10 +75,10 @@ class NodeEncoder {
       for (const Moments& moments : moments_) firsts.push_back(moments.first[i]);
     for (const Moments& moments : moments_) areas.push_back(moments.area);
     for (const Moments& moments : moments_) seconds.push_back(moments.second);
-    writer.shuffled(vectors);
-    writer.shuffled(firsts);
-    writer.shuffled(areas);
-    writer.shuffled(seconds);
+    writer.byte_split(vectors);
+    writer.byte_split(firsts);
+    writer.byte_split(areas);
+    writer.byte_split(seconds);
   }
 
   ChildKind kind_of(const WideChild& child) {

@@ -24,7 +24,7 @@ struct EncodedPage {
 /// encoder per thread; the bytes depend on the arguments alone.
 class PageEncoder {
  public:
-  PageEncoder(const Triangles& mesh, const PatchVertices& vertices,
+  PageEncoder(const Triangles& mesh, const ChunkVertices& vertices,
               const std::vector<MortonKey>& keys, const WideTree& tree, const PagePlan& plan,
               const BlockShape& shape)
       : mesh_(mesh), vertices_(vertices), keys_(keys), tree_(tree), plan_(plan), shape_(shape) {}
@@ -34,7 +34,7 @@ class PageEncoder {
 
  private:
   const Triangles& mesh_;
-  const PatchVertices& vertices_;
+  const ChunkVertices& vertices_;
   const std::vector<MortonKey>& keys_;
   const WideTree& tree_;
   const PagePlan& plan_;

@@ -9,21 +9,21 @@ namespace {
 // Parents come before children: of a larger cell, of the crown, or earlier in their patch.
 auto rank(const NumberedPage& page) {
   const std::uint64_t owner =
-      page.patch == NumberedPage::kCrown ? 0 : page.patch + std::uint64_t{1};
-  return std::tuple(page.octcode, owner, page.place);
+      page.chunk == NumberedPage::kTopTree ? 0 : page.chunk + std::uint64_t{1};
+  return std::tuple(page.octcode, owner, page.index);
 }
 
 }  // namespace
 
-PageNumbers::PageNumbers(const Crown& crown, const std::vector<BuiltPatch>& patches,
+PageNumbers::PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
                          std::uint32_t page_bytes)
-    : links_(page_bytes), of_crown_(crown.plan.pages.size()), of_patch_(patches.size()) {
-  for (std::uint32_t i = 0; i < crown.plan.pages.size(); ++i)
-    pages_.push_back({crown.plan.pages[i].octcode, 0, NumberedPage::kCrown, i});
-  for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
-    of_patch_[patch].resize(patches[patch].pages.size());
-    for (std::uint32_t i = 0; i < patches[patch].pages.size(); ++i)
-      pages_.push_back({patches[patch].pages[i].octcode, 0, patch, i});
+    : links_(page_bytes), of_top_tree_(top_tree.plan.pages.size()), of_chunk_(chunks.size()) {
+  for (std::uint32_t i = 0; i < top_tree.plan.pages.size(); ++i)
+    pages_.push_back({top_tree.plan.pages[i].octcode, 0, NumberedPage::kTopTree, i});
+  for (std::uint32_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    of_chunk_[chunk].resize(chunks[chunk].pages.size());
+    for (std::uint32_t i = 0; i < chunks[chunk].pages.size(); ++i)
+      pages_.push_back({chunks[chunk].pages[i].octcode, 0, chunk, i});
   }
   std::sort(pages_.begin(), pages_.end(),
             [](const NumberedPage& a, const NumberedPage& b) { return rank(a) < rank(b); });
@@ -31,8 +31,8 @@ PageNumbers::PageNumbers(const Crown& crown, const std::vector<BuiltPatch>& patc
     NumberedPage& page = pages_[number];
     if (number > 0 && pages_[number - 1].octcode == page.octcode)
       page.ordinal = pages_[number - 1].ordinal + 1;
-    auto& numbers = page.patch == NumberedPage::kCrown ? of_crown_ : of_patch_[page.patch];
-    numbers[page.place] = number;
+    auto& numbers = page.chunk == NumberedPage::kTopTree ? of_top_tree_ : of_chunk_[page.chunk];
+    numbers[page.index] = number;
   }
 }
 
@@ -43,8 +43,8 @@ Result<void> PageNumbers::check() const {
                     pages_.size());
 }
 
-std::uint32_t PageNumbers::link(std::uint32_t patch, std::uint32_t link) const {
-  return links_.make(LinkFormat::is_leaf(link), of_patch_[patch][links_.page(link)],
+std::uint32_t PageNumbers::link(std::uint32_t chunk, std::uint32_t link) const {
+  return links_.make(LinkFormat::is_leaf(link), of_chunk_[chunk][links_.page(link)],
                      links_.slot(link));
 }
 

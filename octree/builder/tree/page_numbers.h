@@ -11,32 +11,33 @@ namespace planetree::octree {
 
 /// A page of the whole tree.
 struct NumberedPage {
-  static constexpr std::uint32_t kCrown = ~std::uint32_t{0};
+  static constexpr std::uint32_t kTopTree = ~std::uint32_t{0};
 
   std::uint64_t octcode = 0;
-  std::uint32_t ordinal = 0;     ///< among pages of the same octcode
-  std::uint32_t patch = kCrown;  ///< whose it is, or the crown's
-  std::uint32_t place = 0;       ///< among its pages
+  std::uint32_t ordinal = 0;       ///< among pages of the same octcode
+  std::uint32_t chunk = kTopTree;  ///< whose it is, or the crown's
+  std::uint32_t index = 0;         ///< among its pages
 };
 
 /// The pages of crown and patches in the order of the file.
 class PageNumbers {
  public:
-  PageNumbers(const Crown& crown, const std::vector<BuiltPatch>& patches, std::uint32_t page_bytes);
+  PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
+              std::uint32_t page_bytes);
 
   /// errors  kBadArgument when links of 31 bits cannot tell so many pages apart: 2^21 of 64 KiB.
   Result<void> check() const;
 
   const std::vector<NumberedPage>& pages() const { return pages_; }
-  std::uint32_t crown_page(std::size_t place) const { return of_crown_[place]; }
+  std::uint32_t top_tree_page(std::size_t index) const { return of_top_tree_[index]; }
   /// What a link within a patch is in the file.
-  std::uint32_t link(std::uint32_t patch, std::uint32_t link) const;
+  std::uint32_t link(std::uint32_t chunk, std::uint32_t link) const;
 
  private:
   const LinkFormat links_;
   std::vector<NumberedPage> pages_;
-  std::vector<std::uint32_t> of_crown_;
-  std::vector<std::vector<std::uint32_t>> of_patch_;
+  std::vector<std::uint32_t> of_top_tree_;
+  std::vector<std::vector<std::uint32_t>> of_chunk_;
 };
 
 }  // namespace planetree::octree

@@ -11,7 +11,7 @@ namespace planetree::octree {
 class StreamWriter {
  public:
   template <class T>
-  void shuffled(const std::vector<T>& values) {
+  void byte_split(const std::vector<T>& values) {
     const std::size_t start = bytes_.size();
     bytes_.resize(start + values.size() * sizeof(T));
     for (std::size_t i = 0; i < values.size(); ++i) {

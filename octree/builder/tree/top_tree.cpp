@@ -12,16 +12,16 @@
 namespace planetree::octree {
 namespace {
 
-std::vector<BinaryNode> binary_above(const PatchTree& above,
-                                     const std::vector<BuiltPatch>& patches) {
+std::vector<BinaryNode> binary_above(const ChunkTree& above,
+                                     const std::vector<BuiltChunk>& chunks) {
   std::vector<BinaryNode> nodes;
-  for (const PatchNode& node : above.nodes)
+  for (const ChunkNode& node : above.nodes)
     nodes.push_back({empty_box(), node.begin, node.end, node.left, node.right});
   // Children come after their parents.
   for (std::size_t at = nodes.size(); at-- > 0;) {
     BinaryNode& node = nodes[at];
     if (node.leaf()) {
-      node.box = patches[node.begin].box;
+      node.box = chunks[node.begin].box;
     } else {
       node.box = nodes[node.left].box;
       extend(node.box, nodes[node.right].box);
@@ -30,10 +30,10 @@ std::vector<BinaryNode> binary_above(const PatchTree& above,
   return nodes;
 }
 
-class CrownBuilder {
+class TopTreeBuilder {
  public:
-  CrownBuilder(const std::vector<BuiltPatch>& patches, const BlockShape& shape, WideTree& tree)
-      : patches_(patches), shape_(shape), tree_(tree) {}
+  TopTreeBuilder(const std::vector<BuiltChunk>& chunks, const BlockShape& shape, WideTree& tree)
+      : chunks_(chunks), shape_(shape), tree_(tree) {}
 
   void run() {
     std::vector<SurfaceSums> sums(tree_.nodes.size());
@@ -52,7 +52,7 @@ class CrownBuilder {
     for (unsigned i = 0; i < node.child_count; ++i) {
       const WideChild& child = node.children[i];
       const unsigned below =
-          child.block ? patches_[child.index].height : tree_.nodes[child.index].height;
+          child.block ? chunks_[child.index].height : tree_.nodes[child.index].height;
       height = std::max(height, below);
     }
     node.height = static_cast<std::uint8_t>(height + 1);
@@ -62,10 +62,10 @@ class CrownBuilder {
     for (unsigned i = 0; i < node.child_count; ++i) {
       WideChild& child = node.children[i];
       const Point area = std::accumulate(
-          patches_.begin() + child.begin, patches_.begin() + child.end, Point(Point::Zero()),
-          [](const Point& sum, const BuiltPatch& patch) { return Point(sum + patch.area); });
+          chunks_.begin() + child.begin, chunks_.begin() + child.end, Point(Point::Zero()),
+          [](const Point& sum, const BuiltChunk& chunk) { return Point(sum + chunk.area); });
       fit_disc(child, normal_of(area),
-               child.block ? patches_[child.index].boxes_below
+               child.block ? chunks_[child.index].boxes_below
                            : octree::boxes_below(tree_, tree_.nodes[child.index]));
     }
   }
@@ -74,25 +74,25 @@ class CrownBuilder {
     const WideNode& node = tree_.nodes[at];
     for (unsigned i = 0; i < node.child_count; ++i) {
       const WideChild& child = node.children[i];
-      SurfaceSums below = child.block ? patches_[child.index].sums : sums[child.index];
-      if (child.block) below.move(centre_of(patches_[child.index].box) - centre_of(child.box));
+      SurfaceSums below = child.block ? chunks_[child.index].sums : sums[child.index];
+      if (child.block) below.move(centre_of(chunks_[child.index].box) - centre_of(child.box));
       tree_.moments[at].set(i, packed(below, child.box));
       below.move(centre_of(child.box) - centre_of(node.box));
       sums[at].add(below);
     }
   }
 
-  const std::vector<BuiltPatch>& patches_;
+  const std::vector<BuiltChunk>& chunks_;
   const BlockShape& shape_;
   WideTree& tree_;
 };
 
 /// Packs the nodes into pages, breadth first: those that hang from one page share pages, and
 /// no others.
-class CrownPlanner {
+class TopTreePlanner {
  public:
-  CrownPlanner(const WideTree& tree, const std::vector<BuiltPatch>& patches, std::size_t capacity)
-      : tree_(tree), patches_(patches), capacity_(capacity) {}
+  TopTreePlanner(const WideTree& tree, const std::vector<BuiltChunk>& chunks, std::size_t capacity)
+      : tree_(tree), chunks_(chunks), capacity_(capacity) {}
 
   std::vector<PlannedPage> run() {
     if (tree_.nodes.empty()) return {};
@@ -137,29 +137,29 @@ class CrownPlanner {
 
   std::uint64_t octcode_of(std::uint32_t at) const {
     const WideNode& node = tree_.nodes[at];
-    const std::uint64_t least = patches_[node.children[0].begin].least_code;
+    const std::uint64_t least = chunks_[node.children[0].begin].min_code;
     const std::uint64_t greatest =
-        patches_[node.children[node.child_count - 1u].end - 1].greatest_code;
+        chunks_[node.children[node.child_count - 1u].end - 1].greatest_code;
     return octcode_of_range(least, greatest);
   }
 
   const WideTree& tree_;
-  const std::vector<BuiltPatch>& patches_;
+  const std::vector<BuiltChunk>& chunks_;
   const std::size_t capacity_;
   std::vector<PlannedPage> pages_;
 };
 
 }  // namespace
 
-Crown build_crown(const PatchTree& above, const std::vector<BuiltPatch>& patches,
-                  const BlockShape& shape, std::uint32_t page_bytes) {
-  Crown crown;
-  crown.tree = collapse(binary_above(above, patches));
-  CrownBuilder(patches, shape, crown.tree).run();
+TopTree build_top_tree(const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
+                       const BlockShape& shape, std::uint32_t page_bytes) {
+  TopTree top_tree;
+  top_tree.tree = collapse(binary_above(above, chunks));
+  TopTreeBuilder(chunks, shape, top_tree.tree).run();
   const std::size_t slots = page_bytes / kSlotBytes - frame_head_slots(page_bytes);
-  crown.plan.page_bytes = page_bytes;
-  crown.plan.pages = CrownPlanner(crown.tree, patches, slots / shape.node_slots()).run();
-  return crown;
+  top_tree.plan.page_bytes = page_bytes;
+  top_tree.plan.pages = TopTreePlanner(top_tree.tree, chunks, slots / shape.node_slots()).run();
+  return top_tree;
 }
 
 }  // namespace planetree::octree

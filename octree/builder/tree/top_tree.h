@@ -13,7 +13,7 @@ namespace planetree::octree {
 
 /// The tree above the patches. Its blocks stand for the patches, by their numbers; of a model
 /// of one patch it has no nodes.
-struct Crown {
+struct TopTree {
   WideTree tree;
   PagePlan plan;  ///< pages without their final numbers, parents first; no links
 };
@@ -21,7 +21,7 @@ struct Crown {
 /// Makes the tree above patches that were built.
 ///
 /// patches  as above.patches, at least one.
-Crown build_crown(const PatchTree& above, const std::vector<BuiltPatch>& patches,
-                  const BlockShape& shape, std::uint32_t page_bytes);
+TopTree build_top_tree(const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
+                       const BlockShape& shape, std::uint32_t page_bytes);
 
 }  // namespace planetree::octree

@@ -17,7 +17,7 @@ namespace planetree::octree {
 class TreePages {
  public:
   /// All must outlive this; `crown` is given its links.
-  TreePages(Crown& crown, const std::vector<BuiltPatch>& patches, const PageNumbers& numbers,
+  TreePages(TopTree& top_tree, const std::vector<BuiltChunk>& chunks, const PageNumbers& numbers,
             const BlockShape& shape, const storage::SpillFile& file);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(numbers_.pages().size()); }
@@ -25,8 +25,8 @@ class TreePages {
   Result<FilePage> encode(std::uint32_t number) const;
 
  private:
-  const Crown& crown_;
-  const std::vector<BuiltPatch>& patches_;
+  const TopTree& top_tree_;
+  const std::vector<BuiltChunk>& chunks_;
   const PageNumbers& numbers_;
   const BlockShape& shape_;
   const storage::SpillFile& file_;

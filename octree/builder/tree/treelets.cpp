@@ -81,10 +81,10 @@ TreeletCut cut_treelets(const WideTree& tree, const RecordSlots& slots, std::uin
     cut.cut_blocks.push_back(true);
     return cut;
   }
-  TreeletCutter cutter(tree, slots, bottom_slots);
-  cutter.round(bottom_slots);
-  while (!cutter.done()) cutter.round(upper_slots);
-  return std::move(cutter.cut);
+  TreeletCutter layout(tree, slots, bottom_slots);
+  layout.round(bottom_slots);
+  while (!layout.done()) layout.round(upper_slots);
+  return std::move(layout.cut);
 }
 
 }  // namespace planetree::octree

@@ -19,10 +19,9 @@ struct Opening {
 // number of children a subtree may give to the wide node above it, as compressed wide trees
 // for rays are (Ylitie, Karras & Laine 2017, "Efficient incoherent ray traversal on GPUs
 // through compressed wide BVHs", section 4.2); blocks stay as they are.
-class Openings {
+class OpenedChildren {
  public:
-  explicit Openings(const std::vector<BinaryNode>& binary)
-      : binary_(binary), least_(binary.size()) {
+  explicit OpenedChildren(const std::vector<BinaryNode>& binary) : binary_(binary), min_(binary.size()) {
     // Children come after their parents.
     for (auto at = static_cast<std::uint32_t>(binary.size()); at-- > 0;) weigh(at);
   }
@@ -35,10 +34,10 @@ class Openings {
   }
 
  private:
-  static constexpr unsigned kMostShare = kFanOut - 1;
+  static constexpr unsigned kMaxShare = kFanOut - 1;
 
   // Of a subtree that may give up to `share` children.
-  float least(std::uint32_t at, unsigned share) const { return least_[at][share - 1]; }
+  float least(std::uint32_t at, unsigned share) const { return min_[at][share - 1]; }
 
   // The first of the best shares for the left half; the rest is for the right one.
   unsigned best_share(const BinaryNode& node, unsigned share) const {
@@ -58,9 +57,9 @@ class Openings {
   void weigh(std::uint32_t at) {
     const BinaryNode& node = binary_[at];
     if (node.leaf()) return;  // a block costs the same wherever it hangs
-    least_[at][0] = half_area(node.box) + divided(node, kFanOut);
-    for (unsigned share = 2; share <= kMostShare; ++share)
-      least_[at][share - 1] = std::min(least_[at][0], divided(node, share));
+    min_[at][0] = half_area(node.box) + divided(node, kFanOut);
+    for (unsigned share = 2; share <= kMaxShare; ++share)
+      min_[at][share - 1] = std::min(min_[at][0], divided(node, share));
   }
 
   // Appends what a subtree gives: itself, or what its halves give.
@@ -79,12 +78,12 @@ class Openings {
   }
 
   const std::vector<BinaryNode>& binary_;
-  std::vector<std::array<float, kMostShare>> least_;  // of surface, by share
+  std::vector<std::array<float, kMaxShare>> min_;  // of surface, by share
 };
 
 // The most steps, `most` or fewer, after which holds(way) says that the true side is not passed.
 template <class Holds>
-std::uint8_t most_steps(float distance, float step, int most, const Holds& holds) {
+std::uint8_t max_steps(float distance, float step, int most, const Holds& holds) {
   const float guess = step > 0 ? distance / step : 0.0f;
   int steps = std::min(static_cast<int>(std::clamp(guess, 0.0f, 254.0f)) + 1, most);
   while (steps > 0 && !holds(static_cast<float>(steps) * step)) --steps;
@@ -98,9 +97,9 @@ void pack_box(const FloatBox& parent, WideChild& child) {
     const float lower = child.true_box.lower[axis], upper = child.true_box.upper[axis];
     const float step = box_step(low, high);
     child.packed.lower[axis] =
-        most_steps(lower - low, step, kBoxSteps - 1, [&](float way) { return low + way <= lower; });
-    child.packed.upper[axis] = most_steps(high - upper, step, kBoxSteps - child.packed.lower[axis],
-                                          [&](float way) { return high - way >= upper; });
+        max_steps(lower - low, step, kBoxSteps - 1, [&](float way) { return low + way <= lower; });
+    child.packed.upper[axis] = max_steps(high - upper, step, kBoxSteps - child.packed.lower[axis],
+                                         [&](float way) { return high - way >= upper; });
   }
   child.box = unpack_box(parent, child.packed);
 }
@@ -108,13 +107,13 @@ void pack_box(const FloatBox& parent, WideChild& child) {
 class Collapser {
  public:
   Collapser(const std::vector<BinaryNode>& binary, WideTree& tree)
-      : binary_(binary), openings_(binary), tree_(tree) {}
+      : binary_(binary), opened_(binary), tree_(tree) {}
 
   // Appends the wide node for binary node `from`, whose decoded box is `box`.
   std::uint32_t add_node(std::uint32_t from, const FloatBox& box) {
     const auto at = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
-    const Opening opening = openings_.of(from);
+    const Opening opening = opened_.of(from);
     tree_.nodes[at].box = box;
     tree_.nodes[at].child_count = static_cast<std::uint8_t>(opening.count);
     unsigned height = 0;
@@ -149,7 +148,7 @@ class Collapser {
   }
 
   const std::vector<BinaryNode>& binary_;
-  const Openings openings_;
+  const OpenedChildren opened_;
   WideTree& tree_;
 };
 

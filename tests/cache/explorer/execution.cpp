@@ -9,7 +9,7 @@ namespace {
 Execution* the_current = nullptr;
 
 // Times have 16 bits. No program here comes near; one that does never ends.
-constexpr std::uint16_t kMostSteps = 10'000;
+constexpr std::uint16_t kMaxSteps = 10'000;
 
 const char* name_of(std::memory_order order) noexcept {
   switch (order) {
@@ -29,7 +29,7 @@ const char* name_of(std::memory_order order) noexcept {
 }  // namespace
 
 Execution::Execution(Choices& choices, std::uint32_t stops)
-    : choices_(choices), stops_(stops), fibers_(kMostThreads, &fiber_body) {
+    : choices_(choices), stops_(stops), fibers_(kMaxThreads, &fiber_body) {
   assert(the_current == nullptr);
   the_current = this;
 }
@@ -63,11 +63,11 @@ bool Execution::run(const MakeProgram& make) {
 // started the others; and so does what finishes it, as if it joined them.
 void Execution::start_threads() {
   thread_count_ = program_->thread_count();
-  assert(thread_count_ <= kMostThreads);
-  const Knowledge told = memory_.tell(0);
+  assert(thread_count_ <= kMaxThreads);
+  const Knowledge knowledge = memory_.tell(0);
   for (std::uint32_t i = 0; i < thread_count_; ++i) {
     threads_[i] = {false, false, nullptr};
-    memory_.learn(i, told);
+    memory_.learn(i, knowledge);
   }
 }
 
@@ -100,7 +100,7 @@ bool Execution::may_go_on(std::uint32_t thread) const noexcept {
 /// only if it may stay, and to stop it is then one of the stops.
 bool Execution::choose_thread(bool may_stay) {
   if (may_stay && stops_left_ == 0) return true;
-  std::array<std::uint32_t, kMostThreads> able;
+  std::array<std::uint32_t, kMaxThreads> able;
   std::uint32_t count = 0;
   if (may_stay) able[count++] = running_;
   for (std::uint32_t i = 0; i < thread_count_; ++i) {
@@ -115,7 +115,7 @@ bool Execution::choose_thread(bool may_stay) {
 
 void Execution::before_step() {
   if (!threads_run_) return;
-  if (memory_.time_of(running_) > kMostSteps) fail("a thread does not end");
+  if (memory_.time_of(running_) > kMaxSteps) fail("a thread does not end");
   if (!std::exchange(threads_[running_].did_a_deed, false)) return;
   choose_thread(true);
   fibers_.switch_to(running_);
@@ -160,7 +160,7 @@ void Execution::write_plain(std::size_t plain) {
   if (!memory_.write_plain(running_, plain)) fail("a data race: a write after another access");
 }
 
-void Execution::lock(bool& held, const Knowledge& told) {
+void Execution::lock(bool& held, const Knowledge& knowledge) {
   before_step();
   if (held) {
     threads_[running_].awaited_mutex = &held;
@@ -169,14 +169,14 @@ void Execution::lock(bool& held, const Knowledge& told) {
     threads_[running_].awaited_mutex = nullptr;
   }
   held = true;
-  memory_.learn(running_, told);
+  memory_.learn(running_, knowledge);
   threads_[running_].did_a_deed = true;
   note("locks", 0);
 }
 
-void Execution::unlock(bool& held, Knowledge& told) {
+void Execution::unlock(bool& held, Knowledge& knowledge) {
   before_step();
-  told = memory_.tell(running_);
+  knowledge = memory_.tell(running_);
   held = false;
   threads_[running_].did_a_deed = true;
   note("unlocks", 0);

@@ -55,8 +55,8 @@ class Execution {
   void write_plain(std::size_t plain);
 
   /// `told` is what the mutex's last holder knew.
-  void lock(bool& held, const Knowledge& told);
-  void unlock(bool& held, Knowledge& told);
+  void lock(bool& held, const Knowledge& knowledge);
+  void unlock(bool& held, Knowledge& knowledge);
 
   /// Lets another thread go on, if there is one.
   void yield();
@@ -72,7 +72,7 @@ class Execution {
   void note(const char* what, std::uint64_t number);
 
  private:
-  static constexpr std::uint32_t kNobody = kMostThreads;
+  static constexpr std::uint32_t kNobody = kMaxThreads;
 
   static void fiber_body();
   void run_thread();
@@ -96,7 +96,7 @@ class Execution {
   Fibers fibers_;
 
   Program* program_ = nullptr;
-  std::array<Thread, kMostThreads> threads_;
+  std::array<Thread, kMaxThreads> threads_;
   std::uint32_t thread_count_ = 0;
   std::uint32_t running_ = 0;
   bool threads_run_ = false;  ///< else the program is being set up, or finishes

@@ -7,8 +7,8 @@
 
 namespace planetree::explorer {
 
-inline constexpr std::size_t kMostThreads = 4;
-inline constexpr std::size_t kMostAtomics = 32;
+inline constexpr std::size_t kMaxThreads = 4;
+inline constexpr std::size_t kMaxAtomics = 32;
 
 /// One step of one thread; a thread's steps are numbered from 1.
 struct Step {
@@ -38,17 +38,17 @@ class Knowledge {
   }
 
   void add(const Knowledge& other) noexcept {
-    for (std::size_t i = 0; i < kMostThreads; ++i) {
+    for (std::size_t i = 0; i < kMaxThreads; ++i) {
       times_[i] = std::max(times_[i], other.times_[i]);
     }
-    for (std::size_t i = 0; i < kMostAtomics; ++i) {
+    for (std::size_t i = 0; i < kMaxAtomics; ++i) {
       oldest_[i] = std::max(oldest_[i], other.oldest_[i]);
     }
   }
 
  private:
-  std::array<std::uint16_t, kMostThreads> times_{};
-  std::array<std::uint16_t, kMostAtomics> oldest_{};
+  std::array<std::uint16_t, kMaxThreads> times_{};
+  std::array<std::uint16_t, kMaxAtomics> oldest_{};
 };
 
 }  // namespace planetree::explorer

@@ -27,7 +27,7 @@ void Memory::clear() noexcept {
 }
 
 std::size_t Memory::add_atomic(std::uint64_t value) {
-  if (atomic_count_ == kMostAtomics) {
+  if (atomic_count_ == kMaxAtomics) {
     std::fputs("explorer: too many atomics in one program\n", stderr);
     std::abort();
   }
@@ -132,7 +132,7 @@ bool Memory::write_plain(std::uint32_t thread, std::size_t plain) {
   const Step step = next_step(thread);
   Plain& touched = plains_[plain];
   bool ordered = known_[thread].includes(touched.written);
-  for (std::uint32_t i = 0; i < kMostThreads; ++i) {
+  for (std::uint32_t i = 0; i < kMaxThreads; ++i) {
     ordered = ordered && known_[thread].includes({i, touched.read[i]});
   }
   touched.written = step;
@@ -144,8 +144,8 @@ Knowledge Memory::tell(std::uint32_t thread) {
   return known_[thread];
 }
 
-void Memory::learn(std::uint32_t thread, const Knowledge& told) noexcept {
-  known_[thread].add(told);
+void Memory::learn(std::uint32_t thread, const Knowledge& knowledge) noexcept {
+  known_[thread].add(knowledge);
 }
 
 }  // namespace planetree::explorer

@@ -37,7 +37,7 @@ class Memory {
   std::size_t add_atomic(std::uint64_t value);
   std::size_t add_plain();
 
-  // A step of a thread each. `thread` is below kMostThreads.
+  // A step of a thread each. `thread` is below kMaxThreads.
 
   Loaded load(std::uint32_t thread, std::size_t atomic, std::memory_order order, Choices& choices);
   void store(std::uint32_t thread, std::size_t atomic, std::uint64_t value,
@@ -53,7 +53,7 @@ class Memory {
   /// What a thread knows, for another to learn: mutexes, starts and ends of
   /// threads.
   Knowledge tell(std::uint32_t thread);
-  void learn(std::uint32_t thread, const Knowledge& told) noexcept;
+  void learn(std::uint32_t thread, const Knowledge& knowledge) noexcept;
 
   std::uint16_t time_of(std::uint32_t thread) const noexcept {
     return known_[thread].time_of(thread);
@@ -72,7 +72,7 @@ class Memory {
 
   struct Plain {
     Step written;
-    std::array<std::uint16_t, kMostThreads> read{};
+    std::array<std::uint16_t, kMaxThreads> read{};
   };
 
   Step next_step(std::uint32_t thread) noexcept;
@@ -80,8 +80,8 @@ class Memory {
   static Set coherence_after(const History& history, std::size_t store) noexcept;
   void append(std::uint32_t thread, std::size_t atomic, Store made, std::memory_order order);
 
-  std::array<Knowledge, kMostThreads> known_;
-  std::array<History, kMostAtomics> histories_;
+  std::array<Knowledge, kMaxThreads> known_;
+  std::array<History, kMaxAtomics> histories_;
   std::size_t atomic_count_ = 0;
   std::vector<Plain> plains_;
   SeqCstOrder order_;

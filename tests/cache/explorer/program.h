@@ -14,7 +14,7 @@ class Program {
  public:
   virtual ~Program() = default;
 
-  /// At most kMostThreads.
+  /// At most kMaxThreads.
   virtual std::uint32_t thread_count() const noexcept = 0;
 
   /// The body of one thread.

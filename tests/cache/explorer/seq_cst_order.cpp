@@ -7,7 +7,7 @@
 namespace planetree::explorer {
 namespace {
 
-constexpr std::size_t kMostOperations = 64;
+constexpr std::size_t kMaxOperations = 64;
 
 constexpr SeqCstOrder::Set only(std::size_t operation) noexcept {
   return SeqCstOrder::Set{1} << operation;
@@ -44,7 +44,7 @@ bool SeqCstOrder::allows(Set earlier, Set later) const noexcept {
 }
 
 SeqCstOrder::Set SeqCstOrder::add(Step step, Set earlier, Set later) {
-  if (operations_.size() == kMostOperations) {
+  if (operations_.size() == kMaxOperations) {
     std::fputs("explorer: too many seq_cst operations in one run\n", stderr);
     std::abort();
   }

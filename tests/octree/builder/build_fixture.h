@@ -20,7 +20,7 @@ namespace planetree::octree {
 
 /// Builds of models of many patches: what large ones are, with sizes so small that tests can
 /// look at them.
-class SmallPatches : public testing::Test {
+class SmallChunks : public testing::Test {
  protected:
   // Binary STL, whose corners are floats.
   void write(const Soup& soup) {
@@ -38,7 +38,7 @@ class SmallPatches : public testing::Test {
     }
   }
   // Binary PLY of doubles, vertices and faces in random order. What it is, its content says.
-  void write_shuffled(Soup soup) {
+  void write_byte_split(Soup soup) {
     std::mt19937 random(4);
     std::shuffle(soup.begin(), soup.end(), random);
     std::vector<Vec3> vertices;
@@ -73,10 +73,10 @@ class SmallPatches : public testing::Test {
   std::filesystem::path output_ = folder_ / "model.ptree";
 };
 
-inline constexpr BuildMemory kRoomy{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30, 1 << 30, 1 << 30};
+inline constexpr BuildMemory kLarge{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30, 1 << 30, 1 << 30};
 inline constexpr BuildMemory kTight{1, 77, 65536, 0, 0, 0, 0, 0};
 // The same, and so little for the mesh that corners in no order are sorted on disk.
-inline constexpr BuildMemory kShuffling{1, 77, 1000, 0, 0, 0, 0, 0};
+inline constexpr BuildMemory kByteSplit{1, 77, 1000, 0, 0, 0, 0, 0};
 inline constexpr BuildMemory kBetween{3, 200, 65536, 30000, 20000, 7000, 5000, 5000};
 
 }  // namespace planetree::octree

@@ -16,11 +16,13 @@ namespace {
 class Silent final : public BuildProgress {
  public:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
-  void failed_at(BuildPlace place, const std::filesystem::path&) override { failed_at_ = place; }
-  std::optional<BuildPlace> failed_at() const { return failed_at_; }
+  void failed_at(BuildDirectory index, const std::filesystem::path&) override {
+    failed_at_ = index;
+  }
+  std::optional<BuildDirectory> failed_at() const { return failed_at_; }
 
  private:
-  std::optional<BuildPlace> failed_at_;
+  std::optional<BuildDirectory> failed_at_;
 };
 
 struct BuildCase {
@@ -37,11 +39,11 @@ std::vector<BuildCase> build_cases() {
           {"in one place", repeated(700)},
           {"nested", joined({sphere(4), inside_out(scaled(sphere(3), 0.5))})},
           {"one large, many small",
-           joined({scaled(sphere(3), 0x1p-8), moved(scaled(sphere(3), 0x1p-9), {0.2, 0, 0}),
+           joined({scaled(sphere(3), 0x1p-8), perturbed(scaled(sphere(3), 0x1p-9), {0.2, 0, 0}),
                    box({-1, -1, -1}, {1, 1, 1})})}};
 }
 
-class PatchedBuild : public SmallPatches {
+class ChunkedBuild : public SmallChunks {
  protected:
   Result<BuildReport> build(const BuildMemory& memory,
                             storage::FileCalls& calls = storage::FileCalls::real(),
@@ -57,16 +59,16 @@ class PatchedBuild : public SmallPatches {
   }
 
   std::optional<RegionBox> box_;
-  std::optional<BuildPlace> failed_at_;  // the last build
+  std::optional<BuildDirectory> failed_at_;  // the last build
 };
 
-TEST_F(PatchedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
+TEST_F(ChunkedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
   for (const BuildCase& c : build_cases()) {
     SCOPED_TRACE(c.name);
-    write_shuffled(c.soup);
-    ASSERT_TRUE(build(kRoomy));
+    write_byte_split(c.soup);
+    ASSERT_TRUE(build(kLarge));
     const storage::Bytes expected = built();
-    for (const BuildMemory& memory : {kTight, kBetween, kShuffling}) {
+    for (const BuildMemory& memory : {kTight, kBetween, kByteSplit}) {
       const auto report = build(memory);
       ASSERT_TRUE(report) << report.error().text;
       EXPECT_EQ(built(), expected);
@@ -74,17 +76,17 @@ TEST_F(PatchedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
   }
 }
 
-TEST_F(PatchedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
+TEST_F(ChunkedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
   for (const BuildCase& c : build_cases()) {
     SCOPED_TRACE(c.name);
     write(c.soup);
     box_.reset();
-    ASSERT_TRUE(build(kRoomy));
+    ASSERT_TRUE(build(kLarge));
     const storage::Bytes whole = built();
     for (const RegionBox& box :
          {RegionBox{{-0.1, -0.2, -0.3}, {0.9, 0.5, 1.5}}, RegionBox{{-9, -9, 0}, {9, 9, 9}}}) {
       box_ = box;
-      ASSERT_TRUE(build(kRoomy));
+      ASSERT_TRUE(build(kLarge));
       const storage::Bytes expected = built();
       EXPECT_NE(expected, whole);
       EXPECT_LE(expected.size(), whole.size());
@@ -100,7 +102,7 @@ TEST_F(PatchedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
 }
 
 // What is built after the edges are matched is of the region alone.
-TEST_F(PatchedBuild, TakesNoMoreOfARegionThanItHas) {
+TEST_F(ChunkedBuild, TakesNoMoreOfARegionThanItHas) {
   write(sphere(5));
   ASSERT_TRUE(build(kTight));
   const auto whole = storage::PageFile::open(output_);
@@ -113,45 +115,46 @@ TEST_F(PatchedBuild, TakesNoMoreOfARegionThanItHas) {
   EXPECT_LT(report->header.model.triangle_count, 400u);
   EXPECT_EQ(report->header.model.input_triangles, sphere(5).size());
   EXPECT_EQ(report->input_triangles, sphere(5).size());
-  EXPECT_EQ(report->header.model.open_edge_count, 0u);
+  EXPECT_EQ(report->header.model.unbalanced_edge_count, 0u);
 }
 
-TEST_F(PatchedBuild, LeavesNothingBesideTheFile) {
+TEST_F(ChunkedBuild, LeavesNothingBesideTheFile) {
   write(sphere(3));
   ASSERT_TRUE(build(kTight));
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"});
 }
 
-TEST_F(PatchedBuild, SaysThatItFailedOverItsInput) {
+TEST_F(ChunkedBuild, SaysThatItFailedOverItsInput) {
   write({});
   EXPECT_FALSE(build(kTight));
-  EXPECT_EQ(failed_at_, BuildPlace::kInput);
+  EXPECT_EQ(failed_at_, BuildDirectory::kInput);
   mesh_ = meshes_ / "none.stl";
   EXPECT_FALSE(build(kTight));
-  EXPECT_EQ(failed_at_, BuildPlace::kInput);
+  EXPECT_EQ(failed_at_, BuildDirectory::kInput);
 }
 
 // The n-th call fails, for every n: a clean error or the whole file, and nothing beside it.
-class PatchedBuildFaults : public PatchedBuild,
+class ChunkedBuildFaults : public ChunkedBuild,
                            public testing::WithParamInterface<storage::FaultyCalls::Fault> {
  protected:
   using Fault = storage::FaultyCalls::Fault;
 
   // The words are for people; where something is wrong must go with them.
-  static std::optional<BuildPlace> place_of(const Result<BuildReport>& report) {
+  static std::optional<BuildDirectory> index_of(const Result<BuildReport>& report) {
     if (report) return {};
     const std::string_view text = report.error().text;
     const auto says = [text](std::string_view words) {
       return text.find(words) != std::string_view::npos;
     };
-    if (says("temporary file")) return BuildPlace::kTemporary;
-    return says("the mesh") || says("cannot be opened") ? BuildPlace::kInput : BuildPlace::kOutput;
+    if (says("temporary file")) return BuildDirectory::kTemporary;
+    return says("the mesh") || says("cannot be opened") ? BuildDirectory::kInput
+                                                        : BuildDirectory::kOutput;
   }
 };
 
-TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
-  write_shuffled(sphere(2));
-  const auto in_memory = build(kRoomy), spilled = build(kTight), sorted = build(kShuffling);
+TEST_P(ChunkedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
+  write_byte_split(sphere(2));
+  const auto in_memory = build(kLarge), spilled = build(kTight), sorted = build(kByteSplit);
   ASSERT_TRUE(in_memory && spilled && sorted);
   ASSERT_GT(sorted->temporary_bytes, spilled->temporary_bytes);
   const storage::Bytes expected = built();
@@ -166,14 +169,14 @@ TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
       calls.fault = GetParam();
       calls.number = fault_at % 2 == 0 ? EIO : ENOSPC;
       calls.fault_at = fault_at;
-      const auto report = build(kShuffling, calls);
+      const auto report = build(kByteSplit, calls);
       ASSERT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"}) << calls.failed_call();
       if (!calls.happened()) {
         EXPECT_TRUE(report);
         break;
       }
       ASSERT_TRUE(report || GetParam() == Fault::kError) << report.error().text;
-      EXPECT_EQ(failed_at_, place_of(report)) << calls.failed_call();
+      EXPECT_EQ(failed_at_, index_of(report)) << calls.failed_call();
       // The directory is synced when the file has its name.
       const bool named = calls.failed_call() == "fsync" && calls.fsync_count() == 2;
       ASSERT_EQ(built(), report || named ? expected : old) << calls.failed_call();
@@ -184,7 +187,7 @@ TEST_P(PatchedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, PatchedBuildFaults,
+INSTANTIATE_TEST_SUITE_P(Every, ChunkedBuildFaults,
                          testing::Values(storage::FaultyCalls::Fault::kError,
                                          storage::FaultyCalls::Fault::kInterrupt,
                                          storage::FaultyCalls::Fault::kShort));

@@ -4,17 +4,17 @@
 
 namespace planetree::octree {
 
-PatchedTree::PatchedTree(const Soup& soup, std::uint64_t patch_triangles, std::uint32_t page_bytes,
+ChunkedTree::ChunkedTree(const Soup& soup, std::uint64_t chunk_triangles, std::uint32_t page_bytes,
                          storage::SpillFile& file)
-    : mesh(store(soup)), runs(runs_of(mesh)), above(*cut_patches(*runs, patch_triangles)) {
+    : mesh(store(soup)), runs(runs_of(mesh)), above(*cut_chunks(*runs, chunk_triangles)) {
   shape.float64 = mesh.float64();
-  for (const Patch& patch : above.patches) {
-    Triangles triangles = *runs->read(patch.from, patch.to);
-    auto built = build_patch(triangles, mesh.frame.centre(), shape, page_bytes, file);
+  for (const Chunk& chunk : above.chunks) {
+    Triangles triangles = *runs->read(chunk.from, chunk.to);
+    auto built = build_chunk(triangles, mesh.frame.centre(), shape, page_bytes, file);
     if (!built) std::abort();
-    patches.push_back(*std::move(built));
+    chunks.push_back(*std::move(built));
   }
-  tree = std::make_unique<BuiltTree>(mesh.frame, above, patches, shape, page_bytes, file);
+  tree = std::make_unique<BuiltTree>(mesh.frame, above, chunks, shape, page_bytes, file);
 }
 
 }  // namespace planetree::octree

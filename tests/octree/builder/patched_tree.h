@@ -12,16 +12,16 @@
 namespace planetree::octree {
 
 /// The tree of a model of small patches, built as far as its file could be written.
-struct PatchedTree {
+struct ChunkedTree {
   /// file  takes the patches' pages; must outlive this.
-  explicit PatchedTree(const Soup& soup, std::uint64_t patch_triangles = 200,
+  explicit ChunkedTree(const Soup& soup, std::uint64_t chunk_triangles = 200,
                        std::uint32_t page_bytes = 4096, storage::SpillFile& file = spill_file());
 
   SampleMesh mesh;
   std::unique_ptr<TriangleRuns> runs;
-  PatchTree above;
+  ChunkTree above;
   BlockShape shape;
-  std::vector<BuiltPatch> patches;
+  std::vector<BuiltChunk> chunks;
   std::unique_ptr<BuiltTree> tree;
 };
 

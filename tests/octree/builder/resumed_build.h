@@ -29,22 +29,22 @@ class Witness final : public BuildProgress {
     at->second.done = done;
   }
   void takes_up(const std::string& what) override { start = what; }
-  void failed_at(BuildPlace place, const std::filesystem::path& path) override {
-    failed = {place, path};
+  void failed_at(BuildDirectory index, const std::filesystem::path& path) override {
+    failed = {index, path};
   }
 
   bool did(BuildPhase phase) const { return counts_.contains(phase); }
   Count count(BuildPhase phase) const { return did(phase) ? counts_.at(phase) : Count{}; }
 
   std::string start;
-  std::optional<std::pair<BuildPlace, std::filesystem::path>> failed;
+  std::optional<std::pair<BuildDirectory, std::filesystem::path>> failed;
 
  private:
   std::map<BuildPhase, Count> counts_;
 };
 
 /// Builds that are stopped, and gone on with.
-class ResumedBuild : public SmallPatches {
+class ResumedBuild : public SmallChunks {
  protected:
   using Fault = storage::FaultyCalls::Fault;
   using Names = std::vector<std::string>;

@@ -116,14 +116,16 @@ TEST_F(ResumedBuildFiles, SaysWhereItFailed) {
   write(sphere(2));
   options_.temp_directory = elsewhere / ".";
   work_ = options_.work_directory(output_);
-  const auto place_of = [&](const std::string& name) {
+  const auto index_of = [&](const std::string& name) {
     const auto is_in = [&name](const std::filesystem::path& folder) {
       return name.starts_with(std::filesystem::canonical(folder).string());
     };
-    if (name.find(".work") != std::string::npos) return std::pair(BuildPlace::kTemporary, work_);
-    if (is_in(elsewhere / ".")) return std::pair(BuildPlace::kTemporary, options_.temp_directory);
-    if (is_in(meshes_ / ".")) return std::pair(BuildPlace::kInput, mesh_);
-    return std::pair(BuildPlace::kOutput, output_);
+    if (name.find(".work") != std::string::npos)
+      return std::pair(BuildDirectory::kTemporary, work_);
+    if (is_in(elsewhere / "."))
+      return std::pair(BuildDirectory::kTemporary, options_.temp_directory);
+    if (is_in(meshes_ / ".")) return std::pair(BuildDirectory::kInput, mesh_);
+    return std::pair(BuildDirectory::kOutput, output_);
   };
   std::map<std::filesystem::path, int> failed;
   for (const bool anew : {true, false})
@@ -133,7 +135,7 @@ TEST_F(ResumedBuildFiles, SaysWhereItFailed) {
       const auto report = build(calls);
       if (calls.name().empty()) break;
       if (report) continue;
-      EXPECT_EQ(witness_.failed, place_of(calls.name())) << calls.name();
+      EXPECT_EQ(witness_.failed, index_of(calls.name())) << calls.name();
       ++failed[witness_.failed->second];
     }
   EXPECT_EQ(failed.size(), 4u);
@@ -145,7 +147,7 @@ TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
   const storage::Bytes expected = whole();
   const auto size = MeshSize::foresee(mesh_);
   ASSERT_TRUE(size);
-  BuildMemory memory = kRoomy;
+  BuildMemory memory = kLarge;
   memory.edge_bytes = 0;
   const auto needed = [&](std::uint64_t kept_bytes, bool matched) {
     const auto need =
@@ -154,12 +156,12 @@ TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
   };
   storage::FaultyCalls calls;
   const auto build_with = [&](std::uint64_t free_bytes) {
-    calls.room = storage::device_room(free_bytes);
+    calls.device = storage::device_with_free(free_bytes);
     const auto report = build(calls, memory);
     EXPECT_FALSE(witness_.did(BuildPhase::kOrdering) && !report);
     return static_cast<bool>(report);
   };
-  const std::pair shortage(BuildPlace::kTemporary, output_.parent_path());
+  const std::pair shortage(BuildDirectory::kTemporary, output_.parent_path());
   EXPECT_FALSE(build_with(needed(0, false) - 1));
   EXPECT_EQ(witness_.failed, shortage);
   EXPECT_TRUE(build_with(needed(0, false)));
@@ -185,13 +187,13 @@ TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
 TEST_F(ResumedBuildFiles, ReportsWhatItHadOnDisk) {
   write(sphere(3));
   storage::FaultyCalls calls;
-  const auto at_once = build(calls, kRoomy);
+  const auto at_once = build(calls, kLarge);
   ASSERT_TRUE(at_once);
   const std::uint64_t triangle_bytes = at_once->header.model.triangle_count * (16 + 36);
   EXPECT_GT(at_once->temporary_bytes, triangle_bytes);
   std::filesystem::remove(output_);
   stop_in(BuildPhase::kColouring, 2);
-  const auto later = build(calls, kRoomy);
+  const auto later = build(calls, kLarge);
   ASSERT_TRUE(later);
   EXPECT_FALSE(witness_.did(BuildPhase::kReading));
   EXPECT_GT(later->temporary_bytes, triangle_bytes);

@@ -20,7 +20,9 @@ constexpr std::uint64_t kMegabyte = 1 << 20;
 class BuildSpace : public testing::Test, public BuildProgress {
  protected:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override { begun_ = true; }
-  void failed_at(BuildPlace place, const std::filesystem::path&) override { place_ = place; }
+  void failed_at(BuildDirectory directory, const std::filesystem::path&) override {
+    index_ = directory;
+  }
 
   // A torus of quads, or of polygons of more corners that go round a quad several times.
   void write_torus(unsigned corners, const char* real) const {
@@ -53,7 +55,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
     options.replace = true;
     options.box = box_;
     return build_tree(mesh_, output_, options, *this,
-                      {kPatchTriangles, kRegionTriangles, memory, calls});
+                      {kChunkTriangles, kSectorTriangles, memory, calls});
   }
   SpaceNeed need(const BuildMemory& memory) const {
     const auto size = MeshSize::foresee(mesh_);
@@ -65,7 +67,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
   storage::TemporaryDirectory temporary_;
   std::filesystem::path mesh_ = folder_ / "torus.ply";
   std::filesystem::path output_ = folder_ / "torus.ptree";
-  std::optional<BuildPlace> place_;
+  std::optional<BuildDirectory> index_;
   std::optional<RegionBox> box_;
   bool begun_ = false;  ///< to read
 };
@@ -102,10 +104,10 @@ TEST_F(BuildSpace, IsLookedForBeforeAnythingIsWritten) {
   write_torus(4, "float");
   const SpaceNeed foreseen = need(kNothingHeld);
   storage::FaultyCalls calls;
-  calls.room = storage::device_room(foreseen.temporary_bytes + foreseen.output_bytes);
+  calls.device = storage::device_with_free(foreseen.temporary_bytes + foreseen.output_bytes);
   EXPECT_TRUE(build(kNothingHeld, calls));
   std::filesystem::remove(output_);
-  calls.room = storage::device_room(foreseen.temporary_bytes + foreseen.output_bytes - 1);
+  calls.device = storage::device_with_free(foreseen.temporary_bytes + foreseen.output_bytes - 1);
   begun_ = false;
   const auto refused = build(kNothingHeld, calls);
   ASSERT_FALSE(refused);
@@ -123,14 +125,14 @@ TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
   EXPECT_LT(cut.temporary_bytes, need(kNothingHeld).temporary_bytes);
   EXPECT_EQ(cut.output_bytes, 0u);
   storage::FaultyCalls calls;
-  calls.room = storage::device_room(cut.temporary_bytes);
+  calls.device = storage::device_with_free(cut.temporary_bytes);
   EXPECT_FALSE(build(kNothingHeld, calls));
   box_ = {{-100, -100, 0}, {0, 0, 100}};
   const auto report = build(kNothingHeld, calls);
   ASSERT_TRUE(report) << report.error().text;
   EXPECT_LT(report->header.model.triangle_count, size->triangles / 4);
   // There is no room for what is cut out.
-  calls.room = storage::device_room(1000);
+  calls.device = storage::device_with_free(1000);
   EXPECT_FALSE(build(kNothingHeld, calls));
 }
 
@@ -139,11 +141,11 @@ TEST_F(BuildSpace, IsLookedForAgainOnceTrianglesAreCounted) {
   write_torus(12, "float");
   const SpaceNeed foreseen = need(kNothingHeld);
   storage::FaultyCalls calls;
-  calls.room = storage::device_room(foreseen.temporary_bytes + foreseen.output_bytes);
+  calls.device = storage::device_with_free(foreseen.temporary_bytes + foreseen.output_bytes);
   const auto refused = build(kNothingHeld, calls);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
-  EXPECT_EQ(place_, BuildPlace::kTemporary);
+  EXPECT_EQ(index_, BuildDirectory::kTemporary);
   EXPECT_TRUE(begun_);
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
 }
@@ -158,8 +160,8 @@ class Devices final : public storage::FileCalls {
     status->st_dev = shared || *path == 't' ? 1 : 2;
     return 0;
   }
-  int statvfs(const char* path, struct statvfs* room) noexcept override {
-    *room = storage::device_room(*path == 't' ? temporary_free : output_free, kMegabyte);
+  int statvfs(const char* path, struct statvfs* space) noexcept override {
+    *space = storage::device_with_free(*path == 't' ? temporary_free : output_free, kMegabyte);
     return 0;
   }
 };
@@ -168,14 +170,14 @@ struct SpaceCase {
   SpaceNeed need;
   std::uint64_t temporary_free, output_free;
   bool shared;
-  BuildPlace place;
+  BuildDirectory directory;
   std::string text;  // empty: enough
 };
 
 TEST(SpaceNeed, SaysWhereHowMuchIsMissing) {
   const SpaceNeed both{30 * kMegabyte, 10 * kMegabyte}, file{0, 10 * kMegabyte - 5};
   const std::string remedy = "free some, name a roomier --temp-dir, or give more --memory";
-  const BuildPlace temporary = BuildPlace::kTemporary, output = BuildPlace::kOutput;
+  const BuildDirectory temporary = BuildDirectory::kTemporary, output = BuildDirectory::kOutput;
   const std::vector<SpaceCase> cases = {
       {both, 30, 10, false, temporary, ""},
       {both, 29, 10, false, temporary,
@@ -196,12 +198,12 @@ TEST(SpaceNeed, SaysWhereHowMuchIsMissing) {
     calls.temporary_free = c.temporary_free;
     calls.output_free = c.output_free;
     calls.shared = c.shared;
-    BuildPlace place = BuildPlace::kInput;
-    const auto checked = c.need.check("temporary", "output", calls, place);
+    BuildDirectory directory = BuildDirectory::kInput;
+    const auto checked = c.need.check("temporary", "output", calls, directory);
     EXPECT_EQ(checked ? "" : checked.error().text, c.text);
     if (checked) continue;
     EXPECT_EQ(checked.error().code, ErrorCode::kNoSpace);
-    EXPECT_EQ(place, c.place);
+    EXPECT_EQ(directory, c.directory);
   }
 }
 
@@ -209,8 +211,8 @@ TEST(SpaceNeed, GoesOnWhereADeviceDoesNotTell) {
   storage::FaultyCalls calls;
   calls.fault = storage::FaultyCalls::Fault::kError;
   calls.every = true;
-  BuildPlace place = BuildPlace::kInput;
-  EXPECT_TRUE((SpaceNeed{~std::uint64_t{0}, ~std::uint64_t{0}}).check(".", ".", calls, place));
+  BuildDirectory directory = BuildDirectory::kInput;
+  EXPECT_TRUE((SpaceNeed{~std::uint64_t{0}, ~std::uint64_t{0}}).check(".", ".", calls, directory));
 }
 
 }  // namespace

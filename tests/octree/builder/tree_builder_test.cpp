@@ -56,7 +56,7 @@ class TreeBuilder : public testing::Test {
 };
 
 TEST_F(TreeBuilder, WritesTheSameBytesForAnyNumberOfThreads) {
-  for (const Soup& soup : {sheet(70), scattered(3000, 0.02), repeated(400)}) {
+  for (const Soup& soup : {height_field(70), scattered(3000, 0.02), repeated(400)}) {
     write_obj(soup);
     std::vector<storage::Bytes> files;
     for (const unsigned threads : {1u, 2u, 3u}) {
@@ -109,15 +109,15 @@ TEST_F(TreeBuilder, SaysWhatTheModelIs) {
   ASSERT_TRUE(report) << report.error().text;
   const storage::ModelRecord& model = report->header.model;
   EXPECT_EQ(model.triangle_count, 512u);
-  EXPECT_EQ(model.set_aside_count, 2u);
-  EXPECT_EQ(model.first_set_aside, 512u);
+  EXPECT_EQ(model.skipped_count, 2u);
+  EXPECT_EQ(model.first_skipped, 512u);
   EXPECT_EQ(model.vertex_count, 3u * 512);
   EXPECT_EQ(model.box_lower[2], -1);
   EXPECT_EQ(model.box_upper[0], 1);
   EXPECT_EQ(model.scale_exponent, -1);
   EXPECT_EQ(model.sample_triangle, 0u);
   EXPECT_EQ(model.vertex_kind, storage::VertexKind::kFloat32);
-  EXPECT_NE(report->first_set_aside.find("line "), std::string::npos);
+  EXPECT_NE(report->first_skipped.find("line "), std::string::npos);
 }
 
 TEST_F(TreeBuilder, IsStrictWhenAsked) {

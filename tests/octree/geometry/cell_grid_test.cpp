@@ -12,9 +12,9 @@
 namespace planetree::octree {
 namespace {
 
-constexpr std::uint32_t kMost = (1u << kLevels) - 1;
+constexpr std::uint32_t kMax = (1u << kLevels) - 1;
 
-std::vector<Point> least_corners() {
+std::vector<Point> min_corners() {
   return {{0, 0, 0},
           {-0.1, 1.0 / 3, 0.7},
           {0x1p52 + 1, -0x1p52, 0x1p51 + 0.5},
@@ -40,14 +40,14 @@ TEST(CellGrid, HasTheCubeOfSideTwoAsRoot) {
   expect_same(grid.lower({}), {1, 2, 3});
   expect_same(grid.upper({}), {3, 4, 5});
   expect_same(grid.middle({}), {2, 3, 4});
-  const GridCell finest{kLevels, {kMost, 0, 1}};
+  const GridCell finest{kLevels, {kMax, 0, 1}};
   expect_same(grid.lower(finest), {3 - 0x1p-18, 2, 3 + 0x1p-18});
   expect_same(grid.upper(finest), {3, 2 + 0x1p-18, 3 + 0x1p-17});
 }
 
 TEST(CellGrid, RoundsEachSideOnce) {
   Noise noise(1);
-  for (const Point& lower : least_corners()) {
+  for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
     for (unsigned level = 0; level <= kLevels; ++level) {
       const GridCell cell = any_cell(noise, level);
@@ -78,7 +78,7 @@ TEST(CellGrid, NumbersChildrenAndCornersByBits) {
 
 TEST(CellGrid, GivesNeighboursTheSameSides) {
   Noise noise(2);
-  for (const Point& lower : least_corners()) {
+  for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
     for (unsigned level = 1; level <= kLevels; ++level) {
       const GridCell cell = any_cell(noise, level);
@@ -97,7 +97,7 @@ TEST(CellGrid, GivesNeighboursTheSameSides) {
 // So a corner is one point, whichever cell it is of.
 TEST(CellGrid, GivesChildrenTheSidesOfTheirParent) {
   Noise noise(3);
-  for (const Point& lower : least_corners()) {
+  for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
     for (unsigned level = 0; level < kLevels; ++level) {
       const GridCell cell = any_cell(noise, level);
@@ -111,7 +111,7 @@ TEST(CellGrid, GivesChildrenTheSidesOfTheirParent) {
 }
 
 TEST(CellGrid, NeverLetsSidesChangePlaces) {
-  for (const Point& lower : least_corners()) {
+  for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
     Point before = lower;
     for (std::uint32_t i = 0; i < 4096; ++i) {
@@ -148,7 +148,7 @@ GridCell halved(const CellGrid& grid, const Point& point) {
 
 TEST(CellGrid, FindsTheCellThatHalvingLeadsTo) {
   Noise noise(7);
-  for (const Point& lower : least_corners()) {
+  for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
     for (int i = 0; i < 3000; ++i) {
       const Vec3 in = noise.point(0, 2);

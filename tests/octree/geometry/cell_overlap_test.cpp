@@ -39,7 +39,7 @@ TEST(CellOverlap, NeverMissesATriangle) {
     const char* name;
     TriangleAndBox (*make)(Noise&);
     int count;
-    int least_told;  ///< percent of those that are apart
+    int min_told;  ///< percent of those that are apart
   };
   // What is apart by the last bits, or below the least numbers, need not be told.
   for (const Case& c :
@@ -52,7 +52,7 @@ TEST(CellOverlap, NeverMissesATriangle) {
     const Outcome outcome = try_out(c.make, c.count);
     EXPECT_GT(outcome.touching, c.count / 100);
     EXPECT_GT(outcome.apart, c.count / 100);
-    EXPECT_GE(100 * outcome.told_apart, c.least_told * outcome.apart)
+    EXPECT_GE(100 * outcome.told_apart, c.min_told * outcome.apart)
         << outcome.told_apart << " of " << outcome.apart;
   }
 }
@@ -130,7 +130,7 @@ double gap_along(const Point& axis, const TriangleAndBox& pair) {
 
 // Of pairs that one axis alone tells apart, and clearly so.
 TEST(CellOverlap, TellsApartAlongEachOfThirteenAxes) {
-  std::array<int, 13> told{};
+  std::array<int, 13> certain{};
   Noise noise(3);
   for (int i = 0; i < 40000; ++i) {
     const TriangleAndBox pair = random_pair(noise);
@@ -145,10 +145,10 @@ TEST(CellOverlap, TellsApartAlongEachOfThirteenAxes) {
       ++separating;
     }
     if (separating != 1 || !clear) continue;
-    ++told[last];
+    ++certain[last];
     ASSERT_FALSE(may_touch(pair.triangle, pair.lower, pair.upper)) << "axis " << last;
   }
-  for (unsigned axis = 0; axis < 13; ++axis) EXPECT_GT(told[axis], 0) << "axis " << axis;
+  for (unsigned axis = 0; axis < 13; ++axis) EXPECT_GT(certain[axis], 0) << "axis " << axis;
 }
 
 }  // namespace

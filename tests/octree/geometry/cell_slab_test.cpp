@@ -90,7 +90,7 @@ std::vector<BoxedTriangle> triangles_about(const Point& middle, double size, Noi
 // The surface's part in the cell is tried by boxes in it, exactly.
 TEST(CellSlab, IsFittedAboutAllThatIsInACell) {
   Noise noise(12);
-  unsigned told = 0, empty = 0;
+  unsigned certain = 0, empty = 0;
   for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
     const CellGrid grid(full_point(noise, -1, 1));
     GridCell cell{.level = 3 + static_cast<unsigned>(noise.bits() % 17)};
@@ -107,21 +107,21 @@ TEST(CellSlab, IsFittedAboutAllThatIsInACell) {
       // A small box, all of which is beyond a plane.
       const Point u = any_point(noise, 0, 0.99), from = lower + size.cwiseProduct(u);
       const Point to = from + size * (0.01 * noise.uniform(0, 1));
-      const int side = slab.side_of(slab.height(CellSlab::place_in(from, lower, cell.level)));
+      const int side = slab.side_of(slab.height(CellSlab::position_in(from, lower, cell.level)));
       bool beyond = side != 0;
       for (unsigned corner = 1; corner < 8; ++corner) {
         const Point at(corner & 1 ? to.x() : from.x(), corner & 2 ? to.y() : from.y(),
                        corner & 4 ? to.z() : from.z());
-        beyond =
-            beyond && slab.side_of(slab.height(CellSlab::place_in(at, lower, cell.level))) == side;
+        beyond = beyond &&
+                 slab.side_of(slab.height(CellSlab::position_in(at, lower, cell.level))) == side;
       }
       if (!beyond) continue;
-      ++told;
+      ++certain;
       for (const BoxedTriangle& triangle : triangles)
         EXPECT_FALSE(exactly_touches(triangle.corners, from, to));
     }
   }
-  EXPECT_GT(told, 1000u);
+  EXPECT_GT(certain, 1000u);
   EXPECT_GT(empty, 20u);
 }
 

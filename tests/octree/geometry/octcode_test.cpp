@@ -5,14 +5,14 @@
 namespace planetree::octree {
 namespace {
 
-constexpr std::uint32_t kMost = (1u << kLevels) - 1;
+constexpr std::uint32_t kMax = (1u << kLevels) - 1;
 
 TEST(Octcode, SpreadsBitsThreeApartAndGathersThem) {
   EXPECT_EQ(spread_bits(0b1011), 0b1000001001u);
-  EXPECT_EQ(spread_bits(kMost), 0x49249249249249u);
-  for (std::uint32_t value = 1; value <= kMost; value = value * 3 + 1)
+  EXPECT_EQ(spread_bits(kMax), 0x49249249249249u);
+  for (std::uint32_t value = 1; value <= kMax; value = value * 3 + 1)
     EXPECT_EQ(gather_bits(spread_bits(value)), value);
-  EXPECT_EQ(gather_bits(~std::uint64_t{0}), kMost);
+  EXPECT_EQ(gather_bits(~std::uint64_t{0}), kMax);
 }
 
 TEST(Octcode, PutsXInTheLowestBitOfEachTriple) {
@@ -20,10 +20,10 @@ TEST(Octcode, PutsXInTheLowestBitOfEachTriple) {
   EXPECT_EQ(morton_code(0, 1, 0), 2u);
   EXPECT_EQ(morton_code(0, 0, 1), 4u);
   EXPECT_EQ(morton_code(0, 2, 0), 16u);
-  EXPECT_EQ(morton_code(kMost, kMost, kMost), (std::uint64_t{1} << kMortonBits) - 1);
+  EXPECT_EQ(morton_code(kMax, kMax, kMax), (std::uint64_t{1} << kMortonBits) - 1);
 }
 
-TEST(Octcode, OfNoBitsIsTheRoot) { EXPECT_EQ(octcode_of_prefix(morton_code(kMost, 5, 9), 0), 0u); }
+TEST(Octcode, OfNoBitsIsTheRoot) { EXPECT_EQ(octcode_of_prefix(morton_code(kMax, 5, 9), 0), 0u); }
 
 TEST(Octcode, GivesEveryPrefixBackAsItsCell) {
   const std::uint32_t x = 0x5a5a5, y = 0x12345, z = 0x7ffff;
@@ -38,7 +38,7 @@ TEST(Octcode, GivesEveryPrefixBackAsItsCell) {
 }
 
 TEST(Octcode, NamesTheSplitsWithinALevel) {
-  const Cell cell = cell_of_octcode(octcode_of_prefix(morton_code(kMost, kMost, kMost), 3 * 4 + 2));
+  const Cell cell = cell_of_octcode(octcode_of_prefix(morton_code(kMax, kMax, kMax), 3 * 4 + 2));
   EXPECT_EQ(cell.level, 4u);
   EXPECT_EQ(cell.within, 2u);
 }
@@ -60,7 +60,7 @@ TEST(Octcode, ReadsAnyBitsAsACellOfItsLevel) {
   for (const std::uint64_t octcode : {~std::uint64_t{0}, std::uint64_t{31} << 59}) {
     const Cell cell = cell_of_octcode(octcode);
     EXPECT_EQ(cell.level, 31u);
-    EXPECT_LE(cell.x, kMost);
+    EXPECT_LE(cell.x, kMax);
   }
 }
 

@@ -122,7 +122,7 @@ std::vector<Point> lattice() {
 TEST(Crossings, CountTheWindingNumberOfLatticePoints) {
   const Point outside(-7, -9, -8);
   for (const Point& point : lattice()) {
-    // Moved by a positive step: the lower faces are inside, the upper outside.
+    // Perturbed by a positive step: the lower faces are inside, the upper outside.
     const bool inside = point.minCoeff() >= 0 && point.maxCoeff() < 2;
     EXPECT_EQ(winding_change(cube(), point, outside), inside) << point.transpose();
   }
@@ -162,11 +162,11 @@ TEST(Crossings, PassByTrianglesWithoutArea) {
 TEST(Predicates, LiesOnIsExactOnALattice) {
   std::mt19937_64 random(33);
   std::uniform_int_distribution<int> step(0, 3);
-  const auto place = [&] { return Point(step(random), step(random), step(random)); };
+  const auto index = [&] { return Point(step(random), step(random), step(random)); };
   int on = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Triangle triangle{place(), place(), place()};
-    const Point point = i % 2 == 0 ? place() : Point(place() * 0.5);
+    const Triangle triangle{index(), index(), index()};
+    const Point point = i % 2 == 0 ? index() : Point(index() * 0.5);
     // Whole multiples of 2^-52: no square is rounded.
     const bool expected = triangle_value(point, triangle).squared == 0;
     ASSERT_EQ(lies_on(point, triangle), expected)

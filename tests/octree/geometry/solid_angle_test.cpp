@@ -13,7 +13,7 @@ namespace {
 
 const Triangle kFace{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};  // seen from behind below
 
-Triangle moved(const Triangle& triangle, double factor, const Point& offset = Point::Zero()) {
+Triangle perturbed(const Triangle& triangle, double factor, const Point& offset = Point::Zero()) {
   Triangle result;
   for (std::size_t k = 0; k < 3; ++k) result[k] = triangle[k] * factor + offset;
   return result;
@@ -97,7 +97,8 @@ TEST(WindingShare, DoesNotChangeWithTheUnit) {
   for (const int exponent : {-1070, -900, -400, -200, 100, 200, 300}) {
     const double size = std::ldexp(1.0, exponent);
     // Coordinates of few bits, to have the same ones where they are subnormal.
-    const WindingShare share = winding_share(size * Point(0.25, 0.5, -0.25), moved(kFace, size));
+    const WindingShare share =
+        winding_share(size * Point(0.25, 0.5, -0.25), perturbed(kFace, size));
     EXPECT_NEAR(share.value, winding_share({0.25, 0.5, -0.25}, kFace).value, 0x1p-40) << exponent;
     EXPECT_LT(share.error, 0x1p-24);
   }

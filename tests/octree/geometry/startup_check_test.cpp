@@ -24,15 +24,15 @@ int rounded_normal_sign(const Point& a, const Point& b, const Point& c, unsigned
   return (area > 0) - (area < 0);
 }
 
-TEST(SelfTest, FindsThisBuildInOrder) { EXPECT_EQ(self_test(), nullptr); }
+TEST(SelfTest, FindsThisBuildInOrder) { EXPECT_EQ(startup_check(), nullptr); }
 
 TEST(SelfTest, FindsPredicatesThatRound) {
   TestedPredicates wrong = TestedPredicates::ours();
   wrong.orientation = &rounded_orientation;
-  EXPECT_NE(self_test(wrong), nullptr);
+  EXPECT_NE(startup_check(wrong), nullptr);
   wrong = TestedPredicates::ours();
   wrong.normal_sign = &rounded_normal_sign;
-  EXPECT_NE(self_test(wrong), nullptr);
+  EXPECT_NE(startup_check(wrong), nullptr);
 }
 
 TEST(SelfTest, FindsPredicatesThatAreWrongOnlyWhereProductsUnderflow) {
@@ -40,22 +40,22 @@ TEST(SelfTest, FindsPredicatesThatAreWrongOnlyWhereProductsUnderflow) {
   wrong.orientation = [](const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
     return c.y() > 0 && c.y() < 0x1p-1000 ? 0 : orientation(a, b, c, d);
   };
-  EXPECT_NE(self_test(wrong), nullptr);
+  EXPECT_NE(startup_check(wrong), nullptr);
 }
 
 TEST(SelfTest, FindsContactThatIsNeverOrAlwaysSeen) {
   TestedPredicates wrong = TestedPredicates::ours();
   wrong.lies_on = [](const Point&, const Triangle&) noexcept { return false; };
-  EXPECT_NE(self_test(wrong), nullptr);
+  EXPECT_NE(startup_check(wrong), nullptr);
   wrong.lies_on = [](const Point&, const Triangle&) noexcept { return true; };
-  EXPECT_NE(self_test(wrong), nullptr);
+  EXPECT_NE(startup_check(wrong), nullptr);
 }
 
 // All that can be seen from here of a build that computes otherwise.
 TEST(SelfTest, FindsArithmeticOfAnotherKind) {
   const auto found = [](int rounding) {
     const OddArithmetic odd(rounding);
-    const char* fault = self_test();
+    const char* fault = startup_check();
     return std::string_view(fault ? fault : "");
   };
   EXPECT_EQ(found(FE_TONEAREST), "subnormal numbers are taken for zero");

@@ -60,8 +60,8 @@ std::vector<Point> points_in(const Point& lower, std::size_t count) {
   return points;
 }
 
-void expect_same(const MaskFinding& found, const Way& way, const MaskTree& tree) {
-  using Found = MaskFinding::Kind;
+void expect_same(const MaskLookup& found, const Way& way, const MaskTree& tree) {
+  using Found = MaskLookup::Kind;
   EXPECT_EQ(found.cell.level, way.cell.level);
   EXPECT_EQ(found.cell.at, way.cell.at);
   const MaskEntry& entry = tree.entries[way.entries.back()];
@@ -85,13 +85,13 @@ void expect_same(const MaskFinding& found, const Way& way, const MaskTree& tree)
   }
 }
 
-class MaskLookup : public testing::Test {
+class MaskLookupTest : public testing::Test {
  protected:
-  MaskLookup() : tree_(random_mask(10)), grid_(lower_), pages_(tree_, 4096, kRandomMaskPage) {}
+  MaskLookupTest() : tree_(random_mask(10)), grid_(lower_), pages_(tree_, 4096, kRandomMaskPage) {}
 
-  MaskFinding find(const Point& point, std::uint64_t max_nodes = ~std::uint64_t{0}) {
+  MaskLookup find(const Point& point, std::uint64_t max_work = ~std::uint64_t{0}) {
     work_ = {};
-    return look_up(pages_.mask(lower_), point, max_nodes, pages_.reader(), work_);
+    return look_up(pages_.mask(lower_), point, max_work, pages_.reader(), work_);
   }
   std::uint32_t page_of(std::uint32_t entry) const {
     for (std::uint32_t page = 0; page < pages_.size(); ++page)
@@ -113,14 +113,14 @@ class MaskLookup : public testing::Test {
   MaskTree tree_;
   CellGrid grid_;
   MaskPages pages_;
-  TreeWork work_;
+  TraversalStats work_;
 };
 
-TEST_F(MaskLookup, FindsTheCellOfEveryPoint) {
+TEST_F(MaskLookupTest, FindsTheCellOfEveryPoint) {
   std::size_t listed = 0;
   for (const Point& point : points_in(lower_, 4000)) {
     const Way way = way_of(tree_, grid_, point);
-    const MaskFinding found = find(point);
+    const MaskLookup found = find(point);
     expect_same(found, way, tree_);
     listed += found.blocks.count > 0;
     EXPECT_EQ(work_.nodes, way.nodes(tree_));
@@ -131,20 +131,20 @@ TEST_F(MaskLookup, FindsTheCellOfEveryPoint) {
   EXPECT_GT(listed, 100u);
 }
 
-TEST_F(MaskLookup, ReadsOnlyPagesOnItsWay) {
+TEST_F(MaskLookupTest, ReadsOnlyPagesOnItsWay) {
   std::size_t most = 0;
   for (const Point& point : points_in(lower_, 3000)) {
     find(point);
-    const std::vector<std::uint32_t> asked = pages_.take_asked();
-    ASSERT_EQ(asked, pages_of(way_of(tree_, grid_, point))) << point.transpose();
-    EXPECT_TRUE(std::ranges::is_sorted(asked));
-    EXPECT_EQ(work_.page_turns, asked.size());
-    most = std::max(most, asked.size());
+    const std::vector<std::uint32_t> queried = pages_.take_queried();
+    ASSERT_EQ(queried, pages_of(way_of(tree_, grid_, point))) << point.transpose();
+    EXPECT_TRUE(std::ranges::is_sorted(queried));
+    EXPECT_EQ(work_.page_switches, queried.size());
+    most = std::max(most, queried.size());
   }
   EXPECT_GT(most, 2u);
 }
 
-TEST_F(MaskLookup, KnowsNothingWhereAPageIsMissing) {
+TEST_F(MaskLookupTest, KnowsNothingWhereAPageIsMissing) {
   const std::vector<Point> points = points_in(lower_, 150);
   std::size_t lost = 0;
   for (std::uint32_t page = 0; page < pages_.size(); page += 1 + page / 4) {
@@ -153,15 +153,15 @@ TEST_F(MaskLookup, KnowsNothingWhereAPageIsMissing) {
       const Way way = way_of(tree_, grid_, point);
       const std::vector<std::uint32_t> on_way = pages_of(way);
       const auto at = std::ranges::find(on_way, page);
-      pages_.take_asked();
-      const MaskFinding found = find(point);
+      pages_.take_queried();
+      const MaskLookup found = find(point);
       if (at == on_way.end()) {
         expect_same(found, way, tree_);
         continue;
       }
       ++lost;
-      EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
-      EXPECT_EQ(pages_.take_asked(), std::vector(on_way.begin(), at + 1));
+      EXPECT_EQ(found.kind, MaskLookup::Kind::kNothing);
+      EXPECT_EQ(pages_.take_queried(), std::vector(on_way.begin(), at + 1));
     }
     pages_.withhold(page, false);
     ASSERT_FALSE(HasFailure()) << page;
@@ -169,15 +169,15 @@ TEST_F(MaskLookup, KnowsNothingWhereAPageIsMissing) {
   EXPECT_GT(lost, 100u);
 }
 
-TEST_F(MaskLookup, VisitsNoMoreNodesThanItMay) {
+TEST_F(MaskLookupTest, VisitsNoMoreNodesThanItMay) {
   for (const Point& point : points_in(lower_, 200)) {
     const Way way = way_of(tree_, grid_, point);
     const std::size_t needed = way.nodes(tree_);
     for (std::uint64_t most = 0; most <= needed; ++most) {
-      const MaskFinding found = find(point, most);
+      const MaskLookup found = find(point, most);
       EXPECT_LE(work_.nodes, most);
       if (most < needed) {
-        EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
+        EXPECT_EQ(found.kind, MaskLookup::Kind::kNothing);
       } else {
         expect_same(found, way, tree_);
       }
@@ -185,15 +185,15 @@ TEST_F(MaskLookup, VisitsNoMoreNodesThanItMay) {
   }
 }
 
-TEST_F(MaskLookup, KnowsNothingWithoutAMask) {
-  MaskFacts none = pages_.mask(lower_);
+TEST_F(MaskLookupTest, KnowsNothingWithoutAMask) {
+  MaskInfo none = pages_.mask(lower_);
   none.page_count = 0;
-  EXPECT_EQ(look_up(none, lower_, 100, pages_.reader(), work_).kind, MaskFinding::Kind::kNothing);
-  EXPECT_TRUE(pages_.take_asked().empty());
+  EXPECT_EQ(look_up(none, lower_, 100, pages_.reader(), work_).kind, MaskLookup::Kind::kNothing);
+  EXPECT_TRUE(pages_.take_queried().empty());
 }
 
 // Their octants have no number.
-TEST(MaskLookupOfLists, TakesNoneOfTheFinestCells) {
+TEST(MaskLookupListsTest, TakesNoneOfTheFinestCells) {
   MaskTree tree;
   tree.entries.resize(1);
   for (unsigned level = 0; level < kLevels; ++level) {
@@ -207,16 +207,16 @@ TEST(MaskLookupOfLists, TakesNoneOfTheFinestCells) {
   tree.entries.back().corners = {4, 5, 5, 4, 4, 4, 4, 5};
   tree.lists.push_back({1, {0xff}, {LinkFormat::kLeafBit}, {}});
   MaskPages pages(tree, 4096, kRandomMaskPage);
-  TreeWork work;
-  const MaskFinding found =
+  TraversalStats work;
+  const MaskLookup found =
       look_up(pages.mask(Point::Zero()), Point::Zero(), 100, pages.reader(), work);
   EXPECT_EQ(found.cell.level, kLevels);
-  EXPECT_EQ(found.kind, MaskFinding::Kind::kNothing);
+  EXPECT_EQ(found.kind, MaskLookup::Kind::kNothing);
   EXPECT_EQ(found.blocks.count, 0u);
 }
 
 // A node in one page may say of another page what is not so.
-TEST_F(MaskLookup, BelievesNoLinkBetweenPages) {
+TEST_F(MaskLookupTest, BelievesNoLinkBetweenPages) {
   const MaskLinkFormat links(4096);
   std::size_t changed = 0;
   for (std::uint32_t page = 0; page < pages_.size(); ++page) {
@@ -235,17 +235,17 @@ TEST_F(MaskLookup, BelievesNoLinkBetweenPages) {
   }
   ASSERT_GT(changed, 30u);
   for (const Point& point : points_in(lower_, 2000)) {
-    const MaskFinding found = find(point);
+    const MaskLookup found = find(point);
     EXPECT_LE(work_.nodes, kLevels);
-    EXPECT_TRUE(found.kind != MaskFinding::Kind::kCorners || found.corners[0] != kUncounted);
+    EXPECT_TRUE(found.kind != MaskLookup::Kind::kCorners || found.corners[0] != kUncounted);
   }
 }
 
 // The side that planes tell, with and without an infinitesimal step.
-TEST(MaskLookupOfBoxes, TellsTheSideOfPointsInSpecialCells) {
+TEST(MaskLookupBoxesTest, TellsTheSideOfPointsInSpecialCells) {
   const SampleMask sample(box({0, 0, 0}, {0.9, 0.8, 0.7}, 24));
   MaskPages pages(sample.tree, 4096);
-  std::map<MaskFinding::Kind, int> kinds;
+  std::map<MaskLookup::Kind, int> kinds;
   int on_surface = 0;
   Noise noise(2);
   for (int i = 0; i < 600; ++i) {
@@ -254,18 +254,18 @@ TEST(MaskLookupOfBoxes, TellsTheSideOfPointsInSpecialCells) {
     const unsigned axis = noise.bits() % 3;
     const double face = noise.bits() % 2 == 0 ? 0.0 : sample.mesh.upper()[axis];
     point[axis] = i % 3 == 0 ? face : face + noise.uniform(-0.05, 0.05);
-    TreeWork work;
-    const MaskFinding found =
+    TraversalStats work;
+    const MaskLookup found =
         look_up(pages.mask(sample.mesh.lower()), point.cwiseMax(sample.mesh.lower()), 100,
                 pages.reader(), work);
     point = point.cwiseMax(sample.mesh.lower());
     ++kinds[found.kind];
-    if (found.kind != MaskFinding::Kind::kPlanes) continue;
+    if (found.kind != MaskLookup::Kind::kPlanes) continue;
     EXPECT_EQ(found.on_surface, sample.surface.holds(point)) << point.transpose();
     EXPECT_EQ(found.winding, sample.surface.winding(point)) << point.transpose();
     on_surface += found.on_surface;
   }
-  EXPECT_GT(kinds[MaskFinding::Kind::kPlanes], 100);
+  EXPECT_GT(kinds[MaskLookup::Kind::kPlanes], 100);
   EXPECT_GT(on_surface, 50);
 }
 

@@ -42,14 +42,14 @@ class PeekedPages {
   std::uint32_t lost_ = ~std::uint32_t{0};
 };
 
-class MaskAheadTest : public testing::Test {
+class MaskPrefetcherTest : public testing::Test {
  protected:
-  MaskAheadTest() {
-    TreeFacts tree;
+  MaskPrefetcherTest() {
+    TreeInfo tree;
     tree.box_lower = lower_;
     tree.box_upper = lower_ + Point(1.2, 1.9, 0.7);
     // For the cells of a level far above the leaves.
-    colours_.fill(mask_, tree, false, 0, pages_.resident_reader(), memory_);
+    side_grid_.fill(mask_, tree, false, 0, pages_.resident_reader(), memory_);
   }
   std::vector<Point> points(std::size_t count) const {
     Noise noise(9);
@@ -62,77 +62,77 @@ class MaskAheadTest : public testing::Test {
   }
   // How many steps it takes.
   unsigned go(const Point& point, PageReader pages) const {
-    MaskAhead ahead(mask_, colours_, point);
+    MaskPrefetcher ahead(mask_, side_grid_, point);
     unsigned steps = 0;
     for (; ahead.goes_on(); ++steps) ahead.step(pages);
     return steps;
   }
   // The pages that a search of the mask asks for, as the model's.
   std::set<std::uint32_t> pages_of_search(const Point& point) {
-    const ColourMap::Spot spot = colours_.look(point);
-    if (spot.winding != ColourMap::kUnknown || !spot.record) return {};
-    TreeWork work;
-    pages_.take_asked();
-    look_up(mask_, spot, point, ~std::uint64_t{0}, pages_.reader(), work);
-    std::set<std::uint32_t> asked;
-    for (const std::uint32_t page : pages_.take_asked()) asked.insert(kRandomMaskPage + page);
-    return asked;
+    const SideGrid::Lookup lookup = side_grid_.look(point);
+    if (lookup.winding != SideGrid::kUnknown || !lookup.record) return {};
+    TraversalStats work;
+    pages_.take_queried();
+    look_up(mask_, lookup, point, ~std::uint64_t{0}, pages_.reader(), work);
+    std::set<std::uint32_t> queried;
+    for (const std::uint32_t page : pages_.take_queried()) queried.insert(kRandomMaskPage + page);
+    return queried;
   }
 
   const Point lower_{-0.25, 3, 1.0 / 3};
   MaskPages pages_{random_mask(10), 4096, kRandomMaskPage};
-  const MaskFacts mask_ = pages_.mask(lower_);
+  const MaskInfo mask_ = pages_.mask(lower_);
   alignas(16) std::array<std::byte, 6000> memory_{};
-  ColourMap colours_;
+  SideGrid side_grid_;
 };
 
-TEST_F(MaskAheadTest, SeesThePagesOfTheSearchThatFollows) {
+TEST_F(MaskPrefetcherTest, SeesThePagesOfTheSearchThatFollows) {
   PeekedPages peeked(pages_.resident_reader());
   std::size_t searches = 0, several = 0;
   for (const Point& point : points(3000)) {
     const unsigned steps = go(point, peeked.reader());
-    const std::set<std::uint32_t> seen = peeked.take_seen(), asked = pages_of_search(point);
+    const std::set<std::uint32_t> seen = peeked.take_seen(), queried = pages_of_search(point);
     EXPECT_LE(steps, kLevels + 2);
-    if (asked.empty()) continue;
+    if (queried.empty()) continue;
     ++searches;
-    several += asked.size() > 1;
-    ASSERT_EQ(seen, asked) << point.transpose();
-    ASSERT_GE(steps, asked.size());
+    several += queried.size() > 1;
+    ASSERT_EQ(seen, queried) << point.transpose();
+    ASSERT_GE(steps, queried.size());
   }
   EXPECT_GT(searches, 300u);
   EXPECT_GT(several, 10u);
 }
 
-TEST_F(MaskAheadTest, GoesNoFartherThanAPageThatIsNotInMemory) {
+TEST_F(MaskPrefetcherTest, GoesNoFartherThanAPageThatIsNotInMemory) {
   PeekedPages peeked(pages_.resident_reader());
   std::size_t stopped = 0;
   for (const Point& point : points(1000)) {
-    const std::set<std::uint32_t> asked = pages_of_search(point);
-    if (asked.empty()) continue;
+    const std::set<std::uint32_t> queried = pages_of_search(point);
+    if (queried.empty()) continue;
     // Children are behind their parents.
-    peeked.lose(*asked.begin());
+    peeked.lose(*queried.begin());
     go(point, peeked.reader());
-    ASSERT_EQ(peeked.take_seen(), (std::set<std::uint32_t>{*asked.begin()}));
+    ASSERT_EQ(peeked.take_seen(), (std::set<std::uint32_t>{*queried.begin()}));
     ++stopped;
   }
   EXPECT_GT(stopped, 100u);
 }
 
-TEST_F(MaskAheadTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
-  EXPECT_FALSE(MaskAhead(mask_, ColourMap(), lower_ + Point::Constant(0.3)).goes_on());
+TEST_F(MaskPrefetcherTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
+  EXPECT_FALSE(MaskPrefetcher(mask_, SideGrid(), lower_ + Point::Constant(0.3)).goes_on());
   for (const double far : {10.0, 1e9, 1e300})
-    EXPECT_FALSE(MaskAhead(mask_, colours_, lower_ + Point::Constant(far)).goes_on()) << far;
-  std::size_t told = 0;
+    EXPECT_FALSE(MaskPrefetcher(mask_, side_grid_, lower_ + Point::Constant(far)).goes_on()) << far;
+  std::size_t certain = 0;
   for (const Point& point : points(1000)) {
-    if (colours_.spot_of(point).record) continue;
-    ++told;
-    EXPECT_FALSE(MaskAhead(mask_, colours_, point).goes_on());
+    if (side_grid_.lookup_of(point).record) continue;
+    ++certain;
+    EXPECT_FALSE(MaskPrefetcher(mask_, side_grid_, point).goes_on());
   }
-  EXPECT_GT(told, 100u);
+  EXPECT_GT(certain, 100u);
 }
 
 // Frames of noise, as none that was decoded is.
-TEST_F(MaskAheadTest, EndsInPagesOfAnything) {
+TEST_F(MaskPrefetcherTest, EndsInPagesOfAnything) {
   Noise noise(4);
   alignas(64) static std::array<std::uint64_t, 4096 / 8> frame;
   for (std::uint64_t& word : frame) word = std::uint64_t{noise.bits()} << 32 | noise.bits();

@@ -18,17 +18,17 @@ inline constexpr std::size_t kMany = 1 << 24;  // bytes
 /// A map of the colours of a mask of no model, and what the mask itself says.
 class RandomMap : public testing::Test {
  protected:
-  static TreeFacts tree_of(const Point& lower, const Point& size) {
-    TreeFacts tree;
+  static TreeInfo tree_of(const Point& lower, const Point& size) {
+    TreeInfo tree;
     tree.box_lower = lower;
     tree.box_upper = lower + size;
     return tree;
   }
-  ColourMap map_of(MaskPages& pages, std::size_t bytes) {
+  SideGrid map_of(MaskPages& pages, std::size_t bytes) {
     return map_of(pages, pages.resident_reader(), bytes);
   }
-  ColourMap map_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
-    ColourMap map;
+  SideGrid map_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
+    SideGrid map;
     memory_.resize(bytes);
     map.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
     return map;
@@ -46,28 +46,26 @@ class RandomMap : public testing::Test {
     }
     return result;
   }
-  static int glance(const ColourMap& map, const Point& point) {
-    return map.glance(point.x(), point.y(), point.z());
+  static int find_fast(const SideGrid& map, const Point& point) {
+    return map.find_fast(point.x(), point.y(), point.z());
   }
-  MaskFinding look(MaskPages& pages, const Point& point) const {
-    return look(pages, lower_, point);
-  }
-  static MaskFinding look(MaskPages& pages, const Point& lower, const Point& point) {
-    TreeWork work;
+  MaskLookup look(MaskPages& pages, const Point& point) const { return look(pages, lower_, point); }
+  static MaskLookup look(MaskPages& pages, const Point& lower, const Point& point) {
+    TraversalStats work;
     return look_up(pages.mask(lower), point, ~std::uint64_t{0}, pages.reader(), work);
   }
   // The sign of the winding number, where the mask tells it by itself: also in octants of leaves
   // that none of the listed blocks touch, and beyond leaves' slabs.
-  static std::optional<int> told(MaskPages& pages, const Point& lower, const Point& point) {
-    const MaskFinding found = look(pages, lower, point);
-    if (found.kind == MaskFinding::Kind::kColour) return found.winding;
-    if (found.kind != MaskFinding::Kind::kCorners || found.blocks.count == 0) return {};
+  static std::optional<int> certain(MaskPages& pages, const Point& lower, const Point& point) {
+    const MaskLookup found = look(pages, lower, point);
+    if (found.kind == MaskLookup::Kind::kColour) return found.winding;
+    if (found.kind != MaskLookup::Kind::kCorners || found.blocks.count == 0) return {};
     const CellGrid grid(lower);
     unsigned corner = grid.octant(found.cell, point), touched = 0;
     for (unsigned i = 0; i < found.blocks.count; ++i) touched |= found.blocks.octants[i];
     if ((touched >> corner & 1) != 0) {
-      const Point place = CellSlab::place_in(point, grid.lower(found.cell), found.cell.level);
-      corner = found.blocks.slab.corner_beyond(place);
+      const Point position = CellSlab::position_in(point, grid.lower(found.cell), found.cell.level);
+      corner = found.blocks.slab.corner_beyond(position);
       if (corner == CellSlab::kNoCorner) return {};
     }
     const int winding = corner_of(found.listed, corner);
@@ -75,9 +73,9 @@ class RandomMap : public testing::Test {
   }
 
   // Lists of which a map keeps no more than where they are.
-  static bool has_rare_corners(const MaskFinding& found) {
-    return found.kind == MaskFinding::Kind::kCorners && found.blocks.count > 0 &&
-           !MapRecord::has(found.listed);
+  static bool has_rare_corners(const MaskLookup& found) {
+    return found.kind == MaskLookup::Kind::kCorners && found.blocks.count > 0 &&
+           !SideGridRecord::has(found.listed);
   }
 
   const Point lower_{-0.25, 3, 1.0 / 3};

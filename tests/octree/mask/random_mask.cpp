@@ -24,13 +24,13 @@ class RandomMask {
   // Neither kUncounted nor kListedTag.
   std::int8_t number() { return static_cast<std::int8_t>(noise_.bits() % 254 - 126); }
 
-  void grow(std::uint32_t place, unsigned level) {
+  void grow(std::uint32_t position, unsigned level) {
     tree_.levels = std::max(tree_.levels, level);
     MaskEntry entry;
     const unsigned chance = noise_.bits() % 16;
     if (level > 1 && (level == levels_ || chance < 9)) {
       make_leaf(chance, entry);
-      tree_.entries[place] = entry;
+      tree_.entries[position] = entry;
       return;
     }
     entry.grey = static_cast<std::uint8_t>(noise_.bits() | noise_.bits());
@@ -47,7 +47,7 @@ class RandomMask {
       grow(child, level + 1);
       if (tree_.entries[child++].is_leaf()) entry.leaf |= static_cast<std::uint8_t>(1u << octant);
     }
-    tree_.entries[place] = entry;
+    tree_.entries[position] = entry;
   }
 
   void make_leaf(unsigned chance, MaskEntry& entry) {
@@ -82,7 +82,7 @@ class RandomMask {
     for (std::int8_t& corner : entry.corners)
       corner = static_cast<std::int8_t>(least + static_cast<int>(noise_.bits() % 2));
     MaskBlocks blocks{};
-    blocks.count = static_cast<std::uint8_t>(1 + noise_.bits() % kMostListed);
+    blocks.count = static_cast<std::uint8_t>(1 + noise_.bits() % kMaxListed);
     std::set<std::uint32_t> links;
     while (links.size() < blocks.count) links.insert(LinkFormat::kLeafBit | noise_.bits() % kLinks);
     std::copy(links.begin(), links.end(), blocks.links.begin());

@@ -13,30 +13,30 @@
 namespace planetree::octree {
 namespace {
 
-using MapGlanceTest = RandomMap;
+using SideGridLookupTest = RandomMap;
 
 // Also in the input's units, wherever it is not left to rounding.
-TEST_F(MapGlanceTest, TellsAtAGlanceWhatALookTells) {
+TEST_F(SideGridLookupTest, TellsAtAGlanceWhatALookTells) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   for (const int scale : {0, 3, -200, 900, -900}) {
-    ColourMap map;
+    SideGrid map;
     memory_.resize(kMany);
     map.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
-    std::size_t known = 0, told = 0;
+    std::size_t known = 0, certain = 0;
     for (const Point& point : points(4000)) {
       const Point input = point * std::ldexp(1.0, -scale);
-      const int winding = map.look(point).winding, glanced = glance(map, input);
-      known += winding != ColourMap::kUnknown;
-      told += glanced != ColourMap::kUnknown;
-      ASSERT_TRUE(glanced == ColourMap::kUnknown || glanced == winding) << point.transpose();
+      const int winding = map.look(point).winding, found_fast = find_fast(map, input);
+      known += winding != SideGrid::kUnknown;
+      certain += found_fast != SideGrid::kUnknown;
+      ASSERT_TRUE(found_fast == SideGrid::kUnknown || found_fast == winding) << point.transpose();
     }
     // Half of the points are on sides.
-    EXPECT_GT(told, known * 2 / 5) << scale;
-    EXPECT_LT(told, known) << scale;
+    EXPECT_GT(certain, known * 2 / 5) << scale;
+    EXPECT_LT(certain, known) << scale;
   }
 }
 
-TEST_F(MapGlanceTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
+TEST_F(SideGridLookupTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   std::vector<Point> all = points(4000);
   for (const double far : {1e-300, 1e-9, 3.0, 1e9, 1e300})
@@ -48,34 +48,34 @@ TEST_F(MapGlanceTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
     all.push_back(point);
     all.back()[0] = lower_[0] + std::floor((point[0] - lower_[0]) * 256) / 256 + off;
   }
-  const auto glances = on_each_target([&] {
-    const ColourMap map = map_of(pages, kMany);
+  const auto fast_lookups = on_each_target([&] {
+    const SideGrid map = map_of(pages, kMany);
     std::vector<int> found;
-    for (const Point& point : all) found.push_back(glance(map, point));
+    for (const Point& point : all) found.push_back(find_fast(map, point));
     return found;
   });
-  for (const std::vector<int>& found : glances) {
-    EXPECT_EQ(found, glances[0]);
+  for (const std::vector<int>& found : fast_lookups) {
+    EXPECT_EQ(found, fast_lookups[0]);
     // Outside, inside, unknown.
     EXPECT_EQ(std::set<int>(found.begin(), found.end()).size(), 3u);
   }
 }
 
-TEST_F(MapGlanceTest, TellsNothingAtAGlanceOfWhatHasNoPlace) {
+TEST_F(SideGridLookupTest, TellsNothingAtAGlanceOfWhatHasNoPlace) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (const int scale : {0, 901, -901}) {
-    ColourMap map;
+    SideGrid map;
     memory_.resize(kMany);
     map.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
     for (const double value : {infinite, -infinite, std::nan(""), 1e300, -1e300})
       for (unsigned axis = 0; axis < 3; ++axis) {
         Point point = lower_ + size_ / 2;
         point[axis] = value;
-        EXPECT_EQ(glance(map, point), ColourMap::kUnknown) << value;
+        EXPECT_EQ(find_fast(map, point), SideGrid::kUnknown) << value;
       }
     for (const Point& point : points(scale == 0 ? 0 : 100))
-      EXPECT_EQ(glance(map, point), ColourMap::kUnknown) << scale;
+      EXPECT_EQ(find_fast(map, point), SideGrid::kUnknown) << scale;
   }
 }
 

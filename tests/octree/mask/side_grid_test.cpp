@@ -14,39 +14,39 @@
 namespace planetree::octree {
 namespace {
 
-using ColourMapTest = RandomMap;
+using SideGridTest = RandomMap;
 
-TEST_F(ColourMapTest, SaysWhatTheMaskSays) {
+TEST_F(SideGridTest, SaysWhatTheMaskSays) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
     MaskPages pages(random_mask(10), page_bytes, kRandomMaskPage);
     for (const std::size_t bytes : {std::size_t{1024}, std::size_t{5000}, kMany}) {
-      const ColourMap map = map_of(pages, bytes);
+      const SideGrid map = map_of(pages, bytes);
       std::size_t known = 0;
       for (const Point& point : points(4000)) {
         const int winding = map.look(point).winding;
-        if (winding == ColourMap::kUnknown) continue;
+        if (winding == SideGrid::kUnknown) continue;
         ++known;
-        ASSERT_EQ(winding, told(pages, lower_, point)) << point.transpose();
+        ASSERT_EQ(winding, certain(pages, lower_, point)) << point.transpose();
       }
       EXPECT_GT(known, 0u) << bytes;
     }
   }
 }
 
-TEST_F(ColourMapTest, KnowsAllColoursDownToOctantsOfOctants) {
+TEST_F(SideGridTest, KnowsAllColoursDownToOctantsOfOctants) {
   MaskPages pages(random_mask(6), 1 << 20, kRandomMaskPage);
   ASSERT_EQ(pages.size(), 1u);
   // Room for the cells of level 4.
-  const ColourMap map = map_of(pages, 240000);
+  const SideGrid map = map_of(pages, 240000);
   std::size_t known = 0;
   std::set<int> unknown;
   const std::vector<Point> all = points(4000);
   for (std::size_t i = 1; i < all.size(); i += 2) {  // off the sides, where rounding may hide them
     const Point& point = all[i];
-    const auto winding = told(pages, lower_, point);
+    const auto winding = certain(pages, lower_, point);
     if (!winding || has_rare_corners(look(pages, point))) continue;
     ++known;
-    if (map.look(point).winding == ColourMap::kUnknown)
+    if (map.look(point).winding == SideGrid::kUnknown)
       unknown.insert(*winding);
     else
       ASSERT_EQ(map.look(point).winding, *winding) << point.transpose();
@@ -57,43 +57,43 @@ TEST_F(ColourMapTest, KnowsAllColoursDownToOctantsOfOctants) {
   EXPECT_EQ(unknown.count(0), 0u);
 }
 
-TEST_F(ColourMapTest, TurnsSomePagesAndNoMore) {
+TEST_F(SideGridTest, TurnsSomePagesAndNoMore) {
   MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   ASSERT_GT(pages.size(), 2u);
   map_of(pages, pages.reader(), kMany);
-  const std::vector<std::uint32_t> asked = pages.take_asked();
-  EXPECT_EQ(asked.front(), 0u);
-  EXPECT_GT(std::set<std::uint32_t>(asked.begin(), asked.end()).size(), 2u);
-  EXPECT_LE(asked.size(), 1u << 15);
+  const std::vector<std::uint32_t> queried = pages.take_queried();
+  EXPECT_EQ(queried.front(), 0u);
+  EXPECT_GT(std::set<std::uint32_t>(queried.begin(), queried.end()).size(), 2u);
+  EXPECT_LE(queried.size(), 1u << 15);
 }
 
-TEST_F(ColourMapTest, KnowsNothingWithoutTheFirstPage) {
+TEST_F(SideGridTest, KnowsNothingWithoutTheFirstPage) {
   MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   pages.withhold(0);
-  const ColourMap map = map_of(pages, kMany);
-  for (const Point& point : points(100)) EXPECT_EQ(map.look(point).winding, ColourMap::kUnknown);
+  const SideGrid map = map_of(pages, kMany);
+  for (const Point& point : points(100)) EXPECT_EQ(map.look(point).winding, SideGrid::kUnknown);
 }
 
-TEST_F(ColourMapTest, SaysNothingWrongWithoutAnotherPage) {
+TEST_F(SideGridTest, SaysNothingWrongWithoutAnotherPage) {
   MaskPages whole(random_mask(10), 4096, kRandomMaskPage);
   const std::uint32_t count = whole.mask(lower_).page_count;
   ASSERT_GT(count, 10u);
   for (std::uint32_t page = 1; page < count; page += 3) {
     MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
     pages.withhold(page);
-    const ColourMap map = map_of(pages, 1 << 18);
+    const SideGrid map = map_of(pages, 1 << 18);
     for (const Point& point : points(100)) {
       const int winding = map.look(point).winding;
-      if (winding != ColourMap::kUnknown) {
-        ASSERT_EQ(winding, told(whole, lower_, point)) << page;
+      if (winding != SideGrid::kUnknown) {
+        ASSERT_EQ(winding, certain(whole, lower_, point)) << page;
       }
     }
   }
 }
 
-TEST_F(ColourMapTest, IsWhiteAroundItsCells) {
+TEST_F(SideGridTest, IsWhiteAroundItsCells) {
   MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
-  const ColourMap map = map_of(pages, kMany);
+  const SideGrid map = map_of(pages, kMany);
   for (unsigned axis = 0; axis < 3; ++axis)
     for (const double off : {-1e-6, 2.0, 1e6, -1e6}) {
       Point point = lower_ + size_ / 2;
@@ -103,7 +103,7 @@ TEST_F(ColourMapTest, IsWhiteAroundItsCells) {
     }
   // So far that nothing is known, and no less than that.
   for (const double far : {1e300, -1e300})
-    EXPECT_EQ(map.look(lower_ + Point::Constant(far)).winding, ColourMap::kUnknown) << far;
+    EXPECT_EQ(map.look(lower_ + Point::Constant(far)).winding, SideGrid::kUnknown) << far;
   // So near that rounding may tell another cell, there is nothing.
   const Point beside = lower_ - Point::Constant(1e-9);
   EXPECT_NE(std::abs(map.look(beside).winding), 1);
@@ -111,38 +111,38 @@ TEST_F(ColourMapTest, IsWhiteAroundItsCells) {
 }
 
 // Octants of cells at a region's wall are not halves.
-TEST_F(ColourMapTest, KnowsColoursAloneWhereCellsAreClipped) {
+TEST_F(SideGridTest, KnowsColoursAloneWhereCellsAreClipped) {
   MaskPages pages(random_mask(6), 1 << 20, kRandomMaskPage);
-  ColourMap map;
+  SideGrid map;
   memory_.resize(kMany);
   map.fill(pages.mask(lower_), tree_of(lower_, size_), true, 0, pages.reader(), memory_);
   std::size_t known = 0;
   for (const Point& point : points(4000)) {
     const int winding = map.look(point).winding;
-    if (winding == ColourMap::kUnknown) continue;
+    if (winding == SideGrid::kUnknown) continue;
     ++known;
-    const MaskFinding found = look(pages, point);
-    ASSERT_EQ(found.kind, MaskFinding::Kind::kColour);
+    const MaskLookup found = look(pages, point);
+    ASSERT_EQ(found.kind, MaskLookup::Kind::kColour);
     ASSERT_EQ(found.winding, winding);
   }
   EXPECT_GT(known, 500u);
 }
 
-TEST_F(ColourMapTest, KnowsNothingUnlessFilled) {
+TEST_F(SideGridTest, KnowsNothingUnlessFilled) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const double at : {0.0, -1e300, 1e300, kNaN}) {
-    EXPECT_EQ(ColourMap().look(Point::Constant(at)).winding, ColourMap::kUnknown) << at;
-    EXPECT_EQ(ColourMap().look(Point::Constant(at)).record, nullptr);
+    EXPECT_EQ(SideGrid().look(Point::Constant(at)).winding, SideGrid::kUnknown) << at;
+    EXPECT_EQ(SideGrid().look(Point::Constant(at)).record, nullptr);
   }
 }
 
 // On a side between two cells, and an ulp beside it, which cell a point is in is a matter of
 // rounding: the map says what the mask says, or nothing. From far away sides are coarse.
-TEST_F(ColourMapTest, SaysWhatTheMaskSaysBesideSides) {
+TEST_F(SideGridTest, SaysWhatTheMaskSaysBesideSides) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   for (const double far : {1.0 / 3, 1e6 + 1.0 / 3, 1e12}) {
     const Point lower = lower_ + Point::Constant(far);
-    ColourMap map;
+    SideGrid map;
     memory_.resize(kMany);
     map.fill(pages.mask(lower), tree_of(lower, size_), false, 0, pages.reader(), memory_);
     Noise noise(11);
@@ -156,45 +156,45 @@ TEST_F(ColourMapTest, SaysWhatTheMaskSaysBesideSides) {
       if (i % 2 != 0) point[axis] = std::nextafter(point[axis], i % 4 == 1 ? -1e300 : 1e300);
       if ((point.array() < lower.array()).any()) continue;
       const int winding = map.look(point).winding;
-      if (winding == ColourMap::kUnknown) continue;
+      if (winding == SideGrid::kUnknown) continue;
       ++known;
-      ASSERT_EQ(winding, told(pages, lower, point)) << point.transpose();
+      ASSERT_EQ(winding, certain(pages, lower, point)) << point.transpose();
     }
     // Steps have no room for what is farther away.
     EXPECT_TRUE(known > 200 || far > 1e8) << far;
   }
 }
 
-TEST_F(ColourMapTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
+TEST_F(SideGridTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
   MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double side : {2.1, -0.1, 8589934591.0, 1e300, kInfinity, kInfinity - kInfinity}) {
-    ColourMap map;
+    SideGrid map;
     memory_.resize(kMany);
     map.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), false, 0, pages.reader(), memory_);
-    EXPECT_EQ(map.look(lower_ + size_ / 2).winding, ColourMap::kUnknown) << side;
+    EXPECT_EQ(map.look(lower_ + size_ / 2).winding, SideGrid::kUnknown) << side;
   }
-  EXPECT_TRUE(pages.take_asked().empty());
+  EXPECT_TRUE(pages.take_queried().empty());
 }
 
 // Whatever a lookup begins with, it finds the same.
-TEST_F(ColourMapTest, SparesPagesOnTheWayToTheSameCell) {
+TEST_F(SideGridTest, SparesPagesOnTheWayToTheSameCell) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
     MaskPages pages(random_mask(10), page_bytes, kRandomMaskPage);
-    TreeWork from_root, from_map;
+    TraversalStats from_root, from_map;
     std::size_t leaves = 0;
     for (const std::size_t bytes : {std::size_t{1024}, std::size_t{50000}, kMany}) {
-      const ColourMap map = map_of(pages, bytes);
+      const SideGrid map = map_of(pages, bytes);
       for (const Point& point : points(4000)) {
-        const MaskFacts mask = pages.mask(lower_);
-        const ColourMap::Spot spot = map.look(point);
-        if (spot.winding != ColourMap::kUnknown) continue;
-        const MaskFinding expected = look_up(mask, point, 100, pages.reader(), from_root);
-        const std::uint64_t turns = from_map.page_turns;
-        const MaskFinding found = look_up(mask, spot, point, 100, pages.reader(), from_map);
-        if (spot.record && !spot.record->is_node()) {
+        const MaskInfo mask = pages.mask(lower_);
+        const SideGrid::Lookup lookup = map.look(point);
+        if (lookup.winding != SideGrid::kUnknown) continue;
+        const MaskLookup expected = look_up(mask, point, 100, pages.reader(), from_root);
+        const std::uint64_t turns = from_map.page_switches;
+        const MaskLookup found = look_up(mask, lookup, point, 100, pages.reader(), from_map);
+        if (lookup.record && !lookup.record->is_node()) {
           ++leaves;
-          ASSERT_LE(from_map.page_turns, turns + 1);
+          ASSERT_LE(from_map.page_switches, turns + 1);
         }
         ASSERT_EQ(found.kind, expected.kind) << point.transpose();
         ASSERT_EQ(found.winding, expected.winding);
@@ -208,44 +208,43 @@ TEST_F(ColourMapTest, SparesPagesOnTheWayToTheSameCell) {
       }
     }
     EXPECT_GT(leaves, 500u);
-    EXPECT_LT(from_map.page_turns, from_root.page_turns);
+    EXPECT_LT(from_map.page_switches, from_root.page_switches);
     EXPECT_LT(from_map.nodes, from_root.nodes * 3 / 4);
   }
 }
 
 // What a checked allocation ends behind, and pages that are others each time they are asked for:
 // the file was exchanged.
-TEST_F(ColourMapTest, StaysInItsMemoryWhateverPagesSay) {
+TEST_F(SideGridTest, StaysInItsMemoryWhateverPagesSay) {
   MaskPages one(random_mask(10), 4096, kRandomMaskPage);
   MaskPages other(random_mask(10, 2), 4096, kRandomMaskPage);
   struct Exchanged {
     PageReader pages[2];
-    std::uint32_t pages_of_both, period, asked = 0;
+    std::uint32_t pages_of_both, period, queried = 0;
   };
   std::size_t known = 0;
   for (const std::size_t bytes : {1024u, 5008u, 20000u, 100000u, 1000000u})
     for (const std::uint32_t period : {1u, 7u, 100u, 1000u, 10000u}) {
       Exchanged exchanged{{one.reader(), other.reader()}, 0, period};
       exchanged.pages_of_both = kRandomMaskPage + std::min(one.size(), other.size());
-      const PageReader reader{&exchanged, [](void* context, std::uint32_t number) noexcept {
-                                auto& self = *static_cast<Exchanged*>(context);
-                                const PageReader& now = self.pages[self.asked++ / self.period % 2];
-                                return number < self.pages_of_both ? now.page(now.context, number)
-                                                                   : nullptr;
-                              }};
+      const PageReader reader{
+          &exchanged, [](void* context, std::uint32_t number) noexcept {
+            auto& self = *static_cast<Exchanged*>(context);
+            const PageReader& now = self.pages[self.queried++ / self.period % 2];
+            return number < self.pages_of_both ? now.page(now.context, number) : nullptr;
+          }};
       const std::unique_ptr<std::byte[]> memory(new std::byte[bytes]);
-      ColourMap map;
+      SideGrid map;
       map.fill(one.mask(lower_), tree_of(lower_, size_), false, 0, reader, {memory.get(), bytes});
-      for (const Point& point : points(500))
-        known += map.look(point).winding != ColourMap::kUnknown;
+      for (const Point& point : points(500)) known += map.look(point).winding != SideGrid::kUnknown;
     }
   EXPECT_GT(known, 1000u);
 }
 
-TEST_F(ColourMapTest, TakesNoMoreThanItsMemory) {
-  EXPECT_EQ(ColourMap::bytes(1), 1024u);
-  EXPECT_EQ(ColourMap::bytes(4003), 6004u);
-  EXPECT_EQ(ColourMap::bytes(~std::uint64_t{0} / 2), 3u << 19);
+TEST_F(SideGridTest, TakesNoMoreThanItsMemory) {
+  EXPECT_EQ(SideGrid::bytes(1), 1024u);
+  EXPECT_EQ(SideGrid::bytes(4003), 6004u);
+  EXPECT_EQ(SideGrid::bytes(~std::uint64_t{0} / 2), 3u << 19);
 }
 
 }  // namespace

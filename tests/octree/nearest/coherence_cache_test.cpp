@@ -1,4 +1,4 @@
-// Asks that start where the last ones were: the same answers, for less work.
+// Queries that start where the last ones were: the same answers, for less work.
 
 #include "octree/nearest/coherence_cache.h"
 
@@ -50,38 +50,38 @@ struct Path {
 
   // Every answer of the path has the bits of one that knows nothing of the path.
   void expect_same_answers(const std::vector<Point>& path, const NearestLimits& limits = {}) {
-    Vicinity vicinity;
+    CoherenceCache coherence_cache;
     for (const Point& query : path) {
       const NearestAnswer alone =
-          nearest(tree_facts(sample), query, limits, pages.reader(), work_alone);
+          nearest(tree_info(sample), query, limits, pages.reader(), work_alone);
       const NearestAnswer along =
-          nearest(tree_facts(sample), query, limits, pages.reader(), work_along, &vicinity);
+          nearest(tree_info(sample), query, limits, pages.reader(), work_along, &coherence_cache);
       EXPECT_EQ(bits_of(along), bits_of(alone)) << query.transpose();
     }
   }
 
   SampleTree sample;
   SamplePages pages;
-  TreeWork work_alone, work_along;
+  TraversalStats work_alone, work_along;
 };
 
-// Asks of one probe.
+// Queries of one probe.
 struct Warm {
   explicit Warm(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
 
-  NearestAnswer answer(const Point& query) {
-    TreeWork work;
-    return nearest(tree_facts(sample), query, {}, pages.reader(), work, &vicinity);
+  NearestAnswer closest_point(const Point& query) {
+    TraversalStats work;
+    return nearest(tree_info(sample), query, {}, pages.reader(), work, &coherence_cache);
   }
-  TreeWork work(const Point& query, const NearestLimits& limits = {}) {
-    TreeWork work;
-    nearest(tree_facts(sample), query, limits, pages.reader(), work, &vicinity);
+  TraversalStats work(const Point& query, const NearestLimits& limits = {}) {
+    TraversalStats work;
+    nearest(tree_info(sample), query, limits, pages.reader(), work, &coherence_cache);
     return work;
   }
 
   SampleTree sample;
   SamplePages pages;
-  Vicinity vicinity;
+  CoherenceCache coherence_cache;
 };
 
 // Pages of which the numbers that are asked for are watched.
@@ -101,7 +101,7 @@ struct WatchedPages {
   bool strange = false;  // one was asked for that there is not
 };
 
-TEST(Vicinity, ChangesNoAnswer) {
+TEST(CoherenceCache, ChangesNoAnswer) {
   const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(5)},
                                                 {"a triangle many times", repeated(500)},
                                                 {"a few too many to keep", repeated(40)},
@@ -117,7 +117,7 @@ TEST(Vicinity, ChangesNoAnswer) {
 
 // A fine sheet so far from the origin that nearest points lie beside it, and two large
 // triangles that float cannot rule out.
-Soup far_sheet() {
+Soup far_height_field() {
   constexpr double kFar = 0x1p40, kAbove = 3 * kFar * 0x1p-52;
   constexpr int kSide = 64;
   const auto at = [&](int i, int j, double above) {
@@ -137,8 +137,8 @@ Soup far_sheet() {
   return soup;
 }
 
-TEST(Vicinity, ChangesNoAnswerToAPointJustTold) {
-  Path path(far_sheet());
+TEST(CoherenceCache, ChangesNoAnswerToAPointJustTold) {
+  Path path(far_height_field());
   Noise noise(5);
   constexpr double kGrid = 0x1p40 * 0x1p-52;
   for (int round = 0; round < 100; ++round) {
@@ -146,35 +146,35 @@ TEST(Vicinity, ChangesNoAnswerToAPointJustTold) {
     const double z = start.x / 2 + start.y / 4 - 40 * kGrid;
     const Point first = Point(start.x, start.y, z).array() + 0x1p40;
     const Point second = first + Point(0x1p-8, 0, 0);
-    const Point told =
-        nearest(tree_facts(path.sample), second, {}, path.pages.reader(), path.work_alone).point;
-    path.expect_same_answers({first, second, told});
+    const Point certain =
+        nearest(tree_info(path.sample), second, {}, path.pages.reader(), path.work_alone).point;
+    path.expect_same_answers({first, second, certain});
   }
 }
 
 // Leaps that are just short enough to be thought steps, then steps so short that all they want is
 // few triangles.
-TEST(Vicinity, GivesWayToASmallerBallWhenStepsGetShorter) {
+TEST(CoherenceCache, GivesWayToASmallerBallWhenStepsGetShorter) {
   Warm warm(sphere(6));
   Point at(0.45, 0.15, 0.078);
-  for (int i = 0; i < 4; ++i) warm.answer(at += Point(0, 0, 0.02));
+  for (int i = 0; i < 4; ++i) warm.closest_point(at += Point(0, 0, 0.02));
   std::uint64_t visits = 0;
   for (int i = 0; i < 20; ++i) {
-    const TreeWork work = warm.work(at += Point(0, 1e-5, 0));
+    const TraversalStats work = warm.work(at += Point(0, 1e-5, 0));
     visits = work.nodes + work.blocks;
   }
   EXPECT_EQ(visits, 0u);
 }
 
-TEST(Vicinity, VisitsNoMoreThanAllowed) {
-  const NearestAnswer known = Warm(sphere(6)).answer(Point(0.35, 0.35, 0.1));
+TEST(CoherenceCache, VisitsNoMoreThanAllowed) {
+  const NearestAnswer known = Warm(sphere(6)).closest_point(Point(0.35, 0.35, 0.1));
   for (const std::uint32_t most : {8u, 20u, 40u}) {
     Warm warm(sphere(6));
     NearestLimits limits;
-    limits.max_nodes = most;
+    limits.max_work = most;
     limits.known = &known;
     for (int i = 0; i < 10; ++i) {
-      const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1e-4, 0.1), limits);
+      const TraversalStats work = warm.work(Point(0.35, 0.355 + i * 1e-4, 0.1), limits);
       EXPECT_LE(work.nodes + work.blocks, most) << i;
     }
   }
@@ -182,17 +182,17 @@ TEST(Vicinity, VisitsNoMoreThanAllowed) {
 
 // So far away float has no squares, and nothing is pruned; of longer lists there may be left
 // what must not be taken for subtrees.
-TEST(Vicinity, HoldsNoMoreThanThereIsFarAway) {
+TEST(CoherenceCache, HoldsNoMoreThanThereIsFarAway) {
   const Point far(0x1p61, 0x1p60, 0);
   for (const unsigned level : {3u, 4u, 5u, 6u}) {
     Warm warm(sphere(level));
     WatchedPages watched(warm.pages);
-    TreeWork alone;
-    nearest(tree_facts(warm.sample), far, {}, watched.reader(), alone);
-    for (const Point& query : wander(60, 0.02, 7)) warm.answer(query);
+    TraversalStats alone;
+    nearest(tree_info(warm.sample), far, {}, watched.reader(), alone);
+    for (const Point& query : wander(60, 0.02, 7)) warm.closest_point(query);
     for (int i = 0; i < 4; ++i) {
-      TreeWork work;
-      nearest(tree_facts(warm.sample), far, {}, watched.reader(), work, &warm.vicinity);
+      TraversalStats work;
+      nearest(tree_info(warm.sample), far, {}, watched.reader(), work, &warm.coherence_cache);
       if (i < 2) continue;  // makes the ball
       EXPECT_LE(work.nodes + work.blocks, alone.nodes + alone.blocks) << level;
     }
@@ -201,122 +201,122 @@ TEST(Vicinity, HoldsNoMoreThanThereIsFarAway) {
 }
 
 // Where an error is allowed and pages are lost, no bound is known for long.
-TEST(Vicinity, HoldsNoMoreThanThereIsWherePagesAreLost) {
+TEST(CoherenceCache, HoldsNoMoreThanThereIsWherePagesAreLost) {
   for (const double step : {1e-3, 3e-3, 1e-2, 3e-2}) {
     Warm warm(sphere(5));
     WatchedPages watched(warm.pages);
     Point at(0.35, 0.355, 0.1);
     NearestAnswer known;
-    for (int i = 0; i < 3; ++i) known = warm.answer(at += Point(0, step, 0));
+    for (int i = 0; i < 3; ++i) known = warm.closest_point(at += Point(0, step, 0));
     for (std::uint32_t page = 0; page < warm.pages.size(); ++page) warm.pages.withhold(page);
     NearestLimits limits;
     limits.known = &known;
     limits.max_error = 0.01;
-    TreeWork work;
-    nearest(tree_facts(warm.sample), at + Point(0, step, 0), limits, watched.reader(), work,
-            &warm.vicinity);
+    TraversalStats work;
+    nearest(tree_info(warm.sample), at + Point(0, step, 0), limits, watched.reader(), work,
+            &warm.coherence_cache);
     EXPECT_FALSE(watched.strange) << step;
   }
 }
 
 // Limited asks tell what they came to: they must come to the same whatever a register holds.
-TEST(Vicinity, IsTheSameOnEveryInstructionSet) {
+TEST(CoherenceCache, IsTheSameOnEveryInstructionSet) {
   const Soup soup = scattered(20000, 0.03);
   NearestLimits limits;
-  limits.max_nodes = 12;
+  limits.max_work = 12;
   limits.max_error = 1e-4;
-  const NearestAnswer known = Warm(soup).answer(Point(0.35, 0.35, 0.1));
+  const NearestAnswer known = Warm(soup).closest_point(Point(0.35, 0.35, 0.1));
   limits.known = &known;
-  std::vector<std::vector<std::uint64_t>> told;
+  std::vector<std::vector<std::uint64_t>> certain;
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
     hwy::SetSupportedTargetsForTest(left & -left);
     Warm warm(soup);
     std::vector<std::uint64_t> bits;
     for (const double step : {1e-4, 1e-3, 0.01})
       for (const Point& query : wander(300, step, 30)) {
-        TreeWork work;
-        const NearestAnswer answer = nearest(tree_facts(warm.sample), query, limits,
-                                             warm.pages.reader(), work, &warm.vicinity);
+        TraversalStats work;
+        const NearestAnswer answer = nearest(tree_info(warm.sample), query, limits,
+                                             warm.pages.reader(), work, &warm.coherence_cache);
         const auto more = bits_of(answer);
         bits.insert(bits.end(), more.begin(), more.end());
-        bits.insert(bits.end(), {work.nodes, work.blocks, work.triangles, work.page_turns});
+        bits.insert(bits.end(), {work.nodes, work.blocks, work.triangles, work.page_switches});
       }
-    told.push_back(bits);
+    certain.push_back(bits);
     hwy::SetSupportedTargetsForTest(0);
   }
-  for (const auto& bits : told) EXPECT_EQ(bits == told[0], true);
+  for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
 }
 
-TEST(Vicinity, ChangesNoAnswerWithinLimits) {
+TEST(CoherenceCache, ChangesNoAnswerWithinLimits) {
   NearestLimits near, rough, brief;
   near.max_distance = 0.05;
   rough.max_error = 0.01;
-  brief.max_nodes = 7;
+  brief.max_work = 7;
   for (const NearestLimits& limits : {near, rough, brief})
     Path(sphere(5)).expect_same_answers(wander(300, 1e-3, 100), limits);
 }
 
-TEST(Vicinity, ChangesNoAnswerWherePagesAreLost) {
+TEST(CoherenceCache, ChangesNoAnswerWherePagesAreLost) {
   Path path(sphere(5));
   ASSERT_GT(path.pages.size(), 8u);
   for (std::uint32_t page = 1; page < path.pages.size(); page += 3) path.pages.withhold(page);
   path.expect_same_answers(wander(300, 1e-3, 30));
 }
 
-TEST(Vicinity, SparesMostNodesOfAPath) {
+TEST(CoherenceCache, SparesMostNodesOfAPath) {
   Path path(sphere(6));
   path.expect_same_answers(wander(500, 1e-4, 500));
   EXPECT_LT(path.work_along.nodes, path.work_alone.nodes / 2);
   EXPECT_LE(path.work_along.blocks, path.work_alone.blocks);
 }
 
-TEST(Vicinity, LooksAtNoPageWhereTrianglesAreFew) {
+TEST(CoherenceCache, LooksAtNoPageWhereTrianglesAreFew) {
   Warm warm(sphere(6));
   for (int i = 0; i < 12; ++i) {
-    const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1e-6, 0.1));
+    const TraversalStats work = warm.work(Point(0.35, 0.355 + i * 1e-6, 0.1));
     if (i < 2) continue;
-    EXPECT_EQ(work.page_turns, 0u) << i;
+    EXPECT_EQ(work.page_switches, 0u) << i;
   }
 }
 
-TEST(Vicinity, LooksAtNoNodeWhereBlocksAreFew) {
+TEST(CoherenceCache, LooksAtNoNodeWhereBlocksAreFew) {
   Warm warm(sphere(7));
   for (int i = 0; i < 8; ++i) {
-    const TreeWork work = warm.work(Point(0.35, 0.355 + i * 1.5e-3, 0.1));
+    const TraversalStats work = warm.work(Point(0.35, 0.355 + i * 1.5e-3, 0.1));
     if (i < 2) continue;
     EXPECT_EQ(work.nodes, 0u) << i;
     EXPECT_GT(work.blocks, 0u) << i;
-    EXPECT_FALSE(warm.vicinity.triangles().complete());
+    EXPECT_FALSE(warm.coherence_cache.triangles().complete());
   }
 }
 
-TEST(Vicinity, BeginsFarDownWhereBlocksAreMany) {
+TEST(CoherenceCache, BeginsFarDownWhereBlocksAreMany) {
   Warm warm(sphere(7));
   std::uint64_t along = 0, alone = 0;
   for (int i = 0; i < 8; ++i) {
     const Point query(0.35, 0.355 + i * 3e-3, 0.1);
-    const TreeWork work = warm.work(query);
+    const TraversalStats work = warm.work(query);
     if (i < 2) continue;
-    EXPECT_FALSE(warm.vicinity.subtrees().are_blocks());
+    EXPECT_FALSE(warm.coherence_cache.subtrees().are_blocks());
     along += work.nodes;
-    TreeWork cold;
-    nearest(tree_facts(warm.sample), query, {}, warm.pages.reader(), cold);
+    TraversalStats cold;
+    nearest(tree_info(warm.sample), query, {}, warm.pages.reader(), cold);
     alone += cold.nodes;
   }
   EXPECT_GT(along, 0u);
   EXPECT_LT(along, alone / 2);
 }
 
-TEST(Vicinity, CostsLittleWhereThereIsNoPath) {
+TEST(CoherenceCache, CostsLittleWhereThereIsNoPath) {
   Path path(sphere(6));
   path.expect_same_answers(wander(500, 1e-4, 1));
   EXPECT_LT(path.work_along.nodes, path.work_alone.nodes + path.work_alone.nodes / 20);
 }
 
-TEST(Vicinity, HoldsNothingBeforeTheFirstAnswer) {
-  const Vicinity vicinity{};
-  EXPECT_FALSE(vicinity.holds(vicinity.reach_of(Point(0, 0, 0))));
-  EXPECT_EQ(vicinity.wanted_radius(Point(0, 0, 0), 1, 2), 0);
+TEST(CoherenceCache, HoldsNothingBeforeTheFirstAnswer) {
+  const CoherenceCache coherence_cache{};
+  EXPECT_FALSE(coherence_cache.holds(coherence_cache.reach_of(Point(0, 0, 0))));
+  EXPECT_EQ(coherence_cache.wanted_radius(Point(0, 0, 0), 1, 2), 0);
 }
 
 }  // namespace

@@ -31,24 +31,25 @@ struct Path {
   explicit Path(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
 
   void expect_same_normals(Point at, double step) {
-    const TreeFacts tree = tree_facts(sample);
+    const TreeInfo tree = tree_info(sample);
     Noise noise(7);
-    Vicinity vicinity;
+    CoherenceCache coherence_cache;
     for (int i = 0; i < 400; ++i) {
       // Leaps end beside the ball, which is kept.
       const double way = i % 20 == 19 ? 0.2 : step;
       const Vec3 by = noise.point(-way, way);
       at += Point(by.x, by.y, by.z);
-      TreeWork unused;
-      const NearestAnswer nearest_there = nearest(tree, at, {}, pages.reader(), unused, &vicinity);
+      TraversalStats unused;
+      const NearestAnswer nearest_there =
+          nearest(tree, at, {}, pages.reader(), unused, &coherence_cache);
       FeatureNormal before, found;
       feature_normal(tree, at, nearest_there, nullptr, kAll, pages.reader(), alone, before);
-      feature_normal(tree, at, nearest_there, &vicinity, kAll, pages.reader(), along, found);
+      feature_normal(tree, at, nearest_there, &coherence_cache, kAll, pages.reader(), along, found);
       EXPECT_EQ(found.normal, before.normal) << i;
       EXPECT_EQ(found.side, before.side) << i;
       EXPECT_TRUE(found.complete);
-      const bool held = vicinity.has_all_at(nearest_there.point);
-      from_subtrees += held && !vicinity.triangles().complete() ? 1 : 0;
+      const bool held = coherence_cache.has_all_at(nearest_there.point);
+      from_subtrees += held && !coherence_cache.triangles().complete() ? 1 : 0;
     }
   }
 
@@ -56,13 +57,14 @@ struct Path {
 
   SampleTree sample;
   SamplePages pages;
-  TreeWork alone, along;
+  TraversalStats alone, along;
   int from_subtrees = 0;
 };
 
 TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootForLessWork) {
-  const std::pair<const char*, Soup> soups[] = {
-      {"sphere", sphere(6)}, {"sheet", sheet(60)}, {"scattered triangles", scattered(20000, 0.05)}};
+  const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(6)},
+                                                {"sheet", height_field(60)},
+                                                {"scattered triangles", scattered(20000, 0.05)}};
   for (const auto& [name, soup] : soups) {
     SCOPED_TRACE(name);
     Path path(soup);

@@ -59,22 +59,22 @@ TEST(FacingSides, IsNotToldByFacesTooSmallOrTooNearTheirEnds) {
   }
 }
 
-TEST(Sheet, TellsSidesOfExactAnswersAlone) {
+TEST(HeightField, TellsSidesOfExactAnswersAlone) {
   NearestAnswer nearest;
-  nearest.in_sheet = true;
+  nearest.is_height_field = true;
   nearest.status = Status::kExact;
   nearest.lower = 1;
   nearest.upper = 1 + 0x1p-45;
-  EXPECT_TRUE(Sheet::tells_side(nearest));
+  EXPECT_TRUE(HeightField::tells_side(nearest));
   nearest.upper = 1 + 0x1p-43;
-  EXPECT_FALSE(Sheet::tells_side(nearest));
+  EXPECT_FALSE(HeightField::tells_side(nearest));
   nearest.upper = 1;
-  nearest.in_sheet = false;
-  EXPECT_FALSE(Sheet::tells_side(nearest));
-  nearest.in_sheet = true;
+  nearest.is_height_field = false;
+  EXPECT_FALSE(HeightField::tells_side(nearest));
+  nearest.is_height_field = true;
   for (const Status status : {Status::kWithinError, Status::kDegraded}) {
     nearest.status = status;
-    EXPECT_FALSE(Sheet::tells_side(nearest));
+    EXPECT_FALSE(HeightField::tells_side(nearest));
   }
 }
 

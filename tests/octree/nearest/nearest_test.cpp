@@ -22,13 +22,13 @@ Point random_point(Noise& noise, double low = -1.5, double high = 1.5) {
 }
 
 // A tree in pages, asked; and every triangle looked at.
-struct Asked {
-  explicit Asked(const Soup& soup, std::uint32_t page_bytes = 4096)
-      : sample(build_sample(soup, page_bytes)), pages(sample), facts(tree_facts(sample)) {}
+struct Recorded {
+  explicit Recorded(const Soup& soup, std::uint32_t page_bytes = 4096)
+      : sample(build_sample(soup, page_bytes)), pages(sample), info(tree_info(sample)) {}
 
-  NearestAnswer ask(const Point& query, const NearestLimits& limits = {}) {
+  NearestAnswer closest_point(const Point& query, const NearestLimits& limits = {}) {
     work = {};
-    return nearest(facts, query, limits, pages.reader(), work);
+    return nearest(info, query, limits, pages.reader(), work);
   }
 
   std::pair<double, std::uint64_t> least(const Point& query) const {
@@ -51,8 +51,8 @@ struct Asked {
 
   SampleTree sample;
   SamplePages pages;
-  TreeFacts facts;
-  TreeWork work;
+  TreeInfo info;
+  TraversalStats work;
 };
 
 TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
@@ -62,12 +62,12 @@ TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
                                                 {"small triangles", scattered(400, 1e-3)}};
   for (const auto& [name, soup] : soups) {
     SCOPED_TRACE(name);
-    Asked asked(soup);
+    Recorded queried(soup);
     Noise noise(1);
     for (int i = 0; i < 200; ++i) {
       const Point query = random_point(noise);
-      const NearestAnswer answer = asked.ask(query);
-      const auto [squared, index] = asked.least(query);
+      const NearestAnswer answer = queried.closest_point(query);
+      const auto [squared, index] = queried.least(query);
       EXPECT_EQ(answer.status, Status::kExact);
       EXPECT_EQ(std::bit_cast<std::uint64_t>(answer.distance),
                 std::bit_cast<std::uint64_t>(std::sqrt(squared)));
@@ -77,19 +77,19 @@ TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
 }
 
 TEST(Nearest, GivesTiesToTheLeastIndex) {
-  Asked asked(sphere(4));
+  Recorded queried(sphere(4));
   // The centre of a sphere, its corners, and points above its edges.
   for (const Point& query : {Point(0, 0, 0), Point(1, 0, 0), Point(0, -3, 0), Point(0.5, 0.5, 0)})
-    EXPECT_EQ(asked.ask(query).triangle, asked.least(query).second);
+    EXPECT_EQ(queried.closest_point(query).triangle, queried.least(query).second);
 }
 
 TEST(Nearest, AnswersTheSameFromAnyPageSize) {
-  Asked small(scattered(2000, 0.1), 4096), large(scattered(2000, 0.1), 262144);
+  Recorded small(scattered(2000, 0.1), 4096), large(scattered(2000, 0.1), 262144);
   ASSERT_GT(small.pages.size(), large.pages.size());
   Noise noise(2);
   for (int i = 0; i < 200; ++i) {
     const Point query = random_point(noise);
-    const NearestAnswer one = small.ask(query), other = large.ask(query);
+    const NearestAnswer one = small.closest_point(query), other = large.closest_point(query);
     EXPECT_EQ(one.distance, other.distance);
     EXPECT_EQ(one.triangle, other.triangle);
     EXPECT_EQ(one.point, other.point);
@@ -99,95 +99,95 @@ TEST(Nearest, AnswersTheSameFromAnyPageSize) {
 }
 
 TEST(Nearest, LooksAtFewOfManyTriangles) {
-  Asked asked(sphere(6), 16384);
-  asked.ask(Point(0.9, 0.5, 0.1));
-  EXPECT_LT(asked.work.triangles, 64u);
-  EXPECT_LT(asked.work.nodes + asked.work.blocks, 64u);
+  Recorded queried(sphere(6), 16384);
+  queried.closest_point(Point(0.9, 0.5, 0.1));
+  EXPECT_LT(queried.work.triangles, 64u);
+  EXPECT_LT(queried.work.nodes + queried.work.blocks, 64u);
 }
 
 TEST(Nearest, IsExactHoweverFarTheQueryIs) {
-  Asked asked(sphere(3));
+  Recorded queried(sphere(3));
   for (const double far : {1e6, 0x1p59, 0x1p61, 1e30, 0x1p200, kFarthestQuery}) {
-    const NearestAnswer answer = asked.ask(Point(far, far / 3, -far / 7));
+    const NearestAnswer answer = queried.closest_point(Point(far, far / 3, -far / 7));
     EXPECT_EQ(answer.status, Status::kExact) << far;
-    asked.expect_interval_holds(answer, Point(far, far / 3, -far / 7));
+    queried.expect_interval_holds(answer, Point(far, far / 3, -far / 7));
   }
 }
 
 TEST(Nearest, StopsAtTheDistanceItIsTold) {
-  Asked asked(sphere(4));
-  const double scale = asked.sample.mesh.upper().x();
+  Recorded queried(sphere(4));
+  const double scale = queried.sample.mesh.upper().x();
   const Point query(3 * scale, 0, 0);
   NearestLimits limits;
   limits.max_distance = 1.9 * scale;
-  NearestAnswer answer = asked.ask(query, limits);
+  NearestAnswer answer = queried.closest_point(query, limits);
   EXPECT_EQ(answer.status, Status::kBeyondMaxDistance);
   EXPECT_EQ(answer.lower, limits.max_distance);
   EXPECT_EQ(answer.upper, kInfinity);
   EXPECT_EQ(answer.triangle, kNoTriangle);
   limits.max_distance = 2 * scale;
-  answer = asked.ask(query, limits);
+  answer = queried.closest_point(query, limits);
   EXPECT_EQ(answer.status, Status::kExact);
   EXPECT_EQ(answer.distance, 2 * scale);
 }
 
 TEST(Nearest, StaysWithinTheErrorItIsAllowed) {
-  Asked asked(sphere(5));
+  Recorded queried(sphere(5));
   Noise noise(3);
   int within = 0;
   for (int i = 0; i < 400; ++i) {
     const Point query = random_point(noise);
     NearestLimits limits;
     limits.max_error = noise.uniform(0, 0.2);
-    const NearestAnswer answer = asked.ask(query, limits);
+    const NearestAnswer answer = queried.closest_point(query, limits);
     ASSERT_TRUE(answer.status == Status::kExact || answer.status == Status::kWithinError);
     EXPECT_LE(answer.upper - answer.lower, limits.max_error);
-    asked.expect_interval_holds(answer, query);
+    queried.expect_interval_holds(answer, query);
     within += answer.status == Status::kWithinError;
   }
   EXPECT_GT(within, 100);
 }
 
 TEST(Nearest, SavesWorkWhereErrorIsAllowed) {
-  Asked asked(sphere(5));
+  Recorded queried(sphere(5));
   const Point query(0.01, 0.02, 0);  // near the centre, where all is equally far
-  asked.ask(query);
-  const std::uint64_t exact = asked.work.blocks;
+  queried.closest_point(query);
+  const std::uint64_t exact = queried.work.blocks;
   NearestLimits limits;
   limits.max_error = 0.1;
-  asked.ask(query, limits);
-  EXPECT_LT(asked.work.blocks * 2, exact);
+  queried.closest_point(query, limits);
+  EXPECT_LT(queried.work.blocks * 2, exact);
 }
 
 // A triangle within max_distance must not be taken for one that max_error
 // allows to leave out: there is nothing else to answer with.
 TEST(Nearest, FindsWhatLiesBetweenErrorAndDistance) {
-  Asked asked(sphere(4));
+  Recorded queried(sphere(4));
   Noise noise(4);
   for (int i = 0; i < 300; ++i) {
     const Point query = random_point(noise, -2.5, 2.5);
-    const double truth = std::sqrt(asked.least(query).first);
+    const double truth = std::sqrt(queried.least(query).first);
     NearestLimits limits;
     limits.max_distance = truth * noise.uniform(0.5, 2);
     limits.max_error = limits.max_distance * noise.uniform(0.1, 1.5);
-    const NearestAnswer answer = asked.ask(query, limits);
+    const NearestAnswer answer = queried.closest_point(query, limits);
     EXPECT_EQ(answer.status == Status::kBeyondMaxDistance, truth > limits.max_distance);
-    asked.expect_interval_holds(answer, query);
+    queried.expect_interval_holds(answer, query);
   }
 }
 
 TEST(Nearest, HoldsTheTruthAfterAnyNumberOfNodes) {
-  Asked asked(scattered(1500, 0.2));
+  Recorded queried(scattered(1500, 0.2));
   Noise noise(5);
   for (int i = 0; i < 40; ++i) {
     const Point query = random_point(noise);
     double width = kInfinity;
     for (const std::uint32_t nodes : {0u, 1u, 2u, 5u, 20u, 100u, 10000u}) {
       NearestLimits limits;
-      limits.max_nodes = nodes;
-      const NearestAnswer answer = asked.ask(query, limits);
-      EXPECT_LE(asked.work.nodes + asked.work.blocks, nodes);
-      asked.expect_interval_holds(answer, query);
+      limits.max_work = nodes;
+      const NearestAnswer answer = queried.closest_point(query, limits);
+      EXPECT_LE(queried.work.nodes + queried.work.blocks, nodes);
+      queried.expect_interval_holds(answer, query);
       EXPECT_EQ(answer.status, nodes == 10000 ? Status::kExact : answer.status);
       if (nodes < 3) {
         EXPECT_EQ(answer.status, Status::kDegraded);
@@ -199,30 +199,30 @@ TEST(Nearest, HoldsTheTruthAfterAnyNumberOfNodes) {
 }
 
 TEST(Nearest, AnswersFromTheSampleWhereNothingIsRead) {
-  Asked asked(sphere(4));
-  asked.pages.withhold(0);
+  Recorded queried(sphere(4));
+  queried.pages.withhold(0);
   const Point query(0.3, 0.2, 5);
-  const NearestAnswer answer = asked.ask(query);
+  const NearestAnswer answer = queried.closest_point(query);
   EXPECT_EQ(answer.status, Status::kDegraded);
   EXPECT_EQ(answer.triangle, kNoTriangle);
-  EXPECT_EQ(answer.point, asked.facts.sample);
+  EXPECT_EQ(answer.point, queried.info.sample);
   EXPECT_EQ(answer.distance, answer.upper);
-  asked.expect_interval_holds(answer, query);
+  queried.expect_interval_holds(answer, query);
 }
 
 TEST(Nearest, GoesOnWithoutPagesItCannotHave) {
   Noise noise(6);
   std::size_t exact = 0, degraded = 0;
   for (int round = 0; round < 8; ++round) {
-    Asked asked(sphere(4));
-    for (std::uint32_t page = 1; page < asked.pages.size(); ++page)
-      if (noise.bits() % 3 == 0) asked.pages.withhold(page);
+    Recorded queried(sphere(4));
+    for (std::uint32_t page = 1; page < queried.pages.size(); ++page)
+      if (noise.bits() % 3 == 0) queried.pages.withhold(page);
     for (int i = 0; i < 50; ++i) {
       const Point query = random_point(noise);
-      const NearestAnswer answer = asked.ask(query);
-      asked.expect_interval_holds(answer, query);
+      const NearestAnswer answer = queried.closest_point(query);
+      queried.expect_interval_holds(answer, query);
       if (answer.status == Status::kExact) {
-        EXPECT_EQ(answer.triangle, asked.least(query).second);
+        EXPECT_EQ(answer.triangle, queried.least(query).second);
       }
       ++(answer.status == Status::kExact ? exact : degraded);
     }
@@ -246,10 +246,10 @@ TEST(Nearest, FollowsNoLinkThatMissesARecord) {
       for (std::uint32_t& link : root.page_links)
         if (links.page(link) == page) link = links.make(leaf, page, slot);
       root.page_links[0] = root.page_links[1] = links.make(leaf, page, slot);
-      ASSERT_TRUE(decode_page(root.bytes(), page_facts(sample, 0), pages.frame(0).bytes()));
-      TreeWork work;
+      ASSERT_TRUE(decode_page(root.bytes(), page_info(sample, 0), pages.frame(0).bytes()));
+      TraversalStats work;
       const NearestAnswer answer =
-          nearest(tree_facts(sample), Point(0, 0, 0), {}, pages.reader(), work);
+          nearest(tree_info(sample), Point(0, 0, 0), {}, pages.reader(), work);
       const auto& header = pages.frame(page).header();
       const auto* starts =
           reinterpret_cast<const std::uint64_t*>(pages.frame(page).data() + kSlotBytes);
@@ -266,10 +266,10 @@ TEST(Nearest, FollowsNoLinkThatMissesARecord) {
 TEST(Nearest, EndsHoweverLongAForgedTreeIs) {
   const SampleTree sample = build_sample(sphere(5), 4096);
   SamplePages pages(sample);
-  TreeFacts facts = tree_facts(sample);
-  facts.record_count = 100;
-  TreeWork work;
-  const NearestAnswer answer = nearest(facts, Point(0, 0, 0), {}, pages.reader(), work);
+  TreeInfo info = tree_info(sample);
+  info.record_count = 100;
+  TraversalStats work;
+  const NearestAnswer answer = nearest(info, Point(0, 0, 0), {}, pages.reader(), work);
   EXPECT_EQ(work.nodes + work.blocks, 100u);
   EXPECT_EQ(answer.status, Status::kDegraded);
 }

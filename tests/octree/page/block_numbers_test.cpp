@@ -23,7 +23,7 @@ class Stored {
       for (std::size_t k = 0; k < sizeof(T); ++k)
         bytes_[k * values.size() + i] = static_cast<std::byte>(values[i] >> 8 * k);
   }
-  Shuffled<T> array() const { return {bytes_.data(), bytes_.size() / sizeof(T)}; }
+  ByteSplit<T> array() const { return {bytes_.data(), bytes_.size() / sizeof(T)}; }
 
  private:
   std::vector<std::byte> bytes_;
@@ -36,13 +36,14 @@ struct Unpacked {
   bool good = false;
 };
 
-using Places = Unpacked<std::uint16_t>;
+using VertexIndices = Unpacked<std::uint16_t>;
 
-Places unpack(const std::vector<std::uint16_t>& refs, const BlockVertices& block, unsigned stride) {
+VertexIndices unpack(const std::vector<std::uint16_t>& refs, const BlockVertices& block,
+                     unsigned stride) {
   const Stored<std::uint16_t> stored(refs);
-  Places places{std::vector<std::uint16_t>(stride), false};
-  places.good = unpack_places(stored.array(), block, stride, places.numbers.data());
-  return places;
+  VertexIndices indices{std::vector<std::uint16_t>(stride), false};
+  indices.good = unpack_indices(stored.array(), block, stride, indices.numbers.data());
+  return indices;
 }
 
 class PlacesTest : public testing::Test {
@@ -52,18 +53,18 @@ class PlacesTest : public testing::Test {
     block_.first_ref = random_() % 3;
     block_.ref_count = count;
     refs_.assign(block_.first_ref + count + behind, 0xffff);
-    std::size_t place = 0;
+    std::size_t index = 0;
     for (unsigned i = 0; i < count; ++i) {
       const std::size_t step = random_() % 900 + (i > 0 ? 1 : 0);
       refs_[block_.first_ref + i] = static_cast<std::uint16_t>(step);
-      place += step;
+      index += step;
     }
-    block_.first_new = count > 0 ? place + 1 : 7;
+    block_.first_new = count > 0 ? index + 1 : 7;
   }
   std::uint16_t& ref(unsigned i) { return refs_[block_.first_ref + i]; }
 
   void expect_all(bool good, unsigned stride) {
-    for (const Places& one : on_each_target([&] { return unpack(refs_, block_, stride); }))
+    for (const VertexIndices& one : on_each_target([&] { return unpack(refs_, block_, stride); }))
       ASSERT_EQ(one.good, good) << block_.ref_count << " of " << stride;
   }
 
@@ -80,13 +81,14 @@ TEST_F(PlacesTest, AreThoseReferredToThenNewOnesThenTheFirstAgain) {
         block_.vertex_count =
             std::max(1U, refs + static_cast<unsigned>(random_() % (stride - refs + 1)));
         std::vector<std::uint16_t> expected;
-        std::size_t place = 0;
+        std::size_t index = 0;
         for (unsigned i = 0; i < refs; ++i)
-          expected.push_back(static_cast<std::uint16_t>(place += ref(i)));
+          expected.push_back(static_cast<std::uint16_t>(index += ref(i)));
         for (std::size_t vertex = block_.first_new; expected.size() < block_.vertex_count;)
           expected.push_back(static_cast<std::uint16_t>(vertex++));
         expected.resize(stride, expected[0]);
-        for (const Places& one : on_each_target([&] { return unpack(refs_, block_, stride); })) {
+        for (const VertexIndices& one :
+             on_each_target([&] { return unpack(refs_, block_, stride); })) {
           EXPECT_TRUE(one.good);
           ASSERT_EQ(one.numbers, expected) << refs << " of " << stride;
         }
@@ -173,15 +175,15 @@ TYPED_TEST(IdsTest, AreSumsAndTheLastAgain) {
 }
 
 TYPED_TEST(IdsTest, AreRefusedWhereTheyDoNotAscend) {
-  constexpr auto kMost = std::numeric_limits<TypeParam>::max();
+  constexpr auto kMax = std::numeric_limits<TypeParam>::max();
   for (unsigned count = 2; count <= kMaxBlockTriangles; ++count)
     for (unsigned i = 0; i + 1 < count; ++i)
       for (const std::size_t behind : {0, 40}) {
         this->put_steps(1, count, behind);
         TypeParam sum = 0;
         for (unsigned k = 0; k + 1 < count; ++k) sum += this->step(k);
-        for (const auto& one : this->unpack(kMost - sum)) ASSERT_TRUE(one.good);
-        for (const auto& one : this->unpack(kMost - sum + 1)) ASSERT_FALSE(one.good);
+        for (const auto& one : this->unpack(kMax - sum)) ASSERT_TRUE(one.good);
+        for (const auto& one : this->unpack(kMax - sum + 1)) ASSERT_FALSE(one.good);
         this->step(i) = 0;
         for (const auto& one : this->unpack(1)) ASSERT_FALSE(one.good) << i << " of " << count;
       }

@@ -69,7 +69,7 @@ TEST_P(CornersTest, ComeBackAndThoseOfTheLastTriangleOnAndOn) {
           for (unsigned k = 0; k < 3; ++k) {
             const unsigned corner = corners[std::min(lane, triangles - 1)][k];
             ASSERT_EQ(one.corners.row[k][lane], corner);
-            if (vertex_count_ > BlockHeader::kMostCompactVertices) continue;
+            if (vertex_count_ > BlockHeader::kMaxCompactVertices) continue;
             ASSERT_EQ(one.corners.packed[k] >> BlockHeader::corner_bit(lane) & 15, corner);
           }
       }
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(OfSoManyVertices, CornersTest,
 INSTANTIATE_TEST_SUITE_P(OfSoManyVertices, WrongCornersTest,
                          testing::Values(1, 3, 15, 17, 31, 33, 47, 48));
 
-std::vector<std::byte> shuffled(const std::vector<float>& values) {
+std::vector<std::byte> byte_split(const std::vector<float>& values) {
   std::vector<std::byte> bytes(4 * values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k)
@@ -119,9 +119,10 @@ struct UnpackedVertices {
 
 // Of x of all vertices, then y, then z; and what stands behind their room is left alone.
 UnpackedVertices unpack(const std::vector<float>& values) {
-  const std::vector<std::byte> bytes = shuffled(values);
+  const std::vector<std::byte> bytes = byte_split(values);
   UnpackedVertices unpacked{std::vector<float>(values.size() + 1, -7.0f), false};
-  unpacked.good = unpack_vertices(Shuffled<float>(bytes.data(), values.size()), unpacked.at.data());
+  unpacked.good =
+      unpack_vertices(ByteSplit<float>(bytes.data(), values.size()), unpacked.at.data());
   EXPECT_EQ(unpacked.at.back(), -7.0f);
   return unpacked;
 }
@@ -166,21 +167,21 @@ TEST(UnpackRows, LaysVerticesOutAndTellsHowFarTheyGo) {
   std::vector<float> vertices(3 * 100 + 1);
   for (float& value : vertices) value = coordinate(random);
   for (const unsigned stride : {16U, 24U, 32U, 48U}) {
-    std::vector<std::uint16_t> places(stride);
-    for (std::uint16_t& place : places) place = static_cast<std::uint16_t>(random() % 100);
+    std::vector<std::uint16_t> indices(stride);
+    for (std::uint16_t& index : indices) index = static_cast<std::uint16_t>(random() % 100);
     std::vector<float> expected(3 * stride);
     float square = 0;
     for (unsigned i = 0; i < stride; ++i) {
       float d[3];
       for (unsigned axis = 0; axis < 3; ++axis) {
-        expected[axis * stride + i] = vertices[3 * places[i] + axis];
+        expected[axis * stride + i] = vertices[3 * indices[i] + axis];
         d[axis] = expected[axis * stride + i] - expected[axis * stride];
       }
       square = std::max(square, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     }
     const auto all = on_each_target([&] {
       std::vector<float> rows(3 * stride);
-      const float greatest = unpack_rows(vertices.data(), places.data(), stride, rows.data());
+      const float greatest = unpack_rows(vertices.data(), indices.data(), stride, rows.data());
       rows.push_back(greatest);
       return rows;
     });

@@ -17,9 +17,9 @@ class MaskDamage : public testing::TestWithParam<bool> {
   MaskDamage() : pages_(random_mask(10), 4096, kRandomMaskPage, GetParam()) {}
 
   // Whoever asks for blocks goes by this.
-  static void expect_list(const MaskFinding& found) {
+  static void expect_list(const MaskLookup& found) {
     const MaskBlocks& blocks = found.blocks;
-    ASSERT_LE(blocks.count, kMostListed);
+    ASSERT_LE(blocks.count, kMaxListed);
     for (unsigned i = 0; i < blocks.count; ++i) {
       EXPECT_NE(blocks.octants[i], 0);
       EXPECT_TRUE(LinkFormat::is_leaf(blocks.links[i]));
@@ -42,7 +42,7 @@ TEST_P(MaskDamage, TakesNoPageThatIsCutShort) {
     // In bytes of its own, so that a sanitizer sees what is read beyond.
     const std::vector<std::byte> cut(raw.begin(),
                                      raw.begin() + static_cast<std::ptrdiff_t>(length));
-    ASSERT_FALSE(decode_mask_page(cut, pages_.facts(page), frame.bytes())) << length;
+    ASSERT_FALSE(decode_mask_page(cut, pages_.info(page), frame.bytes())) << length;
   }
 }
 
@@ -53,12 +53,12 @@ TEST_P(MaskDamage, TakesNoPageOfNoise) {
   for (int i = 0; i < 500; ++i) {
     std::vector<std::byte> raw(noise.bits() % 3000);
     for (std::byte& byte : raw) byte = static_cast<std::byte>(noise.bits());
-    EXPECT_FALSE(decode_mask_page(raw, pages_.facts(page), frame.bytes()));
+    EXPECT_FALSE(decode_mask_page(raw, pages_.info(page), frame.bytes()));
     // An honest head before it.
     if (raw.size() < sizeof(MaskPageHead)) continue;
     std::copy_n(pages_.raw(page).begin(), sizeof(MaskPageHead), raw.begin());
     raw.resize(pages_.raw(page).size());
-    EXPECT_FALSE(decode_mask_page(raw, pages_.facts(page), frame.bytes()));
+    EXPECT_FALSE(decode_mask_page(raw, pages_.info(page), frame.bytes()));
   }
 }
 
@@ -68,8 +68,8 @@ TEST_P(MaskDamage, DoesNotCareWhatTheFrameHeldBefore) {
     SampleFrame zeros(4096), ones(4096);
     std::ranges::fill(zeros.bytes(), std::byte{0});
     std::ranges::fill(ones.bytes(), std::byte{0xff});
-    ASSERT_TRUE(decode_mask_page(pages_.raw(page), pages_.facts(page), zeros.bytes()));
-    ASSERT_TRUE(decode_mask_page(pages_.raw(page), pages_.facts(page), ones.bytes()));
+    ASSERT_TRUE(decode_mask_page(pages_.raw(page), pages_.info(page), zeros.bytes()));
+    ASSERT_TRUE(decode_mask_page(pages_.raw(page), pages_.info(page), ones.bytes()));
     const auto [end, same_end] = std::ranges::mismatch(zeros.bytes(), ones.bytes());
     EXPECT_GT(end - zeros.bytes().begin(), 0);
     EXPECT_TRUE(
@@ -89,7 +89,7 @@ TEST_P(MaskDamage, SurvivesAnyBit) {
     for (unsigned k = 0; k <= noise.bits() % 3; ++k)
       raw[noise.bits() % raw.size()] ^= std::byte{1} << noise.bits() % 8;
     SampleFrame frame(4096);
-    if (!decode_mask_page(raw, pages_.facts(page), frame.bytes())) {
+    if (!decode_mask_page(raw, pages_.info(page), frame.bytes())) {
       ++refused;
       continue;
     }
@@ -107,8 +107,8 @@ TEST_P(MaskDamage, SurvivesAnyBit) {
         }};
     for (int k = 0; k < 20; ++k) {
       const Vec3 p = noise.point(0, 2);
-      TreeWork work;
-      const MaskFinding found =
+      TraversalStats work;
+      const MaskLookup found =
           look_up(pages_.mask(Point::Zero()), {p.x, p.y, p.z}, 100, reader, work);
       EXPECT_LE(work.nodes, kLevels);
       expect_list(found);

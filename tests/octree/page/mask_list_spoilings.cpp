@@ -21,8 +21,8 @@ std::size_t of_several(const RawMaskPage& page) {
 
 // All of them, as far as may be.
 void lengthen_lists(RawMaskPage& page) {
-  std::ranges::fill(page.block_counts, std::uint8_t{kMostListed});
-  const std::size_t blocks = page.block_counts.size() * kMostListed;
+  std::ranges::fill(page.block_counts, std::uint8_t{kMaxListed});
+  const std::size_t blocks = page.block_counts.size() * kMaxListed;
   page.head.block_link_count = static_cast<std::uint16_t>(blocks);
   page.block_octants.resize(blocks, 1);
   page.block_links.resize(blocks);
@@ -31,11 +31,11 @@ void lengthen_lists(RawMaskPage& page) {
 void grow(std::uint16_t& count, int by) { count = static_cast<std::uint16_t>(count + by); }
 
 using P = RawMaskPage;
-using F = PageFacts;
+using F = PageInfo;
 
 }  // namespace
 
-std::vector<MaskSpoiling> mask_list_spoilings() {
+std::vector<MaskCorruption> mask_list_corruptions() {
   return {
       {"its records do not fit a page", [](P& p, F&) { lengthen_lists(p); }},
       {"a corner's winding number is out of range", [](P& p, F&) { p.least[0] = kUncounted; }},

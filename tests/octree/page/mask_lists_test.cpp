@@ -22,9 +22,9 @@ using Kind = MaskEntry::Kind;
 
 /// The mask of a watertight model whose tree is built.
 struct ListingMask {
-  explicit ListingMask(const Soup& soup, std::uint64_t region_triangles = 1000)
+  explicit ListingMask(const Soup& soup, std::uint64_t sector_triangles = 1000)
       : tree(soup, 150),
-        mask(mask_of(tree.mesh, region_triangles, tree.tree.get())),
+        mask(mask_of(tree.mesh, sector_triangles, tree.tree.get())),
         surface(tree.mesh),
         grid(tree.mesh.lower()) {}
 
@@ -34,7 +34,7 @@ struct ListingMask {
     return lower + size.cwiseProduct(Point(share.x, share.y, share.z));
   }
 
-  PatchedTree tree;
+  ChunkedTree tree;
   MaskTree mask;
   Surface surface;
   ClippedGrid grid;
@@ -42,7 +42,7 @@ struct ListingMask {
 
 std::vector<Soup> listing_soups() {
   return {sphere(5), joined({sphere(4), inside_out(scaled(sphere(4), 0.8))}),
-          moved(grains(400, 0.1), {7, 1.0 / 3, -1e3})};
+          perturbed(grains(400, 0.1), {7, 1.0 / 3, -1e3})};
 }
 
 TEST(MaskLists, LeaveOctantsWithoutABlockTheirCornersNumber) {
@@ -74,9 +74,9 @@ TEST(MaskLists, LeaveOctantsWithoutABlockTheirCornersNumber) {
 // Every leaf whose corners one bit tells, but those that have too many; nothing else.
 TEST(MaskLists, AreWhatTheTreeHasThere) {
   const ListingMask sample(sphere(5), 1 << 20);
-  const TreeFacts facts = sample.tree.tree->facts();
+  const TreeInfo info = sample.tree.tree->info();
   TreeFrames frames(*sample.tree.tree);
-  const BlockLister lister(facts, sample.grid);
+  const BlockLister lister(info, sample.grid);
   std::map<Kind, std::size_t> kinds;
   each_entry(sample.mask, [&](const GridCell& cell, std::uint32_t at) {
     const MaskEntry& entry = sample.mask.entries[at];
@@ -111,16 +111,16 @@ TEST(MaskLists, AreNoneWhereNumbersAreMoreThanTwo) {
 
 // As many regions as take a block or two each: what the cells above know of them is no list.
 TEST(MaskLists, AreNotOfARegionsRoot) {
-  const PatchedTree tree(grains(60, 0.05), 150);
+  const ChunkedTree tree(grains(60, 0.05), 150);
   RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
-  MaskRegions regions(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
+  MaskSectors regions(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
   ASSERT_TRUE(regions.divide(*tree.runs, 20) && regions.add(tree.mesh));
   std::mutex mutex;
   std::size_t roots = 0;
   const auto above = build_mask(
       regions, *tree.runs, tree.tree.get(), [](std::size_t) { return nullptr; },
-      [&](std::size_t, const MaskTree& mask, const RegionRoot& root) -> Result<void> {
+      [&](std::size_t, const MaskTree& mask, const SectorRoot& root) -> Result<void> {
         const std::lock_guard lock(mutex);
         if (mask.entries[0].kind != Kind::kListed) return {};
         ++roots;
@@ -136,14 +136,14 @@ TEST(MaskLists, AreNotOfARegionsRoot) {
 
 // Which has a page of its own.
 TEST(MaskLists, AreInTheRootOfAMaskOfOneCell) {
-  const PatchedTree tree(box({0, 0, 0}, {1.75, 1.5, 1.25}));
+  const ChunkedTree tree(box({0, 0, 0}, {1.75, 1.5, 1.25}));
   RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
-  MaskRegions regions(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
+  MaskSectors regions(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
   ASSERT_TRUE(regions.divide(*tree.runs) && regions.add(tree.mesh));
   BuiltMask mask(4096, false, spill_file());
   ASSERT_TRUE(mask.build(regions, *tree.runs, tree.tree.get(),
-                         [](std::uint32_t, const BuiltRegion&) { return Result<void>(); }));
+                         [](std::uint32_t, const BuiltSector&) { return Result<void>(); }));
   const auto page = mask.encode(0, tree.tree->pages().size());
   ASSERT_TRUE(page);
   const RawMaskPage raw = RawMaskPage::of(page->bytes, false);
@@ -151,11 +151,11 @@ TEST(MaskLists, AreInTheRootOfAMaskOfOneCell) {
   EXPECT_EQ(raw.least[0], 0);
   EXPECT_EQ(raw.higher[0], 1);
   EXPECT_EQ(raw.block_octants, std::vector<std::uint8_t>{0xff});
-  EXPECT_EQ(raw.block_links, std::vector{tree.tree->facts().root_link});
+  EXPECT_EQ(raw.block_links, std::vector{tree.tree->info().root_link});
 }
 
 TEST(MaskLists, DoNotDependOnThreads) {
-  const PatchedTree tree(joined({sphere(5), moved(sphere(4), {0.7, 0.3, -0.2})}), 150);
+  const ChunkedTree tree(joined({sphere(5), perturbed(sphere(4), {0.7, 0.3, -0.2})}), 150);
   const auto build = [&](int threads) {
     tbb::task_arena arena(threads);
     return arena.execute([&] { return mask_of(tree.mesh, 500, tree.tree.get()); });

@@ -40,7 +40,7 @@ class MaskRefusal : public testing::TestWithParam<bool> {
   // Longer ones would not fit.
   static bool has_long_lists(const RawMaskPage& page) {
     std::size_t slots = mask_head_slots(4096) + page.head.record_count + page.planes.size();
-    slots += page.block_counts.size() * list_slots(kMostListed);
+    slots += page.block_counts.size() * list_slots(kMaxListed);
     return slots * kMaskSlotBytes > 4096;
   }
 
@@ -51,31 +51,32 @@ INSTANTIATE_TEST_SUITE_P(Planes, MaskRefusal, testing::Bool());
 
 TEST_P(MaskRefusal, NamesWhatIsWrongAndThePage) {
   const std::uint32_t page = sample();
-  for (const MaskSpoiling& spoiling : all_mask_spoilings()) {
-    SCOPED_TRACE(spoiling.sentence);
-    PageFacts facts = pages_.facts(page);
+  for (const MaskCorruption& corruption : all_mask_corruptions()) {
+    SCOPED_TRACE(corruption.sentence);
+    PageInfo info = pages_.info(page);
     RawMaskPage raw = RawMaskPage::of(pages_.raw(page), GetParam());
-    SampleFrame frame(facts.page_bytes);
-    ASSERT_TRUE(decode_mask_page(raw.bytes(), facts, frame.bytes()));
-    spoiling.spoil(raw, facts);
-    frame = SampleFrame(facts.page_bytes);
-    const auto decoded = decode_mask_page(raw.bytes(), facts, frame.bytes());
+    SampleFrame frame(info.page_bytes);
+    ASSERT_TRUE(decode_mask_page(raw.bytes(), info, frame.bytes()));
+    corruption.corrupt(raw, info);
+    frame = SampleFrame(info.page_bytes);
+    const auto decoded = decode_mask_page(raw.bytes(), info, frame.bytes());
     ASSERT_FALSE(decoded);
     EXPECT_EQ(decoded.error().code, ErrorCode::kDamaged);
-    EXPECT_EQ(decoded.error().page, facts.page_number);
-    EXPECT_EQ(std::string(decoded.error().text), "mask page " + std::to_string(facts.page_number) +
-                                                     " is damaged: " + spoiling.sentence +
+    EXPECT_EQ(decoded.error().page, info.page_number);
+    EXPECT_EQ(std::string(decoded.error().text), "mask page " + std::to_string(info.page_number) +
+                                                     " is damaged: " + corruption.sentence +
                                                      "; build the file again");
   }
 }
 
 TEST(MaskRefusalTexts, AreAllReached) {
   std::set<std::string> reached;
-  for (const MaskSpoiling& spoiling : all_mask_spoilings()) reached.insert(spoiling.sentence);
+  for (const MaskCorruption& corruption : all_mask_corruptions())
+    reached.insert(corruption.sentence);
   const std::regex sentence("(return|[:?=]) \"([^\"]+)\";");
   std::size_t written = 0;
   for (const char* name : {"mask_streams", "mask_decoder"}) {
-    std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/") + name + ".cpp");
+    std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/page/") + name + ".cpp");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     for (std::sregex_iterator match(text.begin(), text.end(), sentence), end; match != end;
          ++match) {

@@ -66,9 +66,9 @@ std::uint8_t lowest_bit(std::uint8_t bits) {
 }
 
 using P = RawMaskPage;
-using F = PageFacts;
+using F = PageInfo;
 
-std::vector<MaskSpoiling> head_spoilings() {
+std::vector<MaskCorruption> head_corruptions() {
   return {
       {"the page holds no record", [](P& p, F&) { p.head.record_count = 0; }},
       {"the page holds no record", [](P& p, F&) { p.head.root_count = 0; }},
@@ -105,7 +105,7 @@ std::vector<MaskSpoiling> head_spoilings() {
   };
 }
 
-std::vector<MaskSpoiling> node_spoilings() {
+std::vector<MaskCorruption> node_corruptions() {
   return {
       {"a record has no parent",
        [](P& p, F&) {
@@ -201,9 +201,9 @@ std::vector<MaskSpoiling> node_spoilings() {
   };
 }
 
-std::vector<MaskSpoiling> leaf_spoilings() {
+std::vector<MaskCorruption> leaf_corruptions() {
   const double infinity = std::numeric_limits<double>::infinity();
-  std::vector<MaskSpoiling> all = {
+  std::vector<MaskCorruption> all = {
       {"a corner's winding number is out of range",
        [](P& p, F&) { p.corners[counted(p)] = kListedTag; }},
       {"a corner's winding number is out of range",
@@ -238,9 +238,9 @@ std::vector<MaskSpoiling> leaf_spoilings() {
 
 }  // namespace
 
-std::vector<MaskSpoiling> all_mask_spoilings() {
-  std::vector<MaskSpoiling> all = head_spoilings();
-  for (const auto& more : {node_spoilings(), leaf_spoilings(), mask_list_spoilings()})
+std::vector<MaskCorruption> all_mask_corruptions() {
+  std::vector<MaskCorruption> all = head_corruptions();
+  for (const auto& more : {node_corruptions(), leaf_corruptions(), mask_list_corruptions()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

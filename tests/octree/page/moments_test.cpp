@@ -20,11 +20,11 @@ TEST(ShortFloat, IsTheLeastThatIsNotBelow) {
   for (const double value : {0.0, 1e-300, 0x1p-126, 1.0, 1.0000001, 0.999999, 3.14, 1e30}) {
     const ShortFloat packed = pack_short_above(value);
     EXPECT_GE(static_cast<double>(unpack_short(packed)), value);
-    if (packed > kLeastShortFloat) {
+    if (packed > kMinShortFloat) {
       EXPECT_LT(static_cast<double>(unpack_short(static_cast<ShortFloat>(packed - 1))), value);
     }
   }
-  EXPECT_EQ(pack_short_above(0), kLeastShortFloat);
+  EXPECT_EQ(pack_short_above(0), kMinShortFloat);
   EXPECT_EQ(pack_short_above(1), 0x3f80);
   EXPECT_EQ(pack_short_above(1 + 0x1p-60), 0x3f80 + 0);
   EXPECT_EQ(pack_short_above(1 + 0x1p-20), 0x3f81);
@@ -69,7 +69,7 @@ std::vector<Triangle> triangles_below(const SampleTree& sample, const WideChild&
 }
 
 std::vector<std::pair<const char*, Soup>> open_soups() {
-  return {{"sheet", sheet(20)}, {"scattered", scattered(700, 0.2)}, {"sphere", sphere(4)}};
+  return {{"sheet", height_field(20)}, {"scattered", scattered(700, 0.2)}, {"sphere", sphere(4)}};
 }
 
 // Every share from every child is as right as it says, near and far.
@@ -78,7 +78,7 @@ TEST(Multipoles, HoldTheTruth) {
     const SampleTree sample = build_sample(soup, 65536, 0, true);
     SamplePages pages(sample);
     Noise noise(3);
-    int told = 0;
+    int certain = 0;
     double worst = 0;
     for (std::size_t i = 0; i < sample.tree.nodes.size(); ++i) {
       const WideNode& wide = sample.tree.nodes[i];
@@ -101,17 +101,17 @@ TEST(Multipoles, HoldTheTruth) {
           const double off = std::fabs(shares[child].value - exact);
           EXPECT_LE(off, shares[child].error + 1e-12) << name;
           worst = std::max(worst, off / shares[child].error);
-          ++told;
+          ++certain;
         }
       }
     }
-    EXPECT_GT(told, 500) << name;
+    EXPECT_GT(certain, 500) << name;
     EXPECT_GT(worst, 0.05) << name;  // and no looser than that
   }
 }
 
 TEST(Multipoles, TellNothingFromWithinTheBox) {
-  const SampleTree sample = build_sample(sheet(8), 65536, 0, true);
+  const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
   const Node& root =
       *reinterpret_cast<const Node*>(pages.record(LinkFormat(65536), sample.plan.node_links[0]));

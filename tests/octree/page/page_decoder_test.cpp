@@ -52,7 +52,7 @@ class Walk {
  public:
   Walk(const SampleTree& sample, const SamplePages& pages)
       : sample_(sample), pages_(pages), links_(sample.plan.page_bytes) {
-    follow(tree_facts(sample).root_link, kMaxHeight + 1);
+    follow(tree_info(sample).root_link, kMaxHeight + 1);
   }
 
   Found found;
@@ -187,7 +187,7 @@ TEST(PageDecoder, DoesNotCareWhatTheFrameHeldBefore) {
   SamplePages pages(sample);
   SampleFrame other(sample.plan.page_bytes);
   std::ranges::fill(other.bytes(), std::byte{0xee});
-  ASSERT_TRUE(decode_page(pages.raw(0), page_facts(sample, 0), other.bytes()));
+  ASSERT_TRUE(decode_page(pages.raw(0), page_info(sample, 0), other.bytes()));
   const std::size_t used = other.header().used_bytes;
   // Padding inside a record may keep old bytes; every triangle must not.
   const BlockView first(other.data() + other.header().first_block_slot * kSlotBytes, sample.shape);
@@ -204,7 +204,7 @@ TEST(PageDecoder, SurvivesEveryByteChanged) {
   const SampleTree sample = build_sample(sphere(2), 8192);
   SamplePages pages(sample);
   SampleFrame frame(sample.plan.page_bytes);
-  const TreeFacts facts = tree_facts(sample);
+  const TreeInfo info = tree_info(sample);
   const PageReader reader{&frame, [](void* context, std::uint32_t page) noexcept {
                             const auto& only = *static_cast<SampleFrame*>(context);
                             return page == 0 ? only.data() : nullptr;
@@ -214,13 +214,13 @@ TEST(PageDecoder, SurvivesEveryByteChanged) {
     for (const unsigned change : {0x01u, 0x80u, 0xffu}) {
       std::vector<std::byte> raw = pages.raw(0);
       raw[at] ^= static_cast<std::byte>(change);
-      if (!decode_page(raw, page_facts(sample, 0), frame.bytes())) continue;
+      if (!decode_page(raw, page_info(sample, 0), frame.bytes())) continue;
       ++accepted;
-      TreeWork work;
-      const NearestAnswer answer = nearest(facts, Point(0.3, 0.7, -2), {}, reader, work);
+      TraversalStats work;
+      const NearestAnswer answer = nearest(info, Point(0.3, 0.7, -2), {}, reader, work);
       EXPECT_FALSE(std::isnan(answer.distance));
       EXPECT_LE(answer.lower, answer.upper);
-      EXPECT_LE(work.nodes + work.blocks, facts.record_count);
+      EXPECT_LE(work.nodes + work.blocks, info.record_count);
     }
   EXPECT_GT(accepted, 100u);
 }

@@ -67,16 +67,16 @@ std::size_t compact_block(const RawPage& page) {
 
 enum class From { kWhole, kUpper };
 
-struct Spoiling {
+struct Corruption {
   const char* sentence;
   From from;  ///< a page with the whole tree, or one with links to others
-  std::function<void(RawPage&, PageFacts&)> spoil;
+  std::function<void(RawPage&, PageInfo&)> corrupt;
 };
 
 using P = RawPage;
-using F = PageFacts;
+using F = PageInfo;
 
-std::vector<Spoiling> head_spoilings() {
+std::vector<Corruption> head_corruptions() {
   return {
       {"the page holds no record", From::kWhole,
        [](P& p, F&) { p.head.node_count = p.head.block_count = 0; }},
@@ -117,7 +117,7 @@ std::vector<Spoiling> head_spoilings() {
   };
 }
 
-std::vector<Spoiling> node_spoilings() {
+std::vector<Corruption> node_corruptions() {
   return {
       {"a subtree's box is not a box", From::kWhole, [](P& p, F&) { p.root_boxes[1] = kNaN; }},
       {"a subtree's box is not a box", From::kWhole, [](P& p, F&) { p.root_boxes[5] = kInfinity; }},
@@ -145,15 +145,15 @@ std::vector<Spoiling> node_spoilings() {
          set_kind(p, static_cast<std::size_t>(at - p.child_counts.begin()), 7, 1);
        }},
       {"a child's moments are out of range", From::kWhole,
-       [](P& p, F&) { p.child_vectors.back() = -32768; }},
+       [](P& p, F&) { p.child_dipoles.back() = -32768; }},
       {"a child's moments are out of range", From::kWhole,
-       [](P& p, F&) { p.child_firsts.back() = -128; }},
+       [](P& p, F&) { p.child_quadrupoles.back() = -128; }},
       {"a child's moments are out of range", From::kWhole,
        [](P& p, F&) { p.child_areas[1] = 0x7f80; }},
       {"a child's moments are out of range", From::kWhole,
        [](P& p, F&) { p.child_areas[1] = 0x8100; }},
       {"a child's moments are out of range", From::kWhole,
-       [](P& p, F&) { p.child_seconds[0] = 0x007f; }},
+       [](P& p, F&) { p.child_second_moments[0] = 0x007f; }},
       {"a child is of unknown kind", From::kWhole, [](P& p, F&) { set_kind(p, 0, 0, 3); }},
       {"its children do not add up", From::kWhole,
        [](P& p, F&) { p.head.root_block_count = p.head.block_count; }},
@@ -190,7 +190,7 @@ std::vector<Spoiling> node_spoilings() {
   };
 }
 
-std::vector<Spoiling> block_spoilings() {
+std::vector<Corruption> block_corruptions() {
   return {
       {"a block's counts are out of range", From::kWhole,
        [](P& p, F&) { p.triangle_counts[0] &= kCompactBit; }},
@@ -199,7 +199,7 @@ std::vector<Spoiling> block_spoilings() {
       {"a block's counts are out of range", From::kWhole,
        [](P& p, F&) { p.triangle_counts[0] |= kCompactBit >> 1; }},
       {"a surface that is not watertight has a sheet", From::kWhole,
-       [](P& p, F&) { p.triangle_counts.back() |= kSheetBit; }},
+       [](P& p, F&) { p.triangle_counts.back() |= kHeightFieldBit; }},
       {"a block's counts are out of range", From::kWhole, [](P& p, F&) { p.vertex_counts[0] = 0; }},
       {"a block's counts are out of range", From::kWhole,
        [](P& p, F&) { p.vertex_counts[0] = 49; }},
@@ -264,9 +264,9 @@ std::vector<Spoiling> block_spoilings() {
   };
 }
 
-std::vector<Spoiling> all_spoilings() {
-  std::vector<Spoiling> all = head_spoilings();
-  for (const auto& more : {node_spoilings(), block_spoilings()})
+std::vector<Corruption> all_corruptions() {
+  std::vector<Corruption> all = head_corruptions();
+  for (const auto& more : {node_corruptions(), block_corruptions()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -285,31 +285,31 @@ TEST(PageRefusal, NamesWhatIsWrongAndThePage) {
   const SamplePages whole_pages(whole), upper_pages(upper);
   ASSERT_EQ(whole_pages.size(), 1u);
   ASSERT_FALSE(RawPage::of(upper_pages.raw(0), upper.shape).page_links.empty());
-  for (const Spoiling& spoiling : all_spoilings()) {
-    SCOPED_TRACE(spoiling.sentence);
-    const bool from_whole = spoiling.from == From::kWhole;
-    PageFacts facts = page_facts(from_whole ? whole : upper, 0);
-    RawPage page = RawPage::of((from_whole ? whole_pages : upper_pages).raw(0), facts.shape);
-    SampleFrame frame(facts.page_bytes);
-    ASSERT_TRUE(decode_page(page.bytes(), facts, frame.bytes()));
-    spoiling.spoil(page, facts);
-    frame = SampleFrame(facts.page_bytes);
-    const auto decoded = decode_page(page.bytes(), facts, frame.bytes());
+  for (const Corruption& corruption : all_corruptions()) {
+    SCOPED_TRACE(corruption.sentence);
+    const bool from_whole = corruption.from == From::kWhole;
+    PageInfo info = page_info(from_whole ? whole : upper, 0);
+    RawPage page = RawPage::of((from_whole ? whole_pages : upper_pages).raw(0), info.shape);
+    SampleFrame frame(info.page_bytes);
+    ASSERT_TRUE(decode_page(page.bytes(), info, frame.bytes()));
+    corruption.corrupt(page, info);
+    frame = SampleFrame(info.page_bytes);
+    const auto decoded = decode_page(page.bytes(), info, frame.bytes());
     ASSERT_FALSE(decoded);
     EXPECT_EQ(decoded.error().code, ErrorCode::kDamaged);
-    EXPECT_EQ(decoded.error().page, facts.page_number);
+    EXPECT_EQ(decoded.error().page, info.page_number);
     EXPECT_EQ(std::string(decoded.error().text),
-              std::string("page 0 is damaged: ") + spoiling.sentence + "; build the file again");
+              std::string("page 0 is damaged: ") + corruption.sentence + "; build the file again");
   }
 }
 
 TEST(PageRefusal, IsTestedForEverySentenceOfTheDecoder) {
   std::set<std::string> reached;
-  for (const Spoiling& spoiling : all_spoilings()) reached.insert(spoiling.sentence);
+  for (const Corruption& corruption : all_corruptions()) reached.insert(corruption.sentence);
   const std::regex sentence("(return|[:?=]) \"([^\"]+)\";");
   std::size_t written = 0;
   for (const char* name : {"raw_streams", "page_decoder", "block_decoder"}) {
-    std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/") + name + ".cpp");
+    std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/page/") + name + ".cpp");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     for (std::sregex_iterator match(text.begin(), text.end(), sentence), end; match != end;
          ++match) {
@@ -324,15 +324,15 @@ TEST(PageRefusal, HoldsForWideIdsAndFloat64) {
   const SampleTree sample = build_sample(scattered(100, 0.2), 262144, std::uint64_t{1} << 33);
   ASSERT_TRUE(sample.shape.float64 && sample.shape.wide_ids);
   const SamplePages pages(sample);
-  const PageFacts facts = page_facts(sample, 0);
-  SampleFrame frame(facts.page_bytes);
+  const PageInfo info = page_info(sample, 0);
+  SampleFrame frame(info.page_bytes);
   RawStreams streams;
   ASSERT_EQ(streams.cut(pages.raw(0), sample.shape), nullptr);
   // The last bytes are the steps' highest, then come the first ids' before them.
   std::vector<std::byte> raw = pages.raw(0);
   const std::size_t steps = streams.id_steps64.size();
   for (std::size_t k = 1; k <= 8; ++k) raw[raw.size() - k * steps] = std::byte{0xff};
-  auto decoded = decode_page(raw, facts, frame.bytes());
+  auto decoded = decode_page(raw, info, frame.bytes());
   ASSERT_FALSE(decoded);
   EXPECT_NE(std::string(decoded.error().text).find("indices do not ascend"), std::string::npos);
   raw = pages.raw(0);
@@ -341,7 +341,7 @@ TEST(PageRefusal, HoldsForWideIdsAndFloat64) {
   // Both top bytes of the last coordinate: an exponent of all ones.
   raw[raw.size() - ids - 1] = std::byte{0x7f};
   raw[raw.size() - ids - 1 - coordinates] = std::byte{0xff};
-  decoded = decode_page(raw, facts, frame.bytes());
+  decoded = decode_page(raw, info, frame.bytes());
   ASSERT_FALSE(decoded);
   EXPECT_NE(std::string(decoded.error().text).find("a vertex is out of range"), std::string::npos);
 }

@@ -64,29 +64,29 @@ struct RawMaskPage {
   std::vector<std::byte> bytes() const {
     StreamWriter writer;
     writer.plain(&head, sizeof head);
-    writer.shuffled(kinds);
-    writer.shuffled(grey);
-    writer.shuffled(leaf);
-    writer.shuffled(black);
-    writer.shuffled(inverted);
-    writer.shuffled(page_links);
-    writer.shuffled(plain_corners);
-    writer.shuffled(corners);
-    writer.shuffled(plane_counts);
-    writer.shuffled(behind);
-    writer.shuffled(beyond);
+    writer.byte_split(kinds);
+    writer.byte_split(grey);
+    writer.byte_split(leaf);
+    writer.byte_split(black);
+    writer.byte_split(inverted);
+    writer.byte_split(page_links);
+    writer.byte_split(plain_corners);
+    writer.byte_split(corners);
+    writer.byte_split(plane_counts);
+    writer.byte_split(behind);
+    writer.byte_split(beyond);
     if (float64)
-      writer.shuffled(planes);
+      writer.byte_split(planes);
     else
-      writer.shuffled(std::vector<float>(planes.begin(), planes.end()));
-    writer.shuffled(least);
-    writer.shuffled(higher);
-    writer.shuffled(block_counts);
-    writer.shuffled(slab_directions);
-    writer.shuffled(slab_lowers);
-    writer.shuffled(slab_uppers);
-    writer.shuffled(block_octants);
-    writer.shuffled(block_links);
+      writer.byte_split(std::vector<float>(planes.begin(), planes.end()));
+    writer.byte_split(least);
+    writer.byte_split(higher);
+    writer.byte_split(block_counts);
+    writer.byte_split(slab_directions);
+    writer.byte_split(slab_lowers);
+    writer.byte_split(slab_uppers);
+    writer.byte_split(block_octants);
+    writer.byte_split(block_links);
     return writer.take();
   }
 };

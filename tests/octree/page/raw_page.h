@@ -23,9 +23,9 @@ struct RawPage {
   std::vector<std::uint8_t> child_boxes;
   std::vector<std::int16_t> child_normals, child_slabs;
   std::vector<std::uint16_t> child_radii;
-  std::vector<std::int16_t> child_vectors;
-  std::vector<std::int8_t> child_firsts;
-  std::vector<std::uint16_t> child_areas, child_seconds;
+  std::vector<std::int16_t> child_dipoles;
+  std::vector<std::int8_t> child_quadrupoles;
+  std::vector<std::uint16_t> child_areas, child_second_moments;
   std::vector<std::uint32_t> page_links;
   std::vector<std::uint8_t> triangle_counts, vertex_counts, new_counts;
   std::vector<std::uint16_t> vertex_refs;
@@ -46,10 +46,10 @@ struct RawPage {
             list(s.child_normals),
             list(s.child_slabs),
             list(s.child_radii),
-            list(s.child_vectors),
-            list(s.child_firsts),
+            list(s.child_dipoles),
+            list(s.child_quadrupoles),
             list(s.child_areas),
-            list(s.child_seconds),
+            list(s.child_second_moments),
             list(s.page_links),
             list(s.triangle_counts),
             list(s.vertex_counts),
@@ -64,27 +64,27 @@ struct RawPage {
   std::vector<std::byte> bytes() const {
     StreamWriter writer;
     writer.plain(&head, sizeof head);
-    writer.shuffled(root_boxes);
-    writer.shuffled(child_counts);
-    writer.shuffled(heights);
-    writer.shuffled(child_kinds);
-    writer.shuffled(child_boxes);
-    writer.shuffled(child_normals);
-    writer.shuffled(child_slabs);
-    writer.shuffled(child_radii);
-    writer.shuffled(child_vectors);
-    writer.shuffled(child_firsts);
-    writer.shuffled(child_areas);
-    writer.shuffled(child_seconds);
-    writer.shuffled(page_links);
-    writer.shuffled(triangle_counts);
-    writer.shuffled(vertex_counts);
-    writer.shuffled(new_counts);
-    writer.shuffled(vertex_refs);
+    writer.byte_split(root_boxes);
+    writer.byte_split(child_counts);
+    writer.byte_split(heights);
+    writer.byte_split(child_kinds);
+    writer.byte_split(child_boxes);
+    writer.byte_split(child_normals);
+    writer.byte_split(child_slabs);
+    writer.byte_split(child_radii);
+    writer.byte_split(child_dipoles);
+    writer.byte_split(child_quadrupoles);
+    writer.byte_split(child_areas);
+    writer.byte_split(child_second_moments);
+    writer.byte_split(page_links);
+    writer.byte_split(triangle_counts);
+    writer.byte_split(vertex_counts);
+    writer.byte_split(new_counts);
+    writer.byte_split(vertex_refs);
     writer.plain(corners.data(), corners.size());
-    writer.shuffled(vertices);
-    writer.shuffled(first_ids);
-    writer.shuffled(id_steps);
+    writer.byte_split(vertices);
+    writer.byte_split(first_ids);
+    writer.byte_split(id_steps);
     return writer.take();
   }
 };

@@ -15,14 +15,14 @@ namespace {
 template <class T>
 void expect_round_trip(const std::vector<T>& values) {
   StreamWriter writer;
-  writer.shuffled(values);
+  writer.byte_split(values);
   const std::vector<std::byte> bytes = writer.take();
   ASSERT_EQ(bytes.size(), values.size() * sizeof(T));
-  const Shuffled<T> stream(bytes.data(), values.size());
+  const ByteSplit<T> stream(bytes.data(), values.size());
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(stream[i], values[i]);
 }
 
-TEST(Shuffled, ReadsWhatStreamWriterWrote) {
+TEST(ByteSplit, ReadsWhatStreamWriterWrote) {
   expect_round_trip<std::uint8_t>({0, 255, 7});
   expect_round_trip<std::int16_t>({-32768, -1, 0, 32767});
   expect_round_trip<std::uint32_t>({0xdeadbeef, 1});
@@ -34,7 +34,7 @@ TEST(Shuffled, ReadsWhatStreamWriterWrote) {
 
 TEST(StreamWriter, PutsAllFirstBytesFirst) {
   StreamWriter writer;
-  writer.shuffled(std::vector<std::uint16_t>{0x0201, 0x0403});
+  writer.byte_split(std::vector<std::uint16_t>{0x0201, 0x0403});
   const std::vector<std::byte> expected{std::byte{1}, std::byte{3}, std::byte{2}, std::byte{4}};
   EXPECT_EQ(writer.take(), expected);
 }
@@ -61,17 +61,17 @@ TEST_F(RawStreamsTest, TellBlocksInSheetsFromTheirCounts) {
   RawPage page = RawPage::of(raw_);
   const std::vector<std::uint8_t> counts = page.triangle_counts;
   const std::size_t marked = counts.size() / 2;
-  page.triangle_counts[marked] |= kSheetBit;
+  page.triangle_counts[marked] |= kHeightFieldBit;
   const std::vector<std::byte> raw = page.bytes();
   RawStreams streams;
   ASSERT_EQ(streams.cut(raw, BlockShape{}), nullptr);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     EXPECT_EQ(streams.triangle_count(i), counts[i] & kCountBits);
     EXPECT_EQ(streams.compact(i), (counts[i] & kCompactBit) != 0);
-    EXPECT_EQ(streams.in_sheet(i), i == marked);
+    EXPECT_EQ(streams.is_height_field(i), i == marked);
   }
   for (const unsigned count : {0u, 17u, 63u}) {
-    page.triangle_counts[marked] = static_cast<std::uint8_t>(kSheetBit | count);
+    page.triangle_counts[marked] = static_cast<std::uint8_t>(kHeightFieldBit | count);
     EXPECT_STREQ(streams.cut(page.bytes(), BlockShape{}), "a block's counts are out of range");
   }
 }

@@ -9,7 +9,7 @@ namespace planetree::octree {
 
 /// All elements of a stream, to be altered.
 template <class T>
-std::vector<T> list(const Shuffled<T>& stream) {
+std::vector<T> list(const ByteSplit<T>& stream) {
   std::vector<T> values;
   for (std::size_t i = 0; i < stream.size(); ++i) values.push_back(stream[i]);
   return values;

@@ -23,7 +23,7 @@ double part(double from, double to, unsigned i, unsigned side) {
 void add_face(const Vec3& l, const Vec3& u, unsigned axis, double at, unsigned side, Soup& soup) {
   const double lower[] = {l.x, l.y, l.z}, upper[] = {u.x, u.y, u.z};
   const unsigned j = (axis + 1) % 3, k = (axis + 2) % 3;
-  const auto place = [&](unsigned m, unsigned n) {
+  const auto index = [&](unsigned m, unsigned n) {
     double p[3];
     p[axis] = at;
     p[j] = part(lower[j], upper[j], m, side);
@@ -32,8 +32,8 @@ void add_face(const Vec3& l, const Vec3& u, unsigned axis, double at, unsigned s
   };
   for (unsigned m = 0; m < side; ++m)
     for (unsigned n = 0; n < side; ++n) {
-      soup.push_back({place(m, n), place(m + 1, n), place(m + 1, n + 1)});
-      soup.push_back({place(m, n), place(m + 1, n + 1), place(m, n + 1)});
+      soup.push_back({index(m, n), index(m + 1, n), index(m + 1, n + 1)});
+      soup.push_back({index(m, n), index(m + 1, n + 1), index(m, n + 1)});
     }
 }
 
@@ -71,7 +71,7 @@ Soup inside_out(Soup soup) {
   return soup;
 }
 
-Soup moved(Soup soup, const Vec3& by) {
+Soup perturbed(Soup soup, const Vec3& by) {
   for (auto& triangle : soup)
     for (Vec3& p : triangle) p = {p.x + by.x, p.y + by.y, p.z + by.z};
   return soup;
@@ -175,33 +175,33 @@ MaskPages::MaskPages(const MaskTree& tree, std::uint32_t page_bytes, std::uint32
   for (std::uint32_t page = 0; page < plan_.pages.size(); ++page) {
     raw_.push_back(encoder.encode(page).bytes);
     frames_.emplace_back(page_bytes);
-    const auto decoded = decode_mask_page(raw_[page], facts(page), frames_[page].bytes());
+    const auto decoded = decode_mask_page(raw_[page], info(page), frames_[page].bytes());
     if (decoded) continue;
     std::fprintf(stderr, "sample: %s\n", decoded.error().text);
     std::abort();
   }
 }
 
-PageFacts MaskPages::facts(std::uint32_t page) const {
-  PageFacts facts;
-  facts.page_bytes = plan_.page_bytes;
-  facts.first_page = first_page_;
-  facts.page_count = static_cast<std::uint32_t>(plan_.pages.size());
-  facts.shape.float64 = float64_;
-  facts.page_number = first_page_ + page;
-  facts.octcode = plan_.pages[page].octcode;
-  facts.ordinal = plan_.pages[page].ordinal;
-  return facts;
+PageInfo MaskPages::info(std::uint32_t page) const {
+  PageInfo info;
+  info.page_bytes = plan_.page_bytes;
+  info.first_page = first_page_;
+  info.page_count = static_cast<std::uint32_t>(plan_.pages.size());
+  info.shape.float64 = float64_;
+  info.page_number = first_page_ + page;
+  info.octcode = plan_.pages[page].octcode;
+  info.ordinal = plan_.pages[page].ordinal;
+  return info;
 }
 
-MaskFacts MaskPages::mask(const Point& lower) const {
+MaskInfo MaskPages::mask(const Point& lower) const {
   return {plan_.page_bytes, first_page_, size(), lower};
 }
 
-std::vector<std::uint32_t> MaskPages::take_asked() { return std::exchange(asked_, {}); }
+std::vector<std::uint32_t> MaskPages::take_queried() { return std::exchange(queried_, {}); }
 
 const std::byte* MaskPages::page(std::uint32_t number) {
-  asked_.push_back(number - first_page_);
+  queried_.push_back(number - first_page_);
   return peek(number);
 }
 

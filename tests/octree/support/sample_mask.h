@@ -20,7 +20,7 @@ Soup box(const Vec3& lower, const Vec3& upper, unsigned side = 1);
 /// Tetrahedra of edges up to `edge` anywhere in the unit cube, either way round.
 Soup grains(std::size_t count, double edge, std::uint64_t seed = 1);
 Soup inside_out(Soup soup);
-Soup moved(Soup soup, const Vec3& by);
+Soup perturbed(Soup soup, const Vec3& by);
 Soup scaled(Soup soup, double factor);
 Soup joined(std::initializer_list<Soup> soups);
 Soup copies(const Soup& soup, std::size_t count);
@@ -75,12 +75,12 @@ class MaskPages {
   const std::vector<std::byte>& raw(std::uint32_t page) const { return raw_[page]; }
   const SampleFrame& frame(std::uint32_t page) const { return frames_[page]; }
   /// Of page `page` within the mask.
-  PageFacts facts(std::uint32_t page) const;
-  MaskFacts mask(const Point& lower) const;
+  PageInfo info(std::uint32_t page) const;
+  MaskInfo mask(const Point& lower) const;
 
   void withhold(std::uint32_t page, bool withheld = true) { withheld_[page] = withheld; }
   /// Pages asked for since the last call, by number within the mask.
-  std::vector<std::uint32_t> take_asked();
+  std::vector<std::uint32_t> take_queried();
   PageReader reader();
   /// One that finds pages in memory, all of them.
   PageReader resident_reader();
@@ -95,7 +95,7 @@ class MaskPages {
   std::vector<std::vector<std::byte>> raw_;
   std::vector<SampleFrame> frames_;
   std::vector<bool> withheld_;
-  std::vector<std::uint32_t> asked_;
+  std::vector<std::uint32_t> queried_;
 };
 
 inline bool same(const MaskBlocks& a, const MaskBlocks& b) {

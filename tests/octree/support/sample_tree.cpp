@@ -39,7 +39,7 @@ Vec3 on_sphere(const Vec3& a, const Vec3& b) {
 
 Soup sphere(unsigned levels) { return DividedOctahedron(levels, on_sphere).faces(); }
 
-Soup sheet(unsigned side) {
+Soup height_field(unsigned side) {
   const auto at = [side](unsigned i, unsigned j) {
     const double x = static_cast<double>(i) / side, y = static_cast<double>(j) / side;
     return to_float({x, y, 0.25 * x * (1 - x) * (1 - 2 * y)});
@@ -73,11 +73,11 @@ Soup repeated(std::size_t count) {
 }
 
 SampleMesh store(const Soup& soup, std::uint64_t first_index) {
-  MeshIntake intake(std::numeric_limits<std::uint32_t>::max(), ~std::uint64_t{0}, spill_file());
+  TriangleSpool spool(std::numeric_limits<std::uint32_t>::max(), ~std::uint64_t{0}, spill_file());
   for (std::size_t i = 0; i < soup.size(); ++i)
-    if (!intake.triangle(first_index + i, soup[i])) std::abort();
-  ModelFrame frame = *intake.finish();
-  return {*intake.take_chunk(0), std::move(frame)};
+    if (!spool.triangle(first_index + i, soup[i])) std::abort();
+  ModelFrame frame = *spool.finish();
+  return {*spool.take_batch(0), std::move(frame)};
 }
 
 storage::SpillFile& spill_file() {
@@ -98,16 +98,16 @@ std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_
 }
 
 // The part's root becomes the entry at `place`, the rest goes to the end.
-void put_in(MaskTree& whole, std::size_t place, MaskTree part) {
-  const auto moved = static_cast<std::uint32_t>(whole.entries.size() - 1);
+void put_in(MaskTree& whole, std::size_t index, MaskTree part) {
+  const auto perturbed = static_cast<std::uint32_t>(whole.entries.size() - 1);
   const auto specials = static_cast<std::uint32_t>(whole.specials.size());
   const auto lists = static_cast<std::uint32_t>(whole.lists.size());
   for (MaskEntry& entry : part.entries) {
-    if (entry.kind == MaskEntry::Kind::kNode) entry.first += moved;
+    if (entry.kind == MaskEntry::Kind::kNode) entry.first += perturbed;
     if (entry.kind == MaskEntry::Kind::kSpecial) entry.first += specials;
     if (entry.kind == MaskEntry::Kind::kListed) entry.first += lists;
   }
-  whole.entries[place] = part.entries.front();
+  whole.entries[index] = part.entries.front();
   whole.entries.insert(whole.entries.end(), part.entries.begin() + 1, part.entries.end());
   whole.specials.insert(whole.specials.end(), part.specials.begin(), part.specials.end());
   whole.lists.insert(whole.lists.end(), part.lists.begin(), part.lists.end());
@@ -117,20 +117,20 @@ MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most, const BuiltTree* tr
   const auto runs = runs_of(mesh);
   RegionCut cut(mesh.frame.lower(), mesh.frame.upper(), {}, nullptr);
   if (!cut.add(mesh)) std::abort();
-  MaskRegions regions(mesh.frame.lower(), {}, cut.found().winding, mesh.float64(), 1000,
+  MaskSectors regions(mesh.frame.lower(), {}, cut.found().winding, mesh.float64(), 1000,
                       spill_file());
   if (!regions.divide(*runs, most) || !regions.add(mesh)) std::abort();
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;
   MaskTree whole = *build_mask(
       regions, *runs, tree, [](std::size_t) { return nullptr; },
-      [&](std::size_t at, const MaskTree& part, const RegionRoot&) -> Result<void> {
+      [&](std::size_t at, const MaskTree& part, const SectorRoot&) -> Result<void> {
         const std::lock_guard lock(mutex);
         parts[at] = part;
         return {};
       });
   for (std::size_t i = 0; i < whole.entries.size(); ++i)
-    if (whole.entries[i].kind == MaskEntry::Kind::kRegion)
+    if (whole.entries[i].kind == MaskEntry::Kind::kSector)
       put_in(whole, i, parts.at(whole.entries[i].first));
   for (const auto& [at, part] : parts) whole.levels = std::max(whole.levels, part.levels);
   return whole;
@@ -166,7 +166,7 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_
   sample.keys = keys_of(sample.mesh);
   sample.binary = build_binary_tree(sample.mesh, sample.centre, sample.keys);
   sample.tree = collapse(sample.binary);
-  sample.vertices = PatchVertices(sample.mesh);
+  sample.vertices = ChunkVertices(sample.mesh);
   sample.vertices.list_blocks(sample.tree.blocks, sample.keys);
   fit_discs(sample.mesh, sample.vertices, sample.centre, sample.keys, sample.tree);
   if (moments)
@@ -180,30 +180,30 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes, std::uint64_
   return sample;
 }
 
-PageFacts page_facts(const SampleTree& sample, std::uint32_t page) {
-  PageFacts facts;
-  facts.page_bytes = sample.plan.page_bytes;
-  facts.page_count = static_cast<std::uint32_t>(sample.plan.pages.size());
-  facts.shape = sample.shape;
-  facts.page_number = page;
-  facts.octcode = sample.plan.pages[page].octcode;
-  facts.ordinal = sample.plan.pages[page].ordinal;
-  return facts;
+PageInfo page_info(const SampleTree& sample, std::uint32_t page) {
+  PageInfo info;
+  info.page_bytes = sample.plan.page_bytes;
+  info.page_count = static_cast<std::uint32_t>(sample.plan.pages.size());
+  info.shape = sample.shape;
+  info.page_number = page;
+  info.octcode = sample.plan.pages[page].octcode;
+  info.ordinal = sample.plan.pages[page].ordinal;
+  return info;
 }
 
-TreeFacts tree_facts(const SampleTree& sample) {
-  TreeFacts facts;
-  facts.page_bytes = sample.plan.page_bytes;
-  facts.root_link =
+TreeInfo tree_info(const SampleTree& sample) {
+  TreeInfo info;
+  info.page_bytes = sample.plan.page_bytes;
+  info.root_link =
       sample.tree.nodes.empty() ? sample.plan.block_links[0] : sample.plan.node_links[0];
-  facts.shape = sample.shape;
-  facts.record_count = sample.tree.nodes.size() + sample.tree.blocks.size();
-  facts.box_lower = sample.mesh.frame.lower();
-  facts.box_upper = sample.mesh.frame.upper();
-  facts.centre = sample.centre;
-  facts.sample = sample.mesh.frame.scaled(sample.mesh.frame.input_sample);
-  facts.sample_triangle = sample.mesh.frame.sample_triangle;
-  return facts;
+  info.shape = sample.shape;
+  info.record_count = sample.tree.nodes.size() + sample.tree.blocks.size();
+  info.box_lower = sample.mesh.frame.lower();
+  info.box_upper = sample.mesh.frame.upper();
+  info.centre = sample.centre;
+  info.sample = sample.mesh.frame.scaled(sample.mesh.frame.input_sample);
+  info.sample_triangle = sample.mesh.frame.sample_triangle;
+  return info;
 }
 
 SamplePages::SamplePages(const SampleTree& sample) : withheld_(sample.plan.pages.size()) {
@@ -212,7 +212,7 @@ SamplePages::SamplePages(const SampleTree& sample) : withheld_(sample.plan.pages
   for (std::uint32_t page = 0; page < sample.plan.pages.size(); ++page) {
     raw_.push_back(encoder.encode(page).bytes);
     frames_.emplace_back(sample.plan.page_bytes);
-    const auto decoded = decode_page(raw_[page], page_facts(sample, page), frames_[page].bytes());
+    const auto decoded = decode_page(raw_[page], page_info(sample, page), frames_[page].bytes());
     if (decoded) continue;
     std::fprintf(stderr, "sample: %s\n", decoded.error().text);
     std::abort();

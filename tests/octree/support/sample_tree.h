@@ -48,7 +48,7 @@ class Noise {
 /// float32 coordinates; watertight.
 Soup sphere(unsigned levels);
 /// 2 `side`^2 triangles of a wavy sheet; float32 coordinates.
-Soup sheet(unsigned side);
+Soup height_field(unsigned side);
 /// Triangles anywhere in the unit cube, of edges up to `edge`; float64 coordinates.
 Soup scattered(std::size_t count, double edge, std::uint64_t seed = 1);
 /// One triangle again and again, so that all have one Morton code.
@@ -77,7 +77,7 @@ std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_
 
 /// The mask of a mesh that is watertight, in regions of at most `most` triangles.
 /// tree  whose blocks cells list; null: they list none.
-MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most = kRegionTriangles,
+MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most = kSectorTriangles,
                  const BuiltTree* tree = nullptr);
 
 /// Whether a mesh closes, balanced in parts of so many triangles.
@@ -91,7 +91,7 @@ struct SampleTree {
   std::vector<MortonKey> keys;
   std::vector<BinaryNode> binary;
   WideTree tree;
-  PatchVertices vertices{Triangles()};
+  ChunkVertices vertices{Triangles()};
   std::vector<std::uint8_t> block_slots;
   PagePlan plan;
 };
@@ -99,8 +99,8 @@ struct SampleTree {
 SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes = 4096,
                         std::uint64_t first_index = 0, bool moments = false);
 
-PageFacts page_facts(const SampleTree& sample, std::uint32_t page);
-TreeFacts tree_facts(const SampleTree& sample);
+PageInfo page_info(const SampleTree& sample, std::uint32_t page);
+TreeInfo tree_info(const SampleTree& sample);
 
 /// Room for one decoded page, aligned as frames are and not a byte longer.
 class SampleFrame {

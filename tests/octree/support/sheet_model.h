@@ -15,21 +15,21 @@
 namespace planetree::octree {
 
 /// A watertight model, its tree and mask built as far as its file could be written.
-struct SheetModel {
-  explicit SheetModel(const Soup& soup, storage::SpillFile& file = spill_file())
+struct HeightFieldModel {
+  explicit HeightFieldModel(const Soup& soup, storage::SpillFile& file = spill_file())
       : tree(soup, 200, 4096, file),
         mask(4096, tree.shape.float64, file),
-        facts(tree.tree->facts()),
+        info(tree.tree->info()),
         surface(tree.mesh) {
     RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
     if (!cut.add(tree.mesh)) std::abort();
-    MaskRegions regions(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
+    MaskSectors regions(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
                         spill_file());
     if (!regions.divide(*tree.runs, 2000) || !regions.add(tree.mesh) ||
         !mask.build(regions, *tree.runs, tree.tree.get(),
-                    [](std::uint32_t, const BuiltRegion&) { return Result<void>(); }))
+                    [](std::uint32_t, const BuiltSector&) { return Result<void>(); }))
       std::abort();
-    mask_facts = {4096, tree.tree->pages().size(), mask.size(), tree.mesh.lower()};
+    mask_info = {4096, tree.tree->pages().size(), mask.size(), tree.mesh.lower()};
   }
 
   /// Calls with every block, in no frame, and its page.
@@ -37,21 +37,21 @@ struct SheetModel {
     for (std::uint32_t page = 0; page < tree.tree->pages().size(); ++page) {
       SampleFrame frame(4096);
       const auto raw = tree.tree->pages().encode(page);
-      if (!raw || !decode_page(raw->bytes, tree.tree->facts_of_page(page), frame.bytes()))
+      if (!raw || !decode_page(raw->bytes, tree.tree->info_of_page(page), frame.bytes()))
         std::abort();
       std::size_t slot = frame.header().first_block_slot;
       for (std::size_t i = 0; i < frame.header().block_count; ++i) {
-        const BlockView block(frame.data() + slot * kSlotBytes, facts.shape);
+        const BlockView block(frame.data() + slot * kSlotBytes, info.shape);
         look(block, page);
         slot += block.slots();
       }
     }
   }
 
-  PatchedTree tree;
+  ChunkedTree tree;
   BuiltMask mask;
-  TreeFacts facts;
-  MaskFacts mask_facts;
+  TreeInfo info;
+  MaskInfo mask_info;
   Surface surface;
 };
 

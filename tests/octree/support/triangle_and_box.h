@@ -83,9 +83,9 @@ inline TriangleAndBox tiny_at_a_corner(Noise& noise) {
 // Few bits, so that much lies in one plane, line or point.
 inline TriangleAndBox on_lattice(Noise& noise) {
   const auto step = [&] { return static_cast<double>(noise.bits() % 7) - 3; };
-  const auto place = [&] { return Point(step(), step(), step()); };
-  const Point one = place(), other = place();
-  return {{place(), place(), place()}, one.cwiseMin(other), one.cwiseMax(other)};
+  const auto index = [&] { return Point(step(), step(), step()); };
+  const Point one = index(), other = index();
+  return {{index(), index(), index()}, one.cwiseMin(other), one.cwiseMax(other)};
 }
 
 inline TriangleAndBox axis_aligned(Noise& noise) {

@@ -102,7 +102,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
 TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
   for (int round = 0; round < 300; ++round) {
     NearbySubtrees list;
-    const std::size_t most = 1 + random_() % NearbySubtrees::kMost;
+    const std::size_t most = 1 + random_() % NearbySubtrees::kMax;
     while (list.size() < most) {
       const Node at = node();
       list_child(at, static_cast<unsigned>(random_() % at.child_count), list);
@@ -147,7 +147,7 @@ TEST_F(ChildTests, ListThoseThatAreNearByTheBitsOfEachChilds) {
       if (squared(i) <= threshold) expected.push_back(i);
     // Behind others, as many as leave room for a node's children.
     NearbySubtrees before;
-    const std::size_t others = random_() % (NearbySubtrees::kMost - kFanOut + 1);
+    const std::size_t others = random_() % (NearbySubtrees::kMax - kFanOut + 1);
     while (before.size() < others) list_child(at, 0, before);
     for (const NearbySubtrees& list : on_each_target([&] {
            NearbySubtrees list = before;

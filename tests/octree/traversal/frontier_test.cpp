@@ -88,14 +88,14 @@ TEST(FrontierTest, ManyGroupsAreTakenFromTheLast) {
   std::size_t pushed = 0, taken = 0;
   FrontierEntry entry;
   float dropped = kInfinity;
-  for (std::uint32_t level = 0; level < Frontier::kMostToOrder + 2 * kMaxHeight; ++level) {
-    ASSERT_TRUE(frontier.has_room());
-    EXPECT_EQ(frontier.is_ordered(), level <= Frontier::kMostToOrder);
+  for (std::uint32_t level = 0; level < Frontier::kMaxToOrder + 2 * kMaxHeight; ++level) {
+    ASSERT_TRUE(frontier.has_capacity());
+    EXPECT_EQ(frontier.is_ordered(), level <= Frontier::kMaxToOrder);
     push(frontier, level, {1, 2, 3});
     pushed += 3;
     ASSERT_TRUE(frontier.pop(Order::kNearest, 100, entry, dropped));
     ++taken;
-    if (level >= Frontier::kMostToOrder) {
+    if (level >= Frontier::kMaxToOrder) {
       EXPECT_EQ(entry.link / kFanOut, level);
     }
   }

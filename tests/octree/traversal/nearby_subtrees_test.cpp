@@ -49,9 +49,9 @@ TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
 
 TEST(NearbySubtrees, HasRoomForANodesChildrenWhileItSaysSo) {
   NearbySubtrees list;
-  while (list.has_room()) add(list, 0, kToBlock);
-  EXPECT_LT(NearbySubtrees::kMost - kFanOut, list.size());
-  EXPECT_LE(list.size(), NearbySubtrees::kMost);
+  while (list.has_capacity()) add(list, 0, kToBlock);
+  EXPECT_LT(NearbySubtrees::kMax - kFanOut, list.size());
+  EXPECT_LE(list.size(), NearbySubtrees::kMax);
 }
 
 TEST(NearbySubtrees, PutsTheLastInThePlaceOfOneThatGoes) {

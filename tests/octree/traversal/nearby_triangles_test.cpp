@@ -49,7 +49,7 @@ TEST(NearbyTriangles, RepeatsTheLastUpToAWholeVector) {
 
 TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
   std::vector<NearbyTriangle> found;
-  for (unsigned i = 0; i < NearbyTriangles::kMost; ++i)
+  for (unsigned i = 0; i < NearbyTriangles::kMax; ++i)
     found.push_back(found_at(i, i, (i * 37 % 64) / 64.0));
   const auto list = listed(found, Point::Zero());
   for (const double distance : {0.0, 0.1, 0.5, 0.99, 1.0, 7.0}) {

@@ -23,7 +23,7 @@ struct ListedOctants {
   };
 
   explicit ListedOctants(const Soup& soup)
-      : sample(build_sample(soup)), pages(sample), tree(tree_facts(sample)) {
+      : sample(build_sample(soup)), pages(sample), tree(tree_info(sample)) {
     const ClippedGrid grid(sample.mesh.lower());
     const BlockLister lister(tree, grid);
     Noise noise(4);
@@ -40,13 +40,13 @@ struct ListedOctants {
     }
   }
 
-  Crossings count(const MovedSegment& segment, const std::vector<std::uint32_t>& blocks,
-                  std::uint64_t max_nodes = kAnyWork) {
+  Crossings count(const PerturbedSegment& segment, const std::vector<std::uint32_t>& blocks,
+                  std::uint64_t max_work = kAnyWork) {
     work = {};
-    return count_crossings(tree, segment, blocks, max_nodes, pages.reader(), work);
+    return count_crossings(tree, segment, blocks, max_work, pages.reader(), work);
   }
   // Of the first octant with so many blocks, from its middle to its least corner.
-  std::pair<MovedSegment, std::vector<std::uint32_t>> one_of(std::size_t blocks) const {
+  std::pair<PerturbedSegment, std::vector<std::uint32_t>> one_of(std::size_t blocks) const {
     const auto at = std::ranges::find_if(
         octants, [&](const Octant& octant) { return octant.blocks.size() >= blocks; });
     if (at == octants.end()) return {};
@@ -55,13 +55,13 @@ struct ListedOctants {
 
   SampleTree sample;
   SamplePages pages;
-  TreeFacts tree;
-  TreeWork work;
+  TreeInfo tree;
+  TraversalStats work;
   std::vector<Octant> octants;
 };
 
 // Within an octant or on its sides, to one of its corners or anywhere.
-std::vector<MovedSegment> segments_in(const ListedOctants::Octant& octant, Noise& noise) {
+std::vector<PerturbedSegment> segments_in(const ListedOctants::Octant& octant, Noise& noise) {
   const auto point = [&](unsigned rounding) {
     Point p;
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -80,7 +80,7 @@ std::size_t expect_as_in_the_tree(const Soup& soup) {
   Noise noise(6);
   std::size_t crossed = 0;
   for (const ListedOctants::Octant& octant : listed.octants) {
-    std::vector<MovedSegment> segments = segments_in(octant, noise);
+    std::vector<PerturbedSegment> segments = segments_in(octant, noise);
     // From a vertex in it, which is on the surface.
     for (std::uint32_t i = 0; i < listed.sample.mesh.size(); ++i) {
       const Point vertex = listed.sample.mesh.corners(i)[0];
@@ -90,11 +90,11 @@ std::size_t expect_as_in_the_tree(const Soup& soup) {
       segments.push_back({vertex, octant.upper});
       break;
     }
-    for (const MovedSegment& segment : segments) {
+    for (const PerturbedSegment& segment : segments) {
       const Crossings found = listed.count(segment, octant.blocks);
       EXPECT_EQ(listed.work.blocks, octant.blocks.size());
       EXPECT_EQ(listed.work.nodes, 0u);
-      TreeWork work;
+      TraversalStats work;
       const Crossings expected =
           count_crossings(listed.tree, segment, kAnyWork, listed.pages.reader(), work);
       EXPECT_TRUE(found.complete);
@@ -109,7 +109,7 @@ std::size_t expect_as_in_the_tree(const Soup& soup) {
 
 TEST(CrossingsInBlocks, AreThoseOfTheTreeWithinAnOctant) {
   EXPECT_GT(expect_as_in_the_tree(sphere(5)), 50u);
-  EXPECT_GT(expect_as_in_the_tree(moved(sphere(4), {1e3, 1.0 / 3, -7})), 50u);
+  EXPECT_GT(expect_as_in_the_tree(perturbed(sphere(4), {1e3, 1.0 / 3, -7})), 50u);
   EXPECT_GT(expect_as_in_the_tree(grains(300, 0.1)), 10u);
 }
 
@@ -152,17 +152,17 @@ TEST(CrossingsInBlocks, AreIncompleteWhereALinkLeadsToNoBlock) {
 }
 
 TEST(CrossingsInBlocks, AreTheSameOnEveryInstructionSet) {
-  ListedOctants listed(moved(sphere(5), {0.1f, 3.7f, -0.3f}));
-  const auto told = on_each_target([&] {
+  ListedOctants listed(perturbed(sphere(5), {0.1f, 3.7f, -0.3f}));
+  const auto certain = on_each_target([&] {
     std::vector<std::int64_t> numbers;
     Noise noise(9);
     for (const ListedOctants::Octant& octant : listed.octants)
-      for (const MovedSegment& segment : segments_in(octant, noise))
+      for (const PerturbedSegment& segment : segments_in(octant, noise))
         numbers.push_back(listed.count(segment, octant.blocks).difference);
     return numbers;
   });
-  ASSERT_FALSE(told.empty());
-  for (const auto& numbers : told) EXPECT_EQ(numbers == told[0], true);
+  ASSERT_FALSE(certain.empty());
+  for (const auto& numbers : certain) EXPECT_EQ(numbers == certain[0], true);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kEveryNode = ~std::uint64_t{0};
 
 // What one triangle after the other makes of it.
-Crossings count_all(const SampleMesh& mesh, const MovedSegment& segment) {
+Crossings count_all(const SampleMesh& mesh, const PerturbedSegment& segment) {
   Crossings count;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     count.on_surface = count.on_surface || lies_on(segment.from, mesh.corners(i));
@@ -27,7 +27,7 @@ Point point_in(const Vec3& p) { return {p.x, p.y, p.z}; }
 void expect_as_one_by_one(const Soup& soup, std::uint64_t seed) {
   const SampleTree sample = build_sample(soup);
   SamplePages pages(sample);
-  const TreeFacts tree = tree_facts(sample);
+  const TreeInfo tree = tree_info(sample);
   Noise noise(seed);
   for (int i = 0; i < 300; ++i) {
     const Point corner = sample.mesh.corners(noise.bits() % sample.mesh.size())[0];
@@ -36,7 +36,7 @@ void expect_as_one_by_one(const Soup& soup, std::uint64_t seed) {
     if (i % 3 == 0) to = {from.x(), from.y(), 3};
     if (i % 5 == 0) to = from + 0.05 * (to - from);
     if (i % 50 == 0) to = from;
-    TreeWork work;
+    TraversalStats work;
     const Crossings found = count_crossings(tree, {from, to}, kEveryNode, pages.reader(), work);
     const Crossings expected = count_all(sample.mesh, {from, to});
     ASSERT_TRUE(found.complete);
@@ -49,7 +49,7 @@ void expect_as_one_by_one(const Soup& soup, std::uint64_t seed) {
 
 TEST(CountCrossings, IsTheSumOverAllTriangles) {
   expect_as_one_by_one(sphere(4), 1);
-  expect_as_one_by_one(sheet(20), 2);
+  expect_as_one_by_one(height_field(20), 2);
   expect_as_one_by_one(scattered(600, 0.3), 3);
   expect_as_one_by_one(repeated(50), 4);
   expect_as_one_by_one(repeated(1), 5);
@@ -58,17 +58,17 @@ TEST(CountCrossings, IsTheSumOverAllTriangles) {
 // Where neighbouring floats are as far apart as vertices.
 TEST(CountCrossings, IsTheSumOverAllTrianglesFarFromTheOrigin) {
   for (const double offset : {1e3, 1e5, 1e7}) {
-    expect_as_one_by_one(moved(sphere(4), {offset, -offset, 0}), 6);
+    expect_as_one_by_one(perturbed(sphere(4), {offset, -offset, 0}), 6);
   }
 }
 
 // Out of a sphere, by fewer nodes and blocks than so many.
-void expect_little_work(const MovedSegment& segment, std::uint64_t too_many) {
+void expect_little_work(const PerturbedSegment& segment, std::uint64_t too_many) {
   const SampleTree sample = build_sample(sphere(6));
   SamplePages pages(sample);
-  TreeWork work;
+  TraversalStats work;
   const Crossings found =
-      count_crossings(tree_facts(sample), segment, kEveryNode, pages.reader(), work);
+      count_crossings(tree_info(sample), segment, kEveryNode, pages.reader(), work);
   EXPECT_NE(found.difference, 0);
   EXPECT_LT(work.nodes + work.blocks, too_many);
   EXPECT_LT(work.triangles, 8u);
@@ -86,9 +86,9 @@ TEST(CountCrossings, LooksOnlyAtWhatADiagonalSegmentMeets) {
 TEST(CountCrossings, IsIncompleteWhereWorkOrPagesEnd) {
   const SampleTree sample = build_sample(sphere(5));
   SamplePages pages(sample);
-  const TreeFacts tree = tree_facts(sample);
-  const MovedSegment segment{{0.1, 0.2, 0}, {0.1, 0.2, 3}};
-  TreeWork work;
+  const TreeInfo tree = tree_info(sample);
+  const PerturbedSegment segment{{0.1, 0.2, 0}, {0.1, 0.2, 3}};
+  TraversalStats work;
   ASSERT_TRUE(count_crossings(tree, segment, kEveryNode, pages.reader(), work).complete);
   const std::uint64_t needed = work.nodes + work.blocks;
   EXPECT_TRUE(count_crossings(tree, segment, needed, pages.reader(), work).complete);

@@ -16,11 +16,11 @@ class Winding {
   explicit Winding(const Soup& soup, std::uint32_t page_bytes = 4096)
       : sample_(build_sample(soup, page_bytes, 0, true)),
         pages_(sample_),
-        facts_(tree_facts(sample_)) {}
+        info_(tree_info(sample_)) {}
 
-  WindingNumber ask(const Point& point, std::uint64_t max_nodes = ~std::uint64_t{0}) {
-    work = TreeWork();
-    return winding_number(facts_, point, max_nodes, pages_.reader(), work);
+  WindingNumber winding(const Point& point, std::uint64_t max_work = ~std::uint64_t{0}) {
+    work = TraversalStats();
+    return winding_number(info_, point, max_work, pages_.reader(), work);
   }
   double truth(const Point& point) const {
     double sum = 0;
@@ -30,13 +30,13 @@ class Winding {
   }
   SamplePages& pages() { return pages_; }
   const SampleTree& sample() const { return sample_; }
-  std::uint64_t records() const { return facts_.record_count; }
-  TreeWork work;
+  std::uint64_t records() const { return info_.record_count; }
+  TraversalStats work;
 
  private:
   SampleTree sample_;
   SamplePages pages_;
-  TreeFacts facts_;
+  TreeInfo info_;
 };
 
 Soup bowl(unsigned levels, double rim) {
@@ -63,12 +63,13 @@ void expect_true(const WindingNumber& found, double truth) {
 
 TEST(WindingNumber, IsCertain) {
   Noise noise(1);
-  const Soup soups[] = {bowl(4, 0.5), sheet(20), scattered(800, 0.3), repeated(100), sphere(3)};
+  const Soup soups[] = {bowl(4, 0.5), height_field(20), scattered(800, 0.3), repeated(100),
+                        sphere(3)};
   for (const Soup& soup : soups) {
     Winding winding(soup);
     for (int i = 0; i < 100; ++i) {
       const Point point = random_point(noise, 1.5);
-      const WindingNumber found = winding.ask(point);
+      const WindingNumber found = winding.winding(point);
       expect_true(found, winding.truth(point));
       EXPECT_TRUE(found.complete);
       EXPECT_TRUE(found.above_half() || found.below_half());
@@ -86,13 +87,13 @@ TEST(WindingNumber, HoldsTheTruthAtAnyWork) {
   for (const Point& point : points) {
     const double truth = winding.truth(point);
     for (std::uint64_t nodes = 0; nodes <= winding.records(); ++nodes) {
-      const WindingNumber found = winding.ask(point, nodes);
+      const WindingNumber found = winding.winding(point, nodes);
       expect_true(found, truth);
       EXPECT_LE(winding.work.nodes + winding.work.blocks, nodes);
       EXPECT_EQ(found.complete,
                 found.above_half() || found.below_half() || nodes == winding.records());
     }
-    EXPECT_TRUE(winding.ask(point).complete);
+    EXPECT_TRUE(winding.winding(point).complete);
   }
 }
 
@@ -104,7 +105,7 @@ TEST(WindingNumber, IsExactInTheEnd) {
   Soup half(20, {x, y, z});
   half.insert(half.end(), 16, {z, y, x});
   Winding winding(half);
-  const WindingNumber found = winding.ask(Point::Zero());
+  const WindingNumber found = winding.winding(Point::Zero());
   EXPECT_NEAR(found.value, 0.5, found.error);
   EXPECT_LT(found.error, 0x1p-38);
   EXPECT_TRUE(found.complete);
@@ -115,7 +116,7 @@ TEST(WindingNumber, IsExactInTheEnd) {
 TEST(WindingNumber, FindsTheSurface) {
   Winding winding(bowl(3, 0.7));
   for (std::uint32_t i = 0; i < winding.sample().mesh.size(); i += 7) {
-    const WindingNumber found = winding.ask(winding.sample().mesh.corners(i)[0]);
+    const WindingNumber found = winding.winding(winding.sample().mesh.corners(i)[0]);
     EXPECT_TRUE(found.on_surface);
     EXPECT_TRUE(found.complete);
     EXPECT_GT(found.value, found.error);  // as the rest of it winds
@@ -126,11 +127,11 @@ TEST(WindingNumber, FindsTheSurface) {
 TEST(WindingNumber, OpensWhatMatters) {
   Winding winding(sphere(5), 65536);
   Noise noise(2);
-  winding.ask({3, 2, 1});
+  winding.winding({3, 2, 1});
   EXPECT_LE(winding.work.nodes + winding.work.blocks, 2u);
   std::uint64_t sum = 0;
   for (int i = 0; i < 50; ++i) {
-    winding.ask(random_point(noise, 1.2));
+    winding.winding(random_point(noise, 1.2));
     sum += winding.work.nodes + winding.work.blocks;
   }
   EXPECT_LT(sum / 50, winding.records() / 10);
@@ -151,7 +152,7 @@ TEST(WindingNumber, GoesOnWithoutAPage) {
     const Point point = i % 2 == 0
                             ? random_point(noise, 1.2)
                             : Point((lost[0] + lost[1] + lost[2]) / 3 * noise.uniform(0.99, 1.01));
-    const WindingNumber found = winding.ask(point);
+    const WindingNumber found = winding.winding(point);
     expect_true(found, winding.truth(point));
     EXPECT_EQ(found.complete, found.above_half() || found.below_half());
     complete += found.complete;
@@ -166,9 +167,9 @@ TEST(WindingNumber, DoesWithItsRoom) {
   Winding winding(scattered(30000, 0.02), 65536);
   ASSERT_GT(winding.records(), 2000u);
   const Point point = winding.sample().mesh.corners(5)[0];
-  TreeWork& work = winding.work;
+  TraversalStats& work = winding.work;
   // On the surface of a soup, where nothing has a sign, all is opened ...
-  const WindingNumber found = winding.ask(point);
+  const WindingNumber found = winding.winding(point);
   EXPECT_TRUE(found.on_surface);
   EXPECT_LE(work.nodes + work.blocks, winding.records());
   double truth = 0;
@@ -178,12 +179,12 @@ TEST(WindingNumber, DoesWithItsRoom) {
 }
 
 TEST(WindingNumber, OfABlockAlone) {
-  Winding winding(sheet(2));
+  Winding winding(height_field(2));
   EXPECT_EQ(winding.records(), 1u);
   const Point point(0.3, 0.4, 0.7);
-  expect_true(winding.ask(point), winding.truth(point));
-  EXPECT_TRUE(winding.ask(point).complete);
-  EXPECT_FALSE(winding.ask(point, 0).complete);
+  expect_true(winding.winding(point), winding.truth(point));
+  EXPECT_TRUE(winding.winding(point).complete);
+  EXPECT_FALSE(winding.winding(point, 0).complete);
 }
 
 }  // namespace

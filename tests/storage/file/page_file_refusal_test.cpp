@@ -131,7 +131,7 @@ TEST_F(PageFileRefusal, HeaderFields) {
 }
 
 TEST_F(PageFileRefusal, Regions) {
-  const auto make_region = [](ModelRecord& m) {
+  const auto make_sector = [](ModelRecord& m) {
     m.input_triangles = m.triangle_count;
     for (int axis = 0; axis < 3; ++axis) {
       m.region_lower[axis] = m.box_lower[axis];
@@ -143,13 +143,13 @@ TEST_F(PageFileRefusal, Regions) {
                                          const char* said) {
     expect_model_refused(
         [&](ModelRecord& m) {
-          make_region(m);
+          make_sector(m);
           change(m);
         },
         said);
   };
   FileImage region = good();
-  region.change_header([&](FileHeader& h) { make_region(h.model); });
+  region.change_header([&](FileHeader& h) { make_sector(h.model); });
   region.seal_header();
   EXPECT_EQ(refusal_of(region).text[0], 0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -220,7 +220,7 @@ TEST_F(PageFileRefusal, ModelFields) {
   expect_model_refused(
       [](ModelRecord& m) {
         m.mask_cell_count = m.mask_page_count = 1;
-        m.open_edge_count = 1;
+        m.unbalanced_edge_count = 1;
       },
       "not watertight");
   for (const int at : {0, 4}) {
@@ -229,27 +229,27 @@ TEST_F(PageFileRefusal, ModelFields) {
 }
 
 TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
-  const OpenEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
+  const UnbalancedEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
   for (const std::uint64_t count : {0u, 2u, 3u})
     expect_model_refused(
         [&](ModelRecord& m) {
-          m.open_edge_count = count;
-          m.open_edge[0] = edge;
+          m.unbalanced_edge_count = count;
+          m.unbalanced_edge[0] = edge;
         },
         "as long as their number");
   expect_model_refused(
       [&](ModelRecord& m) {
-        m.open_edge_count = 1;
-        m.open_edge[0] = edge;
-        m.open_edge[0].against = 1;
+        m.unbalanced_edge_count = 1;
+        m.unbalanced_edge[0] = edge;
+        m.unbalanced_edge[0].against = 1;
       },
       "is not one");
   for (const double value : {kNan, kInfinity})
     expect_model_refused(
         [&](ModelRecord& m) {
-          m.open_edge_count = 1;
-          m.open_edge[0] = edge;
-          m.open_edge[0].to[2] = value;
+          m.unbalanced_edge_count = 1;
+          m.unbalanced_edge[0] = edge;
+          m.unbalanced_edge[0].to[2] = value;
         },
         "is not one");
 }

@@ -188,18 +188,18 @@ TEST(PageWriter, LetsOneOfManyThreadsWin) {
   for (const bool replace : {false, true}) {
     const TemporaryDirectory directory;
     std::atomic<int> won{0};
-    std::atomic<int> told{0};
+    std::atomic<int> certain{0};
     std::vector<std::thread> threads;
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       threads.emplace_back([&, seed] {
         const Result<FileHeader> header = SampleFile{3, 120, seed}.write(directory / "a", replace);
         won += header ? 1 : 0;
-        told += !header && header.error().code == ErrorCode::kAlreadyExists ? 1 : 0;
+        certain += !header && header.error().code == ErrorCode::kAlreadyExists ? 1 : 0;
       });
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(won, replace ? 4 : 1);
-    EXPECT_EQ(told, replace ? 0 : 3);
+    EXPECT_EQ(certain, replace ? 0 : 3);
     EXPECT_TRUE(read_all(directory / "a"));
     EXPECT_EQ(directory.names(), Names{"a"});
   }

@@ -120,9 +120,9 @@ TEST_F(ReadFaults, AMapCoversAnyRange) {
   for (const std::size_t offset : {std::size_t{0}, std::size_t{1}, whole.size() - 1}) {
     Result<Mapping> made = Mapping::create(file, offset, whole.size() - offset);
     ASSERT_TRUE(made);
-    Mapping moved = *std::move(made);
-    ASSERT_EQ(moved.bytes().size(), whole.size() - offset);
-    EXPECT_TRUE(std::equal(moved.bytes().begin(), moved.bytes().end(),
+    Mapping perturbed = *std::move(made);
+    ASSERT_EQ(perturbed.bytes().size(), whole.size() - offset);
+    EXPECT_TRUE(std::equal(perturbed.bytes().begin(), perturbed.bytes().end(),
                            whole.begin() + static_cast<std::ptrdiff_t>(offset)));
     EXPECT_TRUE(made->bytes().empty());
   }

@@ -27,7 +27,7 @@ class ForgetfulCalls final : public RingCalls {
         errno_of_those_(errno_of_those),
         time_of_those_(time_of_those) {}
 
-  int looks = 0, told = 0;
+  int looks = 0, certain = 0;
   off_t told_offset = 0, told_bytes = 0;
 
   ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
@@ -47,7 +47,7 @@ class ForgetfulCalls final : public RingCalls {
   int posix_fadvise(int, off_t offset, off_t bytes, int advice) noexcept override {
     EXPECT_EQ(advice, POSIX_FADV_WILLNEED);
     EXPECT_EQ(looks, 1);
-    ++told;
+    ++certain;
     told_offset = offset;
     told_bytes = bytes;
     return 0;
@@ -96,7 +96,7 @@ TEST(ReadSoon, ReadsWhatTheSystemHasWithNoOtherCall) {
   ReadWait wait;
   EXPECT_TRUE(page.read({.wait = &wait}));
   EXPECT_EQ(calls.looks, 1);
-  EXPECT_EQ(calls.told + calls.rings, 0);
+  EXPECT_EQ(calls.certain + calls.rings, 0);
   EXPECT_TRUE(page.refuses_pages_beyond());
 }
 
@@ -106,7 +106,7 @@ TEST(ReadSoon, LooksAgainOnceItWasTold) {
     const PageSoon page(calls);
     EXPECT_TRUE(page.read());
     EXPECT_EQ(calls.looks, 2);
-    EXPECT_EQ(calls.told, 1);
+    EXPECT_EQ(calls.certain, 1);
     EXPECT_EQ(calls.told_offset, static_cast<off_t>(page.entry().offset));
     EXPECT_EQ(calls.told_bytes, static_cast<off_t>(page.entry().stored_bytes));
   }
@@ -118,7 +118,7 @@ TEST(ReadSoon, DoesNotLookForLong) {
     ForgetfulCalls calls(1 << 20, errno_of_those, std::chrono::milliseconds(1));
     EXPECT_FALSE(PageSoon(calls).read());
     EXPECT_EQ(calls.looks, 2);
-    EXPECT_EQ(calls.told, 1);
+    EXPECT_EQ(calls.certain, 1);
   }
 }
 
@@ -126,17 +126,17 @@ TEST(ReadSoon, LooksOnceWhereTheSystemCannotTellOrFailsOrTheFileEnds) {
   for (const int errno_of_those : {EOPNOTSUPP, EIO, ForgetfulCalls::kEnd}) {
     ForgetfulCalls calls(1 << 20, errno_of_those);
     ReadWait wait;
-    EXPECT_FALSE(PageSoon(calls).read({.wait = &wait, .most_waited = std::chrono::minutes(10)}));
+    EXPECT_FALSE(PageSoon(calls).read({.wait = &wait, .max_waited = std::chrono::minutes(10)}));
     EXPECT_EQ(calls.looks, 1);
-    EXPECT_EQ(calls.told + calls.rings, 0);
+    EXPECT_EQ(calls.certain + calls.rings, 0);
   }
 }
 
 TEST(ReadSoon, LooksAgainAndAgainAsLongAsItMay) {
   ForgetfulCalls calls(100);
-  EXPECT_TRUE(PageSoon(calls).read({.most_looked = std::chrono::minutes(10)}));
+  EXPECT_TRUE(PageSoon(calls).read({.max_looked = std::chrono::minutes(10)}));
   EXPECT_EQ(calls.looks, 101);
-  EXPECT_EQ(calls.told, 1);
+  EXPECT_EQ(calls.certain, 1);
 }
 
 class ReadSoonByAWait : public testing::Test {
@@ -146,10 +146,10 @@ class ReadSoonByAWait : public testing::Test {
   }
   // The calls outlive what waits by them.
   static bool read(ForgetfulCalls& calls,
-                   std::chrono::milliseconds most_waited = std::chrono::minutes(10)) {
+                   std::chrono::milliseconds max_waited = std::chrono::minutes(10)) {
     ReadWait wait;
     return PageSoon(calls).read(
-        {.most_looked = std::chrono::minutes(10), .wait = &wait, .most_waited = most_waited});
+        {.max_looked = std::chrono::minutes(10), .wait = &wait, .max_waited = max_waited});
   }
 };
 
@@ -158,9 +158,9 @@ TEST_F(ReadSoonByAWait, LooksOnceMoreAfterEachWait) {
     for (const int waits : {1, 3}) {
       ForgetfulCalls calls(waits, errno_of_those);
       ReadWait wait;
-      EXPECT_TRUE(PageSoon(calls).read({.wait = &wait, .most_waited = std::chrono::minutes(10)}));
+      EXPECT_TRUE(PageSoon(calls).read({.wait = &wait, .max_waited = std::chrono::minutes(10)}));
       EXPECT_EQ(calls.looks, 1 + waits);
-      EXPECT_EQ(calls.told, 1);
+      EXPECT_EQ(calls.certain, 1);
       EXPECT_EQ(calls.waits, waits);
     }
 }

@@ -227,7 +227,7 @@ TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
   for (std::uint64_t i = 0; i < records.size(); ++i) records[i].key = {i, i};
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(runs.add(run_of(records)));
   SpillRuns again(sizeof(Record), 0, file);
-  for (SpillRuns::Place& place : runs.places()) again.add_placed(std::move(place));
+  for (SpillRuns::Extent& extent : runs.extents()) again.add_extents(std::move(extent));
   for (const std::uint64_t at : {0u, 1u, 255u, 256u, 257u, 70001u, 99999u, 200000u})
     for (const SpillRuns* each : {&runs, &again}) {
       calls.count = 0;
@@ -243,12 +243,12 @@ TEST(SpillRuns, AreFoundAgainByTheirPlaces) {
   SpillFile file(directory / ".", 0);
   SpillRuns runs(sizeof(Record), 0, file), again(sizeof(Record), 0, file);
   for (std::uint64_t i = 0; i < 3; ++i) {
-    const auto place = runs.add(run_of({{{i, 0}, 7, 0}, {{i, 1}, 8, 0}}));
-    ASSERT_TRUE(place);
-    EXPECT_EQ(place->size, 2u);
-    EXPECT_EQ(place->offset, 2 * i * sizeof(Record));
+    const auto extent = runs.add(run_of({{{i, 0}, 7, 0}, {{i, 1}, 8, 0}}));
+    ASSERT_TRUE(extent);
+    EXPECT_EQ(extent->size, 2u);
+    EXPECT_EQ(extent->offset, 2 * i * sizeof(Record));
   }
-  for (const SpillRuns::Place& place : runs.places()) again.add_placed(place);
+  for (const SpillRuns::Extent& extent : runs.extents()) again.add_extents(extent);
   EXPECT_EQ(again.size(), 6u);
   EXPECT_EQ(*again.read(again.begin(), again.end()), *runs.read(runs.begin(), runs.end()));
 }

@@ -70,7 +70,7 @@ TEST_F(WorkDirectoryTest, IsOneProcessesAtATime) {
 class DyingCalls final : public FileCalls {
  public:
   int flock(int descriptor, int operation) noexcept override {
-    if (++asked_ < 3) {
+    if (++queried_ < 3) {
       errno = EWOULDBLOCK;
       return -1;
     }
@@ -78,7 +78,7 @@ class DyingCalls final : public FileCalls {
   }
 
  private:
-  int asked_ = 0;
+  int queried_ = 0;
 };
 
 TEST_F(WorkDirectoryTest, WaitsForAProcessThatIsAboutToEnd) {

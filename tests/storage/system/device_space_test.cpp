@@ -11,22 +11,22 @@ namespace {
 TEST(DeviceSpace, IsWhatOthersThanRootMayFill) {
   const TemporaryDirectory directory;
   FaultyCalls calls;
-  calls.room = device_room(50, 4096);
+  calls.device = device_with_free(50, 4096);
   EXPECT_EQ(DeviceSpace::of(directory / ".", calls).free_bytes, 50u * 4096);
-  calls.room = device_room(~std::uint64_t{0} / 4096 + 1, 4096);
+  calls.device = device_with_free(~std::uint64_t{0} / 4096 + 1, 4096);
   EXPECT_EQ(DeviceSpace::of(directory / ".", calls).free_bytes, ~std::uint64_t{0});
-  calls.room = device_room(0);
+  calls.device = device_with_free(0);
   EXPECT_EQ(DeviceSpace::of(directory / ".", calls).free_bytes, 0u);
 }
 
 TEST(DeviceSpace, IsThatOfTheSystem) {
-  struct statvfs room = {};
+  struct statvfs device = {};
   const TemporaryDirectory directory;
-  ASSERT_EQ(::statvfs((directory / ".").c_str(), &room), 0);
+  ASSERT_EQ(::statvfs((directory / ".").c_str(), &device), 0);
   const auto space = DeviceSpace::of(directory / ".");
   ASSERT_TRUE(space.free_bytes);
   // Others write meanwhile.
-  EXPECT_LE(*space.free_bytes, std::uint64_t{room.f_blocks} * room.f_frsize);
+  EXPECT_LE(*space.free_bytes, std::uint64_t{device.f_blocks} * device.f_frsize);
   EXPECT_TRUE(DeviceSpace::of({}).free_bytes) << "of the working directory";
 }
 
@@ -34,8 +34,8 @@ TEST(DeviceSpace, IsNotKnownWhereTheSystemDoesNotTell) {
   const TemporaryDirectory directory;
   EXPECT_FALSE(DeviceSpace::of(directory / "none").free_bytes);
   FaultyCalls calls;
-  calls.room = device_room(0);
-  calls.room->f_blocks = 0;
+  calls.device = device_with_free(0);
+  calls.device->f_blocks = 0;
   EXPECT_FALSE(DeviceSpace::of(directory / ".", calls).free_bytes);
 }
 

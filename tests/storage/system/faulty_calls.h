@@ -17,13 +17,13 @@
 
 namespace planetree::storage {
 
-/// A device that has room for so many blocks more.
-inline struct statvfs device_room(std::uint64_t free_blocks, std::uint64_t block_bytes = 1) {
-  struct statvfs room = {};
-  room.f_bsize = room.f_frsize = block_bytes;
-  room.f_bavail = free_blocks;
-  room.f_blocks = room.f_bfree = free_blocks + 1000;
-  return room;
+/// A device with so many free blocks.
+inline struct statvfs device_with_free(std::uint64_t free_blocks, std::uint64_t block_bytes = 1) {
+  struct statvfs device = {};
+  device.f_bsize = device.f_frsize = block_bytes;
+  device.f_bavail = free_blocks;
+  device.f_blocks = device.f_bfree = free_blocks + 1000;
+  return device;
 }
 
 /// The system, of which one call goes wrong: the n-th that the fault can befall.
@@ -44,7 +44,7 @@ class FaultyCalls final : public FileCalls {
   bool no_unnamed = false;             ///< a file system without O_TMPFILE
   bool no_proc = false;                ///< a system without /proc
   bool no_noreplace = false;           ///< a file system that renames only with replacement
-  std::optional<struct statvfs> room;  ///< that every device has
+  std::optional<struct statvfs> device;  ///< that every device has
 
   bool happened() const { return !failed_call_.empty(); }
   const std::string& failed_call() const { return failed_call_; }
@@ -69,8 +69,8 @@ class FaultyCalls final : public FileCalls {
   }
   int statvfs(const char* path, struct statvfs* found) noexcept override {
     if (strikes("statvfs", false)) return failed(number_);
-    if (!room) return FileCalls::statvfs(path, found);
-    *found = *room;
+    if (!device) return FileCalls::statvfs(path, found);
+    *found = *device;
     return 0;
   }
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {

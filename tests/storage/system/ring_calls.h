@@ -33,9 +33,9 @@ class RingCalls : public FileCalls {
   int io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion, unsigned count,
                                        __kernel_timespec* most) noexcept override {
     ++waits;
-    const std::chrono::nanoseconds asked =
+    const std::chrono::nanoseconds queried =
         std::chrono::seconds(most->tv_sec) + std::chrono::nanoseconds(most->tv_nsec);
-    if (asked > longest_wait) longest_wait = asked;
+    if (queried > longest_wait) longest_wait = queried;
     if (time_of_waits.count() > 0) std::this_thread::sleep_for(time_of_waits);
     if (refuses_to_wait) return -EPERM;
     if (stands_still) return -ETIME;

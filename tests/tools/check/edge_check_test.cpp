@@ -31,9 +31,9 @@ TEST(EdgeCheck, BelievesAHeaderThatIsRight) {
 // What it lists is so, and yet no edge is open.
 TEST(EdgeCheck, FindsAClosedSurfaceThatIsSaidToBeOpen) {
   storage::ModelRecord model{};
-  model.open_edge_count = 1;
-  model.open_edge[0].to[1] = 1;
-  model.open_edge[0].along = model.open_edge[0].against = 1;
+  model.unbalanced_edge_count = 1;
+  model.unbalanced_edge[0].to[1] = 1;
+  model.unbalanced_edge[0].along = model.unbalanced_edge[0].against = 1;
   EXPECT_TRUE(finds_fault(model, closed_faces()));
 }
 

@@ -10,7 +10,7 @@
 namespace planetree::tools {
 namespace {
 
-class FileCheckOfSheets : public FileCheckOfMasks {
+class FileCheckOfHeightFields : public FileCheckOfMasks {
  protected:
   using Counts = std::function<std::uint8_t(std::uint8_t count)>;
 
@@ -30,8 +30,8 @@ class FileCheckOfSheets : public FileCheckOfMasks {
   // Sets the bit of the block that is so many-th of those without it.
   Counts marking(std::size_t which) {
     return [left = which](std::uint8_t count) mutable -> std::uint8_t {
-      const bool clear = (count & octree::kSheetBit) == 0;
-      return clear && left-- == 0 ? count | octree::kSheetBit : count;
+      const bool clear = (count & octree::kHeightFieldBit) == 0;
+      return clear && left-- == 0 ? count | octree::kHeightFieldBit : count;
     };
   }
   std::size_t count_unmarked(const std::filesystem::path& tree) {
@@ -39,7 +39,7 @@ class FileCheckOfSheets : public FileCheckOfMasks {
     check_counts(
         tree,
         [&](std::uint8_t count) {
-          unmarked += (count & octree::kSheetBit) == 0;
+          unmarked += (count & octree::kHeightFieldBit) == 0;
           return count;
         },
         false);
@@ -47,7 +47,7 @@ class FileCheckOfSheets : public FileCheckOfMasks {
   }
 };
 
-TEST_F(FileCheckOfSheets, FindsEveryBlockThatIsInNone) {
+TEST_F(FileCheckOfHeightFields, FindsEveryBlockThatIsInNone) {
   const std::size_t unmarked = count_unmarked(boxes());
   ASSERT_GT(unmarked, 2u);
   for (std::size_t i = 0; i < unmarked; ++i) {
@@ -58,16 +58,16 @@ TEST_F(FileCheckOfSheets, FindsEveryBlockThatIsInNone) {
   }
 }
 
-TEST_F(FileCheckOfSheets, AllowsBlocksThatAreNotSaidToBe) {
+TEST_F(FileCheckOfHeightFields, AllowsBlocksThatAreNotSaidToBe) {
   const auto clear = [](std::uint8_t count) {
-    return static_cast<std::uint8_t>(count & ~octree::kSheetBit);
+    return static_cast<std::uint8_t>(count & ~octree::kHeightFieldBit);
   };
   for (const auto& tree : {boxes(), sphere()})
     EXPECT_EQ(codes_of(check_counts(tree, clear, true)), Codes{});
 }
 
 // Not even those that are in sheets of the whole mesh.
-TEST_F(FileCheckOfSheets, FindsThemInFilesOfRegions) {
+TEST_F(FileCheckOfHeightFields, FindsThemInFilesOfRegions) {
   const std::filesystem::path region = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/region.ptree";
   const std::size_t unmarked = count_unmarked(region);
   ASSERT_GT(unmarked, 2u);
@@ -77,7 +77,7 @@ TEST_F(FileCheckOfSheets, FindsThemInFilesOfRegions) {
 }
 
 // They are proven by it.
-TEST_F(FileCheckOfSheets, AreNotLookedAtWhereTheMaskIsWrong) {
+TEST_F(FileCheckOfHeightFields, AreNotLookedAtWhereTheMaskIsWrong) {
   Forgery forgery = forgery_of(marking(0));
   forgery.mask = [done = false](std::uint32_t, RawMaskPage& page) mutable {
     if (done || page.head.corners_count == 0) return;

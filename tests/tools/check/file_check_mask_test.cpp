@@ -107,7 +107,7 @@ TEST_F(FileCheckOfMasks, FindsTrianglesInCellsOfOneColour) {
   const auto fits = [&](const RawMaskPage& page) {
     return node_with(page, [&](std::size_t i) { return movable(page, i); });
   };
-  bool told = false;
+  bool certain = false;
   Forgery forgery;
   forgery.mask = [&, done = false](std::uint32_t, RawMaskPage& page) mutable {
     if (done || !fits(page)) return;
@@ -119,9 +119,9 @@ TEST_F(FileCheckOfMasks, FindsTrianglesInCellsOfOneColour) {
   };
   const CheckReport report = check_forgery(boxes(), forgery, true);
   for (const Issue& issue : report.issues.kept())
-    told = told || (issue.code == IssueCode::kMaskColour &&
-                    issue.message.find("triangles touch it") != std::string::npos);
-  EXPECT_TRUE(told);
+    certain = certain || (issue.code == IssueCode::kMaskColour &&
+                          issue.message.find("triangles touch it") != std::string::npos);
+  EXPECT_TRUE(certain);
 }
 
 TEST_F(FileCheckOfMasks, FindsPlanesThatAreNot) {
@@ -139,9 +139,9 @@ TEST_F(FileCheckOfMasks, FindsPlanesThatAreNot) {
     const octree::Point a(at[0], at[1], at[2]), b(at[3], at[4], at[5]), c(at[6], at[7], at[8]);
     for (unsigned axis = 0; axis < 3; ++axis) {
       if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
-      const float moved = std::nextafter(static_cast<float>(a[axis]), 9.0f);
+      const float perturbed = std::nextafter(static_cast<float>(a[axis]), 9.0f);
       for (std::size_t corner = 0; corner < 3; ++corner)
-        page.planes[3 * corner + axis] = static_cast<double>(moved);
+        page.planes[3 * corner + axis] = static_cast<double>(perturbed);
     }
   });
 }

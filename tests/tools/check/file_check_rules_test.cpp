@@ -107,24 +107,24 @@ TEST_F(FileCheck, FindsTrianglesOutOfRangeOrTwice) {
 }
 
 TEST_F(FileCheck, FindsHeadersThatContradictThemselves) {
-  EXPECT_EQ(codes_of_model([](auto& model) { model.first_set_aside = 3; }), Codes{"HEADER_FIELD"});
-  EXPECT_EQ(codes_of_model([](auto& model) { model.set_aside_count = 3; }), Codes{"HEADER_FIELD"});
+  EXPECT_EQ(codes_of_model([](auto& model) { model.first_skipped = 3; }), Codes{"HEADER_FIELD"});
+  EXPECT_EQ(codes_of_model([](auto& model) { model.skipped_count = 3; }), Codes{"HEADER_FIELD"});
   EXPECT_TRUE(codes_of_model([](auto& model) {
-                model.set_aside_count = ~std::uint64_t{0};
+                model.skipped_count = ~std::uint64_t{0};
               }).contains("HEADER_FIELD"));
   EXPECT_TRUE(
       codes_of_model([](auto& model) { model.triangle_count = 0; }).contains("HEADER_FIELD"));
 }
 
 TEST_F(FileCheck, FindsVerticesOutsideTheirBounds) {
-  Forgery moved;
-  moved.page = [](std::uint32_t, RawPage& raw) {
+  Forgery perturbed;
+  perturbed.page = [](std::uint32_t, RawPage& raw) {
     if (raw.elements("vertices") == 0) return;
     raw.set("vertices", 0, raw.get<float>("vertices", 0) + 0.5f);
   };
-  const Codes codes = codes_of_forgery(moved);
+  const Codes codes = codes_of_forgery(perturbed);
   EXPECT_TRUE(codes.contains("VERTEX_OUTSIDE_BOX") && codes.contains("VERTEX_OUTSIDE_PLANES"));
-  EXPECT_EQ(codes_of_forgery(moved, false), Codes{});
+  EXPECT_EQ(codes_of_forgery(perturbed, false), Codes{});
 }
 
 TEST_F(FileCheck, FindsPlanesThatDoNotEnclose) {
@@ -150,13 +150,15 @@ TEST_F(FileCheck, FindsASampleThatIsNone) {
 TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
   // Then the nodes would have no moments.
   EXPECT_EQ(codes_of_model([](auto& model) {
-              model.open_edge_count = 0;
-              for (auto& edge : model.open_edge) edge = {};
+              model.unbalanced_edge_count = 0;
+              for (auto& edge : model.unbalanced_edge) edge = {};
             }),
             Codes{"PAGE_STRUCTURE"});
-  EXPECT_EQ(codes_of_model([](auto& model) { ++model.open_edge[2].along; }), Codes{"OPEN_EDGES"});
-  EXPECT_EQ(codes_of_model(
-                [](auto& model) { std::swap(model.open_edge[1].from, model.open_edge[1].to); }),
+  EXPECT_EQ(codes_of_model([](auto& model) { ++model.unbalanced_edge[2].along; }),
+            Codes{"OPEN_EDGES"});
+  EXPECT_EQ(codes_of_model([](auto& model) {
+              std::swap(model.unbalanced_edge[1].from, model.unbalanced_edge[1].to);
+            }),
             Codes{"OPEN_EDGES"});
 }
 
@@ -186,7 +188,7 @@ TEST_F(FileCheck, CountsWhatItDoesNotKeep) {
   IssueList list;
   for (int i = 0; i < 1500; ++i) list.add({IssueCode::kTable, Error::kNowhere, 0, "x"});
   EXPECT_EQ(list.count(), 1500u);
-  EXPECT_EQ(list.kept().size(), IssueList::kMostKept);
+  EXPECT_EQ(list.kept().size(), IssueList::kMaxKept);
 }
 
 TEST(FileCheckOfShapes, AcceptsABlockThatIsTheWholeTree) {
@@ -205,8 +207,8 @@ TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
   build_sample(folder / "mesh.obj", folder / "tree.ptree");
   Forgery forgery;
   forgery.model = [](storage::ModelRecord& model) {
-    model.open_edge_count = 0;
-    for (auto& edge : model.open_edge) edge = {};
+    model.unbalanced_edge_count = 0;
+    for (auto& edge : model.unbalanced_edge) edge = {};
   };
   forge(folder / "tree.ptree", folder / "forged.ptree", forgery);
   EXPECT_EQ(codes_of(check(storage::read_bytes(folder / "forged.ptree"))), Codes{"OPEN_EDGES"});
@@ -219,7 +221,7 @@ TEST(FileCheckOfShapes, AcceptsDoublesAndSetAsideRecords) {
   const Bytes bytes = storage::read_bytes(folder / "tree.ptree");
   const storage::ModelRecord model = storage::FileImage(bytes).header().model;
   EXPECT_EQ(model.vertex_kind, storage::VertexKind::kFloat64);
-  EXPECT_EQ(model.set_aside_count, 1u);
+  EXPECT_EQ(model.skipped_count, 1u);
   EXPECT_EQ(codes_of(check(bytes)), Codes{});
 }
 

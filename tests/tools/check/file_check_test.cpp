@@ -69,7 +69,7 @@ TEST(FileCheckOfDamage, FindsEverySingleBit) {
 }
 
 // As large models are built: patch by patch, and a mask of many regions.
-TEST(FileCheckOfPatches, FindsNothing) {
+TEST(FileCheckOfChunks, FindsNothing) {
   storage::TemporaryDirectory folder;
   std::ofstream(folder / "closed.obj") << closed_box(12);
   write_mesh(folder / "open.obj", 25);
@@ -81,7 +81,7 @@ TEST(FileCheckOfPatches, FindsNothing) {
     const auto report =
         octree::build_tree(folder / name, folder / "tree.ptree", options, progress, {150, 200, {}});
     ASSERT_TRUE(report) << report.error().text;
-    EXPECT_EQ(report->header.model.open_edge_count == 0, name == std::string("closed.obj"));
+    EXPECT_EQ(report->header.model.unbalanced_edge_count == 0, name == std::string("closed.obj"));
     EXPECT_GT(report->header.page_count, 10u);
     auto parts = FileParts::open(folder / "tree.ptree", storage::FileCalls::real());
     ASSERT_TRUE(parts);

@@ -68,13 +68,13 @@ class RawPage {
   T get(std::string_view stream, std::size_t index) const {
     T value;
     auto* bytes = reinterpret_cast<std::byte*>(&value);
-    for (std::size_t k = 0; k < sizeof(T); ++k) bytes[k] = bytes_[place(stream, index, k)];
+    for (std::size_t k = 0; k < sizeof(T); ++k) bytes[k] = bytes_[position(stream, index, k)];
     return value;
   }
   template <class T>
   void set(std::string_view stream, std::size_t index, T value) {
     const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    for (std::size_t k = 0; k < sizeof(T); ++k) bytes_[place(stream, index, k)] = bytes[k];
+    for (std::size_t k = 0; k < sizeof(T); ++k) bytes_[position(stream, index, k)] = bytes[k];
   }
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
@@ -86,7 +86,7 @@ class RawPage {
     std::abort();
   }
   // Streams are byte-shuffled.
-  std::size_t place(std::string_view stream, std::size_t index, std::size_t byte) const {
+  std::size_t position(std::string_view stream, std::size_t index, std::size_t byte) const {
     std::size_t offset = 0;
     for (const StreamRow& each : rows_) {
       if (each.name == stream) return offset + byte * each.elements + index;
@@ -120,7 +120,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   octree::BlockShape shape;
   shape.float64 = file->header().model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = file->header().model.triangle_id_bytes == 8;
-  shape.moments = file->header().model.open_edge_count != 0;
+  shape.moments = file->header().model.unbalanced_edge_count != 0;
   const std::uint32_t first_mask_page = file->header().first_mask_page();
   const auto changed = [&](std::uint32_t page, const std::vector<std::byte>& raw) {
     if (page < first_mask_page) {

@@ -148,12 +148,12 @@ TEST_F(BuildFaults, ALimitOfFileSizesIsAnErrorOfTheFileThatMeetsIt) {
   ASSERT_EQ(run({"generate", "model.ply", "--triangles", "20K", "--quiet"}).status, 0);
   fs::create_directory("out");
   fs::create_directory("temporary");
-  for (const auto& [memory, place] : {std::pair("160M", "temporary"), {"1G", "out/new.ptree"}}) {
+  for (const auto& [memory, position] : {std::pair("160M", "temporary"), {"1G", "out/new.ptree"}}) {
     const Outcome limited =
         shell("ulimit -f 100; " +
               build("model.ply -o out/new.ptree --temp-dir temporary --memory ") + memory);
     EXPECT_EQ(limited.status, 3);
-    EXPECT_TRUE(limited.output.starts_with(std::string("planetree: ") + place + ": at byte "));
+    EXPECT_TRUE(limited.output.starts_with(std::string("planetree: ") + position + ": at byte "));
     EXPECT_NE(limited.output.find("File too large; raise the limit of file sizes or choose another "
                                   "device\n"),
               std::string::npos)

@@ -13,11 +13,11 @@ namespace planetree::tools {
 namespace {
 
 // Of memory that holds nothing.
-constexpr const char* kLeast = "160M";
+constexpr const char* kMin = "160M";
 
 octree::SpaceNeed foreseen_of(const fs::path& mesh) {
   const auto size = octree::MeshSize::foresee(mesh);
-  const auto memory = octree::BuildMemory::share(octree::BuildMemory::kLeastBytes, 1);
+  const auto memory = octree::BuildMemory::share(octree::BuildMemory::kMinBytes, 1);
   EXPECT_TRUE(size && memory);
   return octree::SpaceNeed::before_reading(*size, *memory);
 }
@@ -51,7 +51,7 @@ class FilesOnDisk : public Command {
     SCOPED_TRACE(mesh.string() + " " + page_bytes);
     const octree::SpaceNeed need = foreseen_of(mesh);
     std::vector<std::string> arguments = {"build",    mesh.string(), "-o",          "new.ptree",
-                                          "--memory", kLeast,        "--page-size", page_bytes,
+                                          "--memory", kMin,          "--page-size", page_bytes,
                                           "--force",  "--json",      "--quiet"};
     if (resume) arguments.emplace_back("--resume");
     const Outcome built = run(arguments);
@@ -108,7 +108,7 @@ TEST_F(FilesOnDisk, AreReported) {
   EXPECT_EQ(temporary_bytes({"8G"}), 0u);
   EXPECT_GT(temporary_bytes({"8G", "--resume"}), kTriangles * (16 + 36));
   // Each triangle twice, with code, index and nine coordinates; and its page.
-  EXPECT_GT(temporary_bytes({kLeast}), kTriangles * 2 * (16 + 36));
+  EXPECT_GT(temporary_bytes({kMin}), kTriangles * 2 * (16 + 36));
 }
 
 }  // namespace

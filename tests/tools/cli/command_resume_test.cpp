@@ -36,7 +36,7 @@ class CommandResume : public Command {
       options.page_bytes = 4096;
       options.threads = 1;
       options.resume = true;
-      const octree::BuildSeams seams{octree::kPatchTriangles, octree::kRegionTriangles, {}, calls};
+      const octree::BuildSeams seams{octree::kChunkTriangles, octree::kSectorTriangles, {}, calls};
       ASSERT_FALSE(octree::build_tree("mesh.obj", "new.ptree", options, watch, seams));
     }
     ASSERT_TRUE(fs::exists("new.ptree.work"));

@@ -130,12 +130,12 @@ TEST_F(Command, RefusesInOneLine) {
 TEST_F(Command, ExplainsItself) {
   const Outcome all = run({"--help"});
   EXPECT_EQ(all.status, 0);
-  for (const char* verb : {"generate", "build", "query", "inspect", "verify"}) {
-    EXPECT_NE(all.output.find(verb), std::string::npos);
-    const Outcome one = run({verb, "--help"});
+  for (const char* subcommand : {"generate", "build", "query", "inspect", "verify"}) {
+    EXPECT_NE(all.output.find(subcommand), std::string::npos);
+    const Outcome one = run({subcommand, "--help"});
     EXPECT_EQ(one.status, 0);
-    EXPECT_NE(one.output.find("--json"), std::string::npos) << verb;
-    EXPECT_NE(one.output.find("--quiet"), std::string::npos) << verb;
+    EXPECT_NE(one.output.find("--json"), std::string::npos) << subcommand;
+    EXPECT_NE(one.output.find("--quiet"), std::string::npos) << subcommand;
     EXPECT_EQ(one.errors, "");
   }
 }
@@ -315,13 +315,13 @@ TEST_F(Command, TellsProgramsOfItsProgressUnlessQuiet) {
   const std::string line =
       query + "--quiet 2>quiet.txt >quiet.csv & " + query + "2>told.txt >told.csv; wait";
   ASSERT_EQ(std::system(line.c_str()), 0);
-  const auto told = lines_of(text_of("told.txt")), quiet = lines_of(text_of("quiet.txt"));
-  ASSERT_EQ(told.size(), 2u);
-  const Json event = Json::parse(told[0]);
+  const auto certain = lines_of(text_of("told.txt")), quiet = lines_of(text_of("quiet.txt"));
+  ASSERT_EQ(certain.size(), 2u);
+  const Json event = Json::parse(certain[0]);
   EXPECT_EQ(event["phase"], "answering");
   EXPECT_EQ(event["done"], 2);
   EXPECT_EQ(event["total"], nullptr);
-  EXPECT_EQ(Json::parse(told[1])["points"], 2);
+  EXPECT_EQ(Json::parse(certain[1])["points"], 2);
   ASSERT_EQ(quiet.size(), 1u);
   EXPECT_EQ(Json::parse(quiet[0])["points"], 2);
 }

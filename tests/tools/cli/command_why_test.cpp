@@ -12,7 +12,7 @@ namespace planetree::tools {
 namespace {
 
 const std::string kBoxes = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.ptree";
-const std::string kSheet = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/sheet.ptree";
+const std::string kHeightField = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/sheet.ptree";
 
 Json why(const std::string& file, const std::string& point) {
   const Outcome result = run({"inspect", file, "--why", point, "--json"});
@@ -51,7 +51,7 @@ TEST(Why, SaysWhatAnyAnswerRestsOn) {
     const query::SideReason& reason = explanation->reason;
     if (reason.rule != query::SideReason::Rule::kCorner) continue;
     ++corners;
-    EXPECT_EQ(reason.known + reason.crossings, explanation->standing.winding);
+    EXPECT_EQ(reason.known + reason.crossings, explanation->side_result.winding);
     EXPECT_TRUE(explanation->cell_lower.x <= query.x && query.x <= explanation->cell_upper.x);
     EXPECT_GT(explanation->side_work.nodes, 0u);
   }
@@ -59,7 +59,7 @@ TEST(Why, SaysWhatAnyAnswerRestsOn) {
 }
 
 TEST(Why, SaysOfAnOpenSurfaceItsWindingNumber) {
-  const Json answer = why(kSheet, "0.5,0.5,0.1");
+  const Json answer = why(kHeightField, "0.5,0.5,0.1");
   EXPECT_EQ(answer["rule"], "winding_number");
   EXPECT_LT(answer["winding_number"]["error"], 0.5);
   EXPECT_FALSE(answer.contains("cell"));

@@ -1,4 +1,4 @@
-#include "tests/soak/killed_builds.h"
+#include "tests/tools/cli/killed_builds.h"
 
 #include <gtest/gtest.h>
 

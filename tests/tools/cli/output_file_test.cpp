@@ -187,10 +187,10 @@ TEST_F(GenerateFile, NoticesBeforehandThatThereIsNoRoom) {
   auto file = OutputFile::create(path(), false);
   ASSERT_TRUE(file);
   EXPECT_TRUE(file->reserve(0));
-  const auto room = file->reserve(std::uint64_t{1} << 62);
-  ASSERT_FALSE(room);
-  EXPECT_EQ(room.error().code, ErrorCode::kNoSpace);
-  EXPECT_NE(std::string(room.error().text).find("4611686018427387904"), std::string::npos);
+  const auto space = file->reserve(std::uint64_t{1} << 62);
+  ASSERT_FALSE(space);
+  EXPECT_EQ(space.error().code, ErrorCode::kNoSpace);
+  EXPECT_NE(std::string(space.error().text).find("4611686018427387904"), std::string::npos);
 }
 
 TEST_F(GenerateFile, ReservesWithoutGrowingTheFile) {

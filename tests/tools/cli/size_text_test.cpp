@@ -8,7 +8,7 @@
 namespace planetree::tools {
 namespace {
 
-constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t count_of(std::string_view text) {
   const auto count = parse_count(text);
@@ -33,7 +33,7 @@ TEST(SizeText, ReadsDecimalCounts) {
   EXPECT_EQ(count_of("1.5M"), 1'500'000U);
   EXPECT_EQ(count_of("1.000"), 1U);
   EXPECT_EQ(count_of("0.123456789012T"), 123'456'789'012U);
-  EXPECT_EQ(count_of("18446744073709551615"), kMost);
+  EXPECT_EQ(count_of("18446744073709551615"), kMax);
 }
 
 TEST(SizeText, ReadsBinaryBytes) {
@@ -62,7 +62,7 @@ TEST(SizeText, RefusesWhatOverflows) {
   EXPECT_FALSE(parse_count("99999999999999999999999999"));
   EXPECT_FALSE(parse_count("18446745T"));
   EXPECT_FALSE(parse_count("18446744.073709551616T"));
-  EXPECT_EQ(count_of("18446744.073709551615T"), kMost);
+  EXPECT_EQ(count_of("18446744.073709551615T"), kMax);
   EXPECT_FALSE(parse_bytes("16777216T"));
   EXPECT_EQ(bytes_of("16777215T"), 16'777'215ULL << 40);
 }
@@ -83,7 +83,7 @@ TEST(SizeText, WritesWhatPeopleRead) {
   EXPECT_EQ(grouped_count(999), "999");
   EXPECT_EQ(grouped_count(1000), "1,000");
   EXPECT_EQ(grouped_count(1234567), "1,234,567");
-  EXPECT_EQ(grouped_count(kMost), "18,446,744,073,709,551,615");
+  EXPECT_EQ(grouped_count(kMax), "18,446,744,073,709,551,615");
   EXPECT_EQ(short_count(0), "0.0");
   EXPECT_EQ(short_count(950), "950");
   EXPECT_EQ(short_count(999.6), "1.00 K");
@@ -93,7 +93,7 @@ TEST(SizeText, WritesWhatPeopleRead) {
   EXPECT_EQ(short_bytes(512), "512 B");
   EXPECT_EQ(short_bytes(1024), "1.00 KiB");
   EXPECT_EQ(short_bytes(1'610'612'736), "1.50 GiB");
-  EXPECT_EQ(short_bytes(kMost), "16.0 EiB");
+  EXPECT_EQ(short_bytes(kMax), "16.0 EiB");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ double distance_between(const Vec3& a, const Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-class Touch : public Command {
+class TracedAccess : public Command {
  protected:
   std::vector<Vec3> path(TouchMotion motion, std::size_t ticks = 3000) {
     const auto model = Model::open("tree.ptree");
@@ -45,14 +45,14 @@ class Touch : public Command {
   double diagonal_ = 0;
 };
 
-TEST_F(Touch, GlidesAndScratchesByStepsOfAsMuchAsItSays) {
+TEST_F(TracedAccess, GlidesAndScratchesByStepsOfAsMuchAsItSays) {
   const double gliding = longest_step(path(TouchMotion::kGlide));
   EXPECT_NEAR(gliding, 2e-4 * diagonal_, 1e-9 * diagonal_);
   const double scratching = longest_step(path(TouchMotion::kScratch));
   EXPECT_NEAR(scratching, 1e-3 * diagonal_, 1e-9 * diagonal_);
 }
 
-TEST_F(Touch, KeepsToTheSurface) {
+TEST_F(TracedAccess, KeepsToTheSurface) {
   const std::vector<Vec3> tips = path(TouchMotion::kScratch);
   const auto model = Model::open("tree.ptree");
   auto probe = Probe::create(*model);
@@ -60,7 +60,7 @@ TEST_F(Touch, KeepsToTheSurface) {
   EXPECT_GT(distance_between(tips.front(), tips.back()), 0.01 * diagonal_);
 }
 
-TEST_F(Touch, TeleportsEveryHundredTicks) {
+TEST_F(TracedAccess, TeleportsEveryHundredTicks) {
   const std::vector<Vec3> tips = path(TouchMotion::kTeleport);
   std::size_t jumps = 0;
   for (std::size_t i = 1; i < tips.size(); ++i) {
@@ -71,14 +71,14 @@ TEST_F(Touch, TeleportsEveryHundredTicks) {
   EXPECT_GT(jumps, 20u);
 }
 
-TEST_F(Touch, GoesTheSamePathAgain) {
+TEST_F(TracedAccess, GoesTheSamePathAgain) {
   const std::vector<Vec3> once = path(TouchMotion::kGlide), again = path(TouchMotion::kGlide);
   ASSERT_EQ(once.size(), again.size());
   for (std::size_t i = 0; i < once.size(); ++i)
     ASSERT_EQ(distance_between(once[i], again[i]), 0) << i;
 }
 
-TEST_F(Touch, ReportsASession) {
+TEST_F(TracedAccess, ReportsASession) {
   for (const std::string motion : {"glide", "scratch", "teleport"}) {
     const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "500", "--path",
                                  motion, "--cold", "--json"});
@@ -97,7 +97,7 @@ TEST_F(Touch, ReportsASession) {
   }
 }
 
-TEST_F(Touch, SaysTheSameInWords) {
+TEST_F(TracedAccess, SaysTheSameInWords) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "100"});
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
   const std::vector<std::string> lines = lines_of(outcome.output);
@@ -106,7 +106,7 @@ TEST_F(Touch, SaysTheSameInWords) {
   EXPECT_EQ(lines[3].find("answer, from due"), 0u);
 }
 
-TEST_F(Touch, WritesEveryTickWhereAsked) {
+TEST_F(TracedAccess, WritesEveryTickWhereAsked) {
   const std::vector<std::string> session = {"touch",  "tree.ptree", "--seconds", "1",
                                             "--rate", "200",        "--ticks",   "ticks.csv"};
   ASSERT_EQ(run(session).status, kDone);
@@ -120,7 +120,7 @@ TEST_F(Touch, WritesEveryTickWhereAsked) {
   EXPECT_EQ(again.output, "");
 }
 
-TEST_F(Touch, TracesEveryPageWhereAsked) {
+TEST_F(TracedAccess, TracesEveryPageWhereAsked) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "200", "--trace",
                                "pages.csv", "--ticks", "ticks.csv", "--json"});
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
@@ -143,7 +143,7 @@ TEST_F(Touch, TracesEveryPageWhereAsked) {
   EXPECT_LT(missed, rows.size() - 1);
 }
 
-TEST_F(Touch, RefusesASessionWithoutTicks) {
+TEST_F(TracedAccess, RefusesASessionWithoutTicks) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "0"});
   EXPECT_EQ(outcome.status, kCommandLineAtFault);
   EXPECT_EQ(outcome.errors,
@@ -151,7 +151,7 @@ TEST_F(Touch, RefusesASessionWithoutTicks) {
             "see planetree touch --help\n");
 }
 
-TEST_F(Touch, ReportsPagesThatCannotBeRead) {
+TEST_F(TracedAccess, ReportsPagesThatCannotBeRead) {
   flip("tree.ptree", entries_.back().offset);
   const Outcome outcome =
       run({"touch", "tree.ptree", "--seconds", "1", "--rate", "500", "--path", "teleport"});

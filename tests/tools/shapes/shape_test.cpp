@@ -117,12 +117,12 @@ TEST(Shape, KeepsVerticesApartAndTrianglesOpen) {
   for (const ShapeKind kind : kAllShapeKinds) {
     SCOPED_TRACE(shape_name(kind));
     const auto shape = shape_of(kind, 3000);
-    std::set<std::array<double, 3>> places;
+    std::set<std::array<double, 3>> indices;
     for (std::uint64_t v = 0; v < shape->vertex_count(); ++v) {
       const Vec3 p = rounded_vertex(*shape, v);
-      places.insert({p.x, p.y, p.z});
+      indices.insert({p.x, p.y, p.z});
     }
-    EXPECT_EQ(places.size(), shape->vertex_count());
+    EXPECT_EQ(indices.size(), shape->vertex_count());
     for (std::uint64_t t = 0; t < shape->triangle_count(); ++t) {
       const auto p = rounded_corners(*shape, t);
       EXPECT_GT(length(cross(minus(p[1], p[0]), minus(p[2], p[0]))), 0) << t;
@@ -207,10 +207,10 @@ TEST(Shape, HasAboutAsManyTrianglesAsAsked) {
       SCOPED_TRACE(label(kind, triangles));
       const auto shape = shape_of(kind, triangles);
       ASSERT_NE(shape, nullptr);
-      const double asked = static_cast<double>(triangles);
+      const double queried = static_cast<double>(triangles);
       const double slack =
-          kind == ShapeKind::kSoup ? 0 : std::sqrt(per_square * asked) + per_square;
-      EXPECT_NEAR(static_cast<double>(shape->triangle_count()), asked, slack);
+          kind == ShapeKind::kSoup ? 0 : std::sqrt(per_square * queried) + per_square;
+      EXPECT_NEAR(static_cast<double>(shape->triangle_count()), queried, slack);
     }
   }
 }
@@ -258,13 +258,13 @@ TEST(Shape, DependsOnTheSeedWhereItShould) {
     SCOPED_TRACE(shape_name(kind));
     const auto one = shape_of(kind, 1000, 1);
     const auto two = shape_of(kind, 1000, 2);
-    std::uint64_t moved = 0;
+    std::uint64_t perturbed = 0;
     for (std::uint64_t v = 0; v < one->vertex_count(); ++v) {
-      moved += length(minus(one->vertex(v), two->vertex(v))) > 0 ? 1 : 0;
+      perturbed += length(minus(one->vertex(v), two->vertex(v))) > 0 ? 1 : 0;
     }
     const bool random =
         kind == ShapeKind::kStatue || kind == ShapeKind::kTerrain || kind == ShapeKind::kSoup;
-    EXPECT_EQ(moved, random ? one->vertex_count() : 0);
+    EXPECT_EQ(perturbed, random ? one->vertex_count() : 0);
   }
 }
 

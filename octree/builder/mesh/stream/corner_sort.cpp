@@ -11,11 +11,11 @@ namespace {
 
 /// A corner on its way to its vertex: the vertex within its part, and the corner's number.
 /// Then on its way back: the corner within its part, and the position.
-constexpr std::size_t kPlaceBytes = sizeof(std::uint32_t);
-constexpr std::size_t kByVertexBytes = kPlaceBytes + sizeof(std::uint64_t);
+constexpr std::size_t kIndexBytes = sizeof(std::uint32_t);
+constexpr std::size_t kByVertexBytes = kIndexBytes + sizeof(std::uint64_t);
 
 constexpr std::size_t by_corner_bytes(std::size_t position_bytes) {
-  return kPlaceBytes + position_bytes;
+  return kIndexBytes + position_bytes;
 }
 
 Error changed_error() {
@@ -33,9 +33,8 @@ CornerSort::CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64
       scratch_(scratch),
       position_bytes_(vertices.position_bytes()),
       buffer_bytes_(memory_bytes / 4) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
-  const std::uint64_t most =
-      std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMost);
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 32;
+  const std::uint64_t most = std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMax);
   part_shift_ = static_cast<int>(std::bit_width(most)) - 1;
   by_vertex_file_.emplace(scratch);
   by_vertex_.emplace(kByVertexBytes, parts_of(vertices.count()), buffer_bytes_,
@@ -51,9 +50,9 @@ std::uint64_t CornerSort::disk_bytes(std::uint64_t corners, bool float32) {
 Result<void> CornerSort::add(std::uint64_t vertex) {
   std::byte* const record = by_vertex_->add(static_cast<std::size_t>(vertex >> part_shift_));
   if (record == nullptr) return by_vertex_->failure();
-  const auto place = static_cast<std::uint32_t>(vertex & part_mask());
-  std::memcpy(record, &place, sizeof place);
-  std::memcpy(record + kPlaceBytes, &corner_count_, sizeof corner_count_);
+  const auto position = static_cast<std::uint32_t>(vertex & part_mask());
+  std::memcpy(record, &position, sizeof position);
+  std::memcpy(record + kIndexBytes, &corner_count_, sizeof corner_count_);
   ++corner_count_;
   return {};
 }
@@ -80,23 +79,23 @@ Result<void> CornerSort::match_part(std::size_t part) {
   if (const auto read = vertices_.read(first, positions_); !read) return read;
   return by_vertex_->each_block(part, [this](std::span<const std::byte> records) -> Result<void> {
     for (; !records.empty(); records = records.subspan(kByVertexBytes))
-      if (const auto placed = place(records.data()); !placed) return placed;
+      if (const auto scaled = position(records.data()); !scaled) return scaled;
     return {};
   });
 }
 
-Result<void> CornerSort::place(const std::byte* corner) {
-  std::uint32_t place = 0;
+Result<void> CornerSort::position(const std::byte* corner) {
+  std::uint32_t position = 0;
   std::uint64_t number = 0;
-  std::memcpy(&place, corner, sizeof place);
-  std::memcpy(&number, corner + kPlaceBytes, sizeof number);
-  const std::size_t from = std::size_t{place} * position_bytes_;
+  std::memcpy(&position, corner, sizeof position);
+  std::memcpy(&number, corner + kIndexBytes, sizeof number);
+  const std::size_t from = std::size_t{position} * position_bytes_;
   if (from >= positions_.size() || number >= corner_count_) return changed_error();
   std::byte* const record = by_corner_->add(static_cast<std::size_t>(number >> part_shift_));
   if (record == nullptr) return by_corner_->failure();
-  place = static_cast<std::uint32_t>(number & part_mask());
-  std::memcpy(record, &place, sizeof place);
-  std::memcpy(record + kPlaceBytes, positions_.data() + from, position_bytes_);
+  position = static_cast<std::uint32_t>(number & part_mask());
+  std::memcpy(record, &position, sizeof position);
+  std::memcpy(record + kIndexBytes, positions_.data() + from, position_bytes_);
   return {};
 }
 
@@ -106,22 +105,22 @@ bool CornerSort::load(std::uint64_t part) {
   positions_.assign(static_cast<std::size_t>(count) * position_bytes_, std::byte{0});
   loaded_ = ~std::uint64_t{0};
   const std::size_t record_bytes = by_corner_bytes(position_bytes_);
-  const auto placed = by_corner_->each_block(
+  const auto scaled = by_corner_->each_block(
       static_cast<std::size_t>(part), [&](std::span<const std::byte> records) -> Result<void> {
         for (; !records.empty(); records = records.subspan(record_bytes)) {
-          std::uint32_t place = 0;
-          std::memcpy(&place, records.data(), sizeof place);
-          if (place >= count) return changed_error();
-          std::memcpy(positions_.data() + std::size_t{place} * position_bytes_,
-                      records.data() + kPlaceBytes, position_bytes_);
+          std::uint32_t position = 0;
+          std::memcpy(&position, records.data(), sizeof position);
+          if (position >= count) return changed_error();
+          std::memcpy(positions_.data() + std::size_t{position} * position_bytes_,
+                      records.data() + kIndexBytes, position_bytes_);
         }
         return {};
       });
-  if (placed) {
+  if (scaled) {
     loaded_ = part;
     return true;
   }
-  failure_ = placed.error();
+  failure_ = scaled.error();
   return false;
 }
 

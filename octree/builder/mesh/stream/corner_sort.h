@@ -51,7 +51,7 @@ class CornerSort {
     return static_cast<std::size_t>((count >> part_shift_) + 1);
   }
   Result<void> match_part(std::size_t part);
-  Result<void> place(const std::byte* corner);
+  Result<void> position(const std::byte* corner);
   bool load(std::uint64_t part);
   const std::byte* missing(std::uint64_t corner);
 

@@ -2,23 +2,23 @@
 
 namespace planetree::octree {
 
-MeshJoin::MeshJoin(MeshVertices& vertices, std::int64_t first_number, MeshScratch& scratch,
-                   bool is_text, MeshDelivery& delivery)
+FaceVertexJoin::FaceVertexJoin(MeshVertices& vertices, std::int64_t first_number,
+                               MeshScratch& scratch, bool is_text, FanEmitter& emitter)
     : vertices_(vertices),
       vertex_count_(vertices.count()),
       float32_(vertices.float32()),
       first_number_(first_number),
       scratch_(scratch),
       memory_bytes_(scratch.join_bytes(is_text)),
-      delivery_(delivery) {}
+      emitter_(emitter) {}
 
 // What was not spent long ago does not count: a mesh may be in order at first only.
-void MeshJoin::begin_face(std::uint64_t corners) {
+void FaceVertexJoin::begin_face(std::uint64_t corners) {
   held_.clear();
   const std::uint64_t read_bytes = cache_->read_bytes();
   credit_bytes_ -= std::min(credit_bytes_, read_bytes - seen_bytes_);
   seen_bytes_ = read_bytes;
-  const std::uint64_t most = most_credit_bytes();
+  const std::uint64_t most = max_credit_bytes();
   credit_bytes_ = std::min(credit_bytes_ + kCreditBytes * std::min(corners, most), most);
   limit_bytes_ = read_bytes + credit_bytes_;
 }

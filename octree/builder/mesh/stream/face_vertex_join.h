@@ -18,8 +18,8 @@
 namespace planetree::octree {
 
 /// Where a face is, for whoever goes through faces to begin there.
-struct FacePlace {
-  TextPlace place;
+struct FacePosition {
+  TextPosition position;
   std::uint64_t record = 0;          ///< faces before it
   std::int64_t vertices_before = 0;  ///< of an OBJ: those in front of it
 };
@@ -37,31 +37,31 @@ struct FacePlace {
 ///   value_at(k, value)     how the file names the vertex of corner k; false if it cannot be
 ///                          read, and failure() says why,
 ///   vertices_before()      from which negative values of an OBJ count.
-class MeshJoin {
+class FaceVertexJoin {
  public:
   /// vertices      all known; they, `scratch` and `delivery` must outlive this.
   /// first_number  what the file calls the first of them.
   /// is_text       whether the vertices themselves take of the memory.
-  MeshJoin(MeshVertices& vertices, std::int64_t first_number, MeshScratch& scratch, bool is_text,
-           MeshDelivery& delivery);
+  FaceVertexJoin(MeshVertices& vertices, std::int64_t first_number, MeshScratch& scratch,
+                 bool is_text, FanEmitter& emitter);
 
   /// Delivers all faces.
   ///
   /// file_bytes  of the file.
-  /// each_face   (from, take) -> Result<FacePlace>: calls take(face), which returns
+  /// each_face   (from, take) -> Result<FacePosition>: calls take(face), which returns
   ///             Result<bool>, for each face from `from` on, and stops where that is false.
   ///             Returns the place of that face, or else what is behind the last.
   /// errors      those of each_face, of the sink and of temporary files.
   template <class EachFace>
-  Result<FacePlace> deliver(const FacePlace& begin, std::uint64_t file_bytes,
-                            const EachFace& each_face) {
+  Result<FacePosition> deliver(const FacePosition& begin, std::uint64_t file_bytes,
+                               const EachFace& each_face) {
     cache_.emplace(vertices_, memory_bytes_);
-    credit_bytes_ = most_credit_bytes();
-    const Result<FacePlace> end =
+    credit_bytes_ = max_credit_bytes();
+    const Result<FacePosition> end =
         each_face(begin, [this](const auto& face) { return this->take_near(face); });
     if (!end || !goes_over_) return end;
     cache_.reset();
-    return deliver_sorted(*end, file_bytes - end->place.offset, each_face);
+    return deliver_sorted(*end, file_bytes - end->position.offset, each_face);
   }
 
  private:
@@ -76,8 +76,8 @@ class MeshJoin {
   class SortedCorners;
 
   template <class EachFace>
-  Result<FacePlace> deliver_sorted(const FacePlace& begin, std::uint64_t rest_bytes,
-                                   const EachFace& each_face);
+  Result<FacePosition> deliver_sorted(const FacePosition& begin, std::uint64_t rest_bytes,
+                                      const EachFace& each_face);
   template <class Face>
   Result<bool> take_near(const Face& face);
   template <class Face>
@@ -89,7 +89,7 @@ class MeshJoin {
   [[nodiscard]] std::uint64_t vertex_of(std::int64_t value, std::int64_t vertices_before) const {
     return static_cast<std::uint64_t>(value < 0 ? value + vertices_before : value - first_number_);
   }
-  [[nodiscard]] std::uint64_t most_credit_bytes() const { return 2 * cache_->capacity_bytes(); }
+  [[nodiscard]] std::uint64_t max_credit_bytes() const { return 2 * cache_->capacity_bytes(); }
   void begin_face(std::uint64_t corners);
   bool stop(const Error& failure) {
     failure_ = failure;
@@ -102,7 +102,7 @@ class MeshJoin {
   const std::int64_t first_number_;
   MeshScratch& scratch_;
   const std::uint64_t memory_bytes_;
-  MeshDelivery& delivery_;
+  FanEmitter& emitter_;
   std::optional<VertexCache> cache_;
   std::vector<Vec3> held_;          ///< positions of the face's corners from 3 on
   std::uint64_t credit_bytes_ = 0;  ///< that may still be read; grows with each corner
@@ -114,9 +114,9 @@ class MeshJoin {
 
 /// The corners of a face whose vertices are read where they are.
 template <class Face>
-class MeshJoin::NearCorners {
+class FaceVertexJoin::NearCorners {
  public:
-  NearCorners(MeshJoin& join, const Face& face) : join_(join), face_(face) {}
+  NearCorners(FaceVertexJoin& join, const Face& face) : join_(join), face_(face) {}
 
   bool first(std::uint64_t k, MeshCorner& corner) {
     if (!look_up(k, corner)) return false;
@@ -145,15 +145,16 @@ class MeshJoin::NearCorners {
     return true;
   }
 
-  MeshJoin& join_;
+  FaceVertexJoin& join_;
   const Face& face_;
 };
 
 /// The corners of a face that have met their vertices.
 template <class Face>
-class MeshJoin::SortedCorners {
+class FaceVertexJoin::SortedCorners {
  public:
-  SortedCorners(MeshJoin& join, CornerSort& sort, std::uint64_t first_corner, const Face& face)
+  SortedCorners(FaceVertexJoin& join, CornerSort& sort, std::uint64_t first_corner,
+                const Face& face)
       : join_(join), sort_(sort), first_corner_(first_corner), face_(face) {}
 
   bool first(std::uint64_t k, MeshCorner& corner) {
@@ -169,23 +170,23 @@ class MeshJoin::SortedCorners {
   }
 
  private:
-  MeshJoin& join_;
+  FaceVertexJoin& join_;
   CornerSort& sort_;
   const std::uint64_t first_corner_;
   const Face& face_;
 };
 
 template <class Face>
-Result<bool> MeshJoin::take_near(const Face& face) {
+Result<bool> FaceVertexJoin::take_near(const Face& face) {
   begin_face(face.size());
   NearCorners<Face> corners(*this, face);
-  Result<bool> taken = delivery_.polygon_of(face.record(), face.size(), corners);
+  Result<bool> taken = emitter_.polygon_of(face.record(), face.size(), corners);
   if (taken && !*taken && !goes_over_) return *failure_;
   return taken;
 }
 
 template <class Face>
-Result<bool> MeshJoin::add_to(CornerSort& sort, const Face& face) {
+Result<bool> FaceVertexJoin::add_to(CornerSort& sort, const Face& face) {
   if (face.size() < 3) return true;
   for (std::uint64_t k = 0; k < face.size(); ++k) {
     std::int64_t value = 0;
@@ -201,28 +202,30 @@ Result<bool> MeshJoin::add_to(CornerSort& sort, const Face& face) {
 }
 
 template <class Face>
-Result<bool> MeshJoin::take_sorted(CornerSort& sort, std::uint64_t& next_corner, const Face& face) {
+Result<bool> FaceVertexJoin::take_sorted(CornerSort& sort, std::uint64_t& next_corner,
+                                         const Face& face) {
   SortedCorners<Face> corners(*this, sort, next_corner, face);
   if (face.size() >= 3) next_corner += face.size();
-  Result<bool> taken = delivery_.polygon_of(face.record(), face.size(), corners);
+  Result<bool> taken = emitter_.polygon_of(face.record(), face.size(), corners);
   if (taken && !*taken) return *failure_;
   return taken;
 }
 
 template <class EachFace>
-Result<FacePlace> MeshJoin::deliver_sorted(const FacePlace& begin, std::uint64_t rest_bytes,
-                                           const EachFace& each_face) {
-  if (const auto may = scratch_.ask_to_sort(); !may) return may.error();
+Result<FacePosition> FaceVertexJoin::deliver_sorted(const FacePosition& begin,
+                                                    std::uint64_t rest_bytes,
+                                                    const EachFace& each_face) {
+  if (const auto may = scratch_.query_to_sort(); !may) return may.error();
   CornerSort sort(vertices_, scratch_, memory_bytes_);
-  const std::uint64_t bytes_before = delivery_.bytes_total();
-  delivery_.expect_more(2 * rest_bytes);
+  const std::uint64_t bytes_before = emitter_.bytes_total();
+  emitter_.expect_more(2 * rest_bytes);
   const auto added = each_face(begin, [&](const auto& face) { return this->add_to(sort, face); });
   if (!added) return added.error();
   const auto matched = sort.match([&](std::uint64_t part, std::uint64_t parts) {
-    delivery_.advance(bytes_before + rest_bytes / parts * part);
+    emitter_.advance(bytes_before + rest_bytes / parts * part);
   });
   if (!matched) return matched.error();
-  delivery_.begin_again(2 * rest_bytes);
+  emitter_.begin_again(2 * rest_bytes);
   std::uint64_t next_corner = 0;
   return each_face(begin,
                    [&](const auto& face) { return this->take_sorted(sort, next_corner, face); });

@@ -5,21 +5,21 @@
 
 namespace planetree::octree {
 
-void MeshDelivery::set_aside(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
-                             std::int64_t value) {
+void FanEmitter::skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
+                         std::int64_t value) {
   const std::uint64_t index_count = corner_count < 3 ? 1 : corner_count - 2;
-  const SetAside why{kind_, fault, record, value, vertex_count_};
-  if (!first_set_aside_) first_set_aside_ = why;
-  sink_.set_aside(next_index_, index_count, why);
+  const SkippedRecord why{kind_, fault, record, value, vertex_count_};
+  if (!first_skipped_) first_skipped_ = why;
+  sink_.skipped(next_index_, index_count, why);
   next_index_ += index_count;
 }
 
-void MeshDelivery::report(std::uint64_t bytes_done) {
+void FanEmitter::report(std::uint64_t bytes_done) {
   sink_.progress(bytes_done, bytes_total_);
   next_report_bytes_ = bytes_done + kReportBytes;
 }
 
-Result<MeshSummary> MeshDelivery::finish(bool float32) {
+Result<MeshSummary> FanEmitter::finish(bool float32) {
   if (record_count_ == 0) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "no triangle: the file holds no faces; give a mesh, not points or lines");
@@ -28,7 +28,7 @@ Result<MeshSummary> MeshDelivery::finish(bool float32) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "no triangle: all %" PRIu64
                       " face records are bad, first %s; export it again",
-                      record_count_, first_set_aside_->text().c_str());
+                      record_count_, first_skipped_->text().c_str());
   }
   sink_.progress(bytes_total_, bytes_total_);
   return MeshSummary{vertex_count_, record_count_, next_index_, float32};

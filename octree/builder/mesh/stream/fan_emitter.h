@@ -15,15 +15,15 @@ namespace planetree::octree {
 /// A corner as a format's reader found it.
 struct MeshCorner {
   Vec3 position;           ///< meaningless unless in_range
-  std::int64_t value = 0;  ///< how the file names its vertex; see SetAside::value
+  std::int64_t value = 0;  ///< how the file names its vertex; see SkippedRecord::value
   bool in_range = true;    ///< the vertex exists
 };
 
 /// Hands polygons to a sink as fans: the one place that counts triangle
 /// indices, judges records and reports progress, for all formats.
-class MeshDelivery {
+class FanEmitter {
  public:
-  MeshDelivery(TriangleSink& sink, RecordKind kind, std::uint64_t bytes_total)
+  FanEmitter(TriangleSink& sink, RecordKind kind, std::uint64_t bytes_total)
       : sink_(sink), kind_(kind), bytes_total_(bytes_total) {}
 
   /// Vertices in the file, as far as they are known; for messages and summary.
@@ -40,8 +40,8 @@ class MeshDelivery {
   Result<bool> polygon_of(std::uint64_t record, std::uint64_t corner_count, Corners& corners) {
     if (corner_count < 3) {
       ++record_count_;
-      set_aside(record, corner_count, RecordFault::kTooFewCorners,
-                static_cast<std::int64_t>(corner_count));
+      skipped(record, corner_count, RecordFault::kTooFewCorners,
+              static_cast<std::int64_t>(corner_count));
       return true;
     }
     std::array<Vec3, 3> three;
@@ -50,7 +50,7 @@ class MeshDelivery {
       if (!corners.first(k, corner)) return false;
       if (const std::optional<RecordFault> fault = fault_of(corner)) {
         ++record_count_;
-        set_aside(record, corner_count, *fault, corner.value);
+        skipped(record, corner_count, *fault, corner.value);
         return true;
       }
       if (k < 3) three[k] = without_negative_zero(corner.position);
@@ -114,8 +114,8 @@ class MeshDelivery {
   /// Equal positions must have equal bits; -0 + 0 is +0, and all else stays.
   static Vec3 without_negative_zero(const Vec3& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
 
-  void set_aside(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
-                 std::int64_t value);
+  void skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
+               std::int64_t value);
   void report(std::uint64_t bytes_done);
 
   TriangleSink& sink_;
@@ -127,7 +127,7 @@ class MeshDelivery {
   std::uint64_t record_count_ = 0;
   std::uint64_t next_index_ = 0;
   bool any_delivered_ = false;
-  std::optional<SetAside> first_set_aside_;
+  std::optional<SkippedRecord> first_skipped_;
 };
 
 }  // namespace planetree::octree

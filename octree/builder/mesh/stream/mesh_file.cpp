@@ -57,7 +57,7 @@ Result<void> MeshFile::read(std::uint64_t offset, std::span<std::byte> out) cons
                     read.error().offset);
 }
 
-Result<std::string> MeshFile::front(std::uint64_t bytes) const {
+Result<std::string> MeshFile::prefix(std::uint64_t bytes) const {
   std::string text(static_cast<std::size_t>(std::min(bytes, size_bytes_)), '\0');
   if (const auto read = this->read(0, std::as_writable_bytes(std::span(text))); !read)
     return read.error();

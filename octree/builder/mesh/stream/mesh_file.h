@@ -31,7 +31,7 @@ class MeshFile {
   Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
 
   /// The file's first bytes as characters: `bytes`, or all if it has fewer.
-  Result<std::string> front(std::uint64_t bytes) const;
+  Result<std::string> prefix(std::uint64_t bytes) const;
 
  private:
   MeshFile(storage::FileHandle file, std::uint64_t size_bytes)

@@ -20,7 +20,7 @@ std::size_t whole_lines(std::string_view text) {
 
 bool MeshLines::refill() {
   if (failure_) return false;
-  const TextPlace begin = after();
+  const TextPosition begin = after();
   const std::uint64_t left = size_bytes_ - begin.offset;
   if (left == 0) return false;
   for (std::uint64_t wanted = std::min(window_bytes_, left);;) {
@@ -44,10 +44,10 @@ bool MeshLines::refill() {
   }
 }
 
-Result<TextPlace> text_begin(const MeshFile& file) {
-  const auto front = file.front(3);
-  if (!front) return front.error();
-  return text_begin(*front);
+Result<TextPosition> text_begin(const MeshFile& file) {
+  const auto prefix = file.prefix(3);
+  if (!prefix) return prefix.error();
+  return text_begin(*prefix);
 }
 
 }  // namespace planetree::octree

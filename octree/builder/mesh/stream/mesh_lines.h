@@ -21,7 +21,7 @@ class MeshLines {
   static constexpr std::uint64_t kMaxLineBytes = std::uint64_t{32} << 20;
 
   /// file  must outlive this.
-  MeshLines(const MeshFile& file, TextPlace start, LineComment comment = LineComment::kNone,
+  MeshLines(const MeshFile& file, TextPosition start, LineComment comment = LineComment::kNone,
             std::size_t window_bytes = MeshWindow::kWindowBytes)
       : size_bytes_(file.size_bytes()),
         comment_(comment),
@@ -46,14 +46,14 @@ class MeshLines {
 
   /// As LineScanner's; the line's characters until the next step.
   [[nodiscard]] std::string_view line() const { return lines_.line(); }
-  [[nodiscard]] TextPlace place() const { return in_file(lines_.place()); }
-  [[nodiscard]] TextPlace after() const { return in_file(lines_.after()); }
+  [[nodiscard]] TextPosition position() const { return in_file(lines_.position()); }
+  [[nodiscard]] TextPosition after() const { return in_file(lines_.after()); }
 
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
-  [[nodiscard]] TextPlace in_file(const TextPlace& place) const {
-    return {base_ + place.offset, place.line};
+  [[nodiscard]] TextPosition in_file(const TextPosition& position) const {
+    return {base_ + position.offset, position.line};
   }
   bool refill();
   bool fail(const Error& error) {
@@ -71,6 +71,6 @@ class MeshLines {
 };
 
 /// Where the text of a file begins, as text_begin().
-Result<TextPlace> text_begin(const MeshFile& file);
+Result<TextPosition> text_begin(const MeshFile& file);
 
 }  // namespace planetree::octree

@@ -41,10 +41,14 @@ class MeshScratch {
     return std::min(memory_bytes_ / 4, kWindowBytes);
   }
 
-  /// Asked once corners have to be sorted on disk, before any of them is written; an error ends
+  /// Recorded once corners have to be sorted on disk, before any of them is written; an error ends
   /// the reading.
-  void before_sorting(std::function<Result<void>()> ask) { before_sorting_ = std::move(ask); }
-  Result<void> ask_to_sort() const { return before_sorting_ ? before_sorting_() : Result<void>(); }
+  void before_sorting(std::function<Result<void>()> options) {
+    before_sorting_ = std::move(options);
+  }
+  Result<void> query_to_sort() const {
+    return before_sorting_ ? before_sorting_() : Result<void>();
+  }
 
   /// Of temporary files that are closed: bytes they had on disk, together.
   [[nodiscard]] std::uint64_t disk_bytes() const { return disk_bytes_; }

@@ -26,9 +26,9 @@ bool is_large(std::string_view number) noexcept {
     std::string_view rest = number.substr(exponent_at + 1);
     take_integer(rest, exponent);
   }
-  const auto places = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
+  const auto indices = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
   // Compared without adding: a saturated exponent must not overflow.
-  return exponent > -places;
+  return exponent > -indices;
 }
 
 template <class T>
@@ -55,7 +55,7 @@ std::string_view without_comment(std::string_view line) noexcept {
 
 }  // namespace
 
-TextPlace text_begin(std::string_view file) noexcept {
+TextPosition text_begin(std::string_view file) noexcept {
   return {file.substr(0, 3) == "\xEF\xBB\xBF" ? std::uint64_t{3} : std::uint64_t{0}, 1};
 }
 
@@ -66,14 +66,14 @@ bool LineScanner::ends_line(char c) const noexcept {
 
 bool LineScanner::next() noexcept {
   if (after_.offset >= text_.size()) return false;
-  place_ = after_;
-  const auto begin = static_cast<std::size_t>(place_.offset);
+  position_ = after_;
+  const auto begin = static_cast<std::size_t>(position_.offset);
   std::size_t end = begin;
   while (end < text_.size() && !ends_line(text_[end])) ++end;
   line_ = text_.substr(begin, end - begin);
   const bool is_pair = line_end_ == LineEnd::kAny && text_.substr(end, 2) == "\r\n";
   after_.offset = std::min(end + (is_pair ? 2 : 1), text_.size());
-  after_.line = place_.line + 1;
+  after_.line = position_.line + 1;
   if (comment_ == LineComment::kHash) line_ = without_comment(line_);
   return true;
 }

@@ -9,7 +9,7 @@
 namespace planetree::octree {
 
 /// Where a line begins.
-struct TextPlace {
+struct TextPosition {
   std::uint64_t offset = 0;  ///< byte in the file
   std::uint64_t line = 1;    ///< counted from 1
 };
@@ -24,15 +24,15 @@ enum class LineComment : std::uint8_t { kNone, kHash };
 
 /// Where the text of a file begins, of which this is the front: behind a byte order mark, if it has
 /// one.
-TextPlace text_begin(std::string_view file) noexcept;
+TextPosition text_begin(std::string_view file) noexcept;
 
 /// Steps through the lines of a text.
 class LineScanner {
  public:
-  explicit LineScanner(std::string_view text, TextPlace start = {},
+  explicit LineScanner(std::string_view text, TextPosition start = {},
                        LineEnd line_end = LineEnd::kAny,
                        LineComment comment = LineComment::kNone) noexcept
-      : text_(text), line_end_(line_end), comment_(comment), place_(start), after_(start) {}
+      : text_(text), line_end_(line_end), comment_(comment), position_(start), after_(start) {}
 
   /// Steps to the next line; false at the end of the text.
   bool next() noexcept;
@@ -42,9 +42,9 @@ class LineScanner {
   /// The current line without its comment and what ends it.
   [[nodiscard]] std::string_view line() const noexcept { return line_; }
   /// Where the current line begins.
-  [[nodiscard]] TextPlace place() const noexcept { return place_; }
+  [[nodiscard]] TextPosition position() const noexcept { return position_; }
   /// Where the line after it begins.
-  [[nodiscard]] TextPlace after() const noexcept { return after_; }
+  [[nodiscard]] TextPosition after() const noexcept { return after_; }
 
  private:
   [[nodiscard]] bool ends_line(char c) const noexcept;
@@ -53,8 +53,8 @@ class LineScanner {
   LineEnd line_end_;
   LineComment comment_;
   std::string_view line_;
-  TextPlace place_;
-  TextPlace after_;
+  TextPosition position_;
+  TextPosition after_;
 };
 
 /// Whether a character parts words.

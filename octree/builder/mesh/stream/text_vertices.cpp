@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kAtOnceBytes = std::size_t{64} << 10;
 
 /// No text has more vertices than one of "0 0 0" each.
-std::uint64_t most_bytes(const MeshFile& file, bool float32) {
+std::uint64_t max_bytes(const MeshFile& file, bool float32) {
   constexpr std::uint64_t kLineBytes = 6;
   return (file.size_bytes() / kLineBytes + 1) * 3 * (float32 ? sizeof(float) : sizeof(double));
 }
@@ -18,7 +18,7 @@ std::uint64_t most_bytes(const MeshFile& file, bool float32) {
 TextVertices::TextVertices(const MeshFile& file, bool float32, MeshScratch& scratch)
     : float32_(float32),
       file_(scratch,
-            std::min(MeshScratch::text_bytes(scratch.memory_bytes()), most_bytes(file, float32))) {}
+            std::min(MeshScratch::text_bytes(scratch.memory_bytes()), max_bytes(file, float32))) {}
 
 Result<void> TextVertices::add(const Vec3& position) {
   const std::size_t at = last_.size();

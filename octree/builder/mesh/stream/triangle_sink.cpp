@@ -21,7 +21,7 @@ const char* kind_name(RecordKind kind) {
 
 }  // namespace
 
-std::string SetAside::text() const {
+std::string SkippedRecord::text() const {
   char cause[128] = {};
   switch (fault) {
     case RecordFault::kVertexNotFinite:

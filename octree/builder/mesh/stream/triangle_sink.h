@@ -26,7 +26,7 @@ enum class RecordFault : std::uint8_t {
 
 /// A record that gives no triangles. Only the first few need words, so the
 /// sentence is made on demand.
-struct SetAside {
+struct SkippedRecord {
   RecordKind kind = RecordKind::kFace;
   RecordFault fault = RecordFault::kVertexNotFinite;
   std::uint64_t record = 0;
@@ -41,7 +41,7 @@ struct SetAside {
 
 /// Takes what a mesh reader finds, in the order of the input, on the thread
 /// that called read_mesh. Indices arrive ascending and without a gap:
-/// triangle() and set_aside() together name each exactly once.
+/// triangle() and skipped() together name each exactly once.
 class TriangleSink {
  public:
   virtual ~TriangleSink() = default;
@@ -52,7 +52,8 @@ class TriangleSink {
 
   /// A record that takes the indices first_index ... first_index + count - 1
   /// and gives no triangle; count >= 1.
-  virtual void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) = 0;
+  virtual void skipped(std::uint64_t first_index, std::uint64_t count,
+                       const SkippedRecord& why) = 0;
 
   /// Called about every 4 MiB and at the end; never decreases. bytes_total is the file's size,
   /// or twice that for a format that is read twice (OBJ). Where faces turn out to jump about,

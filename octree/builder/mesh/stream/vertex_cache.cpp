@@ -18,11 +18,11 @@ VertexCache::VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes)
   const std::uint64_t block_vertices =
       std::min(kBlockBytes, memory_bytes / kBlocks) / position_bytes_;
   block_shift_ = static_cast<int>(std::bit_width(std::max<std::uint64_t>(block_vertices, 1))) - 1;
-  const std::uint64_t room = memory_bytes / (block_bytes() + sizeof(Slot));
+  const std::uint64_t space = memory_bytes / (block_bytes() + sizeof(Slot));
   const std::uint64_t blocks = (vertices.count() >> block_shift_) + 1;
-  if (blocks > room) ways_ = kWays;
+  if (blocks > space) ways_ = kWays;
   slots_.resize(static_cast<std::size_t>(
-      blocks > room ? std::max<std::uint64_t>(room / kWays, 1) * kWays : blocks));
+      blocks > space ? std::max<std::uint64_t>(space / kWays, 1) * kWays : blocks));
   known_.fill(slots_.data());
 }
 

@@ -23,7 +23,7 @@ struct Lister {
   explicit Lister(const Soup& soup)
       : sample(build_sample(soup)),
         pages(sample),
-        tree(tree_facts(sample)),
+        tree(tree_info(sample)),
         grid(sample.mesh.lower()) {}
   void clip(const Point& lower, const Point& upper) {
     grid = ClippedGrid(sample.mesh.lower(),
@@ -72,7 +72,7 @@ struct Lister {
 
   SampleTree sample;
   SamplePages pages;
-  TreeFacts tree;
+  TreeInfo tree;
   ClippedGrid grid;
 };
 
@@ -85,11 +85,11 @@ std::size_t expect_as_one_by_one(Lister& lister, double rounding) {
     const Listing outcome = lister.list(cell, blocks);
     if (outcome != Listing::kListed) {
       EXPECT_EQ(outcome, Listing::kTooMany);
-      EXPECT_GT(most.size(), kMostListed);
+      EXPECT_GT(most.size(), kMaxListed);
       continue;
     }
     ++lists;
-    EXPECT_LE(blocks.count, kMostListed);
+    EXPECT_LE(blocks.count, kMaxListed);
     Lists found;
     for (unsigned i = 0; i < blocks.count; ++i) {
       EXPECT_TRUE(i == 0 || blocks.links[i - 1] < blocks.links[i]);
@@ -112,7 +112,7 @@ TEST(BlockLister, ListsWhatMayTouchAnOctant) {
 }
 
 TEST(BlockLister, LeavesNothingOutWhereSidesAreNoFloats) {
-  Lister lister(moved(sphere(5), {0x1.234567p-3, 0x1.abcdefp3, -0x1.3579bdp-5}));
+  Lister lister(perturbed(sphere(5), {0x1.234567p-3, 0x1.abcdefp3, -0x1.3579bdp-5}));
   EXPECT_GT(expect_as_one_by_one(lister, 0x1p-18), 40u);
 }
 
@@ -147,10 +147,10 @@ TEST(BlockLister, ListsNoMoreThanFitAList) {
       break;
     }
   }
-  EXPECT_TRUE(listed.contains(kMostListed));
-  EXPECT_LE(*listed.rbegin(), kMostListed);
-  EXPECT_TRUE(too_many.contains(kMostListed + 1));
-  EXPECT_GT(*too_many.begin(), kMostListed);
+  EXPECT_TRUE(listed.contains(kMaxListed));
+  EXPECT_LE(*listed.rbegin(), kMaxListed);
+  EXPECT_TRUE(too_many.contains(kMaxListed + 1));
+  EXPECT_GT(*too_many.begin(), kMaxListed);
 }
 
 TEST(BlockLister, IsLostWithAPage) {
@@ -178,10 +178,10 @@ TEST(BlockLister, IsLostWithAPage) {
 
 // The file depends on it.
 TEST(BlockLister, ListsTheSameOnEveryInstructionSet) {
-  for (const Soup& soup : {moved(sphere(5), {0.1f, 3.7f, -0.3f}), scattered(2000, 0.05)}) {
+  for (const Soup& soup : {perturbed(sphere(5), {0.1f, 3.7f, -0.3f}), scattered(2000, 0.05)}) {
     Lister lister(soup);
     const std::vector<GridCell> cells = lister.cells(120);
-    const auto told = on_each_target([&] {
+    const auto certain = on_each_target([&] {
       std::vector<std::uint32_t> bits;
       for (const GridCell& cell : cells) {
         MaskBlocks blocks;
@@ -192,8 +192,8 @@ TEST(BlockLister, ListsTheSameOnEveryInstructionSet) {
       }
       return bits;
     });
-    ASSERT_FALSE(told.empty());
-    for (const auto& bits : told) EXPECT_EQ(bits == told[0], true);
+    ASSERT_FALSE(certain.empty());
+    for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
   }
 }
 

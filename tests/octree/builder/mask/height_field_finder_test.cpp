@@ -19,12 +19,12 @@ struct Marks {
 
 using BlockCall = std::function<void(const BlockView&, bool marked)>;
 
-Marks each_mark(const SheetModel& model, const BlockCall& look) {
+Marks each_mark(const HeightFieldModel& model, const BlockCall& look) {
   TreeFrames frames(*model.tree.tree, &model.mask);
-  const SheetFinder finder(model.facts, model.mask_facts);
+  const HeightFieldFinder finder(model.info, model.mask_info);
   Marks marks;
   model.each_block([&](const BlockView& block, std::uint32_t) {
-    const bool marked = finder.is_in_sheet(block, frames.reader());
+    const bool marked = finder.is_height_field(block, frames.reader());
     ++marks.blocks;
     marks.marked += marked;
     look(block, marked);
@@ -38,13 +38,13 @@ void expect_sides(const Surface& surface, const Triangle& triangle, bool middle)
   const auto& [a, b, c] = triangle;
   const Point normal = (b - a).cross(c - a);
   ASSERT_GT(normal.norm(), 0);
-  const Point place = middle ? Point((a + b + c) / 3) : Point(0.98 * a + 0.01 * b + 0.01 * c);
+  const Point point = middle ? Point((a + b + c) / 3) : Point(0.98 * a + 0.01 * b + 0.01 * c);
   for (const double by : {0x1p-31, -0x1p-31})
-    EXPECT_EQ(surface.winding(place + by * normal.normalized()), by > 0 ? 0 : 1);
+    EXPECT_EQ(surface.winding(point + by * normal.normalized()), by > 0 ? 0 : 1);
 }
 
 // Nothing is marked that should not be; how much is.
-Marks expect_true_marks(const SheetModel& model) {
+Marks expect_true_marks(const HeightFieldModel& model) {
   return each_mark(model, [&](const BlockView& block, bool marked) {
     if (!marked || testing::Test::HasFailure()) return;
     for (unsigned i = 0; i < block.triangle_count(); ++i)
@@ -52,7 +52,7 @@ Marks expect_true_marks(const SheetModel& model) {
   });
 }
 
-Marks expect_true_marks(const Soup& soup) { return expect_true_marks(SheetModel(soup)); }
+Marks expect_true_marks(const Soup& soup) { return expect_true_marks(HeightFieldModel(soup)); }
 
 // Maps all x between two to a part of the way between them.
 Soup squeezed(Soup soup, double from, double to, double part) {
@@ -64,32 +64,32 @@ Soup squeezed(Soup soup, double from, double to, double part) {
   return soup;
 }
 
-TEST(SheetFinder, FindsMostOfASphere) {
+TEST(HeightFieldFinder, FindsMostOfASphere) {
   const Marks marks = expect_true_marks(sphere(5));
   EXPECT_GT(marks.blocks, 500u);
   EXPECT_GT(marks.share(), 0.95);
 }
 
-TEST(SheetFinder, FindsThemInDoublesToo) {
-  const SheetModel model(moved(sphere(5), {0.1, 0.7, -0.3}));
-  ASSERT_TRUE(model.facts.shape.float64);
+TEST(HeightFieldFinder, FindsThemInDoublesToo) {
+  const HeightFieldModel model(perturbed(sphere(5), {0.1, 0.7, -0.3}));
+  ASSERT_TRUE(model.info.shape.float64);
   EXPECT_GT(expect_true_marks(model).share(), 0.95);
 }
 
-TEST(SheetFinder, FindsNoneWhereTheInsideIsInFront) {
+TEST(HeightFieldFinder, FindsNoneWhereTheInsideIsInFront) {
   EXPECT_EQ(expect_true_marks(inside_out(sphere(4))).marked, 0u);
 }
 
 // Where one ends in the other the winding number is 2 behind, and 1 in front.
-TEST(SheetFinder, FindsNoneWithinAnotherSolid) {
-  const SheetModel model(joined({sphere(5), moved(sphere(5), {0.9, 0, 0})}));
+TEST(HeightFieldFinder, FindsNoneWithinAnotherSolid) {
+  const HeightFieldModel model(joined({sphere(5), perturbed(sphere(5), {0.9, 0, 0})}));
   const Marks marks = expect_true_marks(model);
   EXPECT_GT(marks.share(), 0.4);
   EXPECT_LT(marks.share(), 0.7);
 }
 
 // Shells: the number rises by one behind each of them, and goes down in a hollow one.
-TEST(SheetFinder, FindsTheWallsOfHollowSolids) {
+TEST(HeightFieldFinder, FindsTheWallsOfHollowSolids) {
   const Marks hollow = expect_true_marks(joined({sphere(5), inside_out(scaled(sphere(5), 0.5))}));
   EXPECT_GT(hollow.share(), 0.9);
   const Marks nested = expect_true_marks(joined({sphere(5), scaled(sphere(5), 0.5)}));
@@ -97,15 +97,15 @@ TEST(SheetFinder, FindsTheWallsOfHollowSolids) {
   EXPECT_LT(nested.share(), 0.55);
 }
 
-TEST(SheetFinder, FindsNoneWhereLayersAreNear) {
+TEST(HeightFieldFinder, FindsNoneWhereLayersAreNear) {
   EXPECT_EQ(expect_true_marks(shells(3)).marked, 0u);
   EXPECT_EQ(expect_true_marks(copies(sphere(3), 2)).marked, 0u);
 }
 
 // Blocks of its rim may be in sheets, but for those of a thin one's needles.
-TEST(SheetFinder, FindsNoneOnTheFacesOfAThinPlate) {
+TEST(HeightFieldFinder, FindsNoneOnTheFacesOfAThinPlate) {
   for (const double thickness : {0.0, 0x1p-40, 0x1p-20, 0.001}) {
-    const SheetModel model(box({0, 0, 0}, {1, 1, thickness}, 20));
+    const HeightFieldModel model(box({0, 0, 0}, {1, 1, thickness}, 20));
     std::size_t on_faces = 0;
     const Marks marks = each_mark(model, [&](const BlockView& block, bool marked) {
       const Triangle first = block.triangle(0);
@@ -120,17 +120,17 @@ TEST(SheetFinder, FindsNoneOnTheFacesOfAThinPlate) {
 }
 
 // All but what is along its edges, where other faces do not rise in the same direction.
-TEST(SheetFinder, FindsTheFacesOfABox) {
+TEST(HeightFieldFinder, FindsTheFacesOfABox) {
   EXPECT_GT(expect_true_marks(box({0, 0, 0}, {1, 1.3, 1.6}, 32)).share(), 0.6);
   // All of it is one block.
   EXPECT_EQ(expect_true_marks(box({0, 0, 0}, {1, 1, 1})).marked, 0u);
 }
 
-TEST(SheetFinder, FindsNoneWithNeedlesOrTrianglesOfNoArea) {
+TEST(HeightFieldFinder, FindsNoneWithNeedlesOrTrianglesOfNoArea) {
   const Soup even = box({0, 0, 0}, {1, 1, 1}, 32);
   for (const double part : {0.0, 0x1p-30, 0x1p-15}) {
     const double upper = 0.5 + 0x1p-5 * part;
-    const SheetModel model(squeezed(even, 0.5, 0.53125, part));
+    const HeightFieldModel model(squeezed(even, 0.5, 0.53125, part));
     const Marks marks = each_mark(model, [&](const BlockView& block, bool marked) {
       bool left = false, right = false;
       for (unsigned i = 0; i < block.header().vertex_count(); ++i) {
@@ -145,7 +145,7 @@ TEST(SheetFinder, FindsNoneWithNeedlesOrTrianglesOfNoArea) {
 }
 
 // By the vertex of another solid, which is as small as what is looked at, or goes on beyond.
-TEST(SheetFinder, FindsNoneThatIsTouched) {
+TEST(HeightFieldFinder, FindsNoneThatIsTouched) {
   const Vec3 tip{1, 0.40625, 0.453125};
   const Soup solid = box({0, 0, 0}, {1, 1, 1}, 16);
   const Point at(tip.x, tip.y, tip.z);
@@ -153,7 +153,7 @@ TEST(SheetFinder, FindsNoneThatIsTouched) {
     const double x = 1 + height;
     const Vec3 a{x, 0.4, 0.4}, b{x, 0.5, 0.4}, c{x, 0.45, 0.5};
     const Soup other = {{tip, b, a}, {tip, c, b}, {tip, a, c}, {a, b, c}};
-    const SheetModel model(height > 0 ? joined({solid, other}) : solid);
+    const HeightFieldModel model(height > 0 ? joined({solid, other}) : solid);
     ASSERT_EQ(model.tree.mesh.upper().x(), x);
     std::size_t there = 0;
     expect_true_marks(model);
@@ -168,15 +168,15 @@ TEST(SheetFinder, FindsNoneThatIsTouched) {
   }
 }
 
-TEST(SheetFinder, FindsNoneThatIsTooFarFromTheOrigin) {
-  EXPECT_GT(expect_true_marks(moved(sphere(4), {0x1p10, 0, 0})).share(), 0.9);
+TEST(HeightFieldFinder, FindsNoneThatIsTooFarFromTheOrigin) {
+  EXPECT_GT(expect_true_marks(perturbed(sphere(4), {0x1p10, 0, 0})).share(), 0.9);
   for (const Vec3& by : {Vec3{0x1p20, 0, 0}, Vec3{0, 0, -0x1p20}})
-    EXPECT_EQ(expect_true_marks(moved(sphere(4), by)).marked, 0u);
+    EXPECT_EQ(expect_true_marks(perturbed(sphere(4), by)).marked, 0u);
 }
 
-TEST(SheetFinder, FindsNoneWhereAPageIsMissing) {
-  const SheetModel model(sphere(4));
-  const SheetFinder finder(model.facts, model.mask_facts);
+TEST(HeightFieldFinder, FindsNoneWhereAPageIsMissing) {
+  const HeightFieldModel model(sphere(4));
+  const HeightFieldFinder finder(model.info, model.mask_info);
   TreeFrames frames(*model.tree.tree, &model.mask);
   struct Withholding {
     PageReader pages;
@@ -191,11 +191,11 @@ TEST(SheetFinder, FindsNoneWhereAPageIsMissing) {
                             }};
     std::size_t marked = 0;
     model.each_block([&](const BlockView& block, std::uint32_t) {
-      marked += finder.is_in_sheet(block, reader);
+      marked += finder.is_height_field(block, reader);
     });
     return marked;
   };
-  const std::uint32_t first_mask_page = model.mask_facts.first_page;
+  const std::uint32_t first_mask_page = model.mask_info.first_page;
   const std::size_t all = count(0, 0);
   EXPECT_GT(all, 0u);
   EXPECT_LT(count(first_mask_page - 1, first_mask_page), all);
@@ -204,17 +204,17 @@ TEST(SheetFinder, FindsNoneWhereAPageIsMissing) {
 }
 
 // The file depends on it.
-TEST(SheetFinder, FindsTheSameOnEveryInstructionSet) {
-  for (const Soup& soup : {joined({sphere(4), moved(sphere(4), {0.9f, 0.1f, 0.2f})}),
+TEST(HeightFieldFinder, FindsTheSameOnEveryInstructionSet) {
+  for (const Soup& soup : {joined({sphere(4), perturbed(sphere(4), {0.9f, 0.1f, 0.2f})}),
                            box({0, 0, 0}, {1, 1, 0.1}, 20), grains(200, 0.05)}) {
-    const SheetModel model(soup);
-    const auto told = on_each_target([&] {
+    const HeightFieldModel model(soup);
+    const auto certain = on_each_target([&] {
       std::vector<bool> marks;
       each_mark(model, [&](const BlockView&, bool marked) { marks.push_back(marked); });
       return marks;
     });
-    ASSERT_FALSE(told.empty());
-    for (const std::vector<bool>& marks : told) EXPECT_EQ(marks, told[0]);
+    ASSERT_FALSE(certain.empty());
+    for (const std::vector<bool>& marks : certain) EXPECT_EQ(marks, certain[0]);
   }
 }
 

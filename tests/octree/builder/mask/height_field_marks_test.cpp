@@ -15,15 +15,16 @@
 namespace planetree::octree {
 namespace {
 
-std::vector<bool> marks_in(const SheetModel& model, const FilePage& page) {
+std::vector<bool> marks_in(const HeightFieldModel& model, const FilePage& page) {
   RawStreams streams;
   std::vector<bool> marks;
-  EXPECT_EQ(streams.cut(page.bytes, model.facts.shape), nullptr);
-  for (std::size_t i = 0; i < streams.head.block_count; ++i) marks.push_back(streams.in_sheet(i));
+  EXPECT_EQ(streams.cut(page.bytes, model.info.shape), nullptr);
+  for (std::size_t i = 0; i < streams.head.block_count; ++i)
+    marks.push_back(streams.is_height_field(i));
   return marks;
 }
 
-std::vector<FilePage> pages_of(const SheetModel& model) {
+std::vector<FilePage> pages_of(const HeightFieldModel& model) {
   std::vector<FilePage> pages;
   for (std::uint32_t number = 0; number < model.tree.tree->pages().size(); ++number)
     pages.push_back(*model.tree.tree->pages().encode(number));
@@ -32,23 +33,24 @@ std::vector<FilePage> pages_of(const SheetModel& model) {
 
 // Without a mark, and all of what is not a mark stays as it is.
 FilePage unmarked(FilePage page, std::size_t blocks) {
-  for (std::size_t i = 0; i < blocks; ++i) page.bytes[page.blocks_at + i] &= ~std::byte{kSheetBit};
+  for (std::size_t i = 0; i < blocks; ++i)
+    page.bytes[page.blocks_at + i] &= ~std::byte{kHeightFieldBit};
   return page;
 }
 
-TEST(SheetMarks, AreOfTheBlocksThatAreFound) {
-  const SheetModel model(joined({sphere(4), moved(sphere(4), {0.9, 0, 0})}));
+TEST(HeightFieldMarks, AreOfTheBlocksThatAreFound) {
+  const HeightFieldModel model(joined({sphere(4), perturbed(sphere(4), {0.9, 0, 0})}));
   std::vector<std::vector<bool>> found(model.tree.tree->pages().size());
   TreeFrames frames(*model.tree.tree, &model.mask);
-  const SheetFinder finder(model.facts, model.mask_facts);
-  std::size_t in_sheets = 0, in_none = 0;
+  const HeightFieldFinder finder(model.info, model.mask_info);
+  std::size_t height_fields = 0, in_none = 0;
   model.each_block([&](const BlockView& block, std::uint32_t page) {
-    found[page].push_back(finder.is_in_sheet(block, frames.reader()));
-    ++(found[page].back() ? in_sheets : in_none);
+    found[page].push_back(finder.is_height_field(block, frames.reader()));
+    ++(found[page].back() ? height_fields : in_none);
   });
-  ASSERT_GT(in_sheets, 0u);
+  ASSERT_GT(height_fields, 0u);
   ASSERT_GT(in_none, 0u);
-  SheetMarks marks(*model.tree.tree, model.mask);
+  HeightFieldMarks marks(*model.tree.tree, model.mask);
   const std::vector<FilePage> before = pages_of(model);
   for (std::uint32_t number = 0; number < before.size(); ++number) {
     FilePage page = before[number];
@@ -58,10 +60,10 @@ TEST(SheetMarks, AreOfTheBlocksThatAreFound) {
   }
 }
 
-TEST(SheetMarks, DoNotDependOnThreads) {
-  const SheetModel model(sphere(5));
+TEST(HeightFieldMarks, DoNotDependOnThreads) {
+  const HeightFieldModel model(sphere(5));
   std::vector<FilePage> one = pages_of(model), many = one;
-  SheetMarks marks(*model.tree.tree, model.mask), others(*model.tree.tree, model.mask);
+  HeightFieldMarks marks(*model.tree.tree, model.mask), others(*model.tree.tree, model.mask);
   for (std::uint32_t number = 0; number < one.size(); ++number)
     ASSERT_TRUE(marks.mark(number, one[number]));
   tbb::parallel_for(std::size_t{0}, many.size(), [&](std::size_t number) {
@@ -73,10 +75,10 @@ TEST(SheetMarks, DoNotDependOnThreads) {
 
 // A mark that is missing would be another file: whichever read fails, the page's own or one of a
 // walk around a block.
-TEST(SheetMarks, FailWithTheDisk) {
+TEST(HeightFieldMarks, FailWithTheDisk) {
   storage::FaultyCalls calls;
   storage::SpillFile file(std::filesystem::temp_directory_path(), 0, calls);
-  const SheetModel model(sphere(5), file);
+  const HeightFieldModel model(sphere(5), file);
   std::vector<FilePage> pages = pages_of(model);
   const std::uint32_t last = static_cast<std::uint32_t>(pages.size()) - 1;
   std::size_t failures = 0;
@@ -84,7 +86,7 @@ TEST(SheetMarks, FailWithTheDisk) {
     calls = storage::FaultyCalls();
     calls.fault = storage::FaultyCalls::Fault::kError;
     calls.fault_at = static_cast<int>(failures);
-    SheetMarks marks(*model.tree.tree, model.mask);
+    HeightFieldMarks marks(*model.tree.tree, model.mask);
     const auto marked = marks.mark(last, pages[last]);
     failed = !marked;
     EXPECT_TRUE(marked || marked.error().code == ErrorCode::kReadFailed);

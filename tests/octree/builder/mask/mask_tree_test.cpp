@@ -23,7 +23,9 @@ struct Case {
   Soup soup;
 };
 
-Soup doubled_sheet(unsigned side) { return joined({sheet(side), inside_out(sheet(side))}); }
+Soup doubled_height_field(unsigned side) {
+  return joined({height_field(side), inside_out(height_field(side))});
+}
 
 // Vertices, edges and faces on the borders of cells, and on the box's greatest
 // corner, which the cells share that are about it.
@@ -38,9 +40,9 @@ std::vector<Case> cases() {
       {"sphere", sphere(3)},
       {"nested", joined({sphere(3), inside_out(scaled(sphere(2), 0.5)), scaled(sphere(2), 0.25)})},
       {"doubled", copies(sphere(2), 2)},
-      {"overlapping", joined({sphere(3), moved(sphere(2), {0.7, 0.3, -0.2})})},
+      {"overlapping", joined({sphere(3), perturbed(sphere(2), {0.7, 0.3, -0.2})})},
       {"inside out", inside_out(sphere(3))},
-      {"both ways round", joined({sphere(3), inside_out(moved(sphere(3), {1.5, 0, 0}))})},
+      {"both ways round", joined({sphere(3), inside_out(perturbed(sphere(3), {1.5, 0, 0}))})},
       {"on cell corners", on_cell_corners()},
       {"box", box(low, high, 8)},
       {"boxes in boxes",
@@ -48,11 +50,11 @@ std::vector<Case> cases() {
                copies(box({0.5, -1, -1}, {1, 1, 1}, 4), 2)})},
       {"fine box", joined({box({0, 0, 0}, {0.9, 0.8, 0.7}, 24), inside_out(sphere(1))})},
       {"flat", joined({box({0, 0, 0}, {1, 1, 0}, 12)})},
-      {"zero thickness", doubled_sheet(12)},
+      {"zero thickness", doubled_height_field(12)},
       {"pair of triangles", joined({repeated(1), inside_out(repeated(1))})},
       {"grains", grains(150, 0.3)},
-      {"far away", moved(scaled(sphere(3), 0x1p-10), {0x1p20, -0x1p20, 3})},
-      {"farther away", moved(box({0, 0, 0}, {8, 8, 8}, 8), {0x1p50, 0x1p52, -0x1p51})},
+      {"far away", perturbed(scaled(sphere(3), 0x1p-10), {0x1p20, -0x1p20, 3})},
+      {"farther away", perturbed(box({0, 0, 0}, {8, 8, 8}, 8), {0x1p50, 0x1p52, -0x1p51})},
   };
 }
 
@@ -69,9 +71,9 @@ class Corners {
 
   std::int64_t at(const GridCell& cell, unsigned corner) {
     const Point point = sample_.grid.corner(cell, corner);
-    const auto [place, added] = known_.try_emplace({point.x(), point.y(), point.z()});
-    if (added) place->second = sample_.surface.winding(point);
-    return place->second;
+    const auto [index, added] = known_.try_emplace({point.x(), point.y(), point.z()});
+    if (added) index->second = sample_.surface.winding(point);
+    return index->second;
   }
 
  private:
@@ -84,7 +86,7 @@ std::vector<Triangle> touching(const SampleMask& sample, const GridCell& cell) {
 }
 
 struct Found {
-  std::size_t colours = 0, corners = 0, specials = 0;
+  std::size_t side_grid = 0, corners = 0, specials = 0;
 };
 
 // Everything the mask says against all triangles.
@@ -113,7 +115,7 @@ Found expect_truth(const SampleMask& sample) {
       const std::int64_t first = corners.at(child, 0);
       EXPECT_EQ((first > 0) - (first < 0), colour);
       for (unsigned i = 1; i < 8; ++i) EXPECT_EQ(corners.at(child, i), first);
-      ++found.colours;
+      ++found.side_grid;
     }
   });
   return found;
@@ -158,12 +160,12 @@ TEST(MaskTree, SaysOfEveryModelWhatIsTrue) {
     const SampleMask sample(c.soup);
     expect_form(sample.tree);
     const Found found = expect_truth(sample);
-    all.colours += found.colours;
+    all.side_grid += found.side_grid;
     all.corners += found.corners;
     all.specials += found.specials;
     if (HasFailure()) break;
   }
-  EXPECT_GT(all.colours, 500u);
+  EXPECT_GT(all.side_grid, 500u);
   EXPECT_GT(all.corners, 2000u);
   EXPECT_GT(all.specials, 10u);
 }
@@ -256,12 +258,12 @@ TEST(MaskTree, LeavesCornersUncountedWhereNumbersAreLarge) {
 // More in one finest cell than a leaf would have otherwise.
 TEST(MaskTree, EndsAtTheFinestLevel) {
   const Soup seed =
-      moved(scaled(grains(60, 1), 0x1p-24), {0.3 + 0x1p-20, 0.3 + 0x1p-20, 0.3 + 0x1p-20});
+      perturbed(scaled(grains(60, 1), 0x1p-24), {0.3 + 0x1p-20, 0.3 + 0x1p-20, 0.3 + 0x1p-20});
   const SampleMask sample(joined({box({0, 0, 0}, {1, 1, 1}), seed}));
   EXPECT_EQ(sample.tree.levels, kLevels);
   expect_form(sample.tree);
   const Found found = expect_truth(sample);
-  EXPECT_GT(found.colours, 100u);
+  EXPECT_GT(found.side_grid, 100u);
 }
 
 // Few as they are: most of the root is told from the two corners where they are.

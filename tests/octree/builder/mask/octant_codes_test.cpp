@@ -101,13 +101,13 @@ void expect_between(const Soup& soup, bool floats, double over) {
 
 TEST(OctantCodes, AreExactWhereSidesAreFloats) {
   expect_between(sphere(4), true, 0);
-  expect_between(moved(sphere(3), {3.3f, -7.7f, 0.1f}), true, 0);
+  expect_between(perturbed(sphere(3), {3.3f, -7.7f, 0.1f}), true, 0);
 }
 
 // Middles at a vertex or between floats, and sides between floats.
 TEST(OctantCodes, LeaveNothingOutWhereSidesAreNoFloats) {
   expect_between(sphere(4), false, 0x1p-22);
-  expect_between(moved(sphere(3), {3.3f, -7.7f, 0.1f}), false, 0x1p-19);
+  expect_between(perturbed(sphere(3), {3.3f, -7.7f, 0.1f}), false, 0x1p-19);
 }
 
 TEST(OctantCodes, AreExactWhereVerticesAreDoubles) {
@@ -117,9 +117,9 @@ TEST(OctantCodes, AreExactWhereVerticesAreDoubles) {
 }
 
 TEST(OctantCodes, AreTheSameOnEveryInstructionSet) {
-  const SampleTree sample = build_sample(moved(sphere(4), {0.1f, 0.2f, 0.3f}));
+  const SampleTree sample = build_sample(perturbed(sphere(4), {0.1f, 0.2f, 0.3f}));
   const SamplePages pages(sample);
-  const auto told = on_each_target([&] {
+  const auto certain = on_each_target([&] {
     std::vector<unsigned> bits;
     for (const Halved& box : boxes(sample.mesh, false)) {
       const OctantCodes codes(box.lower, box.middle, box.upper);
@@ -131,8 +131,8 @@ TEST(OctantCodes, AreTheSameOnEveryInstructionSet) {
     }
     return bits;
   });
-  ASSERT_FALSE(told.empty());
-  for (const auto& bits : told) EXPECT_EQ(bits == told[0], true);
+  ASSERT_FALSE(certain.empty());
+  for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ void expect_as_one_by_one(MakePair make, int cells) {
   for (int i = 0; i < cells && !testing::Test::HasFailure(); ++i) {
     const TriangleAndCell cell(make(noise), noise);
     OctantOverlap overlap(cell.lower, cell.middle, cell.upper);
-    std::vector<unsigned> touched, asked, places;
+    std::vector<unsigned> touched, queried, indices;
     for (unsigned count = noise.bits() % (OctantOverlap::kAtOnce + 1); count > 0; --count) {
       TriangleAndCell other = cell;
       if (!touched.empty()) {
@@ -64,19 +64,19 @@ void expect_as_one_by_one(MakePair make, int cells) {
         const Point way = size * noise.uniform(0, 0.4) * any_point(noise, -1, 1);
         for (Point& corner : other.triangle) corner += way;
       }
-      asked.push_back(noise.bits() % 3 == 0 ? noise.bits() % 256 : 255);
-      touched.push_back(other.touched() & asked.back());
+      queried.push_back(noise.bits() % 3 == 0 ? noise.bits() % 256 : 255);
+      touched.push_back(other.touched() & queried.back());
       some += touched.back() != 0 && touched.back() != 255;
       ASSERT_FALSE(overlap.full());
-      overlap.add(other.triangle, asked.back(), 7 * count);
-      places.push_back(7 * count);
+      overlap.add(other.triangle, queried.back(), 7 * count);
+      indices.push_back(7 * count);
     }
     EXPECT_EQ(overlap.full(), touched.size() == OctantOverlap::kAtOnce);
-    const OctantOverlap::Told told = overlap.take();
-    ASSERT_EQ(told.count, touched.size());
-    for (unsigned k = 0; k < told.count; ++k) {
-      EXPECT_EQ(told.octants[k], touched[k]);
-      EXPECT_EQ(told.places[k], places[k]);
+    const OctantOverlap::Certain certain = overlap.take();
+    ASSERT_EQ(certain.count, touched.size());
+    for (unsigned k = 0; k < certain.count; ++k) {
+      EXPECT_EQ(certain.octants[k], touched[k]);
+      EXPECT_EQ(certain.indices[k], indices[k]);
     }
     EXPECT_EQ(overlap.take().count, 0u);
   }

@@ -20,7 +20,7 @@ namespace {
 /// A box in doubles, turned any way, and the same in float.
 struct TestPrism {
   Point origin = Point::Zero();
-  Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotated = Eigen::Matrix3d::Identity();
   Point lower = Point::Zero(), upper = Point::Zero();
   double clear = 0;
 
@@ -29,7 +29,7 @@ struct TestPrism {
     for (int row = 0; row < 3; ++row) {
       const auto at = static_cast<std::size_t>(row);
       for (int k = 0; k < 3; ++k)
-        prism.turned[at][static_cast<std::size_t>(k)] = static_cast<float>(turned(row, k));
+        prism.rotated[at][static_cast<std::size_t>(k)] = static_cast<float>(rotated(row, k));
       prism.lower[at] = static_cast<float>(lower[row]);
       prism.upper[at] = static_cast<float>(upper[row]);
     }
@@ -48,9 +48,9 @@ TestPrism random_prism(Noise& noise, const Triangle& near, double size) {
   if (!(axis.norm() > 0) || noise.bits() % 4 == 0)
     axis = Point(noise.uniform(-1, 1), noise.uniform(-1, 1), noise.uniform(0.1, 1));
   const Point across = axis.unitOrthogonal();
-  prism.turned.row(0) = across;
-  prism.turned.row(1) = axis.normalized().cross(across);
-  prism.turned.row(2) = axis.normalized();
+  prism.rotated.row(0) = across;
+  prism.rotated.row(1) = axis.normalized().cross(across);
+  prism.rotated.row(2) = axis.normalized();
   for (int k = 0; k < 3; ++k) {
     prism.lower[k] = -size * noise.uniform(0, 2);
     prism.upper[k] = size * noise.uniform(0, 2);
@@ -61,7 +61,7 @@ TestPrism random_prism(Noise& noise, const Triangle& near, double size) {
 
 /// Moves sides or the middle of a box to where a corner is, as far as doubles tell.
 void bring_to(const Point& corner, Noise& noise, TestPrism& prism) {
-  const Point at = prism.turned * (corner - prism.origin);
+  const Point at = prism.rotated * (corner - prism.origin);
   for (int k = 0; k < 3; ++k) switch (noise.bits() % 8) {
       case 0:
         prism.lower[k] = at[k];
@@ -87,7 +87,7 @@ struct DoubleTest {
 
   DoubleTest(const TestPrism& prism, const Triangle& triangle) {
     Triangle at;
-    for (std::size_t k = 0; k < 3; ++k) at[k] = prism.turned * (triangle[k] - prism.origin);
+    for (std::size_t k = 0; k < 3; ++k) at[k] = prism.rotated * (triangle[k] - prism.origin);
     const Point least = at[0].cwiseMin(at[1]).cwiseMin(at[2]);
     const Point greatest = at[0].cwiseMax(at[1]).cwiseMax(at[2]);
     met = (least.array() <= prism.upper.array()).all() &&
@@ -101,13 +101,13 @@ struct DoubleTest {
     std::sort(sides.begin(), sides.end());
     may_rise = greatest.z() < prism.upper.z() - prism.clear &&
                least.z() > prism.lower.z() + prism.clear &&
-               normal.z() > Sheet::kLeastRise * normal.norm() &&
-               normal.norm() > Sheet::kLeastSine * sides[1] * sides[2] &&
+               normal.z() > HeightField::kMinRise * normal.norm() &&
+               normal.norm() > HeightField::kMinSine * sides[1] * sides[2] &&
                sides[0] > 0x1p-24 * std::hypot(at[0].norm(), sides[2]);
   }
 };
 
-struct Told {
+struct Certain {
   std::size_t triangles = 0, met = 0, rising = 0, middle = 0;  // by the filter
   std::size_t truly_met = 0, truly_rising = 0, truly_middle = 0;
 };
@@ -119,11 +119,11 @@ double reach_of(const BlockView& block) {
   return reach;
 }
 
-Told expect_no_lies(const Soup& soup) {
+Certain expect_no_lies(const Soup& soup) {
   const SampleTree sample = build_sample(soup);
   const SamplePages pages(sample);
   Noise noise(5);
-  Told told;
+  Certain certain;
   each_block(sample, pages, [&](const BlockView& block, std::uint32_t) {
     for (int k = 0; k < 20 && !testing::Test::HasFailure(); ++k) {
       const double size = reach_of(block) * std::ldexp(1, 2 - static_cast<int>(noise.bits() % 8));
@@ -139,17 +139,17 @@ Told expect_no_lies(const Soup& soup) {
         EXPECT_TRUE(met || !truth.met);
         EXPECT_TRUE(middle || !truth.middle);
         EXPECT_TRUE(!rising || truth.may_rise);
-        ++told.triangles;
-        told.met += met;
-        told.rising += rising;
-        told.middle += middle;
-        told.truly_met += truth.met;
-        told.truly_rising += truth.may_rise;
-        told.truly_middle += truth.middle;
+        ++certain.triangles;
+        certain.met += met;
+        certain.rising += rising;
+        certain.middle += middle;
+        certain.truly_met += truth.met;
+        certain.truly_rising += truth.may_rise;
+        certain.truly_middle += truth.middle;
       }
     }
   });
-  return told;
+  return certain;
 }
 
 Soup thinned(Soup soup, double factor) {
@@ -160,14 +160,15 @@ Soup thinned(Soup soup, double factor) {
 
 // Almost all that doubles tell is told, so that few triangles are looked at twice.
 TEST(PrismFilter, TellsWhatDoublesTell) {
-  for (const Soup& soup : {sphere(4), moved(sphere(4), {0.1, 0.7, -0.3}), scattered(1000, 0.1)}) {
-    const Told told = expect_no_lies(soup);
-    EXPECT_GT(told.triangles, 10000u);
-    EXPECT_LE(told.met, told.truly_met + told.triangles / 100);
-    EXPECT_LE(told.middle, told.truly_middle + told.triangles / 100);
-    EXPECT_LT(told.truly_met, told.triangles * 9 / 10);
-    EXPECT_GT(told.truly_rising, told.triangles / 20);
-    EXPECT_GT(told.rising, told.truly_rising * 9 / 10);
+  for (const Soup& soup :
+       {sphere(4), perturbed(sphere(4), {0.1, 0.7, -0.3}), scattered(1000, 0.1)}) {
+    const Certain certain = expect_no_lies(soup);
+    EXPECT_GT(certain.triangles, 10000u);
+    EXPECT_LE(certain.met, certain.truly_met + certain.triangles / 100);
+    EXPECT_LE(certain.middle, certain.truly_middle + certain.triangles / 100);
+    EXPECT_LT(certain.truly_met, certain.triangles * 9 / 10);
+    EXPECT_GT(certain.truly_rising, certain.triangles / 20);
+    EXPECT_GT(certain.rising, certain.truly_rising * 9 / 10);
   }
 }
 
@@ -189,10 +190,10 @@ TEST(PrismFilter, MissesNothingOfTinyAndFarBlocks) {
   for (const double size : {0x1p-12, 0x1p-25, 0x1p-45, 0x1p-90}) {
     const Soup tiny = scaled(scattered(300, 0.2), size);
     EXPECT_GT(expect_no_lies(joined({tiny, whole})).truly_met, 0u);
-    EXPECT_GT(expect_no_lies(joined({moved(tiny, {0.7, 0.1, 0.3}), whole})).truly_met, 0u);
+    EXPECT_GT(expect_no_lies(joined({perturbed(tiny, {0.7, 0.1, 0.3}), whole})).truly_met, 0u);
   }
   for (const double by : {0x1p6, 0x1p15})
-    EXPECT_GT(expect_no_lies(moved(sphere(4), {by, -by, 0})).truly_rising, 0u);
+    EXPECT_GT(expect_no_lies(perturbed(sphere(4), {by, -by, 0})).truly_rising, 0u);
 }
 
 // Of prisms in other places: a block is seen from far.
@@ -225,7 +226,7 @@ TEST(PrismFilter, TellsTheSameOnEveryInstructionSet) {
   for (const Soup& soup : {sphere(4), scattered(900, 0.1), thinned(scattered(300, 0.5), 0x1p-12)}) {
     const SampleTree sample = build_sample(soup);
     const SamplePages pages(sample);
-    const auto told = on_each_target([&] {
+    const auto certain = on_each_target([&] {
       Noise noise(7);
       std::vector<std::tuple<unsigned, unsigned, unsigned>> bits;
       each_block(sample, pages, [&](const BlockView& block, std::uint32_t) {
@@ -235,8 +236,8 @@ TEST(PrismFilter, TellsTheSameOnEveryInstructionSet) {
       });
       return bits;
     });
-    ASSERT_GT(told.size(), 1u);
-    for (const auto& bits : told) EXPECT_EQ(bits == told[0], true);
+    ASSERT_GT(certain.size(), 1u);
+    for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
   }
 }
 

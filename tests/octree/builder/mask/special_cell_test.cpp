@@ -270,12 +270,12 @@ TEST_F(Claims, AreRefusedWithAPlaneMovedByAnUlp) {
   for (unsigned plane = 0; plane < claim_.plane_count; ++plane)
     for (unsigned axis = 0; axis < 3; ++axis)
       for (const double towards : {-9.0, 9.0}) {
-        SpecialCell moved = claim_;
-        for (Point& corner : moved.planes[plane])
+        SpecialCell perturbed = claim_;
+        for (Point& corner : perturbed.planes[plane])
           corner[axis] = std::nextafter(corner[axis], towards);
         // Along itself a plane may go; across, each of its own axis, it may not.
         const auto& [a, b, c] = claim_.planes[plane];
-        EXPECT_EQ(in_cell_.is(moved), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
+        EXPECT_EQ(in_cell_.is(perturbed), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
         SpecialCell tilted = claim_;
         tilted.planes[plane][1][axis] = std::nextafter(tilted.planes[plane][1][axis], towards);
         EXPECT_EQ(in_cell_.is(tilted), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;

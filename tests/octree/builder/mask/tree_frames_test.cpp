@@ -21,31 +21,31 @@ constexpr std::uint32_t kLargePages = 262144;
 constexpr std::uint32_t kHeld = TreeFrames::kBytes / kLargePages;
 
 // Has more pages than are held.
-PatchedTree many_pages(storage::SpillFile& file = spill_file()) {
-  return PatchedTree(sphere(4), 40, kLargePages, file);
+ChunkedTree many_pages(storage::SpillFile& file = spill_file()) {
+  return ChunkedTree(sphere(4), 40, kLargePages, file);
 }
 
-const std::byte* ask(TreeFrames& frames, std::uint32_t page) {
+const std::byte* page_of(TreeFrames& frames, std::uint32_t page) {
   return frames.reader().page(frames.reader().context, page);
 }
 bool holds(TreeFrames& frames, std::uint32_t page) {
   return frames.reader().peek(frames.reader().context, page) != nullptr;
 }
 
-void expect_page(const PatchedTree& sample, TreeFrames& frames, std::uint32_t page) {
-  const PageFacts facts = sample.tree->facts_of_page(page);
-  SampleFrame expected(facts.page_bytes);
+void expect_page(const ChunkedTree& sample, TreeFrames& frames, std::uint32_t page) {
+  const PageInfo info = sample.tree->info_of_page(page);
+  SampleFrame expected(info.page_bytes);
   const auto raw = sample.tree->pages().encode(page);
   ASSERT_TRUE(raw);
-  ASSERT_TRUE(decode_page(raw->bytes, facts, expected.bytes()));
-  const std::byte* frame = ask(frames, page);
+  ASSERT_TRUE(decode_page(raw->bytes, info, expected.bytes()));
+  const std::byte* frame = page_of(frames, page);
   ASSERT_NE(frame, nullptr);
   EXPECT_EQ(std::memcmp(frame, expected.data(), expected.header().used_bytes), 0) << page;
 }
 
 TEST(TreeFrames, AreThoseOfThePages) {
   for (const std::uint32_t page_bytes : {4096u, kLargePages}) {
-    const PatchedTree sample(sphere(4), 40, page_bytes);
+    const ChunkedTree sample(sphere(4), 40, page_bytes);
     TreeFrames frames(*sample.tree);
     const std::uint32_t count = sample.tree->pages().size();
     ASSERT_GT(count, kHeld);
@@ -58,15 +58,15 @@ TEST(TreeFrames, AreThoseOfThePages) {
 }
 
 TEST(TreeFrames, HoldTheLastThatWereAskedFor) {
-  const PatchedTree sample = many_pages();
+  const ChunkedTree sample = many_pages();
   TreeFrames frames(*sample.tree);
   const std::uint32_t count = sample.tree->pages().size();
   ASSERT_GT(count, kHeld + 2);
   for (std::uint32_t page = 0; page < count; ++page) {
-    const std::byte* frame = ask(frames, page);
-    EXPECT_EQ(ask(frames, page), frame);
-    // Asked for every time.
-    ASSERT_NE(ask(frames, 0), nullptr);
+    const std::byte* frame = page_of(frames, page);
+    EXPECT_EQ(page_of(frames, page), frame);
+    // Recorded for every time.
+    ASSERT_NE(page_of(frames, 0), nullptr);
   }
   EXPECT_TRUE(holds(frames, 0));
   EXPECT_TRUE(holds(frames, count - 1));
@@ -76,10 +76,10 @@ TEST(TreeFrames, HoldTheLastThatWereAskedFor) {
 }
 
 TEST(TreeFrames, HoldNoMoreThanTheirMemory) {
-  const PatchedTree sample = many_pages();
+  const ChunkedTree sample = many_pages();
   TreeFrames frames(*sample.tree);
   const std::uint32_t count = sample.tree->pages().size();
-  for (std::uint32_t page = 0; page < count; ++page) ASSERT_NE(ask(frames, page), nullptr);
+  for (std::uint32_t page = 0; page < count; ++page) ASSERT_NE(page_of(frames, page), nullptr);
   std::size_t held = 0;
   for (std::uint32_t page = 0; page < count; ++page) {
     EXPECT_EQ(holds(frames, page), page + kHeld >= count) << page;
@@ -89,22 +89,22 @@ TEST(TreeFrames, HoldNoMoreThanTheirMemory) {
 }
 
 TEST(TreeFrames, AreThoseOfTheMaskToo) {
-  const SheetModel model(sphere(5));
-  const std::uint32_t first = model.mask_facts.first_page;
+  const HeightFieldModel model(sphere(5));
+  const std::uint32_t first = model.mask_info.first_page;
   ASSERT_GT(model.mask.size(), 2u);
   TreeFrames frames(*model.tree.tree, &model.mask);
   for (std::uint32_t i = 0; i < model.mask.size(); ++i) {
     const auto raw = model.mask.encode(i, first);
     ASSERT_TRUE(raw);
-    PageFacts facts = model.tree.tree->facts_of_page(0);
-    facts.first_page = first;
-    facts.page_count = model.mask.size();
-    facts.page_number = first + i;
-    facts.octcode = raw->octcode;
-    facts.ordinal = raw->ordinal;
+    PageInfo info = model.tree.tree->info_of_page(0);
+    info.first_page = first;
+    info.page_count = model.mask.size();
+    info.page_number = first + i;
+    info.octcode = raw->octcode;
+    info.ordinal = raw->ordinal;
     SampleFrame expected(4096);
-    ASSERT_TRUE(decode_mask_page(raw->bytes, facts, expected.bytes()));
-    const std::byte* frame = ask(frames, first + i);
+    ASSERT_TRUE(decode_mask_page(raw->bytes, info, expected.bytes()));
+    const std::byte* frame = page_of(frames, first + i);
     ASSERT_NE(frame, nullptr);
     const std::size_t records_end = header_of(expected).first_plane_slot * kMaskSlotBytes;
     EXPECT_EQ(std::memcmp(frame, expected.data(), records_end), 0) << i;
@@ -129,14 +129,14 @@ class LostFrames : public testing::Test {
 };
 
 TEST_F(LostFrames, AreAnErrorThatStays) {
-  const PatchedTree sample = many_pages(file_);
+  const ChunkedTree sample = many_pages(file_);
   TreeFrames frames(*sample.tree);
   const std::uint32_t last = sample.tree->pages().size() - 1;
-  ASSERT_NE(ask(frames, last), nullptr);
+  ASSERT_NE(page_of(frames, last), nullptr);
   lose_disk();
-  EXPECT_NE(ask(frames, last), nullptr);
+  EXPECT_NE(page_of(frames, last), nullptr);
   EXPECT_TRUE(frames.state());
-  EXPECT_EQ(ask(frames, last - 1), nullptr);
+  EXPECT_EQ(page_of(frames, last - 1), nullptr);
   ASSERT_FALSE(frames.state());
   EXPECT_EQ(frames.state().error().code, ErrorCode::kReadFailed);
   EXPECT_FALSE(holds(frames, last - 1));
@@ -148,10 +148,10 @@ TEST_F(LostFrames, AreAnErrorThatStays) {
 
 // A list that is missing would be another file.
 TEST_F(LostFrames, FailTheMask) {
-  const PatchedTree sample(sphere(4), 40, 4096, file_);
+  const ChunkedTree sample(sphere(4), 40, 4096, file_);
   RegionCut cut(sample.mesh.lower(), sample.mesh.upper(), {}, nullptr);
   ASSERT_TRUE(cut.add(sample.mesh));
-  MaskRegions regions(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
+  MaskSectors regions(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
   ASSERT_TRUE(regions.divide(*sample.runs, 300) && regions.add(sample.mesh));
   std::mutex mutex;
   std::size_t taken = 0;
@@ -159,7 +159,7 @@ TEST_F(LostFrames, FailTheMask) {
     taken = 0;
     return build_mask(
         regions, *sample.runs, sample.tree.get(), [](std::size_t) { return nullptr; },
-        [&](std::size_t, const MaskTree&, const RegionRoot&) -> Result<void> {
+        [&](std::size_t, const MaskTree&, const SectorRoot&) -> Result<void> {
           const std::lock_guard lock(mutex);
           ++taken;
           return {};

@@ -173,7 +173,7 @@ class Tally final : public TriangleSink {
     ++triangles;
     return {};
   }
-  void set_aside(std::uint64_t, std::uint64_t count, const SetAside&) override {
+  void skipped(std::uint64_t, std::uint64_t count, const SkippedRecord&) override {
     ++records_aside;
     indices_aside += count;
   }

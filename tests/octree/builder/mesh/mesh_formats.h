@@ -50,7 +50,7 @@ inline std::string counted(const std::vector<std::int64_t>& face) {
   return line + "\n";
 }
 
-inline std::int64_t told(std::size_t count, std::int64_t lie) {
+inline std::int64_t certain(std::size_t count, std::int64_t lie) {
   return static_cast<std::int64_t>(count) + lie;
 }
 
@@ -62,22 +62,22 @@ inline std::string text_body(const PlainMesh& mesh) {
 }
 
 /// Every list is followed by `colours`, of a face.
-inline void put_body(Bytes& bytes, const PlainMesh& mesh, std::string_view colours) {
+inline void put_body(Bytes& bytes, const PlainMesh& mesh, std::string_view side_grid) {
   for (const auto& [x, y, z] : mesh.vertices) bytes.put(x, y, z);
   for (const auto& face : mesh.faces) {
     bytes.put(static_cast<std::uint32_t>(face.size()));
     for (const std::int64_t index : face) bytes.put(static_cast<std::uint32_t>(index));
-    bytes.text(colours);
+    bytes.text(side_grid);
   }
 }
 
 inline std::string ply_head(const std::string& encoding, const std::string& index_type,
                             const PlainMesh& mesh, const CountLie& lie) {
   return "ply\nformat " + encoding + " 1.0\nelement vertex " +
-         std::to_string(told(mesh.vertices.size(), lie.vertices)) +
+         std::to_string(certain(mesh.vertices.size(), lie.vertices)) +
          "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-         std::to_string(told(mesh.faces.size(), lie.faces)) + "\nproperty list uint " + index_type +
-         " vertex_indices\nend_header\n";
+         std::to_string(certain(mesh.faces.size(), lie.faces)) + "\nproperty list uint " +
+         index_type + " vertex_indices\nend_header\n";
 }
 
 inline std::string ply_ascii(const PlainMesh& mesh, const CountLie& lie) {
@@ -97,15 +97,15 @@ inline std::string ply_big(const PlainMesh& mesh, const CountLie& lie) {
 }
 
 inline std::string off_ascii(const PlainMesh& mesh, const CountLie& lie) {
-  return "OFF\n" + std::to_string(told(mesh.vertices.size(), lie.vertices)) + " " +
-         std::to_string(told(mesh.faces.size(), lie.faces)) + " 0\n" + text_body(mesh);
+  return "OFF\n" + std::to_string(certain(mesh.vertices.size(), lie.vertices)) + " " +
+         std::to_string(certain(mesh.faces.size(), lie.faces)) + " 0\n" + text_body(mesh);
 }
 
 inline std::string off_binary(const PlainMesh& mesh, const CountLie& lie) {
   Bytes bytes(std::endian::big);
   bytes.text("OFF BINARY\n");
-  bytes.put(static_cast<std::int32_t>(told(mesh.vertices.size(), lie.vertices)),
-            static_cast<std::int32_t>(told(mesh.faces.size(), lie.faces)), std::int32_t{0});
+  bytes.put(static_cast<std::int32_t>(certain(mesh.vertices.size(), lie.vertices)),
+            static_cast<std::int32_t>(certain(mesh.faces.size(), lie.faces)), std::int32_t{0});
   put_body(bytes, mesh, std::string_view("\0\0\0\0", 4));
   return bytes.str();
 }
@@ -136,7 +136,7 @@ inline std::string stl_ascii(const PlainMesh& mesh, const CountLie&) {
 inline std::string stl_binary(const PlainMesh& mesh, const CountLie& lie) {
   Bytes bytes;
   bytes.text(std::string(80, '\0'));
-  bytes.put(static_cast<std::uint32_t>(told(mesh.faces.size(), lie.faces)));
+  bytes.put(static_cast<std::uint32_t>(certain(mesh.faces.size(), lie.faces)));
   for (const auto& face : mesh.faces) {
     bytes.put(0.0F, 0.0F, 1.0F);
     for (const std::int64_t index : face) {

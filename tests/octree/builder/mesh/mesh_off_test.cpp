@@ -231,9 +231,9 @@ TEST(OffBinary, RefusesStructuralDamage) {
   Bytes negative = binary_off("OFF BINARY\n", 1);
   negative.put(Int32{-3}, Int32{0}, Int32{1}, Int32{2}, Int32{0});
   expect_refused(negative.str(), "record 0 of 1 'face' has a bad list length");
-  Bytes colours = binary_off("OFF BINARY\n", 1);
-  colours.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{2147483647});
-  expect_refused(colours.str(), "record 0 of 1 'face' has a bad list length or is cut off");
+  Bytes side_grid = binary_off("OFF BINARY\n", 1);
+  side_grid.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{2147483647});
+  expect_refused(side_grid.str(), "record 0 of 1 'face' has a bad list length or is cut off");
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ class Summer : public TriangleSink {
     ++count;
     return {};
   }
-  void set_aside(std::uint64_t, std::uint64_t, const SetAside&) override {}
+  void skipped(std::uint64_t, std::uint64_t, const SkippedRecord&) override {}
   void progress(std::uint64_t, std::uint64_t) override {}
 
   double sum = 0;

@@ -61,7 +61,7 @@ class Recorder : public TriangleSink {
     }
     return {};
   }
-  void set_aside(std::uint64_t first_index, std::uint64_t count, const SetAside& why) override {
+  void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override {
     log +=
         std::to_string(first_index) + "+" + std::to_string(count) + " aside: " + why.text() + "\n";
   }

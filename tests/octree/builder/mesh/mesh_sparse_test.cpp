@@ -11,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-constexpr char kNoRoom[] = "the temporary folder's file system has no sparse files of such a size";
+constexpr char kNoSpace[] = "the temporary folder's file system has no sparse files of such a size";
 // All of it far below the vertices.
 constexpr std::uint64_t kMemoryBytes[] = {MeshScratch::kMemoryBytes, std::uint64_t{1} << 20};
 
@@ -57,7 +57,7 @@ TEST(SparseMesh, ReachesPlyIndicesPast31BitsAndOffsetsPast32) {
                Bytes().put(x, 10 * x, 100 * x).str());
   }
   file.write(faces_begin, faces.str());
-  if (!file.ok()) GTEST_SKIP() << kNoRoom;
+  if (!file.ok()) GTEST_SKIP() << kNoSpace;
 
   for (const std::uint64_t memory_bytes : kMemoryBytes) {
     const Reading reading = read_path(file.path(), memory_bytes);
@@ -87,7 +87,7 @@ TEST(SparseMesh, SetsAsideAPlyFaceOfFourBillionCorners) {
   SparseFile file(last_begin + last.str().size());
   file.write(0, first.str());
   file.write(last_begin, last.str());
-  if (!file.ok()) GTEST_SKIP() << kNoRoom;
+  if (!file.ok()) GTEST_SKIP() << kNoSpace;
 
   const Reading reading = read_path(file.path());
   EXPECT_EQ(reading.error, "");
@@ -114,7 +114,7 @@ TEST(SparseMesh, ReachesTheLastVerticesOfABinaryOff) {
     ++x;
   }
   file.write(faces_begin, faces.str());
-  if (!file.ok()) GTEST_SKIP() << kNoRoom;
+  if (!file.ok()) GTEST_SKIP() << kNoSpace;
 
   for (const std::uint64_t memory_bytes : kMemoryBytes) {
     const Reading reading = read_path(file.path(), memory_bytes);
@@ -130,7 +130,7 @@ TEST(SparseMesh, KnowsAnStlPast32BitsByItsSize) {
   constexpr std::uint32_t kFacets = 4294967295U;
   SparseFile file(84 + 50 * std::uint64_t{kFacets});
   file.write(80, Bytes().put(kFacets, 0.0F, 0.0F, 1.0F, 1.0F, 2.0F, 3.0F).str());
-  if (!file.ok()) GTEST_SKIP() << kNoRoom;
+  if (!file.ok()) GTEST_SKIP() << kNoSpace;
   Recorder recorder;
   recorder.refuse_index = 1;  // the others would take minutes
   const auto summary = read_mesh(file.path(), recorder);
@@ -142,10 +142,10 @@ TEST(SparseMesh, KnowsAnStlPast32BitsByItsSize) {
 TEST(SparseMesh, RefusesStlCountsThatLiePast32Bits) {
   // As 32 bits would have them, these are 0 and 3 facets.
   for (const std::uint64_t facets : {std::uint64_t{1} << 32, (std::uint64_t{1} << 32) + 3}) {
-    const auto told = static_cast<std::uint32_t>(facets);
+    const auto certain = static_cast<std::uint32_t>(facets);
     SparseFile file(84 + 50 * facets);
-    file.write(80, Bytes().put(told).str());
-    if (!file.ok()) GTEST_SKIP() << kNoRoom;
+    file.write(80, Bytes().put(certain).str());
+    if (!file.ok()) GTEST_SKIP() << kNoSpace;
     const Reading reading = read_path(file.path());
     EXPECT_EQ(reading.code, ErrorCode::kBadInput);
     EXPECT_EQ(reading.log, "");

@@ -11,12 +11,12 @@
 namespace planetree::octree {
 namespace {
 
-struct PatchCase {
+struct ChunkCase {
   const char* name;
   Soup soup;
 };
 
-std::vector<PatchCase> patch_cases() {
+std::vector<ChunkCase> chunk_cases() {
   return {{"sphere", sphere(4)},
           {"grains", grains(200, 0.2)},
           {"in one place", repeated(1000)},
@@ -24,22 +24,22 @@ std::vector<PatchCase> patch_cases() {
           {"scattered", scattered(2000, 0.5)}};
 }
 
-TEST(Patches, HoldEveryTriangleOnceInOrder) {
-  for (const PatchCase& c : patch_cases()) {
+TEST(Chunks, HoldEveryTriangleOnceInOrder) {
+  for (const ChunkCase& c : chunk_cases()) {
     SCOPED_TRACE(c.name);
     const SampleMesh mesh = store(c.soup);
     Triangles sorted = mesh;
     sorted.sort();
     const auto runs = runs_of(mesh, 300);
-    const auto tree = cut_patches(*runs, 100);
+    const auto tree = cut_chunks(*runs, 100);
     ASSERT_TRUE(tree);
     std::uint32_t at = 0;
-    for (const Patch& patch : tree->patches) {
-      const auto triangles = runs->read(patch.from, patch.to);
+    for (const Chunk& chunk : tree->chunks) {
+      const auto triangles = runs->read(chunk.from, chunk.to);
       ASSERT_TRUE(triangles);
-      EXPECT_EQ(triangles->size(), patch.size);
-      EXPECT_GE(patch.size, 1u);
-      EXPECT_LE(patch.size, 100u);
+      EXPECT_EQ(triangles->size(), chunk.size);
+      EXPECT_GE(chunk.size, 1u);
+      EXPECT_LE(chunk.size, 100u);
       for (std::uint32_t i = 0; i < triangles->size(); ++i, ++at) {
         ASSERT_EQ(triangles->key(i), sorted.key(at));
         ASSERT_EQ(triangles->corners(i), sorted.corners(at));
@@ -49,15 +49,15 @@ TEST(Patches, HoldEveryTriangleOnceInOrder) {
   }
 }
 
-TEST(Patches, AreTheLeavesOfTheirTree) {
-  for (const PatchCase& c : patch_cases()) {
+TEST(Chunks, AreTheLeavesOfTheirTree) {
+  for (const ChunkCase& c : chunk_cases()) {
     SCOPED_TRACE(c.name);
     const auto runs = runs_of(store(c.soup));
-    const auto tree = cut_patches(*runs, 100);
+    const auto tree = cut_chunks(*runs, 100);
     ASSERT_TRUE(tree);
     std::size_t leaves = 0;
     for (std::size_t at = 0; at < tree->nodes.size(); ++at) {
-      const PatchNode& node = tree->nodes[at];
+      const ChunkNode& node = tree->nodes[at];
       if (node.leaf()) {
         EXPECT_EQ(node.begin, leaves++);
         EXPECT_EQ(node.end, node.begin + 1);
@@ -69,20 +69,20 @@ TEST(Patches, AreTheLeavesOfTheirTree) {
       EXPECT_EQ(tree->nodes[node.left].end, tree->nodes[node.right].begin);
       EXPECT_EQ(tree->nodes[node.right].end, node.end);
     }
-    EXPECT_EQ(leaves, tree->patches.size());
+    EXPECT_EQ(leaves, tree->chunks.size());
   }
 }
 
-TEST(Patches, DoNotDependOnTheRuns) {
+TEST(Chunks, DoNotDependOnTheRuns) {
   const SampleMesh mesh =
       store(joined({grains(300, 0.1), repeated(500), inside_out(repeated(500))}));
   std::vector<std::vector<std::uint64_t>> sizes;
   for (const std::uint32_t run_triangles : {50u, 333u, 100000u}) {
     const auto runs = runs_of(mesh, run_triangles);
-    const auto tree = cut_patches(*runs, 60);
+    const auto tree = cut_chunks(*runs, 60);
     ASSERT_TRUE(tree);
     sizes.emplace_back();
-    for (const Patch& patch : tree->patches) sizes.back().push_back(patch.size);
+    for (const Chunk& chunk : tree->chunks) sizes.back().push_back(chunk.size);
   }
   EXPECT_GT(sizes[0].size(), 30u);
   EXPECT_EQ(sizes[0], sizes[1]);
@@ -90,17 +90,17 @@ TEST(Patches, DoNotDependOnTheRuns) {
 }
 
 // What a region is read with is what touches it, by a test that shares nothing with it.
-TEST(MaskRegions, AreReadWithAllThatTouchesThem) {
+TEST(MaskSectors, AreReadWithAllThatTouchesThem) {
   for (const Soup& soup : {grains(200, 0.3), sphere(4), box({0, 0, 0}, {1, 1, 1}, 9)}) {
     const SampleMesh mesh = store(soup);
     const Surface surface(mesh);
     const auto runs = runs_of(mesh, 200);
-    MaskRegions regions(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
+    MaskSectors regions(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
     ASSERT_TRUE(regions.divide(*runs, 40));
     ASSERT_TRUE(regions.add(mesh));
     std::size_t undivided = 0;
     for (std::size_t at = 0; at < regions.all().size(); ++at) {
-      const MaskRegions::Region& region = regions.all()[at];
+      const MaskSectors::Region& region = regions.all()[at];
       if (region.divided()) continue;
       ++undivided;
       const auto read = regions.read(at, *runs);

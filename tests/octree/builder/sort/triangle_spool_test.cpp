@@ -16,7 +16,7 @@ double longest_edge(const SampleMesh& mesh) {
   return (mesh.frame.upper() - mesh.frame.lower()).maxCoeff();
 }
 
-TEST(MeshIntake, KeepsFloatsAsFloatsAndGivesThemBack) {
+TEST(TriangleSpool, KeepsFloatsAsFloatsAndGivesThemBack) {
   const SampleMesh mesh = store({{Vec3{0.5, 1, 2}, Vec3{-3, 0.125, 0}, Vec3{1e-3f, 7, 0}}});
   EXPECT_FALSE(mesh.float64());
   const double scale = std::ldexp(1.0, mesh.frame.scale_exponent);
@@ -24,7 +24,7 @@ TEST(MeshIntake, KeepsFloatsAsFloatsAndGivesThemBack) {
   EXPECT_EQ(mesh.corners(0)[2].x(), 1e-3f * scale);
 }
 
-TEST(MeshIntake, TurnsToDoublesAtTheFirstThatFloatsDoNotHold) {
+TEST(TriangleSpool, TurnsToDoublesAtTheFirstThatFloatsDoNotHold) {
   const std::array<Vec3, 3> narrow{Vec3{0.5, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
   const std::array<Vec3, 3> wide{Vec3{0.5, 0, 0}, Vec3{1, 0.1, 0}, Vec3{0, 1, 0}};
   EXPECT_FALSE(store({narrow}).float64());
@@ -35,7 +35,7 @@ TEST(MeshIntake, TurnsToDoublesAtTheFirstThatFloatsDoNotHold) {
   EXPECT_EQ(mesh.corners(1)[1].y(), 0.1 * scale);
 }
 
-TEST(MeshIntake, ScalesTheLongestEdgeIntoOneToTwo) {
+TEST(TriangleSpool, ScalesTheLongestEdgeIntoOneToTwo) {
   for (const double size : {1e-300, 3e-39, 1e-3, 0.99, 1.0, 1.01, 12345.0, 3e38, 1e300, 1.7e308}) {
     const SampleMesh mesh = store({{Vec3{0, 0, 0}, Vec3{size, 0, 0}, Vec3{0, size / 3, 0}},
                                    {Vec3{0, 0, 0}, Vec3{size, 0, 0}, Vec3{0, 0, -size / 7}}});
@@ -45,63 +45,63 @@ TEST(MeshIntake, ScalesTheLongestEdgeIntoOneToTwo) {
   }
 }
 
-TEST(MeshIntake, ScalesBoxesWhoseSizeOverflows) {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  const SampleMesh mesh = store({{Vec3{-kMost, 0, 0}, Vec3{kMost, 0, 0}, Vec3{0, 1, 0}}});
+TEST(TriangleSpool, ScalesBoxesWhoseSizeOverflows) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  const SampleMesh mesh = store({{Vec3{-kMax, 0, 0}, Vec3{kMax, 0, 0}, Vec3{0, 1, 0}}});
   EXPECT_GE(longest_edge(mesh), 1);
   EXPECT_LE(longest_edge(mesh), 2);
 }
 
-TEST(MeshIntake, ScalesOnePointByItsPlace) {
+TEST(TriangleSpool, ScalesOnePointByItsPlace) {
   const SampleMesh mesh = store({{Vec3{1000, 0, 0}, Vec3{1000, 0, 0}, Vec3{1000, 0, 0}}});
   EXPECT_LT(std::fabs(mesh.corners(0)[0].x()), 2);
   EXPECT_EQ(store({{Vec3{}, Vec3{}, Vec3{}}}).frame.scale_exponent, 0);
 }
 
-TEST(MeshIntake, KeepsSmallFloatsBesideLargeOnes) {
+TEST(TriangleSpool, KeepsSmallFloatsBesideLargeOnes) {
   // 1e-38 of a model of 1e38 would underflow as a float32.
   const SampleMesh mesh = store({{Vec3{1e-38f, 0, 0}, Vec3{1e38f, 0, 0}, Vec3{0, 1e38f, 0}}});
   EXPECT_EQ(mesh.corners(0)[0].x(), std::ldexp(double{1e-38f}, mesh.frame.scale_exponent));
   EXPECT_TRUE(mesh.float64());
 }
 
-TEST(MeshIntake, CountsWhatIsSetAside) {
+TEST(TriangleSpool, CountsWhatIsSetAside) {
   const std::array<Vec3, 3> corners{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
-  MeshIntake intake(100, 0, spill_file());
-  SetAside why;
-  ASSERT_TRUE(intake.triangle(0, corners));
-  intake.set_aside(1, 3, why);
-  ASSERT_TRUE(intake.triangle(4, corners));
-  intake.set_aside(5, 1, why);
-  ASSERT_TRUE(intake.triangle((std::uint64_t{1} << 32) + 7, corners));
-  const auto frame = intake.finish();
+  TriangleSpool spool(100, 0, spill_file());
+  SkippedRecord why;
+  ASSERT_TRUE(spool.triangle(0, corners));
+  spool.skipped(1, 3, why);
+  ASSERT_TRUE(spool.triangle(4, corners));
+  spool.skipped(5, 1, why);
+  ASSERT_TRUE(spool.triangle((std::uint64_t{1} << 32) + 7, corners));
+  const auto frame = spool.finish();
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->triangle_count, 3u);
-  EXPECT_EQ(frame->set_aside_count, 4u);
-  EXPECT_EQ(frame->first_set_aside, 1u);
-  EXPECT_EQ(frame->first_set_aside_text, why.text());
-  const auto chunk = intake.take_chunk(0);
-  ASSERT_TRUE(chunk);
-  ASSERT_EQ(chunk->size(), 3u);
-  EXPECT_EQ(chunk->index(0), 0u);
-  EXPECT_EQ(chunk->index(1), 4u);
-  EXPECT_EQ(chunk->index(2), (std::uint64_t{1} << 32) + 7);
+  EXPECT_EQ(frame->skipped_count, 4u);
+  EXPECT_EQ(frame->first_skipped, 1u);
+  EXPECT_EQ(frame->first_skipped_text, why.text());
+  const auto batch = spool.take_batch(0);
+  ASSERT_TRUE(batch);
+  ASSERT_EQ(batch->size(), 3u);
+  EXPECT_EQ(batch->index(0), 0u);
+  EXPECT_EQ(batch->index(1), 4u);
+  EXPECT_EQ(batch->index(2), (std::uint64_t{1} << 32) + 7);
 }
 
 // Doubles from the last of ten chunks on; held and spilled chunks are the same.
-TEST(MeshIntake, GivesTheSameTrianglesHoweverTheyAreKept) {
+TEST(TriangleSpool, GivesTheSameTrianglesHoweverTheyAreKept) {
   Soup soup = sphere(4);
   soup.back()[1].y += 0.1;
   const SampleMesh whole = store(soup);
   ASSERT_TRUE(whole.float64());
   for (const std::uint64_t held : {0, 20000, 1 << 30}) {
-    MeshIntake intake(211, held, spill_file());
-    for (std::size_t i = 0; i < soup.size(); ++i) ASSERT_TRUE(intake.triangle(i, soup[i]));
-    ASSERT_TRUE(intake.finish());
-    ASSERT_EQ(intake.chunk_count(), 10u);
+    TriangleSpool spool(211, held, spill_file());
+    for (std::size_t i = 0; i < soup.size(); ++i) ASSERT_TRUE(spool.triangle(i, soup[i]));
+    ASSERT_TRUE(spool.finish());
+    ASSERT_EQ(spool.chunk_count(), 10u);
     std::uint32_t at = 0;
-    for (std::size_t chunk = 0; chunk < 10; ++chunk) {
-      const auto some = intake.take_chunk(chunk);
+    for (std::size_t batch = 0; batch < 10; ++batch) {
+      const auto some = spool.take_batch(batch);
       ASSERT_TRUE(some);
       for (std::uint32_t i = 0; i < some->size(); ++i, ++at) {
         ASSERT_EQ(some->key(i), whole.key(at));

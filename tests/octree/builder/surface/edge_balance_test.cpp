@@ -27,10 +27,10 @@ Soup both(Soup left, const Soup& right) {
 }
 
 TEST(EdgeBalance, OfClosedSurfacesIsEven) {
-  EXPECT_EQ(balance(tetrahedron()).open_edges, 0u);
-  EXPECT_EQ(balance(sphere(5)).open_edges, 0u);
-  EXPECT_EQ(balance(both(tetrahedron(), tetrahedron())).open_edges, 0u);
-  EXPECT_EQ(balance(both(tetrahedron(), sphere(2))).open_edges, 0u);
+  EXPECT_EQ(balance(tetrahedron()).unbalanced_edges, 0u);
+  EXPECT_EQ(balance(sphere(5)).unbalanced_edges, 0u);
+  EXPECT_EQ(balance(both(tetrahedron(), tetrahedron())).unbalanced_edges, 0u);
+  EXPECT_EQ(balance(both(tetrahedron(), sphere(2))).unbalanced_edges, 0u);
 }
 
 TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
@@ -38,14 +38,14 @@ TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
   const Vec3 p{0.25, 0.5, 0};
   soup.push_back({p, p, p});
   soup.push_back({p, p, {1, 1, 1}});  // there and back
-  EXPECT_EQ(balance(soup).open_edges, 0u);
+  EXPECT_EQ(balance(soup).unbalanced_edges, 0u);
 }
 
 TEST(EdgeBalance, FindsTheEdgesOfAHole) {
   Soup soup = tetrahedron();
   soup.pop_back();  // c d a
   const EdgeBalance found = balance(soup, 40);
-  EXPECT_EQ(found.open_edges, 3u);
+  EXPECT_EQ(found.unbalanced_edges, 3u);
   const std::uint64_t triangles[] = {40, 41, 42};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(found.first[i].triangle, triangles[i]);
@@ -61,15 +61,15 @@ TEST(EdgeBalance, FindsAFaceTheOtherWayRound) {
   Soup soup = sphere(3);
   std::swap(soup[17][0], soup[17][1]);
   const EdgeBalance found = balance(soup);
-  EXPECT_EQ(found.open_edges, 3u);
-  EXPECT_TRUE(std::ranges::any_of(found.first, [](const OpenEdge& edge) {
+  EXPECT_EQ(found.unbalanced_edges, 3u);
+  EXPECT_TRUE(std::ranges::any_of(found.first, [](const UnbalancedEdge& edge) {
     return edge.along + edge.against == 2 && edge.along != edge.against;
   }));
 }
 
 TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
-  const EdgeBalance found = balance(sheet(9));
-  EXPECT_EQ(found.open_edges, 36u);
+  const EdgeBalance found = balance(height_field(9));
+  EXPECT_EQ(found.unbalanced_edges, 36u);
   EXPECT_LE(found.first[0].triangle, found.first[1].triangle);
   EXPECT_LE(found.first[1].triangle, found.first[2].triangle);
   EXPECT_EQ(found.first[0].triangle, 0u);
@@ -79,14 +79,14 @@ TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
 TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
   Soup soup = repeated(60000);
   const EdgeBalance found = balance(soup);
-  EXPECT_EQ(found.open_edges, 3u);
-  for (const OpenEdge& edge : found.first) {
+  EXPECT_EQ(found.unbalanced_edges, 3u);
+  for (const UnbalancedEdge& edge : found.first) {
     EXPECT_EQ(edge.triangle, 0u);
     EXPECT_EQ(edge.along, 60000u);
     EXPECT_EQ(edge.against, 0u);
   }
   for (std::size_t i = 0; i < soup.size(); i += 2) std::swap(soup[i][0], soup[i][1]);
-  EXPECT_EQ(balance(soup).open_edges, 0u);
+  EXPECT_EQ(balance(soup).unbalanced_edges, 0u);
 }
 
 // A model beside which another is so small that its coordinates hardly differ.
@@ -96,20 +96,20 @@ TEST(EdgeBalance, TellsSmallEdgesApart) {
     for (Vec3& corner : triangle)
       corner = {corner.x * 0x1p-20, corner.y * 0x1p-20, corner.z * 0x1p-20};
   soup = both(soup, tetrahedron());
-  EXPECT_EQ(balance(soup).open_edges, 0u);
+  EXPECT_EQ(balance(soup).unbalanced_edges, 0u);
   for (const std::size_t triangle : {30000, 20000, 700, 10000}) soup[triangle][0] = soup[0][0];
   const EdgeBalance found = balance(soup);
-  EXPECT_EQ(found.open_edges, 16u);
-  for (const OpenEdge& edge : found.first) EXPECT_NE(edge.along, edge.against);
+  EXPECT_EQ(found.unbalanced_edges, 16u);
+  for (const UnbalancedEdge& edge : found.first) EXPECT_NE(edge.along, edge.against);
 }
 
 TEST(EdgeBalance, DependsNeitherOnThreadsNorOnParts) {
   const SampleMesh mesh = store(scattered(3000, 0.2));
   const EdgeBalance many = balance_of(mesh, 100);
-  EXPECT_EQ(many.open_edges, 9000u);
+  EXPECT_EQ(many.unbalanced_edges, 9000u);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const EdgeBalance alone = balance_of(mesh);
-  EXPECT_EQ(alone.open_edges, many.open_edges);
+  EXPECT_EQ(alone.unbalanced_edges, many.unbalanced_edges);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(alone.first[i].triangle, many.first[i].triangle);
     EXPECT_EQ(alone.first[i].from, many.first[i].from);

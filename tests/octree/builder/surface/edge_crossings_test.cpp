@@ -40,7 +40,7 @@ TriangleAndBox about_a_tiny_edge(Noise& noise) {
   return pair;
 }
 
-void expect_exact(TriangleAndBox (*make)(Noise&), unsigned least_crossings) {
+void expect_exact(TriangleAndBox (*make)(Noise&), unsigned min_crossings) {
   Noise noise(6);
   unsigned crossings = 0;
   for (int i = 0; i < 4000 && !testing::Test::HasFailure(); ++i) {
@@ -52,7 +52,7 @@ void expect_exact(TriangleAndBox (*make)(Noise&), unsigned least_crossings) {
     for (unsigned which = 1; which < 8; ++which)
       for (unsigned lower = which; lower != 0; lower &= lower - 1) {
         const unsigned before = which & ~(lower & -lower);
-        const MovedSegment segment{corners[which], corners[before]};
+        const PerturbedSegment segment{corners[which], corners[before]};
         const int exact = crossing(segment, pair.triangle);
         const DownwardSegment down(segment, axis_of_edge(which, before));
         EXPECT_EQ(down.crossing(triangles[0]), exact);
@@ -62,7 +62,7 @@ void expect_exact(TriangleAndBox (*make)(Noise&), unsigned least_crossings) {
       }
     EXPECT_EQ(count.all(), winding);
   }
-  EXPECT_GE(crossings, least_crossings);
+  EXPECT_GE(crossings, min_crossings);
 }
 
 TEST(EdgeCrossings, AreThoseOfExactPredicates) {

@@ -17,7 +17,7 @@ namespace {
 struct BuiltTreeCase {
   const char* name;
   Soup soup;
-  std::uint64_t patch_triangles;
+  std::uint64_t chunk_triangles;
 };
 
 std::vector<BuiltTreeCase> built_cases() {
@@ -32,12 +32,12 @@ std::vector<BuiltTreeCase> built_cases() {
 TEST(BuiltTree, IsTheTreeOfAllPatches) {
   for (const BuiltTreeCase& c : built_cases()) {
     SCOPED_TRACE(c.name);
-    const PatchedTree sample(c.soup, c.patch_triangles);
-    EXPECT_EQ(sample.above.patches.size() > 1, c.soup.size() > c.patch_triangles);
+    const ChunkedTree sample(c.soup, c.chunk_triangles);
+    EXPECT_EQ(sample.above.chunks.size() > 1, c.soup.size() > c.chunk_triangles);
     ASSERT_TRUE(sample.tree->check());
-    const TreeFacts tree = sample.tree->facts();
+    const TreeInfo tree = sample.tree->info();
     TreeFrames frames(*sample.tree);
-    TreeWork work;
+    TraversalStats work;
     std::set<std::uint64_t> found;
     std::set<std::uint32_t> links;
     EXPECT_TRUE(BoxWalk(tree, tree.box_lower, tree.box_upper, frames.reader(), work)
@@ -60,11 +60,11 @@ TEST(BuiltTree, IsTheTreeOfAllPatches) {
 TEST(BuiltTree, IsAsHighAsItsRoot) {
   for (const BuiltTreeCase& c : built_cases()) {
     SCOPED_TRACE(c.name);
-    const PatchedTree sample(c.soup, c.patch_triangles);
-    const TreeFacts tree = sample.tree->facts();
+    const ChunkedTree sample(c.soup, c.chunk_triangles);
+    const TreeInfo tree = sample.tree->info();
     TreeFrames frames(*sample.tree);
-    TreeWork work;
-    const std::byte* root = RecordFinder(tree, frames.reader()).find(tree.root_link, work);
+    TraversalStats work;
+    const std::byte* root = LinkResolver(tree, frames.reader()).find(tree.root_link, work);
     ASSERT_NE(root, nullptr);
     const bool block = LinkFormat::is_leaf(tree.root_link);
     EXPECT_EQ(sample.tree->height(), block ? 0u : reinterpret_cast<const Node*>(root)->height);
@@ -73,8 +73,8 @@ TEST(BuiltTree, IsAsHighAsItsRoot) {
 }
 
 TEST(BuiltTree, TellsTheModelsBox) {
-  const PatchedTree sample(sphere(3), 40);
-  const TreeFacts tree = sample.tree->facts();
+  const ChunkedTree sample(sphere(3), 40);
+  const TreeInfo tree = sample.tree->info();
   EXPECT_EQ(tree.box_lower, sample.mesh.lower());
   EXPECT_EQ(tree.box_upper, sample.mesh.upper());
   EXPECT_EQ(tree.centre, sample.mesh.frame.centre());

@@ -27,7 +27,7 @@ std::vector<Case> cases() {
           {"one too many for a block", repeated(17)},
           {"a triangle many times", repeated(1000)},
           {"sphere", sphere(4)},
-          {"sheet", sheet(30)},
+          {"sheet", height_field(30)},
           {"long triangles", scattered(700, 1.0)},
           {"small triangles", scattered(700, 1e-4)}};
 }
@@ -225,7 +225,7 @@ TEST(DiscFit, EnclosesEveryVertexWithItsMargin) {
 TEST(DiscFit, LiesAlongAFlatSurface) {
   // A flat sheet across the diagonal: slabs far thinner than boxes.
   Soup soup;
-  for (const auto& t : sheet(20)) {
+  for (const auto& t : height_field(20)) {
     auto& flat = soup.emplace_back(t);
     for (Vec3& corner : flat) corner.z = corner.x * 0.5 + corner.y * 0.25;
   }
@@ -239,7 +239,7 @@ TEST(DiscFit, LiesAlongAFlatSurface) {
 }
 
 TEST(DiscFit, EnclosesSubtreesTooLargeForTheirVertices) {
-  const SampleTree sample = build_sample(sheet(190), 65536);
+  const SampleTree sample = build_sample(height_field(190), 65536);
   const WideNode& root = sample.tree.nodes[0];
   const SampleMesh& mesh = sample.mesh;
   // The root's children have fewer, so put a node above it that has it for a child.

@@ -20,7 +20,7 @@ namespace {
 using Indices = std::vector<std::int64_t>;
 
 /// A sheet of squares, row by row, as triangles and other polygons.
-PlainMesh sheet(unsigned side) {
+PlainMesh height_field(unsigned side) {
   PlainMesh mesh;
   for (unsigned i = 0; i < side; ++i)
     for (unsigned j = 0; j < side; ++j)
@@ -40,7 +40,7 @@ PlainMesh sheet(unsigned side) {
 }
 
 /// The same faces of the same vertices, both in random order.
-PlainMesh shuffled(const PlainMesh& mesh) {
+PlainMesh byte_split(const PlainMesh& mesh) {
   std::mt19937 random(5);
   std::vector<std::size_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -76,24 +76,25 @@ PlainMesh damaged(PlainMesh mesh, std::size_t corners) {
 
 std::string join_name_of(const testing::TestParamInfo<MeshFormat>& info) { return info.param.name; }
 
-class MeshJoinOf : public testing::TestWithParam<MeshFormat> {
+class FaceVertexJoinOf : public testing::TestWithParam<MeshFormat> {
  protected:
   static std::string bytes_of(const PlainMesh& mesh) { return GetParam().write(mesh, {}); }
 };
-INSTANTIATE_TEST_SUITE_P(All, MeshJoinOf,
+INSTANTIATE_TEST_SUITE_P(All, FaceVertexJoinOf,
                          testing::ValuesIn(formats_that([](const MeshFormat& format) {
                            return format.is_indexed;
                          })),
                          join_name_of);
 
-TEST_P(MeshJoinOf, DeliversTheSameHoweverLittleMemoryThereIs) {
-  for (const PlainMesh& mesh : {sheet(40), shuffled(sheet(40)), damaged(sheet(40), 9000),
-                                damaged(shuffled(sheet(40)), 9000)}) {
+TEST_P(FaceVertexJoinOf, DeliversTheSameHoweverLittleMemoryThereIs) {
+  for (const PlainMesh& mesh :
+       {height_field(40), byte_split(height_field(40)), damaged(height_field(40), 9000),
+        damaged(byte_split(height_field(40)), 9000)}) {
     const TemporaryFile file(bytes_of(mesh), GetParam().extension);
-    MeshScratch roomy;
-    const Reading expected = read_path(file.path(), roomy);
+    MeshScratch enough;
+    const Reading expected = read_path(file.path(), enough);
     ASSERT_TRUE(expected.summary) << expected.error;
-    EXPECT_EQ(roomy.disk_bytes(), 0u);
+    EXPECT_EQ(enough.disk_bytes(), 0u);
     for (const std::uint64_t memory_bytes : {0, 1, 1000, 5000, 30000}) {
       const Reading reading = read_path(file.path(), memory_bytes);
       ASSERT_TRUE(reading.summary) << reading.error;
@@ -105,14 +106,14 @@ TEST_P(MeshJoinOf, DeliversTheSameHoweverLittleMemoryThereIs) {
   }
 }
 
-TEST_P(MeshJoinOf, SortsOnDiskWhatIsInNoOrderOnly) {
+TEST_P(FaceVertexJoinOf, SortsOnDiskWhatIsInNoOrderOnly) {
   constexpr std::uint64_t kMemoryBytes = 20000;
   const auto sorted_bytes = [](const PlainMesh& mesh) {
     const TemporaryFile file(bytes_of(mesh), GetParam().extension);
     MeshScratch scratch(kMemoryBytes);
-    int asked = 0;
+    int queried = 0;
     scratch.before_sorting([&] {
-      ++asked;
+      ++queried;
       return Result<void>();
     });
     const Reading reading = read_path(file.path(), scratch);
@@ -120,15 +121,15 @@ TEST_P(MeshJoinOf, SortsOnDiskWhatIsInNoOrderOnly) {
     const std::uint64_t position_bytes = GetParam().is_text ? 24 : 12;
     const std::uint64_t text_bytes =
         GetParam().is_text ? mesh.vertices.size() * position_bytes - kMemoryBytes / 2 : 0;
-    EXPECT_EQ(asked == 0, scratch.disk_bytes() <= text_bytes);
-    return asked;
+    EXPECT_EQ(queried == 0, scratch.disk_bytes() <= text_bytes);
+    return queried;
   };
-  EXPECT_EQ(sorted_bytes(sheet(90)), 0);
-  EXPECT_EQ(sorted_bytes(shuffled(sheet(90))), 1);
+  EXPECT_EQ(sorted_bytes(height_field(90)), 0);
+  EXPECT_EQ(sorted_bytes(byte_split(height_field(90))), 1);
 }
 
-TEST_P(MeshJoinOf, ReportsProgressThatNeverDecreases) {
-  const TemporaryFile file(bytes_of(shuffled(sheet(400))), GetParam().extension);
+TEST_P(FaceVertexJoinOf, ReportsProgressThatNeverDecreases) {
+  const TemporaryFile file(bytes_of(byte_split(height_field(400))), GetParam().extension);
   MeshScratch scratch(50000);
   Recorder recorder;
   ASSERT_TRUE(read_mesh(file.path(), recorder, scratch));
@@ -176,11 +177,11 @@ class WatchedFile final : public storage::FileCalls {
 };
 
 // In order each about once; in none not much more often. How often does not grow with the mesh.
-TEST(MeshJoin, ReadsVerticesAboutOnce) {
+TEST(FaceVertexJoin, ReadsVerticesAboutOnce) {
   for (const unsigned side : {150u, 300u}) {
     const std::uint64_t vertex_bytes = std::uint64_t{side} * side * 12;
     for (const bool in_order : {true, false}) {
-      const PlainMesh mesh = in_order ? sheet(side) : shuffled(sheet(side));
+      const PlainMesh mesh = in_order ? height_field(side) : byte_split(height_field(side));
       const std::string bytes = mesh_formats::ply_little(mesh, {});
       const TemporaryFile file(bytes, ".ply");
       WatchedFile calls(file.path());
@@ -192,16 +193,16 @@ TEST(MeshJoin, ReadsVerticesAboutOnce) {
       ASSERT_TRUE(read_mesh(file.path(), recorder, scratch));
       EXPECT_GE(calls.read_bytes(), vertex_bytes);
       // The header is judged from a front of 64 KiB, and the window reaches back a little.
-      constexpr std::uint64_t kFrontBytes = (64 + 8) << 10;
+      constexpr std::uint64_t kPrefixBytes = (64 + 8) << 10;
       const std::uint64_t jumps_bytes = in_order ? vertex_bytes / 16 : 4 * kMemoryBytes;
-      EXPECT_LE(calls.read_bytes(), vertex_bytes + jumps_bytes + kFrontBytes);
+      EXPECT_LE(calls.read_bytes(), vertex_bytes + jumps_bytes + kPrefixBytes);
     }
   }
 }
 
 // A window is moved along, and nothing else of the faces is read.
-TEST(MeshJoin, ReadsFacesOnce) {
-  const PlainMesh mesh = sheet(300);
+TEST(FaceVertexJoin, ReadsFacesOnce) {
+  const PlainMesh mesh = height_field(300);
   const std::string bytes = mesh_formats::ply_little(mesh, {});
   const TemporaryFile file(bytes, ".ply");
   WatchedFile calls(file.path());
@@ -218,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(All, MeshCutMeanwhile,
                          join_name_of);
 
 TEST_P(MeshCutMeanwhile, IsAnErrorWhereverItIsMissed) {
-  PlainMesh mesh = shuffled(sheet(60));
+  PlainMesh mesh = byte_split(height_field(60));
   if (!GetParam().has_polygons)
     for (Indices& face : mesh.faces) face.resize(3);
   const std::string bytes = GetParam().write(mesh, {});
@@ -242,8 +243,8 @@ TEST_P(MeshCutMeanwhile, IsAnErrorWhereverItIsMissed) {
   EXPECT_GE(refused, 2u);
 }
 
-TEST(MeshJoin, PassesOnWhyCornersMayNotBeSorted) {
-  const TemporaryFile file(mesh_formats::ply_big(shuffled(sheet(90)), {}), ".ply");
+TEST(FaceVertexJoin, PassesOnWhyCornersMayNotBeSorted) {
+  const TemporaryFile file(mesh_formats::ply_big(byte_split(height_field(90)), {}), ".ply");
   MeshScratch scratch(20000);
   scratch.before_sorting([]() -> Result<void> {
     return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere, "no room");

@@ -32,8 +32,8 @@ TEST(MeshLines, AreThoseOfTheText) {
       while (expected.next()) {
         ASSERT_TRUE(lines.next());
         ASSERT_EQ(lines.line(), expected.line());
-        ASSERT_EQ(lines.place().offset, expected.place().offset);
-        ASSERT_EQ(lines.place().line, expected.place().line);
+        ASSERT_EQ(lines.position().offset, expected.position().offset);
+        ASSERT_EQ(lines.position().line, expected.position().line);
         ASSERT_EQ(lines.after().offset, expected.after().offset);
       }
       EXPECT_FALSE(lines.next());

@@ -100,15 +100,15 @@ TEST(MeshText, CountsLinesAndBytes) {
   LineScanner lines("a\r\n\n \t\nb c\rd");
   ASSERT_TRUE(lines.next_filled());
   EXPECT_EQ(lines.line(), "a");
-  EXPECT_EQ(lines.place().line, 1U);
+  EXPECT_EQ(lines.position().line, 1U);
   ASSERT_TRUE(lines.next_filled());
   EXPECT_EQ(lines.line(), "b c");
-  EXPECT_EQ(lines.place().line, 4U);
-  EXPECT_EQ(lines.place().offset, 7U);
+  EXPECT_EQ(lines.position().line, 4U);
+  EXPECT_EQ(lines.position().offset, 7U);
   EXPECT_EQ(lines.after().offset, 11U);
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.line(), "d");
-  EXPECT_EQ(lines.place().line, 5U);
+  EXPECT_EQ(lines.position().line, 5U);
   EXPECT_EQ(lines.after().offset, 12U);
   EXPECT_FALSE(lines.next());
 }

@@ -19,10 +19,10 @@ struct Arguments {
   std::string model;
   std::string workload = "uniform";
   std::string part = "distance";
-  std::size_t asks = 2000;
+  std::size_t queries = 2000;
 };
 
-double ask_all(Probe& probe, const std::vector<Vec3>& points, const std::string& part) {
+double query_all(Probe& probe, const std::vector<Vec3>& points, const std::string& part) {
   double sum = 0;
   for (const Vec3& point : points)
     if (part == "side")
@@ -41,11 +41,11 @@ int run(const Arguments& arguments) {
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
   for (const Workload workload : kWorkloads) {
     if (name_of(workload) != arguments.workload) continue;
-    const auto points = make_queries(workload, box, surface, arguments.asks, 1);
-    ask_all(*probe, points, arguments.part);
+    const auto points = make_queries(workload, box, surface, arguments.queries, 1);
+    query_all(*probe, points, arguments.part);
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
-    const double sum = ask_all(*probe, points, arguments.part);
+    const double sum = query_all(*probe, points, arguments.part);
     CALLGRIND_STOP_INSTRUMENTATION;
     fmt::print("{:.17g}\n", sum);
     return 0;
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
   app.add_option("--part", arguments.part, "distance, side or all")
       ->check(CLI::IsMember({"distance", "side", "all"}))
       ->capture_default_str();
-  app.add_option("--asks", arguments.asks, "How many")->capture_default_str();
+  app.add_option("--asks", arguments.queries, "How many")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }
