@@ -113,7 +113,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("Batches of points against asks one by one");
+  CLI::App app("Batches of points against queries one by one");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
   app.add_option("--points", arguments.points, "Points a batch")->capture_default_str();
   app.add_option("--rounds", arguments.rounds, "Rounds in turn; their median counts")

@@ -1,4 +1,4 @@
-// The first asks of a model that nothing of is in memory: not in the kernel's page cache, not
+// The first queries of a model that nothing of is in memory: not in the kernel's page cache, not
 // in the arena.
 
 #include <fcntl.h>
@@ -73,8 +73,8 @@ int fail(const char* what) {
 }
 
 int run(const Arguments& arguments) {
-  fmt::print("{:<10}{:<20}{:>12}{:>12}{:>14}\n", "points", "the first asks", "asks/s", "max us",
-             "pages an ask");
+  fmt::print("{:<10}{:<20}{:>12}{:>12}{:>14}\n", "points", "the first queries", "queries/s",
+             "max us", "pages a query");
   for (const Workload workload : {Workload::kUniform, Workload::kNear, Workload::kPath})
     for (const bool side : {false, true}) {
       const auto points = points_of(arguments, workload);
@@ -102,9 +102,9 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("The first asks of a model of which nothing is in memory");
+  CLI::App app("The first queries of a model of which nothing is in memory");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
-  app.add_option("--asks", arguments.queries, "Points a workload")->capture_default_str();
+  app.add_option("--queries", arguments.queries, "Points a workload")->capture_default_str();
   app.add_option("--memory-mib", arguments.memory_mib, "Most memory for the model")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

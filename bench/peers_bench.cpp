@@ -103,7 +103,7 @@ class Comparison {
       const std::size_t ours = queried_[i].what == "side" ? 2 : 0;
       const Latency latency = latency_of(queried_[i].query_options, queries);
       rows.push_back({{"workload", name_of(workload)},
-                      {"asked", queried_[i].what},
+                      {"part", queried_[i].what},
                       {"of", queried_[i].who},
                       {"ns", timings[i].median_ns},
                       {"times_ours", timings[i].median_ns / timings[ours].median_ns},
@@ -118,7 +118,7 @@ class Comparison {
  private:
   static void print(const nlohmann::json& row) {
     fmt::print("{:<10}{:<11}{:<10}{:>10.0f}{:>8.2f}{:>11.2g}{:>10.0f}{:>10.0f}\n",
-               row["workload"].get<std::string>(), row["asked"].get<std::string>(),
+               row["workload"].get<std::string>(), row["part"].get<std::string>(),
                row["of"].get<std::string>(), row["ns"].get<double>(),
                row["times_ours"].get<double>(), row["sum_differs"].get<double>(),
                row["p999_ns"].get<double>(), row["max_ns"].get<double>());
@@ -175,7 +175,7 @@ int run(const Options& options) {
 
   nlohmann::json report = describe(*model, *peers);
   report["rows"] = nlohmann::json::array();
-  fmt::print("{:<10}{:<11}{:<10}{:>10}{:>8}{:>11}{:>10}{:>10}\n", "points", "asked", "of", "ns",
+  fmt::print("{:<10}{:<11}{:<10}{:>10}{:>8}{:>11}{:>10}{:>10}\n", "points", "part", "of", "ns",
              "times", "sums off", "p99.9", "max");
   Comparison comparison(options, *probe, model->info(), *peers);
   for (const Workload workload : kWorkloads)
@@ -190,7 +190,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   planetree::bench::Options options;
-  CLI::App app{"Times per ask of planetree and of peers that hold the mesh in memory"};
+  CLI::App app{"Times per query of planetree and of peers that hold the mesh in memory"};
   app.add_option("mesh", options.mesh, "Mesh that the peers load")->required();
   app.add_option("model", options.model, "Its tree, by planetree build")->required();
   app.add_option("--peers", options.peers, "embree, cgal, fcl")
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--workloads", options.workloads, "uniform, near, path, contact, teleport, medial")
       ->delimiter(',');
-  app.add_option("--asks", options.queries, "Points a workload")->capture_default_str();
+  app.add_option("--queries", options.queries, "Points a workload")->capture_default_str();
   app.add_option("--rounds", options.rounds, "Rounds in turn; their median counts")
       ->capture_default_str();
   app.add_option("--instructions", options.instructions,

@@ -1,4 +1,4 @@
-// How many pages an ask reads, by which page goes when another needs its frame. Counts, not times.
+// How many pages a query reads, by which page goes when another needs its frame. Counts, not times.
 
 #include <fmt/format.h>
 
@@ -74,9 +74,9 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("Pages read an ask, by which page goes when another needs its frame");
+  CLI::App app("Pages read per query, by eviction policy");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
-  app.add_option("--asks", arguments.queries, "Points a workload; the second half counts")
+  app.add_option("--queries", arguments.queries, "Points a workload; the second half counts")
       ->capture_default_str();
   app.add_option("--percents", arguments.percents, "Budgets, in % of what all pages take")
       ->capture_default_str();

@@ -59,14 +59,14 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("One kind of ask again and again, to be run by ./dev counts");
+  CLI::App app("One kind of query again and again, run by ./dev counts");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
   app.add_option("--workload", arguments.workload, "uniform, near, path, contact, teleport, medial")
       ->capture_default_str();
   app.add_option("--part", arguments.part, "distance, side or all")
       ->check(CLI::IsMember({"distance", "side", "all"}))
       ->capture_default_str();
-  app.add_option("--asks", arguments.queries, "How many")->capture_default_str();
+  app.add_option("--queries", arguments.queries, "How many")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }

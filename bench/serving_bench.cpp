@@ -135,8 +135,8 @@ void compare_queries(const Model& model, const std::vector<Vec3>& path) {
   }
   over = true;
   installer.join();
-  say("asks, nothing else done", idle);
-  say("asks beside installs", loaded);
+  say("queries, nothing else done", idle);
+  say("queries beside installs", loaded);
   fmt::print("pages read meanwhile: {}\n", model.stats().pages_read - before);
 }
 

@@ -82,7 +82,7 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   // page_fetch.cpp says why so many must stay unpinned.
   if (frame_count < limits_.page_count && frame_count - pinned_count_ <= entries) {
     return make_error(ErrorCode::kNoMemory, page, Error::kNowhere,
-                      "pinning more than %u of %u frames leaves too few for asking: "
+                      "pinning more than %u of %u frames leaves too few for queries: "
                       "raise the memory budget",
                       pinned_count_, frame_count);
   }

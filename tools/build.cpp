@@ -128,11 +128,11 @@ std::string json_report(const BuildArguments& arguments, const octree::BuildRepo
       {"file", arguments.output.string()},
       {"triangles", model.triangle_count},
       {"input_triangles", built.input_triangles},
-      {"set_aside", model.skipped_count},
+      {"skipped", model.skipped_count},
       {"first_set_aside", nullptr},
       {"vertices", model.vertex_count},
       {"watertight", model.unbalanced_edge_count == 0},
-      {"open_edges", model.unbalanced_edge_count},
+      {"unbalanced_edges", model.unbalanced_edge_count},
       {"levels", model.height},
       {"nodes", model.node_count},
       {"blocks", model.block_count},
@@ -157,9 +157,10 @@ std::string plain_report(const BuildArguments& arguments, const octree::BuildRep
   const storage::ModelRecord& model = header.model;
   const std::string part =
       model.has_region() ? " of " + grouped_count(built.input_triangles) : std::string();
-  const std::string surface = model.unbalanced_edge_count == 0
-                                  ? "watertight"
-                                  : grouped_count(model.unbalanced_edge_count) + " open edges";
+  const std::string surface =
+      model.unbalanced_edge_count == 0
+          ? "watertight"
+          : grouped_count(model.unbalanced_edge_count) + " unbalanced edges";
   return fmt::format(
       "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
       "({} triangles/s), {} of memory\n",
@@ -174,7 +175,7 @@ void warn_of_skipped(const BuildArguments& arguments, const octree::BuildReport&
   const std::uint64_t count = report.header.model.skipped_count;
   if (count == 0) return;
   console.warn(arguments.input.string(),
-               fmt::format("{} triangle{} of bad records set aside, the first: {}; repair the "
+               fmt::format("{} triangle{} of bad records skipped, the first: {}; repair the "
                            "mesh, or use --strict to refuse it",
                            grouped_count(count), count == 1 ? "" : "s", report.first_skipped));
 }
@@ -274,7 +275,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       "Build only the triangles that touch this box, in model units. Sides, and whether the "
       "surface is watertight, are those of the whole mesh. Answers are exact where the "
       "surface is nearer than the box's walls, and lower bounds hold everywhere; sides are "
-      "told in the box, of a watertight mesh");
+      "known in the box, of a watertight mesh");
   subcommand.flag(
       "--resume", arguments.options.resume,
       "Keep what is done in a directory OUT.ptree.work, beside the output or in --temp-dir, "

@@ -40,14 +40,14 @@ int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) 
 /// Says so where the first argument ought to be a verb and is none.
 bool lacks_subcommand(const CLI::App& app, int argc, const char* const* argv, Console& console) {
   if (argc < 2) {
-    fmt::print(console.errors(), "planetree: no verb; planetree --help lists them\n");
+    fmt::print(console.errors(), "planetree: no subcommand; planetree --help lists them\n");
     return true;
   }
   const std::string first = argv[1];
   const auto subcommands = app.get_subcommands(
       [&first](const CLI::App* subcommand) { return subcommand->get_name() == first; });
   if (first.starts_with('-') || !subcommands.empty()) return false;
-  fmt::print(console.errors(), "planetree: no verb '{}'; planetree --help lists them\n",
+  fmt::print(console.errors(), "planetree: no subcommand '{}'; planetree --help lists them\n",
              octree::printable(first));
   return true;
 }

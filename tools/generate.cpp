@@ -116,7 +116,7 @@ void add_generate(CLI::App& app, Console& console, std::function<int()>& action)
   subcommand.default_text(
       subcommand.count("--seed", options->seed, kAnyCount,
                        "Number that chooses the noise of statue and terrain and the "
-                       "places of the soup"),
+                       "positions of the soup"),
       "1");
   subcommand.flag("--json", options->json,
                   "Report as one JSON object; progress as one a line, on standard error");

@@ -273,7 +273,7 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   const auto why = subcommand.text(
       "--why", "X,Y,Z", why_complaint,
       [&arguments](const std::string& text) { arguments.why = parse_point(text); },
-      "Instead one answer and how it came about: the mask's cell, the rule that told the side, "
+      "Instead one answer and how it came about: the mask's cell, the rule that decided the side, "
       "crossings, the nearest triangle, what was read (model units)");
   subcommand.exclude(why, node);
   subcommand.exclude(why, page);

@@ -123,13 +123,13 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
           "--path", names,
           [options](const std::string& name) { options->motion = motions.at(name); },
           "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
-          "(0.1 %) or teleport (to another place every hundred ticks)"),
+          "(0.1 %) or teleport (to another position every hundred ticks)"),
       "glide");
   subcommand.path("--ticks", "OUT.csv", options->ticks,
                   "Write every tick here: tick,x,y,z,latency_us,ask_us,width,side,status");
   subcommand.path(
       "--trace", "OUT.csv", options->trace,
-      "Write every page that an answer looked for here: tick,probe,page,level,touch (hit, "
+      "Write every page that an answer looked for here: tick,probe,page,level,access (hit, "
       "prefetched or missed)");
   subcommand.flag("--force", options->force, "Replace what these name if it exists");
   subcommand.flag("--cold", options->cold,

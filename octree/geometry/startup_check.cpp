@@ -44,7 +44,7 @@ const char* range_fault() {
   const T infinity = unknown(std::numeric_limits<T>::infinity());
   const T nothing = infinity - infinity;
   if (nothing == nothing || !(infinity > std::numeric_limits<T>::max()))
-    return "infinities and what is no number are not told from numbers";
+    return "infinities and NaN are not recognised";
   return nullptr;
 }
 
@@ -75,7 +75,7 @@ const char* contact_fault(const TestedPredicates& tested) {
   const double up = 0.5 + 0x1p-53;
   if (!tested.lies_on({0.25, 0.25, 0.5}, triangle) || !tested.lies_on(triangle[2], triangle) ||
       tested.lies_on({0.25, 0.25, up}, triangle) || tested.lies_on({0.5, 0.5, 1}, triangle))
-    return "points on a triangle are not told from those beside it";
+    return "points on a triangle are not told apart from points beside it";
   return nullptr;
 }
 

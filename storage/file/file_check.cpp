@@ -142,10 +142,10 @@ Result<void> check_unbalanced_edges(const ModelRecord& model) noexcept {
     const bool listed = std::memcmp(&edge, &kNothing, sizeof edge) != 0;
     if (listed != (i < model.unbalanced_edge_count)) {
       return bad_model(offsetof(ModelRecord, unbalanced_edge),
-                       "the list of open edges is not as long as their number says");
+                       "the list of unbalanced edges is not as long as their count");
     }
     if (!all_finite(edge.from) || !all_finite(edge.to) || (listed && edge.along == edge.against)) {
-      return bad_model(offsetof(ModelRecord, unbalanced_edge), "an open edge is not one");
+      return bad_model(offsetof(ModelRecord, unbalanced_edge), "a listed edge is not unbalanced");
     }
   }
   return {};

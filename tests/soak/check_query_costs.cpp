@@ -64,7 +64,7 @@ int run(const std::string& file, std::uint64_t queries) {
   const QueryCosts costs =
       measure_queries(*model, *probe, points, points.size(), queries, resident);
   std::printf(
-      "%llu asks with %llu bytes of memory, %llu of them locked: %llu degraded; %llu pages "
+      "%llu queries with %llu bytes of memory, %llu of them locked: %llu degraded; %llu pages "
       "read, %llu evicted meanwhile\n",
       static_cast<unsigned long long>(queries),
       static_cast<unsigned long long>(options.memory_budget_bytes),

@@ -18,8 +18,8 @@ int main(int count, char** arguments) {
     return 2;
   }
   QueryTally all;
-  std::printf("%-20s %8s %8s %8s | misses: finite interval side normal\n", "model", "asks", "sides",
-              "normals");
+  std::printf("%-20s %8s %8s %8s | misses: finite interval side normal\n", "model", "queries",
+              "sides", "normals");
   for (std::size_t model = 0; model < kQueriedModels; ++model) {
     const std::size_t share = (queries + kQueriedModels - 1) / kQueriedModels;
     const QueryTally tally = query_at_random(model, share);
@@ -31,7 +31,7 @@ int main(int count, char** arguments) {
     std::fflush(stdout);
   }
   if (all.misses() > 0) std::printf("%s\n", all.first_miss.c_str());
-  std::printf("%zu asks, %zu sides, %zu normals: %zu wrong\n", all.queries, all.sides, all.normals,
-              all.misses());
+  std::printf("%zu queries, %zu sides, %zu normals: %zu wrong\n", all.queries, all.sides,
+              all.normals, all.misses());
   return all.misses() > 0 ? 1 : 0;
 }

@@ -45,7 +45,7 @@ constexpr std::uint64_t kProgramBytes = std::uint64_t{40} << 20;
 class MeshTriangles final : public octree::TriangleSink {
  public:
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
-    if (index != triangles.size()) give_up("mesh", "has triangles that were set aside");
+    if (index != triangles.size()) give_up("mesh", "has skipped triangles");
     triangles.push_back(corners);
     return {};
   }

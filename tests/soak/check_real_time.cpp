@@ -139,7 +139,7 @@ int run(const std::string& file, std::size_t queries) {
     for (const Health health : kAllHealths)
       for (const unsigned percent : {5u, 10u, 25u, 50u}) {
         const Count count = check(file, whole * percent / 100, health, path, exact);
-        std::printf("%-9s the disk %-7s %3u %% of memory: %zu asks, %zu degraded, %zu wrong\n",
+        std::printf("%-9s the disk %-7s %3u %% of memory: %zu queries, %zu degraded, %zu wrong\n",
                     name_of(motion), name_of(health), percent, count.queried, count.degraded,
                     count.wrong);
         queried += count.queried;
@@ -147,7 +147,7 @@ int run(const std::string& file, std::size_t queries) {
       }
   }
   if (queried == 0)
-    std::fprintf(stderr, "%s: too small to be asked with less memory\n", file.c_str());
+    std::fprintf(stderr, "%s: too small to be queried with less memory\n", file.c_str());
   return wrong > 0 || queried == 0;
 }
 

@@ -59,7 +59,7 @@ const std::map<std::string, Stress>& wrong_ways() {
 
 // Whether no word was wrong.
 bool report(const char* what, const StressCount& count) {
-  std::printf("%s: %llu asks found %llu pages, %llu installs, %llu wrong\n", what,
+  std::printf("%s: %llu queries found %llu pages, %llu installs, %llu wrong\n", what,
               static_cast<unsigned long long>(count.queries),
               static_cast<unsigned long long>(count.found),
               static_cast<unsigned long long>(count.installs),

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kQuery = "--ask";
+constexpr const char* kQuery = "--query";
 
 struct Messages {
   explicit Messages(const fs::path& folder)

@@ -46,9 +46,10 @@ std::optional<std::string> EdgeCheck::finding() const {
        ++i)
     if (listed_[i].along != model_.unbalanced_edge[i].along ||
         listed_[i].against != model_.unbalanced_edge[i].against)
-      return fmt::format("{} triangles run along open edge {} and {} against it, not {} and {}",
-                         listed_[i].along, i, listed_[i].against, model_.unbalanced_edge[i].along,
-                         model_.unbalanced_edge[i].against);
+      return fmt::format(
+          "{} triangles run along unbalanced edge {} and {} against it, not {} and {}",
+          listed_[i].along, i, listed_[i].against, model_.unbalanced_edge[i].along,
+          model_.unbalanced_edge[i].against);
   return std::nullopt;
 }
 

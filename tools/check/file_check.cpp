@@ -125,7 +125,7 @@ void TreeCheck::check_model() {
   const std::uint64_t indices = model.usable_triangles() + model.skipped_count;
   const bool names_one = model.first_skipped != storage::kNoTriangle;
   if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
-    wrong("the first triangle set aside does not fit their count");
+    wrong("the first skipped triangle does not fit their count");
   if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
 }
 

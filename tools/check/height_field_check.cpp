@@ -34,8 +34,9 @@ class HeightFieldCheck {
  private:
   void check(std::uint32_t page, std::uint32_t slot, const octree::BlockView& block) {
     if (query::region_of(parts_.header()->model).has_walls())
-      return report(page, slot, "in a sheet, but the file is of a region with walls");
-    if (!is_proven(block) && !lost_) report(page, slot, "in a sheet, which cannot be proven");
+      return report(page, slot, "marked as a height field, but the file is of a region with walls");
+    if (!is_proven(block) && !lost_)
+      report(page, slot, "marked as a height field, which cannot be proven");
   }
 
   bool is_proven(const octree::BlockView& block) {

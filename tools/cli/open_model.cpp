@@ -30,7 +30,7 @@ std::optional<Error> pages_lost(const Stats& stats) {
   if (stats.waits_given_up != 0)
     return make_error(ErrorCode::kReadFailed, Error::kNowhere, Error::kNowhere,
                       "%" PRIu64 " waits for its pages were given up, so %" PRIu64
-                      " answers are degraded; ask again when the disk is less busy, or let "
+                      " answers are degraded; query again when the disk is less busy, or let "
                       "planetree query wait longer (--wait-limit)",
                       stats.waits_given_up, stats.degraded_answers);
   return std::nullopt;

@@ -95,7 +95,7 @@ Json work_json(const octree::TraversalStats& work) {
 }
 
 std::string work_text(const octree::TraversalStats& work) {
-  return fmt::format("{} nodes, {} blocks, {} triangles evaluated, {} page turns", work.nodes,
+  return fmt::format("{} nodes, {} blocks, {} triangles evaluated, {} page switches", work.nodes,
                      work.blocks, work.triangles, work.page_switches);
 }
 

@@ -29,10 +29,10 @@ std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
       row("child_normals", kNodes, s.child_normals),     row("child_slabs", kNodes, s.child_slabs),
       row("child_radii", kNodes, s.child_radii)};
   if (shape.moments) {
-    rows.push_back(row("child_vectors", kNodes, s.child_dipoles));
-    rows.push_back(row("child_firsts", kNodes, s.child_quadrupoles));
+    rows.push_back(row("child_dipoles", kNodes, s.child_dipoles));
+    rows.push_back(row("child_quadrupoles", kNodes, s.child_quadrupoles));
     rows.push_back(row("child_areas", kNodes, s.child_areas));
-    rows.push_back(row("child_seconds", kNodes, s.child_second_moments));
+    rows.push_back(row("child_second_moments", kNodes, s.child_second_moments));
   }
   const std::vector<StreamRow> others = {
       row("page_links", kNodes, s.page_links),

@@ -137,7 +137,7 @@ std::string surface_text(const storage::ModelRecord& model) {
   if (model.unbalanced_edge_count == 0)
     return "  surface     watertight; sides by crossings, exactly\n";
   std::string text =
-      fmt::format("  surface     not watertight; {}: {} open edges\n",
+      fmt::format("  surface     not watertight; {}: {} unbalanced edges\n",
                   query::region_of(model).has_walls() ? "sides unknown, for not all of it is here"
                                                       : "sides by winding number",
                   grouped_count(model.unbalanced_edge_count));
@@ -178,7 +178,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
   const storage::FileHeader& header = *parts.header();
   const storage::ModelRecord& model = header.model;
   Json json = {{"triangles", model.triangle_count},
-               {"set_aside", model.skipped_count},
+               {"skipped", model.skipped_count},
                {"first_set_aside", nullptr},
                {"vertices", model.vertex_count},
                {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
@@ -186,7 +186,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
                {"watertight", model.unbalanced_edge_count == 0},
                {"sign_rule", sign_rule(model)},
-               {"open_edges", model.unbalanced_edge_count},
+               {"unbalanced_edges", model.unbalanced_edge_count},
                {"first_open_edges", unbalanced_edges_json(model)},
                {"levels", model.height},
                {"nodes", model.node_count},
@@ -217,14 +217,14 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       "{}: {} triangles, {} vertices of {}\n", name, grouped_count(model.triangle_count),
       grouped_count(model.vertex_count), parts.shape().float64 ? "float64" : "float32");
   if (model.skipped_count > 0)
-    text += fmt::format("  set aside   {} triangles of bad records, the first is {}\n",
+    text += fmt::format("  skipped     {} triangles of bad records, the first is {}\n",
                         grouped_count(model.skipped_count), model.first_skipped);
   text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
                       point_text(model.box_upper));
   text += region_text(model);
   text += surface_text(model);
   text += fmt::format(
-      "  tree        {} levels, {} nodes, {} blocks, {} of them in sheets, {:.1f} "
+      "  tree        {} levels, {} nodes, {} blocks, {} of them height fields, {:.1f} "
       "triangles a block\n",
       model.height, grouped_count(model.node_count), grouped_count(model.block_count),
       grouped_count(survey.height_fields), share(model.triangle_count, model.block_count));

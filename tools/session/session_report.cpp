@@ -93,7 +93,7 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
           {"degraded", std::count_if(record.ticks.begin(), record.ticks.end(), is_degraded)},
           {"unknown_sides", unsided},
           {"latency_us", in_microseconds(each(record, &Tick::latency_ns))},
-          {"ask_us", in_microseconds(each(record, &Tick::query_ns))},
+          {"query_us", in_microseconds(each(record, &Tick::query_ns))},
           {"floor_us", in_microseconds(record.floor_ns)},
           {"refine_ticks_p50", refine.at(0.5)},
           {"refine_ticks_p99", refine.at(0.99)},
@@ -109,10 +109,10 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
           {"pages_read", stats.pages_read},
           {"pages_evicted", stats.pages_evicted},
           {"quarantined_pages", stats.quarantined_pages},
-          {"wishes_fetched", stats.fetch_requests_served},
-          {"wishes_made", stats.fetch_requests},
-          {"places_prefetched", stats.positions_prefetched},
-          {"touches_dropped", stats.page_trace_dropped},
+          {"fetch_requests_served", stats.fetch_requests_served},
+          {"fetch_requests", stats.fetch_requests},
+          {"positions_prefetched", stats.positions_prefetched},
+          {"page_trace_dropped", stats.page_trace_dropped},
           {"budget_bytes", stats.budget_bytes},
           {"held_bytes", stats.arena_bytes + stats.table_bytes},
           {"peak_resident_bytes", peak_resident_bytes()}};
@@ -149,7 +149,7 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
                       number("refine_ticks_p99"));
   text += "microseconds         p50       p99     p99.9    p99.99       max\n";
   text += "answer, from due" + row(report["latency_us"]) + '\n';
-  text += "the ask alone   " + row(report["ask_us"]) + '\n';
+  text += "the query alone " + row(report["query_us"]) + '\n';
   text += "idle thread     " + row(report["floor_us"]) + '\n';
   text += fmt::format("first before all threads: {}; one processor: {}; memory locked: {}\n",
                       granted(record.rights.fifo), granted(record.rights.pinned),
@@ -158,7 +158,7 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
                       number("faults"), number("switches_forced"),
                       grouped_count(number("pages_read")), grouped_count(number("pages_evicted")));
   if (!arguments.trace.empty())
-    text += fmt::format("{} touches dropped from the trace\n", number("touches_dropped"));
+    text += fmt::format("{} accesses dropped from the trace\n", number("page_trace_dropped"));
   return text;
 }
 

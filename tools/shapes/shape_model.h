@@ -56,7 +56,7 @@ class Shape {
 /// exactly as many for the soup. At least 12 for a sphere, statue or cylinder, 16
 /// for a cone, 2 for a terrain.
 ///
-/// seed    chooses the noise of statue and terrain and the places of the soup
+/// seed    chooses the noise of statue and terrain and the positions of the soup
 /// errors  kBadArgument: no triangle, or more than kMaxVertices vertices
 Result<std::unique_ptr<Shape>> make_shape(ShapeKind kind, std::uint64_t triangles,
                                           std::uint64_t seed);

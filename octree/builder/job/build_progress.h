@@ -30,7 +30,7 @@ constexpr const char* name_of(BuildPhase phase) {
     case BuildPhase::kClosing:
       return "matching edges";
     case BuildPhase::kListing:
-      return "listing open edges";
+      return "listing unbalanced edges";
     case BuildPhase::kBounding:
       return "bounding";
     case BuildPhase::kColouring:

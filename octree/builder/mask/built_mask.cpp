@@ -38,7 +38,7 @@ Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& ru
   const MaskLinkFormat links(page_bytes_);
   if (pages_.size() > links.max_pages())
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "%zu mask pages, more than links can tell apart; build with a larger page "
+                      "%zu mask pages, more than links can address; build with a larger page "
                       "size",
                       pages_.size());
   link_sectors();

@@ -57,7 +57,7 @@ class StlAscii {
         if (is_same_word(keyword, "endloop")) return enter(Depth::kFacet);
         break;
     }
-    return error("'" + printable(keyword) + "' is out of place here");
+    return error("'" + printable(keyword) + "' is not expected here");
   }
 
   Result<void> enter(Depth depth) {

@@ -39,7 +39,7 @@ PageNumbers::PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>&
 Result<void> PageNumbers::check() const {
   if (pages_.size() <= links_.max_pages()) return {};
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "%zu pages, more than links can tell apart; build with a larger page size",
+                    "%zu pages, more than links can address; build with a larger page size",
                     pages_.size());
 }
 

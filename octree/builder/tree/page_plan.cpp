@@ -50,7 +50,7 @@ class PagePlanner {
     }
     if (drafts_.size() > links_.max_pages())
       return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                        "%zu pages, more than links can tell apart; build with a larger page size",
+                        "%zu pages, more than links can address; build with a larger page size",
                         drafts_.size());
     number_pages();
     return std::move(plan_);

@@ -21,7 +21,8 @@ struct Opening {
 // through compressed wide BVHs", section 4.2); blocks stay as they are.
 class OpenedChildren {
  public:
-  explicit OpenedChildren(const std::vector<BinaryNode>& binary) : binary_(binary), min_(binary.size()) {
+  explicit OpenedChildren(const std::vector<BinaryNode>& binary)
+      : binary_(binary), min_(binary.size()) {
     // Children come after their parents.
     for (auto at = static_cast<std::uint32_t>(binary.size()); at-- > 0;) weigh(at);
   }

@@ -24,7 +24,7 @@ class PeekedPages {
   PageReader reader() {
     return {this,
             [](void*, std::uint32_t) noexcept -> const std::byte* {
-              ADD_FAILURE() << "asked for a page";
+              ADD_FAILURE() << "requested a page";
               return nullptr;
             },
             [](void* context, std::uint32_t number) noexcept {

@@ -38,12 +38,12 @@ class FaultyCalls final : public FileCalls {
   };
 
   Fault fault = Fault::kNone;
-  int number = EIO;                    ///< errno of kError
-  int fault_at = 0;                    ///< which of the calls, from 0
-  bool every = false;                  ///< from then on, rather than once
-  bool no_unnamed = false;             ///< a file system without O_TMPFILE
-  bool no_proc = false;                ///< a system without /proc
-  bool no_noreplace = false;           ///< a file system that renames only with replacement
+  int number = EIO;                      ///< errno of kError
+  int fault_at = 0;                      ///< which of the calls, from 0
+  bool every = false;                    ///< from then on, rather than once
+  bool no_unnamed = false;               ///< a file system without O_TMPFILE
+  bool no_proc = false;                  ///< a system without /proc
+  bool no_noreplace = false;             ///< a file system that renames only with replacement
   std::optional<struct statvfs> device;  ///< that every device has
 
   bool happened() const { return !failed_call_.empty(); }

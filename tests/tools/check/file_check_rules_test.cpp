@@ -175,10 +175,11 @@ TEST_F(FileCheck, FindsMomentsThatAreNot) {
   const Codes expected = {"MOMENTS"};
   // Of blocks, and far above them.
   for (const std::uint32_t page : {0u, 1u}) {
-    EXPECT_EQ(codes_of_forgery(changed("child_vectors", std::int16_t{9000}, page)), expected);
-    EXPECT_EQ(codes_of_forgery(changed("child_firsts", std::int8_t{40}, page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_dipoles", std::int16_t{9000}, page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_quadrupoles", std::int8_t{40}, page)), expected);
     EXPECT_EQ(codes_of_forgery(changed("child_areas", std::uint16_t(-0x0180), page)), expected);
-    EXPECT_EQ(codes_of_forgery(changed("child_seconds", std::uint16_t(-0x0480), page)), expected);
+    EXPECT_EQ(codes_of_forgery(changed("child_second_moments", std::uint16_t(-0x0480), page)),
+              expected);
     EXPECT_EQ(codes_of_forgery(changed("child_areas", std::uint16_t(-0x0180), page), false),
               Codes{});
   }

@@ -76,7 +76,7 @@ TEST_F(Command, InspectSaysHowManyBlocksAreInSheets) {
   EXPECT_EQ(report("tree.ptree")["blocks_in_sheets"], 0);
   const std::string text = run({"inspect", samples + "sphere.ptree"}).output;
   const std::string blocks = sphere["blocks"].dump();
-  EXPECT_NE(text.find(blocks + " blocks, " + blocks + " of them in sheets"), std::string::npos)
+  EXPECT_NE(text.find(blocks + " blocks, " + blocks + " of them height fields"), std::string::npos)
       << text;
 }
 
@@ -84,7 +84,7 @@ TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
   const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
   EXPECT_EQ(open["watertight"], false);
   EXPECT_EQ(open["sign_rule"], "winding");
-  EXPECT_EQ(open["open_edges"], 4 * kSide);
+  EXPECT_EQ(open["unbalanced_edges"], 4 * kSide);
   ASSERT_EQ(open["first_open_edges"].size(), 3u);
   EXPECT_EQ(open["first_open_edges"][0]["triangle"], 0);
   EXPECT_EQ(open["first_open_edges"][0]["along"], 1);

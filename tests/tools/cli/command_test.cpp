@@ -28,8 +28,8 @@ TEST_F(Command, RefusesInOneLine) {
   write("odd.f64", std::string(25, '\0'));
   write("cut.ptree", std::string(100, '\0').replace(0, 8, "\x89PTREE\r\n", 8));
   const std::vector<Refused> cases = {
-      {{}, 2, "planetree: no verb; planetree --help lists them"},
-      {{"frobnicate"}, 2, "planetree: no verb 'frobnicate'; planetree --help lists them"},
+      {{}, 2, "planetree: no subcommand; planetree --help lists them"},
+      {{"frobnicate"}, 2, "planetree: no subcommand 'frobnicate'; planetree --help lists them"},
       {{"build", "mesh.obj"},
        2,
        "planetree: build: --output is required; see planetree build --help"},
@@ -147,9 +147,9 @@ TEST_F(Command, BuildsAndReports) {
   EXPECT_EQ(result.errors, "");
   const Json report = Json::parse(result.output);
   EXPECT_EQ(report["triangles"], kTriangles);
-  EXPECT_EQ(report["set_aside"], 0);
+  EXPECT_EQ(report["skipped"], 0);
   EXPECT_EQ(report["watertight"], false);
-  EXPECT_EQ(report["open_edges"], 4 * kSide);
+  EXPECT_EQ(report["unbalanced_edges"], 4 * kSide);
   EXPECT_EQ(report["first_set_aside"], nullptr);
   EXPECT_EQ(report["file_bytes"], fs::file_size("new.ptree"));
   EXPECT_EQ(report["page_bytes"], 4096);
@@ -191,11 +191,11 @@ TEST_F(Command, BuildNamesTheFirstRecordSetAside) {
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(
       result.errors,
-      "planetree: warning: holes.obj: 3 triangles of bad records set aside, the first: line "
+      "planetree: warning: holes.obj: 3 triangles of bad records skipped, the first: line "
       "35: vertex index 99 is out of range, the file has 16 vertices; repair the mesh, or use "
       "--strict to refuse it\n");
   const Json report = Json::parse(result.output);
-  EXPECT_EQ(report["set_aside"], 3);
+  EXPECT_EQ(report["skipped"], 3);
   EXPECT_EQ(report["first_set_aside"], 18);
 }
 

@@ -90,7 +90,7 @@ TEST_F(TracedAccess, ReportsASession) {
     EXPECT_LE(report["late"], 500);
     EXPECT_LE(report["latency_us"]["p50"], report["latency_us"]["max"]);
     EXPECT_GT(report["floor_us"]["p50"], 0);
-    EXPECT_LE(report["ask_us"]["p99"], report["ask_us"]["p999"]);
+    EXPECT_LE(report["query_us"]["p99"], report["query_us"]["p999"]);
     EXPECT_LE(report["held_bytes"], report["budget_bytes"]);
     EXPECT_GE(report["pages_read"], 1);
     EXPECT_LE(report["refine_ticks_p50"], report["refine_ticks_p99"]);
@@ -124,10 +124,10 @@ TEST_F(TracedAccess, TracesEveryPageWhereAsked) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "200", "--trace",
                                "pages.csv", "--ticks", "ticks.csv", "--json"});
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
-  EXPECT_EQ(nlohmann::json::parse(outcome.output)["touches_dropped"], 0);
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["page_trace_dropped"], 0);
   const std::vector<std::string> rows = lines_of(read_text("pages.csv"));
   ASSERT_GT(rows.size(), 1u);
-  EXPECT_EQ(rows[0], "tick,probe,page,level,touch");
+  EXPECT_EQ(rows[0], "tick,probe,page,level,access");
   unsigned last = 0, missed = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     unsigned tick = 0, probe = 0, page = 0, level = 0;

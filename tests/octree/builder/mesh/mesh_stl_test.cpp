@@ -150,13 +150,13 @@ TEST(StlAscii, RefusesStructuralDamage) {
                  "line 4: a vertex of more than three numbers");
   expect_refused("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 o 0\n",
                  "line 4: 'o' is not a number");
-  expect_refused("solid s\nvertex 0 0 0\n", "line 2: 'vertex' is out of place here");
-  expect_refused("solid s\nfacet normal 0 0 1\nfacet\n", "line 3: 'facet' is out of place here");
+  expect_refused("solid s\nvertex 0 0 0\n", "line 2: 'vertex' is not expected here");
+  expect_refused("solid s\nfacet normal 0 0 1\nfacet\n", "line 3: 'facet' is not expected here");
   expect_refused("solid s\nfacet normal 0 0 1\nouter loop\nendsolid\n",
-                 "line 4: 'endsolid' is out of place here");
+                 "line 4: 'endsolid' is not expected here");
   expect_refused("solid s\nfacet normal 0 0 1\nouter loop\nendloop\nouter loop\n",
                  "line 5: a facet with a second loop");
-  expect_refused("solid s\nendsolid\nmore\n", "line 3: 'more' is out of place here");
+  expect_refused("solid s\nendsolid\nmore\n", "line 3: 'more' is not expected here");
   expect_refused("solid s\nendsolid s\n", "no triangle: the file holds no faces");
 }
 
