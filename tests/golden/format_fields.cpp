@@ -1,6 +1,7 @@
 #include "tests/golden/format_fields.h"
 
 #include <algorithm>
+#include <map>
 #include <type_traits>
 
 #include "octree/mask_streams.h"
@@ -31,7 +32,7 @@ class FieldList {
 
   template <class T>
   FieldList& add(const char* name, std::size_t offset) {
-    struct_.fields.push_back({name, offset, sizeof(T), encoding_of<T>()});
+    struct_.fields.push_back({spec_name(name), offset, sizeof(T), encoding_of<T>()});
     return *this;
   }
   FormatStruct take() { return std::move(struct_); }
@@ -98,9 +99,9 @@ FormatStruct model_fields() {
       .take();
 }
 
-FormatStruct open_edge_fields() {
+FormatStruct unbalanced_edge_fields() {
   using storage::OpenEdge;
-  return FieldList<OpenEdge>("Open edges")
+  return FieldList<OpenEdge>("Unbalanced edges")
       .PLANETREE_FIELD(OpenEdge, from)
       .PLANETREE_FIELD(OpenEdge, to)
       .PLANETREE_FIELD(OpenEdge, triangle)
@@ -166,14 +167,25 @@ FormatStruct mask_page_head_fields() {
 }  // namespace
 
 const std::vector<FormatStruct>& format_structs() {
-  static const std::vector<FormatStruct> all = {header_fields(),    model_fields(),
-                                                open_edge_fields(), entry_fields(),
-                                                page_head_fields(), mask_page_head_fields()};
+  static const std::vector<FormatStruct> all = {header_fields(),          model_fields(),
+                                                unbalanced_edge_fields(), entry_fields(),
+                                                page_head_fields(),       mask_page_head_fields()};
   return all;
 }
 
 const FormatStruct& format_struct(const std::string& heading) {
   return *std::ranges::find(format_structs(), heading, &FormatStruct::heading);
+}
+
+std::string spec_name(const std::string& name) {
+  static const std::map<std::string, std::string> spec_names = {
+      {"set_aside_count", "skipped_count"},         {"first_set_aside", "first_skipped"},
+      {"open_edge_count", "unbalanced_edge_count"}, {"open_edge", "unbalanced_edge"},
+      {"child vectors", "child dipoles"},           {"child firsts", "child quadrupoles"},
+      {"child seconds", "child second moments"},
+  };
+  const auto found = spec_names.find(name);
+  return found == spec_names.end() ? name : found->second;
 }
 
 }  // namespace planetree::golden

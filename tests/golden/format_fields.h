@@ -30,4 +30,7 @@ const std::vector<FormatStruct>& format_structs();
 /// The struct of that heading.
 const FormatStruct& format_struct(const std::string& heading);
 
+/// The specification's name of what the code calls `name`: a field or a stream.
+std::string spec_name(const std::string& name);
+
 }  // namespace planetree::golden

@@ -75,7 +75,7 @@ std::vector<std::string> coded_streams(const std::string& header) {
   const std::regex line(R"(\n///   (\w+(?: \w+)*)  +\S)");
   std::vector<std::string> names;
   for (std::sregex_iterator match(source.begin(), source.end(), line), end; match != end; ++match)
-    names.push_back((*match)[1]);
+    names.push_back(spec_name((*match)[1]));
   return names;
 }
 
@@ -96,13 +96,13 @@ INSTANTIATE_TEST_SUITE_P(All, SpecStreams, testing::Values("Distance page", "Mas
                            return std::string(each.param).substr(0, std::strlen(each.param) - 5);
                          });
 
-TEST_P(SpecStreams, AreShuffledWhereWiderThanAByte) {
+TEST_P(SpecStreams, AreSplitWhereWiderThanAByte) {
   const SpecTable table = stream_table(GetParam());
   const std::vector<std::string> elements = table.column("element");
-  const std::vector<std::string> shuffled = table.column("shuffled");
+  const std::vector<std::string> split = table.column("split");
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const bool is_wide = elements[i] != "u8" && elements[i] != "i8" && elements[i] != "bits";
-    EXPECT_EQ(shuffled[i], is_wide ? "yes" : "") << table.rows[i].front();
+    EXPECT_EQ(split[i], is_wide ? "yes" : "") << table.rows[i].front();
   }
 }
 
