@@ -15,10 +15,10 @@
 ///   child normals    2 planes of i16: u, v
 ///   child slabs      2 planes of i16: lower, upper
 ///   child radii      u16
-///   child vectors    3 planes of i16: x, y, z               } of models that are
-///   child firsts     5 planes of i8: xx, yy, xy, yz, zx     } not watertight only
-///   child areas      u16, a ShortFloat                      } (octree/page/moments.h)
-///   child seconds    u16, a ShortFloat                      }
+///   child dipoles         3 planes of i16: x, y, z            } of models that are
+///   child quadrupoles     5 planes of i8: xx, yy, xy, yz, zx  } not watertight only
+///   child areas           u16, a ShortFloat                   } (octree/page/moments.h)
+///   child second moments  u16, a ShortFloat                   }
 ///   page links       u32 a child of kind kPage
 ///   triangle counts  u8 a block, and kHeightFieldBit, kCompactBit
 ///   vertex counts    u8 a block
@@ -29,7 +29,7 @@
 ///   first ids        u32 or u64 a block
 ///   id steps         u32 or u64 a further triangle: difference to the one before
 ///
-/// "Plane" and every stream wider than a byte is byte-shuffled: all first
+/// "Plane" and every stream wider than a byte is byte-stream split: all first
 /// bytes, then all second bytes, and so on.
 namespace planetree::octree {
 

@@ -100,7 +100,7 @@ FormatStruct model_fields() {
 
 FormatStruct unbalanced_edge_fields() {
   using storage::UnbalancedEdge;
-  return FieldList<UnbalancedEdge>("Open edges")
+  return FieldList<UnbalancedEdge>("Unbalanced edges")
       .PLANETREE_FIELD(UnbalancedEdge, from)
       .PLANETREE_FIELD(UnbalancedEdge, to)
       .PLANETREE_FIELD(UnbalancedEdge, triangle)

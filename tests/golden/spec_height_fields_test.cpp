@@ -1,5 +1,5 @@
-// "HeightFields", held against the samples as the independent reader decodes them, and against sums
-// of solid angles.
+// "Height fields", held against the samples as the independent reader decodes them, and against
+// sums of solid angles.
 
 #include <gtest/gtest.h>
 

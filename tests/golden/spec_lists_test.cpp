@@ -1,6 +1,6 @@
-// "Listed cells" and their slabs, held against the samples as the independent reader decodes
-// them: against every triangle of the tree, clipped by every octant without any error, or by the
-// cell, and against sums of solid angles.
+// "Lists of blocks" and "Slabs of listed leaves", held against the samples as the independent
+// reader decodes them: against every triangle of the tree, clipped by every octant without any
+// error, or by the cell, and against sums of solid angles.
 
 #include <gtest/gtest.h>
 

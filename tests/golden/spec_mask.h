@@ -27,7 +27,7 @@ struct SpecListedBlock {
   std::uint32_t link;  ///< to a SpecBlock
 };
 
-/// "Slabs of listed cells". Points are in the cell's own measure: SpecMask::in_cell().
+/// "Slabs of listed leaves". Points are in the cell's own measure: SpecMask::in_cell().
 struct SpecSlab {
   unsigned axis = 0;
   int p = 0, q = 0;  ///< slopes along the two axes after it, in 32nds

@@ -75,7 +75,7 @@ double off(const std::array<SpecPoint, 3>& stored, const std::array<SpecPoint, 3
   return std::sqrt(sum);
 }
 
-// "A complete reader", far().
+// "Side of a point: any other surface", far().
 struct Far {
   double value, error;
 };

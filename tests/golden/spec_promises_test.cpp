@@ -1,4 +1,4 @@
-// "What the tree promises" and "Keys and numbers", held against the samples as
+// "Guarantees of the tree" and "Page keys", held against the samples as
 // the independent reader decodes them.
 
 #include <gtest/gtest.h>

@@ -150,7 +150,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
   EXPECT_NE(*number, 0);
 }
 
-// "A complete reader", nearest(): what it says of the whole from the part.
+// "Nearest triangle", nearest(): what it says of the whole from the part.
 TEST_F(SpecRegion, BoundsTheDistanceToTheWhole) {
   const auto model = Model::open(region_sample().ptree_path());
   ASSERT_TRUE(model);

@@ -96,13 +96,13 @@ INSTANTIATE_TEST_SUITE_P(All, SpecStreams, testing::Values("Distance page", "Mas
                            return std::string(each.param).substr(0, std::strlen(each.param) - 5);
                          });
 
-TEST_P(SpecStreams, AreShuffledWhereWiderThanAByte) {
+TEST_P(SpecStreams, AreSplitWhereWiderThanAByte) {
   const SpecTable table = stream_table(GetParam());
   const std::vector<std::string> elements = table.column("element");
-  const std::vector<std::string> byte_split = table.column("shuffled");
+  const std::vector<std::string> split = table.column("split");
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const bool is_wide = elements[i] != "u8" && elements[i] != "i8" && elements[i] != "bits";
-    EXPECT_EQ(byte_split[i], is_wide ? "yes" : "") << table.rows[i].front();
+    EXPECT_EQ(split[i], is_wide ? "yes" : "") << table.rows[i].front();
   }
 }
 

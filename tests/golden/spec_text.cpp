@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
 
 namespace planetree::golden {
@@ -23,9 +24,15 @@ std::size_t heading_depth(const std::string& line) {
   return depth != std::string::npos && line[depth] == ' ' ? depth : 0;
 }
 
+// "## 2.1 Header", "### B.3 Scale" and "## Appendix B: Notes" are headed Header, Scale and Notes.
+std::string title_of(const std::string& line) {
+  static const std::regex number(R"(^#+ (?:\d+(?:\.\d+)* |[A-Z](?:\.\d+)+ |Appendix [A-Z]: )?)");
+  return std::regex_replace(line, number, "");
+}
+
 std::vector<std::string> section(const std::string& heading) {
   auto begin = std::ranges::find_if(lines(), [&](const std::string& line) {
-    return heading_depth(line) > 0 && line.substr(heading_depth(line) + 1) == heading;
+    return heading_depth(line) > 0 && title_of(line) == heading;
   });
   if (begin == lines().end()) throw std::runtime_error("no section " + heading);
   const std::size_t depth = heading_depth(*begin++);

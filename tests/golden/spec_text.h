@@ -17,8 +17,8 @@ struct SpecTable {
   std::vector<std::string> column(const std::string& head) const;
 };
 
-/// The tables under a heading, in their order, those of its subsections
-/// included.
+/// The tables under a heading, in their order, those of its subsections included.
+/// heading  without its number.
 std::vector<SpecTable> spec_tables(const std::string& heading);
 
 /// The lines of the only block fenced with this word.

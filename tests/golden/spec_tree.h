@@ -30,7 +30,7 @@ class SpecTree {
   /// All triangles below a link, in the order of the tree.
   std::vector<SpecTriangle> triangles(std::uint32_t link) const;
 
-  /// "A complete reader", nearest(): `point` and the distance are in the model
+  /// "Nearest triangle", nearest(): `point` and the distance are in the model
   /// frame.
   SpecNearest nearest(const SpecPoint& point) const;
 
