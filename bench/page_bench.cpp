@@ -9,7 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "query/serve/page_decoding.h"
+#include "query/file/page_decoding.h"
 #include "storage/file/page_file.h"
 
 namespace planetree::bench {

@@ -9,12 +9,8 @@
 # HEADERS      large headers of other libraries, compiled once for all its sources.
 # HEADERS_OF   a layer whose compiled headers it uses too.
 function(planetree_add_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "HEADERS_OF" "EXCEPT;DEPENDS;HEADERS;SUBFOLDERS")
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "HEADERS_OF" "EXCEPT;DEPENDS;HEADERS")
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
-  foreach(sub IN LISTS layer_SUBFOLDERS)
-    file(GLOB more CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${sub}/*.cpp)
-    list(APPEND sources ${more})
-  endforeach()
   list(REMOVE_ITEM sources ${layer_EXCEPT})
   set(kind STATIC)
   set(scope PUBLIC)

@@ -14,7 +14,7 @@ set(planetree_headers
 add_library(planetree)
 add_library(planetree::planetree ALIAS planetree)
 foreach(layer error storage_system storage_file cache geometry page traversal nearest winding mask
-        query)
+        query_file query_answer query_serve query)
   get_target_property(kind planetree_${layer} TYPE)
   if(kind STREQUAL STATIC_LIBRARY)
     target_sources(planetree PRIVATE $<TARGET_OBJECTS:planetree_${layer}>)

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <new>
 #include <utility>
 
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/startup_check.h"
-#include "query/answer/model_region.h"
+#include "query/fetch_probe.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
-#include "query/serve/batch_threads.h"
-#include "query/serve/fetch_threads.h"
 #include "query/serve/fp_environment.h"
-#include "query/serve/page_decoding.h"
+#include "query/serve/page_accessor.h"
 
 namespace planetree {
 namespace query {
@@ -52,30 +51,6 @@ ModelInfo describe(const storage::PageFile& file) {
   return info;
 }
 
-octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale) {
-  const storage::ModelRecord& model = header.model;
-  octree::TreeInfo tree;
-  tree.page_bytes = header.page_bytes;
-  tree.root_link = model.root_link;
-  tree.shape = block_shape(model);
-  tree.record_count = model.node_count + model.block_count;
-  tree.box_lower = scale.in(Vec3{model.box_lower[0], model.box_lower[1], model.box_lower[2]});
-  tree.box_upper = scale.in(Vec3{model.box_upper[0], model.box_upper[1], model.box_upper[2]});
-  tree.centre = {model.centre[0], model.centre[1], model.centre[2]};
-  tree.sample = {model.sample[0], model.sample[1], model.sample[2]};
-  tree.sample_triangle = model.sample_triangle;
-  return tree;
-}
-
-octree::MaskInfo mask_info(const storage::FileHeader& header, const octree::TreeInfo& tree) {
-  octree::MaskInfo mask;
-  mask.page_bytes = header.page_bytes;
-  mask.first_page = header.first_mask_page();
-  mask.page_count = header.model.mask_page_count;
-  mask.lower = tree.box_lower;
-  return mask;
-}
-
 Result<void> check_counts(const OpenOptions& options) {
   const auto check = [](unsigned count, const char* what, unsigned most) -> Result<void> {
     if (count >= 1 && count <= most) return {};
@@ -97,19 +72,27 @@ unsigned thread_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
 
-Pager::Limits limits_of(const OpenOptions& options, const ModelSeams& seams) {
+Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& options,
+                        const ModelSeams& seams) {
   Pager::Limits limits;
   limits.budget_bytes = options.memory_budget_bytes;
   limits.max_probes = options.max_probes;
   limits.probe_bytes = sizeof(BatchBuffers);
   limits.thread_probes = thread_probes(options);
-  limits.thread_bytes = limits.thread_probes * sizeof(ProbeState) +
+  limits.thread_bytes = sizeof(ModelState) +
+                        limits.thread_probes * (sizeof(QueryingFetchProbe) + sizeof(void*)) +
                         options.fetch_threads * FetchThreads::kThreadBytes +
                         limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
   limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
-  limits.page_trace_capacity = options.page_trace_capacity;
   limits.policy = seams.policy;
+  limits.arena.readers = limits.readers();
+  limits.arena.model_bytes = sizeof(ServingModel);
+  limits.arena.probe_bytes = sizeof(ProbeState);
+  if (header.model.mask_page_count > 0)
+    limits.arena.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
+  limits.arena.page_trace_capacity = options.page_trace_capacity;
+  limits.arena.page_count = header.page_count;
   return limits;
 }
 
@@ -119,46 +102,48 @@ static_assert(OpenOptions::kMaxProbes + OpenOptions::kMaxFetchThreads +
 
 }  // namespace
 
-ModelState::~ModelState() = default;
-
-// What it is in goes after it.
-void ModelState::operator delete(ModelState* state, std::destroying_delete_t) noexcept {
-  state->fetch_threads_.reset();
-  state->batch_threads_.reset();
-  const std::unique_ptr<Pager> pager = std::move(state->pager_);
-  state->~ModelState();
-}
-
-ModelState::ModelState(std::unique_ptr<Pager> pager, std::chrono::milliseconds wait_limit)
+ModelState::ModelState(std::unique_ptr<Pager> pager)
     : pager_(std::move(pager)),
-      query_arena_(pager_->query_arena().parts()),
       info_(describe(pager_->file())),
-      scale_(pager_->file().header().model.scale_exponent),
-      wait_limit_(wait_limit) {
-  tree_ = tree_info(pager_->file().header(), scale_);
-  mask_ = mask_info(pager_->file().header(), tree_);
-  region_ = region_of(pager_->file().header().model);
-  region_corner_ = region_.clamped(tree_.box_lower);
-  region_winding_ = pager_->file().header().model.region_winding;
-}
+      serving_(::new (pager_->query_arena().parts().model.data()) ServingModel(
+          pager_->file().header(), pager_->cache(), pager_->query_arena().parts())) {}
+
+ModelState::~ModelState() = default;
 
 Result<void> ModelState::fill_side_grid() {
   auto reader = claim_reader();
   if (!reader) return reader.error();
   PageAccessor accessor(*reader, Wait::kForPages);
-  side_grid_.fill(mask_, tree_, region_.has_walls(), scale_.exponent(), accessor.pages(),
-                  query_arena_.side_grid);
+  ModelGeometry& geometry = serving_->geometry;
+  geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.region.has_walls(),
+                          geometry.scale.exponent(), accessor.pages(), serving_->arena.side_grid);
   return {};
 }
 
 Result<void> ModelState::start_threads(const OpenOptions& options, const ModelSeams& seams) {
+  const std::chrono::milliseconds wait_limit(options.wait_limit_ms);
+  serving_->fetcher_terms = {true, wait_limit};
+  serving_->query_terms = {!seams.starts_fetching, wait_limit};
   if (options.batch_threads > 1) {
-    auto batch_threads = BatchThreads::claim(*this, options.batch_threads);
-    if (!batch_threads) return batch_threads.error();
-    batch_threads_ = std::move(*batch_threads);
+    auto threads = BatchThreads::create(options.batch_threads);
+    if (!threads) return threads.error();
+    batch_threads_ = std::move(*threads);
+    for (unsigned i = 0; i < options.batch_threads; ++i) {
+      auto reader = claim_reader();
+      if (!reader) return reader.error();
+      batch_probes_.push_back(ProbeState::create(*serving_, std::move(*reader)));
+    }
+    serving_->batch_probes = batch_probes_;
+    serving_->batch_threads = batch_threads_.get();
   }
   if (!seams.starts_fetching) return {};
-  auto fetchers = FetchThreads::start(*this, options.fetch_threads);
+  std::vector<std::unique_ptr<FetchProbe>> probes;
+  for (unsigned i = 0; i < options.fetch_threads; ++i) {
+    auto reader = claim_reader();
+    if (!reader) return reader.error();
+    probes.push_back(std::make_unique<QueryingFetchProbe>(*serving_, std::move(*reader)));
+  }
+  auto fetchers = FetchThreads::start(cache(), serving_->arena.fetch_requests, std::move(probes));
   if (!fetchers) return fetchers.error();
   fetch_threads_ = std::move(*fetchers);
   return {};
@@ -173,14 +158,20 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
   if (const auto checked = check_counts(options); !checked) return checked.error();
-  auto pager = Pager::open(path, limits_of(options, seams), seams.calls);
+  auto file = storage::PageFile::open(path, seams.calls);
+  if (!file) return file.error();
+  const Pager::Limits limits = limits_of(file->header(), options, seams);
+  auto pager = Pager::create(std::move(*file), limits);
   if (!pager) return pager.error();
-  void* storage = (*pager)->query_arena().parts().model_storage;
-  const std::chrono::milliseconds wait_limit(options.wait_limit_ms);
-  std::unique_ptr<ModelState> state(::new (storage) ModelState(std::move(*pager), wait_limit));
-  if (const auto filled = state->fill_side_grid(); !filled) return filled.error();
-  if (const auto started = state->start_threads(options, seams); !started) return started.error();
-  return state;
+  try {
+    std::unique_ptr<ModelState> state(new ModelState(std::move(*pager)));
+    if (const auto filled = state->fill_side_grid(); !filled) return filled.error();
+    if (const auto started = state->start_threads(options, seams); !started) return started.error();
+    return state;
+  } catch (const std::bad_alloc&) {
+    return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
+                      "no memory to open the model; free some and try again");
+  }
 }
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
@@ -193,11 +184,11 @@ Result<Model> ModelState::open_model(const std::filesystem::path& path, const Op
 
 std::size_t ModelState::drain_page_trace(std::span<PageAccess> accesses) const noexcept {
   std::size_t count = 0;
-  for (std::uint32_t index = 0; index < query_arena_.traces.size(); ++index) {
+  for (std::uint32_t index = 0; index < serving_->arena.traces.size(); ++index) {
     std::array<TracedAccess, 64> taken;
     for (std::size_t got = taken.size(); got == taken.size();) {
       const std::size_t capacity = std::min(taken.size(), accesses.size() - count);
-      got = query_arena_.traces[index].ring.take(std::span(taken).first(capacity));
+      got = serving_->arena.traces[index].ring.take(std::span(taken).first(capacity));
       for (const TracedAccess& access : std::span(taken).first(got)) {
         const std::uint64_t octcode = pager_->file().entries()[access.page].octcode;
         const auto level = static_cast<std::uint8_t>(octree::cell_of_octcode(octcode).level);
@@ -217,10 +208,10 @@ Stats ModelState::stats() const noexcept {
   stats.pages_evicted = cache.evictions;
   stats.quarantined_pages = cache.quarantined;
   stats.waits_given_up = cache.given_up;
-  stats.degraded_answers = degraded_.load(std::memory_order_relaxed);
-  for (const PageTrace& trace : query_arena_.traces)
+  stats.degraded_answers = serving_->degraded.load(std::memory_order_relaxed);
+  for (const PageTrace& trace : serving_->arena.traces)
     stats.page_trace_dropped += trace.ring.dropped();
-  for (const FetchRequests& fetch_requests : query_arena_.fetch_requests)
+  for (const FetchRequests& fetch_requests : serving_->arena.fetch_requests)
     stats.fetch_requests += fetch_requests.missed.given();
   if (fetch_threads_) {
     stats.fetch_requests_served = fetch_threads_->fetch_requests_served();

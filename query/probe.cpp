@@ -3,10 +3,9 @@
 #include <new>
 #include <utility>
 
-#include "query/answer/closest_point.h"
-#include "query/answer/containment.h"
+#include "query/batch.h"
+#include "query/model_state.h"
 #include "query/probe_state.h"
-#include "query/serve/batch.h"
 #include "query/serve/fp_environment.h"
 
 namespace planetree {
@@ -16,7 +15,7 @@ namespace {
 [[gnu::noinline]] Containment contains_computed(query::ProbeState& probe, const Vec3& query,
                                                 const QueryOptions& options) noexcept {
   const query::FpEnvironmentGuard host;
-  return query::contains(probe, query, options);
+  return probe.contains(query, options);
 }
 
 }  // namespace
@@ -28,7 +27,8 @@ Result<Probe> Probe::create(const Model& model) {
   if (!storage)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for a probe; free some and try again");
-  return Probe(query::ProbeState::create(*model.state_, std::move(*reader), std::move(storage)));
+  return Probe(
+      query::ProbeState::create(model.state_->serving(), std::move(*reader), std::move(storage)));
 }
 
 Probe::Probe(std::unique_ptr<query::ProbeState> state) noexcept : state_(std::move(state)) {}
@@ -38,17 +38,17 @@ Probe::~Probe() = default;
 
 ClosestPoint Probe::closest_point(Vec3 query, const QueryOptions& options) noexcept {
   const query::FpEnvironmentGuard host;
-  return query::closest_point(*state_, query, options);
+  return state_->closest_point(query, options);
 }
 
 Containment Probe::contains(Vec3 query, const QueryOptions& options) noexcept {
   // Before the register is read, which waits for what the thread computes.
-  const Containment fast = query::contains_fast(*state_, query, options);
+  const Containment fast = state_->contains_fast(query, options);
   return fast.side != Side::kUnknown ? fast : contains_computed(*state_, query, options);
 }
 
 void Probe::motion(Vec3 position, Vec3 velocity) noexcept {
-  state_->fetch_requests().motion.give({position, velocity, state_->last_parts()});
+  state_->note_motion(position, velocity);
 }
 
 void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,

@@ -1,76 +1,93 @@
 #pragma once
 
+#include <atomic>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
 #include <utility>
 
 #include "cache/reader.h"
-#include "query/answer/side_cache.h"
-#include "query/model_state.h"
+#include "planetree/types.h"
+#include "query/answer/coherence.h"
 #include "query/serve/batch_order.h"
 #include "query/serve/fetch_requests.h"
+#include "query/serve/page_trace.h"
+#include "query/serving_model.h"
 
 namespace planetree::query {
 
-/// What stands behind a Probe; in the model's QueryArena, but for those of fetch threads.
+/// The state behind a Probe: runs its queries, notes what pages they missed, and keeps what helps
+/// the next ones. It lies in the model's QueryArena. One thread.
 class ProbeState {
  public:
-  /// In the room that the reader's place has.
-  static std::unique_ptr<ProbeState> create(const ModelState& model, cache::Reader reader,
+  /// batch_buffers  null for the probes of the model's own threads.
+  static std::unique_ptr<ProbeState> create(const ServingModel& model, cache::Reader reader,
                                             std::unique_ptr<BatchBuffers> batch_buffers = nullptr) {
-    void* storage = model.storage_of_probe(reader.index());
+    void* storage = model.arena.probe(reader.index());
     return std::unique_ptr<ProbeState>(
         ::new (storage) ProbeState(model, std::move(reader), std::move(batch_buffers)));
   }
   static void* operator new(std::size_t) = delete;
-  // The reader goes last: with it, the room is another's.
-  static void operator delete(ProbeState* state, std::destroying_delete_t) noexcept {
-    state->~ProbeState();
-  }
+  /// The memory is the arena's: another probe has it once the reader is released.
+  static void operator delete(void*) noexcept {}
 
-  ProbeState(const ModelState& model, cache::Reader reader,
-             std::unique_ptr<BatchBuffers> batch_buffers = nullptr) noexcept
-      : model_(model),
-        reader_(std::move(reader)),
-        page_trace_(model.page_trace_writer(reader_.index())),
-        batch_buffers_(std::move(batch_buffers)) {}
-
-  const ModelState& model() const noexcept { return model_; }
+  const ServingModel& model() const noexcept { return model_; }
   cache::Reader& reader() noexcept { return reader_; }
-
-  octree::CoherenceCache& coherence_cache() noexcept { return coherence_cache_; }
-  SideCache& side_cache() noexcept { return side_cache_; }
-
-  /// Where it says which pages it would like.
-  FetchRequests& fetch_requests() noexcept { return model_.fetch_requests(reader_.index()); }
-  /// The last nearest triangle, for asks that may find none; nothing before the first of
-  /// Wait::kNever.
-  octree::NearestAnswer& last_nearest() noexcept { return last_nearest_; }
-  PageTraceWriter& touches() noexcept { return page_trace_; }
-  /// The parts last asked for.
-  std::uint32_t& last_parts() noexcept { return last_parts_; }
-
-  /// Whether the last look at the colours told a side, so that the next may.
-  bool& side_grid_answered() noexcept { return side_grid_answered_; }
-  /// Whether the last side that came with a distance took a search of the mask.
-  bool& searched_side() noexcept { return searched_side_; }
-
-  /// For batches; null in the probes of a BatchThreads.
+  Coherence& coherence() noexcept { return coherence_; }
   BatchBuffers* batch_buffers() noexcept { return batch_buffers_.get(); }
 
+  /// See Probe::closest_point.
+  ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept;
+  /// See Probe::contains.
+  Containment contains(const Vec3& query, const QueryOptions& options) noexcept;
+  /// The answer of contains() if the side grid decides it by whole numbers, as it does for most
+  /// points; else kUnknown. Computes nothing with doubles: the thread may round as it likes, and
+  /// trap. Not tried where the last query found that it does not help.
+  Containment contains_fast(const Vec3& query, const QueryOptions& options) noexcept;
+  /// See Probe::motion.
+  void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
+    model_.requests(reader_.index()).motion.give({position, velocity, last_parts_});
+  }
+  /// See FetchProbe::bring_pages.
+  void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+                   const std::atomic<bool>& stop) noexcept;
+
  private:
-  const ModelState& model_;
-  cache::Reader reader_;
-  PageTraceWriter page_trace_;
-  // Where there is room before what begins on a cache line.
+  ProbeState(const ServingModel& model, cache::Reader reader,
+             std::unique_ptr<BatchBuffers> batch_buffers) noexcept
+      : model_(model),
+        trace_(model.page_trace_writer(reader.index())),
+        batch_buffers_(std::move(batch_buffers)),
+        reader_(std::move(reader)) {}
+
+  Containment search_side(const Vec3& query, const QueryOptions& options,
+                          const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
+                          PageTraceWriter* trace) noexcept;
+  void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts) noexcept;
+
+  const ServingModel& model_;
+  PageTraceWriter trace_;
   std::unique_ptr<BatchBuffers> batch_buffers_;
-  std::uint32_t last_parts_ = kAllParts;
-  bool side_grid_answered_ = true;
-  bool searched_side_ = false;
-  octree::CoherenceCache coherence_cache_;
-  SideCache side_cache_;
-  octree::NearestAnswer last_nearest_;
+  std::uint32_t last_parts_ = kAllParts;  // of the last query
+  Coherence coherence_;
+  cache::Reader reader_;  // last, for it is what keeps the memory
 };
+
+inline Containment ProbeState::contains_fast(const Vec3& query,
+                                             const QueryOptions& options) noexcept {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  const std::uint64_t infinite = bits(std::numeric_limits<double>::infinity());
+  const bool is_valid = bits(options.max_error) < infinite &&
+                        bits(options.max_distance) <= infinite && (options.parts & ~kAllParts) == 0;
+  if (!coherence_.side_grid_answered || !is_valid) return {};
+  const int winding = model_.geometry.side_grid.find_fast(query.x, query.y, query.z);
+  if (winding == octree::SideGrid::kUnknown) return {};
+  last_parts_ = kSide;
+  trace_.begin_query(options.wait);
+  return {winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
+}
 
 }  // namespace planetree::query

@@ -25,6 +25,12 @@ class MaskPrefetcher {
   /// Where there is one.
   /// pages  may be asked by `peek` alone, which it has.
   void step(const PageReader& pages) noexcept;
+  /// The same as a PrefetchHook takes it.
+  static bool step_of(void* prefetcher, const PageReader& pages) noexcept {
+    auto& self = *static_cast<MaskPrefetcher*>(prefetcher);
+    self.step(pages);
+    return self.goes_on();
+  }
 
  private:
   enum class Next : std::uint8_t { kNothing, kMapRecord, kNode, kLeaf };

@@ -10,6 +10,15 @@
 /// A tree as its readers see it: facts of the whole, and its pages.
 namespace planetree::octree {
 
+struct PageReader;
+
+/// Work that goes on a step with every few pages that are read, such as asking memory for cache
+/// lines of a later lookup. `step` returns false after the last one. No answer depends on it.
+struct PrefetchHook {
+  void* who = nullptr;
+  bool (*step)(void* who, const PageReader& pages) noexcept = nullptr;
+};
+
 /// Page number to frame. `page` returns the decoded frame, or null where the
 /// page cannot be had; the pointer is good until the next call, or until a keeper is told.
 /// Handed on by reference: whoever keeps one must not outlive it.
@@ -19,6 +28,7 @@ struct PageReader {
   /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
   const std::byte* (*peek)(void* context, std::uint32_t number) noexcept = nullptr;
   FrameTable frames{};                       ///< without cells: nothing is asked for ahead
+  PrefetchHook* prefetch_hook = nullptr;  ///< one at a time; null: nothing goes on beside
   FrameReleaseHook* release_hook = nullptr;  ///< one at a time; null: frames may go with each call
 };
 

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <atomic>
-
 #include "planetree/types.h"
-#include "query/probe_state.h"
+#include "query/answer/query_context.h"
 
 namespace planetree::query {
 
-/// See Probe::closest_point.
-ClosestPoint closest_point(ProbeState& probe, const Vec3& query,
-                           const QueryOptions& options) noexcept;
+/// A ClosestPoint for which no triangle was reached.
+ClosestPoint unanswered(Status status) noexcept;
 
-/// Makes resident what the answer to this ask needs, which waits for pages and is of limited
-/// work: from the root down, for what the probe remembers says nothing of what is resident.
-/// stop  gives up before the next page that is missing, once true.
-void bring_pages(ProbeState& probe, const Vec3& query, const QueryOptions& options,
-                 const std::atomic<bool>& stop) noexcept;
+/// Fills in the parts of a closest-point query that are requested.
+///
+/// query    model units; is_valid().
+/// options  with_defaults() applied.
+/// answer   unanswered(kExact).
+/// return   whether a part is not exact because pages are missing or the work is spent.
+bool closest_point(const QueryContext& context, const Vec3& query, const QueryOptions& options,
+                   ClosestPoint& answer) noexcept;
 
 }  // namespace planetree::query

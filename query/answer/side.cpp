@@ -15,10 +15,10 @@ namespace {
 
 using octree::Point;
 
-SideResult by_crossings(const ModelState& model, const Point& point, std::uint64_t max_work,
+SideResult by_crossings(const ModelGeometry& model, const Point& point, std::uint64_t max_work,
                         const octree::PageReader& pages, octree::TraversalStats& work,
                         SideReason* reason) {
-  if (outside_box(model.tree(), point)) {
+  if (outside_box(model.tree, point)) {
     if (reason) reason->rule = SideReason::Rule::kOutsideBox;
     return {Side::kOutside};
   }
@@ -27,9 +27,9 @@ SideResult by_crossings(const ModelState& model, const Point& point, std::uint64
 
 // What is left out of a file may change the winding number: of a point beyond a wall of its
 // region, and of any where winding numbers are not constant off the surface.
-bool is_unknowable(const ModelState& model, const Point& point) {
-  const octree::Region& region = model.region();
-  return region.has_walls() && (!region.holds(point) || !model.info().watertight());
+bool is_unknowable(const ModelGeometry& model, const Point& point) {
+  const octree::Region& region = model.region;
+  return region.has_walls() && (!region.holds(point) || !model.watertight);
 }
 
 /// The nearest whole number, however large.
@@ -60,7 +60,7 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
 
 }  // namespace
 
-SideResult find_side(const ModelState& model, const Point& point, std::uint64_t max_work,
+SideResult find_side(const ModelGeometry& model, const Point& point, std::uint64_t max_work,
                      const octree::PageReader& pages, octree::TraversalStats& work,
                      SideReason* reason) noexcept {
   if (reason) *reason = {};
@@ -68,35 +68,32 @@ SideResult find_side(const ModelState& model, const Point& point, std::uint64_t 
     if (reason) reason->rule = SideReason::Rule::kRegion;
     return {};
   }
-  return model.info().watertight()
-             ? by_crossings(model, point, max_work, pages, work, reason)
-             : by_winding_number(model.tree(), point, max_work, pages, work, reason);
+  return model.watertight ? by_crossings(model, point, max_work, pages, work, reason)
+                          : by_winding_number(model.tree, point, max_work, pages, work, reason);
 }
 
-std::optional<SideResult> side_without_pages(const ModelState& model, const Point& point,
+std::optional<SideResult> side_without_pages(const ModelGeometry& model, const Point& point,
                                              const octree::SideGrid::Lookup& lookup) noexcept {
   if (lookup.winding != octree::SideGrid::kUnknown)
     return SideResult{lookup.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact,
                       lookup.winding};
   if (is_unknowable(model, point)) return SideResult{};
-  if (model.info().watertight() && outside_box(model.tree(), point))
-    return SideResult{Side::kOutside};
+  if (model.watertight && outside_box(model.tree, point)) return SideResult{Side::kOutside};
   return {};
 }
 
-bool is_side_as_before(const ModelState& model, const Point& point, double clear,
+bool is_side_as_before(const ModelGeometry& model, const Point& point, double clear,
                        SideCache& memory) noexcept {
-  if (!model.region().holds(point) || !memory.same_side(point, clear)) return false;
+  if (!model.region.holds(point) || !memory.same_side(point, clear)) return false;
   memory.go_to(point, clear);
   return true;
 }
 
-SideResult find_side(const ModelState& model, const Point& point,
+SideResult find_side(const ModelGeometry& model, const Point& point,
                      const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept {
-  if (!model.info().watertight() || !model.region().holds(point) ||
-      outside_box(model.tree(), point))
+  if (!model.watertight || !model.region.holds(point) || outside_box(model.tree, point))
     return find_side(model, point, max_work, pages, work);
   if (is_side_as_before(model, point, clear, memory)) return memory.side_result();
   SideSearch search(model, point, max_work, pages, work, nullptr, {&memory, &lookup});

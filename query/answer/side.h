@@ -7,9 +7,8 @@
 #include "octree/mask/mask_records.h"
 #include "octree/traversal/tree_view.h"
 #include "planetree/types.h"
+#include "query/answer/model_geometry.h"
 #include "query/answer/side_cache.h"
-#include "query/answer/side_result.h"
-#include "query/model_state.h"
 
 namespace planetree::query {
 
@@ -45,37 +44,37 @@ struct SideReason {
 /// reason     filled if not null.
 /// return     kUnknown where degraded, and where the winding number of a model
 ///            that is not watertight is one half to rounding.
-SideResult find_side(const ModelState& model, const octree::Point& point, std::uint64_t max_work,
+SideResult find_side(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
                      const octree::PageReader& pages, octree::TraversalStats& work,
                      SideReason* reason = nullptr) noexcept;
 
 /// What octree::SideGrid knows of a point, as far as the file knows it. The point may be any.
 /// Models that are not watertight have no colours.
-inline octree::SideGrid::Lookup look_up_side_grid(const ModelState& model,
+inline octree::SideGrid::Lookup look_up_side_grid(const ModelGeometry& model,
                                                   const octree::Point& point,
                                                   const octree::FrameTable& frames) noexcept {
-  const bool known = !model.region().has_walls() || model.region().holds(point);
+  const bool known = !model.region.has_walls() || model.region.holds(point);
   const auto ahead = [&](const octree::SideGridRecord& record) {
-    octree::MaskRecords::prefetch(model.mask(), record.link, frames);
+    octree::MaskRecords::prefetch(model.mask, record.link, frames);
   };
-  return known ? model.side_grid().look(point, ahead) : octree::SideGrid::Lookup{};
+  return known ? model.side_grid.look(point, ahead) : octree::SideGrid::Lookup{};
 }
 
 /// The same as find_side() where one look tells: beyond a wall of a region, outside of a
 /// watertight model's box, or in a white or black cell. The point may be any.
-std::optional<SideResult> side_without_pages(const ModelState& model, const octree::Point& point,
+std::optional<SideResult> side_without_pages(const ModelGeometry& model, const octree::Point& point,
                                              const octree::SideGrid::Lookup& lookup) noexcept;
 
 /// Whether the point cannot but stand where the last one that `memory` knows does, which then is
 /// what it knows of this one. No surface is nearer to the point than `clear`.
-bool is_side_as_before(const ModelState& model, const octree::Point& point, double clear,
+bool is_side_as_before(const ModelGeometry& model, const octree::Point& point, double clear,
                        SideCache& memory) noexcept;
 
 /// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
 /// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
 /// to the point than `clear`, which may be 0.
 /// spot  what look_up_side_grid() says.
-SideResult find_side(const ModelState& model, const octree::Point& point,
+SideResult find_side(const ModelGeometry& model, const octree::Point& point,
                      const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept;

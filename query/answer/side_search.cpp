@@ -14,12 +14,12 @@ using octree::Point;
 SideResult SideSearch::run() {
   if (query_mask()) return side_result_;
   // Usually the first way tells; another may do without a page that is lost.
-  const octree::Region& region = model_.region();
-  const ExitSegments ways(model_.tree(), point_);
+  const octree::Region& region = model_.region;
+  const ExitSegments ways(model_.tree, point_);
   for (const ExitSegments::Way& way : ways.all())
     if (region.holds(way.end) && go(way.end, 0, SideReason::Rule::kWayOut)) return side_result_;
   if (region.has_walls() &&
-      go(model_.region_corner(), model_.region_winding(), SideReason::Rule::kWayOut))
+      go(model_.region_corner, model_.region_winding, SideReason::Rule::kWayOut))
     return side_result_;
   return {Side::kUnknown, Status::kDegraded};
 }
@@ -30,19 +30,19 @@ bool SideSearch::query_mask() {
     if (const octree::MaskLookup* last = memory_->cell_with(point_)) return go_from(*last);
   // What is resident, answers that remember depend on anyway. Lists are long: made where it stays.
   const octree::MaskLookup found =
-      lookup_ ? octree::look_up(model_.mask(), *lookup_, point_, work_left(), pages_, work_)
-              : octree::look_up(model_.mask(), point_, work_left(), pages_, work_);
+      lookup_ ? octree::look_up(model_.mask, *lookup_, point_, work_left(), pages_, work_)
+              : octree::look_up(model_.mask, point_, work_left(), pages_, work_);
   // What a special cell knows is of this point alone.
   const bool of_all = found.kind == Kind::kColour || found.kind == Kind::kCorners;
-  if (memory_ && of_all && memory_->is_near(point_, model_.tree()))
-    memory_->note_cell(model_.mask(), found);
+  if (memory_ && of_all && memory_->is_near(point_, model_.tree))
+    memory_->note_cell(model_.mask, found);
   return go_from(found);
 }
 
 bool SideSearch::go_from(const octree::MaskLookup& found) {
   using Kind = octree::MaskLookup::Kind;
   if (reason_) {
-    reason_->in_mask = model_.mask().page_count > 0;
+    reason_->in_mask = model_.mask.page_count > 0;
     reason_->cell = found.cell;
   }
   if (found.kind == Kind::kCorners) return go_to_corner(found);
@@ -59,7 +59,7 @@ bool SideSearch::go_from(const octree::MaskLookup& found) {
 bool SideSearch::query_slab(const octree::MaskLookup& found) {
   const octree::CellSlab& slab = found.blocks.slab;
   if (!slab.says_something()) return false;
-  const Point lower = octree::CellGrid(model_.mask().lower).lower(found.cell);
+  const Point lower = octree::CellGrid(model_.mask.lower).lower(found.cell);
   const unsigned corner =
       slab.corner_beyond(octree::CellSlab::position_in(point_, lower, found.cell.level));
   if (corner == octree::CellSlab::kNoCorner) return false;
@@ -80,22 +80,22 @@ bool SideSearch::go_within_octant(const octree::MaskLookup& found, const Grid& g
   const int winding = octree::corner_of(found.listed, octant);
   if (count == 0) return finalize(corner, winding, {}, SideReason::Rule::kCorner);
   const octree::Crossings crossings = octree::count_crossings(
-      model_.tree(), {point_, corner}, std::span(links).first(count), work_left(), pages_, work_);
+      model_.tree, {point_, corner}, std::span(links).first(count), work_left(), pages_, work_);
   return finalize(corner, winding, crossings, SideReason::Rule::kCorner);
 }
 
 bool SideSearch::go_to_corner(const octree::MaskLookup& found) {
   if (found.blocks.count == 0) return go_to_nearest(found);
-  const Point& lower = model_.mask().lower;
+  const Point& lower = model_.mask.lower;
   // Most often there is nothing to clip.
-  if (!model_.region().has_walls())
+  if (!model_.region.has_walls())
     return query_slab(found) || go_within_octant(found, octree::CellGrid(lower));
-  return go_within_octant(found, octree::ClippedGrid(lower, model_.region()));
+  return go_within_octant(found, octree::ClippedGrid(lower, model_.region));
 }
 
 // The nearest corner, or the last point if that is nearer: few triangles are between.
 bool SideSearch::go_to_nearest(const octree::MaskLookup& found) {
-  const octree::ClippedGrid grid(model_.mask().lower, model_.region());
+  const octree::ClippedGrid grid(model_.mask.lower, model_.region);
   Point corner = grid.lower(found.cell);
   const Point upper = grid.upper(found.cell);
   unsigned nearest = 0;
@@ -115,7 +115,7 @@ bool SideSearch::go_to_nearest(const octree::MaskLookup& found) {
 bool SideSearch::go(const Point& end, std::int64_t winding, SideReason::Rule rule) {
   if (work_left() == 0) return false;
   return finalize(end, winding,
-                  octree::count_crossings(model_.tree(), {point_, end}, work_left(), pages_, work_),
+                  octree::count_crossings(model_.tree, {point_, end}, work_left(), pages_, work_),
                   rule);
 }
 

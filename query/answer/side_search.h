@@ -5,10 +5,9 @@
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/winding/crossings.h"
+#include "query/answer/model_geometry.h"
 #include "query/answer/side.h"
 #include "query/answer/side_cache.h"
-#include "query/answer/side_result.h"
-#include "query/model_state.h"
 
 namespace planetree::query {
 
@@ -24,12 +23,12 @@ struct Remembered {
 class SideSearch {
  public:
   /// All must outlive this; `reason` may be null.
-  SideSearch(const ModelState& model, const octree::Point& point, std::uint64_t max_work,
+  SideSearch(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
              const octree::PageReader& pages, octree::TraversalStats& work, SideReason* reason,
              const Remembered& remembered = {})
       : model_(model),
         point_(point),
-        max_nodes_(max_work),
+        max_work_(max_work),
         pages_(pages),
         work_(work),
         reason_(reason),
@@ -45,7 +44,7 @@ class SideSearch {
  private:
   std::uint64_t work_left() const {
     const std::uint64_t spent = work_.nodes + work_.blocks - before_;
-    return spent < max_nodes_ ? max_nodes_ - spent : 0;
+    return spent < max_work_ ? max_work_ - spent : 0;
   }
   bool query_mask();
   bool go_from(const octree::MaskLookup& found);
@@ -59,9 +58,9 @@ class SideSearch {
                 SideReason::Rule rule);
   void settle(std::int64_t winding, bool on_surface);
 
-  const ModelState& model_;
+  const ModelGeometry& model_;
   const octree::Point& point_;
-  const std::uint64_t max_nodes_;
+  const std::uint64_t max_work_;
   const octree::PageReader& pages_;
   octree::TraversalStats& work_;
   SideReason* const reason_;  // null where nobody asks why

@@ -16,16 +16,9 @@ constexpr std::size_t kPieceQueries = 128;
 
 }  // namespace
 
-Result<std::unique_ptr<BatchThreads>> BatchThreads::claim(const ModelState& model,
-                                                          unsigned threads) {
+Result<std::unique_ptr<BatchThreads>> BatchThreads::create(unsigned threads) {
   try {
-    std::unique_ptr<BatchThreads> batch_threads(new BatchThreads(threads));
-    for (unsigned i = 0; i < threads; ++i) {
-      auto reader = model.claim_reader();
-      if (!reader) return reader.error();
-      batch_threads->probes_.push_back(ProbeState::create(model, std::move(*reader)));
-    }
-    return batch_threads;
+    return std::unique_ptr<BatchThreads>(new BatchThreads(threads));
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory for %u batch threads; free some or ask for fewer", threads);
@@ -37,8 +30,8 @@ bool BatchThreads::run(const void* batch, std::size_t count, Work work) noexcept
   if (busy_.exchange(true, std::memory_order_acquire)) return false;
   const auto do_piece = [&](const tbb::blocked_range<std::size_t>& piece) {
     const FpEnvironmentGuard host;
-    const int curve_key = tbb::this_task_arena::current_thread_index();
-    work(batch, *probes_[static_cast<std::size_t>(curve_key)], piece.begin(), piece.end());
+    const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+    work(batch, thread, piece.begin(), piece.end());
   };
   bool done = true;
   try {

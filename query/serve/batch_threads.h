@@ -3,28 +3,26 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include <tbb/task_arena.h>
 
 #include "planetree/error.h"
-#include "query/probe_state.h"
 
 namespace planetree::query {
 
-/// Threads that answer a batch together, each with a probe of its own, claimed when the model
-/// is opened. The threads are oneTBB's; the caller's is one of them.
+/// Threads that answer a batch together. The threads are oneTBB's; the caller's is one of them.
 class BatchThreads {
  public:
   /// errors  kNoMemory.
-  static Result<std::unique_ptr<BatchThreads>> claim(const ModelState& model, unsigned threads);
+  static Result<std::unique_ptr<BatchThreads>> create(unsigned threads);
 
-  /// Queries the queries [first, end) of a batch by way of a probe.
-  using Work = void (*)(const void* batch, ProbeState& probe, std::size_t first,
+  /// Answers the queries [first, end) of a batch. `thread` is below the number of threads; no two
+  /// calls at one time have the same.
+  using Work = void (*)(const void* batch, std::size_t thread, std::size_t first,
                         std::size_t end) noexcept;
 
-  /// Has the crew do pieces of [0, count) until all is done. False where it is busy with
-  /// another batch or cannot work for want of memory: then the caller is to do it all.
+  /// Calls `work` for pieces of [0, count) until all are done. Returns false if the threads are
+  /// busy with another batch, or oneTBB has no memory: then the caller has to do all the work.
   ///
   /// threads  any, at the same time.
   bool run(const void* batch, std::size_t count, Work work) noexcept;
@@ -33,7 +31,6 @@ class BatchThreads {
   explicit BatchThreads(unsigned threads) : arena_(static_cast<int>(threads)) {}
 
   tbb::task_arena arena_;
-  std::vector<std::unique_ptr<ProbeState>> probes_;  // by the thread's place in the arena
   std::atomic<bool> busy_{false};
 };
 

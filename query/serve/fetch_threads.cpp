@@ -58,24 +58,23 @@ void FetchThreads::run(FetchWorker& worker) noexcept {
   }
 }
 
-Result<std::unique_ptr<FetchThreads>> FetchThreads::start(const ModelState& model,
-                                                          unsigned threads) {
-  const auto refused = [&] {
+Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
+    cache::PageCache& cache, std::span<FetchRequests> requests,
+    std::vector<std::unique_ptr<FetchProbe>> probes) {
+  const std::size_t count = probes.size();
+  const auto refused = [count] {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "the system refused %u fetch threads; free memory or ask for fewer", threads);
+                      "the system refused %zu fetch threads; free memory or ask for fewer", count);
   };
   try {
-    std::unique_ptr<FetchThreads> fetch_threads(new FetchThreads(model.cache()));
-    for (unsigned i = 0; i < threads; ++i) {
-      auto reader = model.claim_reader();
-      if (!reader) return reader.error();
-      fetch_threads->workers_.push_back(std::make_unique<FetchWorker>(
-          model, *std::move(reader), i, threads, &time_now, fetch_threads->stopping_));
-    }
-    for (const auto& worker : fetch_threads->workers_)
-      fetch_threads->threads_.emplace_back(
-          [&fetch_threads = *fetch_threads, &worker = *worker] { fetch_threads.run(worker); });
-    return fetch_threads;
+    std::unique_ptr<FetchThreads> threads(new FetchThreads(cache));
+    for (std::size_t i = 0; i < count; ++i)
+      threads->workers_.push_back(std::make_unique<FetchWorker>(
+          requests, std::move(probes[i]), i, count, &time_now, threads->stopping_));
+    for (const auto& worker : threads->workers_)
+      threads->threads_.emplace_back(
+          [&threads = *threads, &worker = *worker] { threads.run(worker); });
+    return threads;
   } catch (const std::bad_alloc&) {
     return refused();
   } catch (const std::system_error&) {

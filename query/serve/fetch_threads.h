@@ -3,11 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <thread>
 #include <vector>
 
+#include "cache/page_cache.h"
 #include "planetree/error.h"
-#include "query/model_state.h"
 #include "query/serve/fetch_worker.h"
 
 namespace planetree::query {
@@ -21,7 +22,12 @@ class FetchThreads {
   static constexpr std::uint64_t kThreadBytes = 65536;
 
   /// errors  kNoMemory.
-  static Result<std::unique_ptr<FetchThreads>> start(const ModelState& model, unsigned threads);
+  ///
+  /// requests  those of all probes; must outlive this, as must `cache`.
+  /// probes    one a thread.
+  static Result<std::unique_ptr<FetchThreads>> start(
+      cache::PageCache& cache, std::span<FetchRequests> requests,
+      std::vector<std::unique_ptr<FetchProbe>> probes);
   /// Waits for the page being read.
   ~FetchThreads();
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "query/answer/closest_point.h"
-
 namespace planetree::query {
 namespace {
 
@@ -31,15 +29,16 @@ Vec3 ahead_of(const Motion& motion, FetchWorker::Seconds time) {
 
 }  // namespace
 
-FetchWorker::FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first,
-                         std::size_t step, Clock clock, const std::atomic<bool>& stop)
-    : model_(model),
-      probe_(model, std::move(reader)),
+FetchWorker::FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
+                         std::size_t first, std::size_t step, Clock clock,
+                         const std::atomic<bool>& stop)
+    : requests_(requests),
+      probe_(std::move(probe)),
       first_(first),
       step_(step),
       clock_(clock),
       stop_(stop),
-      seen_(model.reader_count()),
+      seen_(requests.size()),
       next_(first) {}
 
 FetchWorker::Did FetchWorker::work() noexcept {
@@ -52,17 +51,17 @@ FetchWorker::Did FetchWorker::work() noexcept {
     return false;
   };
   // The pages of a wish are read with those of asks in between.
-  query_was_last_ = !query_was_last_ && read_for_a_query();
+  query_was_last_ = !query_was_last_ && probe_->read_for_a_query();
   if (query_was_last_) return Did::kReadForAQuery;
   if (any_of_mine(&FetchWorker::serve_request)) return Did::kServedARequest;
-  query_was_last_ = read_for_a_query();
+  query_was_last_ = probe_->read_for_a_query();
   if (query_was_last_) return Did::kReadForAQuery;
   return any_of_mine(&FetchWorker::look_ahead) ? Did::kLookedAhead : Did::kNothing;
 }
 
 bool FetchWorker::serve_request(std::size_t index) noexcept {
   FetchRequest request;
-  if (!fetch_requests(index).missed.take(seen_[index].request, request)) return false;
+  if (!requests_[index].missed.take(seen_[index].request, request)) return false;
   QueryOptions options = waiting(request.parts);
   options.max_error = request.max_error;
   options.max_distance = request.max_distance;
@@ -70,7 +69,7 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
                                 QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
   const Seconds began = clock_();
-  bring_pages(probe_, request.point, options, stop_);
+  probe_->bring_pages(request.point, options, false, stop_);
   note_time(clock_() - began);
   return true;
 }
@@ -78,15 +77,13 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
 // One place at a time, so that wishes need not wait for all.
 bool FetchWorker::look_ahead(std::size_t index) noexcept {
   Seen& seen = seen_[index];
-  if (fetch_requests(index).motion.take(seen.motion, seen.moving))
+  if (requests_[index].motion.take(seen.motion, seen.moving))
     seen.slots_left = is_moving(seen.moving) ? kPositionsAhead : 0;
   if (seen.slots_left == 0) return false;
   const unsigned at = kPositionsAhead - --seen.slots_left;
   const Seconds ahead = std::clamp(2 * slowest_, kMinAhead, kMaxAhead);
-  probe_.touches().set_looks_ahead(true);
-  bring_pages(probe_, ahead_of(seen.moving, ahead * at / kPositionsAhead),
-              waiting(seen.moving.parts), stop_);
-  probe_.touches().set_looks_ahead(false);
+  probe_->bring_pages(ahead_of(seen.moving, ahead * at / kPositionsAhead),
+                      waiting(seen.moving.parts), true, stop_);
   return true;
 }
 

@@ -4,17 +4,35 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
-#include "query/model_state.h"
-#include "query/probe_state.h"
+#include "planetree/types.h"
+#include "query/serve/fetch_requests.h"
 
 namespace planetree::query {
 
-/// Gets for a model's probes what they miss (Wait::kNever) and what they are moving to: it asks
-/// the same question again with a probe that waits for pages, from the root down. Serves every
-/// so-many-th probe. And reads, for whoever waits, the pages that the disk must be waited for.
-/// One thread.
+/// The probe of a fetch thread.
+class FetchProbe {
+ public:
+  virtual ~FetchProbe() = default;
+
+  /// Makes the pages resident that a query needs.
+  ///
+  /// options   Wait::kForPages, and a limit of work: the query then starts from the root, since
+  ///           what a probe keeps says nothing of what is resident.
+  /// is_ahead  whether a probe is moving there, rather than missing the pages.
+  /// stop      once true, gives up before the next missing page.
+  virtual void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+                           const std::atomic<bool>& stop) noexcept = 0;
+  /// Reads one page that a blocking query waits for. False: there is none.
+  virtual bool read_for_a_query() noexcept = 0;
+};
+
+/// Fetches what a model's probes miss (Wait::kNever) and what they are moving to: it runs the
+/// same query again with a probe that waits for pages. It serves every `step`-th reader. It also
+/// reads the pages that blocking queries wait for. One thread.
 class FetchWorker {
  public:
   using Seconds = std::chrono::duration<double>;
@@ -26,8 +44,8 @@ class FetchWorker {
   /// first, step  serves the probes whose readers have the places first, first + step, ...
   /// clock        tells how long pages take to come, and so how far ahead to look.
   /// stop         ends work() early, once true; must outlive this.
-  FetchWorker(const ModelState& model, cache::Reader reader, std::size_t first, std::size_t step,
-              Clock clock, const std::atomic<bool>& stop);
+  FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
+              std::size_t first, std::size_t step, Clock clock, const std::atomic<bool>& stop);
 
   enum class Did : std::uint8_t { kNothing, kServedARequest, kLookedAhead, kReadForAQuery };
   /// Does one thing that there is to do: reads a page that an ask waits for, and wishes, come
@@ -42,16 +60,12 @@ class FetchWorker {
   };
   static_assert(sizeof(Seen) <= kProbeBytes);
 
-  bool read_for_a_query() noexcept { return probe_.reader().help(); }
   bool serve_request(std::size_t index) noexcept;
   bool look_ahead(std::size_t index) noexcept;
   void note_time(Seconds taken) noexcept;
-  FetchRequests& fetch_requests(std::size_t index) const noexcept {
-    return model_.fetch_requests(static_cast<std::uint32_t>(index));
-  }
 
-  const ModelState& model_;
-  ProbeState probe_;
+  const std::span<FetchRequests> requests_;
+  std::unique_ptr<FetchProbe> probe_;
   const std::size_t first_, step_;
   const Clock clock_;
   const std::atomic<bool>& stop_;

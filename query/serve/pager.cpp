@@ -5,22 +5,19 @@
 #include <new>
 #include <utility>
 
-#include "octree/mask/side_grid.h"
-#include "query/serve/page_decoding.h"
+#include "query/file/page_decoding.h"
 
 namespace planetree::query {
-Result<std::unique_ptr<Pager>> Pager::open(const std::filesystem::path& path, const Limits& limits,
-                                           storage::FileCalls& calls) {
-  auto file = storage::PageFile::open(path, calls);
-  if (!file) return file.error();
-  // Links in pages are checked as those are decoded; this one is in the header.
-  const storage::FileHeader& header = file->header();
+
+Result<std::unique_ptr<Pager>> Pager::create(storage::PageFile file, const Limits& limits) {
+  // Links in pages are checked when a page is decoded; this one is in the header.
+  const storage::FileHeader& header = file.header();
   if (octree::LinkFormat(header.page_bytes).page(header.model.root_link) != 0)
     return make_error(
         ErrorCode::kDamaged, Error::kNowhere,
         offsetof(storage::FileHeader, model) + offsetof(storage::ModelRecord, root_link),
         "the tree's root is not on the first page; restore the file from a copy or build it again");
-  std::unique_ptr<Pager> pager(new Pager(std::move(*file)));
+  std::unique_ptr<Pager> pager(new Pager(std::move(file)));
   if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
   if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();
   return pager;
@@ -30,19 +27,9 @@ std::uint64_t Pager::scratch_bytes() const noexcept {
   return file_.header().max_raw_bytes + (stored_fits_frame() ? 0 : file_.header().max_stored_bytes);
 }
 
-QueryArena::Needs Pager::arena_needs(const Limits& limits) const noexcept {
-  const storage::ModelRecord& model = file_.header().model;
-  QueryArena::Needs needs;
-  needs.readers = limits.readers();
-  if (model.mask_page_count > 0) needs.colour_bytes = octree::SideGrid::bytes(model.triangle_count);
-  needs.page_trace_capacity = limits.page_trace_capacity;
-  needs.page_count = file_.header().page_count;
-  return needs;
-}
-
 Result<void> Pager::claim(const Limits& limits) {
   const storage::FileHeader& header = file_.header();
-  const QueryArena::Needs needs = arena_needs(limits);
+  const QueryArena::Needs& needs = limits.arena;
   cache::CacheLimits cache_limits{};
   cache_limits.budget_bytes = limits.budget_bytes;
   cache_limits.page_count = header.page_count;
@@ -64,9 +51,9 @@ Result<void> Pager::claim(const Limits& limits) {
   auto cache = cache::PageCache::create(cache_limits, fill, this);
   if (!cache) return cache.error();
   cache_ = std::move(*cache);
-  auto querying = QueryArena::claim(needs);
-  if (!querying) return querying.error();
-  query_arena_.emplace(*std::move(querying));
+  auto arena = QueryArena::claim(needs);
+  if (!arena) return arena.error();
+  query_arena_.emplace(*std::move(arena));
   if (const auto locked = lock(limits.locking); !locked) return locked;
   scratch_.reset(new (std::nothrow) std::byte[fetcher_count * scratch_bytes()]);
   waits_.reset(new (std::nothrow) OwnWait[fetcher_count]);
@@ -122,24 +109,6 @@ storage::ReadWait* Pager::wait_of(std::uint32_t fetcher) noexcept {
   if (!own.is_given && waits_given_.load(std::memory_order_relaxed) < kMaxWaits)
     own.is_given = waits_given_.fetch_add(1, std::memory_order_relaxed) < kMaxWaits;
   return own.is_given ? &own.wait : nullptr;
-}
-
-// Pages of asks come first, one for each that this thread wants: neither waits for all of the
-// other's.
-const std::byte* PageAccessor::fetch(std::uint32_t number) noexcept {
-  if (log_) log_->fetched(number);
-  release_frames();
-  if (stop_) {
-    reader_.leave();
-    reader_.help();
-    reader_.enter();
-  }
-  const cache::Fetched fetched = reader_.fetch(number, terms_);
-  if (fetched.given_up) {
-    missed_ = true;
-    waits_ = false;
-  }
-  return fetched.frame;
 }
 
 }  // namespace planetree::query

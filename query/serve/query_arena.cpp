@@ -3,26 +3,25 @@
 #include <array>
 
 #include "cache/arena_layout.h"
-#include "query/model_state.h"
-#include "query/probe_state.h"
 
 namespace planetree::query {
 namespace {
 
-/// Storage for an object that is made later, and destroyed by who made it.
-template <class T>
-struct alignas(64) Storage {
-  static_assert(alignof(T) <= 64);
-  std::array<std::byte, sizeof(T)> bytes;
+constexpr std::size_t kLineBytes = 64;
+
+struct alignas(kLineBytes) Line {
+  std::array<std::byte, kLineBytes> bytes;
 };
+
+// Whole lines for so many bytes.
+constexpr std::uint64_t lines(std::uint64_t bytes) { return (bytes + kLineBytes - 1) / kLineBytes; }
 
 QueryArena::Parts cut(cache::ArenaLayout& layout, const QueryArena::Needs& needs) noexcept {
   QueryArena::Parts parts;
-  parts.model_storage = layout.cut<Storage<ModelState>>(1).data();
-  parts.probe_storage =
-      std::as_writable_bytes(layout.cut<Storage<ProbeState>>(needs.readers)).data();
+  parts.model = std::as_writable_bytes(layout.cut<Line>(lines(needs.model_bytes)));
+  parts.probes = std::as_writable_bytes(layout.cut<Line>(needs.readers * lines(needs.probe_bytes)));
   parts.fetch_requests = layout.cut<FetchRequests>(needs.readers);
-  parts.side_grid = layout.cut<std::byte>(needs.colour_bytes);
+  parts.side_grid = layout.cut<std::byte>(needs.side_grid_bytes);
   if (needs.page_trace_capacity == 0) return parts;
   using Ring = cache::SpscRing<TracedAccess>;
   const std::uint64_t slots = Ring::slots_for(needs.page_trace_capacity);
@@ -42,10 +41,6 @@ std::uint64_t cut_bytes(const QueryArena::Needs& needs) noexcept {
 }
 
 }  // namespace
-
-void* QueryArena::Parts::storage_of_probe(std::uint32_t index) const noexcept {
-  return probe_storage + index * sizeof(Storage<ProbeState>);
-}
 
 std::uint64_t QueryArena::bytes(const Needs& needs) noexcept {
   return cache::PrefaultedMemory::claimed_bytes(cut_bytes(needs));

@@ -18,23 +18,27 @@ namespace planetree::query {
 class QueryArena {
  public:
   struct Needs {
-    std::uint32_t readers = 0;  ///< most probes, those of the model's threads among them
-    std::uint64_t colour_bytes = 0;
+    std::uint32_t readers = 0;      ///< maximum of probes, those of the model's threads included
+    std::uint64_t model_bytes = 0;  ///< of what queries read of the model
+    std::uint64_t probe_bytes = 0;  ///< of the state of each probe
+    std::uint64_t side_grid_bytes = 0;
     std::uint64_t page_trace_capacity = 0;  ///< of each reader; 0: no trace
     std::uint64_t page_count = 0;
   };
 
   /// Where things are.
   struct Parts {
-    void* model_storage = nullptr;  ///< for the ModelState
-    std::byte* probe_storage = nullptr;
-    std::span<FetchRequests> fetch_requests;  ///< by place
+    std::span<std::byte> model;               ///< aligned to a cache line
+    std::span<std::byte> probes;              ///< see probe()
+    std::span<FetchRequests> fetch_requests;  ///< by reader
     std::span<std::byte> side_grid;
-    std::span<PageTrace> traces;    ///< by place, or none
-    std::span<PrefetchMark> marks;  ///< by page, or none
+    std::span<PageTrace> traces;    ///< by reader, or empty
+    std::span<PrefetchMark> marks;  ///< by page, or empty
 
-    /// For the ProbeState whose reader has this place.
-    void* storage_of_probe(std::uint32_t index) const noexcept;
+    /// Storage for the state of the probe with this reader, aligned to a cache line.
+    void* probe(std::uint32_t reader) const noexcept {
+      return probes.data() + reader * (probes.size() / fetch_requests.size());
+    }
   };
 
   /// All of it: of the budget.

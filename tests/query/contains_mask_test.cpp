@@ -6,6 +6,7 @@
 
 #include "planetree/probe.h"
 #include "query/answer/side.h"
+#include "query/serve/page_accessor.h"
 #include "tests/octree/support/sample_mask.h"
 #include "tests/query/sample_model.h"
 #include "tests/storage/file/file_image.h"
@@ -43,11 +44,11 @@ class CountedSides {
       : state_(open(sample)), reader_(*state_->claim_reader()) {}
 
   SideResult side(const Vec3& query, octree::TraversalStats& work) {
-    const octree::Point point = state_->scale().in(query);
+    const octree::Point point = state_->geometry().scale.in(query);
     PageAccessor accessor(reader_, Wait::kForPages);
-    return find_side(*state_, point, ~std::uint64_t{0}, accessor.pages(), work);
+    return find_side(state_->geometry(), point, ~std::uint64_t{0}, accessor.pages(), work);
   }
-  const octree::MaskInfo& mask() const { return state_->mask(); }
+  const octree::MaskInfo& mask() const { return state_->geometry().mask; }
 
  private:
   static std::unique_ptr<ModelState> open(const SampleModel& sample) {

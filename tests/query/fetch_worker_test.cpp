@@ -1,6 +1,6 @@
 // Real time without threads or clocks: who does what when follows from a seed.
 
-#include "query/serve/fetch_worker.h"
+#include "tests/query/fetch_steps.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ class Simulation : public testing::Test {
     const Model model = open(disk, 6 * 4096);
     disk.opened = true;
     const ModelState& state = ModelState::of(model);
-    FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+    FetchWorker worker = fetch_worker(state, &simulated_time, never_);
     Probe probes[] = {make_probe(model), make_probe(model)};
     std::vector<Vec3> points = random_queries(40, -1.2, 1.2, seed);
     points.push_back({1e300, 0, 0});
@@ -126,7 +126,7 @@ TEST_F(Simulation, GoesTheSameWayFromTheSameSeed) {
 TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe probe = make_probe(model);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
   for (const Vec3& point : random_queries(100, -1.2, 1.2)) {
@@ -141,7 +141,7 @@ TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
 TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
   const Model model = open(storage::FileCalls::real(), 6 * 4096);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe other = make_probe(model);
   const std::vector<Vec3> elsewhere = random_queries(150, -1.2, 1.2, 9);
   const auto drive_out = [&] {
@@ -167,7 +167,7 @@ TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
 TEST_F(Simulation, ServesWishesForMoreWorkThanIsUsual) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe probe = make_probe(model);
   // From so far away nothing is pruned: every node is visited.
   const Vec3 far{1e30, 2e29, 0};
@@ -181,7 +181,7 @@ TEST_F(Simulation, StopsBeforeTheNextPage) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
   const std::atomic<bool> stop{true};
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, stop);
+  FetchWorker worker = fetch_worker(state, &simulated_time, stop);
   Probe probe = make_probe(model);
   (void)probe.closest_point({0, 1.1, 0.3}, kHastily);
   const std::uint64_t read = model.stats().pages_read;
@@ -193,7 +193,7 @@ TEST_F(Simulation, StopsBeforeTheNextPage) {
 TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
   const Model model = open(storage::FileCalls::real(), 0);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe probe = make_probe(model);
   std::size_t degraded = 0;
   for (const Vec3& point : random_queries(600, -1.2, 1.2, 6)) {
@@ -210,7 +210,7 @@ TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
 TEST_F(Simulation, WishesComeBeforePlans) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe moving = make_probe(model), waiting = make_probe(model);
   moving.motion({-1.2, 0, 0}, {1, 0, 0});
   EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
@@ -225,7 +225,7 @@ TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
   ColdDisk disk;
   const Model model = open(disk, 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe probe = make_probe(model);
   EXPECT_EQ(probe.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
   const auto work_while_one_waits_for = [&](std::uint32_t page) {
@@ -250,7 +250,7 @@ TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
 TEST_F(Simulation, NoProbeIsKeptWaitingByAnother) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &simulated_time, never_);
+  FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe greedy = make_probe(model), modest = make_probe(model);
   EXPECT_EQ(modest.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
   for (const Vec3& point : random_queries(3, -1.2, 1.2, 5)) {

@@ -5,8 +5,8 @@
 #include <atomic>
 
 #include "planetree/probe.h"
-#include "query/serve/fetch_worker.h"
 #include "tests/octree/builder/build_fixture.h"
+#include "tests/query/fetch_steps.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -48,7 +48,7 @@ class HeightFieldRequests : public octree::SmallChunks {
 TEST_F(HeightFieldRequests, BringTheMaskWhereFacesTellTheSide) {
   const Model model = open();
   const ModelState& state = ModelState::of(model);
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &still_time, never_);
+  FetchWorker worker = fetch_worker(state, &still_time, never_);
   constexpr QueryOptions kHasty{.wait = Wait::kNever};
   Probe probe = make_probe(model);
   unsigned wished = 0;

@@ -10,9 +10,9 @@
 
 #include "planetree/probe.h"
 #include "query/model_state.h"
-#include "query/serve/fetch_worker.h"
 #include "tests/cache/allocation_count.h"
 #include "tests/query/eventually.h"
+#include "tests/query/fetch_steps.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -78,7 +78,7 @@ TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
   ASSERT_TRUE(model);
   const ModelState& state = ModelState::of(*model);
   const std::atomic<bool> never{false};
-  FetchWorker worker(state, *state.claim_reader(), 0, 1, &still_time, never);
+  FetchWorker worker = fetch_worker(state, &still_time, never);
   Probe probe = make_probe(*model);
   std::uint64_t reads = 0, queries = 0;
   disk.meanwhile = [&] {

@@ -9,7 +9,7 @@
 
 #include "octree/page/frame.h"
 #include "query/model_state.h"
-#include "query/serve/pager.h"
+#include "query/serve/page_accessor.h"
 #include "tests/query/sample_model.h"
 
 // What is promised of frames that a PageAccessor has handed out.

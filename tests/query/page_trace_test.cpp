@@ -10,7 +10,7 @@
 
 #include "planetree/probe.h"
 #include "query/model_state.h"
-#include "query/serve/fetch_worker.h"
+#include "tests/query/fetch_steps.h"
 #include "tests/query/sample_model.h"
 
 namespace planetree::query {
@@ -39,7 +39,7 @@ class PageTouches : public testing::Test {
 
   FetchWorker worker_of(const Model& model) const {
     const ModelState& state = ModelState::of(model);
-    return {state, *state.claim_reader(), 0, 1, &no_time, never_};
+    return fetch_worker(state, &no_time, never_);
   }
 
   static std::vector<PageAccess> take_all(const Model& model) {

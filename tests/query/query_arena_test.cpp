@@ -46,7 +46,10 @@ TEST_F(QueryArenaTest, IsLockedAsMuchAsIsSaid) {
   if (!model) GTEST_SKIP() << model.error().text;
   const Stats stats = model->stats();
   EXPECT_EQ(kernel_locked_bytes() - before, stats.locked_bytes);
-  const QueryArena::Needs needs{.readers = 5, .colour_bytes = 64};
+  const QueryArena::Needs needs{.readers = 5,
+                                .model_bytes = sizeof(ServingModel),
+                                .probe_bytes = sizeof(ProbeState),
+                                .side_grid_bytes = 64};
   EXPECT_GE(stats.locked_bytes, stats.arena_bytes + QueryArena::bytes(needs));
 }
 

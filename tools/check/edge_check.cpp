@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "octree/geometry/strict_math.h"
-#include "query/answer/scale.h"
+#include "query/file/scale.h"
 
 namespace planetree::tools {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "query/answer/model_region.h"
-#include "query/answer/scale.h"
+#include "query/answer/model_geometry.h"
+#include "query/file/scale.h"
 #include "tools/check/geometry_check.h"
 #include "tools/check/height_field_check.h"
 #include "tools/check/mask_check.h"

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cerrno>
 
-#include "query/serve/page_decoding.h"
+#include "query/file/page_decoding.h"
 #include "storage/file/file_check.h"
 #include "storage/file/file_hash.h"
 #include "storage/file/header_choice.h"

@@ -11,7 +11,7 @@
 #include "octree/page/mask_streams.h"
 #include "octree/page/raw_streams.h"
 #include "planetree/error.h"
-#include "query/serve/page_decoding.h"
+#include "query/file/page_decoding.h"
 #include "storage/file/file_layout.h"
 #include "storage/system/file_calls.h"
 #include "storage/system/file_handle.h"

@@ -7,8 +7,8 @@
 
 #include "octree/geometry/cell_overlap.h"
 #include "octree/traversal/bounds.h"
-#include "query/answer/model_region.h"
-#include "query/answer/scale.h"
+#include "query/answer/model_geometry.h"
+#include "query/file/scale.h"
 #include "tools/check/moment_check.h"
 
 namespace planetree::tools {

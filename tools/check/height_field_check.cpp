@@ -7,8 +7,8 @@
 
 #include "octree/builder/mask/height_field_finder.h"
 #include "octree/geometry/strict_math.h"
-#include "query/answer/model_region.h"
-#include "query/serve/pager.h"
+#include "query/answer/model_geometry.h"
+#include "query/serve/page_accessor.h"
 #include "tools/check/model_reader.h"
 
 namespace planetree::tools {
@@ -42,7 +42,8 @@ class HeightFieldCheck {
   bool is_proven(const octree::BlockView& block) {
     if (!open()) return false;
     query::PageAccessor accessor(proof_->reader, Wait::kForPages);
-    const octree::HeightFieldFinder finder(proof_->model->tree(), proof_->model->mask());
+    const octree::HeightFieldFinder finder(proof_->model->geometry().tree,
+                                           proof_->model->geometry().mask);
     return finder.is_height_field(block, accessor.pages());
   }
 

@@ -14,7 +14,7 @@
 #include "octree/traversal/link_resolver.h"
 #include "octree/winding/crossings.h"
 #include "query/answer/exit_segments.h"
-#include "query/serve/pager.h"
+#include "query/serve/page_accessor.h"
 #include "tools/check/slab_check.h"
 
 namespace planetree::tools {
@@ -74,7 +74,7 @@ MaskProof::MaskProof(ModelReader opened, IssueList& issues)
     : model_(std::move(opened.model)),
       reader_(std::move(opened.reader)),
       issues_(issues),
-      grid_(model_->mask().lower, model_->region()) {}
+      grid_(model_->geometry().mask.lower, model_->geometry().region) {}
 
 void MaskProof::look_at(const GreyCell& grey) {
   if (grey.node != nullptr) check_octants(grey);
@@ -131,25 +131,26 @@ void MaskProof::check_list(const GreyCell& grey) {
   if (grey.cell.level == octree::kLevels) return;
   query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::MaskBlocks found;
-  const octree::BlockLister lister(model_->tree(), grid_);
+  const octree::BlockLister lister(model_->geometry().tree, grid_);
   const auto outcome = lister.list(grey.cell, accessor.pages(), found);
   if (outcome == octree::BlockLister::Outcome::kLost) return;
   const bool all = outcome == octree::BlockLister::Outcome::kListed;
   if (!all || !has_all(grey.blocks, found))
     report(IssueCode::kMaskBlocks, grey.page,
            fmt::format("cell {} does not list all blocks that touch it", cell_name(grey.cell)));
-  octree::LinkResolver records(model_->tree(), accessor.pages());
+  octree::LinkResolver records(model_->geometry().tree, accessor.pages());
   octree::TraversalStats work;
-  if (model_->region().has_walls() && grey.blocks.slab.says_something())
+  if (model_->geometry().region.has_walls() && grey.blocks.slab.says_something())
     report(IssueCode::kMaskSlab, grey.page,
            fmt::format("cell {} has a slab, but the region has walls", cell_name(grey.cell)));
   bool outside = false;
   for (unsigned i = 0; i < grey.blocks.count; ++i) {
     const std::uint32_t link = grey.blocks.links[i];
-    const octree::LinkFormat links(model_->tree().page_bytes);
+    const octree::LinkFormat links(model_->geometry().tree.page_bytes);
     // What is wrong with a page that cannot be had is said elsewhere.
     if (const std::byte* record = records.find(link, work))
-      outside = outside || !keeps_to_slab(grey, octree::BlockView(record, model_->tree().shape));
+      outside =
+          outside || !keeps_to_slab(grey, octree::BlockView(record, model_->geometry().tree.shape));
     else if (accessor.peek(links.page(link)) != nullptr)
       report(IssueCode::kMaskBlocks, grey.page,
              fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
@@ -192,15 +193,15 @@ std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned co
 }
 
 std::optional<std::int64_t> MaskProof::recount(const Point& point) {
-  const octree::TreeInfo& tree = model_->tree();
+  const octree::TreeInfo& tree = model_->geometry().tree;
   if (query::outside_box(tree, point)) return 0;
   query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::TraversalStats work;
-  if (model_->region().has_walls()) {
+  if (model_->geometry().region.has_walls()) {
     const octree::Crossings crossings = octree::count_crossings(
-        tree, {point, model_->region_corner()}, kAllNodes, accessor.pages(), work);
+        tree, {point, model_->geometry().region_corner}, kAllNodes, accessor.pages(), work);
     if (!crossings.complete) return std::nullopt;
-    return model_->region_winding() + crossings.difference;
+    return model_->geometry().region_winding + crossings.difference;
   }
   const query::ExitSegments ways(tree, point);
   for (const query::ExitSegments::Way& way : ways.all()) {
@@ -216,7 +217,7 @@ std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
   query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::TraversalStats work;
   std::vector<Triangle> found;
-  octree::BoxWalk(model_->tree(), lower, upper, accessor.pages(), work)
+  octree::BoxWalk(model_->geometry().tree, lower, upper, accessor.pages(), work)
       .run(kAllNodes, [&](const octree::BlockView& block, std::uint32_t) {
         for (unsigned i = 0; i < block.triangle_count(); ++i)
           if (const Triangle triangle = block.triangle(i);

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "query/answer/closest_point.h"
 #include "query/probe_state.h"
+#include "query/serve/page_accessor.h"
 #include "tools/check/model_reader.h"
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/file_text.h"
@@ -110,25 +110,25 @@ std::optional<Vec3> parse_point(std::string_view text) {
 Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query) {
   auto opened = ModelReader::open(path);
   if (!opened) return opened.error();
-  const query::ModelState& model = *opened->model;
-  query::ProbeState probe(model, std::move(opened->reader));
-  const query::Scale& scale = model.scale();
+  const query::ModelGeometry& model = opened->model->geometry();
+  const auto probe = query::ProbeState::create(opened->model->serving(), std::move(opened->reader));
+  const query::Scale& scale = model.scale;
   const octree::Point point = scale.in(query);
   Explanation result;
   result.query = query;
-  result.answer = query::closest_point(probe, query, {});
-  query::PageAccessor accessor(probe.reader(), Wait::kForPages);
+  result.answer = probe->closest_point(query, {});
+  query::PageAccessor accessor(probe->reader(), Wait::kForPages);
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
   result.side_result =
       query::find_side(model, point, kAllNodes, accessor.pages(), result.side_work, &result.reason);
-  result.pages_lost = model.stats().quarantined_pages > 0;
-  const octree::CellGrid grid(model.mask().lower);
+  result.pages_lost = opened->model->stats().quarantined_pages > 0;
+  const octree::CellGrid grid(model.mask.lower);
   result.cell_lower = scale.out(grid.lower(result.reason.cell));
   result.cell_upper = scale.out(grid.upper(result.reason.cell));
   result.end = scale.out(result.reason.end);
   if (point.cwiseAbs().maxCoeff() > octree::kFarthestQuery) return result;
   const octree::NearestAnswer nearest =
-      octree::nearest(model.tree(), point, {}, accessor.pages(), result.nearest_work);
+      octree::nearest(model.tree, point, {}, accessor.pages(), result.nearest_work);
   for (int i = 0; i < 3; ++i) result.corners[i] = scale.out(nearest.corners[i]);
   return result;
 }

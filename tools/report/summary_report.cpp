@@ -6,7 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "query/answer/model_region.h"
+#include "query/answer/model_geometry.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/size_text.h"
 

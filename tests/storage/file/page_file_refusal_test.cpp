@@ -236,14 +236,14 @@ TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
           m.unbalanced_edge_count = count;
           m.unbalanced_edge[0] = edge;
         },
-        "as long as their number");
+        "as long as their count");
   expect_model_refused(
       [&](ModelRecord& m) {
         m.unbalanced_edge_count = 1;
         m.unbalanced_edge[0] = edge;
         m.unbalanced_edge[0].against = 1;
       },
-      "is not one");
+      "is not unbalanced");
   for (const double value : {kNan, kInfinity})
     expect_model_refused(
         [&](ModelRecord& m) {
@@ -251,7 +251,7 @@ TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
           m.unbalanced_edge[0] = edge;
           m.unbalanced_edge[0].to[2] = value;
         },
-        "is not one");
+        "is not unbalanced");
 }
 
 TEST_F(PageFileRefusal, NotModelsAtTheLimits) {

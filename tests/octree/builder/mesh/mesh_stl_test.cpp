@@ -79,15 +79,15 @@ TEST(StlBinary, RefusesCountsThatLie) {
   Bytes bytes = binary_stl("", 2);
   put_facet(bytes, kCorners);
   expect_refused(bytes.str(),
-                 "byte 80: the count says 2 facets, the file has room for 1: it is "
+                 "byte 80: the count says 2 facets, the file has bytes for 1: it is "
                  "truncated; copy or export it again");
-  expect_refused(bytes.str() + std::string(49, 'x'), "has room for 1: it is truncated");
+  expect_refused(bytes.str() + std::string(49, 'x'), "has bytes for 1: it is truncated");
   Bytes more = binary_stl("", 4294967295);
   put_facet(more, kCorners);
-  expect_refused(more.str(), "the count says 4294967295 facets, the file has room for 1");
+  expect_refused(more.str(), "the count says 4294967295 facets, the file has bytes for 1");
   Bytes fewer = binary_stl("", 0);
   put_facet(fewer, kCorners);
-  expect_refused(fewer.str(), "the count says 0 facets, the file has room for 1: the count lies");
+  expect_refused(fewer.str(), "the count says 0 facets, the file has bytes for 1: the count lies");
   expect_refused(std::string(83, 'x'), "byte 83: the file ends within the 84 bytes");
   expect_refused(binary_stl("", 0).str(), "no triangle: the file holds no faces");
 }

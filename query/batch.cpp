@@ -1,4 +1,4 @@
-#include "query/serve/batch.h"
+#include "query/batch.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,8 +9,6 @@
 #include <type_traits>
 
 #include "octree/geometry/octcode.h"
-#include "query/answer/closest_point.h"
-#include "query/answer/containment.h"
 #include "query/serve/batch_threads.h"
 
 namespace planetree::query {
@@ -18,9 +16,9 @@ namespace {
 
 // A place on the Morton curve over the model's box and as much around it;
 // neighbours there share pages. Only the order of asking depends on it.
-std::uint64_t curve_key(const ModelState& model, const Vec3& query) {
-  const octree::TreeInfo& tree = model.tree();
-  const octree::Point from = (model.scale().in(query)-tree.centre) * 0.25;
+std::uint64_t curve_key(const ModelGeometry& model, const Vec3& query) {
+  const octree::TreeInfo& tree = model.tree;
+  const octree::Point from = (model.scale.in(query)-tree.centre) * 0.25;
   const auto coordinate = [](double value) {
     constexpr double kCells = 1 << octree::kLevels;
     const double cell = (value + 0.5) * kCells;
@@ -47,11 +45,11 @@ struct Window {
   std::span<const Vec3> queries;
   std::span<Answer> answers;
   const QueryOptions& options;
-  Answer (*answer)(ProbeState&, const Vec3&, const QueryOptions&) noexcept;
+  const ServingModel& model;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
     constexpr std::size_t kAhead = 2;  // asks
-    probe.coherence_cache().follow(octree::CoherenceCache::Course::kCurve);
+    probe.coherence().nearest.follow(octree::CoherenceCache::Course::kCurve);
     for (std::size_t i = first; i < end; ++i) {
       // In order of the curve, queries and answers are anywhere in memory.
       if (i + kAhead < end) {
@@ -60,13 +58,22 @@ struct Window {
       }
       const std::size_t at = order.query(i);
       // What was there may have been keys.
-      ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at], options));
+      ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at]));
     }
-    probe.coherence_cache().follow(octree::CoherenceCache::Course::kPath);
+    probe.coherence().nearest.follow(octree::CoherenceCache::Course::kPath);
   }
-  static void run_piece(const void* window, ProbeState& probe, std::size_t first,
+  static void run_piece(const void* window, std::size_t thread, std::size_t first,
                         std::size_t end) noexcept {
-    static_cast<const Window*>(window)->run(probe, first, end);
+    const auto& self = *static_cast<const Window*>(window);
+    self.run(*self.model.batch_probes[thread], first, end);
+  }
+
+ private:
+  Answer answer(ProbeState& probe, const Vec3& query) const noexcept {
+    if constexpr (std::is_same_v<Answer, ClosestPoint>)
+      return probe.closest_point(query, options);
+    else
+      return probe.contains(query, options);
   }
 };
 
@@ -107,19 +114,18 @@ std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answe
 // Queries every query, in an order that turns pages seldom.
 template <class Answer>
 void query_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
-                    const QueryOptions& options,
-                    Answer (*answer)(ProbeState&, const Vec3&,
-                                     const QueryOptions&) noexcept) noexcept {
+                    const QueryOptions& options) noexcept {
   assert(queries.size() == answers.size());
   // Crews take locks and wait for each other.
   BatchThreads* const batch_threads =
-      options.wait == Wait::kNever ? nullptr : probe.model().batch_threads();
+      options.wait == Wait::kNever ? nullptr : probe.model().batch_threads;
   while (!queries.empty()) {
     const std::size_t count = window_size<Answer>(queries.size());
     BatchOrder order(keys_for(*probe.batch_buffers(), answers, count));
     order.sort(probe.batch_buffers()->sorter,
-               [&](std::size_t i) { return curve_key(probe.model(), queries[i]); });
-    const Window<Answer> window{order, queries.first(count), answers.first(count), options, answer};
+               [&](std::size_t i) { return curve_key(probe.model().geometry, queries[i]); });
+    const Window<Answer> window{order, queries.first(count), answers.first(count), options,
+                                probe.model()};
     if (!batch_threads || !batch_threads->run(&window, count, &Window<Answer>::run_piece))
       window.run(probe, 0, count);
     queries = queries.subspan(count);
@@ -131,12 +137,12 @@ void query_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<
 
 void closest_points(ProbeState& probe, std::span<const Vec3> queries,
                     std::span<ClosestPoint> answers, const QueryOptions& options) noexcept {
-  query_in_order(probe, queries, answers, options, &closest_point);
+  query_in_order(probe, queries, answers, options);
 }
 
 void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
               const QueryOptions& options) noexcept {
-  query_in_order<Containment>(probe, queries, answers, options, &contains);
+  query_in_order(probe, queries, answers, options);
 }
 
 }  // namespace planetree::query

@@ -1,4 +1,4 @@
-#include "query/serve/page_decoding.h"
+#include "query/file/page_decoding.h"
 
 #include "octree/page/frame.h"
 #include "octree/page/mask_decoder.h"

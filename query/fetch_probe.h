@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "query/probe_state.h"
+#include "query/serve/fetch_worker.h"
+
+namespace planetree::query {
+
+/// The probe of a fetch thread: brings pages by running queries that wait for them.
+class QueryingFetchProbe final : public FetchProbe {
+ public:
+  QueryingFetchProbe(const ServingModel& model, cache::Reader reader)
+      : probe_(ProbeState::create(model, std::move(reader))) {}
+
+  void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+                   const std::atomic<bool>& stop) noexcept override {
+    probe_->bring_pages(query, options, is_ahead, stop);
+  }
+  bool read_for_a_query() noexcept override { return probe_->reader().help(); }
+
+ private:
+  std::unique_ptr<ProbeState> probe_;
+};
+
+}  // namespace planetree::query

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "query/fetch_probe.h"
+#include "query/model_state.h"
+#include "query/serve/fetch_worker.h"
+
+namespace planetree::query {
+
+/// The worker of a fetch thread that serves all probes of a model, for a test that takes its
+/// steps. The model was opened without fetch threads.
+inline FetchWorker fetch_worker(const ModelState& model, FetchWorker::Clock clock,
+                                const std::atomic<bool>& stop) {
+  return {model.serving().arena.fetch_requests,
+          std::make_unique<QueryingFetchProbe>(model.serving(), *model.claim_reader()),
+          0,
+          1,
+          clock,
+          stop};
+}
+
+}  // namespace planetree::query
