@@ -1,5 +1,5 @@
-// Every bit of a file turned, one at a time: the file is refused, or every
-// answer's interval holds the truth.
+// Flips every bit of a file, one at a time: the file is refused, or the interval of every answer
+// holds the true distance.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 using query::make_probe;
 using query::SampleModel;
 
-// Changes bytes in place, and puts them back.
+// Flips bits of a file in place and restores them.
 class Patient {
  public:
   explicit Patient(const std::filesystem::path& path)
@@ -56,7 +56,7 @@ class StabilityBitFlip : public testing::Test {
     }
   }
 
-  // What came of one turned bit.
+  // The result of opening and querying the file with one bit flipped.
   std::string outcome() {
     OpenOptions options;
     options.memory_budget_bytes = budget_;
@@ -101,7 +101,8 @@ TEST_F(StabilityBitFlip, NeverGivesAWrongInterval) {
       ASSERT_FALSE(HasFailure()) << "byte " << at << ", bit " << bit;
     }
   EXPECT_EQ(outcome(), "unharmed");
-  // Either header, a page read at open or the table; a page below.
+  // A bit of either header; a bit of the page table or a page read at open; a bit of any other
+  // page.
   EXPECT_EQ(outcomes["header copy damaged"], 2u * 8 * storage::kHeaderBytes);
   EXPECT_GT(outcomes["refused"], 1000u);
   EXPECT_GT(outcomes["degraded"], 1000u);

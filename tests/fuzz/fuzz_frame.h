@@ -10,8 +10,8 @@
 
 namespace planetree::octree {
 
-/// A frame of exactly so many bytes, so that a sanitizer sees one byte too far;
-/// with old bytes in it, as frames have.
+/// A frame of exactly `page_bytes` bytes, so that a sanitizer reports any access beyond. It starts
+/// with old bytes, as frames in use do.
 class Frame {
  public:
   explicit Frame(std::uint32_t page_bytes)
@@ -25,7 +25,7 @@ class Frame {
   Frame& operator=(const Frame&) = delete;
 
   std::span<std::byte> bytes() { return {bytes_, page_bytes_}; }
-  /// Of a distance page.
+  /// The header of a distance page.
   const FrameHeader& header() const { return *reinterpret_cast<const FrameHeader*>(bytes_); }
 
  private:

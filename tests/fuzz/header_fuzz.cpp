@@ -10,10 +10,10 @@
 #include "storage/file/page_file.h"
 #include "tests/storage/file/file_image.h"
 
-/// Opens any bytes as a .ptree file and reads every page.
+/// Opens arbitrary bytes as a .ptree file and reads every page.
 ///
-/// The first byte says which hashes are put right before that: without, no
-/// input would ever get past them.
+/// The first byte selects the hashes that are corrected before that; without this no input would
+/// get past them.
 namespace planetree::storage {
 namespace {
 
@@ -41,7 +41,7 @@ void seal(FileImage& image, std::uint8_t how) {
 void read_all_pages(const PageFile& file) {
   Bytes scratch(file.header().max_stored_bytes);
   for (std::uint32_t page = 0; page < file.page_count(); ++page) {
-    // Of exactly the page's size, so that the sanitizer sees one byte too far.
+    // A buffer of exactly the page's size, so that a sanitizer reports any access beyond.
     Bytes raw(file.entries()[page].raw_bytes);
     const Result<void> read = file.read_page(page, scratch, raw);
     if (!read && read.error().page != page) std::abort();

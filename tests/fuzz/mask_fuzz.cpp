@@ -11,14 +11,14 @@
 #include "octree/page/mask_streams.h"
 #include "tests/fuzz/fuzz_frame.h"
 
-/// Decodes any bytes as the pages of a small mask and looks points up in it.
+/// Decodes arbitrary bytes as pages of a small mask and looks points up in it. Input by offset:
 ///
-///   0  shape of planes and page size, see kFloat64 and kLargePages
-///   1  length of the first page, 2 bytes, lowest first
-///   3  the pages: the mask's first, and one that stands for every other
+///   0  format of planes and page size, see kFloat64 and kLargePages
+///   1  length of the first page, 2 bytes, little-endian
+///   3  the mask's first page, then one that serves as every other page
 ///
-/// The number of a page and its key are made to fit what they are compared
-/// with: few inputs would get past that.
+/// The page number and key are set to the expected ones, because few inputs would pass that
+/// comparison.
 namespace planetree::octree {
 namespace {
 

@@ -12,10 +12,10 @@
 
 #include "octree/builder/mesh/mesh_reader.h"
 
-/// What the mesh readers' fuzzers share.
+/// Parts that the fuzzers of mesh readers share.
 namespace planetree::octree {
 
-/// Takes numbers into one, in whatever order they come.
+/// A hash of all bytes added, in order (FNV-1a).
 class Digest {
  public:
   void add(const void* bytes, std::size_t size) {
@@ -28,7 +28,7 @@ class Digest {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// Stops the program where a reader breaks a promise of TriangleSink.
+/// Aborts where a reader violates the contract of TriangleSink.
 class CheckingSink : public TriangleSink {
  public:
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
@@ -69,7 +69,7 @@ class CheckingSink : public TriangleSink {
     expect(float32_ || !summary->float32);
   }
 
-  /// Of all that was taken.
+  /// A hash of all calls so far.
   [[nodiscard]] std::uint64_t digest() const { return digest_.value(); }
 
   static void expect(bool truth) {
@@ -81,10 +81,10 @@ class CheckingSink : public TriangleSink {
   std::uint64_t triangle_count_ = 0;
   std::uint64_t bytes_done_ = 0, bytes_total_ = 0;
   Digest digest_;
-  bool float32_ = true;  ///< all corners so far are floats
+  bool float32_ = true;  ///< all corners so far are representable as float
 };
 
-/// Reads with memory for all, and with hardly any: what comes of it must be the same.
+/// Reads with enough memory and with very little. The results must be the same.
 ///
 /// read  (sink, scratch) -> Result<MeshSummary>.
 template <class Read>
@@ -96,7 +96,7 @@ void read_twice(const Read& read) {
   one.check(expected);
   other.check(found);
   CheckingSink::expect(static_cast<bool>(expected) == static_cast<bool>(found));
-  // What was delivered in front of structural damage depends on when it was met.
+  // How much was delivered before structural damage depends on when the damage was found.
   if (expected) CheckingSink::expect(one.digest() == other.digest());
 }
 

@@ -3,7 +3,7 @@
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
 
-/// Any bytes, read as OBJ: a file in memory has no name that ends in .obj.
+/// Reads arbitrary bytes as OBJ directly: the name of a file in memory does not end in .obj.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace planetree::octree;
   const MemoryFile memory(bytes, size);

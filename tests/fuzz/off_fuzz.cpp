@@ -3,7 +3,7 @@
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
 
-/// Any bytes, read as OFF: with a keyword, or as if the name ended in .off.
+/// Reads arbitrary bytes as OFF directly: with a keyword, or as if the file name ended in .off.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace planetree::octree;
   const MemoryFile memory(bytes, size);

@@ -12,15 +12,15 @@
 #include "octree/winding/winding_number.h"
 #include "tests/fuzz/fuzz_frame.h"
 
-/// Decodes any bytes as the pages of a small file and asks the tree they make.
+/// Decodes arbitrary bytes as pages of a small file and queries the tree they form. Input by
+/// offset:
 ///
-///   0  shape of blocks and page size, see kFloat64 and the rest
-///   1  length of the first page, 2 bytes, lowest first
-///   3  the pages: number 0, and one that stands for every other number
+///   0  block format and page size, see kFloat64 and the constants after it
+///   1  length of the first page, 2 bytes, little-endian
+///   3  page 0, then one page that serves as every other page
 ///
-/// The first page is given the number 0 and keys are what the pages say of
-/// themselves: that they are those of the page table is one comparison each,
-/// which few inputs would get past.
+/// The page numbers are set to the expected ones and the expected keys to those in the pages,
+/// because few inputs would pass these comparisons.
 namespace planetree::octree {
 namespace {
 

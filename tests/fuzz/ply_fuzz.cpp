@@ -1,6 +1,6 @@
 #include "tests/fuzz/mesh_fuzz.h"
 
-/// Any bytes, read as whatever they look like; the seeds are PLY files.
+/// Reads arbitrary bytes as the format they look like. The seeds are PLY files.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace planetree::octree;
   const MemoryFile file(bytes, size);

@@ -16,8 +16,8 @@ void read_as(const MemoryFile& memory, const Read& read) {
 
 }  // namespace
 
-/// Any bytes, read as binary and as ascii STL whatever they look like: judging
-/// the format by the size would let few through.
+/// Reads arbitrary bytes directly as binary and as ascii STL, because few inputs have the file size
+/// by which read_mesh() detects STL. Then reads them by detection.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const MemoryFile memory(bytes, size);
   read_as(memory, read_stl_binary);

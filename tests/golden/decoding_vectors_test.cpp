@@ -1,5 +1,4 @@
-// "Test vectors" of the specification hold for the independent reader and for
-// the library alike.
+// "Test vectors" of the specification hold for the independent reader and for the library.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What a header says is checked even where its hash is right.
+// Fields of a header are checked even if its hash is correct.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace planetree::golden {
 namespace {
 
-// The text of the error, or "opened".
+// Returns the error's text, or "opened".
 std::string open_with_root_link(std::uint32_t link) {
   storage::FileImage image(read_file(samples().front().ptree_path()));
   image.change_header([link](storage::FileHeader& header) {

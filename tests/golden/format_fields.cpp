@@ -40,7 +40,7 @@ class FieldList {
   FormatStruct struct_;
 };
 
-// C++20 has no other way to get at a member's name and offset.
+// C++20 has no other way to get a member's name and offset.
 #define PLANETREE_FIELD(Struct, member) \
   add<decltype(Struct::member)>(#member, offsetof(Struct, member))
 

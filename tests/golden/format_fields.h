@@ -4,30 +4,30 @@
 #include <string>
 #include <vector>
 
-/// The fields of the structs that are bytes of a file, as the code has them:
-/// what the tables of the specification are held against.
+/// The fields of the structs that are stored in a file, taken from the code. Tests compare the
+/// tables of the specification with them.
 namespace planetree::golden {
 
 struct FormatField {
   std::string name;
   std::size_t offset;
   std::size_t size;
-  std::string encoding;  ///< as the specification writes it: "u32", "f64 x 3", "record"
+  std::string encoding;  ///< in the specification's notation: "u32", "f64 x 3", "record"
 
   friend bool operator==(const FormatField&, const FormatField&) = default;
 };
 
-/// All fields of one struct, by offset.
+/// All fields of one struct, ordered by offset.
 struct FormatStruct {
-  std::string heading;  ///< of the specification's section with its table
+  std::string heading;  ///< heading of the specification's section with the table
   std::size_t size;
   std::vector<FormatField> fields;
 };
 
-/// storage::FileHeader, ModelRecord, PageEntry and octree::PageHead.
+/// Fields of storage::FileHeader, ModelRecord, PageEntry and octree::PageHead.
 const std::vector<FormatStruct>& format_structs();
 
-/// The struct of that heading.
+/// The struct with the given heading.
 const FormatStruct& format_struct(const std::string& heading);
 
 }  // namespace planetree::golden

@@ -1,4 +1,4 @@
-// The page size decides what shares a page and nothing else.
+// The page size decides which records share a page, and nothing else.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(PageSizes, GiveTheSameAnswers) {
   }
 }
 
-// Bounds in the order of the tree, which does not know of pages.
+// Bounds in the order of the tree, independent of pages.
 void collect_bounds(const SpecTree& tree, std::uint32_t link, std::vector<float>& bounds) {
   if (SpecTree::is_block(link)) return;
   for (const SpecChild& child : tree.node(link).children) {

@@ -11,29 +11,29 @@
 #include "octree/builder/job/region_box.h"
 #include "planetree/types.h"
 
-/// The files in format-spec/v1/samples: each a mesh and the .ptree made of it.
+/// The files in format-spec/v1/samples: each a mesh and the .ptree file built from it.
 namespace planetree::golden {
 
 struct Sample {
   const char* mesh;   ///< file name
   const char* ptree;  ///< file name
   std::uint32_t page_bytes;
-  std::optional<octree::RegionBox> box = std::nullopt;  ///< the file is of what touches it
+  std::optional<octree::RegionBox> box = std::nullopt;  ///< region of the .ptree file, if any
 
   std::filesystem::path mesh_path() const;
   std::filesystem::path ptree_path() const;
 };
 
 const std::vector<Sample>& samples();
-/// The one of a sphere: enough triangles for several pages of 4096 bytes.
+/// The sample of a sphere, with enough triangles for several pages of 4096 bytes.
 const Sample& sphere_sample();
-/// One of a region, which is not among them; and that of the whole mesh.
+/// The sample of a region, which samples() does not contain, and the sample of its whole mesh.
 const Sample& region_sample();
 const Sample& boxes_sample();
 
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
-/// The bytes of the .ptree file built from `mesh`; throws where it cannot be.
+/// The bytes of the .ptree file built from `mesh`. Throws if the build fails.
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads,
                                    const std::optional<octree::RegionBox>& box = std::nullopt);
@@ -43,7 +43,7 @@ struct MeshTriangle {
   std::array<Vec3, 3> corners;
 };
 
-/// The usable triangles of a mesh file, as its reader gives them.
+/// The usable triangles of a mesh file, as its reader delivers them.
 std::vector<MeshTriangle> mesh_triangles(const std::filesystem::path& mesh);
 
 }  // namespace planetree::golden

@@ -1,8 +1,8 @@
-// The samples are what the builder makes of their meshes, byte for byte.
+// The samples are what the builder writes for their meshes, byte for byte. The command
 //
 //   PLANETREE_UPDATE_SAMPLES=1 golden_tests --gtest_filter='*Sample*'
 //
-// writes them anew and prints the worked example's listings, to be pasted into
+// writes them again and prints the listings of the worked example, to be pasted into
 // format-spec/v1/spec.md.
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ std::string name_of(const testing::TestParamInfo<Sample>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, Samples, testing::ValuesIn(samples()), name_of);
 
-// Before any test, because the order of tests is not ours.
+// Updates before any test runs, because the order of tests is not fixed.
 class Update final : public testing::Environment {
  public:
   void SetUp() override {

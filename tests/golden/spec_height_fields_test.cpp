@@ -1,5 +1,5 @@
-// "Height fields", held against the samples as the independent reader decodes them, and against
-// sums of solid angles.
+// Checks "Height fields" in the samples, as the independent reader decodes them, against sums of
+// solid angles.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ struct HeightFieldSample {
       : tree(SpecFile(read_file(sample.ptree_path()))),
         all(tree.triangles(tree.header().root_link)) {}
 
-  // The number of blocks that `look` is called with.
+  // Calls look(block) for every height field and returns their number.
   std::size_t each_height_field(const std::function<void(const SpecBlock&)>& look) const {
     std::size_t count = 0;
     for (const SpecPage& page : tree.pages())
@@ -65,7 +65,7 @@ TEST(SpecHeightFields, AreOfBlocksThatHaveTheOutsideInFrontAndTheInsideBehind) {
   }
 }
 
-// The direction of the box is not told, but there is one for all triangles of the block.
+// The file does not store the direction, but one exists for all triangles of the block.
 TEST(SpecHeightFields, RiseInOneDirection) {
   const HeightFieldSample file(sphere_sample());
   file.each_height_field([](const SpecBlock& block) {
@@ -80,7 +80,7 @@ TEST(SpecHeightFields, RiseInOneDirection) {
   });
 }
 
-// Most of a sphere is simple enough; and what a reader may ask there is its side.
+// Most blocks of a sphere are height fields. There the face at a nearest point tells the side.
 TEST(SpecHeightFields, TellTheSideByTheFaceAtANearestPoint) {
   const HeightFieldSample file(sphere_sample());
   std::size_t blocks = 0, certain = 0;

@@ -1,6 +1,6 @@
-// "Lists of blocks" and "Slabs of listed leaves", held against the samples as the independent
-// reader decodes them: against every triangle of the tree, clipped by every octant without any
-// error, or by the cell, and against sums of solid angles.
+// Checks "Lists of blocks" and "Slabs of listed leaves" in the samples, as the independent reader
+// decodes them: against every triangle of the tree, clipped exactly by octants or by the cell, and
+// against sums of solid angles.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class SpecLists : public testing::TestWithParam<Sample> {
         mask_(file_),
         tree_(file_),
         whole_(SpecFile(read_file(
-            (GetParam().box ? boxes_sample() : GetParam()).ptree_path()))),  // of a region's mesh
+            (GetParam().box ? boxes_sample() : GetParam()).ptree_path()))),  // without a region
         all_(whole_.triangles(whole_.header().root_link)) {
     for (const SpecPage& page : tree_.pages())
       blocks_.insert(page.blocks.begin(), page.blocks.end());
@@ -49,7 +49,7 @@ class SpecLists : public testing::TestWithParam<Sample> {
     });
   }
 
-  // Octants that the block's triangles share a point with.
+  // The octants that the block's triangles touch.
   unsigned touched(const SpecCell& cell, const SpecBlock& block) const {
     std::vector<octree::Triangle> near;
     for (const SpecTriangle& triangle : block.triangles) {
@@ -89,7 +89,7 @@ class SpecLists : public testing::TestWithParam<Sample> {
   }
 };
 
-// What a closed box has of a triangle: the corners of a polygon, none where they do not touch.
+// Clips a triangle by a closed box. Returns the corners of a polygon, none if they do not touch.
 std::vector<SpecPoint> clipped(const std::array<SpecPoint, 3>& triangle, const SpecPoint& lower,
                                const SpecPoint& upper) {
   std::vector<SpecPoint> polygon(triangle.begin(), triangle.end());
@@ -97,7 +97,7 @@ std::vector<SpecPoint> clipped(const std::array<SpecPoint, 3>& triangle, const S
     const std::size_t axis = side / 2;
     const bool least = side % 2 == 0;
     const double limit = least ? lower[axis] : upper[axis];
-    // Negative outside of the side.
+    // Negative outside of this side of the box.
     const auto depth = [&](const SpecPoint& point) {
       return least ? point[axis] - limit : limit - point[axis];
     };
@@ -134,7 +134,7 @@ TEST_P(SpecLists, LeadToBlocks) {
   EXPECT_GT(lists, 0u);
 }
 
-// Too many bits are for rounding alone, and samples hardly have such places.
+// Only rounding may set extra bits, and the samples have few such cases.
 TEST_P(SpecLists, HaveEveryBlockThatTouchesAnOctant) {
   std::size_t bits = 0, needed = 0;
   each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
@@ -177,8 +177,8 @@ TEST_P(SpecLists, LeaveOctantsOfOneWindingNumber) {
   EXPECT_GT(certain, 0u);
 }
 
-// In 256ths of the width, which are what bounds count in. Clipping rounds, by far less than
-// the half step that readers have to spare.
+// Bounds count in 256ths of the width. Clipping rounds far less than the half step of tolerance
+// that readers have.
 TEST_P(SpecLists, HaveSlabsThatBoundTheSurface) {
   constexpr double kRounding = 1e-9;
   std::size_t bounds = 0, held = 0;

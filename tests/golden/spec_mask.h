@@ -11,7 +11,7 @@
 
 namespace planetree::golden {
 
-/// "Mask", cells: of its level and there at x, y, z.
+/// A cell of the mask ("Mask"), by level and coordinates within the level.
 struct SpecCell {
   unsigned level = 0;
   std::array<std::uint32_t, 3> at{};
@@ -21,16 +21,16 @@ struct SpecCell {
 
 using SpecPlane = std::array<SpecPoint, 3>;
 
-/// Of a listed leaf.
+/// An entry of the list of a listed leaf.
 struct SpecListedBlock {
   unsigned octants;
-  std::uint32_t link;  ///< to a SpecBlock
+  std::uint32_t link;  ///< leads to a SpecBlock
 };
 
-/// "Slabs of listed leaves". Points are in the cell's own measure: SpecMask::in_cell().
+/// "Slabs of listed leaves". Points are in cell coordinates, as from SpecMask::in_cell().
 struct SpecSlab {
   unsigned axis = 0;
-  int p = 0, q = 0;  ///< slopes along the two axes after it, in 32nds
+  int p = 0, q = 0;  ///< slopes along the next two axes, in 32nds
   unsigned lower = 0, upper = 255;
 
   bool bounds_below() const { return lower != 0; }
@@ -39,23 +39,23 @@ struct SpecSlab {
   double width() const;
   bool is_above(const SpecPoint& u) const;
   bool is_below(const SpecPoint& u) const;
-  /// A corner of the cell with the greatest height; the one opposite has the least.
+  /// A corner of the cell with the greatest height. The opposite corner has the least.
   unsigned top() const;
 };
 
-/// A grey cell.
+/// The record of a grey cell.
 struct SpecMaskRecord {
   unsigned kind = 0;
   unsigned grey = 0, leaf = 0, black = 0, inverted = 0;
-  std::uint32_t family = 0;  ///< link
+  std::uint32_t family = 0;  ///< link to the first grey octant
   std::array<int, 8> corners{};
   int behind = 0, beyond = 0;
   std::vector<SpecPlane> planes;
   std::vector<SpecListedBlock> blocks;
-  SpecSlab slab;  ///< of a listed leaf
+  SpecSlab slab;  ///< of a listed leaf only
 
   bool is_node() const { return kind < 2; }
-  /// What may be -128: not stated.
+  /// Whether the record has corner numbers. They may be -128: not stored.
   bool has_corners() const { return kind == 2 || kind == 3 || kind == 5; }
 };
 
@@ -66,25 +66,25 @@ struct SpecMaskPage {
   std::vector<SpecMaskRecord> records;
 };
 
-/// The raw bytes of page `number` -> its records ("Mask page").
+/// Decodes the raw bytes of page `number` ("Mask page").
 SpecMaskPage decode_spec_mask_page(std::span<const std::byte> raw, std::uint32_t number,
                                    const SpecHeader& header);
 
-/// The mask of a file, all pages at once. Part of the independent reader: see
-/// spec_reader.h.
+/// The mask of a file, with all its pages. Part of the independent reader: see spec_reader.h.
 class SpecMask {
  public:
   explicit SpecMask(const SpecFile& file);
 
   const std::vector<SpecMaskPage>& pages() const { return pages_; }
   const SpecMaskRecord& root() const { return pages_.at(0).records.at(0); }
-  /// A link as (page within the mask, record).
+  /// The target of a link: page within the mask, and record.
   std::pair<std::size_t, std::size_t> index_of(std::uint32_t link) const;
   /// The record of a grey octant.
   const SpecMaskRecord& octant(const SpecMaskRecord& node, unsigned number) const;
-  /// Corner `number` of a cell, model frame; of a region clamped to it.
+  /// Corner `number` of a cell in the model frame. In a file of a region it is clamped to the
+  /// region.
   SpecPoint corner(const SpecCell& cell, unsigned number) const;
-  /// From corner 0, in sides of the cell, which is not clamped.
+  /// The point relative to corner 0 of the unclamped cell, in units of the cell's side.
   SpecPoint in_cell(const SpecCell& cell, const SpecPoint& point) const;
 
   /// Calls look(cell, record) for every grey cell.

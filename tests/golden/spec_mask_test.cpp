@@ -1,5 +1,5 @@
-// "Mask" and "Mask page", held against the samples as the independent reader
-// decodes them, and against sums of solid angles.
+// Checks "Mask" and "Mask page" in the samples, as the independent reader decodes them, against
+// sums of solid angles.
 
 #include "tests/golden/spec_mask.h"
 
@@ -42,7 +42,7 @@ class SpecMasks : public testing::TestWithParam<Sample> {
         tree_(file_),
         triangles_(tree_.triangles(tree_.header().root_link)) {}
 
-  // Nothing where the point is so near the surface that rounding decides.
+  // The winding number, or nothing if the point is so close to the surface that rounding decides.
   std::optional<int> winding(const SpecPoint& point) const {
     const double number = winding_number(triangles_, point);
     if (std::fabs(number - std::round(number)) > 1e-6 || tree_.nearest(point).distance < 1e-9)
@@ -75,7 +75,7 @@ TEST(SpecMaskSamples, AreOfEveryWatertightMesh) {
   }
 }
 
-// Plain leaves are where many blocks meet: see spec_lists_test.cpp.
+// Plain leaves occur where many blocks meet: see spec_lists_test.cpp.
 TEST(SpecMaskSamples, HaveRecordsOfAllKindsButPlainLeaves) {
   std::set<unsigned> kinds;
   unsigned inverted = 0;
@@ -104,7 +104,7 @@ TEST_P(SpecMasks, RecordsAreOneMask) {
   EXPECT_EQ(file_.header().mask_levels, levels);
 }
 
-// Bits from the coarsest: z, y, x of each level.
+// Bits from the coarsest level down: z, y, x of each level.
 std::uint64_t octcode(const SpecCell& cell) {
   std::uint64_t morton = 0;
   for (unsigned level = cell.level; level-- > 0;)
@@ -164,7 +164,7 @@ TEST_P(SpecMasks, CornersAreWindingNumbers) {
   EXPECT_GT(certain, 0u);
 }
 
-// Signs by double: points so near a plane that it may be wrong are left out.
+// Signs are computed in double. Points so close to a plane that a sign may be wrong are skipped.
 TEST_P(SpecMasks, SpecialCellsAreTwoWindingNumbers) {
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     if (record.kind != 4) return;

@@ -1,5 +1,5 @@
-// Moments as the specification states them, and the share of a winding number
-// that follows from them, held against every triangle.
+// Checks the moments that the specification states, and the share of a winding number computed from
+// them, against every triangle.
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,8 @@ SpecPoint middle_of(const SpecChild& child) {
   return {child.disc.middle[0], child.disc.middle[1], child.disc.middle[2]};
 }
 
-// The integrals of "Moments", by triangles of which each is a point with a
-// spread of its own.
+// The integrals of "Moments", summed over triangles: each counts as a point at its centroid plus
+// its own second moment.
 struct Integrals {
   double area = 0, second = 0;
   SpecPoint vector{};
@@ -75,7 +75,7 @@ double off(const std::array<SpecPoint, 3>& stored, const std::array<SpecPoint, 3
   return std::sqrt(sum);
 }
 
-// "Side of a point: any other surface", far().
+// far() of "Side of a point: any other surface".
 struct Far {
   double value, error;
 };

@@ -8,8 +8,7 @@
 
 namespace planetree::golden {
 
-/// The raw bytes of page `number` -> its records ("Distance page",
-/// "Bounds").
+/// Decodes the raw bytes of page `number` ("Distance page", "Bounds").
 SpecPage decode_spec_page(std::span<const std::byte> raw, std::uint32_t number,
                           const SpecHeader& header);
 

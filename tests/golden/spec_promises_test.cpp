@@ -1,5 +1,5 @@
-// "Guarantees of the tree" and "Page keys", held against the samples as
-// the independent reader decodes them.
+// Checks "Guarantees of the tree" and "Page keys" in the samples, as the independent reader decodes
+// them.
 
 #include <gtest/gtest.h>
 
@@ -113,7 +113,7 @@ TEST_P(SpecPromises, BoxesEncloseWithoutSlack) {
   });
 }
 
-// Double rounds some 2^-29 finer than the slack that is looked at.
+// Rounding in double is about 2^-29 of the slack that is tested.
 void expect_enclosed(const SpecDisc& disc, const SpecPoint& d) {
   const double n[3] = {disc.normal[0], disc.normal[1], disc.normal[2]};
   double e[3];
@@ -195,7 +195,7 @@ TEST_P(SpecPromises, VerticesAreNumberedByFirstUse) {
   }
 }
 
-// Bits from the coarsest: z, y, x of each level.
+// Bits from the coarsest level down: z, y, x of each level.
 std::string morton_bits(const SpecHeader& header, const SpecTriangle& triangle) {
   std::array<std::uint32_t, 3> cell{};
   for (std::size_t axis = 0; axis < 3; ++axis) {

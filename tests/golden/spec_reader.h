@@ -8,15 +8,15 @@
 #include <span>
 #include <vector>
 
-/// A reader of .ptree files written from format-spec/v1/spec.md alone: it
-/// shares no line with the implementation, so where both agree the text is
-/// right. Plain rather than fast. Faults are thrown as std::runtime_error.
+/// A reader of .ptree files written from format-spec/v1/spec.md alone. It shares no code with the
+/// implementation, so where both agree the text is right. Simple rather than fast. Faults are
+/// thrown as std::runtime_error.
 namespace planetree::golden {
 
 using SpecVector = std::array<float, 3>;
 using SpecPoint = std::array<double, 3>;
 
-/// "Header" and "Model record": what the reader needs of them.
+/// The fields of "Header" and "Model record" that the reader uses.
 struct SpecHeader {
   std::uint32_t page_bytes, page_count;
   std::uint64_t triangle_count, node_count, block_count;
@@ -30,11 +30,11 @@ struct SpecHeader {
   std::uint64_t mask_cells;
   std::uint32_t mask_pages;
   unsigned mask_levels;
-  std::uint64_t input_triangles;     ///< 0: there is no region
-  SpecPoint wall_lower, wall_upper;  ///< of the region, model frame; infinite where none is
+  std::uint64_t input_triangles;     ///< 0: the file has no region
+  SpecPoint wall_lower, wall_upper;  ///< walls of the region, model frame; infinite if none
   std::int64_t region_winding;
   bool has_walls() const;
-  /// The first mask page.
+  /// Number of the first mask page.
   std::uint32_t d() const { return page_count - mask_pages; }
 };
 
@@ -47,7 +47,7 @@ struct SpecDisc {
   float unit, slab_lower, slab_upper, radius;
 };
 
-/// "Moments": about the box's middle.
+/// "Moments", relative to the middle of the box.
 struct SpecMoments {
   double area, second;
   SpecPoint vector;
@@ -57,7 +57,7 @@ struct SpecMoments {
 struct SpecChild {
   SpecBox box;
   SpecDisc disc;
-  SpecMoments moments;  ///< zeros where there are none
+  SpecMoments moments;  ///< zero if the node has none
   std::uint32_t link;
 };
 
@@ -70,7 +70,7 @@ struct SpecNode {
 struct SpecTriangle {
   std::uint64_t id;
   std::array<SpecPoint, 3> corners;          ///< model frame
-  std::array<std::uint32_t, 3> page_vertex;  ///< their numbers in the page
+  std::array<std::uint32_t, 3> page_vertex;  ///< vertex indices within the page
 };
 
 struct SpecBlock {
@@ -79,7 +79,7 @@ struct SpecBlock {
   bool is_height_field;
 };
 
-/// A decoded page: its records by their links, which are unique in a file.
+/// A decoded page: records by their links, which are unique in a file.
 struct SpecPage {
   std::uint64_t octcode;
   std::uint32_t ordinal;
@@ -88,7 +88,7 @@ struct SpecPage {
   std::set<std::uint32_t> roots;
 };
 
-/// A file that has been opened: header and page table are checked.
+/// An opened file, with header and page table checked.
 class SpecFile {
  public:
   explicit SpecFile(std::vector<std::byte> bytes);
@@ -97,7 +97,7 @@ class SpecFile {
   /// The raw bytes of a page, checked and decompressed.
   std::vector<std::byte> raw_page(std::uint32_t number) const;
   SpecPage page(std::uint32_t number) const;
-  /// The page a link leads to.
+  /// The page that a link leads to.
   std::uint32_t page_of(std::uint32_t link) const;
 
  private:
@@ -107,10 +107,10 @@ class SpecFile {
 
   std::vector<std::byte> bytes_;
   SpecHeader header_{};
-  std::uint64_t content_id_ = 0;  // its first word
+  std::uint64_t content_id_ = 0;  // first 64 bits
 };
 
-/// "Bounds": what is stored -> what it means.
+/// "Bounds": decodes stored bounds.
 SpecBox decode_box(const SpecBox& parent, const std::array<std::uint8_t, 3>& lower,
                    const std::array<std::uint8_t, 3>& upper);
 SpecVector decode_normal(std::int16_t u, std::int16_t v);

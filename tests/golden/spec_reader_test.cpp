@@ -1,5 +1,4 @@
-// What the independent reader finds in the samples is the mesh they were made
-// of.
+// The independent reader finds in the samples the meshes they were built from.
 
 #include "tests/golden/spec_reader.h"
 
@@ -35,7 +34,7 @@ SpecTree open_tree(const Sample& sample) {
   return SpecTree(SpecFile(read_file(sample.ptree_path())));
 }
 
-// The same bits, so that -0 is not 0.
+// Compares bits, so that -0 differs from 0.
 bool is_same(const SpecPoint& found, const Vec3& expected, int scale_exponent) {
   const double back[3] = {std::ldexp(found[0], -scale_exponent),
                           std::ldexp(found[1], -scale_exponent),
@@ -88,7 +87,7 @@ TEST_P(SpecReader, FindsBoxAndSampleInTheMesh) {
   EXPECT_LT(longest, 2);
 }
 
-// The two share nothing but the file, so rounding may differ in the last bits.
+// Reader and library share no code, so their rounding may differ in the last bits.
 TEST_P(SpecReader, AnswersAsTheLibraryDoes) {
   const SpecTree tree = open_tree(GetParam());
   const auto model = Model::open(GetParam().ptree_path());
@@ -126,7 +125,7 @@ void read_all(const std::vector<std::byte>& bytes) {
   const SpecMask mask(file);
 }
 
-// Every byte is under some hash or check: the first header alone has a spare.
+// A hash or check covers every byte. Only the header has a second copy.
 TEST(SpecReaderFile, NoticesEveryDamagedByteButOfOneHeader) {
   const std::vector<std::byte> whole = read_file(samples().front().ptree_path());
   for (std::size_t at = 576; at + 576 < whole.size(); ++at) {

@@ -1,5 +1,5 @@
-// "Region", held against the sample of one as the independent reader decodes it, and against
-// the sample of the whole mesh.
+// Checks "Region" in the sample of a region, as the independent reader decodes it, against the
+// sample of the whole mesh.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class SpecRegion : public testing::Test {
 
   const SpecHeader& header() const { return file_.header(); }
 
-  // Nothing where the point is so near the surface that rounding decides.
+  // The winding number, or nothing if the point is so close to the surface that rounding decides.
   std::optional<int> winding(const SpecPoint& point) const {
     const double number = winding_number(all_, point);
     if (whole_.nearest(point).distance < 1e-9) return std::nullopt;
@@ -150,7 +150,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
   EXPECT_NE(*number, 0);
 }
 
-// "Nearest triangle", nearest(): what it says of the whole from the part.
+// nearest() of "Nearest triangle": bounds that the part gives for the whole.
 TEST_F(SpecRegion, BoundsTheDistanceToTheWhole) {
   const auto model = Model::open(region_sample().ptree_path());
   ASSERT_TRUE(model);

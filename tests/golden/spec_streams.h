@@ -12,7 +12,7 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw std::runtime_error(what);
 }
 
-/// Takes streams off the front of the raw bytes.
+/// Reads streams from the front of the raw bytes.
 class StreamReader {
  public:
   explicit StreamReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -23,7 +23,7 @@ class StreamReader {
     rest_ = rest_.subspan(count);
     return taken;
   }
-  /// Element i has its byte k at k n + i.
+  /// Byte k of element i is at k * count + i.
   template <class T>
   std::vector<T> byte_split(std::size_t count) {
     const auto stream = bytes(count * sizeof(T));

@@ -1,4 +1,4 @@
-// The specification's tables say what the structs are, row by row.
+// The tables of the specification describe the structs, row by row.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 
 namespace planetree::golden {
 
-// For messages.
+// Prints a field in messages of failed tests.
 void PrintTo(const FormatField& field, std::ostream* out) {
   *out << field.name << " at " << field.offset << ", " << field.size << " bytes, "
        << field.encoding;
@@ -43,7 +43,7 @@ TEST(SpecTables, StateEveryFieldOfEveryStruct) {
     EXPECT_EQ(stated_fields(format.heading), format.fields) << format.heading;
 }
 
-// A field that is in no list would leave a gap here.
+// A field that is missing from the list would leave a gap.
 TEST(SpecTables, CoverEveryByteOfEveryStruct) {
   for (const FormatStruct& format : format_structs()) {
     std::size_t end = 0;
@@ -69,7 +69,7 @@ std::string read_source(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The list in such a header: "///   name   element", by order.
+// The list of streams in a header, in order. Its lines are "///   name   element".
 std::vector<std::string> coded_streams(const std::string& header) {
   const std::string source = read_source(header);
   const std::regex line(R"(\n///   (\w+(?: \w+)*)  +\S)");

@@ -18,13 +18,14 @@ const std::vector<std::string>& lines() {
   return all;
 }
 
-// 0 for a line that is no heading.
+// Returns 0 for a line that is no heading.
 std::size_t heading_depth(const std::string& line) {
   const std::size_t depth = line.find_first_not_of('#');
   return depth != std::string::npos && line[depth] == ' ' ? depth : 0;
 }
 
-// "## 2.1 Header", "### B.3 Scale" and "## Appendix B: Notes" are headed Header, Scale and Notes.
+// The title without number: "## 2.1 Header" gives Header, "### B.3 Scale" gives Scale, "## Appendix
+// B: Notes" gives Notes.
 std::string title_of(const std::string& line) {
   static const std::regex number(R"(^#+ (?:\d+(?:\.\d+)* |[A-Z](?:\.\d+)+ |Appendix [A-Z]: )?)");
   return std::regex_replace(line, number, "");

@@ -12,8 +12,7 @@ struct SpecNearest {
   double distance;
 };
 
-/// The whole tree of a file, all pages at once. Part of the independent
-/// reader: see spec_reader.h.
+/// The tree of a file, with all its pages. Part of the independent reader: see spec_reader.h.
 class SpecTree {
  public:
   explicit SpecTree(const SpecFile& file);
@@ -21,7 +20,7 @@ class SpecTree {
   const SpecHeader& header() const { return header_; }
   const std::vector<SpecPage>& pages() const { return pages_; }
 
-  /// The records a link leads to; throws where there is no such record.
+  /// The record that a link leads to. Throws if there is none.
   const SpecNode& node(std::uint32_t link) const;
   const SpecBlock& block(std::uint32_t link) const;
   std::uint32_t page_of(std::uint32_t link) const;
@@ -30,8 +29,7 @@ class SpecTree {
   /// All triangles below a link, in the order of the tree.
   std::vector<SpecTriangle> triangles(std::uint32_t link) const;
 
-  /// "Nearest triangle", nearest(): `point` and the distance are in the model
-  /// frame.
+  /// nearest() of "Nearest triangle". `point` and the distance are in the model frame.
   SpecNearest nearest(const SpecPoint& point) const;
 
  private:

@@ -1,4 +1,4 @@
-// Coordinates so much smaller than the model that its scale makes them vanish.
+// Coordinates so much smaller than the model that they vanish in the model frame.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace planetree::golden {
 namespace {
 
-// Triangles whose x is 0 or next to it, on either side, in a model of 10^300.
+// Triangles whose x is 0 or the closest to it, in a model of size 10^300.
 std::string fan_of_slivers(int triangle_count) {
   std::string text = "v 1e300 0 0\n";
   for (int i = 0; i < triangle_count; ++i) {

@@ -19,7 +19,7 @@ T get(std::span<const std::byte> bytes, std::size_t offset) {
   return value;
 }
 
-// Writes down bytes one field after the other.
+// Lists bytes field by field.
 class Listing {
  public:
   explicit Listing(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -32,7 +32,7 @@ class Listing {
       line(std::min(size - done, kBytesPerLine), done == 0 ? meaning : "");
   }
 
-  /// All fields of a struct but records, which have a listing of their own.
+  /// Lists all fields of a struct. A field that is a record is listed field by field too.
   void record(const FormatStruct& format) {
     const std::size_t start = at_;
     for (const FormatField& field_of : format.fields) {
@@ -58,7 +58,7 @@ class Listing {
     at_ += size;
   }
 
-  // What a field holds, in words; nothing for bytes and hashes.
+  // The value of a field as text; empty for bytes and hashes.
   std::string value(const FormatField& field, std::size_t offset) const {
     const auto whole = [&]<class T>(T number) { return " = " + std::to_string(number); };
     const bool is_hash = field.name == "check" || field.name.ends_with("_hash");
@@ -80,7 +80,7 @@ class Listing {
   std::string text_;
 };
 
-// A length of 15 in the token goes on in further bytes, up to one below 255.
+// A length of 15 in the token continues in further bytes, up to the first below 255.
 std::size_t read_length(std::span<const std::byte> file, unsigned nibble, std::size_t& at) {
   std::size_t length = nibble;
   if (nibble < 15) return length;

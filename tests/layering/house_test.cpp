@@ -1,4 +1,4 @@
-// The rules of the house, held against every source in the repository.
+// Rules that hold for every source file of the repository.
 
 #include "tests/layering/layers.h"
 #include "tests/layering/source_text.h"
@@ -16,8 +16,8 @@ namespace {
 
 const std::string kRoot = PLANETREE_SOURCE_DIR;
 
-// A file nears this length when it has become two nouns. The number only stops
-// drift; most files are far below it.
+// Keeps files from growing unnoticed. Nearly all are far shorter. A file this long usually has two
+// subjects.
 constexpr std::ptrdiff_t kLongestFileLines = 350;
 
 const std::vector<SourceText>& sources() {
@@ -48,7 +48,7 @@ TEST(House, SourcesIncludeTheirOwnHeaderFirst) {
     if (source.is_header()) continue;
     const std::string header = source.path.substr(0, source.path.size() - 3) + "h";
     std::vector<std::string> includes = includes_of(source.text);
-    // Highway compiles a file once for each instruction set by this line at its top.
+    // Highway requires this line at the top of a file that it compiles for each instruction set.
     std::erase(includes, "hwy/foreach_target.h");
     if (!all.contains(header)) continue;
     EXPECT_TRUE(!includes.empty() && includes.front() == header) << source.path;

@@ -46,7 +46,7 @@ const std::vector<Layer>& layers() {
                                      "boost/multiprecision", "hwy", "oneapi/tbb", "tbb"})},
       {"query/", with_system({"query/", "octree/build/", "octree/", "cache/", "storage/",
                               "planetree/", "Eigen", "hwy/contrib/sort", "tbb"})},
-      // inspect and verify look into damaged files, below what the queries see.
+      // inspect and verify read damaged files below the level of queries.
       {"tools/", with_system({"tools/", "query/", "octree/build/", "octree/", "storage/",
                               "planetree/", "CLI", "fmt", "nlohmann", "openssl/evp.h", "png.h"})},
       {"examples/", {"planetree/"}},
@@ -56,7 +56,7 @@ const std::vector<Layer>& layers() {
 
 const std::vector<KeptHeader>& kept_headers() {
   static const std::vector<KeptHeader> all = {
-      // The reader written from the specification shares no line with ours.
+      // The reader written from the specification shares no code with the library.
       {"lz4", {"storage/file/page_codec.cpp", "tests/golden/spec_reader.cpp"}},
       {"liburing",
        {"storage/system/file_calls.cpp", "storage/system/read_wait.h", "tests/storage/"}},

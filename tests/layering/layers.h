@@ -6,30 +6,30 @@
 #include <string_view>
 #include <vector>
 
-/// Who may include whom.
+/// Rules about which folder may include which.
 namespace planetree::layering {
 
-/// How include names may begin. "octree/" means what lies in that folder but
-/// not in folders below it; "hwy" means whatever begins so; "png.h" is itself.
+/// Beginnings of include names. "octree/" stands for files in that folder but not in folders below
+/// it, "hwy" for any name that begins with it, "png.h" for that name.
 using Beginnings = std::vector<std::string_view>;
 
-/// A folder and what its files may include beside the standard library.
+/// A folder, and what its files may include besides the standard library.
 struct Layer {
-  std::string_view folder;  ///< from the root of the repository, with '/' at its end
+  std::string_view folder;  ///< path from the root of the repository, with '/' at its end
   Beginnings allowed;
 };
 
-/// A library that few files, or folders, keep to themselves.
+/// A library that only a few files or folders may include.
 struct KeptHeader {
-  std::string_view beginning;  ///< of the include name
+  std::string_view beginning;  ///< beginning of the include name
   Beginnings includers;        ///< paths from the root of the repository
 };
 
 const std::vector<Layer>& layers();
 const std::vector<KeptHeader>& kept_headers();
 
-/// One line per include of `source` that its layer, or the keeper of a header,
-/// forbids; empty when all is well.
+/// One line for each include of `source` that its layer or a kept header forbids. Empty if there is
+/// none.
 std::vector<std::string> forbidden_includes(const SourceText& source);
 
 }  // namespace planetree::layering

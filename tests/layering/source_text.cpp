@@ -24,7 +24,7 @@ std::string_view without_leading_blanks(std::string_view line) {
   return first == std::string_view::npos ? std::string_view() : line.substr(first);
 }
 
-/// The name in `line` if it is an #include line, else nothing.
+/// The name in `line` if it is an #include line, else an empty view.
 std::string_view included_name(std::string_view line) {
   constexpr std::string_view kDirective = "include";
   line = without_leading_blanks(line);
@@ -49,7 +49,7 @@ std::vector<SourceText> read_sources(const fs::path& root) {
   fs::recursive_directory_iterator entry(root);
   for (; entry != fs::recursive_directory_iterator(); ++entry) {
     if (entry->is_directory()) {
-      // octree/build is a layer; build at the root holds build trees.
+      // Only a folder named build at the root holds build trees.
       const bool is_at_root = entry.depth() == 0;
       if (is_at_root && is_passed_over(entry->path())) entry.disable_recursion_pending();
       continue;

@@ -5,28 +5,28 @@
 #include <string_view>
 #include <vector>
 
-/// The repository as text, for tests that hold it to the rules of the house.
+/// The sources of the repository as text, for tests of rules that hold for all of them.
 namespace planetree::layering {
 
 /// One source or header.
 struct SourceText {
-  std::string path;  ///< from the root of the repository, with '/'
+  std::string path;  ///< from the root of the repository, with '/' between folders
   std::string text;
 
-  /// The folder the file lies in, with '/' at its end: "octree/build/".
+  /// The folder of the file, with '/' at its end: "octree/builder/".
   std::string folder() const;
   bool is_header() const { return path.ends_with(".h"); }
 };
 
-/// Every .h and .cpp below `root`, sorted by path. Build trees and hidden
-/// folders are passed over.
+/// Reads every .h and .cpp file below `root`, sorted by path. Build trees and hidden folders are
+/// skipped.
 std::vector<SourceText> read_sources(const std::filesystem::path& root);
 
-/// What the #include lines of `text` name, in order: "storage/system/mapping.h",
-/// "vector". Lines inside a block comment count too.
+/// The names in the #include lines of `text`, in order: "storage/system/mapping.h", "vector". Lines
+/// in a block comment count too.
 std::vector<std::string> includes_of(std::string_view text);
 
-/// A header of the C++ standard library: no folder, no extension.
+/// Whether `include` names a header of the C++ standard library: no folder, no extension.
 bool is_standard_header(std::string_view include);
 
 }  // namespace planetree::layering

@@ -18,11 +18,11 @@
 
 namespace planetree::octree {
 
-/// Builds of models of many patches: what large ones are, with sizes so small that tests can
-/// look at them.
+/// Builds of models of many chunks, as those of large models are, with limits so small that the
+/// models are small.
 class SmallChunks : public testing::Test {
  protected:
-  // Binary STL, whose corners are floats.
+  // Writes a binary STL, whose corners are floats.
   void write(const Soup& soup) {
     std::ofstream file(mesh_, std::ios::binary);
     const auto put = [&file](const auto& value) {
@@ -37,7 +37,8 @@ class SmallChunks : public testing::Test {
       put(std::uint16_t{0});
     }
   }
-  // Binary PLY of doubles, vertices and faces in random order. What it is, its content says.
+  // Writes a binary PLY with float64 properties, vertices and faces in random order. The file's
+  // extension stays .stl; readers go by the content.
   void write_byte_split(Soup soup) {
     std::mt19937 random(4);
     std::shuffle(soup.begin(), soup.end(), random);
@@ -75,7 +76,7 @@ class SmallChunks : public testing::Test {
 
 inline constexpr BuildMemory kLarge{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30, 1 << 30, 1 << 30};
 inline constexpr BuildMemory kTight{1, 77, 65536, 0, 0, 0, 0, 0};
-// The same, and so little for the mesh that corners in no order are sorted on disk.
+// As kTight, with so little memory for the mesh that corners in random order are sorted on disk.
 inline constexpr BuildMemory kByteSplit{1, 77, 1000, 0, 0, 0, 0, 0};
 inline constexpr BuildMemory kBetween{3, 200, 65536, 30000, 20000, 7000, 5000, 5000};
 

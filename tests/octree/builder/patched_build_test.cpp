@@ -59,7 +59,7 @@ class ChunkedBuild : public SmallChunks {
   }
 
   std::optional<RegionBox> box_;
-  std::optional<BuildDirectory> failed_at_;  // the last build
+  std::optional<BuildDirectory> failed_at_;  // of the last build
 };
 
 TEST_F(ChunkedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
@@ -101,7 +101,7 @@ TEST_F(ChunkedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
   }
 }
 
-// What is built after the edges are matched is of the region alone.
+// After the edges are matched, only the region is built.
 TEST_F(ChunkedBuild, TakesNoMoreOfARegionThanItHas) {
   write(sphere(5));
   ASSERT_TRUE(build(kTight));
@@ -133,13 +133,14 @@ TEST_F(ChunkedBuild, SaysThatItFailedOverItsInput) {
   EXPECT_EQ(failed_at_, BuildDirectory::kInput);
 }
 
-// The n-th call fails, for every n: a clean error or the whole file, and nothing beside it.
+// The n-th system call fails, for each n: the build reports an error or writes the whole file, and
+// leaves nothing else.
 class ChunkedBuildFaults : public ChunkedBuild,
                            public testing::WithParamInterface<storage::FaultyCalls::Fault> {
  protected:
   using Fault = storage::FaultyCalls::Fault;
 
-  // The words are for people; where something is wrong must go with them.
+  // Error texts are for people, so failed_at() must report the directory too.
   static std::optional<BuildDirectory> index_of(const Result<BuildReport>& report) {
     if (report) return {};
     const std::string_view text = report.error().text;
@@ -177,7 +178,7 @@ TEST_P(ChunkedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
       }
       ASSERT_TRUE(report || GetParam() == Fault::kError) << report.error().text;
       EXPECT_EQ(failed_at_, index_of(report)) << calls.failed_call();
-      // The directory is synced when the file has its name.
+      // The directory is synced after the file has its name.
       const bool named = calls.failed_call() == "fsync" && calls.fsync_count() == 2;
       ASSERT_EQ(built(), report || named ? expected : old) << calls.failed_call();
       ++failed[calls.failed_call()];

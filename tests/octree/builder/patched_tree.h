@@ -11,9 +11,9 @@
 
 namespace planetree::octree {
 
-/// The tree of a model of small patches, built as far as its file could be written.
+/// The tree of a model in small chunks, built up to the writing of its file.
 struct ChunkedTree {
-  /// file  takes the patches' pages; must outlive this.
+  /// file  spill file for the chunks' pages; must outlive this.
   explicit ChunkedTree(const Soup& soup, std::uint64_t chunk_triangles = 200,
                        std::uint32_t page_bytes = 4096, storage::SpillFile& file = spill_file());
 

@@ -15,7 +15,7 @@
 
 namespace planetree::octree {
 
-/// What a build did, as it told.
+/// Records what a build reports.
 class Witness final : public BuildProgress {
  public:
   struct Count {
@@ -43,21 +43,21 @@ class Witness final : public BuildProgress {
   std::map<BuildPhase, Count> counts_;
 };
 
-/// Builds that are stopped, and gone on with.
+/// Builds that are stopped and resumed.
 class ResumedBuild : public SmallChunks {
  protected:
   using Fault = storage::FaultyCalls::Fault;
   using Names = std::vector<std::string>;
 
   Result<BuildReport> build() {
-    storage::FaultyCalls calls;  // which do not fail, but do not wait for the disk
+    storage::FaultyCalls calls;  // do not fail, and do not wait for the disk
     return build(calls);
   }
   Result<BuildReport> build(storage::FileCalls& calls, const BuildMemory& memory = kTight) {
     witness_ = {};
     return build_tree(mesh_, output_, options_, witness_, {40, 60, memory, calls});
   }
-  // What a build writes that nothing stops.
+  // The bytes that a build without interruption writes.
   storage::Bytes whole() {
     options_.resume = false;
     EXPECT_TRUE(build());
@@ -66,7 +66,7 @@ class ResumedBuild : public SmallChunks {
     std::filesystem::remove(output_);
     return bytes;
   }
-  // Every call from the n-th on fails. False: the build makes fewer.
+  // Lets every system call from `call` on fail. False if the build makes fewer calls.
   bool stop_at(int call) {
     storage::FaultyCalls calls;
     calls.fault = Fault::kError;
@@ -77,7 +77,7 @@ class ResumedBuild : public SmallChunks {
     EXPECT_TRUE(stopped || calls.happened());
     return calls.happened();
   }
-  // Stops builds, each from the start, until one has done so many parts of a phase.
+  // Stops builds, each from the start, until one has completed `parts` parts of `phase`.
   void stop_in(BuildPhase phase, std::uint64_t parts = 0) {
     witness_ = {};
     for (int call = 0; !witness_.did(phase) || witness_.count(phase).done < parts; call += 9) {
@@ -94,7 +94,7 @@ class ResumedBuild : public SmallChunks {
     ASSERT_EQ(folder_.names(), Names{"model.ptree"});
   }
 
-  /// Completes what was stopped, and takes the output away. False if it was complete before.
+  /// Completes the stopped build and removes its output. False if it was complete before.
   bool goes_on(const storage::Bytes& expected) {
     const bool complete = std::filesystem::exists(output_);
     expect_completed(expected);

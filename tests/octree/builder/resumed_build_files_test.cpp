@@ -1,4 +1,4 @@
-// What builds that can be resumed have on disk: damaged, failing, short of room.
+// The files of builds that can be resumed: damaged, failing, or short of space.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 class ResumedBuildFiles : public ResumedBuild {};
 
-// Whatever is damaged, in whatever record.
+// Damages one byte of any record.
 TEST_F(ResumedBuildFiles, NeverBelievesADamagedJournal) {
   for (const bool open : {false, true}) {
     write(open ? holed() : sphere(2));
@@ -34,7 +34,7 @@ TEST_F(ResumedBuildFiles, NeverBelievesADamagedJournal) {
       storage::write_bytes(work_ / "journal", damaged);
       storage::write_bytes(work_ / "spill", spill);
       expect_completed(expected);
-      // The last to be lost is a region, or of an open model a patch.
+      // The last record of the journal is that of a sector, or of a chunk if the model is open.
       EXPECT_TRUE(witness_.did(BuildPhase::kBounding));
       EXPECT_TRUE(at >= 100 || witness_.start.starts_with("earlier work is of no use"));
       std::filesystem::remove(output_);
@@ -74,11 +74,11 @@ TEST_F(ResumedBuildFiles, LeavesNothingOfWhatCannotBeGoneOnWith) {
   EXPECT_EQ(folder_.names(), Names{});
 }
 
-/// The system, of which the n-th call that is about an open file fails.
+/// Lets the n-th system call on an open file fail.
 class FailingFile final : public storage::FileCalls {
  public:
   explicit FailingFile(int fail_at) : fail_at_(fail_at) {}
-  // Empty: no call failed.
+  // The path of the file whose call failed; empty if none did.
   const std::string& name() const { return name_; }
 
   int fstat(int descriptor, struct stat* status) noexcept override {
@@ -91,7 +91,7 @@ class FailingFile final : public storage::FileCalls {
                  off_t offset) noexcept override {
     return strikes(descriptor) ? -1 : FileCalls::pwrite(descriptor, in, bytes, offset);
   }
-  int fsync(int) noexcept override { return 0; }  // no test here cuts the power
+  int fsync(int) noexcept override { return 0; }  // no test here simulates a power failure
   int fdatasync(int descriptor) noexcept override { return strikes(descriptor) ? -1 : 0; }
   int flock(int descriptor, int operation) noexcept override {
     return strikes(descriptor) ? -1 : FileCalls::flock(descriptor, operation);
@@ -141,7 +141,7 @@ TEST_F(ResumedBuildFiles, SaysWhereItFailed) {
   EXPECT_EQ(failed.size(), 4u);
 }
 
-// What memory would hold is on disk, and what is there already is not looked for again.
+// Data that memory would hold is spilled, and space that is already taken is not required again.
 TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
   write(sphere(3));
   const storage::Bytes expected = whole();
@@ -171,7 +171,7 @@ TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
     std::filesystem::remove(output_);
     stop_in(phase, parts);
     const bool matched = phase != BuildPhase::kClosing;
-    // Triangles in order, and no less than a page of each patch.
+    // The sorted triangles, and at least a page head for each chunk.
     const std::uint64_t surely_kept_bytes =
         size->triangles * Triangles::record_bytes(false) + parts * sizeof(PageHead);
     const std::uint64_t kept_bytes = std::filesystem::file_size(work_ / "spill");
@@ -183,7 +183,7 @@ TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
   }
 }
 
-// By this build and by those it goes on with.
+// Counts the space taken by this build and by the builds it resumes.
 TEST_F(ResumedBuildFiles, ReportsWhatItHadOnDisk) {
   write(sphere(3));
   storage::FaultyCalls calls;

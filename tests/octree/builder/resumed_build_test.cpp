@@ -1,4 +1,4 @@
-// Builds that were stopped, and gone on with.
+// Builds that are stopped and resumed.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -33,7 +33,7 @@ TEST_F(ResumedBuild, GoesOnWhereverItWasStopped) {
       SCOPED_TRACE("stopped at call " + std::to_string(call));
       const Witness stopped = witness_;
       if (!goes_on(expected)) continue;
-      // Phases before the last are not done again, nor are parts that were counted.
+      // Completed phases are not repeated, nor are parts that were counted.
       EXPECT_FALSE(stopped.did(BuildPhase::kClosing) && witness_.did(BuildPhase::kReading));
       EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && witness_.did(BuildPhase::kClosing));
       for (const BuildPhase phase : {BuildPhase::kBounding, BuildPhase::kColouring}) {
@@ -73,7 +73,7 @@ TEST_F(ResumedBuild, BeginsAnewWithAnotherRegion) {
             "earlier work is of no use, its options were others; building from the start");
 }
 
-// One call fails, is interrupted or stops half way; the process lives on.
+// One call fails, is interrupted or returns early. The process survives.
 TEST_F(ResumedBuild, WritesTheSameBytesWhateverGoesWrong) {
   write(sphere(2));
   const storage::Bytes expected = whole();
@@ -94,7 +94,8 @@ TEST_F(ResumedBuild, WritesTheSameBytesWhateverGoesWrong) {
     }
 }
 
-// No part takes more than so many calls, nor does what comes before; the whole takes many more.
+// The build is stopped after a number of calls that any part takes fewer of. The whole build takes
+// many more.
 TEST_F(ResumedBuild, GetsThereHoweverOftenItIsStopped) {
   write(sphere(3));
   const storage::Bytes expected = whole();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMegabyte = 1 << 20;
 
-/// A build of an ascii PLY with a temporary directory of its own.
+/// Builds of an ascii PLY with a separate temporary directory.
 class BuildSpace : public testing::Test, public BuildProgress {
  protected:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override { begun_ = true; }
@@ -24,7 +24,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
     index_ = directory;
   }
 
-  // A torus of quads, or of polygons of more corners that go round a quad several times.
+  // Writes a torus of quads, or of polygons with more corners that repeat those of a quad.
   void write_torus(unsigned corners, const char* real) const {
     constexpr unsigned kRound = 60, kAlong = 80;
     std::ofstream file(mesh_);
@@ -69,7 +69,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
   std::filesystem::path output_ = folder_ / "torus.ptree";
   std::optional<BuildDirectory> index_;
   std::optional<RegionBox> box_;
-  bool begun_ = false;  ///< to read
+  bool begun_ = false;  ///< whether reading has begun
 };
 
 constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0};
@@ -116,7 +116,7 @@ TEST_F(BuildSpace, IsLookedForBeforeAnythingIsWritten) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
 }
 
-// A little of a mesh that would not fit.
+// A small region of a mesh that would not fit as a whole.
 TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
   write_torus(4, "float");
   const auto size = MeshSize::foresee(mesh_);
@@ -131,12 +131,13 @@ TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
   const auto report = build(kNothingHeld, calls);
   ASSERT_TRUE(report) << report.error().text;
   EXPECT_LT(report->header.model.triangle_count, size->triangles / 4);
-  // There is no room for what is cut out.
+  // The triangles of the region do not fit.
   calls.device = storage::device_with_free(1000);
   EXPECT_FALSE(build(kNothingHeld, calls));
 }
 
-// Of polygons with many corners an ascii PLY does not tell how many triangles they are.
+// An ascii PLY of polygons with many corners does not reveal the number of triangles before it is
+// read.
 TEST_F(BuildSpace, IsLookedForAgainOnceTrianglesAreCounted) {
   write_torus(12, "float");
   const SpaceNeed foreseen = need(kNothingHeld);
@@ -150,7 +151,7 @@ TEST_F(BuildSpace, IsLookedForAgainOnceTrianglesAreCounted) {
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
 }
 
-/// Devices of two directories.
+/// The file systems of two directories.
 class Devices final : public storage::FileCalls {
  public:
   std::uint64_t temporary_free = 0, output_free = 0;
@@ -171,7 +172,7 @@ struct SpaceCase {
   std::uint64_t temporary_free, output_free;
   bool shared;
   BuildDirectory directory;
-  std::string text;  // empty: enough
+  std::string text;  // expected error; empty if there is enough space
 };
 
 TEST(SpaceNeed, SaysWhereHowMuchIsMissing) {

@@ -94,7 +94,7 @@ TEST(CellGrid, GivesNeighboursTheSameSides) {
   }
 }
 
-// So a corner is one point, whichever cell it is of.
+// A corner therefore has the same coordinates whichever cell it belongs to.
 TEST(CellGrid, GivesChildrenTheSidesOfTheirParent) {
   Noise noise(3);
   for (const Point& lower : min_corners()) {
@@ -133,7 +133,7 @@ TEST(CellGrid, HasFlatCellsWhereRoundingLeavesNoRoom) {
   EXPECT_EQ(grid.lower(cell).z(), grid.upper(cell).z());
 }
 
-// The cell that halving after halving leads to.
+// The cell at level 19 reached by halving the cube again and again.
 GridCell halved(const CellGrid& grid, const Point& point) {
   GridCell cell;
   while (cell.level < kLevels) {
@@ -153,7 +153,7 @@ TEST(CellGrid, FindsTheCellThatHalvingLeadsTo) {
     for (int i = 0; i < 3000; ++i) {
       const Vec3 in = noise.point(0, 2);
       Point point = lower + Point(in.x, in.y, in.z);
-      // On sides too, and as little beside them as can be.
+      // Also points on cell sides, and one ulp below them.
       if (i % 3 == 1) point = grid.lower(any_cell(noise, 1 + noise.bits() % kLevels));
       if (i % 3 == 2) point = grid.upper(any_cell(noise, 1 + noise.bits() % kLevels));
       if (i % 2 == 1)
@@ -188,7 +188,7 @@ TEST(CellGrid, HasTheOctcodesOfItsCells) {
     EXPECT_EQ(back.y, cell.at[1]);
     EXPECT_EQ(back.z, cell.at[2]);
     if (level == kLevels) continue;
-    // Any cell within it has its Morton code as prefix.
+    // The Morton code of any finest cell within it begins with its own.
     GridCell inner = cell;
     while (inner.level < kLevels) inner = inner.child(noise.bits() % 8);
     const std::uint64_t morton = morton_code(inner.at[0], inner.at[1], inner.at[2]);

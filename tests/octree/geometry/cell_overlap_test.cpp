@@ -39,9 +39,9 @@ TEST(CellOverlap, NeverMissesATriangle) {
     const char* name;
     TriangleAndBox (*make)(Noise&);
     int count;
-    int min_told;  ///< percent of those that are apart
+    int min_told;  ///< minimum percentage of the separate pairs that the test must report
   };
-  // What is apart by the last bits, or below the least numbers, need not be told.
+  // Pairs that are separate only in the last bits, or below the smallest numbers, may be missed.
   for (const Case& c :
        {Case{"random", random_pair, 800, 99}, Case{"needle", needle, 800, 98},
         Case{"of other size", of_other_size, 500, 95}, Case{"tiny", tiny, 200, 30},
@@ -62,10 +62,10 @@ TEST(CellOverlap, FindsWhatSharesOnePoint) {
   const auto touches = [&](const Point& a, const Point& b, const Point& c) {
     return may_touch({a, b, c}, lower, upper) && exactly_touches({a, b, c}, lower, upper);
   };
-  // A vertex of it at a corner, an edge and a face of the box.
+  // A vertex of the triangle at a corner, on an edge and on a face of the box.
   for (const Point& at : {Point(1, 1, 1), Point(1, 1, 0.25), Point(0.25, 0.5, 1)})
     EXPECT_TRUE(touches(at, at + Point(1, 2, 3), at + Point(2, 1, 1)));
-  // An edge of it, then its inside, at a corner and an edge.
+  // An edge of the triangle, then its interior, at a corner and on an edge of the box.
   for (const Point& at : {Point(1, 1, 1), Point(1, 1, 0.25)}) {
     const Point along(2, -2, 0);
     EXPECT_TRUE(touches(at - along, at + along, at + Point(4, 4, 8)));
@@ -104,7 +104,7 @@ TEST(CellOverlap, HoldsDifferencesAsLargeAsItSays) {
   EXPECT_FALSE(may_touch({Point(less, 0, 0), Point(0, less, 0), Point(0, 0, less)}, lower, upper));
 }
 
-// The 13 axes of a triangle and a box.
+// The 13 separating axes of a triangle and a box.
 std::array<Point, 13> axes_of(const Triangle& triangle) {
   std::array<Point, 13> axes;
   for (unsigned axis = 0; axis < 3; ++axis) axes[axis] = Point::Unit(axis);
@@ -116,7 +116,7 @@ std::array<Point, 13> axes_of(const Triangle& triangle) {
   return axes;
 }
 
-// The gap between the projections on an axis, as a share of the axis' length.
+// The gap between the projections on an axis, divided by the axis' length.
 double gap_along(const Point& axis, const TriangleAndBox& pair) {
   const Point centre = (pair.lower + pair.upper) * 0.5, half = pair.upper - centre;
   const double reach = axis.cwiseAbs().dot(half);
@@ -128,7 +128,7 @@ double gap_along(const Point& axis, const TriangleAndBox& pair) {
   return std::max(least - reach, -greatest - reach) / axis.norm();
 }
 
-// Of pairs that one axis alone tells apart, and clearly so.
+// Uses pairs that only one axis separates, and by a clear gap.
 TEST(CellOverlap, TellsApartAlongEachOfThirteenAxes) {
   std::array<int, 13> certain{};
   Noise noise(3);

@@ -58,7 +58,7 @@ TEST(CellSlab, HasHeightsFromItsLowestCornerToItsHighest) {
 }
 
 TEST(CellSlab, TellsOnlyWhatIsBeyondAPlane) {
-  CellSlab slab;  // of width 32
+  CellSlab slab;  // width 32
   EXPECT_FALSE(slab.says_something());
   for (const double height : {-1.0, 0.0, 16.0, 32.0, 33.0}) EXPECT_EQ(slab.side_of(height), 0);
   slab.lower = 64;
@@ -70,7 +70,7 @@ TEST(CellSlab, TellsOnlyWhatIsBeyondAPlane) {
   EXPECT_EQ(slab.side_of(16), 1);
 }
 
-/// A nearly flat surface, or a rough one, or a few triangles of any kind, about the cell.
+/// Triangles about a cell: a nearly flat surface, a rough one, or a few random triangles.
 std::vector<BoxedTriangle> triangles_about(const Point& middle, double size, Noise& noise) {
   std::vector<BoxedTriangle> triangles;
   const Point normal = any_point(noise, -1, 1);
@@ -87,7 +87,7 @@ std::vector<BoxedTriangle> triangles_about(const Point& middle, double size, Noi
   return triangles;
 }
 
-// The surface's part in the cell is tried by boxes in it, exactly.
+// Compares exactly with small boxes in the cell: a box beyond a plane must touch no triangle.
 TEST(CellSlab, IsFittedAboutAllThatIsInACell) {
   Noise noise(12);
   unsigned certain = 0, empty = 0;
@@ -104,7 +104,7 @@ TEST(CellSlab, IsFittedAboutAllThatIsInACell) {
     EXPECT_LE(slab.lower, slab.upper);
     empty += !slab.says_something();
     for (int k = 0; k < 20; ++k) {
-      // A small box, all of which is beyond a plane.
+      // A small box; skipped unless all its corners are beyond the same plane.
       const Point u = any_point(noise, 0, 0.99), from = lower + size.cwiseProduct(u);
       const Point to = from + size * (0.01 * noise.uniform(0, 1));
       const int side = slab.side_of(slab.height(CellSlab::position_in(from, lower, cell.level)));
@@ -130,7 +130,7 @@ TEST(CellSlab, IsNoneWhereNothingHasADirection) {
   const GridCell cell{.level = 1};
   const std::vector<BoxedTriangle> point{BoxedTriangle({at, at, at})};
   EXPECT_EQ(fit_slab(cell, Point::Zero(), point, {0}), CellSlab{});
-  // There and back.
+  // Two faces whose normals cancel.
   const Triangle face{Point(0, 0, 0.5), Point(1, 0, 0.5), Point(0, 1, 0.5)};
   const std::vector<BoxedTriangle> both{BoxedTriangle(face),
                                         BoxedTriangle({face[0], face[2], face[1]})};

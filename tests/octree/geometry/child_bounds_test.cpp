@@ -130,7 +130,7 @@ TEST(FloatRounding, GrowsABoxByWhatIsAdded) {
   EXPECT_EQ(half_area(FloatBox{{0, 0, 0}, {1, 2, 3}}), 11.0f);
 }
 
-// Not by float_below() alone: compilers merge the three axes into one vector.
+// Calls extend() instead of float_below(): compilers merge the three axes into one vector there.
 TEST(FloatRounding, EnclosesEveryCoordinateOfAPoint) {
   Noise noise(4);
   std::vector<Point> points;
@@ -160,7 +160,7 @@ TEST(Bounds, CertifyNoMoreThanTheyPruneAt) {
   const FloatQuery query = FloatQuery::from(0.3, -0.2, 0.9);
   for (const double distance : {0.0, 1e-12, 1e-3, 0.7, 1e5})
     EXPECT_LE(certified(query, prune_threshold(query, distance)), distance * (1 + 1e-6) + 1e-12);
-  // What is above a threshold is farther than the distance it was made for.
+  // A bound above the threshold certifies at least the distance that the threshold was made for.
   for (const double distance : {1e-3, 0.7, 1e5}) {
     const float above = std::nextafter(prune_threshold(query, distance), 1e38f);
     EXPECT_GE(certified(query, above), distance);

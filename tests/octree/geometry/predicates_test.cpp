@@ -27,7 +27,7 @@ int rational_orientation(const Point& a, const Point& b, const Point& c, const P
   return volume.sign();
 }
 
-// Points that agree with the plane x + y + z = 1 up to single ulps.
+// Points within two ulps of the plane x + y + z = 1.
 Point on_ulp_grid(std::mt19937_64& random) {
   std::uniform_int_distribution<int> step(-2, 2);
   const Point bases[] = {{0.5, 0.25, 0.25}, {0.75, 0.125, 0.125}, {0.25, 0.5, 0.25}, {1, 0, 0}};
@@ -90,7 +90,7 @@ TEST(Predicates, SignsDoNotDependOnTheModeOfTheThread) {
     }
 }
 
-// Outward triangles of the cube from 0 to 2.
+// Triangles of the cube from 0 to 2, facing outward.
 std::vector<Triangle> cube() {
   const auto corner = [](unsigned i) { return Point(i & 1 ? 2 : 0, i & 2 ? 2 : 0, i & 4 ? 2 : 0); };
   const unsigned quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
@@ -109,8 +109,8 @@ int winding_change(const std::vector<Triangle>& triangles, const Point& from, co
   return change;
 }
 
-// All points with coordinates from -1 to 3: vertices, edges, faces of the cube
-// and what lies in line with them.
+// All integer points with coordinates from -1 to 3: on vertices, edges and faces of the cube, and
+// in their planes and lines.
 std::vector<Point> lattice() {
   std::vector<Point> points;
   for (int x = -1; x <= 3; ++x)
@@ -122,7 +122,7 @@ std::vector<Point> lattice() {
 TEST(Crossings, CountTheWindingNumberOfLatticePoints) {
   const Point outside(-7, -9, -8);
   for (const Point& point : lattice()) {
-    // Perturbed by a positive step: the lower faces are inside, the upper outside.
+    // Points are perturbed by a positive step: the lower faces are inside, the upper ones outside.
     const bool inside = point.minCoeff() >= 0 && point.maxCoeff() < 2;
     EXPECT_EQ(winding_change(cube(), point, outside), inside) << point.transpose();
   }
@@ -158,7 +158,7 @@ TEST(Crossings, PassByTrianglesWithoutArea) {
   EXPECT_NE(crossing({p, q}, {Point(-1, -1, 0), Point(1, -1, 0), Point(0, 1, 0)}), 0);
 }
 
-// On a grid so coarse that most points are in some plane, line or corner.
+// A grid so coarse that most points are in the plane of a face, on an edge or at a vertex.
 TEST(Predicates, LiesOnIsExactOnALattice) {
   std::mt19937_64 random(33);
   std::uniform_int_distribution<int> step(0, 3);
@@ -167,7 +167,7 @@ TEST(Predicates, LiesOnIsExactOnALattice) {
   for (int i = 0; i < 20000; ++i) {
     const Triangle triangle{index(), index(), index()};
     const Point point = i % 2 == 0 ? index() : Point(index() * 0.5);
-    // Whole multiples of 2^-52: no square is rounded.
+    // These coordinates have few bits: no square is rounded, and zero means contact.
     const bool expected = triangle_value(point, triangle).squared == 0;
     ASSERT_EQ(lies_on(point, triangle), expected)
         << point.transpose() << " on " << triangle[0].transpose() << ", " << triangle[1].transpose()

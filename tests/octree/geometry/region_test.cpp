@@ -37,7 +37,7 @@ TEST(Region, HoldsItsWalls) {
   EXPECT_FALSE(region.meets({0.51, 0.1, 0.1}, {0.9, 0.25, 0.5}));
 }
 
-// A little less than the way to the nearest wall: no rounding makes up for the rest.
+// The clearance is slightly less than the distance to the nearest wall, to cover all rounding.
 TEST(Region, IsClearUpToItsWalls) {
   const Region region = some_region();
   const double clear = region.clearance({0.25, 10, 0.625});
@@ -54,7 +54,7 @@ TEST(ClippedGrid, EndsCellsAtTheWalls) {
   EXPECT_EQ(grid.lower(root), Point(0, 0.25, 0.5));
   EXPECT_EQ(grid.upper(root), Point(0.5, 2, 0.75));
   EXPECT_EQ(grid.middle(root), Point(0.5, 1, 0.75));
-  // From 1 on along x: flat, within the wall.
+  // The child begins at 1 along x, beyond the wall at 0.5: it is flat, at the wall.
   EXPECT_EQ(grid.lower(root.child(1)), Point(0.5, 0.25, 0.5));
   EXPECT_EQ(grid.upper(root.child(1)), Point(0.5, 1, 0.75));
   EXPECT_TRUE(grid.has_part_of(root.child(0)));

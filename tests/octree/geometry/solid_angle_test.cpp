@@ -11,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-const Triangle kFace{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};  // seen from behind below
+const Triangle kFace{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};  // back towards negative z
 
 Triangle perturbed(const Triangle& triangle, double factor, const Point& offset = Point::Zero()) {
   Triangle result;
@@ -19,7 +19,7 @@ Triangle perturbed(const Triangle& triangle, double factor, const Point& offset 
   return result;
 }
 
-// Six pyramids of a cube's faces from its middle, each of two triangles.
+// Six pyramids, one for each face of a cube, from its middle; each is two triangles.
 TEST(WindingShare, IsATwelfthOfACubeForHalfAFace) {
   const Triangle half{Point(-1, -1, 1), Point(1, -1, 1), Point(1, 1, 1)};
   const WindingShare share = winding_share(Point::Zero(), half);
@@ -46,7 +46,7 @@ TEST(WindingShare, ComesToOneHalfBesideTheFace) {
   }
 }
 
-// Where the quotient is 0 / 0 (S36).
+// The quotient is 0 / 0 there.
 TEST(WindingShare, IsNoneOnTheTriangle) {
   const Point on[] = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.25, 0.25, 0}, {0.5, 0.5, 0}};
   for (const Point& point : on) {
@@ -68,8 +68,8 @@ TEST(WindingShare, IsNothingInThePlaneBesideTheTriangle) {
   }
 }
 
-// Half the angle between the planes through the edge: a quarter of a turn is a
-// share of one quarter less what the far corner cuts off.
+// The share is half the angle between the planes through the edge: a quarter of a turn, less what
+// the far corner cuts off.
 TEST(WindingShare, IsToldBesideAnEdge) {
   const double half_turn = winding_share({0.5, -0x1p-40, -0x1p-40}, kFace).value;
   for (const int exponent : {-50, -100, -300, -1000, -1074}) {
@@ -96,7 +96,7 @@ TEST(WindingShare, DoesNotChangeWithTheUnit) {
   const WindingShare unit = winding_share(point, kFace);
   for (const int exponent : {-1070, -900, -400, -200, 100, 200, 300}) {
     const double size = std::ldexp(1.0, exponent);
-    // Coordinates of few bits, to have the same ones where they are subnormal.
+    // Coordinates with few bits stay exact where they are subnormal.
     const WindingShare share =
         winding_share(size * Point(0.25, 0.5, -0.25), perturbed(kFace, size));
     EXPECT_NEAR(share.value, winding_share({0.25, 0.5, -0.25}, kFace).value, 0x1p-40) << exponent;
@@ -114,7 +114,7 @@ TEST(WindingShare, IsNoneWithoutArea) {
   }
 }
 
-// Whatever the point, closed surfaces sum to a whole number.
+// The shares of a closed surface sum to a whole number at any point.
 TEST(WindingShare, SumsToAWholeNumber) {
   Noise noise(5);
   int off_surface = 0;
@@ -125,7 +125,7 @@ TEST(WindingShare, SumsToAWholeNumber) {
     for (int k = 0; k < 4; ++k) p[k] = Point(corners[k].x, corners[k].y, corners[k].z);
     const double near = std::ldexp(1.0, -static_cast<int>(noise.bits() % 60));
     const Vec3 by = noise.point(-near, near);
-    // Beside the middle of an edge.
+    // A point near the middle of an edge.
     const Point point = (p[0] + p[1]) / 2 + Point(by.x, by.y, by.z);
     double sum = 0, error = 0;
     for (const Triangle& face : {Triangle{p[0], p[1], p[2]}, Triangle{p[0], p[2], p[3]},

@@ -13,7 +13,7 @@
 namespace planetree::octree {
 namespace {
 
-// What the predicates come to without their filters.
+// Predicates without exact arithmetic: their sign is that of a rounded determinant.
 int rounded_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
   const double volume = (b - a).cross(c - a).dot(d - a);
   return (volume > 0) - (volume < 0);
@@ -51,7 +51,7 @@ TEST(SelfTest, FindsContactThatIsNeverOrAlwaysSeen) {
   EXPECT_NE(startup_check(wrong), nullptr);
 }
 
-// All that can be seen from here of a build that computes otherwise.
+// Simulates builds with other arithmetic, as far as the floating-point mode of the thread can.
 TEST(SelfTest, FindsArithmeticOfAnotherKind) {
   const auto found = [](int rounding) {
     const OddArithmetic odd(rounding);

@@ -96,7 +96,7 @@ TEST(TriangleDistance, GivesTheSameBitsInAnyOrderOfCorners) {
   Noise noise(3);
   for (int i = 0; i < 2000; ++i) {
     Triangle triangle = random_triangle(noise);
-    // Needles and triangles with equal corners too.
+    // Also needles and triangles with equal corners.
     if (i % 4 == 1) triangle[2] = triangle[0] + 1e-9 * (triangle[2] - triangle[1]);
     if (i % 4 == 2) triangle[2] = triangle[1];
     if (i % 4 == 3)
@@ -111,7 +111,7 @@ TEST(TriangleDistance, GivesTheSameBitsInAnyOrderOfCorners) {
       EXPECT_EQ(bits(other.value.error), bits(first.value.error));
       EXPECT_EQ(other.feature, first.feature);
       EXPECT_EQ(other.point, first.point);
-      if (i % 4 > 1) continue;  // equal corners may take each other's weight
+      if (i % 4 > 1) continue;  // equal corners may exchange their weights
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(bits(other.barycentric[k]), bits(first.barycentric[order[k]]));
     } while (std::ranges::next_permutation(order).found);
@@ -172,7 +172,7 @@ TEST(TriangleDistance, TakesOnePointForTheVertexItIs) {
 }
 
 TEST(TriangleDistance, SeesTheFaceOfANeedle) {
-  // 2^-26 wide: too flat for double, whose edges alone would give 1 + 2^-56.
+  // 2^-26 wide: the face is too flat for double, and the edges alone would give 1 + 2^-56.
   const double width = 0x1p-26;
   const Triangle needle{Point(-1, 0, 0), Point(1, 0, 0), Point(0, width, 0)};
   const NearestOnTriangle nearest = nearest_on_triangle({0, width / 2, 1}, needle);

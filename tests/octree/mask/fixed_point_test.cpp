@@ -20,7 +20,7 @@ TEST(FixedPoint, AreCountedFromZeroBothWays) {
       for (int i = 0; i < 2000; ++i) {
         const double value = std::ldexp(noise.uniform(-1, 1), static_cast<int>(i % 40) - 35);
         const FixedPoint::Digits digits = steps.digits_of(std::ldexp(value, -scale));
-        // Exact: more digits than there are.
+        // Exact: a long double has more digits than the value.
         const long double exact = std::ldexp(static_cast<long double>(value), unit);
         ASSERT_EQ(digits.shift < 0, std::fabs(exact) >= 0x1p62L) << value;
         ASSERT_TRUE(digits.shift < 0 || digits.steps() == std::trunc(exact)) << value;

@@ -14,7 +14,8 @@ namespace {
 
 using Kind = MaskEntry::Kind;
 
-/// What spec.md says of a point's way down, over the entries themselves.
+/// The path of a point through the mask, as the specification defines it, found in the entries
+/// themselves.
 struct Way {
   std::vector<std::uint32_t> entries;  ///< from the root to a leaf or the last node
   GridCell cell;
@@ -46,7 +47,7 @@ Way way_of(const MaskTree& tree, const CellGrid& grid, const Point& point) {
   }
 }
 
-// Half of them on the sides of cells.
+// Random points, half of them on the sides of cells.
 std::vector<Point> points_in(const Point& lower, std::size_t count) {
   Noise noise(8);
   std::vector<Point> points;
@@ -100,7 +101,7 @@ class MaskLookupTest : public testing::Test {
         return page;
     return ~0u;
   }
-  // In the order of the way, each once.
+  // Pages in the order of the path, each once.
   std::vector<std::uint32_t> pages_of(const Way& way) const {
     std::vector<std::uint32_t> pages;
     for (const std::uint32_t entry : way.entries)
@@ -192,7 +193,7 @@ TEST_F(MaskLookupTest, KnowsNothingWithoutAMask) {
   EXPECT_TRUE(pages_.take_queried().empty());
 }
 
-// Their octants have no number.
+// The octants of a finest cell have no octcode, so its list of blocks is not used.
 TEST(MaskLookupListsTest, TakesNoneOfTheFinestCells) {
   MaskTree tree;
   tree.entries.resize(1);
@@ -215,7 +216,7 @@ TEST(MaskLookupListsTest, TakesNoneOfTheFinestCells) {
   EXPECT_EQ(found.blocks.count, 0u);
 }
 
-// A node in one page may say of another page what is not so.
+// The decoder cannot check what a node's link to another page leads to.
 TEST_F(MaskLookupTest, BelievesNoLinkBetweenPages) {
   const MaskLinkFormat links(4096);
   std::size_t changed = 0;
@@ -228,7 +229,7 @@ TEST_F(MaskLookupTest, BelievesNoLinkBetweenPages) {
           reinterpret_cast<const MaskNode*>(slot_of(pages_.frame(page), slot)));
       if (node.grey == 0 || links.page(node.family) == page) continue;
       const std::uint32_t below = links.page(node.family);
-      // Beyond the records, before them, and to whatever else is there.
+      // Slots beyond the records, before them, and of another record.
       const std::uint32_t slots[] = {511, 0, links.slot(node.family) ^ 8};
       node.family = links.make(below, slots[changed++ % 3]);
     }
@@ -241,7 +242,7 @@ TEST_F(MaskLookupTest, BelievesNoLinkBetweenPages) {
   }
 }
 
-// The side that planes tell, with and without an infinitesimal step.
+// The side by the planes, with and without an infinitesimal step.
 TEST(MaskLookupBoxesTest, TellsTheSideOfPointsInSpecialCells) {
   const SampleMask sample(box({0, 0, 0}, {0.9, 0.8, 0.7}, 24));
   MaskPages pages(sample.tree, 4096);

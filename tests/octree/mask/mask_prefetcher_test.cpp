@@ -16,7 +16,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Pages of a mask in memory, and which of them were looked at.
+/// Resident pages of a mask. Records which of them were accessed.
 class PeekedPages {
  public:
   explicit PeekedPages(PageReader pages) : pages_(pages) {}
@@ -48,7 +48,7 @@ class MaskPrefetcherTest : public testing::Test {
     TreeInfo tree;
     tree.box_lower = lower_;
     tree.box_upper = lower_ + Point(1.2, 1.9, 0.7);
-    // For the cells of a level far above the leaves.
+    // The memory holds a grid of a level far above the leaves.
     side_grid_.fill(mask_, tree, false, 0, pages_.resident_reader(), memory_);
   }
   std::vector<Point> points(std::size_t count) const {
@@ -60,14 +60,14 @@ class MaskPrefetcherTest : public testing::Test {
     }
     return result;
   }
-  // How many steps it takes.
+  // Runs all steps for `point` and returns their number.
   unsigned go(const Point& point, PageReader pages) const {
     MaskPrefetcher ahead(mask_, side_grid_, point);
     unsigned steps = 0;
     for (; ahead.goes_on(); ++steps) ahead.step(pages);
     return steps;
   }
-  // The pages that a search of the mask asks for, as the model's.
+  // The pages that look_up() accesses for `point`, by their number in the file.
   std::set<std::uint32_t> pages_of_search(const Point& point) {
     const SideGrid::Lookup lookup = side_grid_.look(point);
     if (lookup.winding != SideGrid::kUnknown || !lookup.record) return {};
@@ -109,7 +109,7 @@ TEST_F(MaskPrefetcherTest, GoesNoFartherThanAPageThatIsNotInMemory) {
   for (const Point& point : points(1000)) {
     const std::set<std::uint32_t> queried = pages_of_search(point);
     if (queried.empty()) continue;
-    // Children are behind their parents.
+    // Child pages come after their parents, so the least number is accessed first.
     peeked.lose(*queried.begin());
     go(point, peeked.reader());
     ASSERT_EQ(peeked.take_seen(), (std::set<std::uint32_t>{*queried.begin()}));
@@ -131,7 +131,7 @@ TEST_F(MaskPrefetcherTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
   EXPECT_GT(certain, 100u);
 }
 
-// Frames of noise, as none that was decoded is.
+// Frames of random bits, which no decoder would produce.
 TEST_F(MaskPrefetcherTest, EndsInPagesOfAnything) {
   Noise noise(4);
   alignas(64) static std::array<std::uint64_t, 4096 / 8> frame;

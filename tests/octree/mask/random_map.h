@@ -15,7 +15,7 @@ namespace planetree::octree {
 
 inline constexpr std::size_t kMany = 1 << 24;  // bytes
 
-/// A map of the colours of a mask of no model, and what the mask itself says.
+/// A side grid of a random mask, with the results of the mask itself for comparison.
 class RandomMap : public testing::Test {
  protected:
   static TreeInfo tree_of(const Point& lower, const Point& size) {
@@ -33,7 +33,7 @@ class RandomMap : public testing::Test {
     map.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
     return map;
   }
-  // Half of them on the sides of cells.
+  // Random points, half of them on the sides of cells.
   std::vector<Point> points(std::size_t count) const {
     Noise noise(9);
     std::vector<Point> result;
@@ -54,8 +54,8 @@ class RandomMap : public testing::Test {
     TraversalStats work;
     return look_up(pages.mask(lower), point, ~std::uint64_t{0}, pages.reader(), work);
   }
-  // The sign of the winding number, where the mask tells it by itself: also in octants of leaves
-  // that none of the listed blocks touch, and beyond leaves' slabs.
+  // The sign of the winding number where the mask alone determines it: in coloured cells, in
+  // octants of leaves that no listed block touches, and beyond the slabs of leaves.
   static std::optional<int> certain(MaskPages& pages, const Point& lower, const Point& point) {
     const MaskLookup found = look(pages, lower, point);
     if (found.kind == MaskLookup::Kind::kColour) return found.winding;
@@ -72,7 +72,8 @@ class RandomMap : public testing::Test {
     return (winding > 0) - (winding < 0);
   }
 
-  // Lists of which a map keeps no more than where they are.
+  // Whether the side grid stores only the position of this list, because its corner numbers are
+  // rare.
   static bool has_rare_corners(const MaskLookup& found) {
     return found.kind == MaskLookup::Kind::kCorners && found.blocks.count > 0 &&
            !SideGridRecord::has(found.listed);
@@ -80,7 +81,7 @@ class RandomMap : public testing::Test {
 
   const Point lower_{-0.25, 3, 1.0 / 3};
   const Point size_{1.2, 1.9, 0.7};
-  std::vector<std::byte> memory_;  // of the last map
+  std::vector<std::byte> memory_;  // memory of the last side grid
 };
 
 }  // namespace planetree::octree

@@ -21,7 +21,7 @@ class RandomMask {
   }
 
  private:
-  // Neither kUncounted nor kListedTag.
+  // A random corner number, neither kUncounted nor kListedTag.
   std::int8_t number() { return static_cast<std::int8_t>(noise_.bits() % 254 - 126); }
 
   void grow(std::uint32_t position, unsigned level) {
@@ -76,7 +76,7 @@ class RandomMask {
   void make_listed(MaskEntry& entry) {
     entry.kind = MaskEntry::Kind::kListed;
     entry.first = static_cast<std::uint32_t>(tree_.lists.size());
-    // Mostly as about a surface of one sheet.
+    // Mostly corner numbers as around a single closed surface.
     const int any = number();
     const int least = any % 4 == 0 ? std::min<int>(any, 126) : -(any & 1);
     for (std::int8_t& corner : entry.corners)
@@ -101,7 +101,7 @@ class RandomMask {
     return slab;
   }
 
-  // Slots of the smallest pages, before kRandomMaskPage.
+  // Distance pages before kRandomMaskPage, in slots of the smallest page size.
   static constexpr std::uint32_t kLinks = kRandomMaskPage * 4096 / kSlotBytes;
 
   const unsigned levels_;

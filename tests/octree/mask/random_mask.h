@@ -6,13 +6,13 @@
 
 namespace planetree::octree {
 
-/// The first page of a mask that lists what random_mask() lists, or any page behind it.
+/// The minimum page number of a mask from random_mask(): the blocks it lists are in pages before.
 inline constexpr std::uint32_t kRandomMaskPage = 3;
 
-/// A mask of no model: entries of all kinds by chance, as build_mask() lays them out. Blocks are
-/// listed by chance too, of pages that come before kRandomMaskPage whatever a page's size.
+/// A mask that belongs to no model: random entries of all kinds, laid out as build_mask() does. Its
+/// lists name random blocks in pages before kRandomMaskPage, for any page size.
 ///
-/// levels  of the finest grey cell.
+/// levels  level of the finest grey cells.
 MaskTree random_mask(unsigned levels, std::uint64_t seed = 1);
 
 }  // namespace planetree::octree

@@ -15,7 +15,7 @@ namespace {
 
 using SideGridLookupTest = RandomMap;
 
-// Also in the input's units, wherever it is not left to rounding.
+// Also with points in the input's units.
 TEST_F(SideGridLookupTest, TellsAtAGlanceWhatALookTells) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   for (const int scale : {0, 3, -200, 900, -900}) {
@@ -30,7 +30,7 @@ TEST_F(SideGridLookupTest, TellsAtAGlanceWhatALookTells) {
       certain += found_fast != SideGrid::kUnknown;
       ASSERT_TRUE(found_fast == SideGrid::kUnknown || found_fast == winding) << point.transpose();
     }
-    // Half of the points are on sides.
+    // Half of the points are on cell sides, where the fast lookup is uncertain.
     EXPECT_GT(certain, known * 2 / 5) << scale;
     EXPECT_LT(certain, known) << scale;
   }
@@ -41,7 +41,8 @@ TEST_F(SideGridLookupTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
   std::vector<Point> all = points(4000);
   for (const double far : {1e-300, 1e-9, 3.0, 1e9, 1e300})
     for (const Point& point : points(100)) all.push_back(far * (point - lower_ - size_ / 2));
-  // At the ends of what is in doubt about sides, in half steps of cells of some levels.
+  // Around the ends of the uncertainty band of cell faces, in half fixed-point steps of several
+  // levels.
   for (const Point& point : points(20000)) {
     const auto turn = static_cast<int>(all.size());
     const double off = std::ldexp(turn % 1025 - 512.5, -34 - turn % 6);
@@ -56,7 +57,7 @@ TEST_F(SideGridLookupTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
   });
   for (const std::vector<int>& found : fast_lookups) {
     EXPECT_EQ(found, fast_lookups[0]);
-    // Outside, inside, unknown.
+    // All three results occur: outside, inside, unknown.
     EXPECT_EQ(std::set<int>(found.begin(), found.end()).size(), 3u);
   }
 }

@@ -36,12 +36,12 @@ TEST_F(SideGridTest, SaysWhatTheMaskSays) {
 TEST_F(SideGridTest, KnowsAllColoursDownToOctantsOfOctants) {
   MaskPages pages(random_mask(6), 1 << 20, kRandomMaskPage);
   ASSERT_EQ(pages.size(), 1u);
-  // Room for the cells of level 4.
+  // Memory for the cells of level 4.
   const SideGrid map = map_of(pages, 240000);
   std::size_t known = 0;
   std::set<int> unknown;
   const std::vector<Point> all = points(4000);
-  for (std::size_t i = 1; i < all.size(); i += 2) {  // off the sides, where rounding may hide them
+  for (std::size_t i = 1; i < all.size(); i += 2) {  // not on cell sides
     const Point& point = all[i];
     const auto winding = certain(pages, lower_, point);
     if (!winding || has_rare_corners(look(pages, point))) continue;
@@ -52,7 +52,7 @@ TEST_F(SideGridTest, KnowsAllColoursDownToOctantsOfOctants) {
       ASSERT_EQ(map.look(point).winding, *winding) << point.transpose();
   }
   EXPECT_GT(known, 500u);
-  // Insides of one sign alone: both in one model are rare.
+  // Only insides of one sign are unknown to the grid: few models have both signs.
   EXPECT_EQ(unknown.size(), 1u);
   EXPECT_EQ(unknown.count(0), 0u);
 }
@@ -101,16 +101,17 @@ TEST_F(SideGridTest, IsWhiteAroundItsCells) {
       EXPECT_EQ(map.look(point).winding, 0) << axis << " " << off;
       EXPECT_EQ(map.look(point).record, nullptr);
     }
-  // So far that nothing is known, and no less than that.
+  // Beyond the range of fixed-point coordinates nothing is known.
   for (const double far : {1e300, -1e300})
     EXPECT_EQ(map.look(lower_ + Point::Constant(far)).winding, SideGrid::kUnknown) << far;
-  // So near that rounding may tell another cell, there is nothing.
+  // So close to a cell face that rounding may choose another cell: outside or unknown, and no
+  // record.
   const Point beside = lower_ - Point::Constant(1e-9);
   EXPECT_NE(std::abs(map.look(beside).winding), 1);
   EXPECT_EQ(map.look(beside).record, nullptr);
 }
 
-// Octants of cells at a region's wall are not halves.
+// Octants of cells at a region's wall are not half as long as their cell.
 TEST_F(SideGridTest, KnowsColoursAloneWhereCellsAreClipped) {
   MaskPages pages(random_mask(6), 1 << 20, kRandomMaskPage);
   SideGrid map;
@@ -136,8 +137,8 @@ TEST_F(SideGridTest, KnowsNothingUnlessFilled) {
   }
 }
 
-// On a side between two cells, and an ulp beside it, which cell a point is in is a matter of
-// rounding: the map says what the mask says, or nothing. From far away sides are coarse.
+// On a face between two cells, or one ulp from it, rounding decides which cell a point is in: the
+// grid agrees with the mask or is silent. Far from the origin ulps are large.
 TEST_F(SideGridTest, SaysWhatTheMaskSaysBesideSides) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   for (const double far : {1.0 / 3, 1e6 + 1.0 / 3, 1e12}) {
@@ -160,7 +161,7 @@ TEST_F(SideGridTest, SaysWhatTheMaskSaysBesideSides) {
       ++known;
       ASSERT_EQ(winding, certain(pages, lower, point)) << point.transpose();
     }
-    // Steps have no room for what is farther away.
+    // Farther away, coordinates exceed the range of fixed-point numbers.
     EXPECT_TRUE(known > 200 || far > 1e8) << far;
   }
 }
@@ -177,7 +178,7 @@ TEST_F(SideGridTest, KnowsNothingOfABoxThatDoesNotFitTheRoot) {
   EXPECT_TRUE(pages.take_queried().empty());
 }
 
-// Whatever a lookup begins with, it finds the same.
+// A lookup gives the same result whether it starts at the root or at a record of the grid.
 TEST_F(SideGridTest, SparesPagesOnTheWayToTheSameCell) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
     MaskPages pages(random_mask(10), page_bytes, kRandomMaskPage);
@@ -213,8 +214,8 @@ TEST_F(SideGridTest, SparesPagesOnTheWayToTheSameCell) {
   }
 }
 
-// What a checked allocation ends behind, and pages that are others each time they are asked for:
-// the file was exchanged.
+// The memory is an allocation of exactly its size, so that sanitizers report a write beyond. The
+// pages change between accesses, as if the file had been replaced.
 TEST_F(SideGridTest, StaysInItsMemoryWhateverPagesSay) {
   MaskPages one(random_mask(10), 4096, kRandomMaskPage);
   MaskPages other(random_mask(10, 2), 4096, kRandomMaskPage);

@@ -1,4 +1,4 @@
-// Queries that start where the last ones were: the same answers, for less work.
+// Queries that start from the coherence cache give the same answers for less work.
 
 #include "octree/nearest/coherence_cache.h"
 
@@ -17,7 +17,7 @@
 namespace planetree::octree {
 namespace {
 
-// Every number of an answer, as bits.
+// All numbers of an answer, as bits.
 std::vector<std::uint64_t> bits_of(const NearestAnswer& answer) {
   std::vector<std::uint64_t> bits{answer.triangle, static_cast<std::uint64_t>(answer.feature),
                                   static_cast<std::uint64_t>(answer.status)};
@@ -28,7 +28,7 @@ std::vector<std::uint64_t> bits_of(const NearestAnswer& answer) {
   return bits;
 }
 
-// Short steps this way and that, with a leap now and then.
+// A path of short random steps, with a leap every `leap_every` queries.
 std::vector<Point> wander(std::size_t count, double step, std::size_t leap_every) {
   Noise noise(3);
   std::vector<Point> path;
@@ -48,7 +48,7 @@ std::vector<Point> wander(std::size_t count, double step, std::size_t leap_every
 struct Path {
   explicit Path(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
 
-  // Every answer of the path has the bits of one that knows nothing of the path.
+  // Expects each answer along the path to have the same bits as without a coherence cache.
   void expect_same_answers(const std::vector<Point>& path, const NearestLimits& limits = {}) {
     CoherenceCache coherence_cache;
     for (const Point& query : path) {
@@ -65,7 +65,7 @@ struct Path {
   TraversalStats work_alone, work_along;
 };
 
-// Queries of one probe.
+// Queries that share one coherence cache.
 struct Warm {
   explicit Warm(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
 
@@ -84,7 +84,7 @@ struct Warm {
   CoherenceCache coherence_cache;
 };
 
-// Pages of which the numbers that are asked for are watched.
+// Records whether page numbers outside of the file are requested.
 struct WatchedPages {
   explicit WatchedPages(SamplePages& sample) : pages(sample), inner(sample.reader()) {}
 
@@ -98,7 +98,7 @@ struct WatchedPages {
 
   SamplePages& pages;
   const PageReader inner;
-  bool strange = false;  // one was asked for that there is not
+  bool strange = false;  // a page outside of the file was requested
 };
 
 TEST(CoherenceCache, ChangesNoAnswer) {
@@ -115,8 +115,8 @@ TEST(CoherenceCache, ChangesNoAnswer) {
     }
 }
 
-// A fine sheet so far from the origin that nearest points lie beside it, and two large
-// triangles that float cannot rule out.
+// A fine height field so far from the origin that nearest points are off it by rounding, and two
+// large triangles that float cannot rule out.
 Soup far_height_field() {
   constexpr double kFar = 0x1p40, kAbove = 3 * kFar * 0x1p-52;
   constexpr int kSide = 64;
@@ -152,8 +152,8 @@ TEST(CoherenceCache, ChangesNoAnswerToAPointJustTold) {
   }
 }
 
-// Leaps that are just short enough to be thought steps, then steps so short that all they want is
-// few triangles.
+// First leaps just short enough to count as steps, then steps so short that a ball of few triangles
+// is enough.
 TEST(CoherenceCache, GivesWayToASmallerBallWhenStepsGetShorter) {
   Warm warm(sphere(6));
   Point at(0.45, 0.15, 0.078);
@@ -180,8 +180,8 @@ TEST(CoherenceCache, VisitsNoMoreThanAllowed) {
   }
 }
 
-// So far away float has no squares, and nothing is pruned; of longer lists there may be left
-// what must not be taken for subtrees.
+// At this distance squares overflow in float and nothing is pruned. Old entries behind the end of a
+// shortened list must not be taken for subtrees.
 TEST(CoherenceCache, HoldsNoMoreThanThereIsFarAway) {
   const Point far(0x1p61, 0x1p60, 0);
   for (const unsigned level : {3u, 4u, 5u, 6u}) {
@@ -193,14 +193,14 @@ TEST(CoherenceCache, HoldsNoMoreThanThereIsFarAway) {
     for (int i = 0; i < 4; ++i) {
       TraversalStats work;
       nearest(tree_info(warm.sample), far, {}, watched.reader(), work, &warm.coherence_cache);
-      if (i < 2) continue;  // makes the ball
+      if (i < 2) continue;  // the first queries fill the cache
       EXPECT_LE(work.nodes + work.blocks, alone.nodes + alone.blocks) << level;
     }
     EXPECT_FALSE(watched.strange) << level;
   }
 }
 
-// Where an error is allowed and pages are lost, no bound is known for long.
+// With an allowed error and missing pages, the traversal has no bound for a long time.
 TEST(CoherenceCache, HoldsNoMoreThanThereIsWherePagesAreLost) {
   for (const double step : {1e-3, 3e-3, 1e-2, 3e-2}) {
     Warm warm(sphere(5));
@@ -219,7 +219,7 @@ TEST(CoherenceCache, HoldsNoMoreThanThereIsWherePagesAreLost) {
   }
 }
 
-// Limited asks tell what they came to: they must come to the same whatever a register holds.
+// Limited queries report intermediate results, which must not depend on the vector width.
 TEST(CoherenceCache, IsTheSameOnEveryInstructionSet) {
   const Soup soup = scattered(20000, 0.03);
   NearestLimits limits;

@@ -1,4 +1,4 @@
-// Normals of asks that begin where the last ones were: the same, for less work.
+// Normals computed from the coherence cache have the same bits for less work.
 
 #include "octree/nearest/feature_normal.h"
 
@@ -15,7 +15,7 @@
 namespace planetree::octree {
 namespace {
 
-// A flat cone of so many faces about (0, 0, 0.1), its rim at a distance of 1.
+// A flat cone of `faces` faces about (0, 0, 0.1), with its rim at distance 1 from the axis.
 Soup cone(unsigned faces) {
   const auto rim = [&](unsigned i) {
     const double angle = 6.283185307179586 * (i % faces) / faces;
@@ -26,7 +26,7 @@ Soup cone(unsigned faces) {
   return soup;
 }
 
-// What feature_normal() takes along a path, with what is near and without.
+// Work of feature_normal() along a path, with and without the coherence cache.
 struct Path {
   explicit Path(const Soup& soup) : sample(build_sample(soup)), pages(sample) {}
 
@@ -35,7 +35,7 @@ struct Path {
     Noise noise(7);
     CoherenceCache coherence_cache;
     for (int i = 0; i < 400; ++i) {
-      // Leaps end beside the ball, which is kept.
+      // A leap ends outside of the ball, which stays.
       const double way = i % 20 == 19 ? 0.2 : step;
       const Vec3 by = noise.point(-way, way);
       at += Point(by.x, by.y, by.z);
@@ -75,7 +75,7 @@ TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootForLessWork) {
   }
 }
 
-// Their sum depends on the order, which is the tree's.
+// The sum of so many normals depends on the order of the tree.
 TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootOfMoreFacesThanAreSorted) {
   for (const unsigned faces : {150u, 400u}) {
     SCOPED_TRACE(std::to_string(faces) + " faces");

@@ -22,7 +22,7 @@ TEST(FacingSides, IsThatOfAllFaces) {
     EXPECT_EQ(sides.common(), side);
     add(sides, {Point(0, 0, 0), Point(0, 1, 0), Point(-1, 0, 0)}, kUp);
     EXPECT_EQ(sides.common(), side);
-    // One that stands upright between the query and the others.
+    // An upright face between the query and the others.
     add(sides, {Point(0, 0, 0), Point(0, 1, 0), Point(0, 0, 1)}, Point(side, 0, 0));
     EXPECT_EQ(sides.common(), side);
     add(sides, {Point(0, 0, 0), Point(0, 0, 1), Point(0, 1, 0)}, Point(-side, 0, 0));

@@ -21,7 +21,7 @@ Point random_point(Noise& noise, double low = -1.5, double high = 1.5) {
   return {p.x, p.y, p.z};
 }
 
-// A tree in pages, asked; and every triangle looked at.
+// A paged tree to query, with the expected results from a scan of all triangles.
 struct Recorded {
   explicit Recorded(const Soup& soup, std::uint32_t page_bytes = 4096)
       : sample(build_sample(soup, page_bytes)), pages(sample), info(tree_info(sample)) {}
@@ -39,7 +39,7 @@ struct Recorded {
     return best;
   }
 
-  // [lower, upper] and what is known of the truth have something in common.
+  // Expects [lower, upper] to overlap the interval of the true distance.
   void expect_interval_holds(const NearestAnswer& answer, const Point& query) const {
     const auto [squared, index] = least(query);
     const auto position = static_cast<std::uint32_t>(index);
@@ -78,7 +78,7 @@ TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
 
 TEST(Nearest, GivesTiesToTheLeastIndex) {
   Recorded queried(sphere(4));
-  // The centre of a sphere, its corners, and points above its edges.
+  // The centre of the sphere, its corners, and points above its edges.
   for (const Point& query : {Point(0, 0, 0), Point(1, 0, 0), Point(0, -3, 0), Point(0.5, 0.5, 0)})
     EXPECT_EQ(queried.closest_point(query).triangle, queried.least(query).second);
 }
@@ -150,7 +150,7 @@ TEST(Nearest, StaysWithinTheErrorItIsAllowed) {
 
 TEST(Nearest, SavesWorkWhereErrorIsAllowed) {
   Recorded queried(sphere(5));
-  const Point query(0.01, 0.02, 0);  // near the centre, where all is equally far
+  const Point query(0.01, 0.02, 0);  // near the centre, where all triangles are about equally far
   queried.closest_point(query);
   const std::uint64_t exact = queried.work.blocks;
   NearestLimits limits;
@@ -159,8 +159,7 @@ TEST(Nearest, SavesWorkWhereErrorIsAllowed) {
   EXPECT_LT(queried.work.blocks * 2, exact);
 }
 
-// A triangle within max_distance must not be taken for one that max_error
-// allows to leave out: there is nothing else to answer with.
+// A triangle within max_distance may not be skipped by max_error: it is the only answer.
 TEST(Nearest, FindsWhatLiesBetweenErrorAndDistance) {
   Recorded queried(sphere(4));
   Noise noise(4);
@@ -231,8 +230,8 @@ TEST(Nearest, GoesOnWithoutPagesItCannotHave) {
   EXPECT_GT(degraded, 20u);
 }
 
-// Links between pages are the one thing that a page by itself cannot show to
-// be right. Under the sanitizers following a wrong one would stop the test.
+// The decoder cannot check links to other pages. If a wrong one were followed, the sanitizers would
+// report it.
 TEST(Nearest, FollowsNoLinkThatMissesARecord) {
   const SampleTree sample = build_sample(sphere(4), 4096);
   const SamplePages honest(sample);
@@ -242,7 +241,7 @@ TEST(Nearest, FollowsNoLinkThatMissesARecord) {
     for (const bool leaf : {false, true}) {
       SamplePages pages = honest;
       RawPage root = RawPage::of(honest.raw(0));
-      // Two links to one page: the second finds the page already at hand.
+      // Two links to one page: the second link finds the page already accessed.
       for (std::uint32_t& link : root.page_links)
         if (links.page(link) == page) link = links.make(leaf, page, slot);
       root.page_links[0] = root.page_links[1] = links.make(leaf, page, slot);

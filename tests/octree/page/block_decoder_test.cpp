@@ -13,8 +13,8 @@
 namespace planetree::octree {
 namespace {
 
-/// Blocks of one triangle each, of any number of vertices that no other has: the records of the
-/// first end up where vertices of all stood.
+/// Blocks of one triangle each with a random number of vertices, none shared between blocks. The
+/// decoder writes the records of the first blocks over the input vertices of all blocks.
 class LonelyBlocks {
  public:
   explicit LonelyBlocks(std::uint64_t seed) {
@@ -68,7 +68,7 @@ class LonelyBlocks {
   std::vector<std::byte> vertex_counts_, counts_, corners_, vertices_, ids_;
 };
 
-// As many that stand in their own vertices' place as do not.
+// About half of the records overlap their own input vertices, half do not.
 TEST(BlockDecoder, LosesNoVertexToTheRecordsThatTakeTheirPlace) {
   constexpr BlockShape kShape;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {

@@ -14,7 +14,7 @@
 namespace planetree::octree {
 namespace {
 
-/// A byte-shuffled array, with nothing behind it that may be read.
+/// A byte-split array in a buffer of exactly its size, so that a sanitizer reports any read beyond.
 template <class T>
 class Stored {
  public:
@@ -29,7 +29,7 @@ class Stored {
   std::vector<std::byte> bytes_;
 };
 
-/// What became of a block's places or ids.
+/// Result of unpacking a block's vertex indices or triangle ids.
 template <class T>
 struct Unpacked {
   std::vector<T> numbers;
@@ -48,7 +48,8 @@ VertexIndices unpack(const std::vector<std::uint16_t>& refs, const BlockVertices
 
 class PlacesTest : public testing::Test {
  protected:
-  // Refs of a block somewhere among those of others, `behind` of them after it.
+  // Places the refs of a block after up to 2 refs of other blocks and before `behind` refs of other
+  // blocks.
   void put_refs(unsigned count, std::size_t behind) {
     block_.first_ref = random_() % 3;
     block_.ref_count = count;
@@ -106,7 +107,8 @@ TEST_F(PlacesTest, AreRefusedWhereOneIsNamedTwiceOrIsNotThereYet) {
         expect_all(false, stride);
         ++block_.first_new;
         if (refs == 1) continue;
-        // Any but the first may be the one; nor may sums come round to where they were.
+        // Repeats any ref but the first, then makes the sum of steps exceed 16 bits: it must not
+        // wrap round to a valid index.
         const unsigned i = 1 + static_cast<unsigned>(random_() % (refs - 1));
         const std::uint16_t step = ref(i);
         block_.first_new -= step;
@@ -132,7 +134,7 @@ class IdsTest : public testing::Test {
  protected:
   using Ids = Unpacked<Id>;
 
-  // Of steps among those of other blocks.
+  // Places `count` - 1 random steps after `before` steps and before `behind` steps of other blocks.
   void put_steps(std::size_t before, unsigned count, std::size_t behind) {
     first_step_ = before;
     count_ = count;

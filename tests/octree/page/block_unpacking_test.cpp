@@ -29,7 +29,7 @@ std::vector<std::byte> packed(const Corners& corners, unsigned triangle_count,
   return bytes;
 }
 
-/// What became of some corners, and whether they are good.
+/// Unpacked corners and whether the unpacker accepted them.
 struct UnpackedCorners {
   BlockCorners corners;
   bool good;
@@ -55,7 +55,7 @@ class CornersTest : public testing::TestWithParam<unsigned> {
   const unsigned vertex_count_ = GetParam();
 };
 
-// With nothing behind them, and with other bytes.
+// Tested with nothing and with other bytes after the packed corners.
 TEST_P(CornersTest, ComeBackAndThoseOfTheLastTriangleOnAndOn) {
   for (unsigned triangles = 1; triangles <= kMaxBlockTriangles; ++triangles)
     for (const std::size_t behind : {0, 7, 60}) {
@@ -76,7 +76,7 @@ TEST_P(CornersTest, ComeBackAndThoseOfTheLastTriangleOnAndOn) {
     }
 }
 
-// Of 16 and 32 vertices no other corner can be packed.
+// With 16 or 32 vertices every value that fits the packed bits is a valid corner.
 class WrongCornersTest : public CornersTest {};
 
 TEST_P(WrongCornersTest, AreRefusedWhereverTheyStand) {
@@ -117,7 +117,8 @@ struct UnpackedVertices {
   bool good;
 };
 
-// Of x of all vertices, then y, then z; and what stands behind their room is left alone.
+// Input order: x of all vertices, then y, then z. Checks that the float after the output is not
+// written.
 UnpackedVertices unpack(const std::vector<float>& values) {
   const std::vector<std::byte> bytes = byte_split(values);
   UnpackedVertices unpacked{std::vector<float>(values.size() + 1, -7.0f), false};

@@ -11,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-// How many blocks of a soup are compact, how many not; each is read back triangle by triangle.
+// Number of compact and of other blocks of a soup. Also checks every triangle read back.
 struct Forms {
   std::size_t compact = 0, with_far_indices = 0, with_many_vertices = 0;
 };
@@ -23,7 +23,7 @@ Forms forms_of(const Soup& soup) {
     expected[sample.mesh.index(i)] = sample.mesh.corners(i);
   Forms forms;
   const LinkFormat links(sample.plan.page_bytes);
-  std::uint32_t next = 0;  // where the block before ends
+  std::uint32_t next = 0;  // end of the block before
   std::vector<bool> found(soup.size());
   each_block(sample, SamplePages(sample), [&](const BlockView& block, std::uint32_t link) {
     const BlockHeader& header = block.header();
@@ -47,7 +47,7 @@ Forms forms_of(const Soup& soup) {
   return forms;
 }
 
-// Neighbours of one mesh have indices near to each other; of the other, far away.
+// Triangles that are neighbours in the first mesh have close indices; in the second, distant ones.
 TEST(CompactBlocks, AreThoseOfFewVerticesAndNearIndices) {
   const Soup near = sphere(7);
   ASSERT_GT(near.size(), 100000u);

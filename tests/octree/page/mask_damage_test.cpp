@@ -8,7 +8,7 @@
 #include "tests/octree/mask/random_mask.h"
 #include "tests/octree/support/sample_mask.h"
 
-// Mask pages of any bits at all: refused, or harmless.
+// Mask pages with arbitrary bits are refused or harmless.
 namespace planetree::octree {
 namespace {
 
@@ -16,7 +16,7 @@ class MaskDamage : public testing::TestWithParam<bool> {
  protected:
   MaskDamage() : pages_(random_mask(10), 4096, kRandomMaskPage, GetParam()) {}
 
-  // Whoever asks for blocks goes by this.
+  // Checks the list as its readers rely on it.
   static void expect_list(const MaskLookup& found) {
     const MaskBlocks& blocks = found.blocks;
     ASSERT_LE(blocks.count, kMaxListed);
@@ -39,7 +39,7 @@ TEST_P(MaskDamage, TakesNoPageThatIsCutShort) {
   const std::vector<std::byte>& raw = pages_.raw(page);
   SampleFrame frame(4096);
   for (std::size_t length = 0; length < raw.size(); ++length) {
-    // In bytes of its own, so that a sanitizer sees what is read beyond.
+    // A copy of exactly `length` bytes, so that a sanitizer reports a read beyond.
     const std::vector<std::byte> cut(raw.begin(),
                                      raw.begin() + static_cast<std::ptrdiff_t>(length));
     ASSERT_FALSE(decode_mask_page(cut, pages_.info(page), frame.bytes())) << length;
@@ -54,7 +54,7 @@ TEST_P(MaskDamage, TakesNoPageOfNoise) {
     std::vector<std::byte> raw(noise.bits() % 3000);
     for (std::byte& byte : raw) byte = static_cast<std::byte>(noise.bits());
     EXPECT_FALSE(decode_mask_page(raw, pages_.info(page), frame.bytes()));
-    // An honest head before it.
+    // A valid head before the noise.
     if (raw.size() < sizeof(MaskPageHead)) continue;
     std::copy_n(pages_.raw(page).begin(), sizeof(MaskPageHead), raw.begin());
     raw.resize(pages_.raw(page).size());
@@ -62,7 +62,7 @@ TEST_P(MaskDamage, TakesNoPageOfNoise) {
   }
 }
 
-// Up to where a page's records end; nothing behind that is written.
+// Compares up to the end of the page's records. Nothing behind that is written.
 TEST_P(MaskDamage, DoesNotCareWhatTheFrameHeldBefore) {
   for (std::uint32_t page = 0; page < pages_.size(); ++page) {
     SampleFrame zeros(4096), ones(4096);
@@ -79,7 +79,7 @@ TEST_P(MaskDamage, DoesNotCareWhatTheFrameHeldBefore) {
   }
 }
 
-// What changed bits leave of a mask is refused or can be asked.
+// Flips random bits: the page is refused, or lookups in it stay within their bounds.
 TEST_P(MaskDamage, SurvivesAnyBit) {
   Noise noise(7);
   int refused = 0, taken = 0;

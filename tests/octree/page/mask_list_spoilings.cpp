@@ -8,7 +8,7 @@
 namespace planetree::octree {
 namespace {
 
-// The first block of a list that has more than one.
+// Index of the first entry of a list that has more than one block.
 std::size_t of_several(const RawMaskPage& page) {
   std::size_t at = 0;
   for (const std::uint8_t count : page.block_counts) {
@@ -19,7 +19,7 @@ std::size_t of_several(const RawMaskPage& page) {
   return 0;
 }
 
-// All of them, as far as may be.
+// Gives all lists the maximum length.
 void lengthen_lists(RawMaskPage& page) {
   std::ranges::fill(page.block_counts, std::uint8_t{kMaxListed});
   const std::size_t blocks = page.block_counts.size() * kMaxListed;

@@ -14,13 +14,13 @@
 #include "tests/octree/page/raw_mask_page.h"
 #include "tests/octree/support/sample_mask.h"
 
-// The lists of blocks in the masks of models.
+// Lists of blocks in the masks of sample models.
 namespace planetree::octree {
 namespace {
 
 using Kind = MaskEntry::Kind;
 
-/// The mask of a watertight model whose tree is built.
+/// A watertight model with its tree and a mask that lists the tree's blocks.
 struct ListingMask {
   explicit ListingMask(const Soup& soup, std::uint64_t sector_triangles = 1000)
       : tree(soup, 150),
@@ -71,7 +71,8 @@ TEST(MaskLists, LeaveOctantsWithoutABlockTheirCornersNumber) {
   EXPECT_GT(empty, 300u);
 }
 
-// Every leaf whose corners one bit tells, but those that have too many; nothing else.
+// A leaf has a list exactly if one bit a corner tells its numbers and the tree has few enough
+// blocks there.
 TEST(MaskLists, AreWhatTheTreeHasThere) {
   const ListingMask sample(sphere(5), 1 << 20);
   const TreeInfo info = sample.tree.tree->info();
@@ -89,7 +90,7 @@ TEST(MaskLists, AreWhatTheTreeHasThere) {
     if (!listed || entry.kind != Kind::kListed) return;
     EXPECT_GT(blocks.count, 0u);
     const MaskBlocks& held = sample.mask.lists[entry.first];
-    blocks.slab = held.slab;  // no lister's
+    blocks.slab = held.slab;  // the lister computes no slab
     EXPECT_TRUE(same(blocks, held));
   });
   EXPECT_GT(kinds[Kind::kListed], 100u);
@@ -109,7 +110,8 @@ TEST(MaskLists, AreNoneWhereNumbersAreMoreThanTwo) {
   EXPECT_GT(kinds[Kind::kCorners], 10u);
 }
 
-// As many regions as take a block or two each: what the cells above know of them is no list.
+// Each sector holds one or two blocks. The cells above the sectors store no list for a sector's
+// root.
 TEST(MaskLists, AreNotOfARegionsRoot) {
   const ChunkedTree tree(grains(60, 0.05), 150);
   RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
@@ -134,7 +136,7 @@ TEST(MaskLists, AreNotOfARegionsRoot) {
   for (const MaskEntry& entry : above->entries) EXPECT_NE(entry.kind, Kind::kListed);
 }
 
-// Which has a page of its own.
+// The mask consists of its root alone, in a page of its own.
 TEST(MaskLists, AreInTheRootOfAMaskOfOneCell) {
   const ChunkedTree tree(box({0, 0, 0}, {1.75, 1.5, 1.25}));
   RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
@@ -166,8 +168,8 @@ TEST(MaskLists, DoNotDependOnThreads) {
   for (std::size_t i = 0; i < one.lists.size(); ++i) EXPECT_TRUE(same(one.lists[i], two.lists[i]));
 }
 
-// A triangle beside the corner of a cell, so near that rounding takes it to touch the cell, and
-// yet no octant of it. A list of nothing cannot be stored.
+// A triangle so close to a cell's corner that the rounded test takes it to touch the cell, but none
+// of its octants. An empty list cannot be stored.
 TEST(MaskLists, HaveABlock) {
   const CellGrid grid(Point::Zero());
   const GridCell cell = GridCell{}.child(0);

@@ -12,8 +12,7 @@
 #include "tests/octree/page/mask_spoilings.h"
 #include "tests/octree/support/sample_mask.h"
 
-// Every sentence with which a mask page is refused, reached by one change to an
-// honest page.
+// Reaches every message with which a mask page is refused, by one change to a valid page each.
 namespace planetree::octree {
 namespace {
 
@@ -21,7 +20,7 @@ class MaskRefusal : public testing::TestWithParam<bool> {
  protected:
   MaskRefusal() : pages_(random_mask(10), 4096, kRandomMaskPage, GetParam()) {}
 
-  // Neither the mask's first page nor one without pages below.
+  // Returns a page other than the mask's first that has pages below it and leaves of all kinds.
   std::uint32_t sample() const {
     for (std::uint32_t page = 1; page < pages_.size(); ++page) {
       const RawMaskPage raw = RawMaskPage::of(pages_.raw(page), GetParam());
@@ -37,7 +36,7 @@ class MaskRefusal : public testing::TestWithParam<bool> {
     return 0;
   }
 
-  // Longer ones would not fit.
+  // Whether lists of the maximum length would exceed the page.
   static bool has_long_lists(const RawMaskPage& page) {
     std::size_t slots = mask_head_slots(4096) + page.head.record_count + page.planes.size();
     slots += page.block_counts.size() * list_slots(kMaxListed);

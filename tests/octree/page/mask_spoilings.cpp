@@ -16,14 +16,14 @@ constexpr auto kCorners = static_cast<std::uint8_t>(MaskKind::kCorners);
 constexpr auto kSpecial = static_cast<std::uint8_t>(MaskKind::kSpecial);
 constexpr auto kListed = static_cast<std::uint8_t>(MaskKind::kListed);
 
-// The first record of a kind.
+// Index of the first record of kind `kind`.
 std::size_t record_of(const RawMaskPage& page, std::uint8_t kind) {
   const auto at = std::ranges::find(page.kinds, kind);
   EXPECT_NE(at, page.kinds.end()) << "no record of the sample suits";
   return static_cast<std::size_t>(at - page.kinds.begin());
 }
 
-// The first node for which `holds`, counted among nodes.
+// Index, among nodes, of the first node for which `holds`.
 std::size_t find_node(const RawMaskPage& page,
                       const std::function<bool(std::size_t, std::uint8_t)>& holds) {
   std::size_t node = 0;
@@ -41,7 +41,7 @@ std::size_t node_with_family(const RawMaskPage& page) {
       page, [&](std::size_t i, std::uint8_t kind) { return kind == kNode && page.grey[i] != 0; });
 }
 
-// Its family is the last of the page.
+// Index of the node whose family is the last of the page.
 std::size_t last_with_family(const RawMaskPage& page) {
   std::size_t last = 0;
   find_node(page, [&](std::size_t i, std::uint8_t kind) {
@@ -51,7 +51,7 @@ std::size_t last_with_family(const RawMaskPage& page) {
   return last;
 }
 
-// The first corner of a record of which the corners are stated.
+// Index of the first corner of a record whose corner numbers are stored.
 std::size_t counted(const RawMaskPage& page) {
   std::size_t at = 0;
   while (at < page.corners.size() && page.corners[at] == kUncounted) at += 8;
@@ -109,7 +109,7 @@ std::vector<MaskCorruption> node_corruptions() {
   return {
       {"a record has no parent",
        [](P& p, F&) {
-         // Before any family there are the roots alone.
+         // Only roots come before the first family.
          p.head.root_count = 1;
          p.kinds[0] = kPlain;
        }},
@@ -157,7 +157,7 @@ std::vector<MaskCorruption> node_corruptions() {
       {"its families do not add up", [](P& p, F&) { p.head.root_count = p.head.record_count; }},
       {"a record has no parent",
        [](P& p, F&) {
-         // The last family without its last member.
+         // Removes the last member of the last family.
          const std::size_t last = last_with_family(p);
          const auto kept = static_cast<std::uint8_t>(~std::bit_floor(p.grey[last]));
          p.grey[last] &= kept;

@@ -9,17 +9,18 @@
 
 namespace planetree::octree {
 
-/// One change to an honest page of random_mask(), and the sentence with which it is refused then.
+/// One change to a valid page of random_mask(), and the message with which the page is then
+/// refused.
 struct MaskCorruption {
   const char* sentence;
   std::function<void(RawMaskPage&, PageInfo&)> corrupt;
 };
 
-/// To reach every sentence there is. The page has leaves of all kinds, and pages below it; lists
-/// as long as they may be would not fit it.
+/// Corruptions that reach every message. The page must have leaves of all kinds and pages below it,
+/// and lists of the maximum length must not fit it.
 std::vector<MaskCorruption> all_mask_corruptions();
 
-/// Those of them that are of lists of blocks.
+/// The subset of them that concerns lists of blocks.
 std::vector<MaskCorruption> mask_list_corruptions();
 
 }  // namespace planetree::octree

@@ -34,7 +34,7 @@ TEST(ShortFloat, IsTheLeastThatIsNotBelow) {
 TEST(CertainSum, KnowsWhatItLost) {
   CertainSum sum;
   Noise noise(1);
-  // Terms that cancel, of any size: 2^-20 is left.
+  // Terms of widely different size that cancel: 2^-20 remains.
   std::vector<double> terms;
   for (int i = 0; i < 5000; ++i)
     terms.push_back(std::ldexp(noise.uniform(-1, 1), static_cast<int>(noise.bits() % 40)));
@@ -45,8 +45,7 @@ TEST(CertainSum, KnowsWhatItLost) {
   EXPECT_LT(sum.error(), 0x1p-40);
 }
 
-// Ten million shares of nearly nothing (S35): naive sums are wrong by some
-// 2^-35, this one by its last bit.
+// Ten million tiny terms: a naive sum is wrong by about 2^-35, this one by its last bit.
 TEST(CertainSum, OfTenMillionTerms) {
   const double term = 1.0 / 3 * 0x1p-23;
   CertainSum sum;
@@ -72,7 +71,7 @@ std::vector<std::pair<const char*, Soup>> open_soups() {
   return {{"sheet", height_field(20)}, {"scattered", scattered(700, 0.2)}, {"sphere", sphere(4)}};
 }
 
-// Every share from every child is as right as it says, near and far.
+// The error of every child's share is within its stated bound, near and far.
 TEST(Multipoles, HoldTheTruth) {
   for (const auto& [name, soup] : open_soups()) {
     const SampleTree sample = build_sample(soup, 65536, 0, true);
@@ -106,7 +105,7 @@ TEST(Multipoles, HoldTheTruth) {
       }
     }
     EXPECT_GT(certain, 500) << name;
-    EXPECT_GT(worst, 0.05) << name;  // and no looser than that
+    EXPECT_GT(worst, 0.05) << name;  // the bound is not needlessly loose
   }
 }
 
@@ -121,7 +120,7 @@ TEST(Multipoles, TellNothingFromWithinTheBox) {
                           [](const auto& share) { return share.error == Multipoles::kUnknown; }));
 }
 
-// What is encoded comes back, whatever holds the page.
+// Moments come back as encoded, independent of the page they are in.
 TEST(Moments, SurviveTheirPage) {
   const SampleTree sample = build_sample(scattered(900, 0.1), 4096, 0, true);
   SamplePages pages(sample);

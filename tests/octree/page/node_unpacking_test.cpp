@@ -17,7 +17,7 @@ void put(PackedDiscs::Words& words, std::size_t child, std::uint16_t word) {
   words.high[child] = static_cast<std::uint8_t>(word >> 8);
 }
 
-// A child of a node whose other streams are in `discs`.
+// Puts one child into `node`, and its disc streams into `discs`.
 void put(Node& node, PackedDiscs& discs, std::size_t child, const PackedChild& packed) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     node.lower[axis][child] = packed.lower[axis];
@@ -40,7 +40,7 @@ Node node_of(const FloatBox& box) {
 
 class UnpackDiscs : public testing::Test {
  protected:
-  // Often at the ends of ranges.
+  // A random word, often at an end of its range.
   std::uint16_t word() {
     constexpr std::uint16_t kEnds[] = {0, 1, 0x7fff, 0x8000, 0x8001, 0xffff};
     return random_() % 3 == 0 ? kEnds[random_() % std::size(kEnds)]
@@ -77,7 +77,7 @@ class UnpackDiscs : public testing::Test {
   std::mt19937_64 random_{1};
 };
 
-// As one child by itself, to the last bit, on every instruction set.
+// Compares bit for bit with children unpacked one by one, on every instruction set.
 TEST_F(UnpackDiscs, HasTheBitsOfEachUnpackedByItself) {
   for (int round = 0; round < 2000; ++round) {
     const unsigned count = 1 + static_cast<unsigned>(random_() % kFanOut);

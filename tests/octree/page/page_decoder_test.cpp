@@ -23,7 +23,7 @@ struct Case {
   std::uint64_t first_index = 0;
 };
 
-// No two triangles have a vertex in common.
+// Rounds corners to float. Scattered triangles share no vertex before or after.
 Soup rounded(Soup soup) {
   for (auto& triangle : soup)
     for (Vec3& corner : triangle)
@@ -47,7 +47,7 @@ std::vector<Case> cases() {
 
 using Found = std::map<std::uint64_t, std::array<std::array<double, 3>, 3>>;
 
-// Walks decoded pages from the root as a reader does.
+// Walks decoded pages from the root, as a reader does.
 class Walk {
  public:
   Walk(const SampleTree& sample, const SamplePages& pages)
@@ -92,7 +92,7 @@ class Walk {
         EXPECT_LT(block.id(i - 1), block.id(i));
       }
     }
-    // What the wide kernels read beyond the last triangle is that triangle.
+    // Lanes beyond the last triangle, which the wide kernels read, repeat it.
     for (unsigned i = block.triangle_count(); i < kMaxBlockTriangles; ++i)
       EXPECT_EQ(block.header().corners(i), block.header().corners(block.triangle_count() - 1));
   }
@@ -135,7 +135,7 @@ TEST(PageDecoder, CoversFloat64WideIdsAndManyPages) {
   EXPECT_TRUE(float64 && wide_ids && many_pages);
 }
 
-// To other pages, as planned.
+// Number of links that lead from `page` to other pages, by the page plan.
 std::size_t links_out_of(const SampleTree& sample, std::uint32_t page) {
   const LinkFormat links(sample.plan.page_bytes);
   std::size_t count = 0;
@@ -189,7 +189,7 @@ TEST(PageDecoder, DoesNotCareWhatTheFrameHeldBefore) {
   std::ranges::fill(other.bytes(), std::byte{0xee});
   ASSERT_TRUE(decode_page(pages.raw(0), page_info(sample, 0), other.bytes()));
   const std::size_t used = other.header().used_bytes;
-  // Padding inside a record may keep old bytes; every triangle must not.
+  // Padding inside a record may keep old bytes; triangles may not.
   const BlockView first(other.data() + other.header().first_block_slot * kSlotBytes, sample.shape);
   const BlockView same(pages.frame(0).data() + other.header().first_block_slot * kSlotBytes,
                        sample.shape);
@@ -198,8 +198,8 @@ TEST(PageDecoder, DoesNotCareWhatTheFrameHeldBefore) {
   EXPECT_EQ(other.bytes()[used], std::byte{0xee});
 }
 
-// One byte changed in every place: refused, or decoded to something that can
-// be asked. What goes wrong here goes wrong under the sanitizers.
+// Changes each byte in turn: the page is refused, or a query on what was decoded stays within its
+// bounds. The sanitizers report anything worse.
 TEST(PageDecoder, SurvivesEveryByteChanged) {
   const SampleTree sample = build_sample(sphere(2), 8192);
   SamplePages pages(sample);

@@ -13,8 +13,7 @@
 #include "tests/octree/page/raw_page.h"
 #include "tests/octree/support/sample_tree.h"
 
-// Every sentence with which a page is refused, reached by one change to an
-// honest page.
+// Reaches every message with which a page is refused, by one change to a valid page each.
 namespace planetree::octree {
 namespace {
 
@@ -22,7 +21,7 @@ constexpr float kHuge = 3e38f;
 const float kNaN = std::numeric_limits<float>::quiet_NaN();
 const float kInfinity = std::numeric_limits<float>::infinity();
 
-// Kind of child `child` of node `node`.
+// Sets the kind of child `child` of node `node`.
 void set_kind(RawPage& page, std::size_t node, unsigned child, unsigned kind) {
   auto& kinds = page.child_kinds[node];
   kinds = static_cast<std::uint16_t>((kinds & ~(3u << (2 * child))) | kind << (2 * child));
@@ -32,7 +31,7 @@ unsigned kind(const RawPage& page, std::size_t node, unsigned child) {
   return page.child_kinds[node] >> (2 * child) & 3u;
 }
 
-// Makes all of a node's children of kind `from` into children of kind `to`.
+// Turns all of a node's children of kind `from` into kind `to`.
 void turn_kinds(RawPage& page, std::size_t node, unsigned from, unsigned to) {
   for (unsigned child = 0; child < page.child_counts[node]; ++child)
     if (kind(page, node, child) == from) set_kind(page, node, child, to);
@@ -52,7 +51,7 @@ std::size_t ref_offset(const RawPage& page, std::size_t block) {
   return offset;
 }
 
-// The first block for which `holds`.
+// Index of the first block for which `holds`.
 std::size_t find_block(const RawPage& page, const std::function<bool(std::size_t)>& holds) {
   for (std::size_t i = 0; i < page.triangle_counts.size(); ++i)
     if (holds(i)) return i;
@@ -69,7 +68,7 @@ enum class From { kWhole, kUpper };
 
 struct Corruption {
   const char* sentence;
-  From from;  ///< a page with the whole tree, or one with links to others
+  From from;  ///< which sample: a page with the whole tree, or one with links to others
   std::function<void(RawPage&, PageInfo&)> corrupt;
 };
 
@@ -271,7 +270,7 @@ std::vector<Corruption> all_corruptions() {
   return all;
 }
 
-// A sphere with a few triangles taken out, so that blocks differ in size.
+// A sphere without some of its triangles, so that blocks differ in size.
 Soup holed_sphere(unsigned levels) {
   Soup soup = sphere(levels);
   for (std::size_t i = soup.size(); i-- > 0;)
@@ -328,7 +327,7 @@ TEST(PageRefusal, HoldsForWideIdsAndFloat64) {
   SampleFrame frame(info.page_bytes);
   RawStreams streams;
   ASSERT_EQ(streams.cut(pages.raw(0), sample.shape), nullptr);
-  // The last bytes are the steps' highest, then come the first ids' before them.
+  // The stream of id steps ends the page; the stream of first ids is before it.
   std::vector<std::byte> raw = pages.raw(0);
   const std::size_t steps = streams.id_steps64.size();
   for (std::size_t k = 1; k <= 8; ++k) raw[raw.size() - k * steps] = std::byte{0xff};
@@ -338,7 +337,7 @@ TEST(PageRefusal, HoldsForWideIdsAndFloat64) {
   raw = pages.raw(0);
   const std::size_t ids = 8 * (steps + streams.head.block_count);
   const std::size_t coordinates = 3u * streams.head.vertex_count;
-  // Both top bytes of the last coordinate: an exponent of all ones.
+  // Sets the two highest bytes of the last coordinate: an exponent of all ones.
   raw[raw.size() - ids - 1] = std::byte{0x7f};
   raw[raw.size() - ids - 1 - coordinates] = std::byte{0xff};
   decoded = decode_page(raw, info, frame.bytes());

@@ -11,9 +11,8 @@
 
 namespace planetree::octree {
 
-/// The raw bytes of a mask page, taken apart so that a test can spoil one thing
-/// and put the rest together again. The head's counts stay as they are unless
-/// they are what is spoilt.
+/// The streams of a mask page, separated so that a test can corrupt one value and encode the page
+/// again. The counts in the head are not updated.
 struct RawMaskPage {
   MaskPageHead head{};
   std::vector<std::uint8_t> kinds, grey, leaf, black, inverted;
@@ -30,7 +29,7 @@ struct RawMaskPage {
   std::vector<std::uint32_t> block_links;
   bool float64 = false;
 
-  /// `raw` must be a page that can be cut.
+  /// Returns the streams of `raw`, whose counts must match its length.
   static RawMaskPage of(std::span<const std::byte> raw, bool float64) {
     MaskStreams s;
     if (s.cut(raw, float64) != nullptr) return {};

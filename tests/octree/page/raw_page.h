@@ -12,9 +12,8 @@
 
 namespace planetree::octree {
 
-/// The raw bytes of a page with float32 vertices and 4-byte ids, taken apart
-/// so that a test can spoil one thing and put the rest together again. The
-/// head's counts stay as they are unless they are what is spoilt.
+/// The streams of a page with float32 vertices and 4-byte ids, separated so that a test can corrupt
+/// one value and encode the page again. The counts in the head are not updated.
 struct RawPage {
   PageHead head{};
   std::vector<float> root_boxes;
@@ -33,7 +32,7 @@ struct RawPage {
   std::vector<float> vertices;
   std::vector<std::uint32_t> first_ids, id_steps;
 
-  /// `raw` must be a page that can be cut.
+  /// Returns the streams of `raw`, whose counts must match its length.
   static RawPage of(std::span<const std::byte> raw, const BlockShape& shape = {}) {
     RawStreams s;
     if (s.cut(raw, shape) != nullptr) return {};

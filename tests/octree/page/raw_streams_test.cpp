@@ -101,7 +101,7 @@ TEST_F(RawStreamsTest, RefuseAPageOfAnotherShape) {
 }
 
 TEST_F(RawStreamsTest, NeverReadBeyondWhateverCountsSay) {
-  // Under the address sanitizer a read past the vector's end stops the test.
+  // Under the address sanitizer a read past the vector's end fails the test.
   for (std::size_t at = 16; at < sizeof(PageHead); ++at)
     for (const unsigned value : {0u, 1u, 127u, 255u}) {
       std::vector<std::byte> changed = raw_;

@@ -7,7 +7,7 @@
 
 namespace planetree::octree {
 
-/// All elements of a stream, to be altered.
+/// Copies all elements of a stream, so that a test can change them.
 template <class T>
 std::vector<T> list(const ByteSplit<T>& stream) {
   std::vector<T> values;

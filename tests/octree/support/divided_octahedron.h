@@ -7,9 +7,9 @@
 
 namespace planetree::octree {
 
-/// The faces of an octahedron of radius 1, outward, each divided into
-/// 4^`levels`: an edge at middle(a, b) of its ends. Watertight if that is the
-/// same as middle(b, a).
+/// The faces of an octahedron of radius 1, facing outward, each divided into 4^`levels`. An edge
+/// from a to b is divided at middle(a, b). The surface is watertight if middle(a, b) equals
+/// middle(b, a).
 template <class Middle>
 class DividedOctahedron {
  public:

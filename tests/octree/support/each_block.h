@@ -8,7 +8,7 @@
 
 namespace planetree::octree {
 
-/// Calls with every block of a sample, and its link, in the order of links.
+/// Calls call(block, link) for every block of a sample, in the order of links.
 template <class Call>
 void each_block(const SampleTree& sample, const SamplePages& pages, const Call& call) {
   const std::uint32_t page_bytes = sample.plan.page_bytes;

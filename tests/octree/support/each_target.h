@@ -7,7 +7,7 @@
 
 namespace planetree::octree {
 
-/// What a call returns on each of the instruction sets that this processor has, in turn.
+/// Results of call() on each instruction set that this processor has.
 template <class Call>
 auto on_each_target(const Call& call) {
   std::vector<decltype(call())> results;

@@ -9,8 +9,8 @@
 
 namespace planetree::octree {
 
-/// Whether a closed triangle and a closed box share a point, without any error:
-/// what is left of the triangle once it is clipped by the box's six sides.
+/// Whether a closed triangle and a closed box share a point. Clips the triangle by the six sides of
+/// the box in rational arithmetic.
 inline bool exactly_touches(const Triangle& triangle, const Point& lower, const Point& upper) {
   using Rational = boost::multiprecision::cpp_rational;
   using Corner = std::array<Rational, 3>;
@@ -24,7 +24,7 @@ inline bool exactly_touches(const Triangle& triangle, const Point& lower, const 
     const unsigned axis = side / 2;
     const bool least = side % 2 == 0;
     const Rational limit(least ? lower[axis] : upper[axis]);
-    // Negative outside of the side.
+    // Negative outside of this side of the box.
     const auto depth = [&](const Corner& corner) -> Rational {
       return least ? Rational(corner[axis] - limit) : Rational(limit - corner[axis]);
     };

@@ -8,8 +8,8 @@
 
 namespace planetree {
 
-/// What a host thread may have asked of its processor: to round another way and
-/// to take subnormal numbers for zero. Until this object ends.
+/// Sets the floating-point mode of this thread to another rounding, and on x86 to flushing
+/// subnormal numbers to zero, as a host program may. The destructor restores the mode.
 class OddArithmetic {
  public:
   explicit OddArithmetic(int rounding) {

@@ -14,12 +14,12 @@
 namespace planetree::octree {
 namespace {
 
-// Part `i` of `side` of the way, the same number wherever it is asked for.
+// Point `i` of `side` divisions between `from` and `to`. The result is the same bits in every call.
 double part(double from, double to, unsigned i, unsigned side) {
   return i == side ? to : from + (to - from) * i / side;
 }
 
-// The face of a box across `axis`, its normal upward along it.
+// A face of a box across `axis` at `at`, with its normal in the positive direction.
 void add_face(const Vec3& l, const Vec3& u, unsigned axis, double at, unsigned side, Soup& soup) {
   const double lower[] = {l.x, l.y, l.z}, upper[] = {u.x, u.y, u.z};
   const unsigned j = (axis + 1) % 3, k = (axis + 2) % 3;

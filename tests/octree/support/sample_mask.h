@@ -12,33 +12,33 @@
 #include "octree/mask/mask_lookup.h"
 #include "tests/octree/support/sample_tree.h"
 
-/// Closed surfaces, their masks, and the decoded pages of masks.
+/// Closed surfaces, their masks, and the decoded pages of the masks.
 namespace planetree::octree {
 
-/// The faces of a box, outward, each of 2 `side`^2 triangles.
+/// The faces of a box, facing outward, each of 2 `side`^2 triangles.
 Soup box(const Vec3& lower, const Vec3& upper, unsigned side = 1);
-/// Tetrahedra of edges up to `edge` anywhere in the unit cube, either way round.
+/// Tetrahedra in the unit cube with edges up to `edge`, of either orientation.
 Soup grains(std::size_t count, double edge, std::uint64_t seed = 1);
 Soup inside_out(Soup soup);
 Soup perturbed(Soup soup, const Vec3& by);
 Soup scaled(Soup soup, double factor);
 Soup joined(std::initializer_list<Soup> soups);
 Soup copies(const Soup& soup, std::size_t count);
-/// `count` spheres, each a little smaller than the one before: radius 1 to 1 - 0.002 `count`.
+/// `count` concentric spheres, with radii from 1 down in steps of 0.002.
 Soup shells(std::size_t count);
 
-/// All triangles of a closed surface, looked at one by one.
+/// The triangles of a closed surface, for tests that examine each of them.
 class Surface {
  public:
   explicit Surface(std::vector<Triangle> triangles);
   explicit Surface(const SampleMesh& mesh);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// The winding number about a point moved by its infinitesimal step: counted
+  /// The winding number of a point perturbed by its infinitesimal step: crossings of a segment
   /// straight up, out of the box of all triangles.
   std::int64_t winding(const Point& point) const;
   bool holds(const Point& point) const;
-  /// The triangles that touch a closed box, without any error.
+  /// The triangles that touch a closed box, found in exact arithmetic.
   std::vector<Triangle> touching(const Point& lower, const Point& upper) const;
 
  private:
@@ -54,7 +54,7 @@ class Surface {
 void each_entry(const MaskTree& tree,
                 const std::function<void(const GridCell&, std::uint32_t entry)>& look);
 
-/// The mask of a soup that is watertight.
+/// The mask of a watertight soup.
 struct SampleMask {
   explicit SampleMask(const Soup& soup);
 
@@ -74,15 +74,15 @@ class MaskPages {
   std::uint32_t size() const { return static_cast<std::uint32_t>(frames_.size()); }
   const std::vector<std::byte>& raw(std::uint32_t page) const { return raw_[page]; }
   const SampleFrame& frame(std::uint32_t page) const { return frames_[page]; }
-  /// Of page `page` within the mask.
+  /// Info of page `page`, counted within the mask.
   PageInfo info(std::uint32_t page) const;
   MaskInfo mask(const Point& lower) const;
 
   void withhold(std::uint32_t page, bool withheld = true) { withheld_[page] = withheld; }
-  /// Pages asked for since the last call, by number within the mask.
+  /// Pages accessed since the last call, by number within the mask.
   std::vector<std::uint32_t> take_queried();
   PageReader reader();
-  /// One that finds pages in memory, all of them.
+  /// A reader with `peek`: all pages but withheld ones are resident.
   PageReader resident_reader();
 
  private:
@@ -104,7 +104,7 @@ inline bool same(const MaskBlocks& a, const MaskBlocks& b) {
          std::equal(a.octants.begin(), a.octants.begin() + a.count, b.octants.begin());
 }
 
-/// What a frame of a mask page holds.
+/// The header of a decoded mask page.
 inline const MaskHeader& header_of(const SampleFrame& frame) {
   return *reinterpret_cast<const MaskHeader*>(frame.data());
 }

@@ -97,7 +97,7 @@ std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_
   return runs;
 }
 
-// The part's root becomes the entry at `place`, the rest goes to the end.
+// Replaces the entry at `index` by the root of `part` and appends the other entries of `part`.
 void put_in(MaskTree& whole, std::size_t index, MaskTree part) {
   const auto perturbed = static_cast<std::uint32_t>(whole.entries.size() - 1);
   const auto specials = static_cast<std::uint32_t>(whole.specials.size());

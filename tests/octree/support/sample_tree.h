@@ -20,12 +20,12 @@
 #include "octree/page/frame.h"
 #include "octree/page/page_decoder.h"
 
-/// Small models, every stage of their building, and their decoded pages.
+/// Small models, the stages of their build, and their decoded pages.
 namespace planetree::octree {
 
 using Soup = std::vector<std::array<Vec3, 3>>;
 
-/// The same numbers on every machine.
+/// Pseudo-random numbers, the same on every machine.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15 + 1) {}
@@ -33,7 +33,7 @@ class Noise {
     state_ = state_ * 6364136223846793005u + 1442695040888963407u;
     return static_cast<std::uint32_t>(state_ >> 33);
   }
-  /// In [low, high), 31 bits.
+  /// In [low, high), with 31 random bits.
   double uniform(double low, double high) { return low + (high - low) * (bits() * 0x1p-31); }
   Vec3 point(double low, double high) {
     const double x = uniform(low, high), y = uniform(low, high), z = uniform(low, high);
@@ -44,14 +44,14 @@ class Noise {
   std::uint64_t state_;
 };
 
-/// An octahedron, each face divided into 4^`levels`, drawn to the unit sphere;
-/// float32 coordinates; watertight.
+/// An octahedron whose faces are divided into 4^`levels` each, projected to the unit sphere.
+/// float32 coordinates, watertight.
 Soup sphere(unsigned levels);
-/// 2 `side`^2 triangles of a wavy sheet; float32 coordinates.
+/// A wavy height field of 2 `side`^2 triangles, float32 coordinates.
 Soup height_field(unsigned side);
-/// Triangles anywhere in the unit cube, of edges up to `edge`; float64 coordinates.
+/// Random triangles in the unit cube with edges up to `edge`, float64 coordinates.
 Soup scattered(std::size_t count, double edge, std::uint64_t seed = 1);
-/// One triangle again and again, so that all have one Morton code.
+/// `count` copies of one triangle, all with the same Morton code.
 Soup repeated(std::size_t count);
 
 /// The triangles of a model in the model frame, in the order of the input.
@@ -66,24 +66,25 @@ struct SampleMesh : Triangles {
   ModelFrame frame;
 };
 
-/// A model; the indices of its triangles are counted from `first_index`.
+/// A model in the model frame. Its triangle indices start at `first_index`.
 SampleMesh store(const Soup& soup, std::uint64_t first_index = 0);
 
-/// Where tests spill to.
+/// The file that tests spill to.
 storage::SpillFile& spill_file();
 
 /// The triangles of a mesh in runs of `run_triangles`, some of them spilled.
 std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_triangles = 1000);
 
-/// The mask of a mesh that is watertight, in regions of at most `most` triangles.
-/// tree  whose blocks cells list; null: they list none.
+/// The mask of a watertight mesh, built in sectors of at most `most` triangles.
+///
+/// tree  the tree whose blocks the cells list; null for a mask without lists.
 MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most = kSectorTriangles,
                  const BuiltTree* tree = nullptr);
 
-/// Whether a mesh closes, balanced in parts of so many triangles.
+/// The edge balance of a mesh, counted in parts of `part_triangles` triangles.
 EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles = 5000);
 
-/// A model through all stages of a build but the last.
+/// A model after all stages of a build but the writing of its file.
 struct SampleTree {
   SampleMesh mesh;  ///< in Morton order
   Point centre = Point::Zero();
@@ -102,7 +103,7 @@ SampleTree build_sample(const Soup& soup, std::uint32_t page_bytes = 4096,
 PageInfo page_info(const SampleTree& sample, std::uint32_t page);
 TreeInfo tree_info(const SampleTree& sample);
 
-/// Room for one decoded page, aligned as frames are and not a byte longer.
+/// Memory for exactly one decoded page, aligned as frames are.
 class SampleFrame {
  public:
   explicit SampleFrame(std::uint32_t page_bytes) : slots_(page_bytes / kSlotBytes) {}
@@ -132,7 +133,7 @@ class SamplePages {
   const std::vector<std::byte>& raw(std::uint32_t page) const { return raw_[page]; }
   const SampleFrame& frame(std::uint32_t page) const { return frames_[page]; }
   SampleFrame& frame(std::uint32_t page) { return frames_[page]; }
-  /// The record a link leads to.
+  /// The record that a link leads to.
   const std::byte* record(const LinkFormat& links, std::uint32_t link) const {
     return frames_[links.page(link)].data() + links.slot(link) * kSlotBytes;
   }

@@ -14,7 +14,7 @@
 
 namespace planetree::octree {
 
-/// A watertight model, its tree and mask built as far as its file could be written.
+/// A watertight model with its tree and mask, built up to the writing of its file.
 struct HeightFieldModel {
   explicit HeightFieldModel(const Soup& soup, storage::SpillFile& file = spill_file())
       : tree(soup, 200, 4096, file),
@@ -32,7 +32,7 @@ struct HeightFieldModel {
     mask_info = {4096, tree.tree->pages().size(), mask.size(), tree.mesh.lower()};
   }
 
-  /// Calls with every block, in no frame, and its page.
+  /// Calls look(block, page) for every block. The block is valid during the call only.
   void each_block(const std::function<void(const BlockView&, std::uint32_t)>& look) const {
     for (std::uint32_t page = 0; page < tree.tree->pages().size(); ++page) {
       SampleFrame frame(4096);

@@ -11,7 +11,7 @@
 
 namespace planetree::octree {
 
-/// What may touch, or not.
+/// A triangle and a box that may touch or not.
 struct TriangleAndBox {
   Triangle triangle;
   Point lower, upper;
@@ -22,7 +22,7 @@ inline Point any_point(Noise& noise, double low, double high) {
   return {at.x, at.y, at.z};
 }
 
-// All 53 bits.
+// A point with all 53 bits random.
 inline Point full_point(Noise& noise, double low, double high) {
   return any_point(noise, low, high) + 0x1p-31 * any_point(noise, low, high);
 }
@@ -44,7 +44,7 @@ inline TriangleAndBox random_pair(Noise& noise) {
       lower + edge};
 }
 
-// Long and so thin that its normal is mostly rounding.
+// A triangle so long and thin that its normal is mostly rounding.
 inline TriangleAndBox needle(Noise& noise) {
   TriangleAndBox pair = random_pair(noise);
   pair.triangle[2] = pair.triangle[0] + 0.7 * (pair.triangle[1] - pair.triangle[0]) +
@@ -52,7 +52,7 @@ inline TriangleAndBox needle(Noise& noise) {
   return pair;
 }
 
-// From 2^-60 to 2^60 times as large as the box.
+// A triangle from 2^-60 to 2^60 times as large as the box.
 inline TriangleAndBox of_other_size(Noise& noise) {
   TriangleAndBox pair = random_pair(noise);
   const double factor = std::ldexp(1.0, static_cast<int>(noise.bits() % 121) - 60);
@@ -61,7 +61,7 @@ inline TriangleAndBox of_other_size(Noise& noise) {
   return pair;
 }
 
-// Products of such lengths underflow.
+// Lengths whose products underflow.
 inline TriangleAndBox tiny(Noise& noise) {
   TriangleAndBox pair = random_pair(noise);
   const double factor = noise.bits() % 2 == 0 ? 1e-300 : 1e-160;
@@ -71,7 +71,7 @@ inline TriangleAndBox tiny(Noise& noise) {
   return pair;
 }
 
-// A triangle of 1e-300 beside or in a corner of a box of 1.
+// A triangle of size 1e-300 at or beside a corner of a box of size 1.
 inline TriangleAndBox tiny_at_a_corner(Noise& noise) {
   TriangleAndBox pair;
   pair.lower = Point(-1, 0, -1);
@@ -80,7 +80,7 @@ inline TriangleAndBox tiny_at_a_corner(Noise& noise) {
   return pair;
 }
 
-// Few bits, so that much lies in one plane, line or point.
+// Coordinates of few bits, so that much is in one plane, on one line or at one point.
 inline TriangleAndBox on_lattice(Noise& noise) {
   const auto step = [&] { return static_cast<double>(noise.bits() % 7) - 3; };
   const auto index = [&] { return Point(step(), step(), step()); };
@@ -97,15 +97,15 @@ inline TriangleAndBox axis_aligned(Noise& noise) {
   return pair;
 }
 
-// A corner, edge or the inside of the triangle is on the box's corner or edge,
-// and the rest of it is beyond; then a few last bits are changed.
+// A corner, an edge or the interior of the triangle is at a corner or edge of the box, and the rest
+// of it is beyond; then the last bits are changed at random.
 inline TriangleAndBox barely(Noise& noise) {
   TriangleAndBox pair = random_pair(noise);
   const Point outward(sign(noise), sign(noise), sign(noise));
   Point at;
   for (unsigned axis = 0; axis < 3; ++axis)
     at[axis] = outward[axis] > 0 ? pair.upper[axis] : pair.lower[axis];
-  // Of a plane that has the box on one side; of one that has an edge of it.
+  // The normal of a plane that touches the box at a corner only, or along an edge.
   Point normal = any_point(noise, 0.1, 1).cwiseProduct(outward);
   if (noise.bits() % 2 == 0) {
     const unsigned axis = noise.bits() % 3;
@@ -131,7 +131,7 @@ inline TriangleAndBox barely(Noise& noise) {
   return pair;
 }
 
-// As far from the origin as coordinates go; cells there are flat or so.
+// As far from the origin as coordinates may be. Cells there are flat or nearly so.
 inline TriangleAndBox far_away(Noise& noise) {
   TriangleAndBox pair = barely(noise);
   const Point offset(0x1p54, -0x1p53, 0x1p30);
@@ -141,7 +141,7 @@ inline TriangleAndBox far_away(Noise& noise) {
   return pair;
 }
 
-// Boxes so far away that they have few numbers between their sides.
+// Boxes so far away that few doubles are between their sides.
 inline TriangleAndBox of_few_numbers(Noise& noise) {
   const double size = std::ldexp(1.0, static_cast<int>(noise.bits() % 40));
   const Point offset(0x1p52, -0x1p52, 0x1.8p52);

@@ -14,7 +14,7 @@
 namespace planetree::octree {
 namespace {
 
-// Writes one child behind the last of a list.
+// Appends child `child` of `node` to `list`.
 void list_child(const Node& node, unsigned child, NearbySubtrees& list) {
   const FloatBox box = child_box(node, child);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -68,7 +68,7 @@ bool meet(const FloatBox& a, const FloatBox& b) {
 
 float next(float value, float towards) { return std::nextafter(value, towards); }
 
-// Boxes that begin just where a child's ends, or an ulp behind.
+// Compared with boxes that begin exactly at a child's end, or one ulp beyond.
 TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (int round = 0; round < 500; ++round) {
@@ -98,7 +98,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
   }
 }
 
-// Of nodes beside each other: boxes as above, and as many subtrees as there is room for, or fewer.
+// Lists of random length, compared with boxes as above.
 TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
   for (int round = 0; round < 300; ++round) {
     NearbySubtrees list;
@@ -126,7 +126,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
   }
 }
 
-// Thresholds that are just a child's squared distance, or an ulp below.
+// Thresholds equal to a child's squared distance, or one ulp below.
 TEST_F(ChildTests, ListThoseThatAreNearByTheBitsOfEachChilds) {
   for (int round = 0; round < 500; ++round) {
     const Node at = node();
@@ -145,7 +145,7 @@ TEST_F(ChildTests, ListThoseThatAreNearByTheBitsOfEachChilds) {
     std::vector<unsigned> expected;
     for (unsigned i = 0; i < at.child_count; ++i)
       if (squared(i) <= threshold) expected.push_back(i);
-    // Behind others, as many as leave room for a node's children.
+    // Appends to a list of random length that has capacity for a node's children.
     NearbySubtrees before;
     const std::size_t others = random_() % (NearbySubtrees::kMax - kFanOut + 1);
     while (before.size() < others) list_child(at, 0, before);

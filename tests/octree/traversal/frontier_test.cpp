@@ -11,7 +11,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 using Order = Frontier::Order;
 
-// Bounds ascend within a group; a child's link says where it was pushed.
+// Pushes children with the given bounds, ascending. Their links encode group and index.
 void push(Frontier& frontier, std::uint32_t group, const std::vector<float>& bounds,
           unsigned first = 0) {
   for (std::size_t i = 0; i < bounds.size(); ++i) {
@@ -82,7 +82,7 @@ TEST(FrontierTest, TellsTheLeastOfWhatItDrops) {
   }
 }
 
-// However the ways down from two nodes lead, there is room for them, and nothing is lost.
+// Two full-height paths of groups fit, and no entry is lost.
 TEST(FrontierTest, ManyGroupsAreTakenFromTheLast) {
   Frontier frontier;
   std::size_t pushed = 0, taken = 0;

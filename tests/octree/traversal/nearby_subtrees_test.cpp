@@ -9,7 +9,7 @@
 namespace planetree::octree {
 namespace {
 
-// A subtree between x and x + 1 of each axis.
+// Adds a subtree whose box spans x to x + 1 on each axis.
 void add(NearbySubtrees& list, float x, std::uint32_t link) {
   for (unsigned axis = 0; axis < 3; ++axis) {
     *list.next_lower(axis) = x;
@@ -35,7 +35,7 @@ TEST(NearbySubtrees, KeepsBoxesAndLinks) {
 }
 
 TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
-  // Where there was something else before.
+  // Memory with other contents before: NaN in every float.
   alignas(NearbySubtrees) unsigned char memory[sizeof(NearbySubtrees)];
   std::memset(memory, 0xff, sizeof memory);
   auto& list = *new (memory) NearbySubtrees;

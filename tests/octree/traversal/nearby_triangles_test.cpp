@@ -12,7 +12,7 @@ namespace {
 
 Triangle triangle_at(double x) { return {Point(x, 0, 0), Point(x + 1, 0, 0), Point(x, 1, 0)}; }
 
-// As far from the centre as said.
+// A triangle with the given distance from the centre.
 NearbyTriangle found_at(double x, std::uint64_t id, double distance = 0) {
   return {triangle_at(x), id, distance};
 }
@@ -64,7 +64,7 @@ TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
   EXPECT_EQ(list.count_within(1), found.size());
 }
 
-// A grid, whose corners have coordinates in common with others.
+// A grid of triangles, whose corners share coordinates.
 TEST(NearbyTriangles, AreFoundByACornerAmongFewOthers) {
   for (const unsigned count : {1u, 15u, 16u, 63u, 64u, 65u, 130u, 192u}) {
     std::vector<NearbyTriangle> found;

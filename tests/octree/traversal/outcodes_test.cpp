@@ -18,7 +18,7 @@ void each_block_of(const Soup& soup, const Check& check) {
              [&](const BlockView& block, std::uint32_t) { check(block); });
 }
 
-// The box of one vertex, and of a point as near to it as double can name.
+// The box is a single vertex of the block.
 TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
   for (const Soup& soup : {sphere(4), scattered(500, 0.05)})
     each_block_of(soup, [&](const BlockView& block) {
@@ -33,7 +33,7 @@ TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
     });
 }
 
-// Coordinates between floats are rounded away from the box, never into it.
+// Coordinates are rounded away from the box, never into it.
 TEST(Outcodes, LeaveNothingOutThatIsInTheBox) {
   each_block_of(sphere(4), [&](const BlockView& block) {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {

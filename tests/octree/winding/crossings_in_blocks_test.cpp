@@ -9,13 +9,13 @@
 #include "tests/octree/support/each_target.h"
 #include "tests/octree/support/sample_mask.h"
 
-// Crossings of listed blocks alone, against those of the whole tree.
+// Compares crossings counted in listed blocks with those counted in the whole tree.
 namespace planetree::octree {
 namespace {
 
 constexpr std::uint64_t kAnyWork = ~std::uint64_t{0};
 
-/// Octants of cells of a closed surface, and the blocks that are listed for them.
+/// Octants of cells of a closed surface, with the blocks listed for each.
 struct ListedOctants {
   struct Octant {
     Point lower, upper;
@@ -45,7 +45,8 @@ struct ListedOctants {
     work = {};
     return count_crossings(tree, segment, blocks, max_work, pages.reader(), work);
   }
-  // Of the first octant with so many blocks, from its middle to its least corner.
+  // The first octant with at least `blocks` blocks: a segment from its middle to its lower corner,
+  // and its blocks.
   std::pair<PerturbedSegment, std::vector<std::uint32_t>> one_of(std::size_t blocks) const {
     const auto at = std::ranges::find_if(
         octants, [&](const Octant& octant) { return octant.blocks.size() >= blocks; });
@@ -60,7 +61,7 @@ struct ListedOctants {
   std::vector<Octant> octants;
 };
 
-// Within an octant or on its sides, to one of its corners or anywhere.
+// Random segments within an octant or on its sides. Two end at a corner.
 std::vector<PerturbedSegment> segments_in(const ListedOctants::Octant& octant, Noise& noise) {
   const auto point = [&](unsigned rounding) {
     Point p;
@@ -81,7 +82,7 @@ std::size_t expect_as_in_the_tree(const Soup& soup) {
   std::size_t crossed = 0;
   for (const ListedOctants::Octant& octant : listed.octants) {
     std::vector<PerturbedSegment> segments = segments_in(octant, noise);
-    // From a vertex in it, which is on the surface.
+    // A segment that starts at a vertex in the octant, thus on the surface.
     for (std::uint32_t i = 0; i < listed.sample.mesh.size(); ++i) {
       const Point vertex = listed.sample.mesh.corners(i)[0];
       if ((vertex.array() < octant.lower.array()).any() ||
@@ -132,7 +133,7 @@ TEST(CrossingsInBlocks, AreIncompleteWithoutAPage) {
   EXPECT_FALSE(listed.count(segment, blocks).complete);
 }
 
-// Wherever in the list it is.
+// Tests each position in the list.
 TEST(CrossingsInBlocks, AreIncompleteWhereALinkLeadsToNoBlock) {
   ListedOctants listed(sphere(5));
   const auto [segment, blocks] = listed.one_of(2);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kEveryNode = ~std::uint64_t{0};
 
-// What one triangle after the other makes of it.
+// Crossings counted triangle by triangle.
 Crossings count_all(const SampleMesh& mesh, const PerturbedSegment& segment) {
   Crossings count;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
@@ -55,14 +55,15 @@ TEST(CountCrossings, IsTheSumOverAllTriangles) {
   expect_as_one_by_one(repeated(1), 5);
 }
 
-// Where neighbouring floats are as far apart as vertices.
+// At these offsets the spacing of floats is as large as that of vertices.
 TEST(CountCrossings, IsTheSumOverAllTrianglesFarFromTheOrigin) {
   for (const double offset : {1e3, 1e5, 1e7}) {
     expect_as_one_by_one(perturbed(sphere(4), {offset, -offset, 0}), 6);
   }
 }
 
-// Out of a sphere, by fewer nodes and blocks than so many.
+// Expects a segment out of a sphere to cross it, by visiting fewer than `too_many` nodes and
+// blocks.
 void expect_little_work(const PerturbedSegment& segment, std::uint64_t too_many) {
   const SampleTree sample = build_sample(sphere(6));
   SamplePages pages(sample);
@@ -78,7 +79,7 @@ TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
   expect_little_work({{0.1, 0.2, 0}, {0.1, 0.2, 3}}, 40);
 }
 
-// A box about it would hold an eighth of the model.
+// The bounding box of the segment would hold an eighth of the model.
 TEST(CountCrossings, LooksOnlyAtWhatADiagonalSegmentMeets) {
   expect_little_work({{0.01, 0.02, 0}, {2, 2.1, 2.2}}, 20);
 }

@@ -10,7 +10,7 @@
 namespace planetree::octree {
 namespace {
 
-// A tree with moments, and the truth by every triangle.
+// A tree with moments, and the true winding number as a sum over all triangles.
 class Winding {
  public:
   explicit Winding(const Soup& soup, std::uint32_t page_bytes = 4096)
@@ -77,12 +77,12 @@ TEST(WindingNumber, IsCertain) {
   }
 }
 
-// The work bound swept (S37): the interval always holds the truth, never grows
-// once it is told, and closes when all is evaluated.
+// At every work limit the interval holds the true number. The sum completes once the comparison
+// with 1/2 is certain or all records are visited.
 TEST(WindingNumber, HoldsTheTruthAtAnyWork) {
   Winding winding(bowl(3, 0.0));
-  // On the axis of a bowl whose rim is a great circle the number is one half
-  // near the middle; so nearly all has to be looked at.
+  // On the axis of a bowl whose rim is a great circle the number is one half near the middle, so
+  // nearly all records must be visited.
   const Point points[] = {{0.01, 0.005, -0.002}, {0.1, 0.2, -0.4}, {0, 0, 0.3}, {0.4, -0.5, 0.2}};
   for (const Point& point : points) {
     const double truth = winding.truth(point);
@@ -97,10 +97,10 @@ TEST(WindingNumber, HoldsTheTruthAtAnyWork) {
   }
 }
 
-// Where every triangle counts, the sum is as certain as its triangles.
+// Where every triangle must be evaluated, the error is that of the triangles alone.
 TEST(WindingNumber, IsExactInTheEnd) {
-  // A face of the octahedron is an eighth of the sphere about the origin; 20 one
-  // way and 16 the other are one half.
+  // A face of the octahedron is an eighth of the sphere about the origin: 20 faces one way and 16
+  // the other sum to one half.
   const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   Soup half(20, {x, y, z});
   half.insert(half.end(), 16, {z, y, x});
@@ -119,11 +119,11 @@ TEST(WindingNumber, FindsTheSurface) {
     const WindingNumber found = winding.winding(winding.sample().mesh.corners(i)[0]);
     EXPECT_TRUE(found.on_surface);
     EXPECT_TRUE(found.complete);
-    EXPECT_GT(found.value, found.error);  // as the rest of it winds
+    EXPECT_GT(found.value, found.error);  // the value is that of the other triangles
   }
 }
 
-// Opens few where the point is far, and no more than there are.
+// Visits few records where the point is far, and a small share of them elsewhere.
 TEST(WindingNumber, OpensWhatMatters) {
   Winding winding(sphere(5), 65536);
   Noise noise(2);
@@ -144,7 +144,7 @@ TEST(WindingNumber, GoesOnWithoutAPage) {
   Noise noise(4);
   int complete = 0, not_told = 0;
   for (int i = 0; i < 200; ++i) {
-    // Every other one beside the page that is lost.
+    // Every other point is close to the missing page.
     const WideBlock& block =
         winding.sample().tree.blocks[winding.sample().plan.pages[page].blocks.back()];
     const Triangle lost =
@@ -162,13 +162,13 @@ TEST(WindingNumber, GoesOnWithoutAPage) {
   EXPECT_GT(not_told, 0);
 }
 
-// More open at once than there is room for: the rest is opened depth first.
+// More children are open at once than the list holds: the rest is opened depth first.
 TEST(WindingNumber, DoesWithItsRoom) {
   Winding winding(scattered(30000, 0.02), 65536);
   ASSERT_GT(winding.records(), 2000u);
   const Point point = winding.sample().mesh.corners(5)[0];
   TraversalStats& work = winding.work;
-  // On the surface of a soup, where nothing has a sign, all is opened ...
+  // On the surface of a soup the sign is undecided everywhere, so all records are visited.
   const WindingNumber found = winding.winding(point);
   EXPECT_TRUE(found.on_surface);
   EXPECT_LE(work.nodes + work.blocks, winding.records());

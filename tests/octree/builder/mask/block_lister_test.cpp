@@ -15,10 +15,10 @@ namespace planetree::octree {
 namespace {
 
 using Listing = BlockLister::Outcome;
-// Octants by blocks' links.
+// The octants listed for each block, by the block's link.
 using Lists = std::map<std::uint32_t, unsigned>;
 
-/// A model whose blocks are listed, and looked at one by one.
+/// A model with the lister's result and the expected one, found block by block.
 struct Lister {
   explicit Lister(const Soup& soup)
       : sample(build_sample(soup)),
@@ -34,7 +34,7 @@ struct Lister {
     return BlockLister(tree, grid).list(cell, pages.reader(), blocks);
   }
 
-  // Blocks that may touch octants as much larger as said.
+  // Blocks that may touch octants grown by `larger` on each side.
   Lists one_by_one(const GridCell& cell, double larger) const {
     Lists lists;
     const Point more = Point::Constant(larger);
@@ -57,7 +57,7 @@ struct Lister {
     return lists;
   }
 
-  // Small ones at the surface, and large ones.
+  // Cells at the surface, from small to large.
   std::vector<GridCell> cells(std::size_t count) const {
     Noise noise(3);
     std::vector<GridCell> found;
@@ -76,7 +76,8 @@ struct Lister {
   ClippedGrid grid;
 };
 
-// Float rounding may add blocks, and never leaves one out. Returns how many lists there were.
+// Expects each list to hold all blocks that may touch, and of others only those within `rounding`.
+// Returns the number of lists.
 std::size_t expect_as_one_by_one(Lister& lister, double rounding) {
   std::size_t lists = 0;
   for (const GridCell& cell : lister.cells(100)) {
@@ -105,7 +106,7 @@ std::size_t expect_as_one_by_one(Lister& lister, double rounding) {
   return lists;
 }
 
-// Sides of whose cells are floats.
+// The sides of these cells are floats.
 TEST(BlockLister, ListsWhatMayTouchAnOctant) {
   Lister lister(sphere(5));
   EXPECT_GT(expect_as_one_by_one(lister, 0), 40u);
@@ -127,7 +128,7 @@ TEST(BlockLister, ListsWithinTheWallsOfARegion) {
   EXPECT_GT(expect_as_one_by_one(lister, 0x1p-22), 40u);
 }
 
-// In boxes that grow about a vertex: the root, within walls.
+// Clips the root to boxes that grow about a vertex.
 TEST(BlockLister, ListsNoMoreThanFitAList) {
   Lister lister(sphere(5));
   std::set<std::size_t> listed, too_many;
@@ -176,7 +177,7 @@ TEST(BlockLister, IsLostWithAPage) {
   for (const GridCell& cell : kept) EXPECT_EQ(lister.list(cell, blocks), Listing::kLost);
 }
 
-// The file depends on it.
+// The file's bytes depend on the lists.
 TEST(BlockLister, ListsTheSameOnEveryInstructionSet) {
   for (const Soup& soup : {perturbed(sphere(5), {0.1f, 3.7f, -0.3f}), scattered(2000, 0.05)}) {
     Lister lister(soup);

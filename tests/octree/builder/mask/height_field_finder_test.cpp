@@ -33,7 +33,8 @@ Marks each_mark(const HeightFieldModel& model, const BlockCall& look) {
   return marks;
 }
 
-// Just in front of and behind the middle of a triangle, or a place near a corner.
+// Expects the outside just in front of a triangle and the inside just behind it, at its middle or
+// near a corner.
 void expect_sides(const Surface& surface, const Triangle& triangle, bool middle) {
   const auto& [a, b, c] = triangle;
   const Point normal = (b - a).cross(c - a);
@@ -43,7 +44,7 @@ void expect_sides(const Surface& surface, const Triangle& triangle, bool middle)
     EXPECT_EQ(surface.winding(point + by * normal.normalized()), by > 0 ? 0 : 1);
 }
 
-// Nothing is marked that should not be; how much is.
+// Expects each marked block to be a height field. Returns the number of marks.
 Marks expect_true_marks(const HeightFieldModel& model) {
   return each_mark(model, [&](const BlockView& block, bool marked) {
     if (!marked || testing::Test::HasFailure()) return;
@@ -54,7 +55,7 @@ Marks expect_true_marks(const HeightFieldModel& model) {
 
 Marks expect_true_marks(const Soup& soup) { return expect_true_marks(HeightFieldModel(soup)); }
 
-// Maps all x between two to a part of the way between them.
+// Scales x between `from` and `to` by `part`, and translates what is beyond.
 Soup squeezed(Soup soup, double from, double to, double part) {
   for (auto& triangle : soup)
     for (Vec3& p : triangle)
@@ -80,7 +81,7 @@ TEST(HeightFieldFinder, FindsNoneWhereTheInsideIsInFront) {
   EXPECT_EQ(expect_true_marks(inside_out(sphere(4))).marked, 0u);
 }
 
-// Where one ends in the other the winding number is 2 behind, and 1 in front.
+// Where one sphere is inside the other, the winding number is 2 behind its surface and 1 in front.
 TEST(HeightFieldFinder, FindsNoneWithinAnotherSolid) {
   const HeightFieldModel model(joined({sphere(5), perturbed(sphere(5), {0.9, 0, 0})}));
   const Marks marks = expect_true_marks(model);
@@ -88,7 +89,7 @@ TEST(HeightFieldFinder, FindsNoneWithinAnotherSolid) {
   EXPECT_LT(marks.share(), 0.7);
 }
 
-// Shells: the number rises by one behind each of them, and goes down in a hollow one.
+// Nested surfaces: the number rises by one behind each of them, and falls behind an inverted one.
 TEST(HeightFieldFinder, FindsTheWallsOfHollowSolids) {
   const Marks hollow = expect_true_marks(joined({sphere(5), inside_out(scaled(sphere(5), 0.5))}));
   EXPECT_GT(hollow.share(), 0.9);
@@ -102,7 +103,7 @@ TEST(HeightFieldFinder, FindsNoneWhereLayersAreNear) {
   EXPECT_EQ(expect_true_marks(copies(sphere(3), 2)).marked, 0u);
 }
 
-// Blocks of its rim may be in sheets, but for those of a thin one's needles.
+// Blocks at the rim may be height fields, unless the plate is so thin that they hold needles.
 TEST(HeightFieldFinder, FindsNoneOnTheFacesOfAThinPlate) {
   for (const double thickness : {0.0, 0x1p-40, 0x1p-20, 0.001}) {
     const HeightFieldModel model(box({0, 0, 0}, {1, 1, thickness}, 20));
@@ -119,10 +120,11 @@ TEST(HeightFieldFinder, FindsNoneOnTheFacesOfAThinPlate) {
   }
 }
 
-// All but what is along its edges, where other faces do not rise in the same direction.
+// All blocks of a face but those along its edges, where neighbouring faces do not rise in the same
+// direction.
 TEST(HeightFieldFinder, FindsTheFacesOfABox) {
   EXPECT_GT(expect_true_marks(box({0, 0, 0}, {1, 1.3, 1.6}, 32)).share(), 0.6);
-  // All of it is one block.
+  // The whole box is one block.
   EXPECT_EQ(expect_true_marks(box({0, 0, 0}, {1, 1, 1})).marked, 0u);
 }
 
@@ -144,7 +146,8 @@ TEST(HeightFieldFinder, FindsNoneWithNeedlesOrTrianglesOfNoArea) {
   EXPECT_GT(expect_true_marks(squeezed(even, 0.5, 0.53125, 0x1p-5)).share(), 0.5);
 }
 
-// By the vertex of another solid, which is as small as what is looked at, or goes on beyond.
+// Another solid touches the surface with a vertex. It is as small as the prism, or reaches beyond
+// it.
 TEST(HeightFieldFinder, FindsNoneThatIsTouched) {
   const Vec3 tip{1, 0.40625, 0.453125};
   const Soup solid = box({0, 0, 0}, {1, 1, 1}, 16);
@@ -203,7 +206,7 @@ TEST(HeightFieldFinder, FindsNoneWhereAPageIsMissing) {
   EXPECT_EQ(count(0, first_mask_page), 0u);
 }
 
-// The file depends on it.
+// The file's bytes depend on the marks.
 TEST(HeightFieldFinder, FindsTheSameOnEveryInstructionSet) {
   for (const Soup& soup : {joined({sphere(4), perturbed(sphere(4), {0.9f, 0.1f, 0.2f})}),
                            box({0, 0, 0}, {1, 1, 0.1}, 20), grains(200, 0.05)}) {

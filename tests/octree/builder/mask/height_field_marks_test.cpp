@@ -31,7 +31,7 @@ std::vector<FilePage> pages_of(const HeightFieldModel& model) {
   return pages;
 }
 
-// Without a mark, and all of what is not a mark stays as it is.
+// The page with all marks cleared. All other bytes stay.
 FilePage unmarked(FilePage page, std::size_t blocks) {
   for (std::size_t i = 0; i < blocks; ++i)
     page.bytes[page.blocks_at + i] &= ~std::byte{kHeightFieldBit};
@@ -73,8 +73,8 @@ TEST(HeightFieldMarks, DoNotDependOnThreads) {
     EXPECT_EQ(one[number].bytes, many[number].bytes);
 }
 
-// A mark that is missing would be another file: whichever read fails, the page's own or one of a
-// walk around a block.
+// A missing mark would change the file, so any failing read is an error: of the page itself or
+// during the walk around a block.
 TEST(HeightFieldMarks, FailWithTheDisk) {
   storage::FaultyCalls calls;
   storage::SpillFile file(std::filesystem::temp_directory_path(), 0, calls);

@@ -11,7 +11,7 @@
 #include "tests/octree/mask/random_mask.h"
 #include "tests/octree/support/sample_mask.h"
 
-// Masks through their pages and back: planned, encoded, decoded.
+// Masks through the stages of their pages: planned, encoded, decoded.
 namespace planetree::octree {
 namespace {
 
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> page_sizes() {
   return {4096, 8192, 16384, 32768, 65536, 131072, 262144};
 }
 
-/// Goes through a mask's entries and its frames side by side.
+/// Walks the entries of a mask and the records in its frames in parallel, and compares them.
 class FrameWalk {
  public:
   FrameWalk(const MaskTree& tree, const MaskPages& pages)
@@ -44,7 +44,7 @@ class FrameWalk {
       EXPECT_EQ(header_of(pages_.frame(page)).page_link_count, links_out_of_[page]) << page;
   }
 
-  /// By page, but the first.
+  /// Parents of each page but the first.
   const std::map<std::uint32_t, std::set<std::uint32_t>>& parents() const { return parents_; }
   const std::map<std::uint32_t, std::uint64_t>& keys() const { return keys_; }
 

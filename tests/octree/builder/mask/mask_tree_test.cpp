@@ -27,8 +27,7 @@ Soup doubled_height_field(unsigned side) {
   return joined({height_field(side), inside_out(height_field(side))});
 }
 
-// Vertices, edges and faces on the borders of cells, and on the box's greatest
-// corner, which the cells share that are about it.
+// Vertices, edges and faces on cell borders, and at the box's greatest corner, which cells share.
 Soup on_cell_corners() {
   return joined({box({0, 0, 0}, {1, 1, 1}, 8), box({0.25, 0.25, 0.25}, {0.5, 0.75, 1}, 4),
                  inside_out(box({0.5, 0.5, 0}, {1, 0.75, 0.25}, 4))});
@@ -64,7 +63,7 @@ std::array<Point, 8> corners_of(const CellGrid& grid, const GridCell& cell) {
   return corners;
 }
 
-/// Winding numbers at corners of cells, each counted once.
+/// Winding numbers at corners of cells, computed once for each corner.
 class Corners {
  public:
   explicit Corners(const SampleMask& sample) : sample_(sample) {}
@@ -89,7 +88,7 @@ struct Found {
   std::size_t side_grid = 0, corners = 0, specials = 0;
 };
 
-// Everything the mask says against all triangles.
+// Compares everything the mask states with all triangles.
 Found expect_truth(const SampleMask& sample) {
   Found found;
   Corners corners(sample);
@@ -121,7 +120,7 @@ Found expect_truth(const SampleMask& sample) {
   return found;
 }
 
-// That it is one tree, and what its fields promise.
+// Expects the entries to form one tree, with consistent fields.
 void expect_form(const MaskTree& tree) {
   std::set<std::uint32_t> seen, specials;
   unsigned levels = 0;
@@ -214,7 +213,7 @@ bool same(const MaskTree& a, const MaskTree& b) {
          std::ranges::equal(a.specials, b.specials, same_special);
 }
 
-// In many regions.
+// Built in many sectors.
 TEST(MaskTree, DoesNotDependOnThreads) {
   const SampleMesh mesh =
       store(joined({sphere(6), box({1.1, 0, 0}, {1.9, 0.9, 0.8}, 30), scaled(sphere(3), 0.5)}));
@@ -229,7 +228,7 @@ TEST(MaskTree, DoesNotDependOnThreads) {
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(same(one, build(2)));
 }
 
-// Beyond 126 a corner's number does not fit; a colour does.
+// Corner numbers beyond 126 cannot be stored; colours can.
 TEST(MaskTree, LeavesCornersUncountedWhereNumbersAreLarge) {
   for (const std::size_t count : {126u, 127u, 130u})
     for (const bool turned : {false, true}) {
@@ -255,7 +254,7 @@ TEST(MaskTree, LeavesCornersUncountedWhereNumbersAreLarge) {
     }
 }
 
-// More in one finest cell than a leaf would have otherwise.
+// One finest cell holds more triangles than a leaf at other levels may.
 TEST(MaskTree, EndsAtTheFinestLevel) {
   const Soup seed =
       perturbed(scaled(grains(60, 1), 0x1p-24), {0.3 + 0x1p-20, 0.3 + 0x1p-20, 0.3 + 0x1p-20});
@@ -266,7 +265,7 @@ TEST(MaskTree, EndsAtTheFinestLevel) {
   EXPECT_GT(found.side_grid, 100u);
 }
 
-// Few as they are: most of the root is told from the two corners where they are.
+// There are few triangles, but most of the root is decided by the two corners where they are.
 TEST(MaskTree, DividesCellsThatTheSurfaceOnlyGrazes) {
   const SampleMask sample(
       joined({box({0, 0, 0}, {0.1, 0.1, 0.1}), box({1.55, 1.55, 1.55}, {1.65, 1.65, 1.65})}));
@@ -285,7 +284,7 @@ TEST(MaskTree, IsOneLeafWhereThereIsLittle) {
   ASSERT_EQ(sample.tree.entries.size(), 1u);
   EXPECT_EQ(sample.tree.entries[0].kind, Kind::kCorners);
   EXPECT_EQ(sample.tree.levels, 0u);
-  // The least corner moves into the box, all others are outside of it.
+  // The box's least corner is perturbed into the solid; all others are outside.
   EXPECT_EQ(sample.tree.entries[0].corners, (MaskCorners{1, 0, 0, 0, 0, 0, 0, 0}));
 }
 

@@ -11,14 +11,14 @@
 namespace planetree::octree {
 namespace {
 
-/// A box and its octants.
+/// A box and its middle, which define eight octants.
 struct Halved {
   Point lower, middle, upper;
 
   Halved grown(double by) const {
     return {lower - Point::Constant(by), middle, upper + Point::Constant(by)};
   }
-  // Of a closed box, those that it has a point of: as closed, the halves reach so far over.
+  // The closed octants, grown by `over` across the middle, that a closed box meets.
   unsigned octants_met(const Point& least, const Point& greatest, double over) const {
     unsigned met = 0;
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -29,7 +29,7 @@ struct Halved {
         const double to = high ? upper[axis] : middle[axis] + over;
         meets = meets && least[axis] <= to && greatest[axis] >= from;
       }
-      // Of what is beyond the box, nothing.
+      // A box beyond the cell meets none.
       for (unsigned axis = 0; axis < 3; ++axis)
         meets = meets && least[axis] <= upper[axis] && greatest[axis] >= lower[axis];
       met |= static_cast<unsigned>(meets) << octant;
@@ -38,7 +38,8 @@ struct Halved {
   }
 };
 
-// About corners of a mesh, the middles as often at one as near it; some beside the mesh.
+// Boxes around corners of a mesh, with their middle at the corner or near it, and a few off the
+// mesh.
 std::vector<Halved> boxes(const SampleMesh& mesh, bool floats) {
   Noise noise(5);
   std::vector<Halved> found;
@@ -61,7 +62,7 @@ struct Sets {
   std::vector<unsigned> by_box;
 };
 
-// As they are, and not as they are coded.
+// The expected octants, computed from the coordinates without codes.
 Sets one_by_one(const BlockView& block, const Halved& box, double over) {
   Sets sets;
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
@@ -73,7 +74,7 @@ Sets one_by_one(const BlockView& block, const Halved& box, double over) {
   return sets;
 }
 
-// All that is there is said, and of what is farther than `over` nothing.
+// Expects all octants that are met, and none farther than `over`.
 void expect_between(const Soup& soup, bool floats, double over) {
   const SampleTree sample = build_sample(soup);
   std::size_t some = 0, all = 0;
@@ -104,7 +105,7 @@ TEST(OctantCodes, AreExactWhereSidesAreFloats) {
   expect_between(perturbed(sphere(3), {3.3f, -7.7f, 0.1f}), true, 0);
 }
 
-// Middles at a vertex or between floats, and sides between floats.
+// Middles at a vertex or between floats, sides between floats.
 TEST(OctantCodes, LeaveNothingOutWhereSidesAreNoFloats) {
   expect_between(sphere(4), false, 0x1p-22);
   expect_between(perturbed(sphere(3), {3.3f, -7.7f, 0.1f}), false, 0x1p-19);

@@ -14,7 +14,7 @@ namespace {
 
 using MakePair = TriangleAndBox (*)(Noise&);
 
-/// A cell of which the box of a pair is one octant, and its triangle.
+/// A triangle and a cell that has the box of a pair as an octant.
 struct TriangleAndCell {
   Triangle triangle;
   Point lower, middle, upper;
@@ -49,7 +49,7 @@ struct TriangleAndCell {
   }
 };
 
-// One cell and triangles about it.
+// Compares the overlap of several triangles about one cell with that of each by itself.
 void expect_as_one_by_one(MakePair make, int cells) {
   Noise noise(4);
   unsigned some = 0;
@@ -103,7 +103,7 @@ TEST(OctantOverlap, IsThatOfEachByItself) {
   }
 }
 
-// As close to a box as float and doubles disagree, of all sizes.
+// Triangles of all sizes, so close to the box that float and double may disagree.
 TEST(OctantOverlap, IsThatOfEachWhereFloatCannotTell) {
   Noise noise(8);
   unsigned touching = 0, apart = 0;

@@ -17,7 +17,7 @@
 namespace planetree::octree {
 namespace {
 
-/// A box in doubles, turned any way, and the same in float.
+/// A prism in doubles with any rotation, and its conversion to float.
 struct TestPrism {
   Point origin = Point::Zero();
   Eigen::Matrix3d rotated = Eigen::Matrix3d::Identity();
@@ -40,7 +40,7 @@ struct TestPrism {
   double middle(int axis) const { return (lower[axis] + upper[axis]) / 2; }
 };
 
-/// Upright on one of the triangles, or not, and about as large as `size`.
+/// A prism of about `size`, upright on one of the triangles or rotated at random.
 TestPrism random_prism(Noise& noise, const Triangle& near, double size) {
   TestPrism prism;
   prism.origin = near[noise.bits() % 3];
@@ -59,7 +59,7 @@ TestPrism random_prism(Noise& noise, const Triangle& near, double size) {
   return prism;
 }
 
-/// Moves sides or the middle of a box to where a corner is, as far as doubles tell.
+/// Moves some sides of the prism, or its middle, to a corner, exactly in double.
 void bring_to(const Point& corner, Noise& noise, TestPrism& prism) {
   const Point at = prism.rotated * (corner - prism.origin);
   for (int k = 0; k < 3; ++k) switch (noise.bits() % 8) {
@@ -80,8 +80,8 @@ void bring_to(const Point& corner, Noise& noise, TestPrism& prism) {
     }
 }
 
-/// What doubles tell, which round so much less than float that it does not matter, but where
-/// boxes just touch.
+/// The expected results, computed in double. Its rounding is negligible beside that of float,
+/// except where boxes barely touch.
 struct DoubleTest {
   bool met = false, middle = false, may_rise = false;
 
@@ -108,7 +108,7 @@ struct DoubleTest {
 };
 
 struct Certain {
-  std::size_t triangles = 0, met = 0, rising = 0, middle = 0;  // by the filter
+  std::size_t triangles = 0, met = 0, rising = 0, middle = 0;  // counted by the filter
   std::size_t truly_met = 0, truly_rising = 0, truly_middle = 0;
 };
 
@@ -158,7 +158,7 @@ Soup thinned(Soup soup, double factor) {
   return soup;
 }
 
-// Almost all that doubles tell is told, so that few triangles are looked at twice.
+// The filter agrees with double on nearly all triangles, so that few are tested twice.
 TEST(PrismFilter, TellsWhatDoublesTell) {
   for (const Soup& soup :
        {sphere(4), perturbed(sphere(4), {0.1, 0.7, -0.3}), scattered(1000, 0.1)}) {
@@ -178,13 +178,13 @@ TEST(PrismFilter, MissesNothingOfNeedles) {
       EXPECT_GT(expect_no_lies(thinned(soup, factor)).truly_met, 0u);
 }
 
-// So small beside their block that float hardly knows their normals.
+// Triangles so small beside their block that float hardly resolves their normals.
 TEST(PrismFilter, MissesNothingOfSpecks) {
   for (const double size : {0x1p-10, 0x1p-14, 0x1p-17, 0x1p-19, 0x1p-21, 0x1p-23})
     EXPECT_GT(expect_no_lies(scattered(700, size)).truly_rising, 0u);
 }
 
-// Small beside where they are, and small by themselves.
+// Blocks small beside their coordinates, and blocks small in themselves.
 TEST(PrismFilter, MissesNothingOfTinyAndFarBlocks) {
   const Soup whole = sphere(1);
   for (const double size : {0x1p-12, 0x1p-25, 0x1p-45, 0x1p-90}) {
@@ -196,7 +196,7 @@ TEST(PrismFilter, MissesNothingOfTinyAndFarBlocks) {
     EXPECT_GT(expect_no_lies(perturbed(sphere(4), {by, -by, 0})).truly_rising, 0u);
 }
 
-// Of prisms in other places: a block is seen from far.
+// Prisms far from the block.
 TEST(PrismFilter, MissesNothingOfOtherBlocks) {
   const SampleTree sample = build_sample(scattered(1000, 0.3));
   const SamplePages pages(sample);

@@ -13,7 +13,7 @@
 namespace planetree::octree {
 namespace {
 
-// The cell from 0 to 1, and what is of a closed model in it.
+// The cell from 0 to 1, with the triangles of a closed model that touch it.
 struct InCell {
   Surface model;
   std::vector<Triangle> triangles;
@@ -40,7 +40,7 @@ struct InCell {
   }
 };
 
-// A cone to a polygon beside or below the cell, with its apex in it; closed.
+// A closed cone with its apex in the cell and its base a polygon beside or below the cell.
 Soup cone(const Vec3& apex, const std::vector<Vec3>& rim) {
   Soup soup;
   for (std::size_t i = 0; i < rim.size(); ++i) {
@@ -79,7 +79,7 @@ std::vector<Case> special_models() {
       {"nested corner",
        joined({box({-9, -9, -9}, {0.5, 0.5, 0.5}), box({-3, -3, -3}, {0.5, 0.5, 0.5})}), 3},
   };
-  // Askew, through corners of the cell.
+  // An oblique plane through corners of the cell.
   Soup askew = box({-4, -4, -4}, {4, 4, 0});
   for (auto& triangle : askew)
     for (Vec3& p : triangle) p = {p.x, p.y, p.z + 1 - p.x};
@@ -87,7 +87,7 @@ std::vector<Case> special_models() {
   return cases;
 }
 
-// What a claim says of a point: its winding number, or that it is on the surface.
+// What a special cell states about a point: its winding number, or that it is on the surface.
 struct Said {
   bool on_surface = false;
   int winding = 0;
@@ -131,14 +131,14 @@ TEST(SpecialCells, SayTheSideOfEveryPoint) {
     }
 }
 
-// Inside a hollow the solid is beyond the planes.
+// In a cavity the solid is beyond the planes.
 TEST(SpecialCells, AreConcaveAsWell) {
   for (const Case& c : special_models()) {
     SCOPED_TRACE(c.name);
     const InCell hollow(joined({box({-20, -20, -20}, {20, 20, 20}), inside_out(c.soup)}));
     const auto special = hollow.special();
     ASSERT_TRUE(special);
-    // One plane is as convex one way round as the other.
+    // A single plane is convex in either orientation.
     if (special->plane_count > 1) {
       EXPECT_EQ(special->beyond, 1);
       EXPECT_LE(special->behind, 0);
@@ -147,9 +147,9 @@ TEST(SpecialCells, AreConcaveAsWell) {
   }
 }
 
-// Corners on a plane may have either number: they are left out.
+// Corners on a plane may have either number, so they are not compared.
 TEST(SpecialCells, TakeNoWordFromCornersOnAPlane) {
-  // Behind it y is above x: the step from a corner on it leads beyond.
+  // The solid behind the plane is at y > x. The step from a corner on the plane leads out of it.
   const auto shear = [](Soup soup) {
     for (auto& triangle : soup)
       for (Vec3& p : triangle) p = {p.x, p.x + p.y, p.z};
@@ -172,7 +172,7 @@ TEST(SpecialCells, HaveAtMostFourPlanes) {
 }
 
 TEST(SpecialCells, AreConvex) {
-  // A step up at x = 0.5: a convex and a concave edge.
+  // A step up at x = 0.5 has a convex and a concave edge.
   const InCell step(joined({box({-9, -9, -9}, {0.5, 9, 0.3}), box({0.5, -9, -9}, {9, 9, 0.7})}));
   EXPECT_FALSE(step.special());
   // A saddle: every other point of the rim is raised.
@@ -202,13 +202,13 @@ TEST(SpecialCells, HaveNoTriangleWithoutArea) {
   }
 }
 
-// Where a plane only touches the cell no corner says what is beyond it.
+// Where a plane only touches the cell, no corner is beyond it, so the side there is unknown.
 TEST(SpecialCells, HaveACornerBeyondEveryPlane) {
   EXPECT_FALSE(InCell(box({-9, -9, -9}, {9, 9, 1})).special());
   EXPECT_FALSE(InCell(box({-9, -9, -9}, {9, 1, 0.5})).special());
   EXPECT_FALSE(InCell(box({-9, -9, -9}, {9, 9, 0})).special());
   EXPECT_FALSE(InCell(box({-9, -9, 0}, {9, 9, 9})).special());
-  // It would say so of an edge in the cell.
+  // An edge within the cell has corners on both sides.
   EXPECT_TRUE(InCell(box({-9, -9, -9}, {9, 0.75, 0.5})).special());
 }
 
@@ -217,7 +217,7 @@ TEST(SpecialCells, HaveCornersThatAgree) {
   for (unsigned corner = 0; corner < 8; ++corner) {
     InCell changed = edge;
     changed.winding[corner] += 1;
-    // The only corners behind both planes are 0 and 1.
+    // Only corners 0 and 1 are behind both planes.
     EXPECT_FALSE(changed.special()) << corner;
     EXPECT_FALSE(changed.is(*edge.special())) << corner;
   }
@@ -273,7 +273,8 @@ TEST_F(Claims, AreRefusedWithAPlaneMovedByAnUlp) {
         SpecialCell perturbed = claim_;
         for (Point& corner : perturbed.planes[plane])
           corner[axis] = std::nextafter(corner[axis], towards);
-        // Along itself a plane may go; across, each of its own axis, it may not.
+        // A plane may move along itself, but not across, along any axis that its normal has a part
+        // of.
         const auto& [a, b, c] = claim_.planes[plane];
         EXPECT_EQ(in_cell_.is(perturbed), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
         SpecialCell tilted = claim_;
@@ -302,12 +303,12 @@ TEST_F(Claims, AreRefusedWithAPlaneThatIsNoFace) {
   // A plane that cuts off the least corner of the cell.
   more.planes[more.plane_count++] = {Point(0.125, 0, 0), Point(0, 0, 0.125), Point(0, 0.125, 0)};
   EXPECT_FALSE(in_cell_.is(more));
-  // Without area it is nowhere.
+  // A plane without area.
   more.planes[3] = {Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)};
   EXPECT_FALSE(in_cell_.is(more));
 }
 
-// A triangle off all planes, though behind them.
+// A triangle behind all planes, on none of them.
 TEST_F(Claims, AreRefusedWhereThereIsMore) {
   InCell more = in_cell_;
   more.triangles.push_back({Point(0, 0, 0.125), Point(0.25, 0, 0.125), Point(0, 0.25, 0.125)});

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t kLargePages = 262144;
 constexpr std::uint32_t kHeld = TreeFrames::kBytes / kLargePages;
 
-// Has more pages than are held.
+// A tree with more pages than TreeFrames keeps.
 ChunkedTree many_pages(storage::SpillFile& file = spill_file()) {
   return ChunkedTree(sphere(4), 40, kLargePages, file);
 }
@@ -50,7 +50,7 @@ TEST(TreeFrames, AreThoseOfThePages) {
     const std::uint32_t count = sample.tree->pages().size();
     ASSERT_GT(count, kHeld);
     for (std::uint32_t page = 0; page < count; ++page) expect_page(sample, frames, page);
-    // Over others, in another order.
+    // Replaces frames, in random order.
     Noise noise(2);
     for (int i = 0; i < 100; ++i) expect_page(sample, frames, noise.bits() % count);
     EXPECT_TRUE(frames.state());
@@ -65,7 +65,7 @@ TEST(TreeFrames, HoldTheLastThatWereAskedFor) {
   for (std::uint32_t page = 0; page < count; ++page) {
     const std::byte* frame = page_of(frames, page);
     EXPECT_EQ(page_of(frames, page), frame);
-    // Recorded for every time.
+    // Page 0 is accessed after every other page.
     ASSERT_NE(page_of(frames, 0), nullptr);
   }
   EXPECT_TRUE(holds(frames, 0));
@@ -108,7 +108,7 @@ TEST(TreeFrames, AreThoseOfTheMaskToo) {
     ASSERT_NE(frame, nullptr);
     const std::size_t records_end = header_of(expected).first_plane_slot * kMaskSlotBytes;
     EXPECT_EQ(std::memcmp(frame, expected.data(), records_end), 0) << i;
-    // Those of the tree have their numbers still.
+    // Page numbers of the tree are the same with a mask.
     expect_page(model.tree, frames, i % first);
   }
   EXPECT_TRUE(frames.state());
@@ -116,7 +116,7 @@ TEST(TreeFrames, AreThoseOfTheMaskToo) {
 
 class LostFrames : public testing::Test {
  protected:
-  // No read succeeds from now on.
+  // All reads fail from now on.
   void lose_disk() {
     calls_.fault = storage::FaultyCalls::Fault::kError;
     calls_.number = EIO;
@@ -146,7 +146,7 @@ TEST_F(LostFrames, AreAnErrorThatStays) {
   EXPECT_FALSE(frames.state());
 }
 
-// A list that is missing would be another file.
+// A missing list would change the file.
 TEST_F(LostFrames, FailTheMask) {
   const ChunkedTree sample(sphere(4), 40, 4096, file_);
   RegionCut cut(sample.mesh.lower(), sample.mesh.upper(), {}, nullptr);

@@ -1,4 +1,4 @@
-// What every reader makes of files that are cut off, miscounted or hold bad records.
+// Files that are truncated, have wrong counts or hold bad records, in every format.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 std::string name_of(const testing::TestParamInfo<MeshFormat>& info) { return info.param.name; }
 
-/// Coordinates that are no counts, and indices that are none when read as if one vertex more
-/// stood in front of them. The last face is a quadrangle where there are such.
+/// A mesh whose coordinates do not look like counts, and whose faces are invalid when read with a
+/// vertex count that is too large by one. The last face is a quadrangle in formats with polygons.
 PlainMesh small_mesh(const MeshFormat& format) {
   PlainMesh mesh{{{0.5F, 0.25F, 0}, {1.5F, 0, 0.5F}, {0.5F, 1.5F, 0}, {0.25F, 0.5F, 2.5F}}, {}};
   mesh.faces = {{0, 1, 3}, {0, 1, 2}, {3, 0, 1}};
@@ -33,7 +33,7 @@ class Unheard final : public BuildProgress {
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
 };
 
-/// Builds from these bytes. What is refused must leave nothing behind.
+/// Builds from `bytes`. A refused build must leave no file behind.
 Result<BuildReport> build_bytes(const MeshFormat& format, std::string_view bytes) {
   const storage::TemporaryDirectory folder;
   const std::string mesh = std::string("mesh") + format.extension;
@@ -54,7 +54,7 @@ void expect_refused(const MeshFormat& format, std::string_view bytes, const std:
   EXPECT_EQ(report.error().code, ErrorCode::kBadInput) << how << ": " << report.error().text;
 }
 
-/// Each line of `log` must begin and end so.
+/// Expects each line of `log` to begin and end with the given texts.
 void expect_lines(const Reading& reading,
                   const std::vector<std::pair<std::string_view, std::string_view>>& lines) {
   EXPECT_EQ(reading.error, "");
@@ -67,7 +67,7 @@ void expect_lines(const Reading& reading,
   EXPECT_EQ(rest, "");
 }
 
-// All but OBJ, which ends wherever it ends.
+// All formats but OBJ, whose truncated files may be valid.
 class MeshWithAnEnd : public testing::TestWithParam<MeshFormat> {};
 INSTANTIATE_TEST_SUITE_P(All, MeshWithAnEnd,
                          testing::ValuesIn(formats_that([](const MeshFormat& format) {
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(All, MeshWithAnEnd,
                          })),
                          name_of);
 
-// With sanitizers, which are slow here, at some places.
+// Sanitizers are slow here, so with them only some lengths are tested.
 #ifdef NDEBUG
 constexpr std::size_t kCutStep = 1;
 #else
@@ -86,7 +86,7 @@ TEST_P(MeshWithAnEnd, IsRefusedWhereverItIsCutOff) {
   const std::string whole = GetParam().write(small_mesh(GetParam()), {});
   const auto report = build_bytes(GetParam(), whole);
   ASSERT_TRUE(report) << report.error().text;
-  // No text needs its last newline.
+  // The last newline of a text may be missing.
   const std::size_t least = whole.size() - (GetParam().is_text ? 1 : 0);
   EXPECT_TRUE(build_bytes(GetParam(), whole.substr(0, least)));
   for (std::size_t size = 0; size < least; size += kCutStep)
@@ -166,7 +166,7 @@ TEST_P(MeshWithPolygons, SetsAsideThoseOfFewerThanThreeCorners) {
                                            {"4: ", ""}});
 }
 
-/// Counts what it is given.
+/// Counts the calls to a sink.
 class Tally final : public TriangleSink {
  public:
   Result<void> triangle(std::uint64_t, const std::array<Vec3, 3>&) override {

@@ -10,15 +10,15 @@
 
 #include "tests/octree/builder/mesh/mesh_recorder.h"
 
-/// One mesh, sound or not, written in every format that a reader knows.
+/// One mesh, valid or not, written in every format that a reader knows.
 namespace planetree::octree {
 
 struct PlainMesh {
   std::vector<std::array<float, 3>> vertices;
-  std::vector<std::vector<std::int64_t>> faces;  ///< vertices from 0, there or not
+  std::vector<std::vector<std::int64_t>> faces;  ///< vertex indices from 0, possibly out of range
 };
 
-/// By how much a header's counts are wrong.
+/// The errors of the counts in a header.
 struct CountLie {
   std::int64_t vertices = 0, faces = 0;
 };
@@ -26,9 +26,9 @@ struct CountLie {
 struct MeshFormat {
   const char* name;
   const char* extension;
-  bool has_counts;    ///< of faces and, if it is indexed, of vertices
-  bool is_indexed;    ///< faces name vertices, in place of repeating them
-  bool has_polygons;  ///< of any number of corners
+  bool has_counts;    ///< header counts faces and, if indexed, vertices
+  bool is_indexed;    ///< faces refer to vertices by index instead of repeating them
+  bool has_polygons;  ///< faces may have any number of corners
   bool is_text;
   std::string (*write)(const PlainMesh& mesh, const CountLie& lie);
 };
@@ -61,7 +61,7 @@ inline std::string text_body(const PlainMesh& mesh) {
   return text;
 }
 
-/// Every list is followed by `colours`, of a face.
+/// Writes vertices and faces. Each face is followed by the bytes of its colour.
 inline void put_body(Bytes& bytes, const PlainMesh& mesh, std::string_view side_grid) {
   for (const auto& [x, y, z] : mesh.vertices) bytes.put(x, y, z);
   for (const auto& face : mesh.faces) {
@@ -150,7 +150,7 @@ inline std::string stl_binary(const PlainMesh& mesh, const CountLie& lie) {
 
 }  // namespace mesh_formats
 
-/// Those of which `holds` is true.
+/// The formats for which `holds` is true.
 template <class Holds>
 std::vector<MeshFormat> formats_that(const Holds& holds) {
   namespace f = mesh_formats;

@@ -140,7 +140,7 @@ TEST(OffAscii, RefusesBodiesThatDoNotMatchTheCounts) {
   expect_refused("OFF\n3 1 0\n0 zero 0\n", "line 3: 'zero' in 'y' is not a number");
 }
 
-// The counts of vertices and faces, one for the other, count as many lines.
+// If the counts of vertices and faces are exchanged, the number of lines is the same.
 TEST(OffAscii, RefusesFacesThatAreCountedAsVertices) {
   expect_refused(
       "OFF\n4 3 0\n" + kVertices + "3 0 1 2\n3 0 1 2\n3 0 1 2\n3 0 1 2\n",
@@ -162,7 +162,7 @@ TEST(OffAscii, RefusesAModelWithoutATriangle) {
                  "range, the file has 0 vertices");
 }
 
-/// Counts and three vertices, each followed by as many numbers as its keyword asks for.
+/// Counts and three vertices, each followed by `more_numbers` numbers, as its keyword requires.
 Bytes binary_off(const std::string& head, std::int32_t face_count, int more_numbers = 0) {
   Bytes bytes(std::endian::big);
   bytes.text(head).put(std::int32_t{3}, face_count, std::int32_t{-1});

@@ -8,7 +8,7 @@ namespace {
 const std::string kFloatVertices = "property float x\nproperty float y\nproperty float z\n";
 const std::string kFaceList = "property list uchar int vertex_indices\n";
 
-/// An ascii PLY of float vertices and faces.
+/// An ascii PLY with float vertices.
 std::string ascii_ply(int vertex_count, int face_count, const std::string& body) {
   return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) + "\n" +
          kFloatVertices + "element face " + std::to_string(face_count) + "\n" + kFaceList +

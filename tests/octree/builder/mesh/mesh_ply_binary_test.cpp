@@ -25,7 +25,7 @@ std::string faces(int count, const std::string& count_type = "uchar",
          index_type + " vertex_indices\n";
 }
 
-/// Three float vertices and their triangle.
+/// Three float vertices and one triangle.
 Bytes triangle_file(std::endian order = std::endian::little) {
   Bytes bytes(order);
   bytes.text(header(order, float_vertices(3) + faces(1)));
@@ -51,7 +51,7 @@ TEST(PlyBinary, ReadsBothByteOrders) {
   }
 }
 
-/// One file whose coordinates, list lengths and indices have stated types.
+/// Reads a file with the given types of coordinates, list lengths and indices.
 template <class Coordinate, class Count, class Index>
 void expect_types(const std::string& coordinate, const std::string& count,
                   const std::string& index) {

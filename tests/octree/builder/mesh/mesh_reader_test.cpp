@@ -67,7 +67,7 @@ TEST(MeshReader, PassesTheSinksErrorOnAtOnce) {
   EXPECT_EQ(recorder.log, kTriangleLog + "1: 0 0 0, 1 0 0, 0 1 0\n");
 }
 
-/// A binary STL of `count` facets, whose corners say which facet it is.
+/// A binary STL of `count` facets. Each facet's coordinates encode its index.
 std::string large_stl(std::uint32_t count) {
   Bytes bytes;
   bytes.text(std::string(80, '\0')).put(count);
@@ -95,7 +95,7 @@ TEST(MeshReader, ReportsProgressAboutEveryFourMebibytes) {
   EXPECT_EQ(last, kBytes);
 }
 
-/// Counts triangles and sums their first x.
+/// Counts triangles and sums x of their first corners.
 class Summer : public TriangleSink {
  public:
   Result<void> triangle(std::uint64_t, const std::array<Vec3, 3>& corners) override {

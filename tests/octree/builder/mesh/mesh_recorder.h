@@ -18,10 +18,10 @@
 
 #include "octree/builder/mesh/mesh_reader.h"
 
-/// Helpers of the mesh readers' tests.
+/// Helpers for the tests of mesh readers.
 namespace planetree::octree {
 
-/// A file that is there while this lives.
+/// A file that exists as long as this object.
 class TemporaryFile {
  public:
   TemporaryFile(std::string_view bytes, const std::string& extension) {
@@ -44,7 +44,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// Writes down every call as one line, all digits kept:
+/// Records every call as one line, with all digits:
 ///   0: 0 0 0, 1 0 0, 0 1 0
 ///   1+2 aside: face 1: vertex 9 is not finite
 class Recorder : public TriangleSink {
@@ -74,11 +74,11 @@ class Recorder : public TriangleSink {
   std::uint64_t refuse_index = ~std::uint64_t{0};
 };
 
-/// What came of reading some bytes as a mesh.
+/// Result of reading a mesh.
 struct Reading {
   std::string log;
   std::optional<MeshSummary> summary;
-  std::string error;  ///< text; empty if it went well
+  std::string error;  ///< text of the error, or empty
   ErrorCode code = ErrorCode::kBadArgument;
   std::uint64_t offset = Error::kNowhere;
 };
@@ -110,7 +110,7 @@ inline Reading read_bytes(std::string_view bytes, const std::string& extension =
   return read_path(file.path(), memory_bytes);
 }
 
-/// Numbers in a stated byte order, one after the other.
+/// Bytes of numbers in a given byte order.
 class Bytes {
  public:
   explicit Bytes(std::endian order = std::endian::little) : order_(order) {}

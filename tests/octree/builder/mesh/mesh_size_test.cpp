@@ -71,7 +71,7 @@ TEST(MeshSize, CountsTheFacetsOfAnStl) {
   expect_size(foresee(binary, ".stl"), 3, 1, false);
 }
 
-// However many triangles there are, some of them are looked at.
+// Triangles are sampled for any number of them.
 TEST(MeshSize, TellsAHeapOfTrianglesFromASurface) {
   const std::uint32_t count = 60000;
   std::string text = "solid s\n", surface(80, ' '), heap(80, ' ');
@@ -108,7 +108,7 @@ TEST(MeshSize, SamplesLongTexts) {
   const std::uint64_t count = 60000;
   for (std::uint64_t i = 0; i < count; ++i)
     obj += "v 0.25 " + std::to_string(i) + " 7e-5\nvn 0 0 1\n";
-  // Quads first, then triangles, with indices of other lengths.
+  // Quads first, then triangles, with indices of different lengths.
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::string corner = " " + std::to_string(i + 1) + "//" + std::to_string(i + 1);
     obj += "f" + corner + corner + corner + (i < count / 3 ? corner : "") + "\n";

@@ -1,4 +1,4 @@
-// Meshes whose offsets need more than 32 bits: files of holes, with bytes where it matters.
+// Meshes with offsets beyond 32 bits: sparse files with bytes where the readers look.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,10 +12,10 @@ namespace planetree::octree {
 namespace {
 
 constexpr char kNoSpace[] = "the temporary folder's file system has no sparse files of such a size";
-// All of it far below the vertices.
+// Less memory than the vertices need.
 constexpr std::uint64_t kMemoryBytes[] = {MeshScratch::kMemoryBytes, std::uint64_t{1} << 20};
 
-/// A file of holes with bytes at chosen places.
+/// A sparse file with bytes at chosen offsets.
 class SparseFile {
  public:
   explicit SparseFile(std::uint64_t size_bytes) : file_("", "") {
@@ -73,7 +73,7 @@ TEST(SparseMesh, ReachesPlyIndicesPast31BitsAndOffsetsPast32) {
   }
 }
 
-// Its indices take all numbers that a triangle's may, and the next face goes on behind them.
+// The face takes 2^32 - 3 triangle indices, and the next face continues after them.
 TEST(SparseMesh, SetsAsideAPlyFaceOfFourBillionCorners) {
   constexpr std::uint32_t kCorners = 4294967295U;
   const std::string head =
@@ -140,7 +140,7 @@ TEST(SparseMesh, KnowsAnStlPast32BitsByItsSize) {
 }
 
 TEST(SparseMesh, RefusesStlCountsThatLiePast32Bits) {
-  // As 32 bits would have them, these are 0 and 3 facets.
+  // Truncated to 32 bits these counts are 0 and 3.
   for (const std::uint64_t facets : {std::uint64_t{1} << 32, (std::uint64_t{1} << 32) + 3}) {
     const auto certain = static_cast<std::uint32_t>(facets);
     SparseFile file(84 + 50 * facets);

@@ -47,12 +47,12 @@ TEST(StlBinary, ReadsFacetsAndNotNormals) {
 
 TEST(StlBinary, IsKnownByItsSizeEvenIfItBeginsWithSolid) {
   Bytes bytes = binary_stl("solid but binary" + std::string(64, ' '), 0x01010101);
-  // A count without a zero byte would need gigabytes, so the size alone is tried here ...
+  // A count without a zero byte would need gigabytes of facets, so only a wrong size is tested.
   EXPECT_FALSE(read_bytes(bytes.str()).summary);
   bytes = binary_stl("solid but binary", 1);
   put_facet(bytes, kCorners);
   EXPECT_EQ(read_bytes(bytes.str()).log, "0: 0 0 0, 1 0 0, 0 1 0\n");
-  // ... and the zero bytes of a count here.
+  // The zero bytes of a count identify a binary file even if its size is wrong.
   expect_refused(bytes.str() + std::string(50, 'x'), "the count says 1 facets");
 }
 

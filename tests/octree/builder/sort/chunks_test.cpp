@@ -89,7 +89,7 @@ TEST(Chunks, DoNotDependOnTheRuns) {
   EXPECT_EQ(sizes[0], sizes[2]);
 }
 
-// What a region is read with is what touches it, by a test that shares nothing with it.
+// Compares the triangles read for each sector with a geometric test that shares no code with it.
 TEST(MaskSectors, AreReadWithAllThatTouchesThem) {
   for (const Soup& soup : {grains(200, 0.3), sphere(4), box({0, 0, 0}, {1, 1, 1}, 9)}) {
     const SampleMesh mesh = store(soup);
@@ -112,7 +112,7 @@ TEST(MaskSectors, AreReadWithAllThatTouchesThem) {
       EXPECT_GE(read->size(), touching);
       EXPECT_LE(read->size(), touching + touching / 8 + 2) << "a test that tells little apart";
       for (std::uint32_t i = 1; i < read->size(); ++i) EXPECT_LT(read->key(i - 1), read->key(i));
-      // Corners rise as the surface says.
+      // The change of winding numbers between corners matches the surface.
       for (unsigned corner = 1; corner < 8; ++corner)
         EXPECT_EQ(region.rise[corner], surface.winding(regions.grid().corner(region.cell, corner)) -
                                            surface.winding(lower));

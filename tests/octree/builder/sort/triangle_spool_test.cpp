@@ -59,7 +59,7 @@ TEST(TriangleSpool, ScalesOnePointByItsPlace) {
 }
 
 TEST(TriangleSpool, KeepsSmallFloatsBesideLargeOnes) {
-  // 1e-38 of a model of 1e38 would underflow as a float32.
+  // 1e-38 beside 1e38 would underflow in float32 once scaled to the model frame.
   const SampleMesh mesh = store({{Vec3{1e-38f, 0, 0}, Vec3{1e38f, 0, 0}, Vec3{0, 1e38f, 0}}});
   EXPECT_EQ(mesh.corners(0)[0].x(), std::ldexp(double{1e-38f}, mesh.frame.scale_exponent));
   EXPECT_TRUE(mesh.float64());
@@ -88,7 +88,7 @@ TEST(TriangleSpool, CountsWhatIsSetAside) {
   EXPECT_EQ(batch->index(2), (std::uint64_t{1} << 32) + 7);
 }
 
-// Doubles from the last of ten chunks on; held and spilled chunks are the same.
+// The last of ten parts is the first with doubles. Parts in memory and spilled parts are the same.
 TEST(TriangleSpool, GivesTheSameTrianglesHoweverTheyAreKept) {
   Soup soup = sphere(4);
   soup.back()[1].y += 0.1;

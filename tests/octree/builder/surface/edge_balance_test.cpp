@@ -37,7 +37,7 @@ TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
   Soup soup = tetrahedron();
   const Vec3 p{0.25, 0.5, 0};
   soup.push_back({p, p, p});
-  soup.push_back({p, p, {1, 1, 1}});  // there and back
+  soup.push_back({p, p, {1, 1, 1}});  // the edge is taken in both directions
   EXPECT_EQ(balance(soup).unbalanced_edges, 0u);
 }
 
@@ -52,7 +52,8 @@ TEST(EdgeBalance, FindsTheEdgesOfAHole) {
     EXPECT_EQ(found.first[i].along, 1u);
     EXPECT_EQ(found.first[i].against, 0u);
   }
-  // 40 is a b c and runs from c to a, and the model frame is the input's.
+  // Triangle 40 is a b c. Its unbalanced edge runs from c to a; the model frame equals the input
+  // here.
   EXPECT_EQ(found.first[0].from, Point(1, 0, 0));
   EXPECT_EQ(found.first[0].to, Point(0, 0, 0));
 }
@@ -75,7 +76,7 @@ TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
   EXPECT_EQ(found.first[0].triangle, 0u);
 }
 
-// In many parts.
+// Counted in many parts.
 TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
   Soup soup = repeated(60000);
   const EdgeBalance found = balance(soup);
@@ -89,7 +90,7 @@ TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
   EXPECT_EQ(balance(soup).unbalanced_edges, 0u);
 }
 
-// A model beside which another is so small that its coordinates hardly differ.
+// Two models; the coordinates of one hardly differ in the scale of the other.
 TEST(EdgeBalance, TellsSmallEdgesApart) {
   Soup soup = sphere(6);
   for (auto& triangle : soup)

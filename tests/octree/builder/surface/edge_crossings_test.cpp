@@ -16,7 +16,7 @@ std::array<Point, 8> corners_of(const TriangleAndBox& pair) {
   return corners;
 }
 
-// A triangle about one of the box's edges, through it or just beside, so that crossings are many.
+// A triangle about an edge of the box, through it or just beside, so that crossings are frequent.
 TriangleAndBox about_an_edge(Noise& noise) {
   TriangleAndBox pair = random_pair(noise);
   const unsigned axis = noise.bits() % 3;
@@ -76,7 +76,7 @@ TEST(EdgeCrossings, AreThoseOfExactPredicates) {
   expect_exact(far_away, 0);
 }
 
-// Products of their differences underflow.
+// Differences whose products underflow.
 TEST(EdgeCrossings, AreExactWhereDoublesAreLost) {
   expect_exact(tiny, 10);
   expect_exact(about_a_tiny_edge, 300);

@@ -24,7 +24,7 @@ std::vector<SplitItem> boxes_around(const std::vector<Vec3>& centres, float half
   return items;
 }
 
-// Puts the items in the order of one split; returns how many come first.
+// Reorders the items by one split and returns the size of the first part.
 std::uint32_t split_by_area(std::vector<SplitItem>& items) {
   AreaSplitter splitter(items);
   const std::uint32_t left = splitter.split(0, static_cast<std::uint32_t>(items.size()));

@@ -28,7 +28,7 @@ std::vector<BuiltTreeCase> built_cases() {
           {"in one place", repeated(300), 50}};
 }
 
-// Every triangle is found, once, and as many records as are told.
+// Each triangle is found once, and the number of records is as reported.
 TEST(BuiltTree, IsTheTreeOfAllPatches) {
   for (const BuiltTreeCase& c : built_cases()) {
     SCOPED_TRACE(c.name);

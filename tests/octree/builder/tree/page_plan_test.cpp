@@ -29,7 +29,7 @@ std::vector<Case> cases() {
           {"long triangles, float64", scattered(1500, 1.0)}};
 }
 
-// A tree's records and who cut them off.
+// Walks a tree's records and where treelets are cut.
 class CutWalk {
  public:
   CutWalk(const SampleTree& sample, const TreeletCut& cut) : sample_(sample), cut_(cut) {
@@ -37,7 +37,7 @@ class CutWalk {
     block_visits_.resize(sample.tree.blocks.size());
   }
 
-  // Slots of the treelet of which `record` is the root.
+  // Number of slots of the treelet with root `record`.
   std::uint32_t slots(RecordRef record) {
     if (record.block) {
       ++block_visits_[record.index];
@@ -97,7 +97,8 @@ TEST(Treelets, AreOneWhereAllFits) {
 TEST(Treelets, AreTheLargestSubtreesThatFitAtTheBottom) {
   const SampleTree sample = build_sample(sphere(5));
   const TreeletCut cut = cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, 100, 1000);
-  // A node and all below it, uncut; its parent's whole subtree is too large.
+  // Such a treelet is a node and all below it, uncut, while the whole subtree of its parent is too
+  // large.
   const TreeletCut none{{},
                         std::vector<bool>(sample.tree.nodes.size()),
                         std::vector<bool>(sample.tree.blocks.size())};
@@ -119,7 +120,7 @@ using Key = std::pair<std::uint64_t, std::uint32_t>;
 
 Key key_of(const PlannedPage& page) { return {page.octcode, page.ordinal}; }
 
-// Pages, and what links say of them.
+// Checks the pages of a plan and the links between them.
 class PlanCheck {
  public:
   PlanCheck(const SampleTree& sample)
@@ -164,7 +165,7 @@ class PlanCheck {
     }
     EXPECT_TRUE(parents[0].empty());
     for (std::size_t page = 1; page < parents.size(); ++page) EXPECT_EQ(parents[page].size(), 1u);
-    EXPECT_EQ(roots.size(), 1u);  // the tree's own
+    EXPECT_EQ(roots.size(), 1u);  // the root of the tree
   }
 
   void expect_ascending_keys() const {

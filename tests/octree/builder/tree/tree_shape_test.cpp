@@ -12,7 +12,7 @@
 #include "octree/traversal/bounds.h"
 #include "tests/octree/support/sample_tree.h"
 
-// What holds of binary and wide trees whatever the mesh.
+// Properties of binary and wide trees that hold for any mesh.
 namespace planetree::octree {
 namespace {
 
@@ -92,7 +92,7 @@ TEST(BinaryTree, SplitsLargeRangesByCode) {
   const std::vector<MortonKey> sorted = keys_of(sample.mesh);
   for (const BinaryNode& node : sample.binary) {
     if (node.count() <= kMaxAreaSplit) continue;
-    // All codes on the left are below all on the right.
+    // All codes on the left are below all codes on the right.
     const std::uint32_t middle = sample.binary[node.left].end;
     EXPECT_LT(sorted[middle - 1].code, sorted[middle].code);
   }
@@ -197,7 +197,7 @@ TEST(WideTree, WastesAtMostAStepOfTheParentsBox) {
     }
 }
 
-// The promise of the format: with a margin of 8 r 2^-24, computed in double.
+// The specification's margin of 8 r 2^-24, evaluated in double.
 TEST(DiscFit, EnclosesEveryVertexWithItsMargin) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
@@ -223,7 +223,7 @@ TEST(DiscFit, EnclosesEveryVertexWithItsMargin) {
 }
 
 TEST(DiscFit, LiesAlongAFlatSurface) {
-  // A flat sheet across the diagonal: slabs far thinner than boxes.
+  // A flat grid in an oblique plane: its discs are far thinner than its boxes.
   Soup soup;
   for (const auto& t : height_field(20)) {
     auto& flat = soup.emplace_back(t);
@@ -242,7 +242,7 @@ TEST(DiscFit, EnclosesSubtreesTooLargeForTheirVertices) {
   const SampleTree sample = build_sample(height_field(190), 65536);
   const WideNode& root = sample.tree.nodes[0];
   const SampleMesh& mesh = sample.mesh;
-  // The root's children have fewer, so put a node above it that has it for a child.
+  // The root's children have too few vertices, so a node is added above the root.
   WideTree tree = sample.tree;
   WideNode above = root;
   above.child_count = 1;

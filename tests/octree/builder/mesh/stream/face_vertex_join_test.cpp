@@ -1,4 +1,4 @@
-// Meshes that are read with little memory: in order, shuffled, and cut off meanwhile.
+// Meshes read with little memory: in order, in random order, and truncated while they are read.
 
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 using Indices = std::vector<std::int64_t>;
 
-/// A sheet of squares, row by row, as triangles and other polygons.
+/// A grid of squares, row by row, as triangles and other polygons.
 PlainMesh height_field(unsigned side) {
   PlainMesh mesh;
   for (unsigned i = 0; i < side; ++i)
@@ -39,7 +39,7 @@ PlainMesh height_field(unsigned side) {
   return mesh;
 }
 
-/// The same faces of the same vertices, both in random order.
+/// The same faces and vertices, both in random order.
 PlainMesh byte_split(const PlainMesh& mesh) {
   std::mt19937 random(5);
   std::vector<std::size_t> order(mesh.vertices.size());
@@ -54,7 +54,7 @@ PlainMesh byte_split(const PlainMesh& mesh) {
   return other;
 }
 
-/// With faces that cannot be used, and one of very many corners.
+/// The mesh with unusable faces and two faces of very many corners, one of them bad.
 PlainMesh damaged(PlainMesh mesh, std::size_t corners) {
   const std::size_t count = mesh.vertices.size();
   mesh.vertices[count / 2][1] = std::numeric_limits<float>::quiet_NaN();
@@ -67,7 +67,7 @@ PlainMesh damaged(PlainMesh mesh, std::size_t corners) {
     many.push_back(static_cast<std::int64_t>(random() % (count / 2)));
   mesh.faces.insert(mesh.faces.begin() + static_cast<std::ptrdiff_t>(mesh.faces.size()) / 2, many);
   many.back() = static_cast<std::int64_t>(count / 2);
-  // And where corners have long been sorted.
+  // Also after corners have started to be sorted.
   mesh.faces.push_back({2, 1});
   mesh.faces.push_back(many);
   mesh.faces.push_back({0, 1, 2});
@@ -145,12 +145,12 @@ TEST_P(FaceVertexJoinOf, ReportsProgressThatNeverDecreases) {
   EXPECT_GT(last.second, 2 * std::filesystem::file_size(file.path()));
 }
 
-/// The system, which counts what is read of one file, and can cut it.
+/// System calls that count the bytes read of one file and may truncate it.
 class WatchedFile final : public storage::FileCalls {
  public:
   explicit WatchedFile(std::filesystem::path path) : path_(std::move(path)) {}
-  std::uint64_t from = 0, to = ~std::uint64_t{0};  ///< bytes that count
-  std::uint64_t cut_after = ~std::uint64_t{0};     ///< reads
+  std::uint64_t from = 0, to = ~std::uint64_t{0};  ///< range of bytes that are counted
+  std::uint64_t cut_after = ~std::uint64_t{0};     ///< number of reads before the file is truncated
 
   std::uint64_t read_bytes() const { return read_bytes_; }
   std::uint64_t reads() const { return reads_; }
@@ -176,7 +176,8 @@ class WatchedFile final : public storage::FileCalls {
   std::uint64_t read_bytes_ = 0, reads_ = 0;
 };
 
-// In order each about once; in none not much more often. How often does not grow with the mesh.
+// In order, each vertex is read about once; in random order, a little more. The overhead does not
+// grow with the mesh.
 TEST(FaceVertexJoin, ReadsVerticesAboutOnce) {
   for (const unsigned side : {150u, 300u}) {
     const std::uint64_t vertex_bytes = std::uint64_t{side} * side * 12;
@@ -192,7 +193,7 @@ TEST(FaceVertexJoin, ReadsVerticesAboutOnce) {
       Recorder recorder;
       ASSERT_TRUE(read_mesh(file.path(), recorder, scratch));
       EXPECT_GE(calls.read_bytes(), vertex_bytes);
-      // The header is judged from a front of 64 KiB, and the window reaches back a little.
+      // The header is parsed from a prefix of 64 KiB, and the window reaches back a little.
       constexpr std::uint64_t kPrefixBytes = (64 + 8) << 10;
       const std::uint64_t jumps_bytes = in_order ? vertex_bytes / 16 : 4 * kMemoryBytes;
       EXPECT_LE(calls.read_bytes(), vertex_bytes + jumps_bytes + kPrefixBytes);
@@ -200,7 +201,7 @@ TEST(FaceVertexJoin, ReadsVerticesAboutOnce) {
   }
 }
 
-// A window is moved along, and nothing else of the faces is read.
+// The window moves along the faces. Nothing is read twice.
 TEST(FaceVertexJoin, ReadsFacesOnce) {
   const PlainMesh mesh = height_field(300);
   const std::string bytes = mesh_formats::ply_little(mesh, {});

@@ -10,7 +10,7 @@
 namespace planetree::octree {
 namespace {
 
-// With windows that end in every line sooner or later, and in the middle of "\r\n".
+// Windows end in every line sooner or later, and within "\r\n".
 TEST(MeshLines, AreThoseOfTheText) {
   std::mt19937 random(2);
   for (const std::string ends : {"n", "r", "rn", "nrb"}) {
@@ -20,7 +20,7 @@ TEST(MeshLines, AreThoseOfTheText) {
       const char end = ends[random() % ends.size()];
       text += end == 'b' ? "\r\n" : end == 'n' ? "\n" : "\r";
     }
-    // Some that would fill a window but for the last character.
+    // Lines that fill a window but for its last character.
     for (int i = 0; i < 5; ++i) text += std::string(MeshWindow::kRecordBytes - 1, 'y') + "\r\n";
     text += "end";
     const TemporaryFile path(text, ".txt");

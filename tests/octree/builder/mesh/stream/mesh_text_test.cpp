@@ -39,7 +39,7 @@ TEST(MeshText, ReadsNumbersCorrectlyRounded) {
 TEST(MeshText, RoundsFloatsOnceAndNotThroughDouble) {
   EXPECT_EQ(narrow("0.1"), 0.1F);
   EXPECT_EQ(narrow("1e-45"), std::numeric_limits<float>::denorm_min());
-  // A hair above the midpoint of 1 and the next float; as a double it is that midpoint.
+  // Just above the midpoint of 1 and the next float; rounded to double it is the midpoint.
   EXPECT_EQ(narrow("1.00000005960464477539062500001"), std::nextafter(1.0F, 2.0F));
 }
 
