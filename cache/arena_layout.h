@@ -8,12 +8,14 @@
 
 namespace planetree::cache {
 
-/// Cuts arrays off a piece of memory, each on its own cache line. Without
-/// memory it only measures, so that measuring and cutting cannot disagree.
+/// Lays out arrays one after another in a piece of memory. Each array starts on a cache line.
+/// With a null base it only adds up the bytes, so that the size computed in advance and the
+/// layout cannot disagree. Does not own the memory.
 class ArenaLayout {
  public:
   explicit ArenaLayout(std::byte* base) noexcept : base_(base) {}
 
+  /// Returns the next `count` elements, value-initialized; an empty span with a null base.
   template <class T>
   std::span<T> cut(std::uint64_t count) noexcept {
     static_assert(std::is_trivially_destructible_v<T>, "nobody runs destructors here");

@@ -11,7 +11,7 @@
 namespace planetree::cache {
 namespace {
 
-/// For the PageCache object itself and the allocator's header beside it.
+/// Size of the PageCache object and of the allocator's header beside it, rounded up.
 constexpr std::uint64_t kObjectBytes = 2048;
 static_assert(sizeof(PageCache) + 64 <= kObjectBytes);
 
@@ -54,8 +54,8 @@ std::uint64_t minimum_budget_bytes(const CacheLimits& limits) noexcept {
 }
 
 std::uint32_t frames_within_budget(const CacheLimits& limits) noexcept {
-  // Bytes grow with frames, but in the steps of several roundings: halve the
-  // range [fits, fits_not) rather than solve for the number.
+  // Several roundings make the bytes a step function of the frame count. Bisecting the range
+  // [fits, fits_not) is simpler than inverting it.
   std::uint32_t fits = 0;
   std::uint32_t fits_not = limits.page_count + 1;
   while (fits_not - fits > 1) {

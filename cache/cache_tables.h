@@ -13,27 +13,28 @@
 
 namespace planetree::cache {
 
-/// Every array of a PageCache other than its frames, in one claimed memory: so
-/// readers' lookups fault no page in, and the bytes counted are the bytes held.
+/// All arrays of a PageCache except its frames. They lie in one PrefaultedMemory, so that
+/// lookups by readers fault no page in and the bytes counted are the bytes held.
 struct CacheTables {
-  // By page.
+  // Indexed by page.
   std::span<PageMap::Cell> map;
-  std::span<std::uint64_t> quarantine_bits;  ///< 64 pages a word
-  // By frame.
+  std::span<std::uint64_t> quarantine_bits;  ///< 64 pages per word
+  // Indexed by frame.
   PolicyTables policy;
-  std::span<std::uint32_t> pages;        ///< the page in each frame that has one
-  std::span<std::uint32_t> free_frames;  ///< a stack
-  // By reader, and one more owner: pin().
+  std::span<std::uint32_t> pages;        ///< page in each frame; unspecified in an idle frame
+  std::span<std::uint32_t> free_frames;  ///< stack of free frames
+  // Indexed by reader.
   std::span<ReaderSlot> slots;
+  // Indexed by fetcher: one per reader, and a last one for pin().
   std::span<Limbo::Entry> entries;
-  std::span<std::uint64_t> stamps;
+  std::span<std::uint64_t> stamps;  ///< indexed by fetcher, then by reader
   std::span<InFlightRead> in_flight_reads;
 };
 
-/// Bytes of the tables of a cache with `frame_count` frames.
+/// Bytes that the tables of a cache with `frame_count` frames take.
 std::uint64_t tables_bytes(const CacheLimits& limits, std::uint32_t frame_count) noexcept;
 
-/// Makes the tables in `memory`, which has at least tables_bytes().
+/// Creates the tables in `memory`, which must have at least tables_bytes() bytes and outlive them.
 CacheTables make_tables(const CacheLimits& limits, std::uint32_t frame_count,
                         const PrefaultedMemory& memory) noexcept;
 

@@ -11,9 +11,9 @@ std::uint32_t ClockPolicy::advance() noexcept {
 }
 
 std::uint32_t ClockPolicy::choose_victim(const FrameStates& states) noexcept {
-  // After so many rounds every score is 0 unless readers raised it again
-  // meanwhile. They could do so for ever, so after these rounds the score no
-  // longer counts, and one more round finds any evictable frame there is.
+  // After this many rounds every score is 0 unless readers raised it in the meantime. They could
+  // do so without end, so scores are ignored afterwards: one more round finds an evictable frame
+  // if there is one.
   constexpr unsigned kPatientRounds = kUse * kMaxUses;
   const std::uint64_t patient_steps = std::uint64_t{kPatientRounds} * scores_.size();
   const std::uint64_t max_steps = patient_steps + scores_.size();

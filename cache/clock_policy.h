@@ -10,34 +10,36 @@
 
 namespace planetree::cache {
 
-/// Pages of a tree: an upper one is on the way to others.
+/// Upper pages link to other pages; lower pages do not.
 enum class PageTier : std::uint8_t { kLower, kUpper };
 
-/// Which page has to go: CLOCK with scores.
+/// Chooses the page to evict: CLOCK with scores.
 ///
-/// A hand goes round the frames, lowers each score that it passes, and stops at the first frame
-/// whose score is 0 already. Readers raise the score of what they use, up to kMaxUses. A page just
-/// installed has the score of kInstallUses: it was wanted, but one that is wanted again and again
-/// outlives it. An upper page loses a use in kUse rounds, not in one: whoever comes this way again
-/// wants it, whichever page below. But not where upper pages have more than half of the frames:
-/// of those below, all that an ask needs must find room.
+/// A hand passes over the frames in a circle, lowers each score that it passes, and stops at the
+/// first frame whose score is already 0. Readers raise the score of each frame they use, up to
+/// kMaxUses uses. A newly installed page starts with kInstallUses uses, so that pages used
+/// repeatedly outlive it.
 ///
-/// A view of memory that PageCache owns. Only mark() may be called by readers.
+/// An upper page loses a use in kUse rounds instead of one, because later queries of any page
+/// below it need it too. This does not apply while upper pages have more than half of the
+/// frames: all lower pages that one query needs must fit in the rest.
+///
+/// A view of memory that PageCache owns. Readers may call mark() only.
 class ClockPolicy {
  public:
   using Score = std::atomic<std::uint8_t>;
 
-  static constexpr std::uint8_t kUse = 4;
+  static constexpr std::uint8_t kUse = 4;  ///< score of one use
   static constexpr std::uint8_t kMaxUses = 3;
   static constexpr std::uint8_t kInstallUses = 2;
 
   /// `scores` has one element per frame, all 0.
   explicit ClockPolicy(std::span<Score> scores) noexcept : scores_(scores) {}
 
-  /// Says that a frame was used. Relaxed, and free to lose a race against the
-  /// hand or another reader: a score is a guess about the future, and a frame
-  /// read now is kept alive by its reader's section, not by its score. Does
-  /// not store at the top, so that hot frames' scores stay in every cache.
+  /// Records a use of a frame. The accesses are relaxed, and the store may be lost in a race
+  /// with the hand or another reader: a score is only a guess about the future, and a reader's
+  /// section, not the score, protects the frame it reads. Does not store at the maximum, so that
+  /// the scores of hot frames stay in every processor's cache.
   static void mark(Score& score) noexcept {
     const std::uint8_t now = score.load(std::memory_order_relaxed);
     if ((now & kScoreBits) <= kUse * (kMaxUses - 1)) {
@@ -55,10 +57,11 @@ class ClockPolicy {
     if (is_upper(scores_[frame].load(std::memory_order_relaxed))) --upper_count_;
   }
 
-  /// An evictable frame; kNoFrame if there is none.
+  /// Returns an evictable frame, or kNoFrame if there is none.
   std::uint32_t choose_victim(const FrameStates& states) noexcept;
 
  private:
+  // A score byte has the page's tier in the upper bit and the score below.
   static constexpr std::uint8_t kUpperBit = 0x80;
   static constexpr std::uint8_t kScoreBits = 0x7f;
 

@@ -10,7 +10,7 @@
 
 namespace planetree::cache {
 
-/// How readers say what they use, whatever the policy: two pointers, and no virtual call.
+/// Lets readers record the use of a frame under either policy, without a virtual call.
 class ReferenceBits {
  public:
   ReferenceBits(ClockPolicy::Score* scores, LruPolicy::Tick* uses,
@@ -26,12 +26,12 @@ class ReferenceBits {
   }
 
  private:
-  ClockPolicy::Score* scores_;  // nullptr where the policy is another
+  ClockPolicy::Score* scores_;  // nullptr under LRU
   LruPolicy::Tick* uses_;
   const LruPolicy::Tick* now_;
 };
 
-/// The memory of one policy or the other; the arrays of the other are empty.
+/// Memory of an EvictionPolicy. The arrays of the policy that is not used are empty.
 struct PolicyTables {
   std::span<FrameStates::State> states = {};
   std::span<ClockPolicy::Score> scores = {};
@@ -40,8 +40,8 @@ struct PolicyTables {
   std::span<LruPolicy::Entry> entries = {};
 };
 
-/// The state of each frame, and which evictable one is next to go. For the writer; what readers
-/// need is marks().
+/// Keeps the state of each frame and chooses the next frame to evict. Only the writer, the
+/// holder of the cache's mutex, may call it. Readers use ReferenceBits.
 class EvictionPolicy {
  public:
   using State = FrameStates::State;
@@ -76,7 +76,7 @@ class EvictionPolicy {
       clock_.install(frame, tier);
     }
   }
-  /// An evictable frame, which stays evictable until removed; kNoFrame if there is none.
+  /// Returns an evictable frame, which stays evictable until remove(); kNoFrame if there is none.
   std::uint32_t choose_victim() noexcept {
     return kind_ == Policy::kLru ? lru_.choose_victim(states_) : clock_.choose_victim(states_);
   }

@@ -6,7 +6,7 @@ namespace planetree::cache {
 
 Result<FramePool> FramePool::create(std::uint32_t frame_count, std::uint32_t frame_bytes) noexcept {
   assert(frame_count > 0 && frame_bytes > 0);
-  // At most (2^32 - 1) * 2^32: the product of two 32-bit numbers cannot wrap.
+  // The product is at most (2^32 - 1) * 2^32, so it cannot wrap.
   Result<PrefaultedMemory> memory =
       PrefaultedMemory::claim(frame_count * stride_bytes(frame_bytes));
   if (!memory) return memory.error();

@@ -9,27 +9,26 @@
 
 namespace planetree::cache {
 
-/// Says that a page has no frame, or that no frame is to be had.
+/// Frame index that means "no frame".
 inline constexpr std::uint32_t kNoFrame = ~std::uint32_t{0};
 
-/// Frames begin on a cache line, so that a decoded page may be laid out by
-/// lines.
+/// Frames start on a cache line, so that the layout of a decoded page can follow cache lines.
 inline constexpr std::uint64_t kFrameAlignmentBytes = 64;
 
-/// The frames that hold decoded pages: one arena, claimed once, never grown.
-/// Move-only. Who may write a frame, and when, is the business of PageCache.
+/// Memory of the frames that hold decoded pages, claimed once. It never grows. Move-only.
+/// PageCache decides who may write a frame and when.
 class FramePool {
  public:
   /// Claims `frame_count` > 0 frames of `frame_bytes` > 0 bytes each.
-  /// Fails with kNoMemory.
+  /// errors  kNoMemory.
   static Result<FramePool> create(std::uint32_t frame_count, std::uint32_t frame_bytes) noexcept;
 
-  /// Bytes from one frame to the next.
+  /// Bytes from the start of one frame to the start of the next.
   static constexpr std::uint64_t stride_bytes(std::uint32_t frame_bytes) noexcept {
     return (frame_bytes + kFrameAlignmentBytes - 1) / kFrameAlignmentBytes * kFrameAlignmentBytes;
   }
 
-  /// Start of a frame, 64-byte aligned; frame_bytes() bytes may be used.
+  /// Start of a frame: frame_bytes() bytes, 64-byte aligned.
   std::byte* frame(std::uint32_t index) const noexcept {
     assert(index < frame_count_);
     return memory_.data() + index * stride_bytes_;
@@ -37,9 +36,9 @@ class FramePool {
   std::uint32_t frame_count() const noexcept { return frame_count_; }
   std::uint32_t frame_bytes() const noexcept { return frame_bytes_; }
   std::uint64_t stride_bytes() const noexcept { return stride_bytes_; }
-  /// As PrefaultedMemory::lock().
+  /// See PrefaultedMemory::lock().
   bool lock() const noexcept { return memory_.lock(); }
-  /// All memory the pool holds.
+  /// Bytes of memory that the pool holds, rounding included.
   std::uint64_t arena_bytes() const noexcept { return memory_.bytes(); }
 
  private:

@@ -9,19 +9,20 @@
 
 namespace planetree::cache {
 
-/// What may become of each frame's page. Changed by the writer alone:
+/// State of each frame. Only the writer, the holder of the cache's mutex, reads or changes it.
 ///
 ///     idle --install--> evictable --pin--> pinned
 ///      ^___remove_______|   ^
 ///                           |--hold--> held, and back by release()
 ///
-/// A held frame stays for a while: somebody who waited for its page has not come for it yet.
+/// An idle frame has no page. The page of a held frame must not be evicted yet: a thread that
+/// waited for it has still to take it. A held frame may be pinned too.
 /// A view of memory that PageCache owns.
 class FrameStates {
  public:
   enum class State : std::uint8_t { kIdle = 0, kEvictable, kHeld, kPinned };
 
-  /// One element per frame, all 0.
+  /// `states` has one element per frame, all 0.
   explicit FrameStates(std::span<State> states) noexcept : states_(states) {
     assert(!states.empty() && states.size() < kNoFrame);
   }
@@ -35,7 +36,7 @@ class FrameStates {
     assert(states_[frame] != State::kIdle);
     states_[frame] = State::kPinned;
   }
-  /// Of a frame that is evictable, held or pinned: what is pinned stays so.
+  /// Holds an evictable frame. Has no effect on a held or pinned frame. Not for idle frames.
   void hold(std::uint32_t frame) noexcept {
     assert(states_[frame] != State::kIdle);
     if (states_[frame] == State::kEvictable) states_[frame] = State::kHeld;

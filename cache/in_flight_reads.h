@@ -7,71 +7,76 @@
 
 namespace planetree::cache {
 
-/// What a thread that may fetch is about; it has one place for that, as in limbo.
+/// The page that a fetcher reads or waits for. One entry per fetcher, as in limbo.
 struct InFlightRead {
   enum class Stage : std::uint8_t {
     kNone = 0,
     kReads,   ///< fills a frame with `page`
-    kWaits,   ///< for `page`, which another reads
-    kWanted,  ///< waits for `page`, which nobody reads yet
-    kServed,  ///< waited: `page` is in `frame`, held until it is taken
-    kFailed,  ///< waited: `page` is unreadable
-    kRetry,   ///< waited for one who did not read it, and is to do so itself
+    kWaits,   ///< waits for `page`, which another fetcher reads
+    kWanted,  ///< waits for `page`, which no fetcher reads yet
+    kServed,  ///< has waited: `page` is in `frame`, which is held for this fetcher
+    kFailed,  ///< has waited: `page` is unreadable
+    kRetry,   ///< has waited: the other fetcher gave up, so this one must read `page` itself
   };
 
   Stage stage;
-  bool reads_itself;  ///< rather than wait for a helper
+  bool reads_itself;  ///< false: waits for a helper to read the page
   std::uint32_t page;
   std::uint32_t frame;
-  std::uint64_t number;  ///< errands that wait, in the order in which they began
+  std::uint64_t number;  ///< orders waiting fetchers by the time their wait began
 };
 
-/// Who reads which page, and who waits for it: so that each page is read once, however many
-/// want it, and that it is still there when they come for it.
+/// Knows which fetcher reads which page, and which fetchers wait for it. So each page is read
+/// once, however many fetchers need it, and stays resident until those that waited have taken it.
 ///
 ///     kNone --> kReads --> kNone
-///     kNone --> kWaits <--> kWanted --> kNone, at a limit
+///     kNone --> kWaits <--> kWanted --> kNone, at the wait limit
 ///                 |            |
 ///                 |--> kServed, kFailed or kRetry --> kNone
 ///
-/// For the holder of the cache's mutex alone. A view of memory that PageCache owns.
+/// Only the holder of the cache's mutex may call it. A view of memory that PageCache owns.
 class InFlightReads {
  public:
+  /// Page number that means "no page".
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
 
-  /// `errands` has one element per owner, all 0.
+  /// `in_flight_reads` has one element per fetcher, all 0.
   explicit InFlightReads(std::span<InFlightRead> in_flight_reads) noexcept
       : in_flight_reads_(in_flight_reads) {}
 
   const InFlightRead& of(std::uint32_t fetcher) const noexcept { return in_flight_reads_[fetcher]; }
 
+  /// Whether a fetcher is reading `page`.
   bool is_read(std::uint32_t page) const noexcept;
-  /// The owner begins to read a page that nobody reads.
+  /// Notes that `fetcher` begins to read a page that no fetcher reads.
   void read(std::uint32_t fetcher, std::uint32_t page) noexcept;
-  /// The owner begins to wait for a page that is not resident.
+  /// Notes that `fetcher` begins to wait for a page that is not resident.
   void wait(std::uint32_t fetcher, std::uint32_t page, bool reads_itself) noexcept;
-  /// Whatever the owner was about, it is over.
+  /// Ends the fetcher's read or wait.
   void end(std::uint32_t fetcher) noexcept;
 
-  /// The page that was waited for longest of those that nobody reads; kNobody if there is none.
+  /// Among the pages that are waited for and that no fetcher reads, returns the one whose wait
+  /// began first, or "no page" if there is none.
   std::uint32_t page_wanted() const noexcept;
 
-  /// The page is in `frame` now. Calls wake(owner) for all that waited; how many those were.
+  /// Notes that the page is in `frame`. Calls wake(fetcher) for each fetcher that waited for it
+  /// and returns their number.
   template <class Wake>
   std::uint32_t serve(std::uint32_t page, std::uint32_t frame, const Wake& wake) noexcept {
     return tell_all(page, InFlightRead::Stage::kServed, frame, wake);
   }
-  /// The page is unreadable.
+  /// Notes that the page is unreadable. Calls wake(fetcher) for each fetcher that waited for it.
   template <class Wake>
   void fail(std::uint32_t page, const Wake& wake) noexcept {
     tell_all(page, InFlightRead::Stage::kFailed, kNoFrame, wake);
   }
-  /// Whoever read it gave up, because it would have had to wait. Of those that waited, the ones
-  /// that read pages themselves are woken; the others need a helper.
+  /// Notes that the fetcher that read the page gave up because the read would block. Calls
+  /// wake(fetcher) for the waiting fetchers that read pages themselves. The others go on waiting,
+  /// for a helper.
   template <class Wake>
   void put_back(std::uint32_t page, const Wake& wake) noexcept;
 
-  /// Whether somebody who was served has not yet come for what is in this frame.
+  /// Whether a fetcher that waited for the page in this frame has still to take it.
   bool holds(std::uint32_t frame) const noexcept;
 
  private:
@@ -87,7 +92,7 @@ class InFlightReads {
                          const Wake& wake) noexcept;
 
   std::span<InFlightRead> in_flight_reads_;
-  std::uint32_t waiting_ = 0;  // kWaits or kWanted: mostly none, and then nothing is searched
+  std::uint32_t waiting_ = 0;  // entries in kWaits or kWanted; usually 0, which saves searching
   std::uint64_t next_number_ = 0;
 };
 

@@ -12,50 +12,53 @@
 
 namespace planetree::cache {
 
-/// Frames whose page is hidden already, but which readers may still be
-/// reading. Each waits for the sections that were open when it was retired.
+/// Frames whose page has been withdrawn from the page map but that readers may still be reading.
+/// A frame can be reused once all sections that were open when it was retired have ended.
 ///
-/// There is one place for each thread that may fetch, called its owner, so the
-/// frames in limbo are bounded by the number of owners. A second retired frame
-/// would not help an owner anyway: the sections open when it is retired
-/// include all that the first still waits for, so it is never ready earlier.
+/// There is one entry per fetcher, which bounds the number of frames in limbo. A second entry
+/// would not help a fetcher: the sections open when the second frame is retired include all that
+/// the first frame still waits for, so the second is never ready earlier.
 ///
-/// For the writer alone. A view of memory that PageCache owns.
+/// Only the writer, the holder of the cache's mutex, may call it. A view of memory that PageCache
+/// owns.
 template <class Atomics = StdAtomics>
 class BasicLimbo {
  public:
   using Slot = BasicReaderSlot<Atomics>;
 
-  /// A retired frame's place.
+  /// A fetcher's retired frame, if any.
   struct Entry {
     std::uint32_t frame = kNoFrame;
-    bool awaited = false;  ///< the owner is waiting for this very frame
+    bool awaited = false;  ///< the fetcher is waiting for this frame
   };
 
-  /// `places` has one element per owner; `stamps` one per owner and slot, by
-  /// owners.
+  /// slots    one per reader.
+  /// entries  one per fetcher.
+  /// stamps   one per fetcher and slot, ordered by fetcher.
   BasicLimbo(std::span<const Slot> slots, std::span<Entry> entries,
              std::span<std::uint64_t> stamps) noexcept;
 
   bool holds(std::uint32_t fetcher) const noexcept { return entries_[fetcher].frame != kNoFrame; }
 
-  /// Puts a frame whose page has just been withdrawn from the map into the
-  /// owner's empty place, noting the sections now open (E3, E4).
+  /// Puts a frame whose page has just been withdrawn from the page map into the fetcher's empty
+  /// entry and notes the sections now open (E3, E4).
   void retire(std::uint32_t fetcher, std::uint32_t frame) noexcept;
 
-  /// Says whether the owner waits for its frame; else anyone may take it.
+  /// States whether the fetcher waits for its frame. Any fetcher may take a frame that is not
+  /// awaited.
   void set_awaited(std::uint32_t fetcher, bool awaited) noexcept {
     entries_[fetcher].awaited = awaited;
   }
 
-  /// Takes out the owner's frame if its sections are over (E5); else kNoFrame.
+  /// Removes and returns the fetcher's frame if its sections have ended (E5); otherwise kNoFrame.
   std::uint32_t take(std::uint32_t fetcher) noexcept;
 
-  /// Takes out a frame that nobody waits for and whose sections are over.
+  /// Removes and returns a frame that is not awaited and whose sections have ended; kNoFrame if
+  /// there is none.
   std::uint32_t take_unawaited() noexcept;
 
-  /// Moves a frame that nobody waits for to the owner's empty place, and the sections it waits
-  /// for with it; false if there is none.
+  /// Moves a frame that is not awaited, with the sections it waits for, to the fetcher's empty
+  /// entry. Returns false if there is none.
   bool adopt(std::uint32_t fetcher) noexcept;
 
  private:
@@ -64,7 +67,7 @@ class BasicLimbo {
     return stamps_.subspan(fetcher * slots_.size(), slots_.size());
   }
 
-  // A stamp of 0, being even, means that there is no section to wait for.
+  // Sequence numbers inside sections are odd, so 0 can stand for "no section to wait for".
   static constexpr std::uint64_t kNoSection = 0;
 
   std::span<const Slot> slots_;

@@ -16,8 +16,8 @@ void LruPolicy::install(std::uint32_t frame) noexcept {
   push(frame);
 }
 
-// A frame may be there still, from before it was removed or held: then what is known of it is
-// older than its use, and put right at the top.
+// A frame may still be in the heap from before it was removed or held. The last use read then is
+// too old, which choose_victim() corrects when the frame reaches the top.
 void LruPolicy::push(std::uint32_t frame) noexcept {
   if (entries_[frame].in_heap) return;
   entries_[frame].in_heap = true;
@@ -47,7 +47,8 @@ void LruPolicy::sink() noexcept {
   }
 }
 
-// Ends, because time stands still meanwhile: each frame is put right once at most.
+// The loop ends because time does not advance during the call: each frame is corrected at most
+// once.
 std::uint32_t LruPolicy::choose_victim(const FrameStates& states) noexcept {
   while (size_ > 0) {
     const std::uint32_t frame = entries_[0].heap;

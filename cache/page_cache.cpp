@@ -45,7 +45,7 @@ PageCache::PageCache(const CacheLimits& limits, FillPage fill, void* context,
       limbo_(tables_.slots, tables_.entries, tables_.stamps),
       in_flight_reads_(tables_.in_flight_reads),
       free_count_(frames_.frame_count()) {
-  // A stack with frame 0 on top, so that frames are used in order.
+  // The stack has frame 0 on top, so that frames are used in order.
   for (std::uint32_t i = 0; i < free_count_; ++i) tables_.free_frames[i] = free_count_ - 1 - i;
 }
 
@@ -79,7 +79,7 @@ Result<void> PageCache::pin_resident(std::uint32_t page) noexcept {
   if (policy_.state(frame) == EvictionPolicy::State::kPinned) return {};
   const std::uint32_t frame_count = frames_.frame_count();
   const std::uint32_t entries = limits_.max_readers + 1;
-  // page_fetch.cpp says why so many must stay unpinned.
+  // page_fetch.cpp explains why max_readers + 1 frames must stay unpinned.
   if (frame_count < limits_.page_count && frame_count - pinned_count_ <= entries) {
     return make_error(ErrorCode::kNoMemory, page, Error::kNowhere,
                       "pinning more than %u of %u frames leaves too few for queries: "

@@ -23,48 +23,49 @@
 
 namespace planetree::cache {
 
-/// What is to be filled, and by whom.
+/// A page to decode, and the frame to decode it into.
 struct FillRequest {
   std::uint32_t page;
-  std::uint32_t fetcher;       ///< 0 ... max_readers; no two at the same time are of one owner
-  bool may_wait;               ///< for a disk, longer than a moment
-  std::span<std::byte> frame;  ///< frame_bytes long, old bytes in it
+  std::uint32_t fetcher;       ///< 0 ... max_readers; simultaneous requests have different fetchers
+  bool may_wait;               ///< whether to wait as long as the disk takes
+  std::span<std::byte> frame;  ///< frame_bytes long; holds arbitrary old bytes
 };
+/// What a FillPage did.
 enum class Filled : std::uint8_t {
-  kFilled,
-  kFilledUpper,  ///< with a page through which others are reached
-  kWouldWait,
+  kFilled,       ///< the frame holds a page of the lower tier
+  kFilledUpper,  ///< the frame holds a page of the upper tier: it links to other pages
+  kWouldWait,    ///< the read would block; only if the request forbids to wait
 };
 
-/// Fills a frame with the decoded page. Called by any number of threads at once, without the
-/// cache's mutex and outside the thread's section. Must not throw and must not call the cache.
+/// Fills a frame with the decoded page. Any number of threads call it at once, without the
+/// cache's mutex and outside of their sections. It must not throw and must not call the cache.
 using FillPage = Result<Filled> (*)(void* context, const FillRequest& request);
 
-/// Counts since create(). Taken while others work, they need not agree with
-/// each other to the last one.
+/// Counts since create(). While other threads work, the counts may be inconsistent with each
+/// other by a few events.
 struct CacheStats {
-  std::uint64_t hits;         ///< finds that returned a frame
-  std::uint64_t misses;       ///< finds that returned nullptr
-  std::uint64_t fills;        ///< pages made resident; fills - evictions are resident
-  std::uint64_t evictions;    ///< pages removed to make room
+  std::uint64_t hits;         ///< calls of Reader::find() that returned a frame
+  std::uint64_t misses;       ///< calls of Reader::find() that returned nullptr
+  std::uint64_t fills;        ///< pages made resident; fills - evictions pages are resident
+  std::uint64_t evictions;    ///< pages evicted
   std::uint64_t quarantined;  ///< pages found unreadable
-  std::uint64_t given_up;     ///< fetches that ended because they had waited long enough
+  std::uint64_t given_up;     ///< fetches that ended at their wait limit
   std::uint32_t frame_count;
-  std::uint64_t arena_bytes;     ///< of the frames
-  std::uint64_t table_bytes;     ///< of the page map, reader slots and the like
-  std::uint64_t reserved_bytes;  ///< as asked
-  std::uint64_t budget_bytes;    ///< as asked; the three above and the object fit in it
-  std::uint64_t locked_bytes;    ///< of arena and tables
+  std::uint64_t arena_bytes;     ///< memory of the frames
+  std::uint64_t table_bytes;     ///< memory of the CacheTables
+  std::uint64_t reserved_bytes;  ///< CacheLimits::reserved_bytes
+  std::uint64_t budget_bytes;  ///< CacheLimits::budget_bytes; covers the three above and the object
+  std::uint64_t locked_bytes;  ///< locked part of arena and tables
 };
 
 /// Decoded pages in a fixed number of frames.
 ///
-/// Many readers, one writer. Readers find pages without waiting; see
-/// reader_slot.h for the protocol. The writer is whoever holds the mutex, which
-/// guards decisions only: pages are read and decoded without it, by the thread
-/// that misses or by a helper (see FetchTerms), each page by one thread.
+/// There are many readers and one writer. Readers find pages without waiting; reader_slot.h
+/// describes the protocol. The writer is the thread that holds the mutex. The mutex guards
+/// decisions only: pages are read and decoded without it. Each page is read by one thread, either
+/// the one that misses it or a helper (see FetchTerms).
 ///
-/// A frame goes round:
+/// The cycle of a frame:
 ///
 ///     free --fill--> resident --evict--> limbo --sections over--> filled again
 ///       ^____________________________(fill failed)________________|
@@ -72,53 +73,59 @@ struct CacheStats {
 /// All memory is claimed in create(); nothing allocates after it.
 class PageCache {
  public:
-  /// Takes as many frames as the budget allows, at most one per page.
-  /// `context` is handed to `fill` and must outlive the cache. Fails with
-  /// kBadArgument for limits out of range; with kNoMemory if the budget is
-  /// below the minimum, which the text names, or if the system has no memory.
+  /// Creates a cache with as many frames as the budget allows, at most one per page.
+  ///
+  /// context  passed to `fill`; must outlive the cache.
+  /// errors   kBadArgument: limits out of range; kNoMemory: the budget is below the minimum, which
+  ///          the text names, or the system has no memory.
   static Result<std::unique_ptr<PageCache>> create(const CacheLimits& limits, FillPage fill,
                                                    void* context) noexcept;
 
-  /// All readers must be gone.
+  /// All readers must have been destroyed.
   ~PageCache();
   PageCache(const PageCache&) = delete;
   PageCache& operator=(const PageCache&) = delete;
 
-  /// Makes a page resident for good. One thread at a time, not inside a section.
-  /// Fails with the error of `fill`; with kDamaged if the page was found
-  /// unreadable earlier; with kNoMemory if fetches would be left with too few
-  /// frames.
+  /// Makes a page resident for good. Must not be called inside a section.
+  ///
+  /// errors   those of `fill`; kDamaged: the page was found unreadable earlier; kNoMemory: too few
+  ///          frames would be left for fetches.
+  /// threads  one at a time.
   Result<void> pin(std::uint32_t page) noexcept;
 
-  /// Any thread. Fails with kBadArgument if max_readers are there already. Readers that are
-  /// there at one time have different Reader::place()s below max_readers.
+  /// Creates a reader. Simultaneous readers have different Reader::index() below max_readers.
+  ///
+  /// errors   kBadArgument: there are max_readers readers already.
+  /// threads  any.
   Result<Reader> claim_reader() noexcept;
 
-  /// Keeps the system from paging arena and tables out; false where that is not allowed.
-  /// Before there are readers.
+  /// Locks arena and tables in memory, so that the system does not page them out. Returns false
+  /// if the system refuses for either. Call it before there are readers.
   bool lock_memory() noexcept;
 
-  /// For helpers: returns once there is a page to read for others, `stop` is true, or so much
-  /// time is over. Who sets `stop` then calls wake_helpers().
+  /// For helpers: returns when a fetcher waits for a page that no fetcher reads, when `stop` is
+  /// true, or when the given time has passed. After setting `stop`, call wake_helpers().
   void wait_for_read(std::chrono::microseconds most, const std::atomic<bool>& stop) noexcept;
   void wake_helpers() noexcept;
 
-  /// Any thread; waits for nobody.
+  /// Returns the counts and sizes.
+  /// threads  any; takes no lock.
   CacheStats stats() const noexcept;
 
  private:
   friend class Reader;
   using Lock = std::unique_lock<std::mutex>;
 
-  /// What became of a page that was to be resident.
+  /// Result of an attempt to make a page resident.
   enum class Outcome { kResident, kUnreadable, kWouldWait, kRetry, kGivenUp };
 
   PageCache(const CacheLimits& limits, FillPage fill, void* context, PrefaultedMemory memory,
             FramePool frames) noexcept;
 
-  // page_fetch.cpp has these, and says why they end. An owner is a place in limbo and an errand:
-  // a reader's index, or pin_fetcher(). What takes the lock has it when it returns, but not always
-  // meanwhile.
+  // These are defined in page_fetch.cpp, which explains why they end. A fetcher is identified by a
+  // reader's index or by pin_fetcher(); it has one entry in limbo_ and one in in_flight_reads_.
+  // Functions with a Lock parameter hold the mutex when they are called and when they return, but
+  // may release it in between.
   Fetched fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept;
   bool help(std::uint32_t fetcher) noexcept;
   Outcome make_resident(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
@@ -130,7 +137,7 @@ class PageCache {
   std::uint32_t take_frame(Lock& lock, std::uint32_t fetcher, std::uint32_t attempt) noexcept;
   void wake(std::uint32_t fetcher) noexcept { wakers_[fetcher % kWakers].notify_all(); }
 
-  // All below need the mutex.
+  // The caller of the functions below holds the mutex.
   std::uint32_t try_to_take_frame(std::uint32_t fetcher) noexcept;
   bool evict_into_limbo(std::uint32_t fetcher) noexcept;
   Result<void> pin_resident(std::uint32_t page) noexcept;
@@ -138,7 +145,7 @@ class PageCache {
   bool quarantined(std::uint32_t page) const noexcept;
   void quarantine(std::uint32_t page) noexcept;
 
-  // Written under the mutex, read by stats() at any time: relaxed suffices.
+  // Written under the mutex and read by stats() at any time. Relaxed order suffices.
   struct Counts {
     std::atomic<std::uint64_t> fills{0};
     std::atomic<std::uint64_t> evictions{0};
@@ -149,7 +156,7 @@ class PageCache {
     count.fetch_add(1, std::memory_order_relaxed);
   }
 
-  // Fetchers that wait share these: whoever is woken for another goes on waiting.
+  // Waiting fetchers share these condition variables. A fetcher woken for another waits again.
   static constexpr std::uint32_t kWakers = 16;
 
   const CacheLimits limits_;

@@ -1,21 +1,27 @@
-// How a PageCache gets pages. Why each fetch ends:
+// How a PageCache fetches pages, and why each fetch ends.
 //
-// A thread waits outside any section and without the mutex, so it holds up nobody. It waits for
-// one of three things. For its own frame in limbo, which no other thread may take and which waits
-// only for the sections that were open when it was retired: not for later ones, and those open do
-// not depend on us. For a page that another reads or is to read: that ends as disks answer and
-// helpers do their work, or at the limit of the terms. For the mutex. So each fetch ends, however
-// the others go on, unless a disk stands still; and then those do that need not wait for it.
+// A fetcher waits outside of its section and without the mutex, so it delays no other thread. It
+// waits for one of three things:
 //
-// And it always gets a frame into limbo at once. Each owner keeps at most one frame from others:
-// in limbo and waited for, or being filled, or held with the page it waited for. When there are
-// fewer frames than pages, pin() leaves at least max_readers + 1 unpinned ones, so that one is
-// left beside those of the max_readers other owners. It is free, or resident and can be evicted,
-// or in limbo where nobody waits for it, and can be adopted. When there is a frame for each page,
-// a page that is absent and not being read means a free frame.
+// - Its own frame in limbo. No other fetcher may take an awaited frame. The frame waits only for
+//   the sections that were open when it was retired, and these do not depend on this fetcher.
+// - A page that another fetcher reads or is to read. This wait ends when the disk answers and the
+//   helpers have done their work, or at the wait limit of the FetchTerms.
+// - The mutex.
 //
-// What was waited for is held until it is taken, or two threads might take each other's pages for
-// ever, each evicting before the other has woken up.
+// So each fetch ends, whatever other threads do, as long as the disk answers. If the disk does not
+// answer, the fetches that do not need it still end.
+//
+// A fetcher never has to wait for a frame to put into limbo. Each fetcher withholds at most one
+// frame from the others: one that it awaits in limbo, one that it fills, or one that is held with
+// the page it waited for. If there are fewer frames than pages, pin() leaves at least
+// max_readers + 1 frames unpinned, so at least one remains beside those of the max_readers other
+// fetchers. That frame is free, or resident and can be evicted, or in limbo without being awaited
+// and can be adopted. If there is a frame for each page, a page that is absent and not being read
+// leaves a frame free.
+//
+// A page that was waited for is held until it is taken. Otherwise two threads could evict each
+// other's pages without end, each before the other has woken up.
 
 #include <cassert>
 #include <chrono>
@@ -26,9 +32,9 @@
 namespace planetree::cache {
 namespace {
 
-/// Lets others run while a frame is in limbo. Sections last microseconds, so
-/// first only yield; but yielding does not let a thread of lower priority run,
-/// and the section waited for may be that thread's: so sleep if it lasts.
+/// Lets other threads run while a frame is in limbo. Sections last microseconds, so yielding
+/// usually suffices. But it does not let a thread of lower priority run, and the section waited
+/// for may belong to one, so later attempts sleep.
 void wait_for_sections(std::uint32_t attempt) noexcept {
   constexpr std::uint32_t kYields = 64;
   if (attempt < kYields) {
@@ -45,8 +51,8 @@ Fetched PageCache::fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms&
   const auto fetcher = static_cast<std::uint32_t>(&slot - tables_.slots.data());
   Lock lock(mutex_);
   const Outcome outcome = make_resident(lock, fetcher, page, terms, nullptr);
-  // Entering before the mutex is free: whoever evicts this page later
-  // has the mutex after us, sees us inside, and leaves its frame alone.
+  // The section begins before the mutex is released. A thread that evicts this page later takes
+  // the mutex after us, so it sees this section open and does not reuse the frame.
   slot.enter();
   if (outcome == Outcome::kResident) return {frames_.frame(map_.frame_of(page))};
   return {nullptr, outcome == Outcome::kGivenUp};
@@ -70,7 +76,7 @@ PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t fetcher, s
   bool would_block = false;
   for (std::uint32_t attempt = 0;; ++attempt) {
     limbo_.set_awaited(fetcher, false);
-    // Another thread may have brought the page meanwhile.
+    // Another fetcher may have made the page resident in the meantime.
     if (const std::uint32_t frame = map_.frame_of(page); frame != kNoFrame) {
       policy_.marks().mark(frame);
       return Outcome::kResident;
@@ -163,7 +169,8 @@ void PageCache::wait_for_read(std::chrono::microseconds most,
 }
 
 void PageCache::wake_helpers() noexcept {
-  // Whoever has looked at `stop` waits by now.
+  // A helper that has read `stop` as false holds the mutex until it waits. Taking the mutex once
+  // makes sure that it does not miss the notification.
   { const Lock lock(mutex_); }
   helpers_waker_.notify_all();
 }
@@ -186,7 +193,7 @@ std::uint32_t PageCache::try_to_take_frame(std::uint32_t fetcher) noexcept {
   if (limbo_.holds(fetcher)) return kNoFrame;
   if (!evict_into_limbo(fetcher)) limbo_.adopt(fetcher);
   assert(limbo_.holds(fetcher));
-  // At once, if no section was open.
+  // If no section was open when the frame was retired, it can be taken at once.
   return limbo_.take(fetcher);
 }
 
@@ -194,7 +201,7 @@ bool PageCache::evict_into_limbo(std::uint32_t fetcher) noexcept {
   const std::uint32_t frame = policy_.choose_victim();
   if (frame == kNoFrame) return false;
   policy_.remove(frame);
-  // Withdrawing comes before noting the open sections: E2, then E3.
+  // The page must be withdrawn before the open sections are noted: E2, then E3.
   map_.withdraw(tables_.pages[frame]);
   limbo_.retire(fetcher, frame);
   add_one(counts_.evictions);

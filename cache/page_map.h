@@ -11,13 +11,12 @@
 
 namespace planetree::cache {
 
-/// Which frame holds which page: one cell per page, frame + 1, 0 for absent.
-/// A plain array: page numbers are dense, so there is nothing to hash and a
-/// lookup is one load. A view of memory that PageCache owns; copies see the
-/// same cells.
+/// Maps pages to frames. There is one cell per page, which holds frame + 1, or 0 if the page is not
+/// resident. Page numbers are dense, so an array suffices and a lookup is one load. A view of
+/// memory that PageCache owns; copies see the same cells.
 ///
-/// Any thread inside a read section may call find(). The other calls belong to
-/// the one writer, the holder of the cache's mutex.
+/// Any thread inside a section may call find(). Only the writer, the holder of the cache's mutex,
+/// may call frame_of(), publish() and withdraw().
 template <class Atomics = StdAtomics>
 class BasicPageMap {
  public:
@@ -26,34 +25,33 @@ class BasicPageMap {
   explicit BasicPageMap(std::span<Cell> cells) noexcept
       : cells_(cells.data()), count_(cells.size()) {}
 
-  /// R2: the frame of `page`, or kNoFrame. Acquires the page's bytes. seq_cst
-  /// because it forms a store-buffering pair with withdraw(): see
-  /// reader_slot.h.
+  /// R2: returns the frame of `page`, or kNoFrame. Acquires the page's bytes. seq_cst because it
+  /// is one side of a store-buffering pair with withdraw(); see reader_slot.h.
   std::uint32_t find(std::uint32_t page) const noexcept {
     assert(page < count_);
     // 0 - 1 wraps to kNoFrame.
     return cells_[page].load(Atomics::order(ProtocolStep::kFind)) - 1;
   }
 
-  /// A page's frame + 1, or 0, of all pages: for looks that nothing depends on.
+  /// Cells of all pages, for prefetching. A cell may change at any time.
   const Cell* cells() const noexcept { return cells_; }
 
-  /// As find(), for the writer: relaxed, since it reads what it wrote itself,
-  /// or what earlier holders of the mutex wrote.
+  /// Returns the frame of `page`, or kNoFrame. Relaxed, because all stores were made by this
+  /// thread or by earlier holders of the mutex.
   std::uint32_t frame_of(std::uint32_t page) const noexcept {
     assert(page < count_);
     return cells_[page].load(std::memory_order_relaxed) - 1;
   }
 
-  /// I7: shows a filled frame to readers; release, so that who finds the page
-  /// also sees the bytes written into its frame.
+  /// I7: shows a filled frame to readers. Release, so that a reader that finds the page also sees
+  /// the bytes written into its frame.
   void publish(std::uint32_t page, std::uint32_t frame) const noexcept {
     assert(page < count_ && frame != kNoFrame);
     cells_[page].store(frame + 1, Atomics::order(ProtocolStep::kPublish));
   }
 
-  /// E2: hides a page. Readers that found it before may still be reading its
-  /// frame. seq_cst: the other half of the pair with find().
+  /// E2: hides a page. Readers that found it before may still be reading its frame. seq_cst: the
+  /// other side of the pair with find().
   void withdraw(std::uint32_t page) const noexcept {
     assert(page < count_);
     cells_[page].store(0, Atomics::order(ProtocolStep::kWithdraw));
@@ -61,7 +59,7 @@ class BasicPageMap {
 
  private:
   Cell* cells_;
-  std::size_t count_;  // Only asserts read it.
+  std::size_t count_;  // read by assertions only
 };
 
 using PageMap = BasicPageMap<>;

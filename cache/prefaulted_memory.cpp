@@ -16,7 +16,7 @@ namespace {
 static_assert(sizeof(std::size_t) == sizeof(std::uint64_t), "budgets are 64-bit sizes");
 
 constexpr std::uint64_t kHugePageBytes = std::uint64_t{2} << 20;
-/// As much is worth a huge page.
+/// A claim of at least this size takes at least a huge page.
 constexpr std::uint64_t kNearlyHugeBytes = kHugePageBytes / 4 * 3;
 
 std::uint64_t system_page_bytes() noexcept {
@@ -30,8 +30,8 @@ std::byte* map_anonymous(std::uint64_t bytes) noexcept {
   return address == MAP_FAILED ? nullptr : static_cast<std::byte*>(address);
 }
 
-/// The kernel backs only aligned 2 MiB stretches by huge pages, and older
-/// kernels do not align mappings: map more than asked and cut off both ends.
+/// Maps memory aligned to huge pages. The kernel uses huge pages only for aligned ranges of 2 MiB,
+/// and older kernels do not align mappings. So this maps more than requested and unmaps both ends.
 std::byte* map_huge_aligned(std::uint64_t bytes) noexcept {
   if (bytes > std::numeric_limits<std::uint64_t>::max() - kHugePageBytes) return nullptr;
   std::byte* start = map_anonymous(bytes + kHugePageBytes);
@@ -40,12 +40,12 @@ std::byte* map_huge_aligned(std::uint64_t bytes) noexcept {
   const std::uint64_t skipped = past == 0 ? 0 : kHugePageBytes - past;
   if (skipped != 0) ::munmap(start, skipped);
   ::munmap(start + skipped + bytes, kHugePageBytes - skipped);
-  // Only a wish: where huge pages are switched off, small ones do.
+  // Failure does not matter: where huge pages are disabled, small ones are used.
   ::madvise(start + skipped, bytes, MADV_HUGEPAGE);
   return start + skipped;
 }
 
-/// Backs every page now. Returns false if the system has no memory for it.
+/// Backs every page with physical memory. Returns false if the system has too little.
 bool populate(std::byte* data, std::uint64_t bytes) noexcept {
 #ifdef MADV_POPULATE_WRITE
   int outcome = 0;
@@ -55,7 +55,7 @@ bool populate(std::byte* data, std::uint64_t bytes) noexcept {
   if (outcome == 0) return true;
   if (errno != EINVAL) return false;
 #endif
-  // Kernels before 5.14 do not know the request: touch each page instead.
+  // Kernels before 5.14 do not know MADV_POPULATE_WRITE: write to each page instead.
   for (std::uint64_t at = 0; at < bytes; at += system_page_bytes()) {
     *static_cast<volatile std::byte*>(data + at) = std::byte{0};
   }

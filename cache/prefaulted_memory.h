@@ -7,23 +7,25 @@
 
 namespace planetree::cache {
 
-/// Anonymous memory taken from the system once, all of it backed before the
-/// claim returns, so that no later access faults a page in. Starts as zeros.
-/// Move-only; gives everything back when destroyed.
+/// Anonymous memory of the process, initially zero. All of it is backed by physical memory before
+/// claim() returns, so that no later access faults a page in. Move-only. The destructor returns
+/// the memory to the system.
 class PrefaultedMemory {
  public:
-  /// Claims at least `bytes`, which must not be 0. Fails with kNoMemory.
+  /// Claims at least `bytes` bytes; `bytes` must not be 0.
+  /// errors  kNoMemory.
   static Result<PrefaultedMemory> claim(std::uint64_t bytes) noexcept;
 
-  /// What claim(bytes) really takes: `bytes` rounded up to system pages, and to a huge page where
-  /// little is missing.
+  /// Bytes that claim(bytes) takes: `bytes` rounded up to whole system pages. Sizes from 1.5 to
+  /// 2 MiB are rounded up to a huge page of 2 MiB.
   static std::uint64_t claimed_bytes(std::uint64_t bytes) noexcept;
 
   PrefaultedMemory(PrefaultedMemory&& other) noexcept;
   PrefaultedMemory& operator=(PrefaultedMemory&& other) noexcept;
   ~PrefaultedMemory();
 
-  /// Keeps the system from paging it out; false where that is not allowed.
+  /// Locks the memory, so that the system does not page it out. Returns false if the system
+  /// refuses.
   bool lock() const noexcept;
 
   std::byte* data() const noexcept { return data_; }

@@ -5,23 +5,22 @@
 
 namespace planetree::cache {
 
-/// The steps by which readers and the writer understand each other, and, but
-/// for the mutex among writers, the only places where the order of memory
-/// matters. reader_slot.h says why each has the order it has; R, E and I are
-/// the steps of reading, evicting and installing.
+/// Steps of the protocol between readers and the writer. Apart from the mutex these are the only
+/// places where the memory order matters. reader_slot.h and page_map.h justify the order of each
+/// step. R, E and I number the steps of reading, evicting and installing a page.
 enum class ProtocolStep : std::uint8_t {
-  kClaim,     ///< a slot's new owner continues where the last one stopped
-  kGiveUp,    ///< the other half of kClaim
-  kEnter,     ///< R1: a reader says that it is inside a section
-  kFind,      ///< R2: it looks up a page
-  kLeave,     ///< R5: it says that the section is over
+  kClaim,     ///< a new reader continues the sequence and counts of the slot's last reader
+  kGiveUp,    ///< a reader hands the slot on; the other side of kClaim
+  kEnter,     ///< R1: a reader begins a section
+  kFind,      ///< R2: the reader looks up a page
+  kLeave,     ///< R5: the reader ends the section
   kWithdraw,  ///< E2: the writer hides a page
-  kSeeOpen,   ///< E3: it notes which sections are open
-  kSeeOver,   ///< E5: it finds that one of these is over
-  kPublish,   ///< I7: it shows a filled frame
+  kSeeOpen,   ///< E3: the writer notes which sections are open
+  kSeeOver,   ///< E5: the writer finds that a noted section has ended
+  kPublish,   ///< I7: the writer shows a filled frame
 };
 
-/// The order of each step.
+/// Memory order of each step.
 constexpr std::memory_order order_of(ProtocolStep step) noexcept {
   switch (step) {
     case ProtocolStep::kEnter:
@@ -40,9 +39,9 @@ constexpr std::memory_order order_of(ProtocolStep step) noexcept {
   return std::memory_order_seq_cst;
 }
 
-/// What the classes of the protocol are made of. They are templates over this,
-/// so that tests can run the very same code over atomics that show every
-/// behaviour the language allows, and with one order weakened at a time.
+/// Atomics and memory orders of the protocol's classes. These are templates over this type, so
+/// that tests can run the same code over atomics that show every behaviour the language allows,
+/// and with one order weakened at a time.
 struct StdAtomics {
   template <class T>
   using Atomic = std::atomic<T>;

@@ -13,37 +13,38 @@ namespace planetree::cache {
 
 class PageCache;
 
-/// How a fetch goes about a page that is not resident.
+/// How a fetch gets a page that is not resident.
 struct FetchTerms {
   static constexpr std::chrono::milliseconds kNoLimit = std::chrono::milliseconds::max();
 
-  /// Reads it; else only what a disk gives in a moment, and for the rest waits for a helper: a
-  /// thread that calls Reader::help().
+  /// True: the fetch reads the page, however long the disk takes. False: it gives up a read that
+  /// would block, and waits for a helper to read the page. A helper is a thread that calls
+  /// Reader::help().
   bool reads_itself = true;
-  /// How long to wait for a page that another reads.
+  /// Maximum time to wait for a page that another thread reads.
   std::chrono::milliseconds wait_limit = kNoLimit;
 };
 
-/// What a fetch brought.
+/// Result of a fetch.
 struct Fetched {
-  const std::byte* frame = nullptr;  ///< nullptr if the page is unreadable, or was given up
-  bool given_up = false;             ///< the limit was reached; another fetch may have it
+  const std::byte* frame = nullptr;  ///< nullptr if the page is unreadable or `given_up` is true
+  bool given_up = false;             ///< the wait limit has passed; a later fetch may succeed
 };
 
-/// One thread's access to the pages of a PageCache, which must outlive it.
-/// Move-only; gives its slot back when destroyed. Not for two threads at once.
+/// One thread's access to the pages of a PageCache, which must outlive it. Move-only. The
+/// destructor releases the reader slot. Only one thread at a time may use a Reader.
 ///
-/// Pages are read inside sections. A pointer to a frame is valid until the
-/// next leave() or fetch(); keep page numbers across these, not pointers.
-/// Sections must be short (some hundred lookups) and must not wait for
-/// anything, because other threads' fetches wait for them to end.
+/// Pages are read inside sections. A pointer to a frame is valid until the next leave() or
+/// fetch(); keep page numbers across these calls, not pointers. Sections must be short (some
+/// hundred lookups) and must not wait for anything, because fetches of other threads wait for
+/// them to end.
 class Reader {
  public:
   Reader(Reader&& other) noexcept;
   Reader& operator=(Reader&& other) noexcept;
   ~Reader();
 
-  /// Begins a section; not inside one. No lock, allocation or system call.
+  /// Begins a section. Must not be called inside one. No lock, allocation or system call.
   void enter() noexcept { slot_->enter(); }
 
   /// Ends the section. No lock, allocation or system call.
@@ -51,11 +52,11 @@ class Reader {
 
   bool inside() const noexcept { return slot_->inside(); }
 
-  /// Among the readers there are at one time.
+  /// Index of the reader slot, below max_readers; unique among simultaneous readers.
   std::uint32_t index() const noexcept { return index_; }
 
-  /// Inside a section: the frame of a page number below page_count, or nullptr
-  /// if it is not resident. No lock, allocation, loop or system call.
+  /// Returns the frame of a page number below page_count, or nullptr if the page is not resident.
+  /// Call it inside a section. No lock, allocation, loop or system call.
   const std::byte* find(std::uint32_t page) noexcept {
     assert(inside());
     const std::uint32_t frame = map_.find(page);
@@ -68,34 +69,34 @@ class Reader {
     return at(frame);
   }
 
-  /// As find(), for a glance: counts and marks nothing.
+  /// Does what find() does without counting the lookup or recording a use.
   const std::byte* peek(std::uint32_t page) const noexcept {
     assert(inside());
     const std::uint32_t frame = map_.find(page);
     return frame == kNoFrame ? nullptr : at(frame);
   }
 
-  /// Where pages are: good as long as the cache is, for looks at what may change meanwhile.
+  /// The page map and the frames, for prefetching. They exist as long as the cache, but their
+  /// content may change at any time.
   const PageMap& map() const noexcept { return map_; }
   const std::byte* frames() const noexcept { return frames_; }
   std::uint64_t stride_bytes() const noexcept { return stride_bytes_; }
 
-  /// Inside a section: ends it, makes the page resident, begins another and
-  /// returns the page's frame; nullptr if the page is unreadable. All pointers
-  /// found before are invalid.
+  /// Ends the current section, makes the page resident, begins another section and returns the
+  /// page's frame, or nullptr if the page is unreadable. Call it inside a section. All pointers
+  /// found before become invalid.
   ///
-  /// The frame keeps the page's bytes until the section ends, even if others
-  /// evict the page at once so that find() no longer shows it. So read what is
-  /// needed from the pointer returned; do not start again from find(), or
-  /// threads may take each other's pages for ever.
+  /// The frame keeps the page's bytes until the section ends, even if another thread evicts the
+  /// page at once and find() no longer returns it. So use the pointer returned. Do not call find()
+  /// again instead, or threads could evict each other's pages without end.
   ///
-  /// May wait for the disk, for other fetches and for other readers' sections:
-  /// not for threads that must answer in time.
+  /// May wait for the disk, for other fetches and for the sections of other readers. Not for
+  /// real-time queries.
   const std::byte* fetch(std::uint32_t page) noexcept { return fetch(page, {}).frame; }
   Fetched fetch(std::uint32_t page, const FetchTerms& terms) noexcept;
 
-  /// Outside a section: reads the page that another has waited for longest of those that nobody
-  /// reads; false if there is none.
+  /// Reads a page for another thread: among the pages that are waited for and that no thread reads,
+  /// the one whose wait began first. Returns false if there is none. Call it outside of sections.
   bool help() noexcept;
 
  private:
@@ -106,13 +107,13 @@ class Reader {
     return frames_ + frame * stride_bytes_;
   }
 
-  // Copies of what find() needs, so that it does not touch the cache object,
-  // whose lines the writer keeps changing.
+  // Copies of what find() needs, so that it does not read the PageCache object, whose cache lines
+  // the writer changes.
   PageMap map_;
   ReferenceBits marks_;
   const std::byte* frames_;
   std::uint64_t stride_bytes_;
-  ReaderSlot* slot_;  // nullptr once moved from
+  ReaderSlot* slot_;  // nullptr after a move
   std::uint32_t index_;
   PageCache* cache_;
 };

@@ -9,40 +9,38 @@
 
 namespace planetree::cache {
 
-/// Tells the writer whether one reader may be holding frames.
+/// Tells the writer whether one reader may hold pointers to frames.
 ///
-/// A reader's life is a row of sections. The sequence is odd inside a section
-/// and even outside, and never repeats a value. Pointers to frames live only
-/// inside one section. So the writer, having hidden a page, notes which slots
-/// are odd: once each of these shows another number, nobody can hold the
-/// page's frame any more. The reader never waits, loops or locks for this.
+/// The slot's sequence number is odd inside a section and even outside, and never repeats a value.
+/// Pointers to frames are valid only within one section. So the writer, after hiding a page, notes
+/// which slots have an odd number. Once each of these slots has another number, no reader can hold
+/// a pointer to the page's frame. The reader never waits, loops or locks for this.
 ///
-/// What must not happen is that a reader finds a page which the writer hides,
-/// while the writer takes that reader for outside:
+/// A reader must not find a page that the writer hides while the writer takes that reader for
+/// outside:
 ///
 ///     reader                              writer
 ///     R1  sequence = odd                  E2  map[page] = 0
 ///     R2  frame = map[page]               E3  read sequence
 ///
-/// Each side stores one variable and then loads the other's. With weaker
-/// orders both loads may come before both stores become visible, on x86 too
-/// (store buffering), and both sides see the old values. Making all four
-/// seq_cst puts them in one order: if E3 misses R1, then E2 precedes R2 in it,
-/// and R2 finds the page absent. These are operations and not fences because
-/// ThreadSanitizer does not model fences.
+/// Each side stores one variable and then loads the other's. With weaker orders both loads may
+/// happen before either store becomes visible, on x86 too (store buffering), and both sides see
+/// the old values. If all four are seq_cst, they have a single total order: if E3 does not see R1,
+/// then E2 precedes R2 in that order, and R2 finds the page absent. These are operations instead
+/// of fences because ThreadSanitizer does not model fences.
 ///
-/// One slot a cache line, so that readers do not disturb each other.
+/// Each slot has a cache line of its own, so that readers do not slow each other down.
 template <class Atomics = StdAtomics>
 class alignas(64) BasicReaderSlot {
  public:
-  /// Takes the slot for one reader; false if it is taken. Acquire: the new
-  /// owner continues the sequence and the counts where the last one stopped.
+  /// Claims the slot for one reader; returns false if it is claimed already. Acquire, because the
+  /// new reader continues the sequence and the counts of the last one.
   bool try_claim() noexcept {
     return !claimed_.exchange(true, Atomics::order(ProtocolStep::kClaim));
   }
 
-  /// Gives the slot up, outside a section. Release: hands sequence and counts
-  /// to the next owner.
+  /// Releases the slot, outside of a section. Release, to hand sequence and counts to the next
+  /// reader.
   void release() noexcept {
     assert(!inside());
     claimed_.store(false, Atomics::order(ProtocolStep::kGiveUp));
@@ -50,13 +48,13 @@ class alignas(64) BasicReaderSlot {
 
   bool claimed() const noexcept { return claimed_.load(std::memory_order_relaxed); }
 
-  // The calls below, up to the writer's, belong to the slot's owner.
+  // Only the reader that claimed the slot may make the following calls.
 
   /// Begins a section.
   void enter() noexcept {
     assert(!inside());
-    // Only the owner stores, so its own load needs no order. R1: seq_cst, as
-    // argued above.
+    // Only this reader stores, so its own load needs no order. The store is R1: seq_cst, for the
+    // reason given above.
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, Atomics::order(ProtocolStep::kEnter));
   }
@@ -64,32 +62,31 @@ class alignas(64) BasicReaderSlot {
   /// Ends a section.
   void leave() noexcept {
     assert(inside());
-    // R5: release, so that all reads of frames in this section are over before
-    // the writer, which acquires this or a later number, writes the frame.
-    // Nothing after it needs to be ordered before it: seen late, it only makes
-    // the writer wait longer.
+    // R5: release, so that all reads of frames in this section happen before the writer, which
+    // acquires this or a later number, writes the frame. Later operations need no order: if the
+    // writer sees the store late, it only waits longer.
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, Atomics::order(ProtocolStep::kLeave));
   }
 
   bool inside() const noexcept { return is_inside(sequence_.load(std::memory_order_relaxed)); }
 
-  /// The counts have one writer each, so a load and a store will do in place
-  /// of a locked addition; relaxed, since nothing is concluded from them.
+  /// Only this reader changes the counts, so a load and a store replace an atomic addition.
+  /// Relaxed, because no other memory access depends on them.
   void count_hit() noexcept { add_one(hits_); }
   void count_miss() noexcept { add_one(misses_); }
 
-  // For the writer, and for statistics.
+  // The writer makes the following calls; any thread may read the counts.
 
   static constexpr bool is_inside(std::uint64_t sequence) noexcept { return sequence % 2 == 1; }
 
-  /// E3: seq_cst, as argued above; also acquires what the reader did in
-  /// sections that are over.
+  /// E3: seq_cst, for the reason given above. Also acquires what the reader did in sections that
+  /// have ended.
   std::uint64_t sequence_after_withdrawal() const noexcept {
     return sequence_.load(Atomics::order(ProtocolStep::kSeeOpen));
   }
 
-  /// E5: acquire, the other half of leave().
+  /// E5: acquire, the other side of leave().
   std::uint64_t sequence_before_reuse() const noexcept {
     return sequence_.load(Atomics::order(ProtocolStep::kSeeOver));
   }

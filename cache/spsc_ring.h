@@ -10,12 +10,12 @@
 
 namespace planetree::cache {
 
-/// The steps of SpscRing, below, at which the order of memory matters.
+/// Steps of SpscRing, below, at which the memory order matters.
 enum class RingStep : std::uint8_t {
-  kShow,     ///< G3
-  kSee,      ///< T1
-  kFree,     ///< T3
-  kSeeFree,  ///< G1
+  kShow,     ///< P3
+  kSee,      ///< C1
+  kFree,     ///< C3
+  kSeeFree,  ///< P1
 };
 
 constexpr std::memory_order order_of(RingStep step) noexcept {
@@ -40,32 +40,34 @@ struct StdRing {
   static constexpr std::memory_order order(RingStep step) noexcept { return order_of(step); }
 };
 
-/// Records on their way from one thread to another. The giver never waits, loops or locks: what
-/// finds no room is dropped, and counted.
+/// A ring buffer with a single producer and a single consumer. The producer never waits, loops or
+/// locks: it drops and counts a record that finds the ring full. Each side has a counter of the
+/// records it has written or read.
 ///
-///     giver                               taker
-///     G1  taken                           T1  given
-///     G2  write the slot, if one is free  T2  read the slots up to there
-///     G3  given = one more                T3  taken = so many more
+///     producer                            consumer
+///     P1  load the consumer's counter     C1  load the producer's counter
+///     P2  write a slot, if one is free    C2  read the slots up to it
+///     P3  increment its own counter       C3  increase its own counter
 ///
-/// T1 acquires from G3 what was written at G2; G1 acquires from T3 that T2 is over.
+/// C1 acquires from P3 the slots written at P2. P1 acquires from C3 that the reads of C2 are over.
 ///
-/// A view of slots that somebody else owns. Atomics as SeqLock has them: for tests.
+/// A view of slots; the caller owns them. The Atomics parameter is for tests, as in SeqLock.
 template <class Record, class Atomics = StdRing>
 class alignas(64) SpscRing {
  public:
   using Slot = typename Atomics::template Plain<Record>;
 
-  /// As many as hold so many records: a power of two.
+  /// Number of slots that hold at least `records` records: a power of two.
   static constexpr std::uint64_t slots_for(std::uint64_t records) { return std::bit_ceil(records); }
 
-  /// Before there are threads. `slots` is a power of two of them, or none: all is dropped then.
+  /// Sets the slots, before threads use the ring. Their number is a power of two, or 0: then all
+  /// records are dropped.
   void attach(std::span<Slot> slots) noexcept {
     assert(slots.empty() || std::has_single_bit(slots.size()));
     slots_ = slots;
   }
 
-  /// The giver alone.
+  /// Adds a record, or drops it if the ring is full. For the producer.
   void give(const Record& record) noexcept {
     const std::uint64_t given = given_.load(std::memory_order_relaxed);
     if (given - taken_.load(Atomics::order(RingStep::kSeeFree)) == slots_.size()) {
@@ -76,7 +78,8 @@ class alignas(64) SpscRing {
     given_.store(given + 1, Atomics::order(RingStep::kShow));
   }
 
-  /// The taker alone: the oldest records, in their order; how many there were, or room for.
+  /// Removes the oldest records into `records`, in the order in which they were added. Returns
+  /// their number, at most records.size(). For the consumer.
   std::size_t take(std::span<Record> records) noexcept {
     const std::uint64_t given = given_.load(Atomics::order(RingStep::kSee));
     const std::uint64_t taken = taken_.load(std::memory_order_relaxed);
@@ -88,7 +91,7 @@ class alignas(64) SpscRing {
     return count;
   }
 
-  /// Any thread.
+  /// Number of records dropped so far. For any thread.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
@@ -97,7 +100,7 @@ class alignas(64) SpscRing {
   std::span<Slot> slots_;
   Number given_{0};
   Number dropped_{0};
-  alignas(64) Number taken_{0};  // so that the taker does not disturb the giver's line
+  alignas(64) Number taken_{0};  // on a line of its own, away from what the producer writes
 };
 
 }  // namespace planetree::cache

@@ -1,6 +1,6 @@
 #include "storage/file/checksum.h"
 
-// The state's layout is public only under this name; Hasher128 holds one in place.
+// Makes the layout of XXH3_state_t public: Hasher128 contains one.
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
@@ -20,8 +20,8 @@ Hash128 hash128(std::span<const std::byte> bytes) noexcept {
 Hasher128::Hasher128() noexcept {
   static_assert(sizeof(XXH3_state_t) <= kStateBytes);
   static_assert(alignof(XXH3_state_t) <= kStateAlignment);
-  // xxHash reads the seed's field to see whether a custom secret must be rebuilt, so the state
-  // starts from zero rather than from whatever was on the stack.
+  // The reset reads the seed field to decide whether a custom secret must be rebuilt, so the state
+  // is zeroed first.
   XXH3_128bits_reset(new (state_) XXH3_state_t{});
 }
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <span>
 
-/// XXH3 over bytes. The only place that knows xxHash.
+/// XXH3 hashes. No other file of the library uses xxHash.
 ///
-/// The values go into files, so they are the published XXH3 ones (final since
-/// xxHash 0.8.0) and the tests hold them against known answers.
+/// The values are stored in files, so they must be the published XXH3 values (final since
+/// xxHash 0.8.0). The tests compare them with known answers.
 namespace planetree::storage {
 
 struct Hash128 {
@@ -24,8 +24,8 @@ struct Hash128 {
 /// XXH3-128 of `bytes`, which may be empty, with seed 0.
 [[nodiscard]] Hash128 hash128(std::span<const std::byte> bytes) noexcept;
 
-/// XXH3-128 of bytes that come in parts: the parts' boundaries do not matter.
-/// Holds its state in place, so that hashing a page table allocates nothing.
+/// XXH3-128 of bytes that are added in parts. The value does not depend on how they are split.
+/// Contains its state, so that hashing a page table allocates nothing.
 class Hasher128 {
  public:
   Hasher128() noexcept;

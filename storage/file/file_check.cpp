@@ -71,7 +71,8 @@ Result<void> check_lengths(const FileHeader& header, std::uint64_t actual_bytes)
   if (header.page_count == 0) {
     return bad_header(offsetof(FileHeader, page_count), "the header says that there is no page");
   }
-  // A page has at least one byte, so this bounds the table by the file before anything is claimed.
+  // A page has at least one byte, so the file's length bounds the page table before memory is
+  // allocated for it.
   if (table_end(header.page_count) + header.page_count + kHeaderBytes > header.file_bytes) {
     return bad_header(offsetof(FileHeader, page_count), "the page table does not fit in the file");
   }
@@ -106,7 +107,8 @@ bool key_less(const PageEntry& a, const PageEntry& b) noexcept {
   return a.octcode != b.octcode ? a.octcode < b.octcode : a.ordinal < b.ordinal;
 }
 
-// The sums cannot overflow: page_count lengths of 32 bits each.
+// Checks that the pages fill the file. The sums cannot overflow: they have page_count terms of 32
+// bits each.
 Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> entries) noexcept {
   std::uint64_t offset = table_end(header.page_count);
   std::uint32_t max_raw_bytes = 0;
@@ -127,7 +129,7 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
   if (offset != header.file_bytes - kHeaderBytes) {
     return bad_entry(header.page_count - 1, "the pages do not end where the header's copy starts");
   }
-  // What readers set aside per page is taken from these: they must not be more than is needed.
+  // Readers allocate buffers of these sizes, so they must not exceed what the pages need.
   if (max_raw_bytes != header.max_raw_bytes || max_stored_bytes != header.max_stored_bytes) {
     return bad_header(offsetof(FileHeader, max_raw_bytes),
                       "no page is as large as the header says the largest is");
@@ -151,7 +153,7 @@ Result<void> check_unbalanced_edges(const ModelRecord& model) noexcept {
   return {};
 }
 
-// A triangle touches both the region and the model's box.
+// The region must overlap the model's box, because at least one triangle touches both.
 bool is_region(const ModelRecord& model) noexcept {
   if (!all_finite(model.region_lower) || !all_finite(model.region_upper)) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -179,7 +181,8 @@ Result<void> check_region(const ModelRecord& model) noexcept {
     return bad_model(offsetof(ModelRecord, input_triangles),
                      "a region has more triangles than the input");
   }
-  // A triangle counts for one at most. Sums of windings must not overflow.
+  // Each triangle contributes at most 1 to a winding number. The limit of kMaxWinding keeps sums of
+  // winding numbers from overflowing.
   const auto most = static_cast<std::int64_t>(std::min(model.input_triangles, kMaxWinding));
   if (model.region_winding > most || model.region_winding < -most) {
     return bad_model(offsetof(ModelRecord, region_winding),

@@ -44,7 +44,7 @@ Error not_planetree(const char* what) noexcept {
 
 Error explain_foreign(std::span<const std::byte> leading) noexcept {
   const std::string_view text = as_text(leading);
-  // The magic's first and last bytes are there to be mangled by a transfer that takes it for text.
+  // A transfer in text mode changes the first and last bytes of the magic, but not the letters.
   if (text.substr(0, 10).find("PTREE") != std::string_view::npos) {
     return make_error(ErrorCode::kDamaged, Error::kNowhere, 0,
                       "the file's first bytes are damaged, as by a transfer in text mode; "
@@ -62,7 +62,7 @@ Error explain_foreign(std::span<const std::byte> leading) noexcept {
   return not_planetree(what);
 }
 
-// Neither header is whole: says why, as well as can be known.
+// Explains as far as possible why neither header is usable.
 Error explain(std::span<const std::byte> leading, std::uint64_t actual_bytes) noexcept {
   if (leading.empty()) return not_planetree("an empty one: build it again");
   const std::size_t known_bytes = std::min(leading.size(), sizeof kMagic);
@@ -76,7 +76,8 @@ Error explain(std::span<const std::byte> leading, std::uint64_t actual_bytes) no
   std::uint16_t version;
   std::memcpy(&version, leading.data() + offsetof(FileHeader, version), sizeof version);
   if (version != kFormatVersion) {
-    // Another version may have another header, so its own word has to do.
+    // Another version may have another header layout, so the version is reported without a check
+    // of the hash.
     return make_error(ErrorCode::kUnsupported, Error::kNowhere, offsetof(FileHeader, version),
                       "the file has format version %d and this program reads version %d; use a "
                       "planetree of that version or build the file again",

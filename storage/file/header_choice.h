@@ -9,20 +9,20 @@
 
 namespace planetree::storage {
 
-/// Which of a file's two headers to go by.
+/// The header to use of the two in a file.
 struct HeaderChoice {
-  FileHeader header;  ///< its magic and hash are right; nothing else has been looked at
-  bool copy_damaged;  ///< the other copy is absent, damaged or different
+  FileHeader header;  ///< magic and hash are correct; nothing else has been checked
+  bool copy_damaged;  ///< the other header is absent, damaged or different
 };
 
-/// Takes the leading header if it is whole, else the trailing one, so that
-/// damage to either does not lose the file.
+/// Chooses the leading header if its magic and hash are correct, otherwise the trailing one. So a
+/// file stays readable after damage to one of them.
 ///
-/// leading       the file's first bytes: min(kHeaderBytes, actual_bytes) of them.
-/// trailing      the file's last kHeaderBytes bytes, or none if it is too short to have both.
-/// actual_bytes  the file's length.
-/// errors        kNotPlanetree, which says what was found instead; kTruncated, kUnsupported or
-///               kDamaged where it is a .ptree file, but neither header is whole.
+/// leading       first min(kHeaderBytes, actual_bytes) bytes of the file.
+/// trailing      last kHeaderBytes bytes of the file; empty if it is too short to have both.
+/// actual_bytes  length of the file.
+/// errors        kNotPlanetree, which states what was found instead; kTruncated, kUnsupported or
+///               kDamaged, if it is a .ptree file but neither header is usable.
 Result<HeaderChoice> choose_header(std::span<const std::byte> leading,
                                    std::span<const std::byte> trailing,
                                    std::uint64_t actual_bytes) noexcept;

@@ -10,7 +10,7 @@ namespace planetree::storage {
 namespace {
 
 constexpr int kCompressionLevel = 4;
-// What one byte of an LZ4 block can at most stand for.
+// Maximum number of raw bytes for one byte of an LZ4 block.
 constexpr std::uint64_t kMaxExpansion = 255;
 
 Error damaged(const char* cause) noexcept {
@@ -18,11 +18,11 @@ Error damaged(const char* cause) noexcept {
                     "%s; restore the file from a copy or build it again", cause);
 }
 
-// An empty result means that LZ4 does not make the page shorter.
+// Returns an empty vector if LZ4 does not make the page shorter.
 std::vector<std::byte> compress(std::span<const std::byte> raw) {
   if (raw.size() < 2) return {};
-  // LZ4's own allocation of its state would turn a lack of memory into "does not shrink", and the
-  // file's bytes would depend on the machine. Ours throws instead.
+  // If LZ4 allocated its state, it would report a lack of memory like a page that does not become
+  // shorter, and the file's bytes would depend on the machine. This allocation throws instead.
   std::vector<std::byte> state(static_cast<std::size_t>(LZ4_sizeofStateHC()));
   std::vector<std::byte> bytes(raw.size() - 1);
   const int length = LZ4_compress_HC_extStateHC(

@@ -8,10 +8,10 @@
 #include "planetree/error.h"
 #include "storage/file/file_layout.h"
 
-/// Raw bytes of a page <-> stored bytes. The only place that knows LZ4.
+/// Converts raw bytes of a page to stored bytes and back. No other file of the library uses LZ4.
 namespace planetree::storage {
 
-/// Most raw bytes a page may have; larger ones are refused before anything is allocated.
+/// Maximum number of raw bytes of a page. Larger pages are refused before memory is allocated.
 inline constexpr std::size_t kMaxRawBytes = 4 * std::size_t{kMaxPageBytes};
 
 struct StoredPage {
@@ -19,25 +19,26 @@ struct StoredPage {
   std::vector<std::byte> bytes;
 };
 
-/// Stores a page: as an LZ4 block, or as it is where LZ4 does not shrink it.
+/// Encodes a page as an LZ4 block, or copies it if LZ4 does not make it shorter.
 ///
 /// raw      1 to kMaxRawBytes bytes.
-/// return   a function of `raw` alone, for one release of LZ4: no thread, memory or history counts.
+/// return   depends on `raw` and the release of LZ4 alone, not on threads, memory or earlier calls.
+/// throws   std::bad_alloc.
 /// threads  any number at once.
 [[nodiscard]] StoredPage encode_page(std::span<const std::byte> raw);
 
-/// Whether stored bytes of these lengths may exist: a raw page is stored at its own length, an
-/// LZ4 block is shorter than its page and at most 255 times so. Nothing is allocated for a page
-/// that fails this, so that no file can be a decompression bomb.
+/// Whether a page can have these lengths. Without a codec, stored and raw length are equal. An LZ4
+/// block is shorter than the raw bytes, by a factor of at most 255. Readers allocate nothing for a
+/// page that fails this check, so that no file can be a decompression bomb.
 [[nodiscard]] bool lengths_are_plausible(Codec codec, std::uint64_t stored_bytes,
                                          std::uint64_t raw_bytes) noexcept;
 
-/// Restores a page's raw bytes.
+/// Decodes the raw bytes of a page.
 ///
-/// stored   any bytes, also hostile ones.
-/// raw_out  exactly as long as the page; overwritten, also on failure. No overlap with `stored`.
-/// errors   kDamaged: not the bytes of a page of this length, or an unknown codec.
-/// threads  any number at once; no allocation.
+/// stored   any bytes, even hostile ones.
+/// raw_out  exactly as long as the raw page; overwritten even on failure. Must not overlap
+/// `stored`. errors   kDamaged: `stored` does not decode to a page of this length, or the codec is
+/// unknown. threads  any number at once; no allocation.
 Result<void> decode_page(Codec codec, std::span<const std::byte> stored,
                          std::span<std::byte> raw_out) noexcept;
 

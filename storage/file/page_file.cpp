@@ -42,7 +42,7 @@ Error scaled(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
 
 Result<PageFile> PageFile::open(const std::filesystem::path& path, FileCalls& calls) {
   PageFile opened;
-  // Opening a pipe that nobody writes must not wait.
+  // O_NONBLOCK: opening a pipe without a writer must not block.
   opened.file_ = FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY);
   if (!opened.file_.is_open()) return file_error(errno, FileAction::kRead, "open the file");
   const Result<std::uint64_t> actual_bytes = length_of(opened.file_);

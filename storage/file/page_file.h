@@ -13,20 +13,22 @@
 
 namespace planetree::storage {
 
-/// An open .ptree file: page number -> verified raw bytes.
+/// An open .ptree file: returns the verified raw bytes of its pages.
 ///
-/// Everything outside the pages is checked at open and copied; each page is
-/// checked whenever it is read. The file stays the one that was opened: if
-/// another is renamed over its name, the old one is served on.
+/// The header and the page table are copied and checked at open. Each page is checked whenever it
+/// is read. If another file is renamed to the same path, the object goes on reading the file that
+/// it opened.
 class PageFile {
  public:
   PageFile(PageFile&&) noexcept = default;
   PageFile& operator=(PageFile&&) noexcept = default;
 
+  /// Opens a file. Allocates no more memory than the file is long.
+  ///
   /// path    a regular file, or a link to one.
   /// calls   the system; must outlive the PageFile.
   /// errors  kNotFound, kPermission, kNoMemory, kReadFailed; kNotPlanetree, kUnsupported,
-  ///         kTruncated, kDamaged. Memory claimed is bounded by the file's length.
+  ///         kTruncated, kDamaged.
   static Result<PageFile> open(const std::filesystem::path& path,
                                FileCalls& calls = FileCalls::real());
 
@@ -36,26 +38,27 @@ class PageFile {
     return {entries_.get(), header_.page_count};
   }
 
-  /// Bytes of memory the page table takes.
+  /// Bytes of memory that the page table takes.
   std::uint64_t table_memory_bytes() const noexcept { return entries().size_bytes(); }
 
-  /// Whether one of the file's two headers is damaged. Pages are served from
-  /// the other; the file should be copied or built again before that goes too.
+  /// Whether one of the file's two headers is damaged. The other one is used; the file should be
+  /// copied or built again before that one is damaged too.
   bool header_copy_damaged() const noexcept { return header_copy_damaged_; }
 
   /// Reads, verifies and decodes one page.
   ///
   /// page            below page_count().
-  /// stored_scratch  at least header().max_stored_bytes; its content is lost.
-  /// raw_out         exactly entries()[page].raw_bytes; unspecified on failure.
-  /// errors          with page and offset: kBadArgument; kReadFailed; kTruncated, if the file was
-  ///                 cut short since; kDamaged.
+  /// stored_scratch  at least header().max_stored_bytes bytes; overwritten.
+  /// raw_out         exactly entries()[page].raw_bytes bytes; unspecified on failure.
+  /// errors          with page and offset: kBadArgument; kReadFailed; kTruncated: the file became
+  ///                 shorter after it was opened; kDamaged.
   /// threads         any number at once; no lock, no allocation.
   Result<void> read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
                          std::span<std::byte> raw_out) const noexcept;
 
-  /// The same of a page that the system has in memory, or that a device gives as soon as `terms`
-  /// want it. False where that takes longer, or reading fails in a way that read_page() tells.
+  /// Does the same within the time limits of `terms`. Returns false if the read would block or
+  /// fails. In both cases read_page() reads the page or returns the error.
+  /// errors  kBadArgument, kDamaged.
   Result<bool> read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
                               std::span<std::byte> raw_out,
                               const SoonTerms& terms = {}) const noexcept;

@@ -98,7 +98,7 @@ Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t pa
     return fail(bad_argument(Error::kNowhere, "the mask has not as many pages as the model says"));
   }
   const FileHeader header = make_header(model, page_bytes);
-  // What a reader would refuse must not be written.
+  // The writer must not write a header that a reader would refuse.
   if (const Result<void> checked = check_header(header, header.file_bytes); !checked) {
     Error error = checked.error();
     error.code = ErrorCode::kBadArgument;
@@ -133,7 +133,7 @@ FileHeader PageWriter::make_header(const ModelRecord& model, std::uint32_t page_
   return header;
 }
 
-// The leading header goes last: a file that was cut off earlier does not look like one.
+// The leading header is written last, so that an incomplete file is not taken for a .ptree file.
 Result<void> PageWriter::write_out(const FileHeader& header) {
   const std::span<const std::byte> bytes = std::as_bytes(std::span(&header, 1));
   if (const Result<void> flushed = flush(); !flushed) return flushed;

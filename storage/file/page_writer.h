@@ -14,44 +14,47 @@
 
 namespace planetree::storage {
 
-/// Writes one .ptree file, page after page, and commits it whole or not at all.
+/// Writes one .ptree file, page after page, and commits it either complete or not at all.
 ///
-/// The bytes written are a function of the arguments alone. An error is final:
-/// every later call returns it, and destroying the writer leaves the
-/// destination as it was.
+/// The bytes written depend on the arguments alone. After an error every later call returns that
+/// error, and destroying the writer leaves the destination unchanged.
 /// threads  one at a time.
 class PageWriter {
  public:
   PageWriter(PageWriter&&) noexcept = default;
 
-  /// path        where the file shall appear.
-  /// page_count  at least 1: the room for the page table is set aside by it.
+  /// Starts a file.
+  ///
+  /// path        destination of the file.
+  /// page_count  number of pages, at least 1; determines the length of the page table.
   /// replace     whether an existing file may be replaced.
   /// calls       the system; must outlive the writer.
-  /// errors      kBadArgument; kAlreadyExists; kPermission, kNoSpace and the like.
-  /// memory      1 MiB and 40 bytes a page, until destroyed.
+  /// errors      kBadArgument; kAlreadyExists; those of file_error(), such as kPermission,
+  /// kNoSpace. memory      1 MiB and 40 bytes per page, until the writer is destroyed.
   static Result<PageWriter> create(const std::filesystem::path& path, std::uint32_t page_count,
                                    bool replace, FileCalls& calls = FileCalls::real());
 
   /// Adds the next page.
   ///
-  /// octcode, ordinal  its key, above that of the page before it of its kind.
-  /// raw_bytes         its length before encode_page().
-  /// errors            kBadArgument: out of order, too many, or lengths no page can have;
-  ///                   kNoSpace, kWriteFailed and the like.
+  /// octcode, ordinal  key of the page, above that of the previous page of its kind.
+  /// raw_bytes         length of the page before encode_page().
+  /// stored            result of encode_page().
+  /// errors            kBadArgument: out of order, too many pages, or lengths that no page can
+  /// have;
+  ///                   those of file_error(), such as kNoSpace and kWriteFailed.
   Result<void> append(std::uint64_t octcode, std::uint32_t ordinal, std::uint32_t raw_bytes,
                       const StoredPage& stored);
 
-  /// The pages that follow are the mask's: their keys begin anew.
+  /// Marks the pages appended from now on as mask pages, with an order of keys of their own.
   void begin_mask() noexcept { first_mask_page_ = static_cast<std::uint32_t>(entries_.size()); }
 
-  /// Completes the file, after page_count pages, and gives it its name.
+  /// Completes the file, after page_count pages, and commits it. Call it once.
   ///
-  /// page_bytes  of a decoded page; a power of two from kMinPageBytes to kMaxPageBytes.
-  /// return      the header as it was written.
+  /// page_bytes  size of a decoded page: a power of two from kMinPageBytes to kMaxPageBytes.
+  /// return      the header that was written.
   /// errors      kBadArgument: pages are missing or `model` breaks a rule of the format;
-  ///             kAlreadyExists: the name was taken meanwhile; else as append(). See
-  ///             NewFile::commit() for what a failure leaves.
+  ///             kAlreadyExists: the name was taken in the meantime; otherwise those of append().
+  ///             NewFile::commit() states what remains after a failure.
   Result<FileHeader> finish(const ModelRecord& model, std::uint32_t page_bytes);
 
  private:
@@ -65,13 +68,13 @@ class PageWriter {
   Error fail(const Error& error) noexcept;
 
   NewFile file_;
-  std::vector<PageEntry>
-      entries_;  // `check` holds the bare page hash until the content id is known
+  // PageEntry::check is the page hash alone until the content id is known.
+  std::vector<PageEntry> entries_;
   std::uint32_t page_count_ = 0;
   std::optional<std::uint32_t> first_mask_page_;
   std::vector<std::byte> buffer_;
-  std::uint64_t buffer_offset_ = 0;  // in the file, of the buffer's first byte
-  std::optional<Error> failure_;     // also set when finished
+  std::uint64_t buffer_offset_ = 0;  // file offset of the buffer's first byte
+  std::optional<Error> failure_;     // first error; also set by a successful finish()
 };
 
 }  // namespace planetree::storage

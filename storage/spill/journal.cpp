@@ -8,9 +8,9 @@
 namespace planetree::storage {
 namespace {
 
-/// Comes before the payload.
+/// Head of a record, followed by the payload.
 struct RecordHead {
-  std::uint64_t check = 0;  // of all bytes behind it, seeded with the record's place
+  std::uint64_t check = 0;  // hash of all bytes after it, seeded with the record's offset
   std::uint64_t payload_bytes = 0;
   std::uint32_t kind = 0;
   std::uint32_t reserved = 0;
@@ -37,7 +37,7 @@ Result<void> Journal::replay(const Take& take) {
     if (!take(head.kind, std::span(record).subspan(sizeof head))) break;
     size_bytes_ += record.size();
   }
-  // What is left could, behind a new record, look like one that belongs there.
+  // Remaining bytes must be removed: after a new record they could look like a valid one.
   if (size_bytes_ < *file_bytes) return file_.truncate(size_bytes_);
   return {};
 }

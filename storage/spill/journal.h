@@ -12,31 +12,32 @@
 
 namespace planetree::storage {
 
-/// What a process notes down for a later one, record after record, each with a checksum. What
-/// the process was at when it ended is a torn record at the end, which counts for nothing.
+/// Records that a process leaves for a later one, each with a checksum. If the process ends while
+/// it appends a record, the file ends with an incomplete record, which is ignored.
 class Journal {
  public:
-  /// Takes a record; false: it is not to be believed, and neither is what comes behind it.
+  /// Receives a record. Returns false to reject this record and all that follow.
   using Take = std::function<bool(std::uint32_t kind, std::span<const std::byte> payload)>;
 
   /// file  open for reading and writing.
   explicit Journal(FileHandle file) noexcept : file_(std::move(file)) {}
 
-  /// Hands out the whole records in their order, and cuts off the rest of the file, durably.
-  /// Call it once, before anything is appended.
-  /// errors  as FileHandle.
+  /// Passes the complete records to `take`, in their order, up to the first that is incomplete,
+  /// damaged or rejected. Removes the rest of the file, durably. Call it once, before append().
+  /// errors  those of FileHandle.
   Result<void> replay(const Take& take);
 
-  /// Adds a record; it is durable on return. Any number of threads.
-  /// errors  as FileHandle, kNoSpace among them; all later calls fail too.
+  /// Appends a record, which is durable when the call returns.
+  /// errors   those of FileHandle, among them kNoSpace; after an error all later calls fail too.
+  /// threads  any number at once.
   Result<void> append(std::uint32_t kind, std::span<const std::byte> payload);
 
-  /// Of the records.
+  /// Total length of the records.
   std::uint64_t size_bytes() const {
     const std::lock_guard lock(mutex_);
     return size_bytes_;
   }
-  /// Whether appending ever failed.
+  /// Whether any append() has failed.
   bool failed() const {
     const std::lock_guard lock(mutex_);
     return failure_.has_value();

@@ -7,8 +7,7 @@
 namespace planetree::storage {
 namespace {
 
-// Below the first a disk would be busy with blocks rather than bytes; above the second nothing
-// is gained.
+// Smaller blocks would cost a disk more time per block than per byte. Larger ones gain nothing.
 constexpr std::uint64_t kMinBlockBytes = 256;
 constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{256} << 10;
 
@@ -48,7 +47,7 @@ bool SpillBuckets::make_space(Bucket& bucket) {
   return true;
 }
 
-// Returns where the block before it is.
+// Reads a block into block_. Returns the offset of the block before it, or kNoBlock.
 Result<std::uint64_t> SpillBuckets::read_block(std::uint64_t offset) {
   block_.resize(block_bytes());
   if (const auto read = file_.read(offset, block_); !read) return read.error();

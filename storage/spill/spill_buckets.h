@@ -12,22 +12,23 @@
 
 namespace planetree::storage {
 
-/// Records of one size dealt out into buckets, each of which is then read by itself: what puts
-/// in order what has places known before, without comparing. Records are written once, in
-/// blocks of one bucket, and read once; memory does not grow with their number.
+/// Records of one size, distributed over buckets. Each bucket is read by itself. This sorts records
+/// with known positions without comparing them: a bucket stands for a range of positions. Records
+/// are written once and read once. A block here is a group of records of one bucket that is written
+/// together. Memory does not grow with the number of records.
 ///
 /// threads  one at a time.
 class SpillBuckets {
  public:
-  /// record_bytes  at least 1.
+  /// record_bytes  size of a record, at least 1.
   /// bucket_count  at least 1.
-  /// buffer_bytes  about what may be in memory: a block of each bucket.
-  /// file          takes blocks that are full; must outlive this.
+  /// buffer_bytes  approximate memory to use, for one block of each bucket.
+  /// file          receives full blocks; must outlive this object.
   SpillBuckets(std::size_t record_bytes, std::size_t bucket_count, std::uint64_t buffer_bytes,
                SpillFile& file);
 
-  /// Adds a record, for whoever calls it to fill before the next call. Null: a full block could
-  /// not be put away, failure() says why.
+  /// Adds a record and returns its memory, which the caller must fill before the next call. Returns
+  /// null if a full block could not be written; failure() then has the error.
   std::byte* add(std::size_t bucket) {
     Bucket& to = buckets_[bucket];
     if (to.size == block_records_ || !to.records)
@@ -42,8 +43,8 @@ class SpillBuckets {
     return buckets_[bucket].size == 0 && buckets_[bucket].last_block == kNoBlock;
   }
 
-  /// Calls take(records), which returns Result<void>, with all records of a bucket, a block at a
-  /// time, the blocks in no particular order.
+  /// Calls take(records) with all records of a bucket, one block at a time, the blocks in no
+  /// particular order. `take` returns Result<void>; an error ends the loop.
   /// errors  those of SpillFile::read() and `take`.
   template <class Take>
   Result<void> each_block(std::size_t bucket, const Take& take) {
@@ -64,11 +65,12 @@ class SpillBuckets {
  private:
   static constexpr std::uint64_t kNoBlock = ~std::uint64_t{0};
 
-  /// Full blocks are on disk, each followed by where the one before it is.
+  /// The full blocks of a bucket are in the file. Each is followed by the offset of the block
+  /// before it, or by kNoBlock.
   struct Bucket {
-    std::unique_ptr<std::byte[]> records;  ///< of the block that is being filled
-    std::size_t size = 0;                  ///< of them
-    std::uint64_t last_block = kNoBlock;
+    std::unique_ptr<std::byte[]> records;  ///< memory of the block being filled
+    std::size_t size = 0;                  ///< number of records in that block
+    std::uint64_t last_block = kNoBlock;   ///< offset of the last full block
   };
 
   [[nodiscard]] std::size_t block_bytes() const {
@@ -85,7 +87,7 @@ class SpillBuckets {
   const std::size_t block_records_;
   SpillFile& file_;
   std::vector<Bucket> buckets_;
-  std::vector<std::byte> block_;  ///< that is being read
+  std::vector<std::byte> block_;  ///< the block being read
   std::optional<Error> failure_;
 };
 

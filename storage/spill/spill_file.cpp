@@ -15,11 +15,11 @@ namespace planetree::storage {
 namespace {
 
 constexpr int kMaxNameAttempts = 100;
-constexpr mode_t kMode = 0600;  // what is put away is nobody else's business
+constexpr mode_t kMode = 0600;  // other users must not read the data
 
 Error spill_error(const char* what) noexcept { return file_error(errno, FileAction::kWrite, what); }
 
-// Where the system has no files without names: one is unlinked as soon as it is there.
+// For file systems without unnamed files: creates a file with a name and unlinks it at once.
 FileHandle open_and_unlink(FileCalls& calls, int directory) {
   static std::atomic<unsigned> counter{0};
   for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
@@ -28,7 +28,7 @@ FileHandle open_and_unlink(FileCalls& calls, int directory) {
     FileHandle file = FileHandle::open(calls, directory, name.c_str(),
                                        O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR, kMode);
     if (file.is_open()) {
-      // Tried twice, for whatever fails once: nobody else would remove it.
+      // A second attempt covers a transient failure, because nothing else removes the file.
       if (calls.unlinkat(directory, name.c_str(), 0) != 0 &&
           calls.unlinkat(directory, name.c_str(), 0) != 0)
         file.close();
@@ -93,7 +93,8 @@ Result<void> SpillFile::read(std::uint64_t offset, std::span<std::byte> out) con
 }
 
 Result<void> SpillFile::sync() {
-  // One at a time: the system tells of what it lost but once, and others must know.
+  // One thread at a time, because the system reports lost bytes only once and every caller must
+  // learn of them.
   const std::lock_guard lock(syncing_);
   if (sync_failure_) return *sync_failure_;
   const auto synced = file_.sync_data();

@@ -16,48 +16,52 @@
 
 namespace planetree::storage {
 
-/// Bytes put away while a build works: in memory as far as allowed, then on disk. The file has
-/// no name, so that the system takes it back however the process ends; it is made when it is
-/// needed. Or it is one with a name, for what shall outlive the process.
+/// Temporary bytes of a build: in memory up to a limit, then in a file. The file is created when it
+/// is first needed and has no name, so that the system removes it however the process ends. A
+/// SpillFile may also use a file with a name, for data that must outlive the process.
 ///
-/// threads  any number may append and read what was appended.
+/// threads  any number may append, and read bytes that have been appended.
 class SpillFile {
  public:
-  /// directory   where there is room for it.
-  /// held_bytes  may stay in memory, which is taken as it is needed.
-  /// calls       the system; must outlive this.
+  /// directory   directory of the file.
+  /// held_bytes  maximum number of bytes kept in memory; the memory is reserved now but backed only
+  ///             when written.
+  /// calls       the system; must outlive this object.
   SpillFile(std::filesystem::path directory, std::uint64_t held_bytes,
             FileCalls& calls = FileCalls::real());
 
-  /// file        open for reading and writing; all goes there,
-  /// size_bytes  behind its first bytes, which can be read.
+  /// Uses a file with a name and keeps nothing in memory.
+  ///
+  /// file        open for reading and writing.
+  /// size_bytes  length of the data already in the file; it can be read, and bytes are appended
+  ///             after it.
   SpillFile(FileHandle file, std::uint64_t size_bytes);
 
-  /// Puts bytes away; returns where. Parts of one call are side by side.
-  /// errors  kNotFound, kPermission, kNoSpace, kWriteFailed and the like.
+  /// Appends bytes and returns their offset. The bytes of one call are contiguous.
+  /// errors  those of file_error(), such as kNotFound, kPermission, kNoSpace, kWriteFailed.
   Result<std::uint64_t> append(std::span<const std::byte> bytes);
 
-  /// Gets bytes back.
+  /// Reads bytes that were appended before.
   /// errors  kReadFailed, kTruncated.
   Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
 
-  /// Makes what was put away durable, in a file with a name.
-  /// errors  as FileHandle::sync_data(); all later calls fail too.
+  /// Makes the appended bytes durable. For files with a name.
+  /// errors  those of FileHandle::sync_data(); after an error all later calls of sync() fail too.
   Result<void> sync();
 
-  /// Bytes put away so far.
+  /// Bytes appended so far.
   std::uint64_t size_bytes() const noexcept { return next_.load(std::memory_order_relaxed); }
-  /// Those of them that are on disk.
+  /// Bytes of these that are not in memory.
   std::uint64_t disk_bytes() const noexcept {
     return size_bytes() - std::min(size_bytes(), held_bytes_);
   }
-  /// Whether putting something away, getting it back or making it durable ever failed.
+  /// Whether any append(), read() or sync() has failed.
   bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
 
  private:
   Result<void> open();
   Result<void> write(std::uint64_t offset, std::span<const std::byte> bytes);
-  // How many of some bytes from `offset` on are in memory: the first.
+  // Number of bytes of a range that are in memory. They are the first ones of the range.
   std::size_t held_part(std::uint64_t offset, std::size_t bytes) const noexcept {
     return offset < held_bytes_ ? std::min<std::uint64_t>(bytes, held_bytes_ - offset) : 0;
   }

@@ -71,8 +71,8 @@ std::vector<std::uint64_t> SpillRuns::marks_of(std::span<const std::byte> record
   return marks;
 }
 
-// Marks tell where the record is to within a stretch between two of them, or more where many
-// records have one first half.
+// The marks limit the search to the records between two marks, or to more if many records have the
+// same first half of the key.
 Result<std::uint64_t> SpillRuns::find(const Run& run, const SpillKey& key) const {
   const std::vector<std::uint64_t>& marks = run.extent.marks;
   const auto [same, after] = std::equal_range(marks.begin(), marks.end(), key.first);

@@ -11,49 +11,51 @@
 
 namespace planetree::storage {
 
-/// What records are ordered by: their first 16 bytes, as two numbers in the machine's order.
+/// Sort key of a record: its first 16 bytes, as two numbers in the machine's byte order.
 struct SpillKey {
   std::uint64_t first = 0;
   std::uint64_t second = 0;
 
-  // clang-tidy takes what the compiler writes here for our 0.
+  // clang-tidy reports a 0 that the compiler generates here.
   auto operator<=>(const SpillKey&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Sorted runs of records of one size, in memory as far as allowed and in a SpillFile beyond.
-/// They are not merged: who wants the records between two keys gets those of every run, and
-/// sorts them. So records are written once and read once, and nobody depends on how many
-/// runs there are.
+/// Sorted runs of records of one size, in memory up to a limit, then in a SpillFile. The runs are
+/// not merged. read() returns the records between two keys from every run, and the caller sorts
+/// them. So records are written once and read once, whatever the number of runs.
 ///
-/// threads  any number may add runs; then any number may cut and read.
+/// threads  any number may add runs; afterwards any number may search and read them.
 class SpillRuns {
  public:
-  /// Where a key is in every run.
+  /// Index of a record in each run.
   using Cut = std::vector<std::uint64_t>;
-  /// Where a run is that is not in memory.
+  /// Position of a run in the file.
   struct Extent {
-    std::uint64_t offset = 0;  ///< in the file
-    std::uint64_t size = 0;    ///< records
-    /// The first halves of the keys of every kMarkRecords-th record: with them one read finds any.
+    std::uint64_t offset = 0;  ///< byte offset in the file
+    std::uint64_t size = 0;    ///< number of records
+    /// First half of the key of every kMarkRecords-th record. With these, one read usually finds
+    /// any key.
     std::vector<std::uint64_t> marks;
   };
-  /// A stretch that is read at once takes little longer than one record of it.
+  /// To read this many records takes little longer than to read one.
   static constexpr std::uint64_t kMarkRecords = 256;
   static constexpr std::uint64_t mark_count(std::uint64_t records) {
     return (records + kMarkRecords - 1) / kMarkRecords;
   }
 
-  /// record_bytes  at least 16.
-  /// held_bytes    of runs may stay in memory.
-  /// file          takes the others; must outlive this.
+  /// record_bytes  size of a record, at least 16.
+  /// held_bytes    maximum total size of the runs kept in memory.
+  /// file          receives the other runs; must outlive this object.
   SpillRuns(std::size_t record_bytes, std::uint64_t held_bytes, SpillFile& file)
       : record_bytes_(record_bytes), held_bytes_(held_bytes), file_(file) {}
 
-  /// Adds a run of whole records, ascending by key. Returns its place, if it is not in memory.
+  /// Adds a run of whole records, ascending by key. Returns its position in the file; of a run kept
+  /// in memory only the size is set.
+  /// errors  those of SpillFile::append().
   Result<Extent> add(std::vector<std::byte> records);
-  /// Adds a run that is in the file.
+  /// Adds a run that is in the file already.
   void add_extents(Extent extent);
-  /// Of all runs, none of which is in memory.
+  /// Positions of all runs. None of them may be in memory.
   std::vector<Extent> extents() const;
 
   std::uint64_t size() const noexcept { return size_; }
@@ -61,18 +63,21 @@ class SpillRuns {
 
   Cut begin() const { return Cut(runs_.size(), 0); }
   Cut end() const;
-  /// The first records that are not before a key.
+  /// Index in each run of the first record whose key is not less than `key`.
+  /// errors  those of SpillFile::read().
   Result<Cut> cut(const SpillKey& key) const;
-  /// Records between two cuts; modulo 2^64 where `to` is before `from`.
+  /// Number of records from `from` up to, but not including, `to`; modulo 2^64 if `to` is before
+  /// `from`.
   static std::uint64_t count(const Cut& from, const Cut& to);
 
-  /// Records between two cuts, run after run.
+  /// Reads the records from `from` up to, but not including, `to`, run after run.
+  /// errors  those of SpillFile::read().
   Result<std::vector<std::byte>> read(const Cut& from, const Cut& to) const;
 
  private:
   struct Run {
-    Extent extent;                // of which only the size counts where it is
-    std::vector<std::byte> held;  // in memory
+    Extent extent;                // only the size is set if the records are in `held`
+    std::vector<std::byte> held;  // the records if they are in memory, otherwise empty
   };
 
   Result<void> get(const Run& run, std::uint64_t from, std::span<std::byte> out) const;

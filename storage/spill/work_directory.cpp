@@ -17,12 +17,12 @@ namespace {
 
 constexpr const char* kLockName = "lock";
 constexpr mode_t kDirectoryMode = 0700;
-constexpr mode_t kFileMode = 0600;  // what is put away is nobody else's business
+constexpr mode_t kFileMode = 0600;  // other users must not read the files
 constexpr int kMaxAttempts = 100;
-// A process that was killed has its lock until the system is done with it.
+// A killed process keeps its lock until the system has ended it.
 constexpr int kMaxWaits = 20;
 constexpr std::chrono::milliseconds kWait(50);
-// Not to wait where someone planted a pipe.
+// O_NONBLOCK: opening a pipe in place of the file must not block.
 constexpr int kFileFlags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK;
 
 Error work_error(const char* what) noexcept { return file_error(errno, FileAction::kWrite, what); }
@@ -32,7 +32,8 @@ Error in_the_way(ErrorCode code, const char* cause) noexcept {
                     "%s; remove it or choose another directory for temporary files", cause);
 }
 
-// Whoever else could write there could make us read and cut files of his choice.
+// Refuses a directory or file that other users can write to: they could make this process read and
+// truncate files that they choose.
 Result<void> check_owned(const FileHandle& handle, bool directory) noexcept {
   struct stat status;
   if (handle.calls().fstat(handle.descriptor(), &status) != 0)
@@ -56,7 +57,7 @@ Error file_open_error() noexcept {
   return work_error("open a file in the work directory");
 }
 
-// On failure errno says why.
+// Returns false on failure; errno then says why.
 bool take_lock(const FileHandle& file) noexcept {
   for (int waits = 0;;) {
     if (file.calls().flock(file.descriptor(), LOCK_EX | LOCK_NB) == 0) return true;
@@ -68,7 +69,7 @@ bool take_lock(const FileHandle& file) noexcept {
 
 Result<void> sync_directory(const FileHandle& directory) noexcept {
   const int outcome = directory.calls().fsync(directory.descriptor());
-  // Some file systems have nothing to sync in a directory and say so.
+  // Some file systems cannot sync directories and report EINVAL or EROFS.
   if (outcome == 0 || errno == EINVAL || errno == EROFS) return {};
   return work_error("make the work directory durable");
 }
@@ -81,7 +82,7 @@ Result<WorkDirectory> WorkDirectory::open(const std::filesystem::path& path, Fil
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
   work.parent_ = FileHandle::open(calls, AT_FDCWD, parent.c_str(), O_RDONLY | O_DIRECTORY);
   if (!work.parent_.is_open()) return work_error("open the directory for temporary files");
-  // Again while others, who are done with it, remove it under our hands.
+  // Repeat while other processes, which have finished with the directory, remove it.
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     if (calls.mkdirat(work.parent_.descriptor(), work.name_.c_str(), kDirectoryMode) != 0 &&
         errno != EEXIST)
@@ -101,7 +102,7 @@ Result<WorkDirectory> WorkDirectory::open(const std::filesystem::path& path, Fil
   return work_error("open the work directory");
 }
 
-// False where the directory, or the file that was locked, is no longer there.
+// Returns false if the directory or the locked file no longer exists under its name.
 Result<bool> WorkDirectory::lock() {
   FileCalls& calls = directory_.calls();
   lock_ = FileHandle::open(calls, directory_.descriptor(), kLockName, kFileFlags, kFileMode);
@@ -140,14 +141,14 @@ Result<void> WorkDirectory::sync_names() const {
 
 Result<void> WorkDirectory::remove() {
   FileCalls& calls = directory_.calls();
-  // Tried twice, for whatever fails once: nobody else would remove it.
+  // A second attempt covers a transient failure, because nothing else removes the file.
   const auto removed = [&calls](const FileHandle& from, const std::string& name, int flags) {
     for (int attempt = 0; attempt < 2; ++attempt)
       if (calls.unlinkat(from.descriptor(), name.c_str(), flags) == 0 || errno == ENOENT)
         return true;
     return false;
   };
-  // The lock last: without it the others may already be the next process's.
+  // The lock file goes last. Once it is gone, the other files may belong to the next process.
   files_.emplace_back(kLockName);
   for (const std::string& name : files_)
     if (!removed(directory_, name, 0)) return work_error("remove a file of completed work");

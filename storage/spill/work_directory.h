@@ -10,35 +10,39 @@
 
 namespace planetree::storage {
 
-/// A directory in which one process at a time keeps files for a later one, to be removed when
-/// nobody needs them. It and what is in it belong to this user, who alone can write there;
-/// links in its place or its files' are not followed.
+/// A directory in which one process at a time keeps files for a later process. remove() deletes it
+/// when it is no longer needed. The directory and its files must belong to the current user, and
+/// no other user may be able to write to them. Symbolic links in place of the directory or its
+/// files are not followed.
 ///
 /// threads  one at a time.
 class WorkDirectory {
  public:
   WorkDirectory(WorkDirectory&&) noexcept = default;
 
-  /// Makes the directory, or takes the one that is there. It is locked until this is destroyed,
-  /// however the process ends.
+  /// Creates the directory or opens an existing one, and locks it. The lock ends when the object is
+  /// destroyed or the process ends in any way. Waits up to a second for another process to release
+  /// the lock.
   ///
-  /// path    its parent must exist.
-  /// calls   the system; must outlive this.
-  /// errors  kAlreadyExists: another process has it, for a second at least, or something else has
-  /// its name;
-  ///         kPermission: it is another user's; else as file_error().
+  /// path    path of the directory; its parent must exist.
+  /// calls   the system; must outlive this object.
+  /// errors  kAlreadyExists: another process has locked the directory, or something else has its
+  ///         name; kPermission: it belongs to another user, or other users can write to it;
+  ///         otherwise those of file_error().
   static Result<WorkDirectory> open(const std::filesystem::path& path,
                                     FileCalls& calls = FileCalls::real());
 
-  /// Opens a file for reading and writing; makes it if there is none.
-  /// errors  as open().
+  /// Opens a file for reading and writing; creates it if it does not exist.
+  /// errors  those of open().
   Result<FileHandle> open_file(const char* name);
 
-  /// Makes the names of the files, and the directory's own, durable.
+  /// Makes the names of the files and of the directory durable.
+  /// errors  those of file_error().
   Result<void> sync_names() const;
 
-  /// Removes the files that were opened, then the directory. Call it once, and nothing else
-  /// then.
+  /// Removes all files opened with open_file(), then the directory. A directory with other files in
+  /// it remains. Call it once, as the last call.
+  /// errors  those of file_error().
   Result<void> remove();
 
  private:

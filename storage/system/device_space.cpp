@@ -13,7 +13,7 @@ DeviceSpace DeviceSpace::of(const std::filesystem::path& directory, FileCalls& c
   if (calls.fstatat(AT_FDCWD, path, &status, 0) == 0)
     space.device = static_cast<std::uint64_t>(status.st_dev);
   struct statvfs found;
-  // A device without a single block is one that does not count them.
+  // A file system that reports 0 blocks in total does not count them.
   if (calls.statvfs(path, &found) != 0 || found.f_blocks == 0) return space;
   std::uint64_t bytes = 0;
   const bool too_many =

@@ -8,15 +8,16 @@
 
 namespace planetree::storage {
 
-/// The room that a directory's device has.
+/// Free space on the device of a directory.
 struct DeviceSpace {
-  /// Which device it is, as far as the system tells.
+  /// Device number, if the system reports one.
   std::optional<std::uint64_t> device;
-  /// What a process without privileges may still fill; nothing where the system does not tell,
-  /// as some file systems do not. Quotas and limits of file sizes are not seen.
+  /// Bytes that a process without privileges can still write. Empty if the system does not report
+  /// them; some file systems do not. Quotas and file size limits are not taken into account.
   std::optional<std::uint64_t> free_bytes;
 
-  /// directory  one that exists; else nothing is known of it.
+  /// directory  should exist; otherwise both members are empty.
+  /// calls      the system.
   static DeviceSpace of(const std::filesystem::path& directory,
                         FileCalls& calls = FileCalls::real()) noexcept;
 

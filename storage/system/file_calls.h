@@ -11,11 +11,10 @@
 struct io_uring;
 struct io_uring_cqe;
 
-/// The system calls storage makes, so that tests can make any of them fail.
+/// The system calls that storage makes. Tests override them to make any of them fail.
 ///
-/// Each does what the call of its name does: it sets errno and returns what
-/// the system returns. The base class is the real system; it has no state, so
-/// any thread may use it.
+/// Each function does what the system call of its name does, returns what that returns, and sets
+/// errno. The base class calls the real system. It has no state, so any thread may use it.
 namespace planetree::storage {
 
 class FileCalls {
@@ -47,13 +46,13 @@ class FileCalls {
   virtual int munmap(void* address, std::size_t bytes) noexcept;
   virtual int madvise(void* address, std::size_t bytes, int advice) noexcept;
 
-  /// As liburing has them: what went wrong is returned, negated.
+  /// Functions of liburing: they return error numbers negated and do not set errno.
   virtual int io_uring_queue_init(unsigned entries, io_uring* ring, unsigned flags) noexcept;
   virtual int io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion,
                                                unsigned count, __kernel_timespec* most) noexcept;
   virtual void io_uring_queue_exit(io_uring* ring) noexcept;
 
-  /// The system itself; lives as long as the program.
+  /// The real system; lives as long as the program.
   static FileCalls& real() noexcept;
 };
 

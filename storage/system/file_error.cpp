@@ -62,7 +62,8 @@ const char* remedy_of(int number) noexcept {
 
 Error file_error(int number, FileAction action, const char* what, std::uint64_t page,
                  std::uint64_t offset) noexcept {
-  // strerror() depends on the locale and may share its buffer between threads; this does neither.
+  // Unlike strerror(), strerrordesc_np() neither depends on the locale nor shares a buffer between
+  // threads.
   const char* cause = strerrordesc_np(number);
   return make_error(code_of(number, action), page, offset, "cannot %s: %s; %s", what,
                     cause != nullptr ? cause : "unknown system error", remedy_of(number));

@@ -4,16 +4,19 @@
 
 #include "planetree/error.h"
 
-/// What the system's error numbers mean for us.
+/// Error numbers of the system as planetree errors.
 namespace planetree::storage {
 
 enum class FileAction : std::uint8_t { kRead, kWrite };
 
-/// The Error of a failed system call, for one that names no file: whoever knows the path adds it.
+/// Makes the Error of a failed system call: its cause and a remedy. The text does not name the
+/// file; callers that know the path add it.
 ///
-/// number  the call's errno.
-/// action  whether an unlisted number is kReadFailed or kWriteFailed.
-/// what    what was tried, to follow "cannot": "open the file".
+/// number  errno after the call.
+/// action  whether a number without a code of its own becomes kReadFailed or kWriteFailed.
+/// what    the action that failed, worded to follow "cannot", such as "open the file".
+/// page    page number, if the action concerned one.
+/// offset  byte offset in the file, if known.
 [[nodiscard]] Error file_error(int number, FileAction action, const char* what,
                                std::uint64_t page = Error::kNowhere,
                                std::uint64_t offset = Error::kNowhere) noexcept;

@@ -11,12 +11,12 @@
 namespace planetree::storage {
 namespace {
 
-constexpr std::size_t kLineBytes = 64;  // of the processor's memory
+constexpr std::size_t kLineBytes = 64;  // a cache line
 
-// Of a page that comes in parts, as a device may give it.
+// Maximum number of waits for one read: a device may deliver the bytes in several parts.
 constexpr unsigned kMaxWaits = 4;
 
-// Not by giving up the processor: whoever gets it may keep it for milliseconds.
+// Pauses without giving up the processor, because another thread could keep it for milliseconds.
 void pause_a_little() noexcept {
 #if defined(__SSE2__)
   for (int i = 0; i < 8; ++i) __builtin_ia32_pause();
@@ -51,7 +51,7 @@ FileHandle FileHandle::open(FileCalls& calls, int directory, const char* path, i
 
 void FileHandle::close() noexcept {
   if (!is_open()) return;
-  // The descriptor is gone whatever close() says, and what had to be durable was synced before.
+  // close() frees the descriptor even if it fails. Bytes that must be durable were synced before.
   const int kept_errno = errno;
   calls_->close(std::exchange(descriptor_, -1));
   errno = kept_errno;
@@ -84,11 +84,12 @@ bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
   if (look.found != Found::kPart) return look.found == Found::kAll;
   calls_->posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(out.size()),
                         POSIX_FADV_WILLNEED);
-  // Not by a function, which would be one of no effect to the compiler, and left out.
+  // The loop is not a function of its own, because the compiler would take it for one without
+  // effect and remove the call.
   for (std::size_t at = 0; at < terms.soon_written.size(); at += kLineBytes)
     __builtin_prefetch(&terms.soon_written[at], 1);
   const auto end = std::chrono::steady_clock::now() + terms.max_waited;
-  // What lies last mostly comes last.
+  // Wait for the last byte, which usually arrives last.
   std::size_t awaited = out.size() - 1;
   for (unsigned i = 0; terms.wait != nullptr && i < kMaxWaits; ++i) {
     const auto waited = terms.wait->wait_until(*calls_, descriptor_, offset + awaited, end);
@@ -119,7 +120,7 @@ FileHandle::Look FileHandle::look_once(std::uint64_t offset,
   if (count < 0) return {errno == EAGAIN ? Found::kPart : Found::kNever, 0};
   const auto bytes = static_cast<std::size_t>(count);
   if (bytes == out.size()) return {Found::kAll, bytes};
-  // Where nothing is left the file is at its end.
+  // A read of 0 bytes means the end of the file.
   return {bytes > 0 ? Found::kPart : Found::kNever, bytes};
 }
 
@@ -130,7 +131,7 @@ Result<void> FileHandle::write_at(std::uint64_t offset, std::span<const std::byt
         calls_->pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
-      // A device that takes nothing without saying why would keep us here forever.
+      // A device that accepts 0 bytes without an error would make this loop endless.
       return file_error(count < 0 ? errno : EIO, FileAction::kWrite, what, Error::kNowhere, offset);
     }
     bytes = bytes.subspan(static_cast<std::size_t>(count));

@@ -13,19 +13,21 @@
 
 namespace planetree::storage {
 
-/// How a thread goes about bytes that a device is to give.
+/// Time limits of a read whose bytes the system may not have in memory.
 struct SoonTerms {
-  /// How long it may look for them: about as long as it takes to be put to sleep and woken.
+  /// Maximum time to poll for the bytes without giving up the processor. The default is about the
+  /// time that it takes to put a thread to sleep and wake it.
   std::chrono::microseconds max_looked{300};
-  /// The thread's, and how long it may wait by it; null: it only looks.
+  /// The ReadWait to wait with, used by no other thread meanwhile; null: only poll.
   ReadWait* wait = nullptr;
+  /// Maximum time to wait with `wait`.
   std::chrono::microseconds max_waited{0};
-  /// What it writes next: brought near the processor while the device works.
+  /// Memory that the caller writes next. It is prefetched while the device works.
   std::span<const std::byte> soon_written{};
 };
 
-/// An open file, closed with the handle. Reads and writes name their offset,
-/// so that any number of threads may share one.
+/// An open file; the destructor closes it. Reads and writes name their offset, so any number of
+/// threads may share a handle.
 class FileHandle {
  public:
   FileHandle() noexcept = default;
@@ -33,8 +35,9 @@ class FileHandle {
   FileHandle& operator=(FileHandle&& other) noexcept;
   ~FileHandle();
 
-  /// As openat(2), close-on-exec, resumed when a signal interrupts it. On
-  /// failure the handle is closed and errno says why.
+  /// Calls openat(2) with close-on-exec, and again when a signal interrupts it. On failure the
+  /// handle is not open and errno says why.
+  /// calls  the system; must outlive the handle.
   static FileHandle open(FileCalls& calls, int directory, const char* path, int flags,
                          mode_t mode = 0) noexcept;
 
@@ -43,42 +46,48 @@ class FileHandle {
   FileCalls& calls() const noexcept { return *calls_; }
   void close() noexcept;
 
-  /// Fills `out` from `offset`, through interruptions and short reads.
-  /// what    is tried, as file_error() has it.
-  /// errors  kTruncated: the file ends before; else as file_error().
+  /// Fills `out` with the bytes from `offset` on. Continues after interruptions and short reads.
+  /// what    the action to name in an error; see file_error().
+  /// errors  kTruncated: the file ends too early; otherwise those of file_error().
   Result<void> read_at(std::uint64_t offset, std::span<std::byte> out,
                        const char* what = "read the file") const noexcept;
 
-  /// Fills `out` from `offset` if the system has the bytes in memory. Else it is told to get them,
-  /// and they are waited for or, where that is refused, looked for again and again without giving
-  /// up the processor. False where that takes longer than the terms allow, the system cannot be
-  /// told, or reading fails: read_at() says why. `out` is lost then.
+  /// Fills `out` with the bytes from `offset` on if the system has them in memory or gets them
+  /// within the limits of `terms`. If they are not in memory, it advises the system to read them
+  /// and waits with terms.wait. Without terms.wait, or where the system refuses that wait, it polls
+  /// without giving up the processor.
+  ///
+  /// Returns false if the bytes do not come in time, the system cannot read without blocking, or
+  /// reading fails. The content of `out` is then unspecified. Call read_at() to read the bytes or
+  /// to learn the error.
   bool read_soon(std::uint64_t offset, std::span<std::byte> out,
                  const SoonTerms& terms) const noexcept;
 
-  /// Writes all of `bytes` at `offset`, through interruptions and short writes.
-  /// what    is tried, as file_error() has it.
-  /// errors  as file_error(), kNoSpace among them.
+  /// Writes all of `bytes` at `offset`. Continues after interruptions and short writes.
+  /// what    the action to name in an error; see file_error().
+  /// errors  those of file_error(), among them kNoSpace.
   Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes,
                         const char* what = "write the file") const noexcept;
 
-  /// errors  as file_error().
+  /// errors  those of file_error().
   Result<std::uint64_t> size_bytes() const noexcept;
 
-  /// Makes the file so long, durably.
-  /// errors  as file_error().
+  /// Sets the length of the file, durably.
+  /// errors  those of file_error().
   Result<void> truncate(std::uint64_t bytes) const noexcept;
 
-  /// Makes what was written durable. After an error nothing is known of it, and a second call
-  /// would not say so.
-  /// errors  as file_error().
+  /// Makes the bytes written so far durable. After an error it is unknown which bytes are durable,
+  /// and a second call might not report the loss again.
+  /// errors  those of file_error().
   Result<void> sync_data() const noexcept;
 
  private:
-  enum class Found : std::uint8_t { kAll, kPart, kNever };  // part: perhaps nothing, as yet
+  /// Which bytes the system has in memory. kPart includes "none yet"; kNever means that the read
+  /// fails or the file ends too early.
+  enum class Found : std::uint8_t { kAll, kPart, kNever };
   struct Look {
     Found found;
-    std::size_t bytes;  // from the first
+    std::size_t bytes;  // number of bytes read, from the first on
   };
   Look look_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
   bool look_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,

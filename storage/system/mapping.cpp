@@ -13,8 +13,9 @@
 namespace planetree::storage {
 namespace {
 
-// Reads the range in, so that a bad sector is an error here and not a signal later. Returns an
-// error number, 0 also where the system is too old to know the advice.
+// Makes the system read the range now, so that a bad sector is an error here and not a signal
+// later. Returns an error number, or 0 on success and where the system is too old to know the
+// advice.
 int populate(FileCalls& calls, void* address, std::size_t bytes) noexcept {
 #ifdef MADV_POPULATE_READ
   int outcome;
@@ -22,7 +23,7 @@ int populate(FileCalls& calls, void* address, std::size_t bytes) noexcept {
     outcome = calls.madvise(address, bytes, MADV_POPULATE_READ);
   } while (outcome != 0 && errno == EINTR);
   if (outcome == 0 || errno == EINVAL || errno == ENOSYS) return 0;
-  // EFAULT stands for the signal that touching the bytes would have raised.
+  // EFAULT replaces the signal that access to the bytes would have raised.
   return errno == EFAULT ? EIO : errno;
 #else
   return 0;

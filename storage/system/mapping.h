@@ -11,21 +11,22 @@ namespace planetree::storage {
 
 /// A read-only memory map of a byte range of an open file.
 ///
-/// The bytes are the file's own: they change when another process writes it,
-/// and touching them after it was cut short kills the program (SIGBUS). So a
-/// map is for copying from at once, at open, and then dropped; nothing that
-/// has to hold is read from it twice. Bytes that the device cannot deliver are
-/// found when the map is made, where the system can tell (Linux 5.14).
+/// The bytes are the file's own: they change when another process writes the file, and access to
+/// them after the file was shortened kills the program (SIGBUS). So use a map only to copy the
+/// bytes once, right after opening the file, and then destroy it. Do not read a byte twice where
+/// both reads must agree. Since Linux 5.14, create() reports bytes that the device cannot deliver.
 class Mapping {
  public:
   Mapping(Mapping&& other) noexcept;
   Mapping& operator=(Mapping&& other) noexcept;
   ~Mapping();
 
-  /// file    must outlive the map's use of its FileCalls, not the map's bytes.
+  /// Maps a byte range.
+  ///
+  /// file    may be closed before the map is destroyed; its FileCalls must outlive the map.
   /// offset  any; need not be aligned.
   /// bytes   at least 1; the range must lie within the file.
-  /// errors  as file_error(): kReadFailed, kNoMemory and the like.
+  /// errors  those of file_error(), such as kReadFailed and kNoMemory.
   static Result<Mapping> create(const FileHandle& file, std::uint64_t offset,
                                 std::size_t bytes) noexcept;
 
@@ -41,8 +42,8 @@ class Mapping {
   std::span<const std::byte> bytes_;
 };
 
-/// Copies a byte range of an open file through a map of it that lives no longer than the copy.
-/// errors  as Mapping::create().
+/// Copies a byte range of an open file. Maps the range only for the time of the copy.
+/// errors  those of Mapping::create().
 Result<void> copy_mapped(const FileHandle& file, std::uint64_t offset,
                          std::span<std::byte> out) noexcept;
 

@@ -15,7 +15,7 @@
 namespace planetree::storage {
 namespace {
 
-constexpr mode_t kMode = 0666;  // less the process's umask
+constexpr mode_t kMode = 0666;  // the system subtracts the umask
 constexpr int kMaxNameAttempts = 100;
 
 Error write_error(const char* what) noexcept { return file_error(errno, FileAction::kWrite, what); }
@@ -24,13 +24,14 @@ Error already_exists(const char* cause) noexcept {
   return make_error(ErrorCode::kAlreadyExists, Error::kNowhere, Error::kNowhere, "%s", cause);
 }
 
-// Unique among the living processes of this machine; others are avoided by trying again.
+// Returns a name that is unique among the running processes of this machine. If a file has it
+// nevertheless, callers try the next name.
 std::string make_temporary_name() {
   static std::atomic<unsigned> counter{0};
   return ".planetree-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp";
 }
 
-// The name under which the system lets us link an unnamed file.
+// Path by which linkat() finds an unnamed file.
 std::string descriptor_path(int descriptor) {
   return "/proc/self/fd/" + std::to_string(descriptor);
 }
@@ -85,8 +86,8 @@ Result<NewFile> NewFile::create(const std::filesystem::path& path, bool replace,
   return created;
 }
 
-// Leaves the file closed, without an error, where the system has no unnamed files or no way to
-// name them later.
+// Leaves the file closed, without an error, if the system has no unnamed files or no way to name
+// them later.
 Result<void> NewFile::open_unnamed() noexcept {
   file_ = FileHandle::open(calls(), directory_.descriptor(), ".", O_TMPFILE | O_WRONLY, kMode);
   if (!file_.is_open()) {
@@ -122,8 +123,8 @@ Result<void> NewFile::write_at(std::uint64_t offset,
 
 Result<void> NewFile::commit() {
   assert(file_.is_open());
-  // A second fsync may report success for bytes the first one lost, so there is none: the file is
-  // given up, and whoever wants it builds it again.
+  // After a failed fsync() a second one may report success for bytes that were lost. So the file is
+  // discarded and has to be written again.
   if (calls().fsync(file_.descriptor()) != 0) {
     const Error error = write_error("make the file durable");
     discard();
@@ -172,8 +173,8 @@ Result<void> NewFile::publish_named() noexcept {
     return {};
   }
   if (errno != EINVAL && errno != ENOSYS) return write_error("give the file its name");
-  // File systems over a network cannot rename so, but link. The temporary name that is then left
-  // over goes in discard().
+  // Network file systems do not know RENAME_NOREPLACE, but have links. discard() removes the
+  // temporary name that remains.
   if (calls().linkat(directory, temporary_name_.c_str(), directory, name_.c_str(), 0) != 0) {
     return write_error("give the file its name");
   }
@@ -192,7 +193,7 @@ Result<void> NewFile::rename_over_destination() noexcept {
 Result<void> NewFile::sync_directory() noexcept {
   discard();
   const int outcome = calls().fsync(directory_.descriptor());
-  // Some file systems have nothing to sync in a directory and say so.
+  // Some file systems cannot sync directories and report EINVAL or EROFS.
   if (outcome == 0 || errno == EINVAL || errno == EROFS) return {};
   return file_error(errno, FileAction::kWrite,
                     "make the name of the complete file durable, so that a power failure may undo "
@@ -202,7 +203,7 @@ Result<void> NewFile::sync_directory() noexcept {
 void NewFile::discard() noexcept {
   file_.close();
   if (temporary_name_.empty()) return;
-  // Tried twice, for whatever fails once: nobody else would remove it.
+  // A second attempt covers a transient failure, because nothing else removes the file.
   const int directory = directory_.descriptor();
   if (calls().unlinkat(directory, temporary_name_.c_str(), 0) != 0 && errno != ENOENT) {
     calls().unlinkat(directory, temporary_name_.c_str(), 0);

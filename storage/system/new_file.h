@@ -12,18 +12,19 @@
 
 namespace planetree::storage {
 
-/// A file that appears under its name complete or not at all.
+/// A new file that appears under its name either complete or not at all.
 ///
-///   created    a file without a name (O_TMPFILE) in the destination's directory, which vanishes
-///              with the process; where that cannot be had, one with a temporary name
+///   created    a file without a name (O_TMPFILE) in the destination's directory, which disappears
+///              with the process; a file with a temporary name if the file system has no unnamed
+///              files
 ///   written    at any offset, in any order
 ///   committed  synced, then given its name in one step, then the directory synced
 ///
-/// Destroyed before it is committed, it leaves nothing behind. A process
-/// killed leaves nothing either, but for a temporary name where the file
-/// system offers no file without one, or within the one step that replaces an
-/// existing file. Links at the destination are never followed: without
-/// `replace` they count as existing, with it the link itself is replaced.
+/// If it is destroyed before it is committed, nothing remains. If the process is killed, nothing
+/// remains either, with two exceptions: a file with a temporary name remains if the file system
+/// has no unnamed files, or if the process is killed during the step that replaces an existing
+/// file. Links at the destination are never followed: without `replace` a link counts as an
+/// existing file, with `replace` the link itself is replaced.
 /// threads  one at a time.
 class NewFile {
  public:
@@ -31,20 +32,22 @@ class NewFile {
   NewFile& operator=(NewFile&&) = delete;
   ~NewFile();
 
-  /// path    where the file shall appear.
-  /// replace  whether a regular file or a link there may be replaced.
-  /// calls   the system; must outlive the NewFile.
-  /// errors  kBadArgument: no file name; kAlreadyExists; else as file_error().
+  /// Creates the file, not yet visible at `path`.
+  ///
+  /// path     destination of the file.
+  /// replace  whether a regular file or a link at the destination may be replaced.
+  /// calls    the system; must outlive the NewFile.
+  /// errors   kBadArgument: no file name; kAlreadyExists; otherwise those of file_error().
   static Result<NewFile> create(const std::filesystem::path& path, bool replace,
                                 FileCalls& calls = FileCalls::real());
 
-  /// errors  as file_error(), kNoSpace among them.
+  /// errors  those of file_error(), among them kNoSpace.
   Result<void> write_at(std::uint64_t offset, std::span<const std::byte> bytes) const noexcept;
 
-  /// Makes the file durable, then visible. To be called once.
-  /// errors  kAlreadyExists: something took the name meanwhile; else as file_error(). The
-  ///         destination is then as it was. Only where the directory cannot be synced it already
-  ///         is the new file, whole, and the error says so.
+  /// Makes the file durable, then visible. Call it once.
+  /// errors  kAlreadyExists: the name was taken in the meantime; otherwise those of file_error().
+  ///         After an error the destination is unchanged, with one exception: if the directory
+  ///         cannot be synced, the destination is the new file, complete, and the error says so.
   Result<void> commit();
 
  private:
@@ -62,7 +65,7 @@ class NewFile {
   FileHandle directory_;
   FileHandle file_;
   std::string name_;
-  std::string temporary_name_;  // empty while the file has none
+  std::string temporary_name_;  // empty if the file has none
   bool replace_ = false;
 };
 

@@ -5,7 +5,7 @@
 namespace planetree::storage {
 namespace {
 
-// Where bytes go at which nobody looks. It outlives every ring.
+// Destination of all reads. The value is never used. It outlives every io_uring.
 char unread_byte;
 
 }  // namespace
@@ -19,7 +19,7 @@ void ReadWait::open(FileCalls& calls) noexcept {
   state_ = State::kRefused;
   if (calls.io_uring_queue_init(1, &ring_, 0) != 0) return;
   state_ = State::kIdle;
-  // Without it a limit would be a second thing to be read.
+  // Without this feature liburing submits each time limit as a second request.
   if ((ring_.features & IORING_FEAT_EXT_ARG) != 0) return;
   give_up();
 }
@@ -52,9 +52,11 @@ ReadWait::Outcome ReadWait::finish(Clock::time_point end) noexcept {
       state_ = State::kIdle;
       return count < 0 ? Outcome::kRefused : Outcome::kCame;
     }
-    // What was not told, or has not come, is in the ring, and the next wait is for it.
+    // A read that was not submitted or has not completed stays in the ring. The next wait is for
+    // that read.
     if (outcome == -ETIME || outcome == -EAGAIN || outcome == -EBUSY) return Outcome::kLate;
-    // A signal; one that comes after the read was told is not called so.
+    // A signal ended the call. If it came after the read was submitted, the call did not return
+    // -EINTR.
     if (outcome == -EINTR || outcome >= 0) continue;
     give_up();
     return Outcome::kRefused;

@@ -9,25 +9,25 @@
 
 namespace planetree::storage {
 
-/// A wait in the system, with a limit, for bytes of a file that a device is to give.
+/// A wait with a time limit until the system has certain bytes of a file in memory.
 ///
-/// pread(2) waits for as long as the device takes. An io_uring is told to read one byte, and is
-/// waited for as long as one may: nobody looks at that byte, so that a read which comes late, or
-/// after this is gone, harms nothing. What it is good for is that the system then has in memory
-/// what lies about the byte.
+/// pread(2) waits for as long as the device takes. This class submits a read of one byte to an
+/// io_uring and waits for it until the limit. When the read completes, the system has the bytes
+/// around that one in memory too. The byte itself is not used, so a read that completes late, or
+/// after this object was destroyed, does no harm.
 ///
-/// Made when it is first needed, of a descriptor and kMappedBytes; where the system refuses, it
-/// never waits. For one thread at a time; that may be now this one, now that. Where a read comes
-/// late, a call of the system that the thread makes then may end with EINTR.
+/// The first wait creates the io_uring, which takes a file descriptor and kMappedBytes of memory.
+/// If the system refuses it, the object never waits. One thread at a time may use the object. If a
+/// read completes late, a system call that the thread is making at that time may fail with EINTR.
 class ReadWait {
  public:
   enum class Outcome : std::uint8_t {
-    kCame,
+    kCame,     ///< the byte is in memory
     kLate,     ///< the limit was reached
-    kRefused,  ///< cannot be waited for, or cannot be read
+    kRefused,  ///< the system refuses the wait, or the read failed
   };
 
-  /// Of memory that the system maps, where its pages have 4 KiB.
+  /// Memory that the system maps for an io_uring, if its pages have 4 KiB.
   static constexpr std::uint64_t kMappedBytes = 2 * 4096;
 
   ReadWait() noexcept = default;
@@ -35,8 +35,10 @@ class ReadWait {
   ReadWait(const ReadWait&) = delete;
   ReadWait& operator=(const ReadWait&) = delete;
 
-  /// Until the byte at `offset` is in memory. While an earlier one is late, for that one first.
-  /// calls   the system, each time the same; must outlive this.
+  /// Waits until the byte at `offset` is in memory. If an earlier read is still late, waits for
+  /// that one first.
+  /// calls   the system, the same in every call; must outlive this object.
+  /// end     time limit.
   Outcome wait_until(FileCalls& calls, int descriptor, std::uint64_t offset,
                      std::chrono::steady_clock::time_point end) noexcept;
 
