@@ -10,21 +10,22 @@
 
 namespace planetree::octree {
 
-/// Where points are among the cells of a SideGrid, which has a rim of cells about the model's
-/// box: what is farther out is taken for the rim.
+/// Finds points among the cells of a SideGrid. The grid has a rim of cells around the model's box.
+/// Points farther out count as points in the rim.
 struct GridCoordinates {
-  static constexpr std::uint32_t kRim = 1;  ///< cells before, and behind, those of the box
-  /// Of a cell's octants, and of the octants of those: the least that is told.
+  static constexpr std::uint32_t kRim = 1;  ///< cells of the rim on each side of the box
+  /// Bits of a step that select the octant of a cell, and the octant of that octant. The latter is
+  /// the smallest part that is found.
   static constexpr unsigned kOctantBits = FixedPoint::kBits - 1, kMinBits = kOctantBits - 1;
-  static constexpr std::int64_t kMin = std::int64_t{1} << kMinBits;
-  /// In the rim, and off the sides of what is told.
+  static constexpr std::int64_t kMin = std::int64_t{1} << kMinBits;  ///< steps along such a part
+  /// A coordinate in the rim, in the middle of a smallest part and so away from all faces.
   static constexpr std::int64_t kRimMiddle = FixedPoint::kCell / 2 + kMin / 2;
 
-  /// A value for each axis, and one more that makes a vector whole.
+  /// One value for each axis, and one more to fill a vector.
   template <class T>
   using Axes = std::array<T, 4>;
 
-  /// Steps along each axis from `first` on; right but for the bits below kMin.
+  /// Steps along each axis, counted from `first`. The bits below kMin may be wrong.
   struct Position {
     std::array<std::int64_t, 3> step;
 
@@ -33,7 +34,7 @@ struct GridCoordinates {
               above(2, FixedPoint::kBits)};
     }
     unsigned octant() const { return bits_at(kOctantBits); }
-    /// Octant of the octant.
+    /// The octant of the octant.
     unsigned part() const { return bits_at(kMinBits); }
 
    private:
@@ -45,19 +46,21 @@ struct GridCoordinates {
     }
   };
 
-  alignas(32) Axes<std::int64_t> first{};  ///< of the rim, less half of `doubtful`; or 0
+  /// Steps from 0 to the start of the rim, less half of `uncertainty`; 0 if all is uncertain.
+  alignas(32) Axes<std::int64_t> first{};
+  /// kRimMiddle of the last cell: the maximum of Position::step.
   alignas(32) Axes<std::int64_t> last_middle{kRimMiddle, kRimMiddle, kRimMiddle, kRimMiddle};
-  alignas(32) Axes<std::uint64_t> stride{};  ///< from a block's number to its neighbour's
-  FixedPoint input;                          ///< of the input's units
-  FixedPoint model;
-  /// Steps about a side where a place is left to rounding, half of them before it; so many that
-  /// none is without doubt.
+  alignas(32) Axes<std::uint64_t> stride{};  ///< from a brick's number to its neighbour's
+  FixedPoint input;                          ///< of coordinates in the input's units
+  FixedPoint model;                          ///< of coordinates in the model frame
+  /// Width in steps of the uncertainty band about a face, half of it on each side. In the default
+  /// every point is uncertain.
   std::int64_t uncertainty = 2 * kMin;
 
-  /// False where the point is so near to a side that rounding may tell another place, or so far
-  /// that it has no place.
+  /// Finds the position of a point. Returns false if the point is in the uncertainty band about a
+  /// face, or out of range. Writes `position` in either case.
   bool find(const double* point, const FixedPoint& steps, Position& position) const {
-    std::int64_t sign = 0;  // below 0 if there is any
+    std::int64_t sign = 0;  // below 0 if any axis is uncertain or out of range
 #pragma GCC unroll 3
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const FixedPoint::Digits digits = steps.digits_of(point[axis]);
@@ -69,7 +72,7 @@ struct GridCoordinates {
     }
     return sign >= 0;
   }
-  /// The cell that is so many cells from the first along each axis.
+  /// Returns the cell at these indices, counted from the start of the rim.
   SideGridCells::Cell cell_at(const std::array<std::uint32_t, 3>& at) const {
     constexpr unsigned kBits = SideGridCells::kBlockBits;
     const auto bits = [&](unsigned bit) {

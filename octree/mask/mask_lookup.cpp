@@ -11,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Which side of a special cell's planes the point is on.
+/// Finds on which side of a special cell's planes the point is.
 void query_planes(const MaskSpecial& special, const double* planes, const Point& point,
                   MaskLookup& finding) {
   bool beyond = false, perturbed_beyond = false, on_plane = false;
@@ -27,14 +27,14 @@ void query_planes(const MaskSpecial& special, const double* planes, const Point&
   finding.on_surface = on_plane && !beyond;
 }
 
-// Pages may go with the next that is asked for, so that lists are copied.
+// Copies the list of a cell, because its page may be gone after the next lookup of a page.
 void read_list(const MaskListed& listed, const MaskRecords& records, MaskLookup& finding) {
-  // Octants of cells at the last level cannot be told apart: forged.
+  // A cell of the last level has no octants, so that its list has no meaning.
   if (finding.cell.level == kLevels) return;
   finding.kind = MaskLookup::Kind::kCorners;
   finding.listed = listed;
   copy_list(records.slot(0), listed, finding.blocks);
-  // It may be no list, where the file was exchanged since a map looked at it.
+  // If the file was replaced after the side grid was filled, these bytes may be no list.
   if (!finding.blocks.slab.direction_is_valid()) finding.blocks.slab = {};
 }
 
@@ -53,12 +53,13 @@ void read_leaf(const std::byte* record, const MaskRecords& records, const Point&
   }
 }
 
-// Goes down from a node of `cell`, which is told by `octant_in`.
+// Goes down from the node of the cell reached so far. octant_in(cell) returns the octant of a cell
+// that the point is in.
 template <class OctantIn>
 void descend(MaskRecords& records, const MaskNode& from, const Point& point, std::uint64_t max_work,
              const OctantIn& octant_in, TraversalStats& work, MaskLookup& finding) {
   MaskNode node = from;
-  // A forged mask could be deeper than cells can be told apart.
+  // Stops at the last level: a forged mask could be deeper.
   for (std::uint64_t left = std::min<std::uint64_t>(max_work, kLevels - finding.cell.level);
        left > 0; --left) {
     ++work.nodes;
@@ -76,7 +77,7 @@ void descend(MaskRecords& records, const MaskNode& from, const Point& point, std
   }
 }
 
-// From the root down.
+// Looks a point up from the root down.
 void look_from_root(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
                     const PageReader& pages, TraversalStats& work, MaskLookup& finding) {
   if (mask.page_count == 0 || max_work == 0) return;
@@ -92,7 +93,7 @@ void look_from_root(const MaskInfo& mask, const Point& point, std::uint64_t max_
           finding);
 }
 
-// From where the map has led.
+// Looks a point up from the record that the side grid found for it.
 void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point& point,
                std::uint64_t max_work, const PageReader& pages, TraversalStats& work,
                MaskLookup& finding) {
@@ -100,7 +101,7 @@ void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point
   MaskRecords records(mask, pages);
   const SideGridRecord& record = *lookup.record;
   if (record.is_listed()) {
-    // The map looked at it when it was filled; the file may have been exchanged since.
+    // The list was valid when the side grid was filled; the file may have been replaced since.
     const MaskListed listed = record.listed(records.slot_of(record.link));
     if (records.has_capacity(record.link, list_slots(listed.block_count)) &&
         records.turn_to_page_of(record.link, work))

@@ -9,7 +9,7 @@
 
 namespace planetree::octree {
 
-/// What a lookup must know of a mask.
+/// Facts of a mask that a lookup needs.
 struct MaskInfo {
   std::uint32_t page_bytes = 0;
   std::uint32_t first_page = 0;
@@ -17,34 +17,35 @@ struct MaskInfo {
   Point lower = Point::Zero();   ///< least corner of the model's box, model frame
 };
 
-/// One of the planes that lie side by side behind a page's records.
+/// Returns a triangle in plane `index` of the planes that follow a page's records.
 inline Triangle mask_plane(const double* planes, unsigned index) {
   const double* at = planes + std::size_t{kPlaneSlots} * index;
   return {Point(at[0], at[1], at[2]), Point(at[3], at[4], at[5]), Point(at[6], at[7], at[8])};
 }
 
-/// What the mask knows of a point.
+/// What the mask knows about a point.
 struct MaskLookup {
   enum class Kind {
-    kColour,   ///< white or black: only the sign of `winding` counts
-    kPlanes,   ///< a special cell: `winding` and `on_surface`
-    kCorners,  ///< a grey cell: `corners` of `cell`, or its `listed`
-    kNothing,  ///< no mask, a page missing, or corners that were not counted
+    kColour,   ///< a white, black or inverted cell: only the sign of `winding` has a meaning
+    kPlanes,   ///< a special cell: `winding` and `on_surface` are known
+    kCorners,  ///< a grey cell: `corners` of `cell` are known, or `listed` and `blocks`
+    kNothing,  ///< nothing: no mask, a page or work is missing, or the corners are not stated
   };
   Kind kind = Kind::kNothing;
-  int winding = 0;          ///< of the point moved by its infinitesimal step
-  bool on_surface = false;  ///< then `winding` is of a step beside it
-  GridCell cell;            ///< the smallest of the mask that was reached
-  MaskCorners corners{};
-  MaskListed listed{};  ///< of a cell that lists blocks: in place of its `corners`
-  MaskBlocks blocks;    ///< its list; empty if it has none
+  int winding = 0;          ///< of the perturbed point
+  bool on_surface = false;  ///< the point itself is on the surface
+  GridCell cell;            ///< the smallest cell of the mask that was reached
+  MaskCorners corners{};    ///< corner numbers of `cell`, if it is not listed
+  MaskListed listed{};      ///< record of a listed cell, which has its corner numbers
+  MaskBlocks blocks;        ///< list of a listed cell; else empty
 };
 
 /// Finds the cell of the mask that a point is in.
 ///
-/// point      within the model's box, model frame.
-/// max_work  most nodes to visit; no more than kLevels are needed.
-/// threads    any; no allocation, no lock, no exception.
+/// point     within the model's box, model frame.
+/// max_work  maximum number of nodes to visit; kLevels always suffice.
+/// work      counters that the lookup adds to.
+/// threads   any; no allocation, no lock, no exception.
 MaskLookup look_up(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
                    const PageReader& pages, TraversalStats& work) noexcept;
 

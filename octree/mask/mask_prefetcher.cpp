@@ -40,7 +40,7 @@ void MaskPrefetcher::step(const PageReader& pages) noexcept {
 }
 
 void MaskPrefetcher::go_below(const MaskNode& node, const PageReader& pages) {
-  if (cell_.level >= kLevels) return;  // forged
+  if (cell_.level >= kLevels) return;  // only in a forged mask
   const unsigned octant = CellGrid(mask_.lower).octant(cell_, point_);
   if ((node.grey >> octant & 1) == 0) return;
   cell_ = cell_.child(octant);
@@ -49,7 +49,7 @@ void MaskPrefetcher::go_below(const MaskNode& node, const PageReader& pages) {
   request_for(link_, pages);
 }
 
-// What is at a link, asked for; null if its page is not in memory.
+// Prefetches what a link leads to, and returns it; null if its page is not resident.
 const std::byte* MaskPrefetcher::request_for(std::uint32_t link, const PageReader& pages) const {
   const std::byte* record = MaskRecords(mask_, pages).peek(link);
   if (record) __builtin_prefetch(record);

@@ -11,19 +11,20 @@
 
 namespace planetree::octree {
 
-/// Goes ahead of a look at a map of colours and of the look_up() that follows, in steps: each asks
-/// memory for one of the cache lines that those two will read, and needs what the one before asked
-/// for. So while something else is computed in between, nobody waits for them. Goes no farther
-/// than what is in memory, and no answer depends on it.
+/// Prefetches the cache lines that a lookup in a side grid and the look_up() after it will read. It
+/// works in steps. Each step prefetches one line and reads the line that the step before has
+/// prefetched. The caller computes something else between steps, so that nothing waits for memory.
+/// Only resident pages are read. No answer depends on this class.
 class MaskPrefetcher {
  public:
-  /// The first step. All but the point must outlive this.
+  /// Takes the first step. `mask` and `side_grid` must outlive this.
   MaskPrefetcher(const MaskInfo& mask, const SideGrid& side_grid, const Point& point);
 
   /// Whether there is another step.
   bool goes_on() const { return next_ != Next::kNothing; }
-  /// Where there is one.
-  /// pages  may be asked by `peek` alone, which it has.
+  /// Takes the next step. Requires goes_on().
+  ///
+  /// pages  only its `peek` is called, which it must have.
   void step(const PageReader& pages) noexcept;
   /// The same as a PrefetchHook takes it.
   static bool step_of(void* prefetcher, const PageReader& pages) noexcept {

@@ -9,7 +9,8 @@
 
 namespace planetree::octree {
 
-/// Link to record of a mask, by way of its page. Looks a page up only where the page changes.
+/// Finds the records of a mask by their links. Looks a page up only if it is not the last one.
+/// Pointers are valid until the next lookup of a page.
 class MaskRecords {
  public:
   MaskRecords(const MaskInfo& mask, const PageReader& pages)
@@ -18,14 +19,14 @@ class MaskRecords {
         page_count_(mask.page_count),
         pages_(pages) {}
 
-  /// The mask's root; null if its page cannot be had.
+  /// Returns the record of the mask's root; null if its page is missing.
   const std::byte* root(TraversalStats& work) {
     turn_to(0, work);
     return frame_ ? slot(header().first_record_slot) : nullptr;
   }
   bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
 
-  /// What is at a link, if its page is in memory; else null.
+  /// Returns what a link leads to; null if its page is not resident.
   const std::byte* peek(std::uint32_t link) const {
     const std::uint32_t page = links_.page(link);
     const std::byte* frame = frame_;
@@ -35,7 +36,8 @@ class MaskRecords {
     return frame ? frame + links_.slot(link) * kMaskSlotBytes : nullptr;
   }
 
-  /// Queries for the first lines of what is at a link, as far as it is in memory.
+  /// Prefetches the first two cache lines of what a link leads to. If its page is not resident, it
+  /// prefetches lines of another page, which does no harm.
   static void prefetch(const MaskInfo& mask, std::uint32_t link, const FrameTable& frames) {
     const MaskLinkFormat links(mask.page_bytes);
     const std::uint32_t page = links.page(link);
@@ -46,39 +48,40 @@ class MaskRecords {
     __builtin_prefetch(at + 64);
   }
 
-  /// The record of a grey octant of the last record, or of a node that was kept before there was
-  /// one; null as record()'s.
+  /// Returns the record of a grey octant of `node`; null as record() does. `node` is the last
+  /// record found, or a copy that was made before any was.
   const std::byte* child(const MaskNode& node, unsigned octant, TraversalStats& work) {
     const std::uint32_t link = child_link(node, octant);
     // Links within a page were checked when it was decoded.
     if (links_.page(link) == page_ && frame_) return slot(links_.slot(link));
     return record(link, (node.leaf >> octant & 1) != 0, work);
   }
-  /// The link to it.
+  /// Returns the link to the record of a grey octant.
   std::uint32_t child_link(const MaskNode& node, unsigned octant) const {
     const unsigned below = (1U << octant) - 1;
     return links_.make(links_.page(node.family),
                        links_.slot(node.family) + count_octants(node.grey & below));
   }
-  /// The record at a link, which is said to be a leaf or a node; null if its page cannot be had
-  /// or holds no such record there.
+  /// Returns the record at a link; null if its page is missing or has no such record there.
+  ///
+  /// leaf  whether the parent says that it is a leaf; else it is a node
   const std::byte* record(std::uint32_t link, bool leaf, TraversalStats& work) {
     turn_to(links_.page(link), work);
     const std::uint32_t at = links_.slot(link);
     return frame_ && holds(at, leaf) ? slot(at) : nullptr;
   }
 
-  /// Whether the page of a link can be had: then slot() is of it.
+  /// Switches to the page of a link, which slot() then refers to. Returns false if it is missing.
   bool turn_to_page_of(std::uint32_t link, TraversalStats& work) {
     turn_to(links_.page(link), work);
     return frame_ != nullptr;
   }
   std::uint32_t slot_of(std::uint32_t link) const { return links_.slot(link); }
-  /// Whether so many slots from a link on are in its page.
+  /// Whether `slots` slots from a link on are within its page.
   bool has_capacity(std::uint32_t link, unsigned slots) const {
     return links_.slot(link) + slots <= links_.slots();
   }
-  /// The link to a slot of the last record's page.
+  /// Returns the link to a slot of the last record's page.
   std::uint32_t link_to(std::uint32_t slot) const { return links_.make(page_, slot); }
 
   const std::byte* slot(std::uint32_t number) const { return frame_ + number * kMaskSlotBytes; }

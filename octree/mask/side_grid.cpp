@@ -12,25 +12,26 @@
 namespace planetree::octree {
 namespace {
 
-// As many bytes, or a few more.
+// Rounds up to a multiple of a record's size.
 constexpr std::size_t whole_records(std::size_t bytes) {
   return (bytes + sizeof(SideGridRecord) - 1) / sizeof(SideGridRecord) * sizeof(SideGridRecord);
 }
 
 }  // namespace
 
-// How many cells there are of a level, and where.
+// Computes how many cells of a level the grid has, and where they are.
 void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scale) {
   constexpr std::uint32_t kRim = GridCoordinates::kRim;
   const double per_unit = 0.5 * static_cast<double>(std::uint64_t{1} << level);
   level_ = level;
   min_side_ = 0.25 / per_unit;
   steps_.model = FixedPoint(level, 0);
-  // What is beyond a wall of a region is not the map's to know, and a glance does not see walls;
-  // nor bits of subnormal numbers.
+  // find_fast() is off for a region with walls and for extreme scales. It does not test walls,
+  // beyond which the grid is not valid, and it does not read the bits of subnormal numbers.
   const bool certain = !clipped && std::abs(scale) <= FixedPoint::kMaxScale;
   steps_.input = FixedPoint(level, certain ? scale : FixedPoint::kNoScale);
-  // Steps err by one each of the point and of the box, sides by 2^-53 of the largest.
+  // The steps of the point and of the box err by one each, faces by 2^-53 of the greatest
+  // coordinate.
   constexpr std::int64_t kUncertainty = 1 << 8;
   const double error = 0x1p-53 * (lower_.cwiseAbs().maxCoeff() + 4) * per_unit * FixedPoint::kCell;
   bool near = 2 + error < kUncertainty;
@@ -47,8 +48,8 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
   steps_.uncertainty = 2 * (near ? kUncertainty : GridCoordinates::kMin);
 }
 
-// The cells of a level, and what is known of those that are grey; false if there is no room for
-// it.
+// Fills in the cells of a level and what is known about the grey ones. Returns false if `memory` is
+// too small for it.
 bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool clipped,
                           std::span<std::byte> memory) {
   const double block_count = 1.0 * blocks_along(0) * blocks_along(1) * blocks_along(2);
@@ -57,7 +58,7 @@ bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool cl
   const std::size_t index_bytes = whole_records(blocks * sizeof(std::uint32_t));
   const std::size_t code_bytes = whole_records(blocks * sizeof(SideGridCells::Codes));
   if (index_bytes + code_bytes > memory.size()) return false;
-  // What is painted is at the end, where records will be, until it is laid out.
+  // The builder writes codes to the end of the memory. Records go there once these are laid out.
   const std::size_t filled_at =
       (memory.size() - code_bytes) / alignof(SideGridRecord) * alignof(SideGridRecord);
   const std::span<SideGridCells::Codes> filled(
@@ -82,13 +83,13 @@ bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool cl
 
 void SideGrid::fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, int scale,
                     const PageReader& pages, std::span<std::byte> memory) noexcept {
-  // A forged header may tell of a box that does not fit the root.
+  // A forged header may state a box that does not fit into the root.
   const Point size = tree.box_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
   if (mask.page_count == 0 || !fits) return;
   assert(reinterpret_cast<std::uintptr_t>(memory.data()) % alignof(SideGridRecord) == 0);
   lower_ = mask.lower;
-  // The finest that there is room for.
+  // Takes the finest level that fits into the memory.
   for (unsigned level = kLevels - 2; level > 0; --level) {
     measure(size, level, clipped, scale);
     if (fill_cells(mask, pages, clipped, memory)) return;

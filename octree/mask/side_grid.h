@@ -18,42 +18,44 @@
 
 namespace planetree::octree {
 
-/// A mask's cells of one level side by side, with a rim of white ones about the model's box, and
-/// in the grey ones those of two levels more, and the slabs of leaves: one look tells the side of
-/// most points, and needs no page. For the rest there are records of the mask, so that a lookup
-/// need not begin at the root. Filled once; then any thread may look.
+/// A table of a mask's cells of one level, with a rim of white cells around the model's box. Of
+/// grey cells it also has the colours of two more levels, and the slabs of leaves. One lookup tells
+/// the side of most points and reads no page. For other points the grid has records of the mask, so
+/// that a lookup in the mask need not start at the root. The grid is filled once. Then any thread
+/// may look points up.
 class SideGrid {
  public:
-  /// Memory of the map of a model of so many triangles.
+  /// Bytes of memory for the grid of a model of so many triangles.
   static constexpr std::size_t bytes(std::uint64_t triangles) {
     constexpr std::uint64_t kFewestBytes = 1024, kMaxBytes = std::uint64_t{3} << 19;
     return std::clamp(triangles + triangles / 2, kFewestBytes, kMaxBytes);
   }
 
-  /// A map that knows nothing; as do those of models so far from the origin that steps have no
-  /// room: some 2^25 times their size.
+  /// Makes a grid that knows nothing. The grid of a model far from the origin, by some 2^25 times
+  /// its size, knows nothing either, because steps cannot resolve its cells.
   SideGrid() = default;
 
-  /// Of a mask's first pages, as far as they can be had.
+  /// Fills the grid from a mask's first pages, as far as these are available.
   ///
-  /// clipped  by the walls of a region, so that cells' octants may be others than halves.
-  /// scale    model frame's units are 2^scale of the input's.
-  /// memory   where the map is to be, on a boundary of 16 bytes; must outlive this.
+  /// clipped  cells are clamped to the walls of a region, so that octants may not be halves.
+  /// scale    coordinates in the model frame are those of the input times 2^scale.
+  /// memory   storage of the grid, aligned to 16 bytes; must outlive this.
   void fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, int scale,
             const PageReader& pages, std::span<std::byte> memory) noexcept;
 
   static constexpr int kUnknown = SideGridCells::kUnknown;
 
-  /// What the map knows of a point.
+  /// What the grid knows about a point.
   struct Lookup {
-    int winding = kUnknown;                  ///< its sign, where that is known; else kUnknown
-    GridCell cell;                           ///< grey: the one that
-    const SideGridRecord* record = nullptr;  ///< this is of; null where the map has none
+    int winding = kUnknown;                  ///< sign of the winding number, or kUnknown
+    GridCell cell;                           ///< the grey cell of `record`
+    const SideGridRecord* record = nullptr;  ///< null if the grid has none
   };
+  /// Looks up a point of the model frame.
   Lookup look(const Point& point) const noexcept {
     return look(point, [](const SideGridRecord&) {});
   }
-  /// Calls ahead(record) as soon as there is a record that may be wanted.
+  /// The same; calls ahead(record) as soon as a record is found that may be used.
   template <class Ahead>
   Lookup look(const Point& point, const Ahead& ahead) const noexcept {
     GridCoordinates::Position position;
@@ -61,8 +63,9 @@ class SideGrid {
         steps_.find(point.data(), steps_.model, position) || find_among_sides(point, position);
     return certain ? look_at(position, point, ahead) : Lookup{};
   }
-  /// What a look sees before it reads a record, where steps tell the point's place; else nothing.
-  /// Where there is a record, it is of the cell or of one above.
+  /// Returns what look() knows about a point in a grey cell before it reads a record. Returns
+  /// nothing for other points and for those in the uncertainty band. The record may be that of an
+  /// ancestor of the cell returned.
   Lookup lookup_of(const Point& point) const noexcept {
     GridCoordinates::Position position;
     if (!steps_.find(point.data(), steps_.model, position)) return {};
@@ -71,9 +74,10 @@ class SideGrid {
     const SideGridCells::Found found = cells_.find_below(cell, position.octant());
     return {found.winding, octant_at(position), found.record};
   }
-  /// The winding number's sign that a look finds, of a point in the input's units, where whole
-  /// numbers tell it; else kUnknown. Nothing is computed with doubles. The point may be any, and no
-  /// number.
+  /// Returns the sign of the winding number as look() finds it, if integers alone can tell it; else
+  /// kUnknown. Computes nothing with doubles.
+  ///
+  /// x, y, z  in the input's units; any values, also infinite ones and NaN
   int find_fast(double x, double y, double z) const noexcept {
     return find_fast_(steps_, cells_, x, y, z);
   }
@@ -81,7 +85,9 @@ class SideGrid {
  private:
   class SideGridBuilder;
 
-  // As rounded, sides may be elsewhere than steps say.
+  // Finds the position of a point in the uncertainty band: compares the point with the faces as
+  // CellGrid rounds them, which may differ from the faces of whole steps. Returns false in the rim,
+  // and if the point is not in the cell that its steps say.
   bool find_among_sides(const Point& point, GridCoordinates::Position& position) const {
     constexpr std::uint32_t kRim = GridCoordinates::kRim;
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -112,7 +118,7 @@ class SideGrid {
     const GridCell cell{level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
     return cell.child(position.octant());
   }
-  // Of a leaf that has one.
+  // Finds the winding number by the slab of a leaf, if it has one that the point is beyond.
   Lookup query_slab(const Lookup& lookup, const Point& point) const {
     if (!lookup.record->is_listed()) return lookup;
     const Point lower = CellGrid(lower_).lower(lookup.cell);
@@ -122,7 +128,7 @@ class SideGrid {
     if (corner == CellSlab::kNoCorner) return lookup;
     return {corner_of(lookup.record->listed(0), corner), {}, nullptr};
   }
-  // As CellGrid's; in the least of what is told.
+  // Coordinate of a face, as CellGrid rounds it. `at` counts octants of octants.
   double side(unsigned axis, std::int64_t at) const {
     return lower_[axis] + min_side_ * static_cast<double>(at);
   }
@@ -136,14 +142,14 @@ class SideGrid {
   GridCoordinates steps_;
   SideGridCells cells_;
   SideGridLookup find_fast_ = map_glance();
-  std::array<std::uint32_t, 3> width_{};  // with the rim
+  std::array<std::uint32_t, 3> width_{};  // in cells, with the rim
   unsigned level_ = 0;
   Point lower_ = Point::Zero();
   double min_side_ = 0;
 };
 
-/// Finds the cell of the mask that a point is in, from where a map of the mask's colours has found
-/// `spot` for it.
+/// Finds the cell of the mask that a point is in, as look_up() of mask_lookup.h does. It starts at
+/// the record in `lookup`, which a side grid returned for the point; without one, at the root.
 MaskLookup look_up(const MaskInfo& mask, const SideGrid::Lookup& lookup, const Point& point,
                    std::uint64_t max_work, const PageReader& pages, TraversalStats& work) noexcept;
 

@@ -11,11 +11,11 @@
 
 namespace planetree::octree {
 
-/// Goes through the nodes of a mask's first pages, three times: to paint cells, to paint the
-/// octants of those that are grey, and to fill in what is known of grey octants.
+/// Walks the nodes of a mask's first pages three times: to fill in the colours of cells, the
+/// colours of the octants of grey cells, and the records of grey octants.
 class SideGrid::SideGridBuilder {
  public:
-  /// cells  the codes of blocks, to be painted; of no use when these are laid out.
+  /// cells  receives the codes of bricks; not used once these are laid out.
   SideGridBuilder(SideGrid& map, std::span<SideGridCells::Codes> cells, const MaskInfo& mask,
                   const PageReader& pages, bool clipped)
       : map_(map), cells_(cells), mask_(mask), pages_(pages), clipped_(clipped) {}
@@ -32,16 +32,17 @@ class SideGrid::SideGridBuilder {
   enum class Pass { kCells, kOctants, kRecords };
   static constexpr std::uint32_t kRim = GridCoordinates::kRim;
 
-  // Pages that are not in memory, as often as they are brought: what opening a model may take for a
-  // level of cells.
+  // Maximum number of lookups of pages that are not resident, for one level of cells. It bounds
+  // the time to open a model.
   static constexpr std::uint64_t kMaxBrought = 1 << 12;
-  // Larger leaves would fill the map with their records.
+  // Maximum number of levels from the grid's cells up to a leaf. Larger leaves would fill the grid
+  // with their records.
   static constexpr unsigned kMaxAbove = 2;
 
-  // Without the rim.
+  // Number of cells along an axis, without the rim.
   std::uint32_t width(unsigned axis) const { return map_.width_[axis] - 2 * kRim; }
 
-  // As far as blocks go.
+  // Makes the rim white, up to the ends of the bricks.
   void fill_rim() {
     const auto in_rim = [&](unsigned axis, std::uint32_t at) {
       return at < kRim || at >= width(axis) + kRim;
@@ -66,7 +67,7 @@ class SideGrid::SideGridBuilder {
   }
 
   void go_below(const std::byte* record, const GridCell& cell) {
-    const MaskNode node = *reinterpret_cast<const MaskNode*>(record);  // may go with its page
+    const MaskNode node = *reinterpret_cast<const MaskNode*>(record);  // its page may be evicted
     for (unsigned octant = 0; octant < 8; ++octant) {
       const GridCell child = cell.child(octant);
       if ((node.grey >> octant & 1) != 0)
@@ -91,14 +92,14 @@ class SideGrid::SideGridBuilder {
     go_to_listed(*reinterpret_cast<const MaskNode*>(record), child);
   }
 
-  // The record of a grey octant; null where its page cannot be had, or is one too many.
+  // Returns the record of a grey octant; null if its page is missing or kMaxBrought is reached.
   const std::byte* below(const MaskNode& node, unsigned octant) {
     if (!records_->peek(node.family) && ++brought_ > kMaxBrought) return nullptr;
     const bool leaf = (node.leaf >> octant & 1) != 0;
     return records_->record(records_->child_link(node, octant), leaf, work_);
   }
 
-  // A cell of the map's level, which is divided.
+  // Fills in what is below a node of the grid's level.
   void go_to_listed(const MaskNode node, const GridCell& cell) {
     const Position at{cell.at[0] + kRim, cell.at[1] + kRim, cell.at[2] + kRim};
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -116,14 +117,14 @@ class SideGrid::SideGridBuilder {
     }
   }
 
-  // What is known of a leaf.
+  // What the grid needs to know of a leaf.
   struct Leaf {
     GridCell cell;
     std::uint32_t link = 0;
     bool listed = false;
     MaskListed head{};
     CellSlab slab{};
-    unsigned touched = 0xff;  // octants of it
+    unsigned touched = 0xff;  // octants of the leaf that listed blocks touch
 
     SideGridRecord record(unsigned above) const {
       return listed ? SideGridRecord::of_list(head, link, slab, touched, above)
@@ -149,7 +150,7 @@ class SideGrid::SideGridBuilder {
     return leaf;
   }
 
-  // A leaf of the map's level or above.
+  // Fills in the grid's cells within a leaf of the grid's level or above.
   void go_to_leaf(const Leaf& leaf) {
     const unsigned above = map_.level_ + 1 - leaf.cell.level;
     each_cell(leaf.cell, [&](const Position& at) {
@@ -176,7 +177,7 @@ class SideGrid::SideGridBuilder {
     const SideGridCells::Octant noted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
     if (noted.is_unknown()) map_.cells_.records[noted.record()] = record;
   }
-  // A page may be had the second time alone; then its cells are not listed.
+  // A page that was missing in the first pass may be available later; its cells are not listed.
   bool is_listed_at(const Position& at) const {
     return map_.cells_.code_of(map_.steps_.cell_at(at)) == SideGridCells::kListed;
   }
@@ -185,7 +186,7 @@ class SideGrid::SideGridBuilder {
     cells_[cell.block].set(cell.at, code);
   }
 
-  // Insides of one sign alone: the first one's.
+  // Codes have one sign for all inside cells: that of the first one found.
   bool is_certain(int winding) {
     if (winding != 0 && !has_inside_) {
       has_inside_ = true;
@@ -200,7 +201,7 @@ class SideGrid::SideGridBuilder {
         set(at, winding == 0 ? SideGridCells::kWhite : SideGridCells::kInside);
       });
   }
-  // Calls with the place of each of the map's cells that are in a cell.
+  // Calls call(position) for each of the grid's cells within a cell.
   template <class Call>
   void each_cell(const GridCell& cell, const Call& call) {
     const unsigned shift = map_.level_ - cell.level;

@@ -11,27 +11,28 @@
 
 namespace planetree::octree {
 
-/// The cells of a SideGrid: the colour of each, and of what is below the grey ones. Cubes of them,
-/// blocks, are looked up by number; what is known of a block's cells stands together, for whoever
-/// looks at one seldom needs others. All pointers are into the map's memory.
+/// The cells of a SideGrid: the colour of each, and the colours of the octants of grey ones. Cells
+/// are stored in bricks of 4 x 4 x 4, which have numbers. What is known about the cells of a brick
+/// lies together, because a lookup seldom needs other bricks. All pointers are into the grid's
+/// memory.
 struct SideGridCells {
   static constexpr int kUnknown = SideGridRecord::kUnknown;
 
   enum Code : unsigned {
     kWhite = 0,
-    kInside = 1,  ///< of the sign `inside`
+    kInside = 1,  ///< inside, with a winding number of the sign `inside`
     kListed,      ///< grey
-    kOther,       ///< nothing is known here
+    kOther,       ///< unknown
   };
-  /// A cell, by the block that it is in and its place there: a bit of each axis for the halves of
-  /// the block's sides, before those for the halves of these.
+  /// A cell: the number of its brick, and its index there. Bits 3 to 5 of the index are the upper
+  /// halves of the brick in x, y and z, bits 0 to 2 the upper halves of those halves.
   struct Cell {
     std::size_t block;
     unsigned at;
   };
-  static constexpr unsigned kBlockBits = 2;  ///< cells along a block's side, as a power of 2
+  static constexpr unsigned kBlockBits = 2;  ///< log2 of the cells along a brick's side
 
-  /// The codes of a block's cells, a bit of each in either word.
+  /// The codes of a brick's cells: their lower bits in one word, their upper bits in the other.
   struct Codes {
     std::uint64_t low, high;
 
@@ -49,26 +50,26 @@ struct SideGridCells {
   static constexpr std::uint64_t kAll = ~std::uint64_t{0};
   static constexpr Codes kUnfilled{kAll, kAll};
 
-  /// Listed cells of a block that follow each other, by the colours of their octants: `inside` are
-  /// those of its sign.
+  /// Up to kCells consecutive listed cells of a brick, with a bit for each of their octants:
+  /// whether its colour is unknown, and whether it is inside.
   struct Group {
     static constexpr unsigned kCells = 8;
     std::uint64_t unknown, inside;
-    std::uint64_t first_record;  ///< of the unknown ones, in their order
+    std::uint64_t first_record;  ///< index of the first unknown octant's record; others follow
   };
 
-  std::uint32_t* first_word = nullptr;  ///< of each block
-  std::uint64_t* words = nullptr;       ///< a block's Codes, and its groups
+  std::uint32_t* first_word = nullptr;  ///< index into `words` of each brick
+  std::uint64_t* words = nullptr;       ///< of each brick its Codes, then its groups
   SideGridRecord* records = nullptr;
-  int inside = 1;  ///< or -1
+  int inside = 1;  ///< sign of the winding number in inside cells: 1 or -1
 
   static constexpr std::size_t groups_in(const Codes& codes) {
     return (count(codes.listed()) + Group::kCells - 1) / Group::kCells;
   }
 
-  /// Sets up the words of blocks of these codes, with all octants of listed cells unknown; blocks
-  /// of one colour share theirs. Returns how many words there are; where that is more than `room`,
-  /// there was none for some.
+  /// Writes the words of bricks with these codes. All octants of listed cells become unknown.
+  /// Bricks of one colour share their words. Returns the number of words; if it is above
+  /// `capacity`, some did not fit.
   std::size_t lay_out(std::span<const Codes> blocks, std::size_t capacity) {
     constexpr std::array kShared{Codes{0, 0}, Codes{kAll, 0}, kUnfilled};
     constexpr std::size_t kCodeWords = sizeof(Codes) / sizeof(std::uint64_t);
@@ -83,7 +84,7 @@ struct SideGridCells {
     }
     return size;
   }
-  /// Counts the records before each group. Returns how many there are in all.
+  /// Sets first_record of each group. Returns the number of records.
   std::size_t count_records(std::size_t block_count) {
     std::size_t before = 0;
     for (std::size_t block = 0; block < block_count; ++block)
@@ -98,8 +99,9 @@ struct SideGridCells {
   const Codes& codes_of(std::size_t block) const {
     return *reinterpret_cast<const Codes*>(words + first_word[block]);
   }
-  /// Queries for so many lines behind the codes', too, where groups of listed cells are: the first
-  /// two at least are in one, nearly all in three.
+  /// Returns the code of a cell. Also prefetches the kLines cache lines after that of the codes,
+  /// where the groups of listed cells are. One line holds the first two groups or more, three hold
+  /// nearly all.
   template <std::size_t kLines = 0>
   Code code_of(Cell cell) const {
     const Codes& codes = codes_of(cell.block);
@@ -124,23 +126,23 @@ struct SideGridCells {
             std::uint64_t{1} << (8 * (number % Group::kCells) + octant)};
   }
 
-  /// What is known of a place.
+  /// What is known about a position.
   struct Found {
-    int winding;  ///< its sign, or kUnknown
-    const SideGridRecord* record =
-        nullptr;  ///< then: of the octant; null if the cell is not listed
+    int winding;  ///< sign of the winding number, or kUnknown
+    /// If that is unknown: record of the octant, or null if the cell is not listed.
+    const SideGridRecord* record = nullptr;
   };
-  /// In a cell that has a code and is not listed.
+  /// Finds by the code of a cell that is not listed.
   Found find_by_code(unsigned code) const {
-    // By no branch: points come from either side.
+    // The colour selects no branch: points come from either side, which is not predictable.
     return {code <= kInside ? static_cast<int>(code) * inside : kUnknown};
   }
-  /// In a listed cell, in octant `part` of its octant `octant`.
+  /// Finds in octant `part` of octant `octant` of a listed cell.
   Found find_below(Cell cell, unsigned octant, unsigned part) const {
     const Found found = find_below(cell, octant);
     return found.record ? Found{found.record->winding(part), found.record} : found;
   }
-  /// The same as far as it takes no look at a record.
+  /// Finds in an octant of a listed cell, without reading a record.
   Found find_below(Cell cell, unsigned octant) const {
     const Octant found = octant_of(cell, octant);
     if (!found.is_unknown()) return {static_cast<int>(found.is_inside()) * inside};
@@ -151,7 +153,8 @@ struct SideGridCells {
   static constexpr std::size_t kLineBytes = 64;
   static constexpr std::size_t kGroupWords = sizeof(Group) / sizeof(std::uint64_t);
 
-  // Behind the words that there are; returns how many there are then.
+  // Appends a brick to `size` words. Returns how many words there are then; capacity + 1 if it does
+  // not fit.
   std::size_t add_block(std::size_t size, const Codes& codes, std::size_t capacity) {
     const std::size_t groups = groups_in(codes), end = size + 2 + kGroupWords * groups;
     if (end > capacity) return capacity + 1;
@@ -165,7 +168,7 @@ struct SideGridCells {
   Group& group(std::size_t first, std::size_t number) const {
     return *reinterpret_cast<Group*>(words + first + 2 + kGroupWords * number);
   }
-  // The processors we build for may lack an instruction for it.
+  // Number of bits set. The processors that planetree is built for may lack an instruction for it.
   static constexpr std::uint32_t count(std::uint64_t set) {
     set -= set >> 1 & 0x5555555555555555;
     set = (set & 0x3333333333333333) + (set >> 2 & 0x3333333333333333);

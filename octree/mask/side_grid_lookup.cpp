@@ -30,30 +30,30 @@ HWY_INLINE Words bits_of(double x, double y, double z) {
   return hn::BitCast(WordTag(), hn::Combine(all, hn::Set(pair, z), xy));
 }
 
-// The sum over axes of values below 2^32 by factors below that.
+// Returns the sum over the axes of value times factor, both below 2^32.
 HWY_INLINE std::size_t weighted_sum(Words values, Words factors) {
   const hn::Repartition<std::uint32_t, WordTag> halves;
   const auto products = hn::MulEven(hn::BitCast(halves, values), hn::BitCast(halves, factors));
   return hn::GetLane(hn::SumOfLanes(WordTag(), products));
 }
 
-// One bit of each axis: an octant.
+// Returns one bit of each axis: an octant.
 template <int kShift>
 HWY_INLINE unsigned bits_at(Steps steps) {
   const StepTag signs;
   return mask_bits(signs, hn::Lt(hn::ShiftLeft<63 - kShift>(steps), hn::Zero(signs))) & 7;
 }
 
-// Of which the compiler is told nothing: gcc 12, where it sees that a function leaves vectors
-// alone, calls it and returns with their upper halves in use, for which whatever comes next then
-// waits.
+// `noipa` hides this function's body from its caller. When gcc 12 sees that a function uses no
+// vectors, the caller leaves the upper halves of its vectors in use, across the call and on return.
+// The code that runs next then waits for them.
 [[gnu::noipa]] int winding_below(const SideGridCells& cells, SideGridCells::Cell cell,
                                  unsigned octant, unsigned part) {
   return cells.find_below(cell, octant, part).winding;
 }
 
-// GridCoordinates::find(), an axis a lane, of the digits of FixedPoint. The fourth lane is never in
-// doubt where others are not.
+// Does what GridCoordinates::find() and FixedPoint::digits_of() do, with one axis in each lane. The
+// fourth lane is uncertain only if another one is.
 int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells, double x,
                         double y, double z) {
   const WordTag words;
@@ -78,8 +78,8 @@ int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells
       weighted_sum(hn::ShiftRight<kBlockShift>(hn::BitCast(words, step)),
                    hn::Load(words, steps.stride.data())),
       bits_at<FixedPoint::kBits + 1>(step) << 3 | bits_at<FixedPoint::kBits>(step)};
-  // Points that a glance is enough for are seldom in the block of the one before, so that none of
-  // its lines is likely to be near.
+  // Points that this lookup answers are seldom in the brick of the one before, so that none of the
+  // brick's lines is likely to be in the cache.
   const unsigned code = cells.code_of<3>(cell);
   if (code != SideGridCells::kListed) return cells.find_by_code(code).winding;
   return winding_below(cells, cell, bits_at<GridCoordinates::kOctantBits>(step),
@@ -108,7 +108,7 @@ namespace planetree::octree {
 HWY_EXPORT(find_fast_on_target);
 
 SideGridLookup map_glance() noexcept {
-  // Else it might be the one that chooses.
+  // Without this, the pointer might be to Highway's function that chooses a target.
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   return &HWY_DYNAMIC_DISPATCH(find_fast_on_target);
 }

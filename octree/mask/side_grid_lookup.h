@@ -7,7 +7,7 @@
 
 namespace planetree::octree {
 
-/// What is known of a place.
+/// Finds what the cells know about a position.
 inline SideGridCells::Found find(const GridCoordinates& steps, const SideGridCells& cells,
                                  const GridCoordinates::Position& position) {
   const SideGridCells::Cell cell = steps.cell_at(position.cell());
@@ -16,15 +16,16 @@ inline SideGridCells::Found find(const GridCoordinates& steps, const SideGridCel
                                         : cells.find_by_code(code);
 }
 
-/// Tells the sign of the winding number at a point, in the input's units; SideGridCells::kUnknown
-/// where that takes more than whole numbers. Computes with nothing else: it does not matter how the
-/// thread rounds, or what it has trapped.
+/// Returns the sign of the winding number at a point, or SideGridCells::kUnknown if integers alone
+/// cannot tell it. It computes with integers only, so that the thread's rounding mode and trapped
+/// exceptions do not matter.
 ///
+/// x, y, z  in the input's units; any values, also infinite ones and NaN
 /// threads  any; no allocation, no lock, no exception.
 using SideGridLookup = int (*)(const GridCoordinates& steps, const SideGridCells& cells, double x,
                                double y, double z);
 
-/// The fastest there is here: all tell the same.
+/// Returns the fastest implementation for this processor. All return the same signs.
 SideGridLookup map_glance() noexcept;
 
 }  // namespace planetree::octree

@@ -10,7 +10,7 @@
 
 namespace planetree::octree {
 
-/// The best triangle of a descent so far and what may be pruned because of it.
+/// The best triangle of a traversal so far, and the thresholds for pruning that follow from it.
 class BestTriangle {
  public:
   BestTriangle(const FloatQuery& wide, const NearestLimits& limits) : wide_(wide), limits_(limits) {
@@ -21,21 +21,22 @@ class BestTriangle {
   std::uint64_t triangle() const { return triangle_; }
   const Triangle& corners() const { return corners_; }
   bool is_height_field() const { return is_height_field_; }
-  /// Writes its nearest point.
+  /// Writes the best triangle's nearest point.
   void place_nearest(NearestOnTriangle& nearest) const { locate(corners_, finding_, nearest); }
 
-  /// Nothing farther than this is of interest.
+  /// Distance beyond which no triangle matters.
   double reach() const { return reach_; }
-  /// Child bounds above this are not worth a visit.
+  /// Children of a greater squared bound are not visited.
   float threshold() const { return threshold_; }
-  /// Child bounds above this cannot hold the nearest triangle.
+  /// Children of a greater squared bound cannot hold the nearest triangle.
   float exact_threshold() const { return exact_threshold_; }
 
-  /// No triangle offered so far is truly nearer than this: one of a greater
-  /// value may be, if its value is less certain.
+  /// Lower bound on the true distance of every triangle offered so far. A triangle of greater value
+  /// than the best may be truly nearer, if its value is less certain.
   double lower() const { return lower_; }
 
-  /// Some triangle has a value of at most `distance`: it will be offered, or is left unread.
+  /// Lowers reach() to `distance`. Some triangle must be within it as computed, and must be offered
+  /// later or lie in an unread subtree.
   void tighten(double distance) {
     if (!(distance < reach_)) return;
     reach_ = distance;
@@ -43,8 +44,10 @@ class BestTriangle {
     refresh();
   }
 
-  /// Keeps a triangle that was evaluated if (value, index) is less; `is_height_field` is its
-  /// block's, `corners(to)` writes its corners.
+  /// Keeps an evaluated triangle if its (value, index) is less than that of the best one.
+  ///
+  /// is_height_field  flag of the triangle's block
+  /// corners          corners(to) writes the triangle's corners
   template <class Corners>
   void offer(const TriangleFinding& finding, std::uint64_t index, bool is_height_field,
              Corners corners) {
@@ -68,9 +71,9 @@ class BestTriangle {
   void refresh() {
     exact_threshold_ = prune_threshold(wide_, reach_);
     threshold_ = exact_threshold_;
-    // While nothing is found there is nothing that an error could be allowed of.
+    // max_error needs a distance to some triangle.
     if (!bounded_ || !(limits_.max_error > 0)) return;
-    // The last 2^-40 pays for the rounding of both ends of the interval.
+    // The share of 2^-40 covers the rounding of both ends of the interval.
     const double wanted = limits_.max_error - (reach_ + limits_.max_error) * 0x1p-40;
     if (wanted > 0)
       threshold_ = std::min(threshold_, prune_threshold(wide_, std::max(0.0, reach_ - wanted)));
@@ -78,9 +81,9 @@ class BestTriangle {
 
   const FloatQuery& wide_;
   const NearestLimits& limits_;
-  // max_distance and what a value near it may err: no corner is farther away
-  // than that and a diagonal of the model, which is below 4 (see
-  // octree/geometry/triangle_distance.cpp for the factor).
+  // max_distance and the error of a value near it. The corners of a triangle there are at most
+  // max_distance and the model's diagonal away, which is below 4. The factor is kValueErrorFactor
+  // over the least sine, 2^-5, with a margin of 4 (octree/geometry/triangle_distance.h).
   double farthest_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
@@ -88,7 +91,7 @@ class BestTriangle {
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   TriangleFinding finding_;
   double reach_ = farthest_;
-  bool bounded_ = false;  // reach_ is that of a triangle
+  bool bounded_ = false;  // reach_ is the distance of a triangle
   float threshold_ = 0;
   float exact_threshold_ = 0;
 };

@@ -7,8 +7,9 @@
 
 namespace planetree::octree {
 
-/// A short list of triangles that float cannot rule out: to be evaluated in double once
-/// nothing nearer is likely to be found. Corners are copied: their page may be gone by then.
+/// A short list of triangles that float cannot rule out. They are evaluated in double when little
+/// is likely to be found that is nearer. Corners are copied, because their page may be gone by
+/// then.
 class Candidates {
  public:
   static constexpr std::size_t kMax = 32;
@@ -16,11 +17,13 @@ class Candidates {
   std::size_t size() const { return size_; }
   bool full() const { return size_ == kMax; }
 
-  /// `squared` is the filter's value (octree/traversal/bounds.h), `extent` and `is_height_field`
-  /// are the block's.
+  /// Adds a triangle. Requires !full().
+  ///
+  /// extent, is_height_field  of the triangle's block
+  /// squared                  filter value, see octree/traversal/bounds.h
   void add(const Triangle& corners, std::uint64_t id, float extent, bool is_height_field,
            float squared) {
-    // The first of a group stands in all its lanes, so that kernels need no mask.
+    // The first triangle of a group fills all lanes of it, so that kernels need no mask.
     if (size_ % kTrianglesAtOnce == 0)
       rows_.fill(size_, corners);
     else
@@ -31,7 +34,7 @@ class Candidates {
     squared_[size_++] = squared;
   }
 
-  /// Drops those for which `still(squared, extent)` is false.
+  /// Removes the candidates for which still(squared, extent) is false.
   template <class Still>
   void keep_if(Still still) {
     std::size_t kept = 0;
@@ -45,7 +48,7 @@ class Candidates {
 
   void clear() { size_ = 0; }
 
-  /// Up to the next multiple of kTrianglesAtOnce there are triangles, of no meaning.
+  /// Rows from size() up to the next multiple of kTrianglesAtOnce hold triangles without meaning.
   const TriangleRows<kMax>& rows() const { return rows_; }
   std::uint64_t id(std::size_t at) const { return id_[at]; }
   bool is_height_field(std::size_t at) const { return is_height_field_[at]; }

@@ -14,18 +14,19 @@
 namespace planetree::octree {
 namespace {
 
-// Records by their links, up to so many: a forged tree could lead to one again and again.
+// Finds a limited number of records by their links: a forged tree could lead to the same record
+// again and again.
 class LimitedFinder {
  public:
   LimitedFinder(const TreeInfo& tree, std::uint64_t most, const PageReader& pages,
                 TraversalStats& work)
       : records_(tree, pages), work_(work), left_(std::min(most, tree.record_count)) {}
 
-  // Null where it cannot be had, or no more may be visited.
+  // Returns null if the record's page is missing or no work is left.
   const std::byte* find(std::uint32_t link) {
     const std::byte* record = left_ > 0 ? records_.find(link, work_) : nullptr;
     if (!record) {
-      left_ = 0;  // after a page that is lost nothing more is looked for
+      left_ = 0;  // after a missing page nothing more is searched
       return nullptr;
     }
     --left_;
@@ -39,7 +40,7 @@ class LimitedFinder {
   std::uint64_t left_;
 };
 
-// A ball as the children of nodes and the triangles of blocks are held against it.
+// A ball that children of nodes and triangles of blocks are tested against.
 class Ball {
  public:
   Ball(const TreeInfo& tree, const Point& centre, double radius)
@@ -48,11 +49,11 @@ class Ball {
         query_(FloatQuery::from(centre, tree.centre)),
         threshold_(prune_threshold(query_, radius)) {}
 
-  // Adds the children that reach into it.
+  // Adds the children that reach into the ball.
   void add_children(const Node& node, NearbySubtrees& found) const {
     add_children_within(node, query_, threshold_, found);
   }
-  // A bit for each triangle that does; see triangles_within().
+  // Returns a bit for each triangle that reaches into the ball; see triangles_within().
   unsigned reached_by(const BlockView& block, double (&nearest)[kMaxBlockTriangles]) const {
     return triangles_within(block, centre_, query_, radius_, nearest);
   }
@@ -64,14 +65,14 @@ class Ball {
   const float threshold_;
 };
 
-// The subtrees that reach into a ball: from the root down, level by level, as long as there is
-// room for more.
+// Finds the subtrees that reach into a ball. It goes down from the root, level by level, as long
+// as the list has capacity.
 class SubtreeSearch {
  public:
   SubtreeSearch(const Ball& ball, LimitedFinder& records, NearbySubtrees& found)
       : ball_(ball), records_(records), found_(found) {}
 
-  // False where there is nothing to keep.
+  // Returns false if there is nothing to keep.
   bool run(std::uint32_t root_link) {
     found_.clear();
     const Node* root = node(root_link);
@@ -83,7 +84,8 @@ class SubtreeSearch {
   }
 
  private:
-  // Puts nodes' near children in their places. False where none was opened.
+  // Replaces nodes in the list by those of their children that reach into the ball. Returns false
+  // if it replaced none.
   bool open_level() {
     bool opened = false;
     for (std::size_t i = found_.size(); i-- > 0 && found_.has_capacity();) {
@@ -96,7 +98,7 @@ class SubtreeSearch {
     return opened;
   }
 
-  // Null where it is a block, its page is lost, or no more may be visited.
+  // Returns null for a block, for a missing page, and if no work is left.
   const Node* node(std::uint32_t link) {
     return LinkFormat::is_leaf(link) ? nullptr : reinterpret_cast<const Node*>(records_.find(link));
   }
@@ -106,15 +108,15 @@ class SubtreeSearch {
   NearbySubtrees& found_;
 };
 
-// The triangles of some blocks that reach into a ball.
+// Collects the triangles of some blocks that reach into a ball.
 class TriangleSearch {
  public:
   TriangleSearch(const TreeInfo& tree, const Ball& ball) : tree_(tree), ball_(ball) {}
 
-  // More blocks than these do not keep to so few triangles.
+  // The triangles of more blocks rarely fit into NearbyTriangles.
   static constexpr std::size_t kMaxBlocks = 28;
 
-  // False where they are too many, or a page is lost.
+  // Returns false if the triangles are too many or a page is missing.
   bool run(const NearbySubtrees& blocks, LimitedFinder& records) {
     if (blocks.size() > kMaxBlocks) return false;
     for (std::size_t i = 0; i < blocks.size(); ++i) {

@@ -19,12 +19,12 @@
 namespace planetree::octree {
 namespace {
 
-/// Thinner faces, by the square of their angle's sine, are evaluated with 113
-/// bits: they lose half of a double's.
+/// Faces of a smaller squared sine are evaluated with 113 bits: in double they lose half of the
+/// bits.
 constexpr double kThinSine2 = 0x1p-48;
-/// Edges this short have squares that underflow.
+/// Below this length of an edge, products of squares may underflow.
 constexpr double kShortEdge = 0x1p-200;
-/// Sums below this share of their terms are rounding.
+/// A sum shorter than this share of its weights is rounding error.
 constexpr double kNoSum = 0x1p-40;
 
 Point thin_normal(const Triangle& triangle) {
@@ -39,11 +39,12 @@ Point thin_normal(const Triangle& triangle) {
   return shorter / shorter.norm();
 }
 
-/// Sums the faces around an edge or a vertex, by their index as long as they are few, so that
-/// it does not matter in which order they are found.
+/// Sums the normals of the faces around an edge or a vertex. Up to kSorted faces are summed in the
+/// order of their indices, so that the order in which they are found does not matter.
 class Fan {
  public:
-  /// sides  told of every face; may be null.
+  /// other  the edge's other end; null for a vertex.
+  /// sides  receives every face; may be null.
   Fan(const Point& vertex, const Point* other, FacingSides* sides)
       : vertex_(vertex), other_(other), sides_(sides) {}
 
@@ -69,7 +70,7 @@ class Fan {
     }
   }
 
-  /// Whether normal() does not depend on the order in which faces were found.
+  /// Whether normal() is independent of the order in which faces were found.
   bool is_sorted() const { return sorted_; }
 
   Point normal() {
@@ -114,7 +115,7 @@ class Fan {
   std::uint64_t first_index_ = kNoTriangle;
 };
 
-/// That of one face.
+/// Computes the normal where the nearest point is inside a face.
 void normal_of_face(const Point& query, const NearestAnswer& nearest, FeatureNormal& found) {
   double area2 = 0;
   if (!face_normal(nearest.corners, found.normal, area2)) {
@@ -138,7 +139,8 @@ void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) 
     }
 }
 
-// From some subtrees down, or from the root.
+// Adds the faces at a vertex: those below `subtrees`, or below the root if that is null. Returns
+// false if pages or work were missing.
 bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, const TreeInfo& tree,
              std::uint64_t max_work, const PageReader& pages, TraversalStats& work) {
   const Outcodes outcodes(vertex, vertex);
@@ -176,7 +178,7 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
   found.complete = true;
   found.side = 0;
   if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, found);
-  // The corners that the nearest point is made of: one, or two.
+  // Corners of the feature that holds the nearest point: one of a vertex, two of an edge.
   const Point* ends[3] = {};
   double shares[3] = {};
   std::size_t count = 0;
@@ -197,14 +199,14 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
     const std::uint64_t before = work.nodes + work.blocks;
     const NearbySubtrees* subtrees = nearby ? &coherence_cache->subtrees() : nullptr;
     found.complete = walk_to(vertex, subtrees, fan, tree, max_work, pages, work);
-    // So many are summed up as the tree has them.
+    // So many faces are summed in the order of a walk from the root, which no cache changes.
     if (subtrees && !fan.is_sorted())
       return feature_normal(tree, query, nearest, nullptr,
                             max_work - (work.nodes + work.blocks - before), pages, work, found);
   }
   found.normal = fan.normal();
   if (found.complete && nearest.is_height_field) found.side = sides.common();
-  // Not even the nearest triangle's own page was to be had.
+  // Not even the page of the nearest triangle was available: its own normal is the best known.
   double area2 = 0;
   if (!found.complete && found.normal.squaredNorm() == 0 &&
       !face_normal(nearest.corners, found.normal, area2))

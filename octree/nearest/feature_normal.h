@@ -7,34 +7,45 @@
 
 namespace planetree::octree {
 
-/// The unit normal of a triangle, (b - a) x (c - a), and, squared, twice its area; false if it
-/// has none, and `unit` is then left as it is.
-/// A cross product errs by 5 roundings over the sine of the edges' angle: in
-/// double down to a sine of 2^-24, so by less than 2^-26 rad, and with 113 bits
-/// below that, so by less than 2^-26 rad down to a sine of 2^-84.
+/// Computes the unit normal of a triangle, along (b - a) x (c - a).
+///
+/// triangle  model frame.
+/// unit      the normal, right within 2^-26 rad down to a sine of 2^-84 of the angle at a; left
+///           as it is if the triangle has no area.
+/// area2     square of twice the area.
+/// return    false if the triangle has no area.
+///
+/// Error. A cross product errs by 5 roundings over the sine of the angle between the edges. Double
+/// is used down to a sine of 2^-24, so that the error is below 2^-26 rad. Thinner triangles are
+/// evaluated with 113 bits, so that it is below 2^-26 rad down to a sine of 2^-84.
 bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept;
 
-/// A pseudo-normal, as the mesh is oriented.
+/// A pseudo-normal. Its sign follows the orientation of the mesh.
 struct FeatureNormal {
-  /// Of length 1; zero where no face at the feature has an area.
+  /// Length 1, or zero if no face at the feature has area.
   Point normal = Point::Zero();
-  bool complete = true;  ///< false: pages missing or `max_work` spent; of what was found
-  int side = 0;  ///< FacingSides::common(), where all faces were found and one is in a sheet
+  /// False: pages were missing or `max_work` was spent. The normal is that of the faces found.
+  bool complete = true;
+  /// FacingSides::common() if all faces were found and the nearest triangle's block is in a height
+  /// field; else 0.
+  int side = 0;
 };
 
-/// The normal at a nearest point: that of the face, the sum over the faces of
-/// an edge, or the sum over the faces of a vertex weighted by their angles
-/// there. Faces share an edge or a vertex where its ends are equal. Where the
-/// sum is zero, to rounding, it is that of the first face that has an area.
+/// Computes the pseudo-normal at a nearest point: the normal of the face, the sum of the normals
+/// of the faces at an edge, or that sum at a vertex, weighted by the faces' angles there. Faces
+/// share an edge or a vertex if the coordinates are equal. Where the sum is zero up to rounding,
+/// the result is the normal of the face of least index that has area.
 ///
-/// query, nearest  of one answer, that names a triangle.
-/// vicinity   of that answer; where it has all faces there no page is looked at, and where it has
-///            the subtrees that they are in no other. May be null.
-/// max_work  most nodes and blocks to visit.
-/// found      what it is; written where it is wanted, for to copy it takes longer.
-/// threads    any; no allocation, no lock, no exception of its own.
-/// source     Baerentzen & Aanaes 2005, "Signed distance computation using the
-///            angle weighted pseudonormal".
+/// query, nearest   a query and its answer, which names a triangle; model frame.
+/// coherence_cache  as that query left it; may be null. If it has all faces at the nearest point,
+///                  no page is read. If it has only the subtrees that they are in, no other
+///                  subtree is visited, unless the faces are more than can be sorted.
+/// max_work         maximum number of nodes and blocks to visit.
+/// work             counters that the search adds to.
+/// found            receives the result, because returning a copy takes longer.
+/// threads          any; no allocation, no lock, no exception of its own.
+/// source           Baerentzen & Aanaes 2005, "Signed distance computation using the angle
+///                  weighted pseudonormal".
 void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswer& nearest,
                     const CoherenceCache* coherence_cache, std::uint64_t max_work,
                     const PageReader& pages, TraversalStats& work, FeatureNormal& found) noexcept;

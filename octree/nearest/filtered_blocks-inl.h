@@ -1,4 +1,4 @@
-// Blocks that float has looked at, until their triangles are noted.
+// Blocks that were filtered in float, until their triangles become candidates.
 
 #if defined(PLANETREE_OCTREE_FILTERED_BLOCKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_FILTERED_BLOCKS_INL_H_
@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// Some blocks of one page with what float says of their triangles. Later, when more of the tree
-// has been looked at, fewer of these may be nearest.
+// Blocks with the filter values of their triangles. Candidates are taken from them later: when
+// more of the tree has been visited, the limit is lower and fewer triangles pass it.
 class FilteredBlocks {
  public:
   static constexpr unsigned kMax = 8;
@@ -25,12 +25,14 @@ class FilteredBlocks {
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == kMax; }
 
-  // Where there is room, float's findings of a block go to next(); add() then keeps them.
+  // The filter's result for a block is written to next(), then counted in by add(). Both require
+  // !full().
   FilteredTriangles& next() { return triangles_[size_]; }
   void add(const BlockHeader& block) { block_[size_++] = &block; }
 
   // Calls note(block, i, squared) for each triangle whose lower bound is not above
-  // limit_of(extent of the block), and forgets all. The blocks must still be there.
+  // limit_of(extent of the block), then empties the list. The frames of the blocks must still be
+  // valid.
   template <class LimitOf, class Note>
   HWY_INLINE void note_near(const BlockShape& shape, const LimitOf& limit_of, const Note& note) {
     for (unsigned at = 0; at < size_; ++at) {

@@ -10,13 +10,13 @@ namespace planetree::octree {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Squares below 2^-1022 underflow; lengths below this are not told apart.
+// Squares below 2^-1022 underflow, so that lengths below this are not resolved.
 constexpr double kUnresolved = 0x1p-500;
 
 double down(double value) { return std::max(0.0, value - std::fabs(value) * 0x1p-52); }
 double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<double>::min(); }
 
-// A bound on the whole model from its box alone.
+// Lower bound on the distance to the model, from its box alone.
 double distance_to_box(const TreeInfo& tree, const Point& query) {
   const Point gap = (tree.box_lower - query).cwiseMax(query - tree.box_upper).cwiseMax(0.0);
   return std::max(0.0, gap.norm() * (1 - 0x1p-48) - kUnresolved);
@@ -30,7 +30,8 @@ NearestAnswer beyond(const NearestLimits& limits) {
   return answer;
 }
 
-// Nothing was reached: all that is known is one vertex and what was left out.
+// Answers where no triangle was found and pages or work were missing. One vertex of the model is
+// known, and the bounds of what was skipped.
 NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lower, double within) {
   NearestAnswer answer;
   const double distance = (query - tree.sample).norm();
@@ -43,9 +44,9 @@ NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lowe
   return answer;
 }
 
-// Whether children left out, of this least bound, may hold the nearest
-// triangle. Infinity says that none were left out; the threshold is infinite
-// too where the query is too far away for float.
+// Whether skipped children of this least squared bound may hold the nearest triangle. An infinite
+// bound means that none were skipped. It is tested by itself because the threshold is infinite too
+// where the query is too far away for float.
 bool may_matter(float bound, const BestTriangle& best) {
   return bound < std::numeric_limits<float>::infinity() && bound <= best.exact_threshold();
 }
@@ -66,7 +67,7 @@ void answer_with(const BestTriangle& best, NearestAnswer& answer) {
 NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& wide,
                        const SkippedBounds& skipped) noexcept {
-  // One answer, made where the caller wants it.
+  // One variable, which the compiler can build in the caller's memory.
   NearestAnswer answer;
   const bool spent = may_matter(skipped.unread, best);
   const auto bound_of = [&](float squared) {
@@ -84,7 +85,7 @@ NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLi
     answer.lower = std::min(answer.lower, bound_of(skipped.pruned));
     answer.status = Status::kWithinError;
   }
-  // Only now: what max_error left out may be nearer than what was found.
+  // Tested after the bounds of what max_error skipped: that may be nearer than the triangle found.
   if (answer.lower > limits.max_distance && !spent) {
     answer = beyond(limits);
   } else if (spent) {

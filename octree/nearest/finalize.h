@@ -7,17 +7,17 @@
 
 namespace planetree::octree {
 
-/// The children that a descent did not visit.
+/// Least bounds of the subtrees that a traversal skipped; infinity where it skipped none.
 struct SkippedBounds {
-  float pruned = std::numeric_limits<float>::infinity();  ///< least squared bound of those that
-                                                          ///< max_error allowed to leave out,
-  float unread = std::numeric_limits<float>::infinity();  ///< and of those whose page was not to
-                                                          ///< be had, or the work spent
-  /// In some of the latter there is surface within this distance.
+  /// Least squared bound of the children above the pruning threshold, which max_error lowers.
+  float pruned = std::numeric_limits<float>::infinity();
+  /// Least squared bound of the children whose page was missing or for which no work was left.
+  float unread = std::numeric_limits<float>::infinity();
+  /// Some subtree whose page was missing has surface within this distance.
   double within = std::numeric_limits<double>::infinity();
 };
 
-/// The answer of a finished descent.
+/// Makes the answer of a finished traversal.
 NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                        const BestTriangle& best, const FloatQuery& wide,
                        const SkippedBounds& skipped) noexcept;

@@ -8,45 +8,51 @@
 #include "octree/geometry/triangle_distance.h"
 #include "octree/nearest/nearest.h"
 
-/// Parts of a watertight surface that are simple enough for a nearest triangle to tell a side.
+/// Height fields: parts of a watertight surface that are so simple that the faces at a nearest
+/// point tell the side.
 ///
-/// About a block in a sheet (BlockHeader::is_height_field()) there is a direction such that every
-/// line along it, within a box that goes on for kRim on all sides of the block, crosses the surface
-/// once: from the outside of the solid to its inside. All triangles in the box rise in that
-/// direction and are no needles.
+/// A block in a height field (BlockHeader::is_height_field()) is in a box that reaches beyond the
+/// block by kRim or more on all sides. Every line through the box along one direction crosses the
+/// surface once, from the outside of the solid to its inside. Each triangle in the box has a
+/// normal against that direction (kMinRise) and no thin corner (kMinSine).
 ///
-/// Let x be the point of a triangle of such a block that is nearest to a query, and all others
-/// nearer by less than kMaxError, if at all. Then nothing crosses the way from x to the query but
-/// in its first kMaxError. There, where faces at x are as large as told here and x is as far from
-/// what ends them, are those faces alone: whatever else was so near would be crossed by a line
-/// that crosses one of them. If all have the query in front, the way leaves x to the outside, and
-/// from there could cross but a face whose back is to the query: there is none. So the query is
-/// outside; and inside if it is behind all of them.
+/// Proof that the faces tell the side. Let x be the point nearest to the query on a triangle of
+/// such a block, and let no other triangle be nearer by more than kMaxError. Then the segment from
+/// x to the query meets no triangle beyond its first kMaxError. Let the faces at x be as large as
+/// kMinArea requires, and x as far from what ends them. Then only these faces are within that
+/// length: a line along the direction through any other triangle there would cross one of them
+/// too. Let the query be in front of all faces at x. Then the segment leaves x to the outside. It
+/// could enter the solid only through a face that the query is behind, and there is none. So the
+/// query is outside. Likewise, it is inside if it is behind all faces at x.
 namespace planetree::octree {
 
 struct HeightField {
-  /// The least share of triangles' normals along the direction, and the least sine of their
-  /// thinnest corner.
+  /// Minimum cosine of the angle between a triangle's normal and the direction to the outside.
   static constexpr double kMinRise = 0x1p-4;
+  /// Minimum sine of a triangle's least angle.
   static constexpr double kMinSine = 0x1p-12;
-  static constexpr double kRim = 0x1p-30;  ///< model frame, as all lengths here
+  /// Minimum distance between a block and the sides of its box; model frame, as all lengths here.
+  static constexpr double kRim = 0x1p-30;
 
-  /// Between the bounds of a nearest distance.
+  /// Maximum width of the nearest distance's interval.
   static constexpr double kMaxError = 0x1p-44;
 
-  /// Whether faces at a nearest point may tell the side.
+  /// Whether the faces at a nearest point may tell the side.
   static bool tells_side(const NearestAnswer& nearest) {
     return nearest.is_height_field && nearest.status == Status::kExact &&
            nearest.upper - nearest.lower <= kMaxError;
   }
 };
 
-/// On which side of all faces at a nearest point a query is.
+/// Tests whether a query is in front of all faces at a nearest point, or behind all of them.
 class FacingSides {
  public:
   explicit FacingSides(const Point& query) : query_(query) {}
 
-  /// A face by its unit normal, right within 2^-26, and twice its area, squared.
+  /// Adds a face.
+  ///
+  /// normal  its unit normal, right within 2^-26
+  /// area2   square of twice its area
   void add(const Triangle& face, const Point& normal, double area2) {
     const Point way = query_ - face[0];
     const double height = way.dot(normal);
@@ -56,22 +62,24 @@ class FacingSides {
     behind_ = behind_ && certain && height < 0;
     any_ = true;
   }
-  /// A face of which nothing can be told.
+  /// Adds a face whose side is uncertain.
   void add_unknown() { in_front_ = behind_ = false; }
-  /// How far the nearest point is from what ends its face, times twice the face's area; or from
-  /// the ends of its edge.
+  /// Makes the side uncertain if the nearest point is too near to what ends its feature.
+  ///
+  /// distance_by_area  inside a face: its least barycentric coordinate times twice the face's area.
+  ///                   On an edge: its distance from the nearer end.
   void end_after(double distance_by_area) {
     if (!(distance_by_area >= kMinArea)) add_unknown();
   }
 
-  /// 1: in front of all of them; -1: behind; 0: neither, or too near to tell.
+  /// 1: the query is in front of all faces; -1: behind all; 0: neither, or uncertain.
   int common() const { return !any_ ? 0 : in_front_ ? 1 : behind_ ? -1 : 0; }
 
  private:
   static constexpr double kHeightError = 0x1p-20;
   static constexpr double kMinHeight = 0x1p-36;
-  /// Of twice a face's area: no side is longer than 4, so that its corners are 2^-34 from the
-  /// sides opposite to them at least.
+  /// Minimum of twice a face's area and of end_after()'s argument. No side is longer than 4. So a
+  /// corner is at least 2^-34 from the side opposite, and a point inside a face from every side.
   static constexpr double kMinArea = 0x1p-32;
 
   const Point& query_;

@@ -1,4 +1,4 @@
-// The nearest of the subtrees and triangles that a ball holds.
+// Kernels that find the nearest of the subtrees and triangles that a coherence cache holds.
 
 #if defined(PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_NEARBY_KERNELS_INL_H_
@@ -27,8 +27,9 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Subtrees of a list, nearest first, with bounds of theirs. Squared bounds are not negative, so
-// that their bits order as they do; the last of these tell the place in the list instead.
+// Subtrees of a list with their squared bounds, nearest first. Squared bounds are not negative, so
+// that their bits are in the same order as their values. The last bits of each bound are replaced
+// by the subtree's index in the list.
 class SubtreeKeys {
  public:
   static constexpr std::int32_t kIndexBits = NearbySubtrees::kMax - 1;
@@ -37,7 +38,7 @@ class SubtreeKeys {
   std::size_t index(std::size_t i) const { return static_cast<std::size_t>(at_[i] & kIndexBits); }
   float bound(std::size_t i) const { return std::bit_cast<float>(at_[i] & ~kIndexBits); }
 
-  // Those of a register's keys that are near.
+  // Adds the keys of the lanes that `near` selects.
   template <class Near, class Keys>
   HWY_INLINE void add(const Near& near, Keys keys) {
     near.store(keys, at_ + size_);
@@ -58,11 +59,11 @@ class SubtreeKeys {
 
  private:
   std::size_t size_ = 0;
-  // A vector may be written behind the last.
+  // PackedLanes::store() writes a whole vector, which may reach beyond the last key.
   HWY_ALIGN std::int32_t at_[NearbySubtrees::kMax + kMaxBlockTriangles];
 };
 
-// Finds the subtrees whose boxes come as near as a threshold.
+// Finds the subtrees whose squared box bound is not above `threshold`, nearest first.
 HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, float threshold,
                           SubtreeKeys& found) {
   const TriangleTag d;
@@ -80,7 +81,7 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
   found.sort();
 }
 
-// Evaluates four of a list, and offers those of them that `near` has a bit for.
+// Evaluates four triangles of a list, from `first` on, and offers those that have a bit in `near`.
 HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsigned near,
                            const Point& query, BestTriangle& best) {
   TriangleFindings findings;
@@ -92,8 +93,8 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
   }
 }
 
-// Offers what may be nearest of a list. No triangle matters that is farther from the list's
-// centre than `reach`.
+// Offers the triangles of a list that may be nearest. Triangles farther than `reach` from the
+// list's centre cannot matter.
 HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Point& query,
                              const FloatQuery& wide, BestTriangle& best, TraversalStats& work) {
   const TriangleTag d;

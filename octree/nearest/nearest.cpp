@@ -19,7 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// All triangles that may be nearest are in the list, no farther than `reach` from its centre.
+// Finds the nearest triangle in a list of all that may be nearest. None of these is farther than
+// `reach` from the list's centre.
 NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                               const NearbyTriangles& list, double reach, TraversalStats& work) {
   const FloatQuery wide = FloatQuery::from(query, tree.centre);
@@ -55,7 +56,8 @@ NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
     if (answer.status == Status::kExact)
       coherence_cache->outlive(query, answer.distance, answer.point);
     if (answer.status == Status::kExact || limits.known) return answer;
-    // Lost pages, or nothing so near as asked: told from the root, as ever.
+    // Pages are missing, or nothing lies within max_distance. The traversal is repeated from the
+    // root, so that the answer is the same as without a cache.
     coherence_cache->forget();
     answer = descend(false);
   }

@@ -11,52 +11,57 @@
 
 namespace planetree::octree {
 
-/// Farther queries need no descent: coordinates of a model are below 2^55, so
-/// that taking them off such a query changes no bit of any squared distance,
-/// and the nearest triangle is the one of least index.
+/// Farther queries need no traversal. Pages with coordinates beyond 2^60 are refused, so that
+/// subtracting a corner from such a query changes no bit of any squared distance. The nearest
+/// triangle is then the one of least index.
 inline constexpr double kFarthestQuery = 0x1p300;
 
-/// An answer in the model frame: the nearest point of a triangle, and what is known of others.
+/// An answer in the model frame: the nearest point of one triangle, and the interval that holds
+/// the distance to the nearest of all.
 struct NearestAnswer : NearestOnTriangle {
   double distance = 0;
   double lower = 0;
   double upper = 0;
   std::uint64_t triangle = kNoTriangle;
-  Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< of `triangle`
-  bool is_height_field = false;  ///< `triangle` is known to be in a sheet (BlockHeader)
+  Triangle corners{Point::Zero(), Point::Zero(), Point::Zero()};  ///< corners of `triangle`
+  bool is_height_field = false;  ///< its block is known to be in a height field (BlockHeader)
   Status status = Status::kBadQuery;
 };
 
-/// Limits of one descent; lengths are in the model frame.
+/// Limits of one traversal. Lengths are in the model frame.
 struct NearestLimits {
   double max_error = 0;
   double max_distance = std::numeric_limits<double>::infinity();
   std::uint32_t max_work = std::numeric_limits<std::uint32_t>::max();
-  /// One with a triangle of this tree, to fall back upon where pages are missing: its
-  /// triangle, not its distance, counts. Limited work, too, may then start from what the last
-  /// query left, so that answers that are not exact depend on the queries before. May be null.
+  /// Earlier answer with a triangle of this tree, or null. Where pages are missing, the triangle
+  /// is evaluated again; its old distance is not used. If set, queries of limited work use the
+  /// coherence cache too, so that answers that are not exact depend on earlier queries.
   const NearestAnswer* known = nullptr;
 
-  /// Whether all ways lead to the same answer. Limited work and errors depend on the way, which
-  /// what is resident must not steer, and what was asked before only where there is a `known`.
+  /// Whether the answer is the same for every order of visits. With limited work or an allowed
+  /// error it depends on that order. The order must then not depend on which pages are resident,
+  /// and may depend on earlier queries only if `known` is set.
   bool allow_any_way() const {
     return max_error == 0 && max_work == std::numeric_limits<std::uint32_t>::max();
   }
 };
 
-/// Nearest surface point to `query`, by a descent that takes the nearest child first: of the
-/// last node near the surface; far from it of all nodes, two at a time; or of each subtree that a
-/// ball holds.
+/// Finds the surface point nearest to `query` by a traversal of the tree, nearest child first. Near
+/// the surface it continues with the nearest child of the last node. Far from it, it takes the two
+/// nearest children of all visited nodes at a time. If the ball of `coherence_cache` holds
+/// everything that may be nearest, it starts at the ball's subtrees instead of the root.
 ///
-/// query   model frame, no coordinate beyond kFarthestQuery.
-/// return  the triangle of least (value, index), value being that of
-///         octree/geometry/triangle_distance.h, so that an exact answer is a function
-///         of tree and query alone. [lower, upper] holds the true distance
-///         whatever the status. Pages that cannot be had are leaves with a
-///         lower bound: the descent goes on elsewhere, and the answer is still
-///         kExact where none of them can matter.
-/// threads any; no allocation, no lock, no exception of its own.
-/// source  descent and float filter are ours; bounds in octree/traversal/bounds.h.
+/// query            model frame, no coordinate beyond kFarthestQuery.
+/// work             counters that the traversal adds to.
+/// coherence_cache  read and renewed; may be null.
+/// return           the triangle of least (value, index). The value is that of
+///                  octree/geometry/triangle_distance.h, so that an exact answer is a function of
+///                  tree and query alone. [lower, upper] holds the true distance for every status.
+///                  A missing page counts as a leaf with a lower bound: the traversal goes on
+///                  elsewhere, and the answer is still kExact if no missing page can matter.
+/// threads          any; no allocation, no lock, no exception of its own.
+/// source           traversal and float filter are planetree's own; octree/traversal/bounds.h
+///                  derives the bounds.
 NearestAnswer nearest(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                       const PageReader& pages, TraversalStats& work,
                       CoherenceCache* coherence_cache = nullptr) noexcept;

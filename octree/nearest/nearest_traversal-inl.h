@@ -1,4 +1,4 @@
-// A descent of a tree to the triangle that is nearest to a query.
+// Traversal of a tree to the triangle nearest to a query.
 
 #if defined(PLANETREE_OCTREE_NEAREST_TRAVERSAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_NEAREST_TRAVERSAL_INL_H_
@@ -31,7 +31,7 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// One descent; the parts that touch nodes and blocks are compiled per target.
+// Runs one traversal. Highway compiles it once for each instruction set.
 class NearestTraversal {
  public:
   NearestTraversal(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
@@ -57,7 +57,7 @@ class NearestTraversal {
     search(0, tree_.root_link);
     finish();
   }
-  // From the subtrees that a ball holds, nearest first.
+  // Starts at the subtrees of the cache's ball, nearest first.
   void run_from(const CoherenceCache& coherence_cache) {
     subtrees_ = &coherence_cache.subtrees();
     if (limits_.max_error == 0 && wide_.usable) best_.tighten(coherence_cache.nearest_of(query_));
@@ -73,7 +73,8 @@ class NearestTraversal {
     finish();
   }
 
-  // Where something is left out that may matter, a triangle known from elsewhere helps.
+  // Evaluates the triangle of an earlier answer if an unread subtree may hold a nearer one than
+  // the best so far.
   void fall_back_on(const NearestAnswer& known) {
     if (known.triangle == kNoTriangle || skipped_.unread > best_.exact_threshold()) return;
     note(known.corners, known.triangle, 0, known.is_height_field, 0);
@@ -85,22 +86,23 @@ class NearestTraversal {
   const SkippedBounds& skipped_bounds() const { return skipped_; }
 
  private:
-  static constexpr unsigned kPrefetched = 3;  // children, nearest first
-  static constexpr unsigned kMaxSought = 4;   // parents of children that cannot be had
+  static constexpr unsigned kPrefetched = 3;  // children of a node, nearest first
+  static constexpr unsigned kMaxSought = 4;   // skipped records whose boxes are looked up
 
-  // All of a subtree that is near. Compiled once: there is much of it.
+  // Visits everything near in a subtree. Not inlined, because the code is large and has two
+  // callers.
   HWY_NOINLINE void search(float bound, std::uint32_t link) {
     FrontierEntry entry{bound, link, LinkResolver::kNoPage}, second{};
     bool has_second = false;
     do {
-      // From nearest child to nearest child, as long as nodes are near.
+      // Goes from nearest child to nearest child while nodes are near.
       while (visit(entry)) {
       }
     } while (take_next(entry, second, has_second));
   }
 
-  // Far away, the two nearest at a time: the second need not wait for the first one's children,
-  // few of which are nearer.
+  // Takes the next entry from the frontier. Far from the surface, two are taken at a time. The
+  // second does not wait for the first one's children, because few of these are nearer.
   HWY_INLINE bool take_next(FrontierEntry& entry, FrontierEntry& second, bool& has_second) {
     if (has_second) {
       entry = second;
@@ -114,14 +116,15 @@ class NearestTraversal {
     return true;
   }
 
-  // Whether to go on with a child, which `entry` then is.
+  // Visits a record. Returns true if a child of it is to be visited next; `entry` is then that
+  // child.
   HWY_INLINE bool visit(FrontierEntry& entry) {
     if (visits_left_ == 0) {
       skipped_.unread = std::min(skipped_.unread, entry.bound);
       return false;
     }
     --visits_left_;
-    // Another page may take the place of theirs.
+    // Without a release hook, the frame of these blocks may be gone after the next lookup.
     if (!release_hook_ && !blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
@@ -136,7 +139,8 @@ class NearestTraversal {
     return false;
   }
 
-  // A page that cannot be had: the box of what is there is all that is known.
+  // Skips a record whose page is missing. The box that its parent stores still bounds the distance
+  // from above.
   void skip(const FrontierEntry& entry) {
     skipped_.unread = std::min(skipped_.unread, entry.bound);
     if (sought_ == kMaxSought) return;
@@ -148,7 +152,8 @@ class NearestTraversal {
     skipped_.within = std::min(skipped_.within, farthest_in_box(box, query_ - tree_.centre));
   }
 
-  // A subtree that a ball holds; or the root, of whose box nothing is said here.
+  // Skips a subtree of the ball, whose box is in the list. The root is skipped here too, but it
+  // has no box in the list.
   void skip_listed(std::uint32_t link) {
     for (std::size_t i = 0; subtrees_ && i < subtrees_->size(); ++i)
       if (subtrees_->link(i) == link)
@@ -161,18 +166,18 @@ class NearestTraversal {
       return false;
     }
     FrontierGroup& group = frontier_.next();
-    // Far away, bounds say little of where the nearest triangle is.
+    // Far from the surface, bounds say little about where the nearest triangle is.
     const bool far = entry.bound > node.gate;
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
     const NearChildren children = sorted_children(node, wide_, far, best_.threshold(), group);
     const unsigned near = children.count;
-    // By no branch.
+    // Selected without a branch.
     const float first_left = group.bound(near % kFanOut);
     skipped_.pruned =
         std::min(skipped_.pruned,
                  near < node.child_count ? first_left : std::numeric_limits<float>::infinity());
-    // The nearest child is visited at once, unless from afar another is nearer; the last
-    // lines of a node are looked at from afar alone.
+    // The nearest child is visited next unless the query is far away: a child of another node may
+    // then be nearer. Only far queries read the last lines of a node, which hold the discs.
     if (near > 0) {
       const std::uint32_t nearest = node.link[children.child()];
       far ? prefetch<kNodeSlots>(nearest, group, near)
@@ -184,8 +189,9 @@ class NearestTraversal {
     return at_once;
   }
 
-  // The nearest of the children that are near, the same again where there are fewer: by no branch.
-  // The very nearest is known before all are in order.
+  // Prefetches the nearest of the near children. Where there are fewer than kPrefetched, it
+  // prefetches the first of the group again, which takes no branch. `nearest` is passed by itself
+  // because it is known before the children are sorted.
   template <std::size_t kNodeLines>
   HWY_INLINE void prefetch(std::uint32_t nearest, const FrontierGroup& group, unsigned near) {
     records_.prefetch<kNodeLines>(nearest);
@@ -196,7 +202,7 @@ class NearestTraversal {
 
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
-    // Too small for float, or too far away.
+    // The block is too small for float, or the query too far away.
     if (!filter_tells(wide_, header.extent)) {
       for (unsigned i = 0; i < header.triangle_count; ++i) note(block, i, 0);
       return;
@@ -210,10 +216,10 @@ class NearestTraversal {
     best_.tighten(filter_upper(filtered.min_upper, header.extent));
   }
 
-  // Of the values that the filter has for the triangles of a block.
+  // Filter values above this belong to triangles that cannot be nearest.
   float limit_of(float extent) const { return filter_threshold(wide_, best_.reach(), extent); }
 
-  // Notes those triangles of the blocks so far that float cannot rule out.
+  // Adds those triangles of the collected blocks to the candidates that float cannot rule out.
   void note_blocks() {
     blocks_.note_near(
         tree_.shape, [&](float extent) { return limit_of(extent); },
@@ -237,7 +243,8 @@ class NearestTraversal {
     candidates_.keep_if([&](float squared, float extent) { return squared <= limit_of(extent); });
   }
 
-  // Blocks whose frames may go are noted by what is known so far.
+  // Called before frames are released. The collected blocks point into frames, so their candidates
+  // are taken now, by the best distance so far.
   static void on_release(void* descent) noexcept {
     static_cast<NearestTraversal*>(descent)->note_blocks();
   }
@@ -247,9 +254,9 @@ class NearestTraversal {
     settle();
   }
 
-  // Evaluates what may be best.
+  // Evaluates the candidates that may be best.
   void settle() {
-    // As many as are evaluated at once take as long as one.
+    // Up to kTrianglesAtOnce candidates take as long as one.
     if (candidates_.size() > kTrianglesAtOnce) keep_possible();
     const auto& rows = candidates_.rows();
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
@@ -269,17 +276,17 @@ class NearestTraversal {
   const Point query_;
   const FloatQuery wide_;
   const NearestLimits limits_;
-  // An honest tree cannot be visited longer than it is; a forged one could.
+  // At most the number of records: in a forged tree links could lead in circles.
   std::uint64_t visits_left_;
   TraversalStats& work_;
   FrameReleaseHook* const release_hook_;
   LinkResolver records_;
   BestTriangle best_;
-  FilteredBlocks blocks_;  // without a keeper, all of the page that was found last
+  FilteredBlocks blocks_;  // without a release hook, all in the page found last
   Candidates candidates_;
   Frontier frontier_;
   Frontier::Order order_ = Frontier::Order::kLast;
-  const NearbySubtrees* subtrees_ = nullptr;  // where a descent does not begin at the root
+  const NearbySubtrees* subtrees_ = nullptr;  // those of a ball; null if the root is the start
   SkippedBounds skipped_;
   unsigned sought_ = 0;
 };

@@ -1,5 +1,5 @@
-// Which of several triangles a segment passes through, in double, as far as double can tell.
-// No arithmetic here reaches an answer but by signs that are certain.
+// Tests in double which of several triangles a segment passes through. Answers depend only on
+// signs that are certain in spite of rounding; other triangles are reported as unsure.
 
 #if defined(PLANETREE_OCTREE_CROSSING_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_CROSSING_KERNELS_INL_H_
@@ -19,24 +19,26 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// A bit for each of kTrianglesAtOnce triangles. The others are certainly not crossed, nor is
-// the segment's start on them.
+// Sets of up to kTrianglesAtOnce triangles, one bit each. A triangle in none of them is certainly
+// not crossed, and the segment's start is certainly not on it.
 struct CrossedTriangles {
   unsigned forward = 0;   // crossing() is 1
   unsigned backward = 0;  // crossing() is -1
-  unsigned unsure = 0;    // none of this is certain
+  unsigned unsure = 0;    // left to exact predicates
 };
 
-// The greatest coordinate by magnitude.
+// The greatest magnitude of a coordinate.
 HWY_INLINE Doubles largest(const Doubles3& a) {
   return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
 }
 
-// The sign of a . (b x c), of vectors whose components err by a rounding each and whose
-// largest ones' product is `size`. The determinant is a sum of six products; each errs by
-// three differences, two products and three sums, 8 roundings, which may be of a whole ulp
-// each in a thread that rounds another way: 6 * 16 * 2^-53 of `size` at most. The last term is
-// more than what is flushed to zero.
+// The sign of a . (b x c), where it is certain. Components of the three vectors err by one rounding
+// each. `size` is the product of the vectors' greatest components.
+//
+// Error. The determinant is a sum of six products. Each errs by 8 roundings: three differences,
+// two products and three sums. A rounding is up to a whole ulp if the thread's rounding mode is
+// not to nearest. So the sum errs by at most 6 * 16 * 2^-53 of `size`. The absolute term is more
+// than flushing subnormals to zero can lose.
 struct CertainSign {
   DoubleMask positive, negative;
 };
@@ -46,7 +48,7 @@ HWY_INLINE CertainSign certain_sign(Doubles determinant, Doubles size) {
   return {hn::Gt(determinant, error), hn::Lt(determinant, hn::Neg(error))};
 }
 
-// Tests the triangles of `rows` against a segment, as many as a vector holds.
+// Tests as many triangles of `rows` as a vector holds, from `lane` on, against a segment.
 HWY_INLINE CrossedTriangles cross_vector(const TriangleRows<kTrianglesAtOnce>& rows,
                                          std::size_t lane, const Doubles3& from,
                                          const Doubles3& to) {
@@ -62,7 +64,7 @@ HWY_INLINE CrossedTriangles cross_vector(const TriangleRows<kTrianglesAtOnce>& r
   const Doubles size_a = largest(a), size_b = largest(b), size_c = largest(c);
   const Doubles faces = hn::Mul(largest(e1), largest(e2)), length = largest(way);
 
-  // In front of the plane where the corner is behind, seen from the point.
+  // Positive where the end of the segment is behind the triangle's plane.
   const CertainSign start = certain_sign(inner(a, normal), hn::Mul(faces, size_a));
   const CertainSign end = certain_sign(inner(beyond, normal), hn::Mul(faces, largest(beyond)));
   const auto edge = [&](const Doubles3& u, const Doubles3& v, Doubles sizes) {

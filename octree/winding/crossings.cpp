@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// Gathers triangles until there are as many as are tested at once.
+// Sums crossings. It gathers triangles until there are as many as are tested at once.
 class CrossingSum {
  public:
   explicit CrossingSum(const PerturbedSegment& segment) : segment_(segment) {}
@@ -57,8 +57,8 @@ class CrossingSum {
   Crossings sum_;
 };
 
-// As triangles_met(), where vertices are doubles: those whose boxes are not apart from the
-// segment's.
+// Does what triangles_met() does, for a block of double vertices: returns a bit for each triangle
+// whose box meets the segment's box.
 unsigned boxes_met(const BlockView& block, const PerturbedSegment& segment) {
   const Point lower = segment.from.cwiseMin(segment.to);
   const Point upper = segment.from.cwiseMax(segment.to);
@@ -72,7 +72,7 @@ unsigned boxes_met(const BlockView& block, const PerturbedSegment& segment) {
   return found;
 }
 
-// What a segment crosses of the blocks that are visited.
+// Counts the crossings of a segment with the triangles of the blocks that are visited.
 class BlockCrossings {
  public:
   BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, TraversalStats& work)

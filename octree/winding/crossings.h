@@ -8,30 +8,31 @@
 
 namespace planetree::octree {
 
-/// How the winding number differs between the ends of a segment.
+/// Change of the winding number along a segment.
 struct Crossings {
   std::int64_t difference = 0;  ///< winding(from) - winding(to); a sum of +1 and -1
-  bool on_surface = false;      ///< `from` is on a triangle; `difference` is of a step beside it
-  bool complete = true;         ///< false: pages missing or `max_work` spent, nothing is known
+  bool on_surface = false;  ///< `from` is on a triangle; `difference` holds once it is perturbed
+  bool complete = true;     ///< false: pages missing or `max_work` spent; nothing is known
 };
 
-/// Counts the triangles that a segment passes through, exactly.
+/// Counts the triangles that a segment passes through, exactly and with signs.
 ///
-/// segment    model frame; see predicates.h for the infinitesimal steps of its
-///            ends, by which a segment through a vertex or along a face counts
-///            as one beside it does.
-/// max_work  most nodes and blocks to visit.
-/// threads    any; no allocation, no lock, no exception of its own.
-/// source     "Out-of-core real-time haptic interaction on very large models",
-///            section 3.3, counts crossings to a cell corner of known colour; signed
-///            ones, so that doubled and overlapping surfaces are right, are ours.
+/// segment   model frame. Its ends are moved by the infinitesimal steps of predicates.h, so that a
+///           segment through a vertex or along a face counts as one beside it does.
+/// max_work  maximum number of nodes and blocks to visit.
+/// work      counters that the walk adds to.
+/// threads   any; no allocation, no lock, no exception of its own.
+/// source    "Out-of-core real-time haptic interaction on very large models", section 3.3, counts
+///           crossings to a cell corner of known colour. Signed crossings are planetree's own; they
+///           are right for doubled and overlapping surfaces too.
 Crossings count_crossings(const TreeInfo& tree, const PerturbedSegment& segment,
                           std::uint64_t max_work, const PageReader& pages,
                           TraversalStats& work) noexcept;
 
-/// The same, of the triangles of some blocks alone.
+/// Counts the crossings with the triangles of some blocks only; otherwise as above.
 ///
-/// blocks  links that need not be right: what leads to no block counts as missing.
+/// blocks  links to the blocks. They need not be valid: a link that leads to no block counts as
+///         one to a missing page.
 Crossings count_crossings(const TreeInfo& tree, const PerturbedSegment& segment,
                           std::span<const std::uint32_t> blocks, std::uint64_t max_work,
                           const PageReader& pages, TraversalStats& work) noexcept;

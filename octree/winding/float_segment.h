@@ -8,14 +8,15 @@
 
 namespace planetree::octree {
 
-/// A segment as float sees it: from `lower` to `upper` along its longest axis, and along each
-/// other one within [least, most] of `slope` times how far it has come.
+/// A segment in float. Along its longest axis it reaches from `lower` to `upper`. Its coordinate on
+/// each other axis is `slope` times the coordinate on the longest axis, plus an offset that is
+/// known within a range.
 ///
-/// Errors. With u = 2^-24 and M the largest coordinate of the segment and of what it is held
-/// against: slope and offset, each rounded, move the segment by at most 2uM and 2uM; the
-/// product errs by uM, and the sum, of at most 3M, by 3uM. [least, most] allows for 8uM and
-/// as much again, for its own rounding: nothing that the segment meets is told apart from it,
-/// nor what is beside it by the infinitesimal steps of its ends.
+/// Errors. Let u = 2^-24, and M the greatest coordinate of the segment and of what is tested
+/// against it. The rounding of slope and offset moves the segment by at most 2uM each. The product
+/// errs by uM. The sum is at most 3M and errs by 3uM. The range of the offset is widened by 8uM for
+/// these, and by as much again for its own rounding. So nothing that the segment meets is found
+/// apart from it. This includes what it meets only by the infinitesimal steps of its ends.
 struct FloatSegment {
   unsigned axis = 0;
   float lower = 0, upper = 0;
@@ -25,9 +26,10 @@ struct FloatSegment {
   };
   Aside aside[2];
 
-  /// from, to  relative to `origin` in what is returned.
-  /// largest   no coordinate, relative to `origin`, of what it is held against is larger,
-  ///           unless `clipped` to [lower, upper] along `axis`.
+  /// Makes the segment from `from` to `to`, relative to `origin`.
+  ///
+  /// largest  maximum coordinate, relative to `origin`, of what is tested against the segment.
+  ///          What is clipped to [lower, upper] along `axis` may have larger ones.
   static FloatSegment between(const Point& from, const Point& to, const Point& origin,
                               double largest) {
     const Point start = from - origin, end = to - origin, way = to - from;

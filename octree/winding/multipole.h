@@ -9,55 +9,55 @@
 #include "octree/page/moments.h"
 #include "octree/traversal/bounds.h"
 
-/// What a far point sees of a child, from the child's moments.
+/// A child's share of the winding number of a far point, from the child's moments.
 ///
-/// With q the query, c the centre of the child's box, d = c - q, x relative to c
-/// and f(x) = (d + x) / |d + x|^3, the child's share of the winding number is
+/// Let q be the query, c the centre of the child's box, d = c - q, x a position relative to c, n
+/// the normal there, and f(x) = (d + x) / |d + x|^3. The child's share of the winding number is
 ///
 ///     1 / (4 pi) integral of f . n  =  1 / (4 pi) (V . d / |d|^3
 ///                                      - 3 d^T F d / |d|^5) + error
 ///
-/// where V is the integral of n and F that of x n^T, of which only the symmetric
-/// part without its trace counts, because f is the gradient of a harmonic
-/// function.
+/// where V, the dipole, is the integral of n and F, the quadrupole, that of x n^T. Only the
+/// symmetric part of F without its trace counts, because f is the gradient of a harmonic function.
 ///
-/// Error. The term of f that is homogeneous in x of degree k is at most
-/// (k + 1) |x|^k / |d|^(k+2), for so large is the k-th derivative of 1 / |d|^2,
-/// radially as in any direction (a symmetric tensor is largest on its diagonal,
-/// Banach 1938). With s = R / |d|, R the half diagonal of the box and so at least
-/// |x|, the terms from k = 2 on sum to
+/// Error of the series. The term of f that is homogeneous of degree k in x is at most
+/// (k + 1) |x|^k / |d|^(k+2): the k-th derivative of 1 / |d|^2, over k!, has that size along the
+/// radius and is no larger in any other direction (a symmetric tensor is largest on its diagonal,
+/// Banach 1938). Let R be half of the box's diagonal, which is at least |x|, and s = R / |d|. Then
+/// the terms from k = 2 on sum to at most
 ///
-///     |x|^2 (3 - 2 s) / (1 - s)^2 / |d|^4,
+///     |x|^2 (3 - 2 s) / (1 - s)^2 / |d|^4.
 ///
-/// and by Taylor's remainder they are also at most 3 |x|^2 / rho^4, rho being
-/// the distance of q from the box, which holds the way from c to x. Integrated,
-/// |x|^2 becomes the second moment. V is off by kVectorError of the area S, so
-/// its term by kVectorError S / |d|^2; F by kFirstError units, so its term by 3
-/// kFirstError units / |d|^3. Roundings in double are part of kVectorError.
+/// Let rho be the distance of q from the box. The box contains the segment from c to x. So, by
+/// Taylor's remainder, the same terms are also at most 3 |x|^2 / rho^4. The integral of |x|^2 is
+/// the second moment.
 ///
-/// Being relative to the model's centre moves the query by 2^-52 of its
-/// greatest coordinate at most, and points of the triangles by kAbsoluteSlack / 2:
-/// with delta the sum of both, that makes a difference of 2 delta S / (rho -
-/// delta)^3.
+/// Error of the moments. V errs by kVectorError times the area S, so that its term errs by
+/// kVectorError S / |d|^2. F errs by kFirstError units, so that its term errs by
+/// 3 kFirstError units / |d|^3. Roundings in double are part of kVectorError.
 ///
-/// The share itself is at most S / (4 pi rho^2). Where that is less than the
-/// error, the share is taken for 0.
+/// Error of positions. Positions are relative to the model's centre. Subtracting it moves the query
+/// by at most 2^-52 of its greatest coordinate, and points of the triangles by kAbsoluteSlack / 2.
+/// With delta the sum of both, the share errs by 2 delta S / (rho - delta)^3.
+///
+/// The share itself is at most S / (4 pi rho^2). Where that is less than the error, 0 is returned
+/// as the share, with that bound as its error.
 namespace planetree::octree {
 
 class Multipoles {
  public:
   struct Share {
     double value;
-    double error;  ///< above kMaxError: nothing is known
+    double error;  ///< above kMaxError: the share is unknown
   };
-  /// A share less certain than this decides nothing.
+  /// A share of greater error decides nothing.
   static constexpr double kMaxError = 1;
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
   Multipoles(const Point& query, const Point& centre)
       : from_(query - centre), moved_(kAbsoluteSlack + 0x1p-51 * from_.cwiseAbs().maxCoeff()) {}
 
-  /// The shares of a node's children.
+  /// Computes the shares of a node's children.
   void shares(const Node& node, std::array<Share, kFanOut>& shares) const {
     const NodeMoments& moments = NodeMoments::of(node);
     for (std::size_t child = 0; child < node.child_count; ++child)
@@ -69,7 +69,7 @@ class Multipoles {
 
   Share share(const Node& node, const Moments& moments, std::size_t child) const;
 
-  Point from_;    ///< relative to the model's centre
+  Point from_;    ///< the query, relative to the model's centre
   double moved_;  ///< delta
 };
 

@@ -1,4 +1,4 @@
-// Which of a node's children, and which of a block's triangles, a segment may meet.
+// Kernels that find which children of a node and which triangles of a block a segment may meet.
 
 #if defined(PLANETREE_OCTREE_SEGMENT_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_SEGMENT_KERNELS_INL_H_
@@ -21,8 +21,9 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A bit for each of a node's children that a segment may meet. Boxes are cut off where the
-// segment ends, so that it is held against each at its own place.
+// Returns a bit for each child of a node that a segment may meet. Each box is clipped to the range
+// of the segment along its longest axis. On the other axes, the segment is then tested over the
+// clipped range only.
 HWY_INLINE unsigned children_met(const Node& node, const FloatSegment& segment) {
   const FloatTag d;
   unsigned found = 0;
@@ -44,7 +45,8 @@ HWY_INLINE unsigned children_met(const Node& node, const FloatSegment& segment) 
   return found & ((1U << node.child_count) - 1);
 }
 
-// A segment in all lanes, and the codes of vertices: on which sides of it they are.
+// A segment in all lanes. It gives vertices codes, in which a bit is set for each side of the
+// segment that a vertex is beyond.
 class SegmentSides {
  public:
   HWY_INLINE explicit SegmentSides(const FloatSegment& segment)
@@ -55,7 +57,7 @@ class SegmentSides {
         first_(segment.aside[0]),
         second_(segment.aside[1]) {}
 
-  // Of whole vectors of vertices that float holds exactly.
+  // Writes the codes of `stride` vertices, in whole vectors. Float holds the vertices exactly.
   HWY_INLINE void write_codes(const float* HWY_RESTRICT vertices, unsigned stride,
                               std::uint8_t* HWY_RESTRICT codes) const {
     const FloatTag d;
@@ -96,7 +98,8 @@ class SegmentSides {
   const Aside first_, second_;
 };
 
-// A bit for each of a block's triangles that is not on one side of the segment as a whole.
+// Returns a bit for each triangle of a block that a segment may meet: its corners are not all
+// beyond the same side of the segment.
 HWY_INLINE unsigned triangles_met(const BlockHeader& block, const float* vertices,
                                   const FloatSegment& segment) {
   HWY_ALIGN std::uint8_t codes[kMaxBlockVertices];

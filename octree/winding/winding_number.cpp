@@ -15,23 +15,23 @@
 namespace planetree::octree {
 namespace {
 
-/// A child that stands in the sum with its moments.
+/// A child that stands in the sum by its moments.
 struct Proxy {
   Multipoles::Share share;
   std::uint32_t link;
-  std::uint32_t order;  ///< of its coming
+  std::uint32_t order;  ///< greater for children added later
 
   bool known() const { return share.error <= Multipoles::kMaxError; }
-  /// The most uncertain first, of equals the last to come: so unknown ones are
-  /// opened depth first.
+  /// The greatest of a heap is the most uncertain, of equals the last added. So unknown children
+  /// are opened depth first.
   friend bool operator<(const Proxy& a, const Proxy& b) {
     return a.share.error < b.share.error || (a.share.error == b.share.error && a.order < b.order);
   }
 };
 
-/// Children still to be opened: the most uncertain on top while there is room
-/// for all, and once there is not, those below the one that found no room, the
-/// last to come first.
+/// Children still to be opened. As long as the heap has capacity, they are in it, the most
+/// uncertain on top. Once it is full, the children of the next child opened go to a stack. The
+/// stack is emptied first, its last entry first, and takes all children opened meanwhile.
 class OpenList {
  public:
   bool empty() const { return size_ == 0 && deep_size_ == 0; }
@@ -67,14 +67,14 @@ class WindingSum {
         records_(tree, pages) {}
 
   WindingNumber run(std::uint64_t max_work) {
-    // An honest tree cannot be visited longer than it is; a forged one could.
+    // At most the number of records: in a forged tree links could lead in circles.
     std::uint64_t left = std::min(max_work, tree_.record_count);
     add_proxy({{0, Multipoles::kUnknown}, tree_.root_link, 0});
     open_list_.push({{0, Multipoles::kUnknown}, tree_.root_link, 0});
     while (!open_list_.empty() && !decided()) {
       const Proxy proxy = open_list_.pop();
-      // Where something unknown is lost, only the surface can still be found,
-      // and that is not where anything is known.
+      // After the loss of an unknown child, all that can still be found is that the point is on the
+      // surface. A child of known share is too far away for that.
       if (lost_unknown_ && proxy.known()) continue;
       if (left-- == 0) {
         complete_ = false;
@@ -122,12 +122,13 @@ class WindingSum {
     }
   }
 
-  // A record that cannot be had is left to its moments.
+  // Replaces a child by its own children or triangles. A record whose page is missing stays in the
+  // sum by its moments.
   void open(const Proxy& proxy) {
     const bool deep = open_list_.is_deep() || !open_list_.has_capacity();
     const std::byte* record = records_.find(proxy.link, work_);
     const bool leaf = LinkFormat::is_leaf(proxy.link);
-    // A tree deeper than its header may say is forged.
+    // Only a forged tree is deeper than kMaxHeight, for which the stack has capacity.
     if (!record || (!leaf && deep && !open_list_.deep_has_capacity())) {
       complete_ = false;
       lost_unknown_ = lost_unknown_ || !proxy.known();
@@ -172,7 +173,7 @@ class WindingSum {
   LinkResolver records_;
   OpenList open_list_;
   CertainSum value_, error_;
-  std::uint64_t unknown_ = 0;  ///< children that stand in without being known
+  std::uint64_t unknown_ = 0;  ///< number of proxies of unknown share
   std::uint32_t order_ = 0;
   bool lost_unknown_ = false;
   bool on_surface_ = false;
