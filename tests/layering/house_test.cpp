@@ -1,13 +1,16 @@
 // Rules that hold for every source file of the repository.
 
+#include "tests/layering/cmake_layers.h"
 #include "tests/layering/layers.h"
 #include "tests/layering/source_text.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 
@@ -40,6 +43,48 @@ TEST(House, IncludesOnlyWhatItsLayersAllow) {
   for (const SourceText& source : sources()) {
     for (const std::string& line : forbidden_includes(source)) ADD_FAILURE() << line;
   }
+}
+
+TEST(House, ReachesNoFolderThatItsRowDoesNotName) {
+  std::map<std::string, SourceText> by_path;
+  for (const SourceText& source : sources()) by_path.emplace(source.path, source);
+  for (const SourceText& source : sources())
+    for (const std::string& line : forbidden_reach(source, by_path)) ADD_FAILURE() << line;
+}
+
+TEST(House, HasNoArrowThatRunsBackUp) {
+  for (const std::string& line : arrows_back_up(layers())) ADD_FAILURE() << line;
+}
+
+// A folder is a CMake target: planetree_add_layer() names the folders that it depends on.
+TEST(House, StatesTheSameFoldersToCMake) {
+  const std::map<std::string, CMakeLayer> targets = read_cmake_layers(kRoot);
+  for (const Layer& layer : layers()) {
+    const std::string folder(layer.folder);
+    if (folder == "include/planetree" || folder == "examples" || folder.starts_with("tests"))
+      continue;
+    ASSERT_TRUE(targets.contains(folder)) << folder << " has no CMake target";
+    for (const std::string_view include : layer.includes) {
+      ASSERT_TRUE(targets.contains(std::string(include))) << include;
+      EXPECT_TRUE(targets.at(folder).depends.contains(targets.at(std::string(include)).name))
+          << folder << " includes " << include << ", which its DEPENDS does not name";
+    }
+  }
+}
+
+TEST(House, EveryFolderSaysWhatItHolds) {
+  for (const Layer& layer : layers()) {
+    if (layer.folder.starts_with("include")) continue;
+    EXPECT_TRUE(std::filesystem::exists(kRoot + '/' + std::string(layer.folder) + "/README.md"))
+        << layer.folder << " has no README.md";
+  }
+}
+
+TEST(House, FoldersStaySmall) {
+  constexpr int kMaxFiles = 40;
+  std::map<std::string, int> counts;
+  for (const SourceText& source : sources()) ++counts[source.folder()];
+  for (const auto& [folder, count] : counts) EXPECT_LE(count, kMaxFiles) << folder;
 }
 
 TEST(House, SourcesIncludeTheirOwnHeaderFirst) {

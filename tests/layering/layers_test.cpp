@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+
 namespace planetree::layering {
 namespace {
 
@@ -24,23 +27,49 @@ TEST(SourceText, TellsTheStandardLibraryFromTheRest) {
 }
 
 TEST(Layers, AllowWhatLiesBelow) {
-  EXPECT_EQ(forbidden_in("octree/build/merge.cpp",
+  EXPECT_EQ(forbidden_in("octree/builder/merge.cpp",
                          "#include \"storage/file/page_writer.h\"\n"
                          "#include \"octree/geometry/plane.h\"\n"
-                         "#include <oneapi/tbb/parallel_for.h>\n"),
+                         "#include \"planetree/types.h\"\n"
+                         "#include <tbb/task_arena.h>\n"),
             Lines{});
   EXPECT_EQ(forbidden_in("storage/file/page_codec.cpp", "#include <lz4.h>\n#include <vector>\n"),
             Lines{});
 }
 
 TEST(Layers, RefuseWhatLiesAboveOrBeside) {
-  EXPECT_EQ(forbidden_in("storage/a.cpp", "#include \"cache/limbo.h\"\n"),
-            Lines{"storage/a.cpp may not include cache/limbo.h"});
+  EXPECT_EQ(forbidden_in("storage/file/a.cpp", "#include \"cache/limbo.h\"\n"),
+            Lines{"storage/file/a.cpp may not include cache/limbo.h"});
   EXPECT_EQ(forbidden_in("cache/a.h", "#include \"storage/file/page_file.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("octree/a.cpp", "#include \"octree/build/merge.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("octree/build/a.cpp", "#include \"cache/limbo.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("octree/page/a.h", "#include \"octree/traversal/bounds.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("octree/mask/a.h", "#include \"octree/winding/crossings.h\"\n").size(),
+            1u);
+  EXPECT_EQ(forbidden_in("octree/builder/a.cpp", "#include \"cache/limbo.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("query/answer/a.h", "#include \"query/serve/pager.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("query/a.cpp", "#include \"tools/cli/progress.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("storage/a.h", "#include \"planetree/types.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("storage/file/a.h", "#include \"planetree/types.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("examples/a.cpp", "#include \"octree/geometry/plane.h\"\n").size(), 1u);
+}
+
+TEST(Layers, RefuseFoldersWithoutARow) {
+  EXPECT_EQ(forbidden_in("octree/shapes/a.h", "#include <vector>\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("tests/shapes/a.h", "#include <vector>\n"), Lines{});
+}
+
+TEST(Layers, FollowIncludesToTheFoldersTheyReach) {
+  const std::map<std::string, SourceText> sources = {
+      {"query/model_state.h", {"query/model_state.h", "#include \"cache/reader.h\"\n"}},
+      {"cache/reader.h", {"cache/reader.h", ""}}};
+  const std::string include = "#include \"query/model_state.h\"\n";
+  EXPECT_EQ(forbidden_reach({"tools/check/a.cpp", include}, sources), Lines{});
+  EXPECT_EQ(forbidden_reach({"tools/cli/a.cpp", include}, sources),
+            (Lines{"tools/cli/a.cpp reaches cache", "tools/cli/a.cpp reaches query"}));
+}
+
+TEST(Layers, RefuseRowsThatRunBackUp) {
+  EXPECT_EQ(arrows_back_up({{"a", {}, {}, {}}, {"b", {"a"}, {}, {}}}), Lines{});
+  EXPECT_EQ(arrows_back_up({{"a", {"b"}, {}, {}}, {"b", {"a"}, {}, {}}}),
+            Lines{"a is above or beside b"});
 }
 
 TEST(Layers, RefuseIncludesRelativeToTheIncluder) {

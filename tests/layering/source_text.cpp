@@ -14,11 +14,6 @@ bool is_passed_over(const fs::path& folder) {
   return name.starts_with('.') || name == "build" || name.starts_with("cmake-build");
 }
 
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 std::string_view without_leading_blanks(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t");
   return first == std::string_view::npos ? std::string_view() : line.substr(first);
@@ -38,6 +33,11 @@ std::string_view included_name(std::string_view line) {
 }
 
 }  // namespace
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 std::string SourceText::folder() const {
   const std::size_t slash = path.rfind('/');

@@ -8,6 +8,9 @@
 /// The sources of the repository as text, for tests of rules that hold for all of them.
 namespace planetree::layering {
 
+/// All bytes of a file; none if it cannot be read.
+std::string read_text(const std::filesystem::path& file);
+
 /// One source or header.
 struct SourceText {
   std::string path;  ///< from the root of the repository, with '/' between folders
