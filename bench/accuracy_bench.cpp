@@ -1,8 +1,8 @@
-// How right planetree and its peers are on one mesh, on the same points.
+// Measures the errors of planetree and its peers on one mesh and the same points.
 // usage: accuracy_bench MESH MODEL.ptree [QUERIES]
 //
-// The truth is computed by others: distances in long double to the triangle that
-// CGAL's tree finds, sides by CGAL's exact predicates.
+// The truth does not come from planetree: distances are computed in long double to the triangle
+// that CGAL's tree finds, sides by CGAL's exact predicates.
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +20,16 @@
 namespace planetree::bench {
 namespace {
 
-// A distance this far off, as a share of the diagonal, is no longer the right one.
+// Maximum error of a correct distance, as a share of the diagonal.
 constexpr double kRight = 1e-12;
 
+// `off` counts distances beyond kRight, `sides` the sides compared.
 struct Verdict {
-  double worst = 0;  ///< error of a distance, as a share of the diagonal
+  double worst = 0;  ///< greatest error of a distance, as a share of the diagonal
   std::size_t off = 0, sides = 0, wrong_sides = 0;
 };
 
-// planetree, told as the peers are.
+// planetree behind the interface of the peers.
 class Planetree final : public Peer {
  public:
   explicit Planetree(Probe& probe) : probe_(probe) {}
@@ -51,7 +52,7 @@ std::vector<oracle::Corners> triangles_of(const PeerMesh& mesh) {
   return triangles;
 }
 
-// What every peer says of one point, against the truth.
+// Compares the answers of all peers with the truth.
 class Judge {
  public:
   Judge(const PeerMesh& mesh, Peer& exact_sides, const ModelInfo& info)

@@ -1,4 +1,4 @@
-// What a batch saves: points put in order, and several threads.
+// Measures what a batch saves over single queries, by ordering the points and by several threads.
 
 #include <fmt/format.h>
 
@@ -27,8 +27,8 @@ struct Arguments {
 
 using Answers = std::vector<ClosestPoint>;
 
-// One way of asking, and its nanoseconds a point by the clock on the wall, for threads count; and
-// how many pages it read a point when it last ran.
+// One way to answer all points. `times` holds wall-clock nanoseconds a point, because more than one
+// thread may work; `pages` is the number of pages that the last run read a point.
 struct Way {
   std::string name;
   const Model& model;

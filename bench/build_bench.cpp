@@ -1,4 +1,4 @@
-// What a build takes, phase by phase and by how much memory it may use, beside Embree's.
+// Measures a build, by phase and by memory limit, next to Embree's build.
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -34,7 +34,7 @@ double seconds_since(Clock::time_point started) {
   return std::chrono::duration<double>(Clock::now() - started).count();
 }
 
-// How long each phase takes.
+// Measures the time of each phase.
 class PhaseClock final : public octree::BuildProgress {
  public:
   void progress(octree::BuildPhase phase, std::uint64_t, std::uint64_t) override {
@@ -58,7 +58,8 @@ class PhaseClock final : public octree::BuildProgress {
   std::vector<std::pair<octree::BuildPhase, double>> seconds_;
 };
 
-// Prints a line; what Embree's build takes is `peer_s`.
+// Builds with one memory limit and prints a line. `peer_s` is the time of Embree's build; 0 if
+// not measured.
 int build(const Arguments& arguments, std::uint64_t memory_mib, double peer_s) {
   const std::filesystem::path output =
       std::filesystem::path(arguments.folder) / "build_bench.ptree";
@@ -90,7 +91,7 @@ int build(const Arguments& arguments, std::uint64_t memory_mib, double peer_s) {
   return 0;
 }
 
-// In a process of its own, whose memory is then the build's.
+// Builds in a child process, so that the peak memory is that of this build.
 bool build_apart(const Arguments& arguments, std::uint64_t memory_mib, double peer_s) {
   std::fflush(stdout);
   const pid_t child = ::fork();
@@ -103,7 +104,7 @@ bool build_apart(const Arguments& arguments, std::uint64_t memory_mib, double pe
   return child > 0 && ::waitpid(child, &status, 0) == child && status == 0;
 }
 
-// Also in a process of its own, so that threads and memory do not stay.
+// Measures Embree in a child process, so that its threads and memory go away. Returns 0 on failure.
 double peer_seconds(const Arguments& arguments) {
   int ends[2];
   if (::pipe(ends) != 0) return 0;

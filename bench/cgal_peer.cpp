@@ -30,7 +30,7 @@ Mesh surface_of(const PeerMesh& mesh) {
     const std::uint32_t a = mesh.corners[i], b = mesh.corners[i + 1], c = mesh.corners[i + 2];
     const auto face =
         surface.add_face(Mesh::Vertex_index(a), Mesh::Vertex_index(b), Mesh::Vertex_index(c));
-    // One that a manifold has no room for stands alone.
+    // A face that would make the surface non-manifold gets vertices of its own.
     if (face == Mesh::null_face())
       surface.add_face(surface.add_vertex(point(a)), surface.add_vertex(point(b)),
                        surface.add_vertex(point(c)));
@@ -58,7 +58,7 @@ class CgalPeer final : public Peer {
  private:
   Mesh surface_;
   AabbTree tree_;
-  std::optional<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side_;  // of a built tree
+  std::optional<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side_;  // needs a built tree
 };
 
 }  // namespace

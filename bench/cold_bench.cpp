@@ -1,5 +1,5 @@
-// The first queries of a model that nothing of is in memory: not in the kernel's page cache, not
-// in the arena.
+// Measures the first queries of a model when nothing of it is in memory, neither in the kernel's
+// page cache nor in the arena.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ struct Arguments {
   std::uint64_t memory_mib = 256;
 };
 
-// Pages that nobody has written to since are dropped at once.
+// Only clean pages are dropped, hence the fdatasync.
 bool drop_from_page_cache(const std::string& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;

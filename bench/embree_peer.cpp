@@ -9,7 +9,7 @@
 namespace planetree::bench {
 namespace {
 
-// What a ray brings along.
+// Context of a ray: its number of hits.
 struct HitCount : RTCIntersectContext {
   unsigned hits = 0;
 };
@@ -45,7 +45,7 @@ Float3 nearest_on_triangle(Float3 p, Float3 a, Float3 b, Float3 c) {
   return a + vb * scale * ab + vc * scale * ac;
 }
 
-// Counts a hit and lets the ray go on.
+// Counts a hit and rejects it, so that the ray continues.
 void count_hit(const RTCFilterFunctionNArguments* arguments) {
   arguments->valid[0] = 0;
   ++static_cast<HitCount*>(arguments->context)->hits;
@@ -82,7 +82,7 @@ class EmbreePeer final : public Peer {
   std::vector<std::uint32_t> corners_;
   RTCDevice device_;
   RTCScene scene_ = nullptr;
-  std::int64_t bytes_ = 0;  // that Embree says it holds
+  std::int64_t bytes_ = 0;  // memory that Embree reports
   double commit_seconds_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// A mesh made finer, and rough, as scans are: each triangle becomes pieces * pieces, and every
-// vertex moves at random by a share of the new edges. What it writes depends on the mesh, the
-// pieces and the seed alone.
+// Makes a mesh finer and rough, like a scan: each triangle becomes pieces * pieces triangles, and
+// every vertex moves at random by a share of the new edges' length. The output depends on the mesh,
+// the pieces and the seed alone.
 
 #include <fmt/format.h>
 
@@ -27,9 +27,11 @@ struct Arguments {
   std::uint64_t seed = 1;
 };
 
-constexpr double kRoughness = 0.2;  ///< of an edge, on each axis at most
+// Maximum move of a vertex on each axis, as a share of the mean new edge.
+constexpr double kRoughness = 0.2;
 
-// Vertices by number: those of the mesh, then those on its edges, then those within triangles.
+// The finer mesh. Its vertices are numbered in this order: the mesh's vertices, those on its edges,
+// those inside its triangles.
 class FinerMesh {
  public:
   FinerMesh(const PeerMesh& mesh, std::uint32_t pieces, std::uint64_t seed)
@@ -94,7 +96,7 @@ class FinerMesh {
     return std::uint64_t{pieces_ - 1} * (pieces_ - 2) / 2;
   }
 
-  // `step` pieces on the way from vertex a to b.
+  // The position `step` pieces from vertex a towards vertex b.
   Place at(std::size_t a, std::size_t b, std::uint32_t step) const {
     Place index{};
     const double share = static_cast<double>(step) / pieces_;
@@ -115,7 +117,8 @@ class FinerMesh {
     return index;
   }
 
-  // Of the vertex u pieces from the first corner towards the second and v towards the third.
+  // The number of the vertex that is u pieces from the first corner towards the second and v pieces
+  // towards the third.
   std::uint32_t number(std::size_t triangle, std::uint32_t u, std::uint32_t v) const {
     const std::uint32_t* const corner = &mesh_.corners[3 * triangle];
     if (v == 0) return on_edge(corner[0], corner[1], u);
@@ -136,7 +139,7 @@ class FinerMesh {
                                       1);
   }
 
-  // SplitMix64, by Steele, Lea and Flood; from -1 to 1.
+  // A random number in [-1, 1): SplitMix64 (Steele, Lea and Flood).
   double noise(std::uint64_t at) const {
     std::uint64_t z = (at + seed_ * 0x100000001) * 0x9e3779b97f4a7c15;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;

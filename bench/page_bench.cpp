@@ -1,4 +1,4 @@
-// What it costs to bring a page in: read and verified, and unpacked to its frame.
+// Measures the cost of loading a page: reading and verifying it, and decoding it to its frame.
 // usage: page_bench MODEL.ptree [Google Benchmark's flags]
 
 #include <cstddef>
@@ -21,13 +21,13 @@ struct alignas(octree::kSlotBytes) FrameSlot {
   std::byte bytes[octree::kSlotBytes];
 };
 
-// Those of the tree, or of the mask.
+// A range of page numbers: the distance pages or the mask pages.
 struct Pages {
   std::uint32_t first, count;
 };
 
-// Pages of a file one after the other, to frames in turn, of which there are more than a processor
-// keeps near, as of a model's.
+// Loads the pages of a file one after the other into frames in turn. There are more frames than fit
+// the processor's caches, as in a model.
 class PageWalk {
  public:
   PageWalk(const storage::PageFile& file, const Pages& pages)
@@ -85,10 +85,10 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "page_bench: %s\n", file.error().text);
     return 1;
   }
-  // So that the system has them in memory.
+  // Reads all pages once, so that the system has them in memory.
   PageWalk all(*file, {0, file->page_count()});
   for (std::uint32_t i = 0; i < file->page_count(); ++i, all.advance()) (void)all.read();
-  // All pages as often as each other: they are not of one size.
+  // Loads all pages equally often, because they differ in size.
   const auto add = [&](const char* name, const Pages& pages, auto measure) {
     if (pages.count == 0) return;
     benchmark::RegisterBenchmark(name, [&file, pages, measure](auto& state) {

@@ -9,22 +9,24 @@
 #include "planetree/error.h"
 #include "planetree/types.h"
 
-/// Others that say how far a mesh is and whether a point is inside it: all of them
-/// hold the mesh in memory.
+/// Peers: other libraries that compute the distance to a mesh and whether a point is inside it. All
+/// of them hold the mesh in memory.
 namespace planetree::bench {
 
-/// A mesh as the peers take it: corners at one position are one vertex.
+/// A mesh in the form that peers take. Corners at one position are one vertex.
 struct PeerMesh {
-  std::vector<float> positions;        ///< three a vertex
-  std::vector<std::uint32_t> corners;  ///< three vertices a triangle
+  std::vector<float> positions;        ///< three coordinates a vertex
+  std::vector<std::uint32_t> corners;  ///< three vertex numbers a triangle
 
   [[nodiscard]] std::size_t triangles() const { return corners.size() / 3; }
 };
 
-/// The mesh of a file that `planetree build` reads.
+/// Reads a mesh file of any format that `planetree build` reads. Coordinates are rounded to float.
 Result<PeerMesh> read_peer_mesh(const char* path);
 
-/// What a peer answers. One thread.
+/// Another library, built for one mesh.
+///
+/// threads  one.
 class Peer {
  public:
   Peer() = default;
@@ -33,24 +35,26 @@ class Peer {
   Peer& operator=(const Peer&) = delete;
 
   [[nodiscard]] virtual std::string name() const = 0;
-  /// Distance to the nearest triangle, as the peer's users compute it.
+  /// Distance to the nearest triangle, computed as the library's users do.
   virtual double distance(const Vec3& query) = 0;
-  /// Whether it tells sides at all; if not, `inside` is not asked.
+  /// Whether the peer can compute sides. If not, inside() must not be called.
   [[nodiscard]] virtual bool tells_sides() const { return true; }
+  /// Whether the point is inside the mesh.
   virtual bool inside(const Vec3& query) = 0;
-  /// Memory that it holds beside the heap.
+  /// Bytes of memory that the peer holds outside of the heap.
   [[nodiscard]] virtual std::uint64_t mapped_bytes() const { return 0; }
 };
 
-/// A peer that was built, and what that took.
+/// A peer and the cost of building it.
 struct BuiltPeer {
   std::unique_ptr<Peer> peer;
-  double build_s = 0;       ///< by the wall clock, the mesh in memory already
-  std::uint64_t bytes = 0;  ///< of memory that it holds, its copy of the mesh included
+  double build_s = 0;       ///< wall-clock time, without reading the mesh
+  std::uint64_t bytes = 0;  ///< memory that the peer holds, including its copy of the mesh
 };
 
-/// Builds peers by their names: embree, cgal, fcl. An unknown name is kBadArgument.
-/// `mesh` must outlive them.
+/// Builds the peers with these names: embree, cgal, fcl. `mesh` must outlive them.
+///
+/// errors  kBadArgument for an unknown name.
 Result<std::vector<BuiltPeer>> build_peers(std::span<const std::string> names,
                                            const PeerMesh& mesh);
 

@@ -1,4 +1,4 @@
-// Times per ask beside the peers on one mesh, all warm, on one pinned core.
+// Times per query of planetree and its peers on one mesh, all warm, on one pinned core.
 
 #include <sched.h>
 
@@ -23,13 +23,13 @@ namespace {
 
 struct Options {
   std::string mesh, model, json;
-  std::string instructions;  // whatever the processor has when empty
+  std::string instructions;  // empty: the best that the processor has
   std::vector<std::string> peers{"embree", "cgal"};
-  std::vector<std::string> workloads;  // all when empty
+  std::vector<std::string> workloads;  // empty: all
   std::size_t queries = 20000, rounds = 5;
 };
 
-// The last core: the first takes the system's interrupts.
+// Pins to the last core, because the first one takes the system's interrupts.
 void pin_to_last_core() {
   cpu_set_t allowed, chosen;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -42,8 +42,8 @@ void pin_to_last_core() {
   sched_setaffinity(0, sizeof chosen, &chosen);
 }
 
-// Planetree's kernels for one instruction set alone; peers choose for themselves. False where
-// there are none, or the processor has not got it.
+// Restricts planetree's kernels to one instruction set; peers choose for themselves. False where
+// there are no kernels for it or the processor lacks it.
 bool use_only(const std::string& instructions) {
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
     const std::int64_t target = left & -left;
@@ -54,13 +54,14 @@ bool use_only(const std::string& instructions) {
   return false;
 }
 
-// One thing that is asked, of planetree or of a peer, and what it is asked for.
+// One contender: a part of the answer, computed by planetree or by a peer.
 struct Recorded {
-  std::string who, what;  // "distance", "side", "all parts"
+  std::string who, what;  // `what`: "distance", "side" or "all parts"
   Contender query_options;
 };
 
-// By no branch, which would be mispredicted for every other point and take as long as an ask.
+// Converts without a branch, which would be mispredicted for every other point and take as long as
+// a query.
 double number(bool answer) { return static_cast<double>(static_cast<int>(answer)); }
 
 std::vector<Recorded> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers, bool watertight) {
@@ -99,7 +100,7 @@ class Comparison {
     const std::vector<Timing> timings = take_turns(contenders, queries, options_.rounds);
     nlohmann::json rows = nlohmann::json::array();
     for (std::size_t i = 0; i < queried_.size(); ++i) {
-      // Peers are held against planetree's way to the same thing.
+      // Compares a peer with planetree's contender for the same part.
       const std::size_t ours = queried_[i].what == "side" ? 2 : 0;
       const Latency latency = latency_of(queried_[i].query_options, queries);
       rows.push_back({{"workload", name_of(workload)},

@@ -1,4 +1,4 @@
-// How many pages a query reads, by which page goes when another needs its frame. Counts, not times.
+// Counts the pages that a query reads, by eviction policy and memory budget. Measures no times.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ struct Arguments {
 constexpr Workload kQueried[] = {Workload::kUniform, Workload::kNear, Workload::kPath,
                                  Workload::kTeleport};
 
-// Pages read an ask once the frames are full, which the first half of the asks sees to.
+// Returns the pages read per query in the second half; the first half fills the frames.
 Result<double> reads_a_query(const Arguments& arguments, const std::vector<Vec3>& points,
                              std::uint64_t budget_bytes, cache::Policy policy) {
   const auto model = query::ModelState::open_model(

@@ -1,5 +1,5 @@
-// One kind of ask again and again, for counting its instructions under callgrind: that shows
-// a slowdown without a clock. Points are made and asked once before counting begins.
+// Runs one kind of query again and again, to count its instructions under callgrind: a slowdown
+// shows without a clock. Points are made and queried once before the counting begins.
 
 #include <fmt/format.h>
 #include <valgrind/callgrind.h>

@@ -9,33 +9,34 @@
 
 #include "planetree/types.h"
 
-/// Contenders that take turns on the same queries, so that whatever else the
-/// machine does falls on all of them.
+/// Timing of contenders that take turns on the same queries, so that other load on the machine
+/// slows all of them alike.
 namespace planetree::bench {
 
-/// Nanoseconds per ask of a contender, median over rounds.
+/// Time of one contender.
 struct Timing {
-  double median_ns = 0;
-  double checksum = 0;  ///< sum of answers of the last round
+  double median_ns = 0;  ///< per query, median over rounds
+  double checksum = 0;   ///< sum of answers of the last round
 };
 
-/// Of single asks of one more round, by the wall clock.
+/// Wall-clock times of the single queries of one more round.
 struct Latency {
-  double p999_ns = 0;
+  double p999_ns = 0;  ///< 99.9th percentile
   double max_ns = 0;
 };
 
-/// Processor time of this process: contenders are one thread that never
-/// waits, and others on the machine do not count.
+/// Processor time of this process in nanoseconds. Contenders use one thread that never waits, and
+/// other processes do not count.
 inline double processor_ns() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
 }
 
-/// Queries one thing of one point, and makes a number of the answer.
+/// Answers one query and returns a number that depends on the answer.
 using Contender = std::function<double(const Vec3&)>;
 
+/// Runs a contender over all queries. Returns nanoseconds a query; `sum` is that of the answers.
 inline double time_once(const Contender& contender, const std::vector<Vec3>& queries, double& sum) {
   sum = 0;
   const double start = processor_ns();
@@ -43,7 +44,7 @@ inline double time_once(const Contender& contender, const std::vector<Vec3>& que
   return (processor_ns() - start) / static_cast<double>(queries.size());
 }
 
-/// Runs every contender once to warm up, then `rounds` times in turn.
+/// Runs every contender once to warm up, then `rounds` times in turn. Timings are in their order.
 inline std::vector<Timing> take_turns(const std::vector<Contender>& contenders,
                                       const std::vector<Vec3>& queries, std::size_t rounds) {
   std::vector<std::vector<double>> times(contenders.size());
@@ -61,6 +62,7 @@ inline std::vector<Timing> take_turns(const std::vector<Contender>& contenders,
   return timings;
 }
 
+/// Times each query alone.
 inline Latency latency_of(const Contender& contender, const std::vector<Vec3>& queries) {
   using Clock = std::chrono::steady_clock;
   std::vector<double> times;

@@ -1,7 +1,8 @@
-// What serving in real time costs: a reader's section, installing pages, and asks beside that.
+// Measures the costs of real-time serving: a reader's section, installing pages, and queries while
+// pages are installed.
 // usage: serving_bench MODEL.ptree
 //
-// The asking thread runs first, and on a processor of its own, as far as the system grants it.
+// The querying thread has real-time priority and a processor of its own if the system grants them.
 
 #include <algorithm>
 #include <atomic>
@@ -48,7 +49,7 @@ double section_ns() {
   return median(rounds);
 }
 
-/// Fetches all pages in turn, so that with little memory each is installed anew.
+/// Fetches all pages in turn. With little memory each fetch installs a page.
 class Installer {
  public:
   explicit Installer(const Model& model)
@@ -80,7 +81,7 @@ double installs_a_second(const Model& model) {
   return median(rounds);
 }
 
-/// How long asks took.
+/// Times of the queries of one round: median and 99.9th percentile.
 struct QueryTimes {
   double half_ns, p999_ns;
   std::size_t degraded;
@@ -116,7 +117,7 @@ void say(const char* what, const std::vector<QueryTimes>& rounds) {
              median(p999), degraded);
 }
 
-// Rounds with and without installs take turns; on the calling thread, which runs first.
+// Queries with and without installs in turn, on the calling thread with real-time priority.
 void compare_queries(const Model& model, const std::vector<Vec3>& path) {
   std::atomic<bool> installs{false}, over{false};
   const std::uint64_t before = model.stats().pages_read;
@@ -128,7 +129,7 @@ void compare_queries(const Model& model, const std::vector<Vec3>& path) {
   auto probe = Probe::create(model);
   std::vector<QueryTimes> idle, loaded;
   for (int round = 0; round < 2 * kRounds; ++round) {
-    for (const Vec3& point : path) (void)probe->closest_point(point);  // so that it is resident
+    for (const Vec3& point : path) (void)probe->closest_point(point);  // makes the path resident
     installs = round % 2 == 1;
     (installs ? loaded : idle).push_back(query_path(*probe, path));
     installs = false;
@@ -169,7 +170,7 @@ int run(const char* file) {
     return 1;
   }
   std::thread(measure, std::cref(*model)).join();
-  // A thread of its own each, so that what the asking one starts is an ordinary one.
+  // Each part runs in a new thread, so that threads started here do not inherit real-time priority.
   std::thread(compare_queries, std::cref(*model), std::cref(path)).join();
   return 0;
 }

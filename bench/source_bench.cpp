@@ -1,6 +1,6 @@
-// Where the bytes of a page come from: a positioned read, as the library does it, or a copy out of
-// a map of the file. What a page costs each way, from memory and from the disk; and, beside it,
-// how long a thread that does nothing but read memory takes, which a fetch thread must not hinder.
+// Compares two sources of a page's bytes: a positioned read, which the library uses, and a copy
+// from a map of the file. Measures the time of a page from memory and from the disk, and meanwhile
+// the time that another thread takes to read memory, because fetch threads must not slow that down.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -36,11 +36,11 @@ double us_since(Clock::time_point start) {
   return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
 }
 
-/// The stored bytes of pages, by either way. The map's pages are given back once in so many, as a
-/// process must that is to stay within its memory.
+/// Reads the stored bytes of pages in one of several ways. kMappedAndDropped unmaps each page after
+/// use, as a process that must keep within its memory has to.
 class Source {
  public:
-  /// The system reads around what is touched of a map, unless told that it is touched at random.
+  /// kMapped lets the system read ahead around each access; kMappedAtRandom forbids it.
   enum class Way { kPositioned, kMapped, kMappedAtRandom, kMappedAndDropped };
   Source(int descriptor, const storage::PageFile& file, Way way)
       : descriptor_(descriptor), file_(file), way_(way), out_(file.header().max_stored_bytes) {
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> byte_split_pages(const storage::PageFile& file) {
   return pages;
 }
 
-/// Microseconds a page, each brought once.
+/// Reads every page once. Returns microseconds a page.
 double bring_all(Source& source, const std::vector<std::uint32_t>& pages) {
   const auto start = Clock::now();
   for (const std::uint32_t page : pages) source.bring(page);
@@ -100,7 +100,7 @@ void drop_from_page_cache(int descriptor) {
   ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_DONTNEED);
 }
 
-/// Two thousand dependent reads of an arena, again and again.
+/// Times ticks of 2000 dependent reads of a 64 MiB arena.
 class Ticker {
  public:
   Ticker() : arena_(std::size_t{1} << 24) {

@@ -54,7 +54,8 @@ class QueryMaker {
     return points;
   }
 
-  // Inwards from a surface point for as long as it stays the nearest.
+  // Bisects along the inward normal of a surface point for the last point to which that surface
+  // point is the nearest.
   Vec3 medial() {
     const ClosestPoint from = surface_(uniform());
     double near = 0, far = box_.diagonal();

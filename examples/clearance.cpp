@@ -1,5 +1,5 @@
-// Walks a straight line past a model and reports how near the surface comes:
-// what a planner asks of a tool path.
+// Walks along a straight line and reports the least distance to a model's surface: a planner's
+// check of a tool path.
 // usage: clearance MODEL.ptree
 
 #include <planetree/planetree.h>
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  // A clearance is a distance, wanted to a thousandth of the path and not to the last bit.
+  // Needs the distance alone, to a thousandth of the path instead of the last bit.
   const planetree::Vec3 from = model->info().box_lower;
   const planetree::Vec3 to = model->info().box_upper;
   planetree::QueryOptions query_options;

@@ -1,6 +1,6 @@
-// A haptic device's loop without the device: a tool tip is pushed into a surface and drawn along
-// it, a thousand times a second. A proxy stays on the surface where the tip goes below it, and a
-// spring pulls the tip to the proxy: the god-object method (Zilles and Salisbury, 1995).
+// The loop of a haptic device, without the device. A tool tip is pushed into a surface and drawn
+// along it, in 1000 ticks a second. While the tip is below the surface, a proxy stays on the
+// surface and a spring pulls the tip to it: the god-object method (Zilles and Salisbury, 1995).
 // usage: haptic_loop MODEL.ptree
 
 #include <planetree/planetree.h>
@@ -24,7 +24,7 @@ Vec3 sum(const Vec3& a, const Vec3& b, double times) {
 
 double length(const Vec3& a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
 
-// What the user feels. Holds its last contact, for ticks at which the answer is not certain.
+// Computes the force. Keeps the last contact for ticks at which the answer is not exact.
 class Spring {
  public:
   explicit Spring(double stiffness) : stiffness_(stiffness) {}
@@ -35,10 +35,10 @@ class Spring {
       contact_ = answer.point;
       normal_ = answer.normal;
     } else if (answer.lower > 0 && answer.side == planetree::Side::kOutside) {
-      // However wide the interval is, the tip is surely clear of the surface.
+      // The interval may be wide, but it proves that the tip is clear of the surface.
       touching_ = false;
     }
-    // Else a page is on its way: the surface is taken to go on as the plane of the last contact.
+    // Otherwise pages are missing: the plane of the last contact stands for the surface.
     if (!touching_) return {};
     const Vec3 way = sum(contact_, tip, -1);
     const double depth = way.x * normal_.x + way.y * normal_.y + way.z * normal_.z;
@@ -46,7 +46,7 @@ class Spring {
   }
 
  private:
-  const double stiffness_;  // force by model unit
+  const double stiffness_;  // force per model unit
   bool touching_ = false;
   Vec3 contact_, normal_;
 };
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
     return 1;
   }
 
-  // From above the middle of the model's top down into it, then sideways.
+  // The tip starts above the middle of the model's top, moves down into the model, then sideways.
   const planetree::ModelInfo& info = model->info();
   const Vec3 size = sum(info.box_upper, info.box_lower, -1);
   const double diagonal = length(size);

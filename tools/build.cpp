@@ -35,14 +35,14 @@ const char* unit_of(octree::BuildPhase phase) {
   return phase == octree::BuildPhase::kWriting ? "pages" : "parts";
 }
 
-/// A phase as JSON has it: "matching_edges".
+/// The phase's key in JSON, such as "matching_edges".
 std::string key_of(octree::BuildPhase phase) {
   std::string key = name_of(phase);
   std::replace(key.begin(), key.end(), ' ', '_');
   return key;
 }
 
-/// Shows how far the build is, and remembers how long its phases took and where it failed.
+/// Shows the progress of the build. Records the time of each phase and the file of a failure.
 class BuildMeter final : public octree::BuildProgress {
  public:
   BuildMeter(const BuildArguments& arguments, Console& console)
@@ -71,7 +71,7 @@ class BuildMeter final : public octree::BuildProgress {
     progress_.finish();
   }
 
-  /// By phase, in their order.
+  /// Seconds by phase, in the order of phases.
   const nlohmann::ordered_json& seconds() const { return seconds_; }
   const fs::path& failed_at() const { return failed_at_; }
 
@@ -93,7 +93,7 @@ class BuildMeter final : public octree::BuildProgress {
   std::uint64_t done_ = 0;
 };
 
-/// What a build would only find out at its end.
+/// Checks before the build what it would otherwise find only at its end.
 Result<void> check_output(const BuildArguments& arguments) {
   std::error_code ignored;
   const auto refuse = [](ErrorCode code, const char* text) {

@@ -13,6 +13,7 @@ class App;
 
 namespace planetree::tools {
 
+/// Arguments of `planetree build`.
 struct BuildArguments {
   std::filesystem::path input;
   std::filesystem::path output;
@@ -21,11 +22,11 @@ struct BuildArguments {
   bool quiet = false;
 };
 
-/// Builds the tree and says what it is. Returns the exit status.
+/// Builds the file and reports its contents. Returns the exit status.
 int run_build(const BuildArguments& arguments, Console& console);
 
-/// Adds the verb `build` to the command line. If a person gives it, parsing
-/// sets `action` to what runs it.
+/// Adds the subcommand `build` to the command line. If given, parsing sets `action` to a call of
+/// run_build().
 void add_build(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

@@ -37,7 +37,8 @@ int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) 
   return kCommandLineAtFault;
 }
 
-/// Says so where the first argument ought to be a verb and is none.
+/// Prints an error and returns true if there is no argument, or the first one is neither an option
+/// nor a subcommand.
 bool lacks_subcommand(const CLI::App& app, int argc, const char* const* argv, Console& console) {
   if (argc < 2) {
     fmt::print(console.errors(), "planetree: no subcommand; planetree --help lists them\n");

@@ -13,6 +13,7 @@ class App;
 
 namespace planetree::tools {
 
+/// Arguments of `planetree generate`.
 struct GenerateOptions {
   std::filesystem::path output;  ///< "-" is standard output
   std::uint64_t triangles = 0;
@@ -23,12 +24,12 @@ struct GenerateOptions {
   bool force = false;
 };
 
-/// Writes the model and says on standard output what it is (on standard error if
-/// the model goes to standard output). Returns the exit status.
+/// Writes the model and reports it on standard output, or on standard error if the model goes to
+/// standard output. Returns the exit status.
 int run_generate(const GenerateOptions& options, Console& console);
 
-/// Adds the verb `generate` to the command line. If a person gives it, parsing
-/// sets `action` to what runs it.
+/// Adds the subcommand `generate` to the command line. If it is given, parsing sets `action` to a
+/// call of run_generate().
 void add_generate(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

@@ -52,7 +52,7 @@ void Inspection::tell(const Issue& issue) {
   fmt::print(console_.errors(), "planetree: {}: {}\n", arguments_.file.string(), issue_text(issue));
 }
 
-/// A few lines stand for all: `verify` is there to list them.
+/// Prints the first few issues; `verify` lists all. Returns the exit status.
 int Inspection::tell_issues(const IssueList& issues) {
   constexpr std::size_t kMaxListed = 10;
   if (issues.count() == 0) return kDone;
@@ -127,7 +127,7 @@ int Inspection::show_page(std::uint32_t page) {
   return console_.finish(issues.count() > 0 ? kDataAtFault : kDone);
 }
 
-/// Every page that begins at the cell; a few may share one.
+/// Shows the root nodes of all distance pages whose octcode matches; several pages may share one.
 int Inspection::show_nodes() {
   IssueList issues;
   for (const Issue& issue : parts_.issues()) issues.add(issue);
@@ -234,7 +234,7 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   auto parts = FileParts::open(arguments.file);
   if (!parts) return console.fail(file, parts.error());
   Inspection inspection(arguments, console, *parts);
-  // A file whose header or table is lost has no pages to look into.
+  // A file without a readable header or page table has no pages to show.
   const bool has_pages = parts->page_count() > 0;
   if (arguments.node && has_pages) return inspection.show_nodes();
   if (!arguments.page || !has_pages) return inspection.show_all();

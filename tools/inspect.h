@@ -16,6 +16,7 @@ class App;
 
 namespace planetree::tools {
 
+/// Arguments of `planetree inspect`.
 struct InspectArguments {
   std::filesystem::path file;
   bool levels = false;
@@ -30,12 +31,12 @@ struct InspectArguments {
   bool quiet = false;
 };
 
-/// Says what is in a file; writes nothing but the image. Returns the exit
-/// status: 1 if a part of the file cannot be read.
+/// Reports the contents of a file, also of a damaged one. Writes nothing but the image. Returns the
+/// exit status, 1 if the file has an issue or pages could not be read.
 int run_inspect(const InspectArguments& arguments, Console& console);
 
-/// Adds the verb `inspect` to the command line. If a person gives it, parsing
-/// sets `action` to what runs it.
+/// Adds the subcommand `inspect` to the command line. If it is given, parsing sets `action` to a
+/// call of run_inspect().
 void add_inspect(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

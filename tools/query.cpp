@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kChunkPoints = 65536;
 constexpr std::uint64_t kMaxWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
 
-/// How many answers ended how.
+/// Counts of answers by status and by side.
 struct Tally {
   std::uint64_t points = 0;
   std::array<std::uint64_t, kStatusCount> by_status{};
@@ -81,7 +81,7 @@ class Session {
   template <class Answer>
   int answer_all(PointReader& points) {
     AnswerWriter writer(console_, arguments_.format);
-    // Rows on a terminal and a bar on the same terminal would overwrite each other.
+    // No progress bar where rows go to a terminal, because they would overwrite each other.
     Progress progress(arguments_.quiet || console_.output_is_terminal(), arguments_.json);
     progress.start("answering", 0, "points");
     std::vector<Vec3> queries(kChunkPoints);

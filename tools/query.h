@@ -16,24 +16,25 @@ class App;
 
 namespace planetree::tools {
 
+/// Arguments of `planetree query`.
 struct QueryArguments {
   std::filesystem::path file;
   std::filesystem::path points = "-";  ///< "-" is standard input
   QueryOptions options;
-  bool contains = false;  ///< ask for the side alone
+  bool contains = false;  ///< request the side alone
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
-  std::uint64_t threads = 0;  ///< 0: one for each processor
+  std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
   std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;
   AnswerFormat format = AnswerFormat::kCsv;
   bool json = false;
   bool quiet = false;
 };
 
-/// Answers every point, in the order of the input. Returns the exit status.
+/// Answers all points in the order of the input. Returns the exit status.
 int run_query(const QueryArguments& arguments, Console& console);
 
-/// Adds the verb `query` to the command line. If a person gives it, parsing
-/// sets `action` to what runs it.
+/// Adds the subcommand `query` to the command line. If given, parsing sets `action` to a call of
+/// run_query().
 void add_query(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

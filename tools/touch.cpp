@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::uint64_t kMaxSeconds = 86400, kMaxRateHz = 100000;
 
-/// So that every page comes from the disk.
+/// Drops the file from the system's page cache, so that every page comes from the disk.
 void drop_from_page_cache(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
@@ -34,7 +34,7 @@ void drop_from_page_cache(const std::filesystem::path& path) {
   ::close(file);
 }
 
-/// The path is found with a model of its own, which leaves nothing in the session's memory.
+/// Finds the tip's path with a model of its own, so that it leaves no page in the session's memory.
 Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& console) {
   const auto model = open_model(arguments.file, arguments.memory_bytes, console);
   if (!model) return model.error();
@@ -43,8 +43,8 @@ Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& co
   return touch_path(*model, *probe, arguments.motion, arguments.seconds * arguments.rate_hz);
 }
 
-/// A file beside the report, if there is to be one. Opened before the session, which may be long,
-/// so that it can be written after.
+/// Opens an additional output file, if `path` names one. Opened before the session, which may be
+/// long, so that the command fails early.
 Result<std::optional<OutputFile>> open_beside(const std::filesystem::path& path, bool force) {
   if (path.empty()) return std::optional<OutputFile>();
   auto file = OutputFile::create(path, force);

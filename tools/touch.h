@@ -11,12 +11,12 @@ class App;
 
 namespace planetree::tools {
 
-/// Holds a simulated haptic session and reports how late and how certain its answers were.
+/// Runs a simulated haptic session and reports latency and status of its answers.
 /// Returns the exit status.
 int run_touch(const TouchArguments& arguments, Console& console);
 
-/// Adds the verb `touch` to the command line. If a person gives it, parsing
-/// sets `action` to what runs it.
+/// Adds the subcommand `touch` to the command line. If given, parsing sets `action` to a call of
+/// run_touch().
 void add_touch(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

@@ -11,6 +11,7 @@ class App;
 
 namespace planetree::tools {
 
+/// Arguments of `planetree verify`.
 struct VerifyArguments {
   std::filesystem::path file;
   bool full = false;
@@ -18,11 +19,11 @@ struct VerifyArguments {
   bool quiet = false;
 };
 
-/// Lists every issue of a file. Returns the exit status: 1 if there is any.
+/// Lists the issues of a file. Returns the exit status, 1 if there are issues.
 int run_verify(const VerifyArguments& arguments, Console& console);
 
-/// Adds the verb `verify` to the command line. If a person gives it, parsing
-/// sets `action` to what runs it.
+/// Adds the subcommand `verify` to the command line. If it is given, parsing sets `action` to a
+/// call of run_verify().
 void add_verify(CLI::App& app, Console& console, std::function<int()>& action);
 
 }  // namespace planetree::tools

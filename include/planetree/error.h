@@ -7,59 +7,74 @@
 #include <utility>
 #include <variant>
 
-/// Failures are values. Nothing in planetree throws across its API, prints or
-/// exits; a call that can fail returns Result<T>.
+/// @file
+/// Failures as values. The library never throws across its API, prints or exits: a call that can
+/// fail returns a Result.
+
 namespace planetree {
 
-/// What kind of failure this is; who has to act follows from it.
+/// Kind of a failure. It shows who can act: caller, owner of the file or machine's administrator.
 enum class ErrorCode : std::uint16_t {
-  kBadArgument = 1,  ///< the caller's request makes no sense
+  kBadArgument = 1,  ///< an argument or option of the call is out of range
   kNotFound,         ///< no such file
   kAlreadyExists,    ///< the destination exists and may not be replaced
   kPermission,       ///< the system refused access
-  kNoSpace,          ///< no room on the device
+  kNoSpace,          ///< no space left on the device
   kNoMemory,         ///< no memory, or the memory budget is too small
   kReadFailed,       ///< the device or the system failed to read
   kWriteFailed,      ///< the device or the system failed to write
   kBadInput,         ///< a mesh or point file is structurally damaged
   kNotPlanetree,     ///< the file is not a .ptree file
-  kUnsupported,      ///< a newer version or an unknown feature
-  kTruncated,        ///< the file is shorter or longer than it says
+  kUnsupported,      ///< another format version, an unknown feature, or unusable arithmetic
+  kTruncated,        ///< the file is shorter or longer than its header says
   kDamaged,          ///< a checksum, a count or a structure is wrong
 };
 
-/// A failure: its kind, the place, the cause and the remedy. Plain data: no
-/// allocation, copied freely.
+/// A failure: its kind, where it is in the file, its cause and its remedy. Plain data without
+/// allocation, cheap to copy.
 struct Error {
+  /// Value of `page` and `offset` where the failure has none.
   static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
-  ErrorCode code = ErrorCode::kBadArgument;
-  std::uint64_t page = kNowhere;    ///< page number, or kNowhere
-  std::uint64_t offset = kNowhere;  ///< byte offset in the file, or kNowhere
-  char text[192] = {};              ///< cause and remedy, one line, ended by 0
+  ErrorCode code = ErrorCode::kBadArgument;  ///< kind of the failure
+  std::uint64_t page = kNowhere;             ///< page number, or kNowhere
+  std::uint64_t offset = kNowhere;           ///< byte offset in the file, or kNowhere
+  char text[192] = {};                       ///< cause and remedy, one line, ended by 0
 };
 
-/// Makes an Error whose text is printed from `format` as std::printf would,
-/// cut to fit.
+/// Returns an Error whose text is formatted as by std::printf and truncated to fit.
+///
+/// page, offset  Error::kNowhere where they do not apply.
+/// threads       any.
 [[nodiscard]] [[gnu::format(printf, 4, 5)]] Error make_error(ErrorCode code, std::uint64_t page,
                                                              std::uint64_t offset,
                                                              const char* format, ...) noexcept;
 
-/// A T or an Error. Test it with `if (result)`, then read `*result`, or
-/// `result.error()`. Reading the side that is not there is a mistake of the
-/// program and asserts.
+/// A T or an Error. Test it with `if (result)`, then read `*result` or `result.error()`.
+///
+/// The accessors of the value require a value, and error() requires an error: asserted, and
+/// undefined behaviour in builds with NDEBUG. The result owns what it returns references to.
 template <class T>
 class [[nodiscard]] Result {
  public:
+  /// Success with a value.
   Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  /// Failure.
   Result(const Error& error) : state_(std::in_place_index<1>, error) {}
 
+  /// Whether there is a value.
   explicit operator bool() const noexcept { return state_.index() == 0; }
+  /// The value.
   T& operator*() & noexcept { return *checked(); }
+  /// The value.
   const T& operator*() const& noexcept { return *checked(); }
+  /// The value, to be moved from.
   T&& operator*() && noexcept { return std::move(*checked()); }
+  /// The value's members.
   T* operator->() noexcept { return checked(); }
+  /// The value's members.
   const T* operator->() const noexcept { return checked(); }
+  /// The error.
   const Error& error() const noexcept {
     assert(state_.index() == 1);
     return *std::get_if<1>(&state_);
@@ -78,14 +93,18 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
-/// Success without a value, or an Error.
+/// Success without a value, or an Error. See Result.
 template <>
 class [[nodiscard]] Result<void> {
  public:
+  /// Success.
   Result() = default;
+  /// Failure.
   Result(const Error& error) : error_(error) {}
 
+  /// Whether the call succeeded.
   explicit operator bool() const noexcept { return !error_.has_value(); }
+  /// The error.
   const Error& error() const noexcept {
     assert(error_.has_value());
     return *error_;

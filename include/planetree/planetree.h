@@ -1,9 +1,10 @@
 #pragma once
 
-/// Exact closest-point queries on triangle models larger than memory.
+/// @file
+/// Exact closest-point queries on triangle models larger than memory. Includes all public headers.
 ///
-/// Lengths and positions are in the units and frame of the mesh the file was
-/// built from. Directions and frames are neither scaled nor moved.
+/// units   lengths and positions are in the units of the mesh that the file was built from.
+/// frame   positions and directions are in the frame of that mesh, neither scaled nor moved.
 
 #include "planetree/error.h"
 #include "planetree/model.h"

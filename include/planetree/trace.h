@@ -4,18 +4,22 @@
 
 namespace planetree {
 
-/// One look for a page, by an ask of Wait::kNever.
+/// One page lookup of a real-time query (Wait::kNever). See Model::drain_page_trace.
 struct PageAccess {
+  /// Result of a lookup.
   enum class Kind : std::uint8_t {
-    kHit,
-    kPrefetched,  ///< the first hit of a page that came because a probe was moving to it
-    kMissed,
+    kHit,         ///< the page was resident
+    kPrefetched,  ///< first hit of a page that was fetched because a probe moved towards it
+    kMissed,      ///< the page was not resident
   };
-  std::uint64_t query = 0;  ///< of the probe: its asks of Wait::kNever are 0, 1, 2, ...
-  std::uint32_t probe = 0;  ///< probes there at one time have different ones
-  std::uint32_t page = 0;
-  std::uint8_t level = 0;  ///< of the octree, of the first cell that the page has the tree of
-  Kind kind = Kind::kHit;
+  /// Number of the query: real-time queries of one probe index are numbered 0, 1, 2, ...
+  std::uint64_t query = 0;
+  /// Index of the probe. Probes that exist at the same time have different ones; a new probe may
+  /// have the index of a destroyed one and continues its numbers.
+  std::uint32_t probe = 0;
+  std::uint32_t page = 0;  ///< page number, below ModelInfo::pages
+  std::uint8_t level = 0;  ///< octree level of the octcode in the page's key, 0 to 19
+  Kind kind = Kind::kHit;  ///< result of the lookup
 };
 
 }  // namespace planetree

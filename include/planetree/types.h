@@ -3,117 +3,145 @@
 #include <cstdint>
 #include <limits>
 
-/// Plain values of questions and answers.
+/// @file
+/// Values that queries take and return.
 ///
-/// Lengths are in model units, positions in the model's own frame: both are
-/// what the input file said, unscaled and unmoved.
+/// units   lengths and positions are in model units, those of the input file.
+/// frame   positions and directions are in the frame of the input file, neither scaled nor moved.
+
 namespace planetree {
 
 /// A position or a direction.
 struct Vec3 {
-  double x = 0, y = 0, z = 0;
+  double x = 0,  ///< first coordinate
+      y = 0,     ///< second coordinate
+      z = 0;     ///< third coordinate
 };
 
 /// The part of a triangle that is nearest.
-enum class Feature : std::uint8_t { kFace, kEdge, kVertex };
+enum class Feature : std::uint8_t {
+  kFace,   ///< the inside of the triangle
+  kEdge,   ///< one of its edges, between two corners
+  kVertex  ///< one of its corners
+};
 
 /// Where a point is with respect to the solid that the surface bounds.
 ///
-/// With w the winding number of the surface about the point (the sum of its
-/// solid angles over 4 pi, a whole number where the surface is watertight), a
-/// point off the surface is inside where |w| > 1/2. So overlapping, nested,
-/// doubled and inside-out solids count as what they enclose, and holes are
-/// closed as smoothly as may be ("Robust inside-outside segmentation using
-/// generalized winding numbers", Jacobson et al. 2013).
+/// The winding number w of a point is the sum of the solid angles of all triangles seen from it,
+/// over 4 pi. It is a whole number where the surface is watertight. A point off the surface is
+/// inside where |w| > 1/2. Space that overlapping, nested, doubled or inside-out solids enclose is
+/// therefore inside. At a hole w changes smoothly, so that the hole counts as closed.
+///
+/// source  Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
+///         numbers".
 enum class Side : std::uint8_t {
-  kInside,
-  kOutside,
+  kInside,     ///< off the surface, |w| > 1/2
+  kOutside,    ///< off the surface, |w| < 1/2
   kOnSurface,  ///< exactly on a triangle
-  /// Not told: pages unreadable, work spent, |w| is 1/2 to the last bits, or not all that counts
-  /// is there (see ModelInfo::has_region).
+  /// Not known: pages are missing or unreadable, the work is spent, |w| is 1/2 to the last bits,
+  /// or the file of a region does not determine it (see ModelInfo::has_region). Also where the
+  /// side was not requested.
   kUnknown,
 };
 
-/// How far an answer may be trusted.
+/// How far an answer is proven.
 enum class Status : std::uint8_t {
-  kExact,        ///< proven: nothing left unread can be nearer
-  kWithinError,  ///< upper - lower <= QueryOptions::max_error
-  /// Pages missing or unreadable, or QueryOptions::max_work spent, or something nearer may have
-  /// been left out (see ModelInfo::has_region); the interval holds.
+  kExact,        ///< proven: nothing that was skipped can change the answer
+  kWithinError,  ///< upper - lower <= QueryOptions::max_error; another triangle may be nearer
+  /// Not proven: pages are missing or unreadable, QueryOptions::max_work is spent, or triangles
+  /// outside of the region may be nearer (see ModelInfo::has_region). The interval still holds.
   kDegraded,
-  kBeyondMaxDistance,  ///< nothing within QueryOptions::max_distance
-  kBadQuery,  ///< the query, or a limit in the QueryOptions, is not a number that makes sense
+  /// No surface within QueryOptions::max_distance. The side may still be unknown.
+  kBeyondMaxDistance,
+  kBadQuery,  ///< the query is not finite, or an option is out of range
 };
 
+/// Value of ClosestPoint::triangle where no triangle was reached.
 inline constexpr std::uint64_t kNoTriangle = std::numeric_limits<std::uint64_t>::max();
 
-/// Parts of an answer, for QueryOptions::parts.
-inline constexpr std::uint32_t kDistance = 1;  ///< nearest point, triangle and interval
+/// Part of an answer: nearest point, triangle and interval. See QueryOptions::parts.
+inline constexpr std::uint32_t kDistance = 1;
+/// Part of an answer: the side.
 inline constexpr std::uint32_t kSide = 2;
-inline constexpr std::uint32_t kNormal = 4;  ///< needs the others and brings them
+/// Part of an answer: the contact normal. It needs the other parts and includes them.
+inline constexpr std::uint32_t kNormal = 4;
+/// All parts of an answer.
 inline constexpr std::uint32_t kAllParts = kDistance | kSide | kNormal;
 
-/// Whether an ask waits for pages that are not in memory.
+/// Whether a query waits for pages that are not in memory.
 enum class Wait : std::uint8_t {
-  kForPages,  ///< reads them from the file, so that the answer is exact
-  /// Real time: answers at once from what is in memory, by a certified interval where that is
-  /// not enough. The model's fetch threads meanwhile get what was missing.
+  /// Blocking: reads missing pages from the file, so that the answer is exact. A wait for one page
+  /// ends at OpenOptions::wait_limit_ms.
+  kForPages,
+  /// Real time: answers at once from the pages in memory, with a certified interval where those do
+  /// not suffice. The model's fetch threads then read the missing pages.
   kNever,
 };
 
-/// What is asked beyond the point itself.
+/// Options of a query. A value out of range gives Status::kBadQuery.
 struct QueryOptions {
-  /// Of kDistance, kSide and kNormal any. What is not asked is not computed, nor
-  /// are its pages read: without kDistance an answer is as if no triangle was
-  /// reached.
+  /// Any of kDistance, kSide and kNormal, combined with `|`. A part that is not requested is not
+  /// computed, and its pages are not read. Without kDistance and kNormal the answer is that of a
+  /// query that reached no triangle.
   std::uint32_t parts = kAllParts;
-  Wait wait = Wait::kForPages;
-  /// May stop once upper - lower <= max_error. Model units, >= 0; 0 goes on
-  /// until the answer is exact.
+  Wait wait = Wait::kForPages;  ///< blocking or real time
+  /// The search may stop once upper - lower <= max_error. Model units, finite, >= 0. With 0 it
+  /// goes on until the answer is exact.
   double max_error = 0;
-  /// Look no farther than this. Model units, >= 0.
+  /// The search goes no farther than this. Model units, >= 0, may be infinite.
   double max_distance = std::numeric_limits<double>::infinity();
-  /// Most tree nodes and triangle blocks to visit. As it is by default there is no limit for
-  /// Wait::kForPages, and kRealTimeWork for Wait::kNever.
+  /// Maximum work: one unit for each tree node, triangle block and mask node visited. The distance
+  /// uses it first, the side what is left, the normal the rest. kNoLimit, the default, means no
+  /// limit for Wait::kForPages and kRealTimeWork for Wait::kNever.
   std::uint32_t max_work = kNoLimit;
 
+  /// Value of `max_work` that means the default.
   static constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
+  /// Default limit of `max_work` for Wait::kNever.
   static constexpr std::uint32_t kRealTimeWork = 4096;
 };
 
-/// The nearest surface point to a query.
+/// The surface point nearest to a query. No member is ever NaN.
 struct ClosestPoint {
-  /// >= 0: to `point`, the best surface point known, which may be beyond `upper` if degraded;
-  /// if no triangle was reached, as far as the surface may be.
+  /// Distance to `point`, model units, >= 0. In a degraded answer it may exceed `upper`. It equals
+  /// `upper` where no triangle was reached, and is infinite where the status is
+  /// kBeyondMaxDistance or kBadQuery or no distance was requested.
   double distance = 0;
-  double lower = 0;  ///< the true distance is at least this ...
-  double upper = 0;  ///< ... and at most this; lower < upper even when exact
-  Side side = Side::kUnknown;
-  Vec3 point;  ///< on the surface
-  /// Contact normal, of length 1: the angle-weighted pseudo-normal of the face,
-  /// edge or vertex that is nearest, turned to point out of the solid. Of a sheet
-  /// that encloses nothing it points to the query. As the mesh is oriented where
-  /// the side is unknown or the triangle not proven to be the nearest; (0, 0, 1)
-  /// where there is none.
+  /// Certified lower bound of the true distance, model units, >= 0. Equals max_distance where the
+  /// status is kBeyondMaxDistance.
+  double lower = 0;
+  /// Certified upper bound of the true distance, model units, may be infinite. Rounding is part of
+  /// the interval: lower < upper even when exact.
+  double upper = 0;
+  Side side = Side::kUnknown;  ///< side of the query
+  /// Best surface point known. A sample vertex of the model where pages or work were missing to
+  /// reach a triangle. (0, 0, 0) where the status is kBeyondMaxDistance or kBadQuery or no
+  /// distance was requested.
+  Vec3 point;
+  /// Contact normal, of length 1: the angle-weighted pseudo-normal of the nearest face, edge or
+  /// vertex, turned to point out of the solid. Next to an open surface that encloses nothing it
+  /// points to the query. It is as the mesh is oriented where the side is unknown. Where the
+  /// triangle is not proven to be the nearest it is turned only if the winding number is negative.
+  /// (0, 0, 1) where there is none.
   Vec3 normal{0, 0, 1};
-  /// Counted in the input's order after fan-splitting polygons, triangles set
-  /// aside included; kNoTriangle when none was reached. Among equally near
-  /// triangles the one of least index.
+  /// Index of the nearest triangle in the input's order, counted after each polygon is split into
+  /// a fan and with skipped records included. Of equally near triangles the one of least index.
+  /// kNoTriangle where no triangle was reached.
   std::uint64_t triangle = kNoTriangle;
-  /// Of `point`, in the triangle's corner order; sums to 1. Above 0 for as many
-  /// corners as `feature` has.
+  /// Barycentric coordinates of `point`, in the triangle's corner order. They sum to 1, and are
+  /// above 0 for as many corners as `feature` has: 3, 2 or 1. All 0 where no triangle was reached.
   Vec3 barycentric;
-  Feature feature = Feature::kFace;
-  Status status = Status::kBadQuery;
+  Feature feature = Feature::kFace;   ///< part of the triangle that `point` is on
+  Status status = Status::kBadQuery;  ///< how far the answer is proven
 
-  /// Negative inside; positive where the side is unknown.
+  /// The distance, negative where the side is kInside. Positive where the side is unknown.
   double signed_distance() const noexcept { return side == Side::kInside ? -distance : distance; }
 };
 
-/// The side alone.
+/// The side of a query alone.
 struct Containment {
-  Side side = Side::kUnknown;
-  Status status = Status::kBadQuery;  ///< kDegraded where pages or work were missing to tell
+  Side side = Side::kUnknown;         ///< side of the query
+  Status status = Status::kBadQuery;  ///< kExact, kDegraded for want of pages or work, or kBadQuery
 };
 
 }  // namespace planetree

@@ -10,10 +10,10 @@
 
 namespace planetree::tools {
 
-/// Bytes that begin on a slot, as frames must.
+/// Bytes aligned to a slot, as frames must be.
 class AlignedBytes {
  public:
-  /// Makes room for `bytes`, a multiple of the slot; what was there is lost.
+  /// Allocates `bytes`, a multiple of the slot. The old content is lost.
   void resize(std::size_t bytes) {
     if (bytes == bytes_) return;
     slots_ = std::make_unique<Slot[]>(bytes / sizeof(Slot));

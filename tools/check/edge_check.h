@@ -11,16 +11,17 @@
 
 namespace planetree::tools {
 
-/// Checks what a header says of open edges against all triangles, in any order
-/// and in constant memory: by the sum of all edges; those listed are counted.
+/// Checks the header's unbalanced edges against all triangles, in any order and in constant memory.
+/// A sum over all edges shows whether the surface is watertight. Triangles at listed edges are
+/// counted.
 class EdgeCheck {
  public:
-  /// Coordinates of `model` are taken to the model frame.
+  /// Converts the coordinates of `model` to the model frame. `model` must outlive this.
   explicit EdgeCheck(const storage::ModelRecord& model);
 
-  /// Model frame; each triangle of the model once.
+  /// Adds a triangle, model frame. Each triangle of the model must be added once.
   void add(const octree::Triangle& triangle);
-  /// What the header says that is not so; nothing if it is right.
+  /// What is wrong with the header. Empty if nothing is.
   [[nodiscard]] std::optional<std::string> finding() const;
 
  private:

@@ -22,14 +22,14 @@ namespace {
 using octree::FloatBox;
 using octree::Node;
 
-/// What the source of a link between pages says of the subtree it leads to.
+/// What the node with a link to another page states about the subtree there.
 struct Promise {
-  std::shared_ptr<const Bounds> bounds;  // null for the root of all
-  std::uint64_t parent = 0;              // key of a node in TreeCheck::open_nodes_
+  std::shared_ptr<const Bounds> bounds;  // null for the root of the tree
+  std::uint64_t parent = 0;              // key of that node in TreeCheck::open_nodes_
   bool is_root = false;
 };
 
-/// A node whose height is not proven until pages below have come.
+/// A node with children in later pages, which are needed to check its height.
 struct OpenNode {
   std::uint32_t page = 0;
   std::uint8_t height = 0;
@@ -81,9 +81,9 @@ class TreeCheck {
   std::optional<GeometryCheck> geometry_;
   Links pending_;
   std::map<std::uint64_t, OpenNode> open_nodes_;
-  bool complete_ = true;  // whether every page so far could be followed
+  bool complete_ = true;  // whether all pages so far were readable and all links led to records
 
-  // Of the page at hand.
+  // Of the current page.
   std::uint32_t page_ = 0;
   std::optional<FrameView> frame_;
   std::vector<Chain> node_bounds_;               // by node
@@ -112,7 +112,7 @@ CheckReport TreeCheck::run(const CheckProgress& progress) {
   return std::move(report_);
 }
 
-/// What the header says of the model, as far as it can be judged alone.
+/// Checks the fields of the header's model record that need no page.
 void TreeCheck::check_model() {
   const storage::ModelRecord& model = header_.model;
   const auto wrong = [this](const char* message) {
@@ -210,7 +210,8 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   settle_height(tighten->parent, height);
 }
 
-/// The root's box holds the header's, which is that of the input, if all of that is there.
+/// Checks that the root's box encloses the header's box. In the file of a region with walls it need
+/// not, because the header's box is that of the whole input.
 void TreeCheck::check_root_box(const FloatBox& box) {
   const storage::ModelRecord& model = header_.model;
   if (query::region_of(model).has_walls()) return;
@@ -283,7 +284,7 @@ void TreeCheck::check_blocks() {
   frame_->for_each_block([&](std::uint32_t, std::uint32_t slot) {
     const octree::BlockView block = frame_->block(slot);
     report_.triangles += block.triangle_count();
-    // They ascend within a block.
+    // Indices ascend within a block.
     const std::uint64_t last = block.id(block.triangle_count() - 1);
     if (last >= indices)
       report(IssueCode::kTriangleRange,

@@ -10,7 +10,7 @@
 
 namespace planetree::tools {
 
-/// The issues found: the first kMaxKept in full, the others counted.
+/// Issues of a file. The first kMaxKept are kept in full, the others are counted.
 class IssueList {
  public:
   static constexpr std::size_t kMaxKept = 1000;
@@ -27,25 +27,25 @@ class IssueList {
   std::uint64_t count_ = 0;
 };
 
+/// Issues, and counts over all pages that could be decoded.
 struct CheckReport {
   IssueList issues;
-  std::uint64_t pages = 0;  ///< that could be decoded, and what they hold:
+  std::uint64_t pages = 0;
   std::uint64_t nodes = 0;
   std::uint64_t blocks = 0;
   std::uint64_t triangles = 0;
   std::uint64_t mask_cells = 0;
 };
 
-/// Certain after each page.
+/// Called after each page.
 using CheckProgress = std::function<void(std::uint32_t pages_done)>;
 
-/// Holds a file against every promise of the format (format-spec/ISSUES.md);
-/// does not stop at the first that is broken. What follows from an issue
-/// already told, such as subtrees below a page that is lost, is not told again.
+/// Checks a file against all rules of the format (format-spec/ISSUES.md) and continues after an
+/// issue. What follows from a reported issue, such as subtrees below a lost page, is not reported.
 ///
-/// full    also every triangle and vertex, and what mask and sheets say of them
-/// memory  one page, the links to pages not yet come, and with `full` about
-///         2 bits for each triangle and up to 256 MiB
+/// full    checks also every triangle and vertex, and proves mask and height fields
+/// memory  one page and the pending links to later pages; with `full` also about 2 bits for each
+///         triangle and up to 256 MiB
 CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress = {});
 
 }  // namespace planetree::tools

@@ -34,7 +34,7 @@ Issue page_issue(IssueCode code, std::uint32_t page, std::uint64_t offset, const
   return {code, page, offset, message};
 }
 
-/// Whether pages can be told apart by this header, right or wrong otherwise.
+/// Whether the header suffices to read pages, even if other fields are wrong.
 bool can_serve(const storage::FileHeader& header, std::uint64_t actual_bytes) {
   return header.version == storage::kFormatVersion &&
          (header.incompatible_features & ~storage::kKnownIncompatibleFeatures) == 0 &&
@@ -104,7 +104,7 @@ Result<void> FileParts::load_table() {
   entries_.resize(header_.page_count);
   const auto table = std::as_writable_bytes(std::span(entries_));
   if (const auto read = read_at(storage::kHeaderBytes, table); !read) return read;
-  // The length was judged with the header; a table of a file cut short may be whole.
+  // check_header() has checked the file's length. The table of a truncated file may be whole.
   if (const auto checked = storage::check_table(header_, entries_); !checked)
     issues_.push_back(Issue::from(IssueCode::kTable, checked.error()));
   return {};
@@ -114,7 +114,8 @@ Result<void> FileParts::read_at(std::uint64_t offset, std::span<std::byte> out) 
   return out.empty() ? Result<void>{} : file_.read_at(offset, out);
 }
 
-/// A damaged table may say anything: nothing is claimed or read before this.
+/// Checks a table entry before memory is allocated or bytes are read for it, because the table may
+/// be damaged. Null if the entry is plausible.
 const char* FileParts::fault_of(const storage::PageEntry& entry) const {
   if (entry.offset > actual_bytes_ || entry.stored_bytes > actual_bytes_ - entry.offset)
     return "the page lies beyond the file's end; restore the file from a copy or build it again";

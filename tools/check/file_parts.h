@@ -21,49 +21,50 @@
 
 namespace planetree::tools {
 
-/// A .ptree file of which any part may be damaged. Where a reader that wants
-/// answers refuses the file, this goes on with whatever can still be read.
+/// A .ptree file that may be damaged in any part. Model::open refuses such a file; this reads what
+/// is still readable.
 ///
-/// threads  one at a time: the page read last is kept in here.
+/// threads  one at a time, because the page read last is kept here
 class FileParts {
  public:
-  /// errors  kNotFound, kPermission, kReadFailed, kNoMemory: what cannot be
-  ///         opened or read at all. All else is an issue of the file.
+  /// Opens a file and reads its headers and page table.
+  ///
+  /// errors  kNotFound, kPermission, kReadFailed, kNoMemory: the file cannot be opened or
+  ///         read. Everything else becomes an issue.
   static Result<FileParts> open(const std::filesystem::path& path,
                                 storage::FileCalls& calls = storage::FileCalls::real());
 
-  /// Found at open: outside the pages.
+  /// Issues found at open, outside of pages.
   std::span<const Issue> issues() const { return issues_; }
   std::uint64_t actual_bytes() const { return actual_bytes_; }
   const std::filesystem::path& path() const { return path_; }
 
-  /// Null if neither header is whole, or if this program does not know its format.
+  /// The header. Null if neither header is whole or this program does not know the format version.
   const storage::FileHeader* header() const { return has_header_ ? &header_ : nullptr; }
-  /// As the table says, which may be wrong; empty without a header or if the
-  /// file ends before the table does.
+  /// The page table, unchecked. Empty without a header or if the file ends within the table.
   std::span<const storage::PageEntry> entries() const { return entries_; }
   std::uint32_t page_count() const { return static_cast<std::uint32_t>(entries_.size()); }
-  /// Pages before it are distance pages, the others the mask's.
+  /// Number of the first mask page. Pages before it are distance pages.
   std::uint32_t first_mask_page() const {
     return std::min(header_.first_mask_page(), page_count());
   }
   octree::BlockShape shape() const { return query::block_shape(header_.model); }
 
-  /// Reads a page's raw bytes and verifies them; nothing if all is well.
+  /// Reads a page's stored bytes, checks the hash and decompresses them. Empty if sound.
   std::optional<Issue> read_page(std::uint32_t page);
-  /// Unpacks the page read last into its frame.
+  /// Decodes the page read last to its frame. Empty if sound.
   std::optional<Issue> decode_page();
 
-  /// Of the page read last; good until the next.
+  /// Raw bytes of the page read last. Valid until the next read.
   std::span<const std::byte> raw() const { return raw_; }
-  /// The same, of a distance page, cut into streams; false if they are not what
-  /// the head says.
+  /// Splits the raw bytes of a distance page into streams. False if they do not fit the page head.
   bool cut(octree::RawStreams& streams) const;
-  /// The same of a mask page; false if that is not one.
+  /// Splits the raw bytes of a mask page into streams. False if they do not fit the page head or
+  /// the page is not a mask page.
   bool cut(octree::MaskStreams& streams) const;
-  /// The head of the mask page read last; nothing if that is not one.
+  /// Head of the page read last, if that is a mask page.
   std::optional<octree::MaskPageHead> mask_head() const;
-  /// Of the page decoded last, if a distance page; good until the next.
+  /// The page decoded last, which must be a distance page. Valid until the next decode_page().
   FrameView frame() const { return FrameView(frame_.data(), shape()); }
   const std::byte* frame_bytes() const { return frame_.data(); }
 

@@ -10,8 +10,8 @@
 
 namespace planetree::tools {
 
-/// A decoded page: its records in their order. Subtree roots come first, among
-/// the nodes and among the blocks.
+/// The records of a decoded distance page in their order. Roots of subtrees come first, among the
+/// nodes and among the blocks. `frame` must outlive this.
 class FrameView {
  public:
   FrameView(const std::byte* frame, const octree::BlockShape& shape)
@@ -32,7 +32,7 @@ class FrameView {
     return (slot - header().first_node_slot) / shape_.node_slots();
   }
 
-  /// Zeros in a file without moments.
+  /// Moments of a child; zeros in a file without moments.
   octree::Moments moments(const octree::Node& node, unsigned child) const {
     return shape_.moments ? octree::NodeMoments::of(node).child(child) : octree::Moments();
   }

@@ -23,7 +23,7 @@ Point point_of(const std::array<float, 3>& values) {
           static_cast<double>(values[2])};
 }
 
-/// `point` is relative to the model's centre, as boxes are.
+/// Whether a box holds a point. Both are relative to the model's centre.
 bool is_inside(const octree::FloatBox& box, const Point& point) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(static_cast<double>(box.lower[axis]) <= point[axis] &&
@@ -32,9 +32,9 @@ bool is_inside(const octree::FloatBox& box, const Point& point) {
   return true;
 }
 
-/// Whether a point lies between the bounding planes and within the disc's
-/// radius, with the room that evaluation in float needs (octree/traversal/bounds.h):
-/// 8 units of 2^-24 times the box's diagonal.
+/// Whether a point lies between the planes of the slab and within the disc's radius, with the slack
+/// that evaluation in float needs: 8 * 2^-24 times the box's diagonal
+/// (octree/traversal/bounds.h). The point is relative to the model's centre.
 bool is_inside(const Bounds& bounds, const Point& point) {
   const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
   const double capacity = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
@@ -142,7 +142,7 @@ bool GeometryCheck::insert(std::uint64_t id) {
   return is_new;
 }
 
-// Whether the header's box is that of the vertices, or of a region holds it.
+// Whether the header's box is that of the vertices along an axis, or with walls encloses them.
 bool GeometryCheck::is_box(double lower, double upper, int axis) const {
   if (cut_off_) return lower <= lower_[axis] && upper_[axis] <= upper;
   return lower == lower_[axis] && upper == upper_[axis];
@@ -158,7 +158,7 @@ void GeometryCheck::finish(bool complete) {
     if (!is_box(scale.in(model_.box_lower[axis]), scale.in(model_.box_upper[axis]), axis))
       whole_file(IssueCode::kModelBox,
                  fmt::format("the header's box is not that of the vertices along {}", "xyz"[axis]));
-  // Of a region, faces are missing.
+  // With walls faces are missing, so that edges cannot be checked.
   if (auto finding = cut_off_ ? std::nullopt : edges_.finding())
     whole_file(IssueCode::kOpenEdges, *std::move(finding));
   if (!sample_seen_)

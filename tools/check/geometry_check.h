@@ -14,8 +14,8 @@
 
 namespace planetree::tools {
 
-/// What a node says of a child, and what was said above of all that holds it.
-/// Boxes lie within each other, so the innermost speaks for all; planes do not.
+/// Bounds that a node states for a child, linked to the bounds that nodes above state. Boxes are
+/// nested, so that the innermost implies the others. Discs are not, so that each must be checked.
 struct Bounds {
   octree::FloatBox box;
   octree::Disc disc;
@@ -23,18 +23,21 @@ struct Bounds {
   std::shared_ptr<const Bounds> above;  ///< null below the root
 };
 
-/// Checks triangle after triangle, in double, what float bounds promise of
-/// them; and at the end what the header promises of all.
+/// Checks in double that the stated float bounds hold for every triangle, and in the end the
+/// header's box, sample and unbalanced edges.
 class GeometryCheck {
  public:
   GeometryCheck(const storage::FileHeader& header, IssueList& issues);
 
-  /// bounds  of the block; null if it is the whole tree.
+  /// Checks a block.
+  ///
+  /// bounds  stated for the block; null if the block is the whole tree
   void add(const octree::BlockView& block, std::uint32_t page, const Bounds* bounds);
-  /// A node whose own moments, stated above it, are to be held against those it
-  /// states of its children.
+  /// Checks the moments that are stated for a node against those that it states for its children.
   void add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds);
-  /// complete  whether every block has been added.
+  /// Checks the header.
+  ///
+  /// complete  whether all blocks were added; otherwise nothing is checked
   void finish(bool complete);
 
  private:
@@ -48,14 +51,14 @@ class GeometryCheck {
 
   const storage::ModelRecord& model_;
   IssueList& issues_;
-  // Bits of triangles seen, in pieces, so that the file's claims cost nothing.
+  // One bit per triangle index seen, in pieces, so that memory does not depend on unchecked counts.
   std::unordered_map<std::uint64_t, std::array<std::uint64_t, 8>> seen_;
   std::uint64_t min_id_ = storage::kNoTriangle;
   bool sample_seen_ = false;
   EdgeCheck edges_;
   octree::Point lower_, upper_;            // of all vertices, model frame
-  octree::Point part_lower_, part_upper_;  // of the region, as far as it is in the model's box
-  bool cut_off_ = false;                   // triangles may have been left out
+  octree::Point part_lower_, part_upper_;  // the part of the region within the model's box
+  bool cut_off_ = false;                   // whether the region has walls
 };
 
 }  // namespace planetree::tools

@@ -5,11 +5,11 @@
 
 namespace planetree::tools {
 
-/// Proves anew that blocks are in sheets that are said to be; only of a file that is sound
-/// otherwise, for it is proven by the tree and the mask.
+/// Proves that the blocks that are marked as height fields are height fields. The proof uses tree
+/// and mask, so that the file must have no other issue.
 ///
-/// issues  what is found is added to it.
-/// memory  one page and, where any block is said to be, 256 MiB
+/// issues  issues found are added
+/// memory  one page and, if any block is marked, 256 MiB
 void check_height_fields(FileParts& parts, IssueList& issues);
 
 }  // namespace planetree::tools

@@ -9,8 +9,8 @@
 
 namespace planetree::tools {
 
-/// What can be wrong with a .ptree file. format-spec/ISSUES.md says what each
-/// means; names are stable once released.
+/// Kinds of issues of a .ptree file, as defined in format-spec/ISSUES.md. Released names are
+/// stable.
 enum class IssueCode : std::uint8_t {
   kNotPlanetree,
   kFormatUnsupported,
@@ -49,20 +49,21 @@ enum class IssueCode : std::uint8_t {
 };
 inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kRegion) + 1;
 
-/// Such as "PAGE_CHECKSUM".
+/// The code's name in reports, such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);
 
-/// One thing that is wrong.
+/// One issue of a file.
 struct Issue {
   IssueCode code = IssueCode::kNotPlanetree;
-  std::uint64_t page = Error::kNowhere;    ///< or kNowhere
-  std::uint64_t offset = Error::kNowhere;  ///< byte in the file, or kNowhere
+  std::uint64_t page = Error::kNowhere;    ///< page number, or kNowhere
+  std::uint64_t offset = Error::kNowhere;  ///< byte offset in the file, or kNowhere
   std::string message;                     ///< one line
 
+  /// An issue with the page, offset and text of an error.
   static Issue from(IssueCode code, const Error& error);
 };
 
-/// {code, page, message} and, where known, offset; page null if none.
+/// {code, page, message} and, if known, offset. `page` is null if the issue has none.
 [[nodiscard]] nlohmann::ordered_json issue_json(const Issue& issue);
 
 /// "PAGE_CHECKSUM: page 3, at byte 4096: message".

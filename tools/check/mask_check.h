@@ -5,12 +5,12 @@
 
 namespace planetree::tools {
 
-/// Holds the mask pages of a file against what the format promises of them.
+/// Checks the mask pages of a file against the rules of the format.
 ///
-/// prove   also what they say of the triangles; only of a file that is sound
-///         otherwise, for it is proven by the tree.
-/// report  what is found is added to it.
-/// memory  one page, the links to pages not yet come, and to prove 256 MiB.
+/// prove   checks the mask's statements against the triangles too; this uses the tree, so that the
+///         file must have no other issue
+/// report  issues and counts found are added
+/// memory  one page, the pending links to later pages, and 256 MiB to prove
 void check_mask(FileParts& parts, bool prove, CheckReport& report, const CheckProgress& progress);
 
 }  // namespace planetree::tools

@@ -30,7 +30,7 @@ std::string cell_name(const GridCell& cell) {
   return fmt::format("{}/{}/{}/{}", cell.level, cell.at[0], cell.at[1], cell.at[2]);
 }
 
-/// One name for a corner of however many cells.
+/// A key of a corner, equal for all cells that share the corner.
 std::uint64_t corner_key(const GridCell& cell, unsigned corner) {
   std::uint64_t key = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -50,7 +50,7 @@ octree::SpecialCell claim_of(const GreyCell& grey) {
   return claim;
 }
 
-// More may be listed than need be.
+// Whether `said` lists all blocks and octants of `found`. It may list more.
 bool has_all(const octree::MaskBlocks& said, const octree::MaskBlocks& found) {
   for (unsigned i = 0; i < found.count; ++i) {
     unsigned octants = 0;
@@ -147,7 +147,7 @@ void MaskProof::check_list(const GreyCell& grey) {
   for (unsigned i = 0; i < grey.blocks.count; ++i) {
     const std::uint32_t link = grey.blocks.links[i];
     const octree::LinkFormat links(model_->geometry().tree.page_bytes);
-    // What is wrong with a page that cannot be had is said elsewhere.
+    // An unreadable page is reported elsewhere.
     if (const std::byte* record = records.find(link, work))
       outside =
           outside || !keeps_to_slab(grey, octree::BlockView(record, model_->geometry().tree.shape));
@@ -161,7 +161,7 @@ void MaskProof::check_list(const GreyCell& grey) {
                        cell_name(grey.cell)));
 }
 
-// Of a block that the cell lists.
+// Checks a block that the cell lists.
 bool MaskProof::keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const {
   const octree::CellSlab& slab = grey.blocks.slab;
   if (!slab.says_something()) return true;

@@ -20,21 +20,27 @@
 
 namespace planetree::tools {
 
-/// Holds what a mask says against the triangles: winding numbers at corners and
-/// in cells of one colour by the way straight out of the model's box, so by
-/// other triangles than those they were found with, or, of a region, by the way
-/// to its least corner, whose number is taken from the header; and that only
-/// grey cells are touched, and only by blocks that they list, if they do, and between their slabs'
-/// planes.
+/// Checks the statements of a mask against the triangles:
+///
+/// - Winding numbers at corners and in cells of one colour are counted again along exit segments,
+///   from other triangles than those that the builder used. With walls they are counted along the
+///   segment to the region's first corner, whose winding number the header states.
+/// - Triangles touch grey cells only.
+/// - A listed cell lists all blocks that touch it, and the surface in it is within its slab.
+/// - The planes of a special cell describe which part of it is inside.
 ///
 /// memory  that of a ModelReader, and the corners of one page
 class MaskProof {
  public:
+  /// Opens the file as a model. `issues` must outlive this.
+  ///
+  /// errors  as ModelReader::open
   static Result<std::unique_ptr<MaskProof>> open(const std::filesystem::path& path,
                                                  IssueList& issues);
 
+  /// Checks one grey cell.
   void look_at(const GreyCell& grey);
-  /// Forgets the corners counted so far: neighbours are mostly in one page.
+  /// Forgets the corners counted so far. Cells that share corners are mostly in one page.
   void end_page() { counted_.clear(); }
 
  private:
@@ -46,7 +52,7 @@ class MaskProof {
   void check_list(const GreyCell& grey);
   bool keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const;
   void check_special(const GreyCell& grey);
-  /// Nothing if pages are missing.
+  /// The winding number at a corner. Empty if pages cannot be read.
   std::optional<std::int64_t> winding(const octree::GridCell& cell, unsigned corner);
   std::optional<std::int64_t> recount(const octree::Point& point);
   std::vector<octree::Triangle> touching(const octree::GridCell& cell);
@@ -56,7 +62,7 @@ class MaskProof {
   cache::Reader reader_;
   IssueList& issues_;
   octree::ClippedGrid grid_;
-  std::unordered_map<std::uint64_t, std::optional<std::int64_t>> counted_;  ///< by corner
+  std::unordered_map<std::uint64_t, std::optional<std::int64_t>> counted_;  ///< by corner_key()
 };
 
 }  // namespace planetree::tools

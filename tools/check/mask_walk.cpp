@@ -12,7 +12,7 @@ namespace planetree::tools {
 using octree::GridCell;
 using octree::MaskNode;
 
-/// The page at hand, and the cells of its records as they become known.
+/// The current page, and the cells of its records as they become known.
 class MaskWalk::Page {
  public:
   Page(const std::byte* frame, std::uint32_t page_number)
@@ -65,7 +65,7 @@ void MaskWalk::add(std::uint32_t number) {
   });
 }
 
-// Families that hang from earlier pages, one behind the other.
+// Takes the families that earlier pages link to. They lie one after the other at the front.
 void MaskWalk::take_roots(Page& page) {
   const std::uint32_t within = page.number - parts_.first_mask_page();
   const std::uint32_t end = page.first_slot() + page.header().root_count;

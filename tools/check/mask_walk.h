@@ -11,7 +11,7 @@
 
 namespace planetree::tools {
 
-/// A grey cell as its page holds it: one of the four is not null.
+/// A grey cell and its record. Exactly one of node, corners, special and listed is not null.
 struct GreyCell {
   std::uint32_t page = 0;
   octree::GridCell cell;
@@ -19,29 +19,31 @@ struct GreyCell {
   const octree::MaskCorners* corners = nullptr;
   const octree::MaskSpecial* special = nullptr;
   const octree::MaskListed* listed = nullptr;
-  const double* planes = nullptr;  ///< of a special cell, 9 each
-  octree::MaskBlocks blocks;       ///< of a listed one
+  const double* planes = nullptr;  ///< planes of a special cell, 9 numbers each
+  octree::MaskBlocks blocks;       ///< list of a listed cell
 };
 
-/// Goes through the mask page by page, as pages come, and finds the cell that
-/// each record is of. Records whose parent was not seen are passed over.
+/// Visits the records of the mask page by page, in the order of pages, and finds each record's
+/// cell. Skips records whose parent was not seen.
 ///
-/// memory  links to pages not yet come
+/// memory  pending links to later pages
 class MaskWalk {
  public:
   using Visitor = std::function<void(const GreyCell&)>;
   using Reporter = std::function<void(Issue)>;
 
-  /// report  links that lead nowhere, twice to a place, or are missing.
+  /// parts   must outlive this
+  /// visit   called for each record
+  /// report  called for links that lead to no family, lead to a family twice, or are missing
   MaskWalk(FileParts& parts, Visitor visit, Reporter report);
 
-  /// The page that `parts` decoded last. Pages are given in their order.
+  /// Visits the page that `parts` decoded last. Pages must be added in ascending order.
   void add(std::uint32_t page);
-  /// A page that cannot be read.
+  /// Records that a page cannot be read.
   void lose(std::uint32_t page);
 
  private:
-  /// A node in an earlier page whose family is awaited.
+  /// A node in an earlier page whose family is in a later one.
   struct Owner {
     octree::GridCell cell;
     octree::MaskNode node;

@@ -8,10 +8,11 @@
 
 namespace planetree::tools {
 
-/// A model that is opened to look into it, below a Probe, and who reads it.
+/// A model opened below the public interface, and a reader of its pages.
 ///
-/// memory  256 MiB of pages at most
+/// memory  up to 256 MiB
 struct ModelReader {
+  /// errors  as Model::open
   static Result<ModelReader> open(const std::filesystem::path& path);
 
   std::unique_ptr<query::ModelState> model;

@@ -14,11 +14,11 @@ namespace {
 using octree::Point;
 using Matrix = Eigen::Matrix3d;
 
-/// What moments should be, and how far from that they may be.
+/// Expected moments and their allowed errors.
 struct Expected {
-  Point vector = Point::Zero();
-  Matrix first = Matrix::Zero();  ///< as it is integrated
-  double area = 0, second = 0;    ///< at least
+  Point vector = Point::Zero();   ///< dipole
+  Matrix first = Matrix::Zero();  ///< quadrupole, before it is made symmetric and trace-free
+  double area = 0, second = 0;    ///< lower limits of area and second moment
   double vector_error = 0, first_error = 0;
 };
 
@@ -33,8 +33,8 @@ Matrix first_of(const octree::Moments& moments) {
   return first * moments.first_unit();
 }
 
-/// Rounding of doubles, and of points relative to the centre, is far below the
-/// share that is added.
+/// Whether stated moments fit. The added share kCapacity is far above the rounding of doubles and
+/// of points relative to the centre.
 bool fits(const octree::Moments& stated, const Expected& expected) {
   constexpr double kCapacity = 0x1p-30;
   const double area = octree::Moments::wide(stated.area);
@@ -77,7 +77,7 @@ bool moments_fit(const Bounds& stated, const octree::BlockView& block, const Poi
 }
 
 bool moments_fit(const Bounds& stated, const octree::Node& node) {
-  // Stored areas and second moments may be a 128th too large, and a little.
+  // Stored areas and second moments may be larger by 1/128 and a little.
   constexpr double kKept = 1 - 1.01 / 128;
   const Point middle = octree::centre_of(stated.box);
   Expected expected;
@@ -87,7 +87,7 @@ bool moments_fit(const Bounds& stated, const octree::Node& node) {
     const Point vector = vector_of(moments);
     const double area = octree::Moments::wide(moments.area);
     const double second = octree::Moments::wide(moments.second);
-    // A writer may have rounded the least of them up from nothing.
+    // A writer may have rounded an area this small up from almost 0.
     const double least = 2 * octree::Moments::wide(octree::kMinShortFloat);
     const double kept = area > least ? area * kKept : 0;
     expected.vector += vector;
@@ -96,7 +96,8 @@ bool moments_fit(const Bounds& stated, const octree::Node& node) {
     expected.first_error +=
         octree::kFirstError * moments.first_unit() + by.norm() * octree::kVectorError * area;
     expected.area += kept;
-    // Minkowski: no nearer than the centres are, less the child's own extent.
+    // Minkowski's inequality: about `middle`, the second moment of a child is at least
+    // max(0, |by| sqrt(area) - sqrt(second))^2.
     const double apart = std::max(0.0, by.norm() * std::sqrt(kept) - std::sqrt(second));
     expected.second += apart * apart;
   }

@@ -9,11 +9,10 @@ namespace planetree::tools {
 
 /// Whether the moments stated for a block are those of its triangles.
 ///
-/// centre  of the model.
+/// centre  the model's centre, model frame
 bool moments_fit(const Bounds& stated, const octree::BlockView& block, const octree::Point& centre);
 
-/// Whether the moments stated for a node can be those of what the node itself
-/// states of its children.
+/// Whether the moments stated for a node fit those that the node states for its children.
 bool moments_fit(const Bounds& stated, const octree::Node& node);
 
 }  // namespace planetree::tools

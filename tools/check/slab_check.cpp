@@ -11,11 +11,10 @@ namespace {
 using octree::Point;
 using Polygon = std::vector<Point>;
 
-/// Of a 256th of a slab's width.
+/// Allowed rounding, as a share of a step, which is 1/256 of CellSlab::width().
 constexpr double kRounding = 0x1p-20;
 
-// What is on the side of the plane x[axis] = at where `sign` * (x[axis] - at) is not negative
-// (Sutherland and Hodgman 1974).
+// Clips a polygon to the half space `sign` * (x[axis] - at) >= 0 (Sutherland and Hodgman 1974).
 Polygon clipped(const Polygon& polygon, unsigned axis, double at, double sign) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -41,7 +40,7 @@ bool keeps_to_slab(const octree::CellSlab& slab, const octree::Triangle& triangl
   Polygon polygon;
   for (const Point& corner : triangle)
     polygon.push_back(octree::CellSlab::position_in(corner, lower, level));
-  // Mostly so, and told without clipping.
+  // In most cases all corners are within, and nothing need be clipped.
   if (std::all_of(polygon.begin(), polygon.end(), is_within)) return true;
   const Point end = octree::CellSlab::position_in(upper, lower, level);
   for (unsigned axis = 0; axis < 3; ++axis) {

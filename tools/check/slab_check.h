@@ -5,10 +5,10 @@
 
 namespace planetree::tools {
 
-/// Whether what a triangle has in a cell, up to rounding, is within the cell's slab.
+/// Whether the part of a triangle within a cell is within the cell's slab, up to rounding.
 ///
-/// lower, upper  corners of the cell
-/// level         its
+/// triangle, lower, upper  the triangle and the cell's corners, model frame
+/// level                   the cell's level
 bool keeps_to_slab(const octree::CellSlab& slab, const octree::Triangle& triangle,
                    const octree::Point& lower, const octree::Point& upper, unsigned level);
 

@@ -7,9 +7,8 @@
 
 namespace planetree::tools {
 
-/// Links from page to page that have been seen, with what their source knows,
-/// until the page they lead to comes. Links lead to pages of greater number, so
-/// that one pass over the pages in their order meets both ends of each.
+/// Pending links to later pages, each with a context from its source. Links lead to pages of
+/// greater number, so that one pass over the pages in ascending order meets both ends of each link.
 template <class Context>
 class SubtreeLinks {
  public:
@@ -20,12 +19,12 @@ class SubtreeLinks {
     auto operator<=>(const Target&) const = default;
   };
 
-  /// False if a link to the same record is there already.
+  /// Adds a link. False if a link to the same record exists.
   bool add(Target target, Context context) {
     return links_.emplace(target, std::move(context)).second;
   }
 
-  /// What the link to this subtree's root brought, if there is one.
+  /// Removes the link to a record and returns its context. Empty if there is none.
   std::optional<Context> take(Target target) {
     const auto found = links_.find(target);
     if (found == links_.end()) return std::nullopt;
@@ -34,8 +33,7 @@ class SubtreeLinks {
     return context;
   }
 
-  /// Calls drop(target, context) for links to the page that nothing took, and
-  /// forgets them.
+  /// Removes all remaining links to the page and calls drop(target, context) for each.
   template <class Drop>
   void finish_page(std::uint32_t page, Drop drop) {
     const auto begin = links_.lower_bound(Target{page, 0, false});

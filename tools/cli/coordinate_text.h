@@ -5,8 +5,8 @@
 
 namespace planetree::tools {
 
-/// Reads as many finite numbers as there is room for, with commas between them and nothing
-/// else. False, and anything written, if the text is other than that.
+/// Reads exactly values.size() finite numbers separated by commas. Returns false if the text is
+/// anything else; `values` then holds unspecified numbers.
 bool parse_coordinates(std::string_view text, std::span<double> values);
 
 }  // namespace planetree::tools

@@ -7,11 +7,9 @@
 
 namespace planetree::tools {
 
-/// SHA-256 of a file's bytes as 64 lower-case hexadecimal digits, as
-/// `sha256sum` prints it.
+/// SHA-256 of a file's bytes as 64 lower-case hexadecimal digits, in the form of `sha256sum`.
 ///
-/// errors  as storage::file_error(); kReadFailed where the library of
-///         cryptography does not serve.
+/// errors  as storage::file_error(); kReadFailed where OpenSSL does not provide SHA-256.
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace planetree::tools

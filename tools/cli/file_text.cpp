@@ -9,7 +9,7 @@
 namespace planetree::tools {
 namespace {
 
-/// Takes a number off the front of `text`; false if there is none that fits.
+/// Removes a number from the front of `text`. False if there is none or it does not fit T.
 template <class T>
 bool take_number(std::string_view& text, T& value, int base = 10) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);

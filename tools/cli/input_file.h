@@ -13,15 +13,18 @@
 
 namespace planetree::tools {
 
-/// A stream of bytes, from a file that it closes or from one that it borrows.
+/// A stream of bytes that is owned and closed, or borrowed.
 class InputFile {
  public:
+  /// Opens a file that the destructor closes.
+  ///
   /// errors  as storage::file_error()
   static Result<InputFile> open(const std::string& path);
-  /// `stream` must outlive this.
+  /// Borrows a stream, which must outlive this.
   static InputFile borrow(std::FILE* stream) { return InputFile(stream, false); }
 
-  /// Reads until `out` is full or the file ends; returns how many bytes.
+  /// Reads until `out` is full or the file ends. Returns the number of bytes read.
+  ///
   /// errors  as storage::file_error()
   Result<std::size_t> read(std::span<std::byte> out);
 
@@ -37,20 +40,21 @@ class InputFile {
   std::unique_ptr<std::FILE, Close> stream_;
 };
 
-/// The lines of a stream, each at most kMaxLineBytes long.
+/// Reads a stream line by line. Lines are at most kMaxLineBytes long.
 class LineReader {
  public:
   static constexpr std::size_t kMaxLineBytes = std::size_t{1} << 16;
 
   explicit LineReader(InputFile file) : file_(std::move(file)), buffer_(2 * kMaxLineBytes) {}
 
-  /// Steps to the next line; false at the end.
+  /// Advances to the next line. False at the end.
+  ///
   /// errors  kBadInput for a line that is too long; kReadFailed.
   Result<bool> next();
 
-  /// The current line without what ends it ("\n" or "\r\n"); good until next().
+  /// The current line without its end ("\n" or "\r\n"). Valid until next().
   std::string_view line() const { return line_; }
-  /// Counted from 1.
+  /// Number of the current line, from 1.
   std::uint64_t number() const { return number_; }
 
  private:
@@ -58,7 +62,7 @@ class LineReader {
 
   InputFile file_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0;  // of what is not yet a line
+  std::size_t begin_ = 0;  // of the bytes not yet returned
   std::size_t end_ = 0;
   bool ended_ = false;
   std::string_view line_;

@@ -11,18 +11,18 @@
 
 namespace planetree::tools {
 
-/// Opens a model for one probe; warns if one of its headers is damaged.
+/// Opens a model with one probe. Warns if one of the file's headers is damaged.
 ///
-/// memory_bytes   most memory it may take
-/// batch_threads  threads that answer batches; 0 means one for each processor
-/// wait_limit_ms  as OpenOptions has it
+/// memory_bytes   OpenOptions::memory_budget_bytes
+/// batch_threads  number of batch threads; 0 means one for each processor
+/// wait_limit_ms  OpenOptions::wait_limit_ms
 /// errors         as Model::open
 Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory_bytes,
                          Console& console, unsigned batch_threads = 1,
                          unsigned wait_limit_ms = OpenOptions().wait_limit_ms);
 
-/// The error to tell, after the answers, if some are degraded because pages could not be read,
-/// or were not in time.
+/// The error to report after the answers if pages were unreadable or did not come in time, so that
+/// answers are degraded. Empty if there were none.
 std::optional<Error> pages_lost(const Stats& stats);
 
 }  // namespace planetree::tools

@@ -53,7 +53,7 @@ Error system_error(const char* action, int error_number, std::uint64_t offset = 
                     std::generic_category().message(error_number).c_str(), cause.remedy);
 }
 
-/// What already bears the name, if anything: links are followed.
+/// The mode of the existing file of this name, with links followed; 0 if there is none.
 Result<mode_t> existing_mode(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) return status.st_mode;
@@ -80,7 +80,7 @@ Result<OutputFile> OutputFile::create(const fs::path& path, bool may_replace) {
     return file;
   }
   if (*mode != 0 && !may_replace) return system_error("write", EEXIST);
-  // Replacing what a link points to keeps the link, as writing through it would.
+  // Replaces the file that a link points to and keeps the link.
   std::error_code ignored;
   file.destination_ = *mode != 0 ? fs::canonical(path, ignored) : path;
   if (file.destination_.empty()) file.destination_ = path;
@@ -105,7 +105,7 @@ Result<void> OutputFile::open_temporary() {
   constexpr int kMaxAttempts = 1000;
   const fs::path folder = destination_.parent_path();
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
-    // The name does not contain the destination's, which may be as long as names get.
+    // The destination's name is not part of this name, because it may have the maximum length.
     const fs::path name = folder / fmt::format(".planetree-{}-{}.part", ::getpid(), attempt);
     descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
@@ -144,7 +144,7 @@ Result<void> OutputFile::write(std::span<const std::byte> bytes) {
 
 Result<void> OutputFile::commit() {
   if (!owns_descriptor_) return {};
-  // Some devices report a lack of room only now.
+  // Some devices report a lack of space only now.
   if (!temporary_.empty() && ::fsync(descriptor_) != 0) return system_error("write", errno);
   owns_descriptor_ = false;
   if (::close(std::exchange(descriptor_, -1)) != 0) return system_error("write", errno);
@@ -154,7 +154,7 @@ Result<void> OutputFile::commit() {
 Result<void> OutputFile::rename_temporary() {
   const unsigned flags = may_replace_ ? 0U : unsigned{RENAME_NOREPLACE};
   int failed = ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, destination_.c_str(), flags);
-  // Not every file system can refuse to replace; create() has looked in any case.
+  // Not every file system supports RENAME_NOREPLACE. create() has checked before.
   if (failed != 0 && (errno == EINVAL || errno == ENOSYS)) {
     failed = ::rename(temporary_.c_str(), destination_.c_str());
   }

@@ -9,15 +9,15 @@
 
 namespace planetree::tools {
 
-/// A file being written that bears its name only once it is whole: bytes go to a
-/// temporary file in the same folder, which commit() renames. Whatever fails
-/// before that, the destination is as it was, and the temporary file is removed.
+/// A file that gets its name only when it is complete. Bytes go to a temporary file in the same
+/// folder, which commit() renames. If anything fails before, the destination is unchanged and the
+/// temporary file is removed.
 ///
-/// "-" means standard output, and a destination that is a device or a pipe is
-/// written directly: neither can be replaced, so neither needs permission to be.
+/// "-" means standard output. Standard output, devices and pipes are written directly: they cannot
+/// be replaced, so `may_replace` does not apply.
 ///
 /// threads  one at a time
-/// errors   never name the file: the caller knows it by the name the user gave
+/// errors   texts do not name the file, because the caller knows the name that the user gave
 class OutputFile {
  public:
   /// Opens the temporary file.
@@ -31,13 +31,13 @@ class OutputFile {
   OutputFile& operator=(OutputFile&&) = delete;
   ~OutputFile();
 
-  /// Claims room for a file of `bytes`, so that a full device is noticed before
-  /// the work rather than after it. Where the system cannot tell, it succeeds.
+  /// Reserves space for `bytes`, so that a full device is noticed before the work. Succeeds where
+  /// the system cannot reserve.
   Result<void> reserve(std::uint64_t bytes);
-  /// Appends all of `bytes`, unbuffered: hand over large pieces.
+  /// Appends all of `bytes`. Unbuffered: pieces should be large.
   Result<void> write(std::span<const std::byte> bytes);
-  /// Brings the bytes to the device and gives the file its name. Call it once,
-  /// last; if it fails the destination is as it was.
+  /// Flushes the bytes to the device and renames the file. The last call, made once. If it fails,
+  /// the destination is unchanged.
   Result<void> commit();
 
   std::uint64_t bytes_written() const { return bytes_written_; }
@@ -51,7 +51,7 @@ class OutputFile {
   bool owns_descriptor_ = false;
   bool may_replace_ = false;
   std::filesystem::path destination_;
-  std::filesystem::path temporary_;  ///< empty when written directly or committed
+  std::filesystem::path temporary_;  ///< empty if written directly or committed
   std::uint64_t bytes_written_ = 0;
 };
 

@@ -25,7 +25,7 @@ nanoseconds steady_now() { return std::chrono::steady_clock::now().time_since_ep
 Progress::Style stderr_style(bool quiet, bool json) {
   if (quiet) return Progress::Style::kSilent;
   if (json) return Progress::Style::kJson;
-  // A dumb terminal cannot wipe a line.
+  // A dumb terminal cannot erase a line.
   const char* terminal = std::getenv("TERM");
   const bool capable = terminal != nullptr && std::string_view(terminal) != "dumb";
   return capable && isatty(STDERR_FILENO) != 0 ? Progress::Style::kBar : Progress::Style::kLines;
@@ -58,7 +58,7 @@ Progress::Progress(bool quiet, bool json)
 
 Progress::Progress(std::FILE* stream, Style style, Clock clock)
     : stream_(stream), style_(style), clock_(std::move(clock)) {
-  // The first line is due only after a full interval: short work is silent.
+  // The first line is due after a full interval, so that short work is silent.
   const nanoseconds first = style_ == Style::kBar ? nanoseconds(0) : kLineInterval;
   next_draw_ns_.store((clock_() + first).count(), std::memory_order_relaxed);
 }
@@ -81,7 +81,7 @@ void Progress::add(std::uint64_t count) {
   std::int64_t due = next_draw_ns_.load(std::memory_order_relaxed);
   if (now.count() < due) return;
   const nanoseconds interval = style_ == Style::kBar ? kBarInterval : kLineInterval;
-  // The thread that moves the due time draws; the others go on working.
+  // The thread that advances the due time draws; the others continue their work.
   if (next_draw_ns_.compare_exchange_strong(due, (now + interval).count(),
                                             std::memory_order_relaxed)) {
     draw(now);
@@ -141,7 +141,7 @@ void Progress::draw(nanoseconds now) {
   }
   constexpr std::size_t kWidestBar = 40;
   constexpr std::size_t kBarFrame = 4;
-  // One column stays free: a full last column makes some terminals wrap.
+  // One column stays free, because some terminals wrap when the last column is used.
   const std::size_t columns = terminal_columns(stream_) - 1;
   const std::size_t used = phase_.size() + text.size() + kBarFrame;
   std::string bar;

@@ -12,39 +12,36 @@
 
 namespace planetree::tools {
 
-/// Tells a person how far long work has come: phase, percentage, rate and
-/// remaining time. On a terminal one line is redrawn at most 5 times a second and
-/// wiped at the end; elsewhere plain lines follow at most every 5 seconds, so
-/// short work leaves no trace in a log. For programs such a line is a JSON object:
-/// phase, done, total, unit, rate_per_second and remaining_seconds, null where not known.
+/// Shows the progress of long work: phase, percentage, rate and remaining time. On a terminal one
+/// line is redrawn at most 5 times a second and erased at the end. Elsewhere a line is printed at
+/// most every 5 seconds, so that short work leaves nothing in a log. With JSON each line is an
+/// object of phase, done, total, unit, rate_per_second and remaining_seconds, null where unknown.
 ///
-/// threads  add() may be called by any number of threads at once; start() and
-///          finish() by one thread, while none is in add().
-/// errors   a stream that cannot be written is ignored: progress is not the work.
+/// threads  any number in add() at once; start() and finish() by one thread while none is in add().
+/// errors   a stream that cannot be written is ignored, so that the work goes on.
 class Progress {
  public:
   enum class Style { kSilent, kLines, kBar, kJson };
   using Clock = std::function<std::chrono::nanoseconds()>;
 
-  /// Standard error: as JSON if that is wanted, else with a bar if it is a capable terminal.
-  /// `quiet` silences it in any case.
+  /// Writes to standard error: nothing if `quiet`, else JSON if `json`, else a bar if it is a
+  /// terminal that can erase a line, else plain lines.
   Progress(bool quiet, bool json);
-  /// Any stream, which must outlive this object, and any monotonic clock.
+  /// Writes to a stream, which must outlive this, by a monotonic clock.
   Progress(std::FILE* stream, Style style, Clock clock);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// Begins a phase; ends the one before.
+  /// Begins a phase and ends the one before.
   ///
-  /// phase  what is being done, a few ASCII words: "sorting cells"
-  /// total  steps in this phase; 0 if not known, then only count and rate show
-  /// unit   what a step is, in the plural: "triangles"
+  /// phase  a few ASCII words, such as "sorting cells"
+  /// total  number of steps; 0 if unknown, then only count and rate are shown
+  /// unit   name of a step in the plural, such as "triangles"
   void start(std::string_view phase, std::uint64_t total, std::string_view unit);
-  /// `count` more steps are done. Reads a clock, so call it once per some
-  /// thousand cheap steps.
+  /// Reports `count` more steps. Reads a clock: call it once per some thousand cheap steps.
   void add(std::uint64_t count);
-  /// Ends the phase and wipes the bar. Without a phase it does nothing.
+  /// Ends the phase and erases the bar. Does nothing without a phase.
   void finish();
 
  private:
@@ -52,7 +49,7 @@ class Progress {
   struct Status {
     std::uint64_t done;
     double rate;                    // steps a second
-    std::optional<double> seconds;  // that remain
+    std::optional<double> seconds;  // remaining time
   };
 
   void draw(std::chrono::nanoseconds now);
@@ -68,8 +65,8 @@ class Progress {
   std::uint64_t total_ = 0;
   std::chrono::nanoseconds started_{0};
   bool drawn_ = false;
-  // Relaxed order suffices for both: the count is only shown, and the claim of a
-  // drawing slot only picks a thread; the text itself is guarded by the mutex.
+  // Relaxed order suffices for both. The count is only shown, and next_draw_ns_ only chooses the
+  // thread that draws; the mutex guards the text.
   std::atomic<std::uint64_t> done_{0};
   std::atomic<std::int64_t> next_draw_ns_{0};
   std::mutex drawing_;

@@ -9,12 +9,12 @@
 namespace planetree::tools {
 namespace {
 
-/// Longer fractions than this cannot come out whole with any suffix that fits.
+/// Maximum digits of a fraction. Longer ones give no whole number with any suffix.
 constexpr std::size_t kMaxFractionDigits = 18;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The power of `base` that a suffix stands for; nothing if it is no suffix.
+/// The power of `base` that a suffix stands for. Empty if it is not a suffix.
 std::optional<std::uint64_t> suffix_factor(std::string_view suffix, std::uint64_t base) {
   if (suffix.empty()) return 1;
   if (suffix.size() > 1) return std::nullopt;
@@ -37,7 +37,7 @@ std::string_view leading_digits(std::string_view text) {
   return text.substr(0, static_cast<std::size_t>(end - text.begin()));
 }
 
-/// The digits as one integer; nothing on overflow.
+/// The digits as one integer. Empty on overflow.
 std::optional<std::uint64_t> digits_value(std::string_view digits) {
   std::uint64_t value = 0;
   for (const char c : digits) {
@@ -48,14 +48,14 @@ std::optional<std::uint64_t> digits_value(std::string_view digits) {
   return value;
 }
 
-/// 0.digits times factor; nothing unless that is a whole number.
+/// 0.digits times factor. Empty unless that is a whole number.
 std::optional<std::uint64_t> fraction_value(std::string_view digits, std::uint64_t factor) {
   while (!digits.empty() && digits.back() == '0') digits.remove_suffix(1);
   if (digits.size() > kMaxFractionDigits) return std::nullopt;
   const std::uint64_t value = *digits_value(digits);
   std::uint64_t divisor = 1;
   for (std::size_t i = 0; i < digits.size(); ++i) divisor *= 10;
-  // value * factor / divisor, reduced first so that nothing overflows.
+  // Reduces value * factor / divisor first, so that nothing overflows.
   const std::uint64_t common = std::gcd(divisor, factor);
   divisor /= common;
   if (value % divisor != 0) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<std::uint64_t> parse(std::string_view text, std::uint64_t base) {
   return value;
 }
 
-/// The text to quote in an error, cut so that the remedy after it still fits.
+/// The text in quotes, truncated so that the remedy after it fits the error.
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMaxQuoted = 40;
   if (text.size() <= kMaxQuoted) return fmt::format("'{}'", text);

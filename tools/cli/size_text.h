@@ -6,22 +6,22 @@
 
 #include "planetree/error.h"
 
-/// Counts and sizes as people type and read them, independent of locale.
+/// Text forms of counts and sizes, independent of locale.
 namespace planetree::tools {
 
-/// Reads a count such as 5000, 20K or 1.5M. Suffixes K, M, G and T, in either
-/// case, are decimal: 1M is 1,000,000. A fraction must come out whole.
+/// Reads a count such as 5000, 20K or 1.5M. Suffixes K, M, G and T, in either case, are powers of
+/// 1000. The result must be a whole number.
 ///
 /// errors  kBadArgument: not such a number, negative, or above 2^64 - 1
 Result<std::uint64_t> parse_count(std::string_view text);
 
-/// Reads a number of bytes such as 4096, 64K or 1.5G. Suffixes K, M, G and T, in
-/// either case, are binary: 1K is 1024. A fraction must come out whole.
+/// Reads a number of bytes such as 4096, 64K or 1.5G. Suffixes K, M, G and T, in either case, are
+/// powers of 1024. The result must be a whole number.
 ///
 /// errors  kBadArgument: not such a number, negative, or above 2^64 - 1
 Result<std::uint64_t> parse_bytes(std::string_view text);
 
-/// All digits, in groups of three: 1,234,567.
+/// All digits in groups of three: 1,234,567.
 std::string grouped_count(std::uint64_t count);
 
 /// Three digits and a decimal prefix, for rates: 950, 3.21 M, 45.6 G.

@@ -14,7 +14,7 @@ namespace planetree::tools {
 namespace {
 
 std::string index_of(const Error& error) {
-  // Some texts name their page themselves.
+  // Some texts begin with their page.
   const bool has_page =
       error.page != Error::kNowhere && !std::string_view(error.text).starts_with("page ");
   const bool has_offset = error.offset != Error::kNowhere;
@@ -86,7 +86,7 @@ void Console::warn(std::string_view file, std::string_view text) {
 }
 
 int Console::fail(std::string_view file, const Error& error) {
-  // What was answered before comes first where both streams are one.
+  // Flushes earlier answers, so that they come first where both streams are the same.
   std::fflush(output_);
   const std::string line = error_line(file, error);
   std::fwrite(line.data(), 1, line.size(), errors_);

@@ -8,32 +8,33 @@
 
 #include "planetree/error.h"
 
-/// What all verbs of the command share: how they speak and how they end.
+/// Console, error lines and exit status of all subcommands.
 namespace planetree::tools {
 
-/// How the command ends, as scripts see it.
+/// Exit status of the command.
 inline constexpr int kDone = 0;
 inline constexpr int kDataAtFault = 1;
 inline constexpr int kCommandLineAtFault = 2;
-inline constexpr int kMachineAtFault = 3;
+inline constexpr int kMachineAtFault = 3;  ///< space, memory, permission, devices
 
+/// The exit status for an error.
 [[nodiscard]] int exit_status(ErrorCode code) noexcept;
 
-/// "planetree: FILE: page 3, at byte 4096: cause; what to do", in one line
-/// whatever the file's name holds.
+/// "planetree: FILE: page 3, at byte 4096: cause; what to do" in one line: control characters, also
+/// in the file's name, become '?'.
 [[nodiscard]] std::string error_line(std::string_view file, const Error& error);
 
-/// One line of JSON. Text that is not UTF-8, as file names may be, is mended.
+/// One line of JSON. Bytes that are not UTF-8, as in file names, are replaced.
 [[nodiscard]] std::string json_line(const nlohmann::ordered_json& value);
 
-/// Most memory this process has had so far.
+/// Peak resident memory of this process so far, in bytes.
 [[nodiscard]] std::uint64_t peak_resident_bytes();
 
-/// The streams of one run of the command. Standard output may end early, as in
-/// `| head`: a closed pipe is no error, the verb just stops.
+/// The streams of one run of the command. Standard output may be closed early, as by `| head`: that
+/// is no error, and the subcommand stops.
 class Console {
  public:
-  /// The streams must outlive this; they are not closed.
+  /// The streams must outlive this. They are not closed.
   Console(std::FILE* input, std::FILE* output, std::FILE* errors)
       : input_(input), output_(output), errors_(errors) {}
 
@@ -42,17 +43,16 @@ class Console {
   std::FILE* errors() const { return errors_; }
   bool output_is_terminal() const;
 
-  /// Appends to standard output. False once it takes no more: nothing is
-  /// written from then on, and a verb should end with finish().
+  /// Appends to standard output. Returns false once writing has failed: nothing is written from
+  /// then on, and the subcommand should end with finish().
   bool print(std::string_view text);
-  /// A report on standard error, where standard output carries data.
+  /// Writes a report to standard error, for use where standard output carries data.
   void note(std::string_view text);
-  /// One line on standard error.
+  /// Writes one warning line to standard error.
   void warn(std::string_view file, std::string_view text);
-  /// Writes error_line() to standard error; returns the exit status.
+  /// Writes error_line() to standard error. Returns the exit status.
   int fail(std::string_view file, const Error& error);
-  /// Flushes standard output. Returns `status`, or what became of the output
-  /// if that is worse.
+  /// Flushes standard output. Returns the greater of `status` and the status of the output.
   int finish(int status);
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "f64 rows are written in place");
 
-// Text is handed on in pieces of about this size.
+// Text is printed in pieces of about this size.
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
 
 struct Named {
@@ -22,7 +22,7 @@ struct Named {
   double number;
 };
 
-// Numbers of an answer before and behind its side.
+// The numbers of a row before and after the side.
 std::array<Named, 6> numbers_before(const Vec3& query, const ClosestPoint& answer) {
   return {{{"x", query.x},
            {"y", query.y},
@@ -94,7 +94,7 @@ class JsonRow {
   void add_numbers(char before, const std::array<Named, kCount>& numbers) {
     for (const Named& named : numbers) {
       fmt::format_to(out_, "{}\"{}\":", before, named.name);
-      // JSON has no word for infinity.
+      // JSON has no infinity.
       if (std::isfinite(named.number))
         fmt::format_to(out_, "{:.17g}", named.number);
       else

@@ -10,27 +10,27 @@
 
 namespace planetree::tools {
 
-/// The words that stand for answers' enumerators wherever they are written.
+/// The words for enumerators of answers in all outputs.
 [[nodiscard]] std::string_view feature_word(Feature feature);
 [[nodiscard]] std::string_view side_word(Side side);
 [[nodiscard]] std::string_view status_word(Status status);
 inline constexpr std::size_t kStatusCount = 5;
 inline constexpr std::size_t kSideCount = 4;
 
+/// One row per point: CSV, one JSON object per line, or raw little-endian float64 values.
 enum class AnswerFormat : std::uint8_t { kCsv, kJsonLines, kF64 };
 
-/// Writes answers to standard output, one row for each point, in one format.
+/// Writes answers to standard output in one format, one row per point.
 class AnswerWriter {
  public:
   AnswerWriter(Console& console, AnswerFormat format) : console_(console), format_(format) {}
 
-  /// What comes before the first row of answers of this kind. False when output
-  /// takes no more.
+  /// Writes the header of answers of this type. False once standard output takes no more.
   bool begin(const ClosestPoint&) {
     return heading("x,y,z,distance,lower,upper,side,px,py,pz,nx,ny,nz,triangle,feature,status\n");
   }
   bool begin(const Containment&) { return heading("x,y,z,side,status\n"); }
-  /// The spans are equally long. False when output takes no more.
+  /// Writes a row for each answer; the spans have equal lengths. False as in begin().
   bool write(std::span<const Vec3> queries, std::span<const ClosestPoint> answers);
   bool write(std::span<const Vec3> queries, std::span<const Containment> answers);
 

@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-/// Takes the first field off `rest`; false when there is none.
+/// Removes the first field from `rest`. False if there is none.
 bool take_field(std::string_view& rest, std::string_view& field) {
   if (rest.data() == nullptr) return false;
   const std::size_t comma = rest.find(',');
@@ -76,7 +76,8 @@ Error CsvPoints::bad_line(const std::string& cause) const {
                     cause.c_str());
 }
 
-/// A header is a first line without a number among its first three fields.
+/// Reads the columns of x, y and z from a header. A header is a first line without a number among
+/// its first three fields. False if the line is not one.
 bool CsvPoints::take_header(std::string_view line) {
   std::array<std::size_t, 3> named = {};
   std::size_t found = 0;

@@ -9,8 +9,8 @@
 
 namespace planetree::tools {
 
-/// Points from CSV: x, y and z in the first three columns, or where a header
-/// names them. Further columns and empty lines are passed over.
+/// Points from CSV: x, y and z in the first three columns, or in the columns that a header names.
+/// Other columns and empty lines are ignored.
 class CsvPoints final : public PointReader {
  public:
   CsvPoints(std::string name, InputFile file)
@@ -26,7 +26,7 @@ class CsvPoints final : public PointReader {
   LineReader lines_;
   std::array<std::size_t, 3> columns_ = {0, 1, 2};
   bool started_ = false;
-  std::optional<Error> pending_;  // told once the points in front of it are delivered
+  std::optional<Error> pending_;  // reported after the points before it
 };
 
 }  // namespace planetree::tools

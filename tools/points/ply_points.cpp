@@ -21,8 +21,8 @@ Error bad_header(const char* cause) {
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere, "%s", cause);
 }
 
-/// The header of a file with or without faces: the mesh reader's parser wants
-/// some, so that a cloud's header is read as if it declared none of them.
+/// Parses the header of a file with or without faces. The mesh reader's parser requires a face
+/// element, so that a header without one is parsed with an element of 0 faces inserted.
 Result<PlyHeader> parse_header(std::string_view file) {
   const bool carriage_returns = file.size() > 3 && file[3] == '\r' && file.substr(4, 1) != "\n";
   octree::LineScanner lines(
@@ -46,8 +46,8 @@ Result<PlyHeader> parse_header(std::string_view file) {
   return octree::parse_ply_header(file);
 }
 
-/// A float property is rounded once, to float, as where a mesh is read: the
-/// points of a mesh lie on the mesh.
+/// Parses a value. A float property is rounded once, to float, as the mesh reader does, so that the
+/// vertices of a mesh lie on the mesh.
 bool parse_number(const octree::PlyProperty& property, std::string_view word, double& value) {
   if (property.is_list || property.type != octree::PlyType::kFloat32)
     return octree::parse_real(word, value);
@@ -77,7 +77,7 @@ PlyPoints::PlyPoints(std::string name, octree::MeshFile file, PlyHeader header)
       offset_(header_.body.offset),
       left_(header_.vertices().count) {}
 
-/// Passes over what lies in front of the vertices.
+/// Skips the elements before the vertices.
 Result<void> PlyPoints::find_vertices() {
   for (std::size_t i = 0; i < header_.vertex_element; ++i) {
     const PlyElement& element = header_.elements[i];
@@ -116,7 +116,7 @@ Result<std::size_t> PlyPoints::read(std::span<Vec3> points) {
     if (read) continue;
     failure_ = read.error();
     if (i == 0) return *failure_;
-    return i;  // points in front of it come first
+    return i;  // the error is reported after the points before it
   }
   left_ -= count;
   return count;

@@ -14,11 +14,11 @@
 
 namespace planetree::tools {
 
-/// The vertices of a PLY file, faces or not.
+/// The vertices of a PLY file, with or without faces.
 class PlyPoints final : public PointReader {
  public:
-  /// errors  kBadInput: the header is damaged, or the vertices' place cannot be
-  ///         told from it.
+  /// errors  kBadInput: the header is damaged, or the position of the vertices does not follow from
+  ///         it. Those of reading the file.
   static Result<std::unique_ptr<PointReader>> create(const std::string& path,
                                                      octree::MeshFile file);
 
@@ -38,9 +38,9 @@ class PlyPoints final : public PointReader {
   octree::MeshWindow window_;             // binary
   std::uint64_t offset_ = 0;              // binary
   std::uint64_t record_bytes_ = 0;        // binary
-  std::array<std::uint64_t, 3> at_ = {};  // of x, y and z in a binary record
+  std::array<std::uint64_t, 3> at_ = {};  // offsets of x, y and z in a binary record
   std::uint64_t left_ = 0;                // vertices not yet read
-  std::optional<Error> failure_;          // met behind points that came first
+  std::optional<Error> failure_;          // reported after the points before it
 };
 
 }  // namespace planetree::tools

@@ -15,7 +15,7 @@
 namespace planetree::tools {
 namespace {
 
-// Enough to tell a PLY file.
+// Enough to recognise a PLY file.
 constexpr std::uint64_t kPlyBytes = 4;
 
 bool is_regular(const std::string& path) {
@@ -41,7 +41,7 @@ Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
   };
   if (path == "-") return csv(InputFile::borrow(standard_input));
   const bool raw = has_extension(path, ".f64");
-  // A pipe is read once, in order: CSV or raw numbers.
+  // A pipe can be read only once and in order, so that it may hold CSV or raw numbers only.
   if (!raw && is_regular(path)) {
     auto file = octree::MeshFile::open(path);
     if (!file) return file.error();

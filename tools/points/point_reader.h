@@ -11,18 +11,18 @@
 
 namespace planetree::tools {
 
-/// A source of points, read in pieces: memory does not grow with their number.
+/// A source of points, read in pieces, so that memory does not grow with their number.
 class PointReader {
  public:
   explicit PointReader(std::string name) : name_(std::move(name)) {}
   virtual ~PointReader() = default;
 
-  /// The file as messages name it.
+  /// The file's name in messages.
   const std::string& name() const { return name_; }
 
-  /// Fills the front of `points`, which is not empty; returns how many, 0 at
-  /// the end. Coordinates may be NaN or infinite: that is for whoever answers.
-  /// What is wrong comes after all points in front of it.
+  /// Fills the front of `points`, which must not be empty. Returns the number of points read, 0 at
+  /// the end. Coordinates may be NaN or infinite; a query with them gives kBadQuery. An error is
+  /// reported after all points before it.
   ///
   /// errors  kBadInput, naming the line or the offset; kReadFailed.
   virtual Result<std::size_t> read(std::span<Vec3> points) = 0;
@@ -31,16 +31,15 @@ class PointReader {
   std::string name_;
 };
 
-/// "standard input" for "-", else the path itself.
+/// "standard input" for "-", otherwise the path itself.
 std::string points_name(const std::string& path);
 
-/// Opens a file of points. What it is follows from its content (PLY), else its
-/// extension (.f64), else it is CSV, as is standard input.
+/// Opens a file of points. A file with the extension .f64 holds raw numbers, a regular file that
+/// begins like PLY is PLY, and everything else is CSV, including standard input.
 ///
-/// path            "-" is standard input.
-/// standard_input  must outlive the reader.
-/// errors          kNotFound, kPermission, kReadFailed; kBadInput for a header
-///                 that is damaged.
+/// path            "-" is standard input
+/// standard_input  must outlive the reader
+/// errors          kNotFound, kPermission, kReadFailed; kBadInput for a damaged header
 Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
                                                  std::FILE* standard_input);
 

@@ -8,7 +8,7 @@
 
 namespace planetree::tools {
 
-/// Points as little-endian float64 triples, one behind the other.
+/// Points as little-endian float64 triples without gaps.
 class RawPoints final : public PointReader {
  public:
   RawPoints(std::string name, InputFile file)
@@ -19,7 +19,7 @@ class RawPoints final : public PointReader {
  private:
   InputFile file_;
   std::uint64_t offset_ = 0;
-  std::size_t odd_bytes_ = 0;  // of a last point that is not whole
+  std::size_t odd_bytes_ = 0;  // bytes of an incomplete last point
 };
 
 }  // namespace planetree::tools

@@ -13,26 +13,27 @@
 
 namespace planetree::tools {
 
-/// One answer and how it came about.
+/// One answer and how it was found.
 struct Explanation {
   Vec3 query;
   ClosestPoint answer;
   query::SideResult side_result;
   query::SideReason reason;
-  Vec3 cell_lower, cell_upper;          ///< of reason.cell, model units
+  Vec3 cell_lower, cell_upper;          ///< corners of reason.cell, model units
   Vec3 end;                             ///< reason.end, model units
   Vec3 corners[3];                      ///< of the nearest triangle, model units
-  octree::TraversalStats side_work;     ///< what finding the side took, by itself,
-  octree::TraversalStats nearest_work;  ///< and the nearest point
-  bool pages_lost = false;  ///< some could not be read, so that the answer may be less exact
+  octree::TraversalStats side_work;     ///< work to find the side alone
+  octree::TraversalStats nearest_work;  ///< work to find the nearest point alone
+  bool pages_lost = false;  ///< pages were unreadable, so that the answer may be degraded
 };
 
-/// "X,Y,Z" as typed.
+/// Reads a point typed as "X,Y,Z". Empty if the text is anything else.
 [[nodiscard]] std::optional<Vec3> parse_point(std::string_view text);
 
-/// Queries the file at `path` about one point, model units.
+/// Opens a file and explains the answer for one point, model units.
 ///
-/// memory  256 MiB of pages at most
+/// errors  as Model::open
+/// memory  up to 256 MiB
 [[nodiscard]] Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query);
 
 [[nodiscard]] nlohmann::ordered_json explanation_json(const Explanation& explanation);

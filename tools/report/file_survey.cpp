@@ -76,7 +76,7 @@ class Surveyor {
     below.white += 8 - count_bits(inside | grey.node->grey);
   }
 
-  // Those of the page at hand; its head.
+  // Adds the stream sizes of the current page to `sums`. Returns the page's head.
   template <class Streams>
   decltype(Streams::head) add_streams(std::vector<StreamRow>& sums) const {
     Streams streams;
@@ -103,7 +103,7 @@ class Surveyor {
   void add_levels(std::uint32_t page) {
     const FrameView frame = parts_.frame();
     const octree::FrameHeader& header = frame.header();
-    // Depths of the page's records; none where no link from above was seen.
+    // Depths of the page's records. Empty where no link from above was seen.
     std::vector<std::optional<std::uint32_t>> node_depths(header.node_count);
     std::map<std::uint32_t, std::uint32_t> block_depths;  // by slot
     for (std::uint32_t i = 0; i < header.root_node_count; ++i)
@@ -149,7 +149,7 @@ class Surveyor {
   FileParts& parts_;
   octree::LinkFormat links_;
   FileSurvey survey_;
-  SubtreeLinks<std::uint32_t> pending_;  // to the depth of what is linked to
+  SubtreeLinks<std::uint32_t> pending_;  // context: depth of the linked record
   MaskWalk mask_;
 };
 

@@ -15,47 +15,49 @@
 
 namespace planetree::tools {
 
-/// All that lies at one depth of the tree; the root is at depth 0.
+/// Counts of one depth of the tree. The root has depth 0.
 struct LevelRow {
   std::uint64_t nodes = 0;
-  std::uint64_t children = 0;  ///< of those nodes
+  std::uint64_t children = 0;  ///< children of those nodes
   std::uint64_t blocks = 0;
-  std::uint64_t triangles = 0;  ///< in those blocks
+  std::uint64_t triangles = 0;  ///< triangles in those blocks
 };
 
-/// All cells of one level of the mask.
+/// Counts of the cells of one level of the mask.
 struct MaskLevelRow {
   std::uint64_t white = 0;
-  std::uint64_t black = 0;    ///< of positive or negative winding number
-  std::uint64_t grey = 0;     ///< divided, with corners, and special ones together
-  std::uint64_t corners = 0;  ///< with a list of blocks or without
+  std::uint64_t black = 0;    ///< black and inverted cells
+  std::uint64_t grey = 0;     ///< divided cells, and leaves with corners or special
+  std::uint64_t corners = 0;  ///< leaves with corner numbers, listed or not
   std::uint64_t special = 0;
 };
 
-/// One page. What a page that cannot be read holds is not known.
+/// One page. An unreadable page has neither head nor mask.
 struct PageRow {
   std::uint32_t number = 0;
   storage::PageEntry entry{};
-  std::optional<octree::PageHead> head;      ///< of a distance page
-  std::optional<octree::MaskPageHead> mask;  ///< of a mask page
+  std::optional<octree::PageHead> head;      ///< head of a distance page
+  std::optional<octree::MaskPageHead> mask;  ///< head of a mask page
 };
 
-/// What is in a file, counted by walking its pages once.
+/// Contents of a file, counted in one pass over its pages.
 struct FileSurvey {
   IssueList issues;
-  /// Sums over all pages of either kind; empty if none can be read.
+  /// Sums over all distance pages and all mask pages. Empty if none can be read.
   std::vector<StreamRow> streams, mask_streams;
-  std::uint64_t lists = 0;            ///< cells of the mask that list blocks
-  std::uint64_t height_fields = 0;    ///< blocks that are in one
+  std::uint64_t lists = 0;            ///< listed cells of the mask
+  std::uint64_t height_fields = 0;    ///< blocks marked as height fields
   std::vector<LevelRow> levels;       ///< by depth
   std::vector<MaskLevelRow> mask;     ///< by level; empty without a mask
-  std::uint64_t unwritten_pages = 0;  ///< that hang from what cannot be read, so not in `levels`
+  std::uint64_t unwritten_pages = 0;  ///< pages below unreadable pages, not in `levels`
 };
 
-/// Shown each page in its order; false ends the walk.
+/// Called for each page in ascending order. Returns false to end the survey.
 using PageVisitor = std::function<bool(const PageRow&)>;
 
-/// memory  one page and the links to pages not yet come
+/// Surveys a file. Issues found on the way are listed and do not end the survey.
+///
+/// memory  one page and the pending links to later pages
 FileSurvey survey_file(FileParts& parts, const PageVisitor& visit);
 
 }  // namespace planetree::tools

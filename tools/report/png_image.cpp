@@ -31,8 +31,8 @@ Result<void> PngImage::write(const std::filesystem::path& path, bool may_replace
   auto file = OutputFile::create(path, may_replace);
   if (!file) return file.error();
 
-  // libpng's simplified interface keeps its longjmp to itself and returns an error
-  // flag, so no destructor of ours can be jumped over.
+  // libpng's simplified interface catches its own longjmp and returns an error flag, so that no
+  // destructor here is skipped.
   png_image encoder{};
   encoder.version = PNG_IMAGE_VERSION;
   encoder.width = width_;

@@ -8,16 +8,17 @@
 
 namespace planetree::tools {
 
+/// An sRGB colour, 8 bits a channel.
 struct Rgb {
   std::uint8_t red = 0, green = 0, blue = 0;
 };
 
-/// An opaque colour picture, 8 bits (sRGB) a channel, row 0 on top.
+/// An opaque picture. Row 0 is the top row.
 class PngImage {
  public:
   static constexpr std::uint32_t kMaxSide = 16384;
 
-  /// A picture of one colour; each side from 1 to kMaxSide pixels.
+  /// Makes a picture of one colour. Each side is 1 to kMaxSide pixels.
   PngImage(std::uint32_t width, std::uint32_t height, Rgb colour = {});
 
   std::uint32_t width() const { return width_; }
@@ -25,10 +26,10 @@ class PngImage {
   Rgb& at(std::uint32_t column, std::uint32_t row);
   Rgb at(std::uint32_t column, std::uint32_t row) const;
 
-  /// Writes the picture as a PNG file; "-" is standard output. The file bears its
-  /// name only once it is whole; on failure the destination is as it was.
+  /// Writes the picture as a PNG file; "-" is standard output. The file gets its name only when it
+  /// is complete. On failure the destination is unchanged.
   ///
-  /// errors  as OutputFile's; kNoMemory
+  /// errors  as OutputFile; kNoMemory
   Result<void> write(const std::filesystem::path& path, bool may_replace) const;
 
  private:

@@ -11,10 +11,10 @@ namespace planetree::tools {
 namespace {
 
 constexpr double kLongSidePixels = 800;
-constexpr double kMarginShare = 0.08;   // of the longer side, all around
-constexpr double kErrorPixels = 0.05;   // a twentieth of a pixel cannot be seen
+constexpr double kMarginShare = 0.08;   // margin on each side, as a share of the longer side
+constexpr double kErrorPixels = 0.05;   // tolerance of distances, too small to be visible
 constexpr double kSurfacePixels = 0.7;  // half the width of the surface's stroke
-constexpr double kBands = 14;           // at least about this many
+constexpr double kBands = 14;           // approximately; rounding gives 7 to 18
 
 struct Colour {
   double red = 0, green = 0, blue = 0;
@@ -42,7 +42,7 @@ Rgb rounded(const Colour& colour) {
   return {byte(colour.red), byte(colour.green), byte(colour.blue)};
 }
 
-/// The largest of 1, 2 or 5 times a power of ten that is at most `length`.
+/// The greatest length of the form 1, 2 or 5 times a power of ten that is at most `length`.
 double round_length(double length) {
   double power = 1;
   while (power * 10 <= length) power *= 10;
@@ -54,7 +54,7 @@ double component(const Vec3& vector, unsigned axis) {
   return axis == 0 ? vector.x : axis == 1 ? vector.y : vector.z;
 }
 
-/// Where the pixels lie.
+/// Positions of the pixels.
 class Raster {
  public:
   Raster(const ModelInfo& info, const SlicePlane& plane)
@@ -82,7 +82,7 @@ class Raster {
     top_ = middle(up_) + pixel_ * height_ / 2;
   }
 
-  /// Whether neither a pixel nor the box is beyond what double can tell.
+  /// Whether pixel size and coordinate are normal, finite doubles.
   bool usable() const { return std::isnormal(pixel_) && std::isfinite(coordinate_); }
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -112,7 +112,7 @@ std::vector<double> distances(const Raster& raster, Probe& probe, const SlicePro
   const std::size_t total = std::size_t{raster.width()} * raster.height();
   std::vector<double> found;
   found.reserve(total);
-  // A band of rows at a time, as high as lets the probe order them well.
+  // Rows are queried in batches large enough for a good order.
   constexpr std::uint32_t kRows = 64;
   if (progress) progress(0, total);
   std::vector<Vec3> points;
@@ -130,15 +130,15 @@ std::vector<double> distances(const Raster& raster, Probe& probe, const SlicePro
   return found;
 }
 
-/// How much of a pixel a stroke of half width `half` covers whose middle is
-/// `away` from the pixel's centre; all in pixels.
+/// The share of a pixel that a stroke covers. `half` is half of the stroke's width, `away` the
+/// distance of its middle from the pixel's centre; both in pixels.
 double coverage(double away, double half) { return std::clamp(half + 0.5 - away, 0.0, 1.0); }
 
 Colour shade(double distance, const SliceImage& slice) {
   const double band = std::floor(distance / slice.line_distance);
   const double bands = std::max(1.0, std::floor(slice.greatest / slice.line_distance));
   Colour colour = palette(band / bands);
-  // Every fifth line is stronger; that at 0 is the surface.
+  // Every fifth line is stronger. The line at 0 is the surface, which is drawn below.
   const double line = std::round(distance / slice.line_distance);
   if (line > 0) {
     const bool strong = std::fmod(line, 5) == 0;

@@ -9,7 +9,7 @@
 
 namespace planetree::tools {
 
-/// What a stream of a page is for.
+/// What a stream of a page holds.
 enum class StreamGroup : std::uint8_t {
   kHead,
   kNodes,
@@ -17,13 +17,14 @@ enum class StreamGroup : std::uint8_t {
   kCorners,
   kVertices,
   kIds,
-  kMask,       ///< of mask pages, but
-  kMaskLists,  ///< of lists of blocks
+  kMask,       ///< streams of mask pages other than lists
+  kMaskLists,  ///< lists of blocks in mask pages
 };
 inline constexpr std::size_t kStreamGroupCount = 8;
+/// The group's name in reports.
 [[nodiscard]] std::string_view group_name(StreamGroup group);
 
-/// One stream of a page's raw bytes, as format-spec names it; those of mask pages whose names
+/// One stream of a page's raw bytes, with its name in format-spec. Names of mask pages that
 /// distance pages have too begin with mask_.
 struct StreamRow {
   std::string_view name;
@@ -32,11 +33,11 @@ struct StreamRow {
   std::uint64_t bytes = 0;
 };
 
-/// All streams in the order in which they lie, the page head first; the rows'
-/// names and order are the same for every page of one file.
+/// All streams of a distance page in stored order, the page head first. Names and order are the
+/// same for all distance pages of a file.
 [[nodiscard]] std::vector<StreamRow> stream_rows(const octree::RawStreams& streams,
                                                  const octree::BlockShape& shape);
-/// The same of a mask page.
+/// The same for a mask page.
 [[nodiscard]] std::vector<StreamRow> stream_rows(const octree::MaskStreams& streams,
                                                  const octree::BlockShape& shape);
 

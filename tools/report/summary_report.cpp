@@ -95,7 +95,7 @@ std::string point_text(const double (&values)[3]) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", values[0], values[1], values[2]);
 }
 
-// How sides are found, in a word.
+// The rule for sides, in one word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
   if (model.unbalanced_edge_count == 0) return "crossings";
   return query::region_of(model).has_walls() ? "none" : "winding";

@@ -4,21 +4,22 @@
 
 namespace planetree::tools {
 
-/// What the system granted a thread that must not be late.
+/// What the system granted a real-time thread.
 struct RealTimeRights {
-  bool fifo = false;    ///< it runs before all ordinary threads
-  bool pinned = false;  ///< to one processor
+  bool fifo = false;    ///< SCHED_FIFO: the thread runs before all ordinary threads
+  bool pinned = false;  ///< the thread runs on one processor only
 };
 
-/// Queries for the calling thread to run first, on the machine's last processor.
+/// Requests SCHED_FIFO for the calling thread and pins it to the last processor that it may use.
 RealTimeRights become_real_time() noexcept;
 
-/// What the calling thread has cost the system so far.
+/// Page faults and context switches of a thread.
 struct ThreadUsage {
-  std::uint64_t faults = 0;  ///< of pages, major and minor
-  std::uint64_t switches_wanted = 0;
-  std::uint64_t switches_forced = 0;
+  std::uint64_t faults = 0;           ///< page faults, major and minor
+  std::uint64_t switches_wanted = 0;  ///< voluntary context switches
+  std::uint64_t switches_forced = 0;  ///< involuntary context switches
 };
+/// Those of the calling thread so far.
 ThreadUsage thread_usage() noexcept;
 
 }  // namespace planetree::tools

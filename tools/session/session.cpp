@@ -30,7 +30,7 @@ std::uint32_t in_32_bits(nanoseconds time) noexcept {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.count(), 0, kMax));
 }
 
-// Units a second; where the path begins the tip stands still.
+// Velocity in model units a second; 0 at the first tick.
 Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds period) noexcept {
   if (tick == 0) return {};
   const double per_second = 1e9 / static_cast<double>(period.count());
@@ -41,7 +41,7 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds perio
 void query_all(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
                TouchRecord& record) noexcept {
   record.rights = become_real_time();
-  // Once, so that what is touched for the first time is not counted.
+  // One query before the ticks, so that the faults of first accesses are not counted.
   probe.closest_point(path.front(), {.wait = Wait::kNever});
   sleep_until(now());
   const ThreadUsage before = thread_usage();

@@ -11,27 +11,25 @@
 
 namespace planetree::tools {
 
-/// What became of one tick. Times are from when it was due, so that one that is late shows in
-/// those after it.
+/// Result of one tick. Latency counts from the due time, so that a late tick delays later ones too.
 struct Tick {
-  std::uint32_t latency_ns = 0;  ///< from when it was due to the answer
-  std::uint32_t query_ns = 0;    ///< the ask alone
+  std::uint32_t latency_ns = 0;  ///< from the due time to the answer
+  std::uint32_t query_ns = 0;    ///< time of motion() and query
   float width = 0;               ///< upper - lower, model units
   Status status = Status::kExact;
   Side side = Side::kUnknown;
 };
 
-/// A haptic device's loop: asks where a tip is on its path, at fixed times, without waiting for
-/// pages.
+/// Record of a simulated haptic loop: real-time queries of the tip's position at fixed times.
 struct TouchRecord {
   std::vector<Tick> ticks;
-  std::vector<std::uint32_t> floor_ns;  ///< how late a thread woke that did nothing else
-  RealTimeRights rights;
-  ThreadUsage usage;  ///< of the asking thread, by its ticks
+  std::vector<std::uint32_t> floor_ns;  ///< how late an idle thread woke, for comparison
+  RealTimeRights rights;                ///< of the querying thread
+  ThreadUsage usage;                    ///< of the querying thread during its ticks
 };
 
-/// Runs a session of path.size() ticks, and beside it a thread that is due half a tick later on
-/// the same processor and does nothing: how late that is, is the machine's doing.
+/// Runs a session of path.size() ticks. An idle thread is due half a tick later on the same
+/// processor. It does nothing, so that its lateness is that of the machine.
 TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path,
                               std::chrono::nanoseconds period);
 

@@ -8,9 +8,9 @@ namespace planetree::tools {
 namespace {
 
 constexpr std::size_t kTicksAtOnePlace = 100;
-constexpr double kTurn = 0.05;           // most change of direction a tick, radians or so
-constexpr double kHeight = 1e-3;         // of the tip, as a share of the diagonal
-constexpr std::size_t kBobTicks = 1300;  // from one touch down to the next
+constexpr double kTurn = 0.05;           // maximum change of direction a tick, about in radians
+constexpr double kHeight = 1e-3;         // height of the tip, as a share of the diagonal
+constexpr std::size_t kBobTicks = 1300;  // period of the height
 
 Vec3 sum(const Vec3& a, const Vec3& b, double times) {
   return {a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
@@ -29,13 +29,13 @@ class Walk {
         step_(step * diagonal_),
         probe_(probe) {}
 
-  // To a random place at the surface.
+  // Moves to a random surface point.
   void jump() {
     at_ = probe_.closest_point(any_place()).point;
     heading_ = any_direction();
   }
 
-  // Along the surface by one step.
+  // Moves along the surface by one step.
   void go(std::size_t tick) {
     const double phase = static_cast<double>(tick % kBobTicks) / kBobTicks;
     const double height = kHeight * diagonal_ * (2.2 * std::fabs(phase - 0.5) - 0.1);
@@ -43,7 +43,7 @@ class Walk {
     const Vec3 wanted = sum(ahead.point, ahead.normal, height);
     Vec3 way = sum(wanted, at_, -1);
     const double far = length(way);
-    // The surface may be steep there: no step is longer than the others.
+    // Limits the step, because the surface may be steep there.
     if (far > step_) way = {way.x * step_ / far, way.y * step_ / far, way.z * step_ / far};
     at_ = sum(at_, way, 1);
     turn(ahead.normal, far < step_ / 4);
@@ -52,7 +52,7 @@ class Walk {
   const Vec3& at() const { return at_; }
 
  private:
-  // Keeps the heading along the surface; takes another where the way leads nowhere.
+  // Keeps the heading along the surface, or chooses another one if the tip is stuck.
   void turn(const Vec3& normal, bool stuck) {
     const Vec3 other = any_direction();
     Vec3 heading = stuck ? other : sum(heading_, other, kTurn);

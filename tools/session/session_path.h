@@ -11,14 +11,14 @@
 
 namespace planetree::tools {
 
-/// How a simulated tool tip moves. Steps are shares of the model's diagonal a tick.
+/// How a simulated tool tip moves. Steps are given as shares of the model's diagonal per tick.
 enum class TouchMotion : std::uint8_t {
-  kGlide,     ///< along the surface, 0.02 %, now a little above it and now in it
-  kScratch,   ///< the same, 0.1 %
-  kTeleport,  ///< to another place at the surface every hundred ticks, and stays there
+  kGlide,     ///< along the surface by 0.02 %, alternately a little above and below it
+  kScratch,   ///< the same by 0.1 %
+  kTeleport,  ///< jumps to another surface point every hundred ticks and stays there
 };
 
-/// As the command line has it.
+/// The motion's name on the command line.
 constexpr const char* name_of(TouchMotion motion) {
   return motion == TouchMotion::kGlide     ? "glide"
          : motion == TouchMotion::kScratch ? "scratch"
@@ -28,8 +28,8 @@ constexpr const char* name_of(TouchMotion motion) {
 inline constexpr std::array<TouchMotion, 3> kAllTouchMotions = {
     TouchMotion::kGlide, TouchMotion::kScratch, TouchMotion::kTeleport};
 
-/// Where the tip is at each tick: the same for the same model, motion and count. Queries the probe,
-/// which waits for pages.
+/// The tip's position at each tick, model units. A function of model, motion and count alone. Makes
+/// blocking queries with the probe.
 std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motion,
                              std::size_t ticks);
 

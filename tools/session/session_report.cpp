@@ -14,14 +14,14 @@
 namespace planetree::tools {
 namespace {
 
-/// Some measured values in ascending order.
+/// Measured values in ascending order.
 template <class Value>
 class Sorted {
  public:
   explicit Sorted(std::vector<Value> values) : values_(std::move(values)) {
     std::sort(values_.begin(), values_.end());
   }
-  /// The least value that this share of all do not exceed; 0 of none.
+  /// The quantile for a share in [0, 1]; 0 if there are no values.
   Value at(double share) const {
     if (values_.empty()) return {};
     const auto rank = static_cast<std::size_t>(share * static_cast<double>(values_.size()));
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> each(const TouchRecord& record, Field Tick::*field) {
 
 bool is_degraded(const Tick& tick) { return tick.status == Status::kDegraded; }
 
-/// Of the degraded ticks.
+/// Interval widths of the degraded ticks.
 std::vector<float> widths(const TouchRecord& record) {
   std::vector<float> values;
   for (const Tick& tick : record.ticks)
@@ -59,7 +59,7 @@ std::vector<float> widths(const TouchRecord& record) {
   return values;
 }
 
-/// How many ticks in a row were degraded, each time.
+/// Lengths of all runs of consecutive degraded ticks.
 std::vector<std::uint32_t> refine_ticks(const TouchRecord& record) {
   std::vector<std::uint32_t> runs;
   std::uint32_t run = 0;

@@ -9,7 +9,7 @@
 
 namespace planetree::tools {
 
-/// What a session came to, as one JSON object or in words.
+/// Report of a session, as one JSON object or as text.
 std::string touch_json(const TouchArguments& arguments, const TouchRecord& record,
                        const Model& model);
 std::string touch_words(const TouchArguments& arguments, const TouchRecord& record,

@@ -8,8 +8,8 @@
 
 namespace planetree::tools {
 
-/// A session's ticks as CSV: a header, then tick,x,y,z,latency_us,query_us,width,side,status for
-/// each; lengths in model units.
+/// A session's ticks as CSV: a header and one row per tick with its number, position, latency and
+/// query time in microseconds, interval width, side and status. Lengths in model units.
 std::string touch_ticks(std::span<const Vec3> path, const TouchRecord& record);
 
 }  // namespace planetree::tools

@@ -12,18 +12,20 @@
 
 namespace planetree::tools {
 
-/// Takes the pages that a model's asks look for, as they come, on a thread of its own.
+/// Drains a model's page trace continuously, on a thread of its own.
 class PageTraceDrain {
  public:
-  /// Most that wait to be taken: what a probe may look for in the time of some pauses.
+  /// Capacity of the page trace that the model should have: more than a probe's page lookups during
+  /// several pauses of the thread.
   static constexpr std::uint32_t kAccessesWaiting = 4096;
 
+  /// Starts the thread. `model` must outlive this.
   explicit PageTraceDrain(const Model& model);
   ~PageTraceDrain();
   PageTraceDrain(const PageTraceDrain&) = delete;
   PageTraceDrain& operator=(const PageTraceDrain&) = delete;
 
-  /// Ends the thread; all that was taken.
+  /// Ends the thread. Returns all accesses, valid as long as this object.
   const std::vector<PageAccess>& finish();
 
  private:
@@ -36,7 +38,7 @@ class PageTraceDrain {
 };
 
 /// The accesses of a session as CSV: a header, then tick,probe,page,level,access for each, where
-/// access is hit, prefetched or missed. The session's first ask is before its ticks, and left out.
+/// access is hit, prefetched or missed. Skips the session's first query, which precedes the ticks.
 std::string touch_trace(std::span<const PageAccess> accesses);
 
 }  // namespace planetree::tools

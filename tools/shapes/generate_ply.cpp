@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::size_t kVertexBytes = 3 * sizeof(float);
 constexpr std::size_t kTriangleBytes = 1 + 3 * sizeof(std::uint32_t);
-/// Records per write: large enough to make system calls and progress cheap.
+/// Records per write. Large enough to make system calls and progress cheap.
 constexpr std::uint64_t kRecordsPerPiece = 16384;
 
 std::string ply_header(const Shape& shape, std::string_view comment) {
@@ -55,7 +55,7 @@ void encode_triangle(const std::array<std::uint64_t, 3>& corners, std::byte* rec
   std::memcpy(record + 1, indices.data(), kTriangleBytes - 1);
 }
 
-/// Writes `count` records of `record_bytes`, each filled by encode(index, place).
+/// Writes `count` records of `record_bytes`. encode(index, record) fills each.
 template <class Encode>
 Result<void> write_records(std::uint64_t count, std::size_t record_bytes, OutputFile& file,
                            Progress& progress, Encode encode) {

@@ -6,14 +6,15 @@
 namespace planetree::tools {
 namespace {
 
-/// Lobes of about the radius in size look like a weathered rock.
+/// Gives lobes about as large as the radius, so that the statue looks like a weathered rock.
 constexpr double kStatueFrequency = 1.6;
 constexpr double kStatueAmplitude = 0.25;
 static_assert(kStatueAmplitude * FractalNoise::kBound < 1, "no ray may turn around");
 
-/// A point of the surface of [-1, 1]^3 to the unit sphere, with triangles of much
-/// more even size than by dividing by the length. Source: Philip Nowell, "Mapping a
-/// cube to a sphere", 2005.
+/// Maps a point of the surface of [-1, 1]^3 to the unit sphere. Triangles have much more even sizes
+/// than with a division by the length.
+///
+/// source  Philip Nowell, "Mapping a cube to a sphere", 2005
 Vec3 cube_to_sphere(const Vec3& p) {
   const double xx = p.x * p.x, yy = p.y * p.y, zz = p.z * p.z;
   return {p.x * std::sqrt(1 - yy / 2 - zz / 2 + yy * zz / 3),
@@ -23,9 +24,9 @@ Vec3 cube_to_sphere(const Vec3& p) {
 
 double square_radius(double x, double y) { return std::max(std::abs(x), std::abs(y)); }
 
-/// Along its ray, a point of [-1, 1]^2 to the unit disc: squares about the middle
-/// become circles. Unlike smooth maps it squeezes no corner flat, so that corner
-/// triangles keep an area even at billions of triangles. z is 0.
+/// Maps a point of [-1, 1]^2 to the unit disc along its ray from the origin: squares become
+/// circles. Unlike smooth maps this does not flatten the corners, so that corner triangles keep an
+/// area even with billions of triangles. z is 0.
 Vec3 square_to_disc(double x, double y) {
   const double length = std::sqrt(x * x + y * y);
   if (length == 0) return {};

@@ -6,13 +6,13 @@
 #include "tools/shapes/shape_model.h"
 #include "tools/shapes/shape_noise.h"
 
-/// Watertight shapes: a closed lattice whose points are moved without folding.
+/// Watertight shapes: closed lattices whose points are moved without folding the surface.
 namespace planetree::tools {
 
 inline constexpr double kShapeRadius = 100;
 inline constexpr double kShapeHeight = 200;
 
-/// A shape with the connections of a cube's surface: 12 n^2 triangles.
+/// A shape whose triangles are connected like those of a cube's surface: 12 n^2 triangles.
 class CubeShape : public Shape {
  public:
   explicit CubeShape(std::uint64_t n) : lattice_(n) {}
@@ -29,16 +29,16 @@ class CubeShape : public Shape {
   CubeLattice lattice_;
 };
 
-/// Radius kShapeRadius about the origin.
+/// A sphere of radius kShapeRadius about the origin.
 class Sphere final : public CubeShape {
  public:
   using CubeShape::CubeShape;
   Vec3 vertex(std::uint64_t index) const override;
 };
 
-/// The sphere with every point moved along its ray by at most about a quarter of
-/// the radius, always less than the radius: star-shaped about the origin, so it
-/// never meets itself.
+/// The sphere with every point moved along its ray from the origin, by about a quarter of the
+/// radius at most and always by less than the radius. It is star-shaped about the origin, and
+/// therefore does not intersect itself.
 class Statue final : public CubeShape {
  public:
   Statue(std::uint64_t n, std::uint64_t seed);
@@ -48,14 +48,15 @@ class Statue final : public CubeShape {
   FractalNoise noise_;
 };
 
-/// Radius kShapeRadius about the z axis, height kShapeHeight centred on the origin.
+/// A cylinder about the z axis, centred on the origin, of radius kShapeRadius and height
+/// kShapeHeight.
 class Cylinder final : public CubeShape {
  public:
   using CubeShape::CubeShape;
   Vec3 vertex(std::uint64_t index) const override;
 };
 
-/// A base of radius kShapeRadius in the plane z = 0, an apex at z = kShapeHeight:
+/// A cone with a base of radius kShapeRadius in the plane z = 0 and the apex at z = kShapeHeight:
 /// 4 n^2 triangles, n even.
 class Cone final : public Shape {
  public:

@@ -63,7 +63,7 @@ Corners CubeLattice::cap_triangle(std::uint64_t index, bool top) const {
   const std::uint64_t start = top ? top_start() : 0;
   const Corners corners = {start + grid_.index(a.i, a.j), start + grid_.index(b.i, b.j),
                            start + grid_.index(c.i, c.j)};
-  // The grid faces up; the bottom of the cube faces down.
+  // The grid faces up, but the bottom of the cube faces down.
   return top ? corners : Corners{corners[0], corners[2], corners[1]};
 }
 

@@ -13,10 +13,10 @@ namespace {
 constexpr std::array<std::string_view, kAllShapeKinds.size()> kNames = {
     "statue", "sphere", "cylinder", "cone", "terrain", "soup"};
 
-/// Far above what kMaxVertices allows any shape, far below any overflow.
+/// Far above what kMaxVertices allows for any shape, and far below an overflow.
 constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 40;
 
-/// The n for which triangles_per_square * n^2 is nearest to `triangles`; at least 1.
+/// The n, at least 1, for which triangles_per_square * n^2 is nearest to `triangles`.
 std::uint64_t lattice_size(std::uint64_t triangles, unsigned triangles_per_square) {
   const double squares = static_cast<double>(triangles) / triangles_per_square;
   return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::sqrt(squares) + 0.5));
@@ -31,7 +31,7 @@ std::unique_ptr<Shape> make_unchecked(ShapeKind kind, std::uint64_t triangles, s
     case ShapeKind::kCylinder:
       return std::make_unique<Cylinder>(lattice_size(triangles, 12));
     case ShapeKind::kCone:
-      // Only an even lattice has a middle point, which is the apex.
+      // The apex is the middle point, which only an even lattice has.
       return std::make_unique<Cone>(2 * lattice_size(triangles, 16));
     case ShapeKind::kTerrain:
       return std::make_unique<Terrain>(lattice_size(triangles, 2), seed);

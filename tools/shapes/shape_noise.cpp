@@ -10,7 +10,7 @@ struct Gradient {
   double x, y, z;
 };
 
-/// The middles of a cube's 12 edges; four appear twice to make a power of two.
+/// The midpoints of a cube's 12 edges. Four appear twice, to make a power of two.
 constexpr Gradient kGradients[16] = {
     {1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {1, 0, 1}, {-1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
     {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}, {1, 1, 0}, {0, -1, 1}, {-1, 1, 0}, {0, -1, -1}};
@@ -25,10 +25,10 @@ double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 double blend(double from, double to, double part) { return from + part * (to - from); }
 
-/// One coordinate of a position: its lattice cell's hashes and the place within.
+/// One coordinate of a position: the hashes of its lattice cell and the position within the cell.
 struct Coordinate {
   std::uint32_t low_hash, high_hash;
-  double low, high;  ///< distance from the cell's lower and (negative) upper end
+  double low, high;  ///< distance from the cell's lower end and, negative, from its upper end
   double part;
 
   /// `position` is positive and below 2^31.
@@ -42,7 +42,7 @@ struct Coordinate {
   }
 };
 
-/// The noise along the x edge of a cell whose y and z are given.
+/// The noise on an edge of a cell along x; y and z are the distances from that edge.
 double edge_noise(const Coordinate& x, double y, double z, std::uint32_t hash) {
   const Gradient& from = corner_gradient(x.low_hash ^ hash);
   const Gradient& to = corner_gradient(x.high_hash ^ hash);

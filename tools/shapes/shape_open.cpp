@@ -7,7 +7,7 @@ constexpr double kTerrainHalfSide = 100;
 constexpr double kTerrainHeight = 25;
 constexpr double kTerrainFrequency = 1.5;
 
-/// The greatest integer whose cube is at most `value`, which is below 2^60.
+/// The greatest integer with a cube of at most `value`, which must be below 2^60.
 std::uint64_t integer_cube_root(std::uint64_t value) {
   std::uint64_t root = 0;
   for (std::uint64_t bit = std::uint64_t{1} << 19; bit != 0; bit >>= 1) {

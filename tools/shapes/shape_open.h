@@ -6,11 +6,11 @@
 #include "tools/shapes/shape_model.h"
 #include "tools/shapes/shape_noise.h"
 
-/// Shapes with a boundary: they enclose nothing.
+/// Shapes with a boundary, which enclose nothing.
 namespace planetree::tools {
 
-/// A height field over the square [-100, 100]^2, heights about within [-30, 30]:
-/// 2 n^2 triangles that face up.
+/// A height field over the square [-100, 100]^2, with heights of about -30 to 30: 2 n^2 triangles
+/// that face up.
 class Terrain final : public Shape {
  public:
   Terrain(std::uint64_t n, std::uint64_t seed);
@@ -25,11 +25,11 @@ class Terrain final : public Shape {
   FractalNoise noise_;
 };
 
-/// Random triangles in [0, 1]^3 that share no vertex. Each lies in a small cube,
-/// small enough that all of them would about fill the unit cube side by side.
+/// Random triangles in [0, 1]^3 that share no vertex. Each lies in a small cube; all small cubes
+/// side by side would about fill the unit cube.
 class Soup final : public Shape {
  public:
-  /// triangles  at most 2^40
+  /// triangles  1 to 2^40
   Soup(std::uint64_t triangles, std::uint64_t seed);
 
   std::uint64_t vertex_count() const override { return 3 * triangles_; }
