@@ -31,7 +31,7 @@ struct ChunkNode {
 
 struct ChunkTree {
   std::vector<Chunk> chunks;     ///< in Morton order
-  std::vector<ChunkNode> nodes;  ///< children come after their parents
+  std::vector<ChunkNode> nodes;  ///< node 0 is the root; children come after their parents
 };
 
 /// Splits a model by the bits of Morton codes, and by triangle index where all codes are equal,
