@@ -13,8 +13,8 @@
 
 namespace planetree::octree {
 
-/// Cells with more triangles than this are divided into sectors, for which the mask is built one
-/// after the other. The mask depends on this number.
+/// Cells with more triangles than this are divided into sectors before the mask is built, which is
+/// done for each sector by itself. The mask depends on this number.
 inline constexpr std::uint64_t kSectorTriangles = 1 << 18;
 
 /// The sectors of a mask: the octree's root, divided until few triangles have the centres of their
