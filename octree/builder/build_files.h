@@ -19,40 +19,41 @@
 
 namespace planetree::octree {
 
-/// What a build has on disk beside its input and output: files without names, and the work that
-/// it keeps, if it can be resumed.
+/// The files of a build beside its input and output: temporary files without names and, for a build
+/// that can be resumed, the checkpoint.
 ///
 /// threads  as SpillFile and Checkpoint.
 class BuildFiles {
  public:
-  /// output, options  tell where.
+  /// output, options  determine the directories.
   /// calls            the system; must outlive this.
   BuildFiles(const std::filesystem::path& output, const BuildOptions& options,
              const BuildMemory& memory, storage::FileCalls& calls);
 
-  /// Of a build that can be resumed, once and before all else: takes up what there is.
+  /// Opens the checkpoint and resumes its work. For a build that can be resumed; call it once,
+  /// before everything else.
   /// errors  those of Checkpoint::open().
   Result<void> resume_work(const BuildIdentity& identity);
-  /// What is kept; null: nothing is.
+  /// The checkpoint; null if there is none.
   Checkpoint* work() { return work_.get(); }
-  /// The output is there, whole: removes what was kept, if anything was.
+  /// Removes the checkpoint, if there is one. Call it when the output is complete.
   Result<void> remove_work();
 
-  /// For the mesh while it is read.
+  /// For reading the mesh.
   MeshScratch& mesh() { return mesh_; }
-  /// For what only this process needs.
+  /// For data that only this process needs.
   storage::SpillFile& scratch() { return scratch_; }
-  /// For what a later build could go on with: triangles in order, and pages.
+  /// For data that a later build could resume: sorted triangles, and pages.
   storage::SpillFile& triangles() { return work_ ? work_->spill() : scratch_; }
   storage::SpillFile& pages() { return work_ ? work_->spill() : pages_; }
 
-  /// On disk by now, and what was taken up.
+  /// Bytes that are on disk, those of resumed work included.
   std::uint64_t disk_bytes() const;
-  /// Whether there is room for what is needed, of the output too.
+  /// Checks whether there is enough space for `need`, that of the output included.
   /// errors  those of SpaceNeed::check().
   Result<void> look_for(const SpaceNeed& need);
-  /// Where something failed or is short of room, and its path; of what no call here was about,
-  /// nothing.
+  /// The directory where something failed or is short of space, and the path; nothing if no call
+  /// here failed.
   std::optional<std::pair<BuildDirectory, std::filesystem::path>> failed_at() const;
 
  private:
@@ -61,7 +62,7 @@ class BuildFiles {
   const std::filesystem::path work_directory_;
   storage::FileCalls& calls_;
   std::unique_ptr<Checkpoint> work_;
-  bool work_failed_ = false;  // to be there, or to go
+  bool work_failed_ = false;  // to be opened, or to be removed
   std::optional<BuildDirectory> short_of_space_;
   MeshScratch mesh_;
   storage::SpillFile scratch_;

@@ -14,7 +14,7 @@
 namespace planetree::octree {
 namespace {
 
-/// To be raised with every change of the records or of what trees are made of.
+/// To be raised with every change of the records or of what trees consist of.
 constexpr int kWorkVersion = 2;
 
 constexpr std::uint64_t kSampleBlocks = 64;
@@ -29,7 +29,7 @@ Error input_error(const char* what) {
   return storage::file_error(errno, storage::FileAction::kRead, what);
 }
 
-// From the first byte to the last; of a small file all.
+// Hashes blocks that are spread from the first byte to the last; all of a small file.
 Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_t file_bytes) {
   storage::Hasher128 hasher;
   std::vector<std::byte> block(kBlockBytes);
@@ -52,7 +52,7 @@ Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_
 
 Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
                                         const BuildOptions& options, const BuildSeams& seams) {
-  // O_NONBLOCK only so that a FIFO without a writer is refused, not waited for.
+  // With O_NONBLOCK a FIFO without a writer is refused instead of waited for.
   const auto file =
       storage::FileHandle::open(seams.calls, AT_FDCWD, input.c_str(), O_RDONLY | O_NONBLOCK);
   if (!file.is_open()) return input_error("open the file");

@@ -14,18 +14,18 @@
 
 namespace planetree::octree {
 
-/// All that a build's work depends on. What an earlier build completed can be gone on with if
-/// this was the same.
+/// Everything that the work of a build depends on. A build can resume the work of an earlier one
+/// with an equal identity.
 struct BuildIdentity {
-  std::string version;  ///< of planetree and of what it writes
+  std::string version;  ///< versions of planetree, of the format and of the records
 
-  // The input. Whatever is done to a file changes its st_ctim, which nobody can put back; where
-  // that is too coarse the sample may still tell.
+  // The input. Any change to a file updates its st_ctim, which programs cannot set. Where st_ctim
+  // is too coarse, the sample may still differ.
   std::uint64_t input_bytes = 0;
-  std::uint64_t input_number = 0;    ///< its inode
-  std::int64_t changed_seconds = 0;  ///< when it last was
+  std::uint64_t input_number = 0;    ///< inode number
+  std::int64_t changed_seconds = 0;  ///< st_ctim
   std::int64_t changed_nanoseconds = 0;
-  std::uint64_t sample_low = 0, sample_high = 0;  ///< a hash of blocks all over it
+  std::uint64_t sample_low = 0, sample_high = 0;  ///< hash of blocks all over the file
 
   std::uint32_t page_bytes = 0;
   bool strict = false;
@@ -33,11 +33,11 @@ struct BuildIdentity {
   std::uint64_t sector_triangles = 0;
   std::optional<std::array<double, 6>> box;  ///< lower, then upper
 
-  /// errors  as file_error(); kBadInput: the input is no regular file.
+  /// errors  as file_error(); kBadInput: the input is not a regular file.
   static Result<BuildIdentity> of(const std::filesystem::path& input, const BuildOptions& options,
                                   const BuildSeams& seams);
 
-  /// What is not the same in `earlier`, in words; null if all is.
+  /// Says in words what differs from `earlier`; null if nothing does.
   const char* change_since(const BuildIdentity& earlier) const;
 
   bool operator==(const BuildIdentity&) const = default;

@@ -10,12 +10,12 @@
 
 namespace planetree::octree {
 
-/// Where a build can be taken apart: sizes, so that small models go the ways of large ones,
-/// and the system, so that any call can fail.
+/// What a test can replace in a build: sizes, so that small models run the code for large ones, and
+/// the system, so that any call can fail.
 struct BuildSeams {
   std::uint64_t chunk_triangles = kChunkTriangles;    ///< the tree depends on it
   std::uint64_t sector_triangles = kSectorTriangles;  ///< the mask depends on it
-  std::optional<BuildMemory> memory;                  ///< as shared out; nothing depends on it
+  std::optional<BuildMemory> memory;  ///< in place of share(); nothing depends on it
   storage::FileCalls& calls = storage::FileCalls::real();
 };
 

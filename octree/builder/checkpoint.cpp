@@ -29,7 +29,7 @@ Result<std::unique_ptr<Checkpoint>> Checkpoint::open(const std::filesystem::path
   return work;
 }
 
-// The journal is cut before the file it speaks of is.
+// The journal is truncated before the file that it refers to.
 Result<void> Checkpoint::resume(const BuildIdentity& identity, std::uint64_t journal_bytes) {
   auto file = directory_.open_file("spill");
   if (!file) return file.error();
@@ -112,7 +112,8 @@ bool Checkpoint::restore_sector(std::span<const std::byte> payload, SpillExtent&
 }
 
 Checkpoint::~Checkpoint() {
-  // Whoever has it next would only begin; and an error that got us here says more than ours.
+  // The next build could only begin anew. An error of remove() is ignored: the one that led here
+  // says more.
   if (removable_) (void)remove();
 }
 

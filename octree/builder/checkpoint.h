@@ -17,50 +17,51 @@
 
 namespace planetree::octree {
 
-/// What a build completes, kept in a directory until all is done, for another build of the same
-/// to go on with: a file with what is spilled, and a journal of what in it counts.
+/// The completed work of a build, kept in a directory until the build is done, so that another
+/// build of the same input and options can resume it. The directory holds a file with spilled data,
+/// and a journal that says what in the file counts.
 ///
-/// threads  one, but for keep(), of different patches and regions.
+/// threads  one; but any number may call keep() for different chunks and sectors.
 class Checkpoint {
  public:
-  /// Takes up what earlier builds of `identity` left at `path`, or begins there: whatever else
-  /// they left there is lost.
+  /// Resumes the work that earlier builds of `identity` left at `path`, or begins there. Other work
+  /// that earlier builds left there is lost.
   ///
   /// calls   the system; must outlive this.
   /// errors  those of storage::WorkDirectory, Journal and SpillFile.
   static Result<std::unique_ptr<Checkpoint>> open(const std::filesystem::path& path,
                                                   const BuildIdentity& identity,
                                                   storage::FileCalls& calls);
-  /// Leaves a directory behind only if there is something in it to go on with.
+  /// Leaves the directory behind only if it holds work that can be resumed.
   ~Checkpoint();
 
-  /// What is gone on with, or why nothing is: for a person.
+  /// Tells a person what work is resumed, or why none is.
   std::string start() const;
 
-  /// For all that is to be kept.
+  /// The file for all spilled data that is to be kept.
   storage::SpillFile& spill() { return *spill_; }
-  /// Of what was taken up, in spill().
+  /// Bytes of resumed work in spill().
   std::uint64_t taken_up_bytes() const { return taken_up_bytes_; }
-  /// Of everything, taken up or not.
+  /// Bytes on disk, of resumed and of new work.
   std::uint64_t disk_bytes() const { return spill_->disk_bytes() + journal_.size_bytes(); }
-  /// Whether keeping something, or getting it back, ever failed.
+  /// Whether storing or reading work ever failed.
   bool failed() const { return spill_->failed() || journal_.failed(); }
 
-  /// What was taken up; the surface only with the mesh.
+  /// The resumed work. There is a surface only if there is a mesh.
   const std::optional<OrderedMesh>& mesh() const { return mesh_; }
   const std::optional<SurfaceWork>& surface() const { return surface_; }
-  /// Once for a patch.
+  /// Takes the resumed work of a chunk; once for each chunk.
   std::optional<ChunkWork> take_chunk(std::uint32_t number);
-  /// Once.
+  /// Takes the resumed work of all sectors; once.
   std::map<std::uint32_t, BuiltSector> take_sectors() { return std::move(regions_); }
 
-  /// Keeps what a phase came to, durably, with all in spill() by now.
+  /// Stores the result of a phase durably, with everything that is in spill() so far.
   Result<void> keep(const OrderedMesh& mesh);
   Result<void> keep(const SurfaceWork& surface);
   Result<void> keep(std::uint32_t number, const ChunkWork& chunk);
   Result<void> keep(std::uint32_t number, const BuiltSector& region);
 
-  /// All is done: removes the directory.
+  /// Removes the directory. Call it when the build is done.
   Result<void> remove();
 
  private:
@@ -81,14 +82,14 @@ class Checkpoint {
   storage::Journal journal_;
   std::optional<storage::SpillFile> spill_;
   bool identified_ = false;
-  const char* refusal_ = nullptr;  // why what was there is not gone on with
+  const char* refusal_ = nullptr;  // why earlier work is not resumed
   std::optional<OrderedMesh> mesh_;
   std::optional<SurfaceWork> surface_;
   std::map<std::uint32_t, ChunkWork> chunks_;
   std::map<std::uint32_t, BuiltSector> regions_;
   std::uint32_t page_bytes_ = 0;
   std::uint64_t taken_up_bytes_ = 0;
-  bool removable_ = false;  // there is nothing to go on with
+  bool removable_ = false;  // there is no work to resume
 };
 
 }  // namespace planetree::octree

@@ -13,12 +13,12 @@
 namespace planetree::octree {
 namespace {
 
-// Of triangles: edges that patches have in common and triangles that regions do, on the most
-// crumpled surfaces at hand a third of this.
+// One edge that chunks share is expected for this many triangles, and one triangle that touches
+// another sector than its own. The most crumpled surfaces at hand have a third as many.
 constexpr std::uint64_t kTrianglesABorderEdge = 12;
 constexpr std::uint64_t kTrianglesAVisitor = 10;
-// Of pages beside vertices, a triangle: indices, corners, nodes and the mask. And of pages that
-// are nearly empty, however few triangles there are.
+// Bytes of pages per triangle, without vertices: indices, corners, nodes and the mask. And bytes of
+// pages that are nearly empty, however few triangles there are.
 constexpr std::uint64_t kPageBytes = 12;
 constexpr std::uint64_t kWideIdBytes = 4;
 constexpr std::uint64_t kMinPageBytes = 4096;
@@ -28,8 +28,8 @@ std::uint64_t beyond(std::uint64_t bytes, std::uint64_t held_bytes) {
   return bytes - std::min(bytes, held_bytes);
 }
 
-/// What of some triangles is put away, chunk by chunk: where one is, there was less room left
-/// than it takes.
+/// Bytes of triangles that are spilled, batch by batch. Where a batch is spilled, less memory was
+/// left than it takes, so that up to one batch of memory stays unused.
 std::uint64_t put_away_bytes(const MeshSize& size, const BuildMemory& memory,
                              std::uint64_t held_bytes) {
   const std::uint64_t record = Triangles::record_bytes(size.float64);
@@ -39,7 +39,7 @@ std::uint64_t put_away_bytes(const MeshSize& size, const BuildMemory& memory,
 }
 
 std::uint64_t edge_bytes(const MeshSize& size, const BuildMemory& memory) {
-  // By Euler's formula, of a surface without handles: vertices that faces do not share.
+  // By Euler's formula for a surface without handles, about 2 V - F edges belong to one face only.
   const std::uint64_t open =
       std::min(beyond(2 * size.vertices, size.triangles), 3 * size.triangles);
   const std::uint64_t bytes =
@@ -59,7 +59,7 @@ std::uint64_t position_bytes(const MeshSize& size) {
 
 std::uint64_t raw_page_bytes(const MeshSize& size) {
   const std::uint64_t vertex_bytes = position_bytes(size);
-  // A vertex is in every page that has a triangle of it.
+  // A vertex is stored in every page that has one of its triangles.
   const std::uint64_t vertices = std::min(size.vertices + size.triangles / 4, 3 * size.triangles);
   const bool wide_ids = size.triangles > std::numeric_limits<std::uint32_t>::max();
   return vertex_bytes * vertices + size.triangles * (kPageBytes + (wide_ids ? kWideIdBytes : 0)) +
@@ -82,7 +82,8 @@ SpaceNeed SpaceNeed::after_cutting(const MeshSize& part, const BuildMemory& memo
                                    std::uint64_t kept_bytes) {
   const std::uint64_t pages = raw_page_bytes(part);
   const std::uint64_t to_keep = visitor_bytes(part, memory) + beyond(pages, memory.pages_bytes);
-  // Stored pages are not longer than raw ones, and a page of 4 KiB has 40 bytes in the table.
+  // Stored pages are not longer than raw ones, and each page, of 4 KiB or more, has 40 bytes in the
+  // table.
   return {beyond(to_keep, kept_bytes), pages + pages / 64 + 2 * storage::kHeaderBytes};
 }
 

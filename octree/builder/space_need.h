@@ -11,31 +11,31 @@
 
 namespace planetree::octree {
 
-/// How much a build is going to write, foreseen: at least what it writes. Of temporary files it
-/// is about a seventh more, and where memory holds a part two chunks more; of the file two to
-/// four times as much, for how far it can be compressed is not known before.
+/// Estimate of what a build is going to write: at least what it writes. Temporary files are
+/// overestimated by about a seventh and, where memory holds a part, by two batches. The output is
+/// overestimated by a factor of two to four, since its compression is not known before.
 ///
-/// More is written of what no surface is: triangles that share few edges though they share
-/// vertices, or most of which reach through much of the model.
+/// More than the estimate is written for triangles that do not form a surface: triangles that share
+/// few edges though they share vertices, or that mostly reach through much of the model.
 struct SpaceNeed {
-  std::uint64_t temporary_bytes = 0;  ///< put away on disk, together
-  std::uint64_t output_bytes = 0;     ///< of the file
+  std::uint64_t temporary_bytes = 0;  ///< all temporary files together
+  std::uint64_t output_bytes = 0;     ///< the output file
 
-  /// Of a mesh whose faces are in some order, as nearly all are.
+  /// For a mesh whose faces are in some order, as nearly all are.
   ///
-  /// cut  only what touches a region is built: what that takes is not foreseen until it is cut
-  ///      out.
+  /// cut  only triangles that touch a region are built; what these take is not foreseen until they
+  ///      are cut out.
   static SpaceNeed before_reading(const MeshSize& size, const BuildMemory& memory,
                                   bool cut = false);
-  /// The same of one whose corners have to be sorted, which is known once it is met.
+  /// For a mesh whose corners have to be sorted, which is found out while it is read.
   ///
-  /// written_bytes  of temporary files are there.
+  /// written_bytes  bytes of temporary files that exist already.
   static SpaceNeed before_sorting(const MeshSize& size, const BuildMemory& memory,
                                   std::uint64_t written_bytes, bool cut = false);
-  /// What is still to come once the triangles are known and put away.
+  /// What is still to be written once the triangles are read.
   ///
-  /// kept_bytes  of it are there, from an earlier build,
-  /// matched     which did not leave edges to be matched.
+  /// kept_bytes  bytes of it that exist already, from an earlier build,
+  /// matched     which has matched the edges.
   static SpaceNeed after_reading(const MeshSize& size, const BuildMemory& memory,
                                  std::uint64_t kept_bytes = 0, bool matched = false,
                                  bool cut = false);
@@ -43,11 +43,11 @@ struct SpaceNeed {
   static SpaceNeed after_cutting(const MeshSize& part, const BuildMemory& memory,
                                  std::uint64_t kept_bytes);
 
-  /// Holds it against the free space of both directories, or of the device they share.
+  /// Compares the estimate with the free space of both directories, or of the device they share.
   ///
-  /// place   set if there is too little: which of the two to do something about.
-  /// errors  kNoSpace: says how much is needed, how much there is and what to do. A device that
-  ///         does not tell its free space is taken for large enough.
+  /// directory  set if there is too little space: the one to do something about.
+  /// errors     kNoSpace: the text says how much is needed, how much is free and what to do. A
+  ///            device that does not report its free space counts as large enough.
   Result<void> check(const std::filesystem::path& temporary_directory,
                      const std::filesystem::path& output_directory, storage::FileCalls& calls,
                      BuildDirectory& directory) const;

@@ -53,7 +53,7 @@ class TreeBuild {
     return write_pages();
   }
 
-  /// Where an error of run() is from.
+  /// Reports where an error of run() comes from.
   void tell_failed() const {
     const auto [extent, path] =
         files_.failed_at().value_or(writing_ ? std::pair(BuildDirectory::kOutput, output_)
@@ -96,8 +96,8 @@ class TreeBuild {
   MeshSize size_;
   BuiltModel model_;
   std::optional<TriangleRuns> whole_;
-  std::optional<TriangleRuns> part_;    // of it: what touches a region
-  std::optional<MaskSectors> regions_;  // of a watertight model
+  std::optional<TriangleRuns> part_;    // triangles of whole_ that touch the region
+  std::optional<MaskSectors> regions_;  // only if the model is watertight
   std::optional<BuiltTree> tree_;
 };
 
@@ -111,7 +111,7 @@ Result<void> TreeBuild::resume_work() {
   return taken_up;
 }
 
-// Whether there is room, before a day of work rather than after.
+// Checks the space before a day of work rather than after it.
 Result<void> TreeBuild::foresee_space() {
   const auto size = MeshSize::foresee(input_, seams_.calls);
   if (!size) return size.error();
@@ -153,7 +153,7 @@ Result<void> TreeBuild::read() {
   return keep(*mesh);
 }
 
-// And looks for space once more, now that its triangles are counted.
+// Also checks the space again, now that the triangles are counted.
 Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.frame = mesh.frame;
   model_.box = options_.box;
@@ -203,7 +203,7 @@ Result<void> TreeBuild::match_edges() {
                           part_ ? part_->extents() : std::vector<TriangleRuns::Extent>()});
 }
 
-// From here on the rest of the input is of no more use.
+// The rest of the input is not needed from here on.
 Result<void> TreeBuild::cut_out_part() {
   if (!part_) return {};
   whole_.reset();
@@ -213,7 +213,7 @@ Result<void> TreeBuild::cut_out_part() {
   model_.above = *std::move(above);
   const std::uint64_t triangles = part_->size();
   const MeshSize part{triangles, std::min(size_.vertices, 3 * triangles), size_.float64};
-  // Of what was taken up all but the triangles.
+  // Of the resumed bytes, all but those of triangles count.
   const std::uint64_t record = Triangles::record_bytes(size_.float64);
   const std::uint64_t kept_bytes = files_.work() ? files_.work()->taken_up_bytes() : 0;
   const std::uint64_t of_triangles = record * (size_.triangles + triangles);
@@ -268,7 +268,7 @@ Result<void> TreeBuild::number_pages() {
   return tree_->check();
 }
 
-// Only where winding numbers are constant off the surface.
+// Only a watertight model has a mask: its winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
   if (!regions_) return {};
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());

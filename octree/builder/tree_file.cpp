@@ -37,7 +37,7 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
   const auto& [lower, upper] = *built.box;
   const Point from(lower.x, lower.y, lower.z), to(upper.x, upper.y, upper.z);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    // -0 becomes +0.
+    // Adding 0 turns -0 into +0.
     model.region_lower[axis] = from[axis] + 0.0;
     model.region_upper[axis] = to[axis] + 0.0;
   }
@@ -67,7 +67,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress, page_count);
-  // What is beyond a wall may touch the lines that prove a sheet.
+  // Triangles beyond a wall may touch the lines that prove a height field.
   const bool has_walls = built.box && built.box->region(built.frame).has_walls();
   std::optional<HeightFieldMarks> height_fields;
   if (built.mask && !has_walls) height_fields.emplace(tree, *built.mask);

@@ -20,22 +20,22 @@
 
 namespace planetree::octree {
 
-/// A model of which all parts are built.
+/// A model whose parts are all built.
 struct BuiltModel {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
   BlockShape shape;
-  EdgeBalance edges;  ///< of the whole input, as the frame is
+  EdgeBalance edges;  ///< edges of the whole input, as the frame is
   SurfaceCut cut;
   std::optional<RegionBox> box;
   ChunkTree above;
-  std::vector<BuiltChunk> chunks;  ///< as above.patches
-  std::optional<BuiltMask> mask;   ///< of a watertight model
+  std::vector<BuiltChunk> chunks;  ///< in the order of above.chunks
+  std::optional<BuiltMask> mask;   ///< only if the model is watertight
 };
 
-/// Puts the parts together and writes the file, whole or not at all.
+/// Joins the parts and writes the file, completely or not at all.
 ///
-/// tree     of the model's patches.
+/// tree     the tree of the model's chunks.
 /// calls    the system.
 /// return   the header as written.
 /// errors   those of SpillFile and PageWriter.

@@ -13,23 +13,24 @@
 #include "octree/builder/surface/region_cut.h"
 #include "octree/builder/tree/chunk_build.h"
 
-/// What the phases of a build come to, as a later build may go on with it.
+/// Results of the phases of a build, in the form in which a later build resumes them.
 namespace planetree::octree {
 
-/// What looking at the whole surface gave.
+/// Result of going through the whole surface.
 struct SurfaceWork {
   EdgeBalance edges;
   SurfaceCut cut;
-  std::vector<TriangleRuns::Extent> kept;  ///< of a region: what touches it
+  std::vector<TriangleRuns::Extent> kept;  ///< runs of the triangles that touch a region
 };
 
-/// What building a patch gave.
+/// Result of building a chunk.
 struct ChunkWork {
   BuiltChunk built;
-  MaskSectors::Part part;  ///< of watertight models
+  MaskSectors::Part part;  ///< only if the model is watertight
 };
 
-/// How far the bytes go that records speak of; what reaches beyond the file is refused.
+/// Adds up the parts of a file that records refer to. take() refuses a record that is invalid or
+/// that refers to bytes beyond the file.
 class SpillExtent {
  public:
   explicit SpillExtent(std::uint64_t file_bytes) : file_bytes_(file_bytes) {}
@@ -38,7 +39,7 @@ class SpillExtent {
   bool take(const SurfaceWork& surface, bool float64);
   bool take(const ChunkWork& chunk, bool float64, const LinkFormat& links);
   bool take(std::uint32_t number, const BuiltSector& sector, const MaskLinkFormat& links);
-  /// Of what was taken: where it ends, and how much it is.
+  /// End of the parts that were taken, and the sum of their lengths.
   std::uint64_t end() const { return end_; }
   std::uint64_t bytes() const { return bytes_; }
 

@@ -37,7 +37,7 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   memory.pages_bytes = left / 8;
   memory.edge_bytes = left / 16;
   memory.visitor_bytes = left / 16;
-  memory.part_bytes = memory.spool_bytes;  // by then there is nothing in that
+  memory.part_bytes = memory.spool_bytes;  // the spool is empty by then
   return memory;
 }
 

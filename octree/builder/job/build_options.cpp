@@ -17,7 +17,7 @@ std::filesystem::path BuildOptions::spill_directory(const std::filesystem::path&
   return temp_directory.empty() ? output_directory(output) : temp_directory;
 }
 
-// In a directory that other outputs may share, the name tells apart those of one name.
+// Outputs of one name may share temp_directory: a hash of the output's path tells them apart.
 std::filesystem::path BuildOptions::work_directory(const std::filesystem::path& output) const {
   std::filesystem::path name = output.filename();
   if (!temp_directory.empty()) {

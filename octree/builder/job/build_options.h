@@ -9,24 +9,26 @@
 namespace planetree::octree {
 
 struct BuildOptions {
-  std::uint32_t page_bytes = 65536;  ///< of a decoded page; a power of two, 4 KiB to 256 KiB
+  std::uint32_t page_bytes = 65536;  ///< size of a decoded page: a power of two, 4 KiB to 256 KiB
   unsigned threads = 0;              ///< 0: as many as the machine has
-  /// The most that the process should have resident; 0: a quarter of the machine's
-  /// memory. What does not fit is spilled.
+  /// Maximum resident memory of the process; 0: a quarter of the machine's memory. What does not
+  /// fit is spilled.
   std::uint64_t memory_bytes = 0;
-  std::filesystem::path temp_directory;  ///< for what is spilled; empty: the output's
-  bool strict = false;                   ///< a set-aside record is an error
+  std::filesystem::path temp_directory;  ///< for spilled data; empty: that of the output
+  bool strict = false;                   ///< a skipped record is an error
   bool replace = false;                  ///< an existing output may be replaced
-  /// Only triangles that touch it are built. Sides are those of the whole input.
+  /// Builds only the triangles that touch this box. Points are inside or outside of the whole
+  /// input.
   std::optional<RegionBox> box;
-  /// What is completed is kept, and what an earlier build of the same completed is gone on with.
+  /// Keeps completed work in a checkpoint, and resumes the one that an earlier build of the same
+  /// input and options left.
   bool resume = false;
 
-  /// Where the output will be.
+  /// Directory of the output.
   static std::filesystem::path output_directory(const std::filesystem::path& output);
-  /// Where a build of this output spills.
+  /// Directory in which a build of this output spills.
   std::filesystem::path spill_directory(const std::filesystem::path& output) const;
-  /// Where one that can be resumed keeps its work: a directory of its own.
+  /// Directory that holds the checkpoint of a build of this output, and nothing else.
   std::filesystem::path work_directory(const std::filesystem::path& output) const;
 };
 

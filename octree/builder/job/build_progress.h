@@ -6,7 +6,7 @@
 
 namespace planetree::octree {
 
-/// What a build is doing.
+/// Phases of a build, in order.
 enum class BuildPhase : std::uint8_t {
   kResuming,
   kReading,
@@ -18,7 +18,7 @@ enum class BuildPhase : std::uint8_t {
   kWriting
 };
 
-/// What a person calls it, such as "matching edges".
+/// Name of a phase for messages, such as "matching edges".
 constexpr const char* name_of(BuildPhase phase) {
   switch (phase) {
     case BuildPhase::kResuming:
@@ -41,19 +41,19 @@ constexpr const char* name_of(BuildPhase phase) {
   return "writing";
 }
 
-/// Where a build reads and writes.
+/// The directories that a build reads or writes.
 enum class BuildDirectory : std::uint8_t { kInput, kTemporary, kOutput };
 
-/// Certain how far a build is, on any thread but one at a time.
+/// Receives the progress of a build. Calls come from any thread, one at a time.
 class BuildProgress {
  public:
   virtual ~BuildProgress() = default;
-  /// `done` of `total` units of this phase: bytes while reading, pages while writing, parts of
+  /// Reports `done` of `total` units of a phase: bytes while reading, pages while writing, parts of
   /// the model otherwise.
   virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
-  /// Certain, before an error is returned, which place that is about, and its path.
+  /// Reports, before an error is returned, which directory the error concerns, and the path.
   virtual void failed_at(BuildDirectory, const std::filesystem::path&) {}
-  /// Certain once, of a build that keeps its work, what it goes on with, or why with nothing.
+  /// Reports once, for a build with a checkpoint, what work it resumes, or why it resumes none.
   virtual void takes_up(const std::string&) {}
 };
 

@@ -7,9 +7,9 @@
 
 namespace planetree::octree {
 
-// What underflows may become -0, which is another position bit by bit; adding 0 makes it +0.
+// Underflow may give -0, whose bits differ from those of +0. Adding 0 makes it +0.
 Point ModelFrame::scaled(const Point& point) const {
-  // Within this range the power itself is a double and its product the same as ldexp's.
+  // Within this range the power itself is a double, and its product is the same as that of ldexp.
   constexpr int kMaxPower = 1000;
   if (std::abs(scale_exponent) <= kMaxPower)
     return (point * std::ldexp(1.0, scale_exponent)).array() + 0.0;

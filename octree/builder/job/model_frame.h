@@ -8,18 +8,18 @@
 
 namespace planetree::octree {
 
-/// What is known of a mesh once it was read: its box, its scale and its counts.
+/// What reading a mesh found: its box, its scale and its counts.
 ///
-/// The model frame is the input's scaled by a power of two, so that the longest edge of the
+/// The model frame is the input's coordinates times a power of two, so that the longest edge of the
 /// box lies in [1, 2).
 struct ModelFrame {
   std::uint64_t triangle_count = 0;
-  bool float64 = false;    ///< some coordinate of the model frame is no float32
-  int scale_exponent = 0;  ///< from the input to the model frame
-  Point input_lower = Point::Zero(), input_upper = Point::Zero();  ///< box, the input's units
+  bool float64 = false;    ///< some coordinate of the input or the model frame needs float64
+  int scale_exponent = 0;  ///< model frame = input * 2^scale_exponent
+  Point input_lower = Point::Zero(), input_upper = Point::Zero();  ///< box in the input's units
   Point input_sample = Point::Zero();  ///< corner 0 of the first triangle, the input's units
-  std::uint64_t sample_triangle = 0;   ///< its index
-  std::uint64_t skipped_count = 0;     ///< triangle indices of records that could not be used
+  std::uint64_t sample_triangle = 0;   ///< index of that triangle
+  std::uint64_t skipped_count = 0;     ///< triangle indices of skipped records
   std::uint64_t first_skipped = kNoTriangle;
   std::string first_skipped_text;
 
@@ -28,7 +28,7 @@ struct ModelFrame {
   Point upper() const { return scaled(input_upper); }
   Point centre() const { return (lower() + upper()) * 0.5; }
 
-  /// From the input to the model frame. What underflows is +0.
+  /// Converts a point of the input to the model frame. A coordinate that underflows to zero is +0.
   Point scaled(const Point& point) const;
 };
 

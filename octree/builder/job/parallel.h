@@ -11,16 +11,17 @@
 
 namespace planetree::octree {
 
-/// Calls work(i), which returns Result<void>, for every i below `count`, about in order. A
-/// thread of the calling thread's TBB arena works on one at a time.
+/// Calls work(i), which returns Result<void>, for every i below `count`, roughly in order. Uses the
+/// calling thread's TBB arena; each thread works on one i at a time.
 ///
-/// return  an error of one of them: others may not have been called then.
+/// return  the error of one of the calls; no further call begins after it.
 template <class Work>
 Result<void> for_each_in_parallel(std::size_t count, const Work& work) {
   std::mutex mutex;
   std::optional<Error> failure;
   std::size_t next = 0;
-  // Not the index that TBB gives, but the next: what is worked on at a time is close together.
+  // Takes the next index instead of the one that TBB gives, so that the indices in work at one time
+  // are close together.
   const auto take = [&]() -> std::optional<std::size_t> {
     const std::lock_guard lock(mutex);
     if (failure) return {};

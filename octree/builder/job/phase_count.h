@@ -7,10 +7,10 @@
 
 namespace planetree::octree {
 
-/// Counts the parts of a phase that are done. Any number of threads may add().
+/// Counts and reports the completed parts of a phase. Any number of threads may call add().
 class PhaseCount {
  public:
-  /// done  already, of `total`.
+  /// done  parts that are complete already, of `total`.
   PhaseCount(BuildProgress& progress, BuildPhase phase, std::uint64_t total, std::uint64_t done = 0)
       : progress_(progress), phase_(phase), total_(total), done_(done) {
     progress_.progress(phase_, done_, total_);

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <vector>
 
-/// Values as the bytes of a record, and back. What a struct consists of is said once for both
-/// ways, in a function beside it that a RecordWriter or a RecordReader is given to:
+/// Converts values to the bytes of a record and back. The fields of a struct are listed once for
+/// both directions, in a function beside it that takes a RecordWriter or a RecordReader:
 ///
 ///     template <class Record, class Value>
 ///       requires std::same_as<std::remove_const_t<Value>, Thing>
@@ -70,7 +70,8 @@ class RecordWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Once a record turns out to be too short, everything else is left as it was.
+/// Reads values from a record. If the record is too short, fits() is false and the values are of no
+/// use.
 class RecordReader {
  public:
   explicit RecordReader(std::span<const std::byte> bytes) : left_(bytes) {}
@@ -79,7 +80,7 @@ class RecordReader {
   void operator()(Values&... values) {
     (get(values), ...);
   }
-  /// Whether it had what was asked for, and nothing else.
+  /// Whether the record had all values that were read, and no further bytes.
   bool fits() const { return good_ && left_.empty(); }
 
  private:
@@ -125,7 +126,7 @@ class RecordReader {
     text.resize(get_count());
     get_bytes(text.data(), text.size());
   }
-  // Nothing takes less than a byte.
+  // Every element takes at least one byte, so a greater count is wrong.
   std::size_t get_count() {
     std::uint64_t count = 0;
     get(count);

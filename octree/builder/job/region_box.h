@@ -7,19 +7,20 @@
 
 namespace planetree::octree {
 
-/// A box of the input's space: finite, `upper` nowhere below `lower`.
+/// A box in the input's units. Coordinates are finite; those of `upper` are not below those of
+/// `lower`.
 struct RegionBox {
   Vec3 lower, upper;
 
-  /// errors  kBadArgument: this is no box.
+  /// errors  kBadArgument: a coordinate is not finite, or `upper` is below `lower`.
   Result<void> check() const;
-  /// errors  kBadArgument: it is nowhere near a mesh of that frame.
+  /// errors  kBadArgument: the box has no point in common with the box of the mesh.
   Result<void> check_near(const ModelFrame& frame) const;
-  /// In the model frame of a mesh that it is near to.
+  /// The region in the model frame. The box must have a point in common with that of the mesh.
   Region region(const ModelFrame& frame) const;
 };
 
-/// That no triangle of a mesh touches a box.
+/// The error that no triangle of a mesh touches a box.
 Error nothing_touches(const ModelFrame& frame);
 
 }  // namespace planetree::octree

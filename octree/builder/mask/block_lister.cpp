@@ -13,7 +13,7 @@
 namespace planetree::octree {
 namespace {
 
-/// The blocks near a cell, and the octants of it that they touch.
+/// The blocks near a cell, and the octants of the cell that they touch.
 class NearBlocks {
  public:
   NearBlocks(const ClippedGrid& grid, const GridCell& cell)
@@ -39,7 +39,7 @@ class NearBlocks {
     ++count_;
   }
 
-  // False: there are more than kMaxListed.
+  // False if there are more than kMaxListed.
   bool list(MaskBlocks& blocks) {
     drop_untouched();
     if (count_ > kMaxListed) return false;
@@ -69,7 +69,7 @@ class NearBlocks {
 
   const Point lower_, upper_;
   const OctantCodes codes_;
-  OctantOverlap overlap_;  // by places among those found
+  OctantOverlap overlap_;  // indices are those in found_
   std::array<std::pair<std::uint32_t, std::uint8_t>, kCapacity> found_;  // links, octants
   unsigned count_ = 0;
 };

@@ -8,21 +8,21 @@
 
 namespace planetree::octree {
 
-/// Finds the blocks of a tree that have triangles in a cell of its mask, and in which octants of
-/// the cell: so that who comes to the cell need not go down the tree to them.
+/// Finds the blocks of a tree that have triangles in a cell of its mask, and the octants of the
+/// cell that they touch, so that a query in the cell need not traverse the tree to them.
 class BlockLister {
  public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this.
   BlockLister(const TreeInfo& tree, const ClippedGrid& grid) : tree_(tree), grid_(grid) {}
 
   enum class Outcome {
     kListed,
     kTooMany,  ///< more than kMaxListed
-    kLost,     ///< a page could not be had
+    kLost,     ///< a page could not be read
   };
-  /// The blocks in the order of their links.
+  /// Lists the blocks in the order of their links.
   ///
-  /// cell    of a level above kLevels.
+  /// cell    its level is less than kLevels.
   /// blocks  undefined unless kListed.
   Outcome list(const GridCell& cell, const PageReader& pages, MaskBlocks& blocks) const;
 

@@ -31,7 +31,7 @@ Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& ru
   if (!alone) {
     above_ = *std::move(above);
     above_plan_ = plan_mask(above_, page_bytes_);
-    // The regions' roots are counted with the cells above.
+    // The roots of the sectors are counted with the cells above.
     cell_count_ += above_.entries.size();
   }
   number_pages();
@@ -67,7 +67,7 @@ void BuiltMask::count_cells() {
   }
 }
 
-// Families above have larger cells, which come first.
+// Families above the sectors divide larger cells, so that their pages come first.
 void BuiltMask::number_pages() {
   for (std::uint32_t i = 0; i < above_plan_.pages.size(); ++i)
     pages_.push_back({above_plan_.pages[i].octcode, kAbove, i});

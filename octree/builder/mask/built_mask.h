@@ -15,37 +15,37 @@
 
 namespace planetree::octree {
 
-/// The mask of a region, its pages put away.
+/// The mask of a sector, with its pages spilled.
 struct BuiltSector {
   std::vector<SpilledPage> pages;
-  std::uint32_t family = 0;  ///< link to the root's, by the place of its page
+  std::uint32_t family = 0;  ///< link to the root's family, with the page's index in `pages`
   std::uint64_t cell_count = 0;
   unsigned levels = 0;
   SectorRoot root;
 };
 
-/// The pages of a mask: those of its regions as they were put away, and those of the cells
-/// above. A mask of one region has that region's alone.
+/// The pages of a mask: the spilled pages of its sectors, and the pages of the cells above them. A
+/// mask of one sector has the pages of that sector only.
 class BuiltMask {
  public:
-  /// float64  planes are stored as vertices are.
-  /// file     takes the regions' pages; must outlive this.
+  /// float64  planes are stored in the same type as vertices.
+  /// file     receives the pages of the sectors; must outlive this.
   BuiltMask(std::uint32_t page_bytes, bool float64, storage::SpillFile& file)
       : page_bytes_(page_bytes), float64_(float64), file_(file) {}
 
-  /// Takes a region that was built before, its pages being in the file; before build().
+  /// Takes a sector that was built before, with its pages in the file. Call it before build().
   void resume(std::uint32_t number, BuiltSector sector) {
     known_.insert_or_assign(number, std::move(sector));
   }
 
-  /// Given each region that triangles touch once it is built; on any thread.
+  /// Called on any thread with each sector that triangles touch, once it is built.
   using SectorCall = std::function<Result<void>(std::uint32_t number, const BuiltSector& sector)>;
 
-  /// Builds it, once, but for what was taken up.
+  /// Builds the mask except for the sectors that were resumed. Call it once.
   ///
   /// tree    see build_mask().
-  /// errors  those of build_mask(), SpillFile and `done`; kBadArgument when links of 32 bits cannot
-  ///         tell so many pages apart: 2^19 of 64 KiB.
+  /// errors  those of build_mask(), SpillFile and `done`; kBadArgument: more pages than links of 32
+  ///         bits can address, 2^19 for pages of 64 KiB.
   Result<void> build(const MaskSectors& sectors, const TriangleRuns& runs, const BuiltTree* tree,
                      const SectorCall& done);
 
@@ -53,20 +53,20 @@ class BuiltMask {
   std::uint64_t cell_count() const { return cell_count_; }
   unsigned levels() const { return levels_; }
 
-  /// A page by its number within the mask; any number of threads.
-  /// first_page  of the mask in its file.
+  /// Makes a page, given its number within the mask. Any number of threads.
+  /// first_page  number of the mask's first page in the file.
   Result<FilePage> encode(std::uint32_t number, std::uint32_t first_page) const;
 
  private:
   static constexpr std::uint32_t kAbove = ~std::uint32_t{0};
   struct Region {
     BuiltSector built;
-    std::vector<std::uint32_t> numbers;  // of its pages
+    std::vector<std::uint32_t> numbers;  // page numbers within the mask
   };
   struct Page {
     std::uint64_t octcode = 0;
     std::uint32_t sector = kAbove;
-    std::uint32_t index = 0;  // among the region's
+    std::uint32_t index = 0;  // among the pages of the sector
   };
 
   Result<BuiltSector> put_sector_away(const MaskTree& mask, const MaskRoot& root);

@@ -20,19 +20,19 @@
 namespace planetree::octree {
 namespace {
 
-/// Boxes of more records than this are those of blocks far larger than others.
+/// Maximum number of records to visit. Boxes with more belong to blocks far larger than others.
 constexpr std::uint64_t kMaxRecords = 1024;
-/// The ends of a prism are so many of its widths beyond its block; and its sides so little.
+/// The ends of a prism are this many of its widths beyond its block, and its sides this share.
 constexpr double kEnds = 1;
 constexpr double kSides = 0x1p-16;
-/// What is between the ends is so far from them that no rounding brings it beyond.
+/// Minimum distance from the ends of what is between them, so that no rounding brings it beyond.
 constexpr double kClear = HeightField::kRim / 2;
-/// With larger coordinates a rim would be lost to rounding.
+/// With larger coordinates, a rim would be lost to rounding.
 constexpr double kLargest = 0x1p16;
-/// Sides of triangles shorter than this share of their distance are lost to it.
+/// Edges shorter than this share of their triangle's distance are lost to rounding.
 constexpr double kShortest = 0x1p-24;
 
-/// A box about a block, upright on it, and the line through its middle.
+/// A box around a block, upright on it, and the line through its middle.
 class Prism {
  public:
   explicit Prism(const BlockView& block) : origin_(block.vertex(0)) {
@@ -62,7 +62,7 @@ class Prism {
     middle_ = (lower_ + upper_) * 0.5;
   }
 
-  /// From the block's first vertex, the last component towards its front.
+  /// Coordinates from the block's first vertex; the last component points to the block's front.
   Point rotated(const Point& point) const { return rotated_ * (point - origin_); }
 
   Triangle rotated(const Triangle& triangle) const {
@@ -73,19 +73,19 @@ class Prism {
     return rotated_.row(2).squaredNorm() > 0 &&
            (box_centre().cwiseAbs() + box_half()).maxCoeff() < kLargest;
   }
-  /// The end in front of the middle line, and the one behind.
+  /// The middle line, from the end in front to the end behind.
   PerturbedSegment middle_line() const {
     Point from = middle_, to = middle_;
     from[2] = upper_[2];
     to[2] = lower_[2];
     return {back(from), back(to)};
   }
-  /// The box around it, model frame.
+  /// Centre of the axis-parallel box around the prism, model frame.
   Point box_centre() const { return back(middle_); }
   Point box_half() const { return rotated_.transpose().cwiseAbs() * ((upper_ - lower_) * 0.5); }
 
-  /// Whether a turned triangle does not meet it, or is between the ends with its front towards the
-  /// first.
+  /// Whether a triangle in the prism's frame does not meet the prism, or is between the ends with
+  /// its front towards the first end and meets the limits of HeightField.
   bool suits(const Triangle& rotated) const {
     const auto& [a, b, c] = rotated;
     if ((a.cwiseMin(b).cwiseMin(c).array() > upper_.array()).any() ||
@@ -128,7 +128,7 @@ class Prism {
   Point lower_ = Point::Zero(), upper_ = Point::Zero(), middle_ = Point::Zero();
 };
 
-/// Whether all triangles of a block suit a prism, if they meet it.
+/// Whether all triangles of a block that meet a prism suit it.
 bool all_suit(const BlockView& block, const Prism& prism, const PrismTriangles& found) {
   for (unsigned unsure = found.met & ~found.rising; unsure != 0; unsure &= unsure - 1)
     if (!prism.suits(
@@ -137,8 +137,8 @@ bool all_suit(const BlockView& block, const Prism& prism, const PrismTriangles& 
   return true;
 }
 
-/// The winding number of a point that no triangle touches; nothing where the mask does not tell
-/// it, or too little.
+/// The winding number of a point that no triangle touches. Nothing where the mask does not tell it;
+/// of a black or inverted cell the mask tells only the sign.
 std::optional<std::int64_t> winding_at(const TreeInfo& tree, const MaskInfo& mask,
                                        const Point& point, const PageReader& pages,
                                        TraversalStats& work) {
@@ -185,7 +185,7 @@ bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader
   TraversalStats work;
   const bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
                             .run_while(kMaxRecords, look_at, [&] { return suits; });
-  // One crossing more behind than in front.
+  // The winding number behind is one more than that in front.
   return complete && suits && difference == -1 &&
          winding_at(tree_, mask_, line.from, pages, work) == 0;
 }

@@ -6,17 +6,17 @@
 
 namespace planetree::octree {
 
-/// Tells which blocks are in a sheet (octree/nearest/height_field.h).
+/// Finds the blocks that are in a height field (octree/nearest/height_field.h).
 ///
-/// It is proven for a box around the block: nothing touches its two ends, of which the first is
-/// outside; all triangles in it rise towards the first, so that crossings only add up; and a line
-/// through the middle crosses one of them.
+/// The proof is for a prism, a box around the block. Nothing touches its two ends, and the first
+/// end is outside of the solid. All triangles in it rise towards the first end, so that crossings
+/// only add up. A line through the middle crosses one of them.
 class HeightFieldFinder {
  public:
-  /// Of a whole watertight model. Both must outlive this.
+  /// tree, mask  of a whole watertight model; both must outlive this.
   HeightFieldFinder(const TreeInfo& tree, const MaskInfo& mask) : tree_(tree), mask_(mask) {}
 
-  /// Whether the block's own triangles do not rule it out: most of the proof's failures are theirs.
+  /// Whether the block's own triangles do not rule it out. Most proofs that fail do so by these.
   static bool may_be_height_field(const BlockView& block);
 
   /// block   need not be in a frame of `pages`.

@@ -33,7 +33,8 @@ Result<void> HeightFieldMarks::mark(std::uint32_t number, FilePage& page) {
     if (HeightFieldFinder::may_be_height_field(block)) promising.emplace_back(i, block);
     slot += block.slots();
   }
-  // Where few blocks may be, their neighbours prove most of those not to be.
+  // Where few blocks of a page pass, the triangles of neighbours make the proof fail for most of
+  // these.
   if (2 * promising.size() < header.block_count) promising.clear();
   const HeightFieldFinder finder(info_, mask_);
   for (const auto& [i, block] : promising)

@@ -15,15 +15,16 @@
 
 namespace planetree::octree {
 
-/// Marks the blocks that are in sheets in the pages of a watertight model, all of which is built
-/// but not written. What is marked depends on the model alone.
+/// Marks the blocks that are in height fields, in the pages of a watertight model that is built but
+/// not written. The marks depend on the model alone.
 /// threads  any number.
 class HeightFieldMarks {
  public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this.
   HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask);
 
-  /// Marks those of a distance page, by its number.
+  /// Marks the blocks of a distance page.
+  /// number  page number in the file.
   /// errors  those of TreeFrames.
   Result<void> mark(std::uint32_t number, FilePage& page);
 
@@ -31,10 +32,10 @@ class HeightFieldMarks {
   struct Line {
     alignas(kSlotBytes) std::byte bytes[kSlotBytes];
   };
-  // What one thread works with.
+  // Working memory of one thread.
   struct Desk {
     TreeFrames frames;
-    std::vector<Line> page;  // a copy: walks may take its frame
+    std::vector<Line> page;  // a copy: traversals may evict its frame
   };
 
   const TreeInfo info_;

@@ -15,7 +15,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Counts the regions' least corners, and puts their roots together.
+/// Counts the winding numbers at the sectors' least corners, and joins the sectors' roots.
 class MaskJoin {
  public:
   explicit MaskJoin(const MaskSectors& sectors)
@@ -24,7 +24,7 @@ class MaskJoin {
         min_(sectors_.size()),
         grey_(sectors_.size()) {
     count_corners(0, sectors.winding());
-    // Octants come after the region they divide.
+    // Octants come after the sector that they divide.
     for (std::size_t at = sectors_.size(); at-- > 0;) {
       const MaskSectors::Region& sector = sectors_[at];
       grey_[at] = sector.touched;
@@ -33,7 +33,7 @@ class MaskJoin {
     }
   }
 
-  // At a region's least corner.
+  // The winding number at the least corner of a sector.
   std::int64_t winding(std::size_t at) const { return min_[at]; }
 
   MaskTree run(const std::vector<SectorRoot>& roots) const {
@@ -95,10 +95,10 @@ class MaskJoin {
   std::vector<bool> grey_;
 };
 
-/// Lists blocks for the cells of regions.
+/// Lists blocks for the cells of sectors.
 class CellBlocks {
  public:
-  // tree  null: it lists none.
+  // tree  null: lists none.
   CellBlocks(const BuiltTree* tree, const ClippedGrid& grid) {
     if (!tree) return;
     frames_.emplace(*tree);
@@ -124,7 +124,8 @@ class CellBlocks {
 
 SectorRoot SectorRoot::of(const MaskTree& mask, std::size_t sector) {
   SectorRoot root{mask.entries[0], {}};
-  // Roots go with the cells above, whose pages hold no lists: of leaves so large few are asked.
+  // Roots are stored with the cells above, whose pages hold no lists: few queries reach leaves so
+  // large.
   if (root.entry.kind == MaskEntry::Kind::kListed) root.entry.kind = MaskEntry::Kind::kCorners;
   if (root.entry.kind == MaskEntry::Kind::kSpecial) root.special = mask.specials[0];
   if (root.entry.kind == MaskEntry::Kind::kNode) {

@@ -12,7 +12,7 @@
 
 namespace planetree::octree {
 
-/// What the cells above know of a region's mask: its root.
+/// What the cells above a sector know of its mask: the root.
 struct SectorRoot {
   MaskEntry entry;
   std::optional<SpecialCell> special;
@@ -20,27 +20,27 @@ struct SectorRoot {
   static SectorRoot of(const MaskTree& mask, std::size_t sector);
 };
 
-/// Takes the mask of a region, its root the first entry; on any thread.
+/// Receives the mask of a sector, with its root as the first entry; on any thread.
 using SectorSink =
     std::function<Result<void>(std::size_t sector, const MaskTree& mask, const SectorRoot& root)>;
 
-/// The root of a region whose mask was built before; null: it was not.
+/// Returns the root of a sector whose mask was built before, or null.
 using KnownRoots = std::function<const SectorRoot*(std::size_t sector)>;
 
-/// Makes the mask of a model, region by region: winding numbers are known outside the model's
-/// box, and carried from there to the least corner of every region by the crossings of regions'
-/// edges.
+/// Builds the mask of a model, sector by sector. The winding number is known outside of the model's
+/// box. It is carried from there to the least corner of every sector, by the crossings of the
+/// sectors' edges.
 ///
-/// regions  of a watertight model, all of whose triangles were added.
-/// tree     whose blocks cells list; null: they list none.
-/// known    `take` is not given their masks.
-/// return   the cells above the regions, and the regions' roots.
-/// errors   those of reading what was spilled, of TreeFrames, and of `take`.
+/// sectors  those of a watertight model, with all its triangles added.
+/// tree     the blocks that cells list are its blocks; null: cells list none.
+/// known    `take` is not called for sectors whose roots are known.
+/// return   the cells above the sectors, and the sectors' roots.
+/// errors   those of reading spilled data, of TreeFrames, and of `take`.
 /// Uses the calling thread's TBB arena; the result depends on the model alone.
 ///
-/// source  white, black and grey cells: "Out-of-core real-time haptic interaction
-///         on very large models", section 3.1; winding numbers at corners, in
-///         place of parity along a line, are ours.
+/// source  white, black and grey cells: "Out-of-core real-time haptic interaction on very large
+///         models", section 3.1; winding numbers at corners, in place of parity along a line, are
+///         ours.
 Result<MaskTree> build_mask(const MaskSectors& sectors, const TriangleRuns& runs,
                             const BuiltTree* tree, const KnownRoots& known, const SectorSink& take);
 

@@ -79,7 +79,7 @@ class Streams {
 
   std::uint32_t link_count() const { return static_cast<std::uint32_t>(page_links_.size()); }
 
-  // Returns where the links to other pages are.
+  // Returns the offset of the links to other pages.
   std::size_t write(StreamWriter& writer, bool float64) const {
     writer.byte_split(kinds_);
     writer.byte_split(grey_);

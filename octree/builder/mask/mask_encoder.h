@@ -10,16 +10,16 @@
 
 namespace planetree::octree {
 
-/// Makes the raw bytes of mask pages, as octree/page/mask_decoder.h reads them. Any
-/// number of threads; the bytes depend on the arguments alone.
+/// Makes the raw bytes of mask pages, as octree/page/mask_decoder.h reads them. Any number of
+/// threads; the bytes depend on the arguments alone.
 class MaskEncoder {
  public:
-  /// first_page  of the mask in its file.
-  /// float64     planes are stored as vertices are.
+  /// first_page  number of the mask's first page in the file.
+  /// float64     planes are stored in the same type as vertices.
   MaskEncoder(const MaskTree& mask, const MaskPlan& plan, std::uint32_t first_page, bool float64)
       : mask_(mask), plan_(plan), first_page_(first_page), float64_(float64) {}
 
-  /// page  of the plan.
+  /// page  index in the plan.
   EncodedPage encode(std::size_t page) const;
 
  private:

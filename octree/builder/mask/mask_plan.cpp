@@ -9,7 +9,7 @@
 namespace planetree::octree {
 namespace {
 
-/// A node whose family is about to be placed, and its cell.
+/// A node whose family is to be put into a page, and its cell.
 struct Divided {
   std::uint32_t node = 0;
   GridCell cell;
@@ -64,7 +64,7 @@ class MaskPlanner {
   }
   bool has_family(std::uint32_t at) const { return members(at) > 0; }
 
-  // Slots of all that is below each node. Children come after their parents.
+  // Slots of everything below each node. Children come after their parents.
   void measure() {
     below_.resize(mask_.entries.size());
     for (auto at = static_cast<std::uint32_t>(below_.size()); at-- > 0;) {
@@ -75,8 +75,7 @@ class MaskPlanner {
     }
   }
 
-  // Indices families breadth first while there is room. Returns those for which
-  // there was none.
+  // Puts families into a page, breadth first, while they fit. Returns those that do not fit.
   std::vector<Divided> fill(Draft& draft) const {
     std::vector<Divided> queue, left;
     std::uint32_t slots = 0;
@@ -107,7 +106,7 @@ class MaskPlanner {
     return left;
   }
 
-  // Starts new pages with families, as many in each as fit with all below them.
+  // Starts new pages with families, as many in each as fit together with everything below them.
   void pack(const std::vector<Divided>& families) {
     std::uint64_t slots = 0;
     bool open = false;

@@ -12,8 +12,8 @@
 namespace planetree::octree {
 namespace {
 
-/// Cells are not divided any more where that has so many times over left more than half of
-/// the triangles together: their centres coincide.
+/// Division ends after more than this many steps in a row that each leave more than half of the
+/// triangles together: their centres coincide.
 constexpr unsigned kMaxWasted = 3;
 
 }  // namespace
@@ -38,7 +38,7 @@ Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const T
   }
   for (unsigned octant = 0; octant < 8; ++octant) {
     const Stretch& part = (*octants)[octant];
-    // Around what is asked for all centres are in one octant however far apart they are.
+    // At the rim of the region, all centres may be in one octant however far apart they are.
     const bool told_apart = part.size <= stretch.size / 2 || !all_requested;
     const auto divided = divide(first + octant, part, runs, most, told_apart ? 0 : wasted + 1);
     if (!divided) return divided;
@@ -70,7 +70,7 @@ std::size_t MaskSectors::sector_of_code(std::uint64_t code) const {
   return at;
 }
 
-/// What one part of the model adds to the regions.
+/// Collects what one part of the model adds to the sectors.
 class MaskSectors::Visit {
  public:
   explicit Visit(const MaskSectors& sectors) : sectors_(sectors), visitors_(sectors.float64_) {}
@@ -85,7 +85,7 @@ class MaskSectors::Visit {
       touch(0, boxed);
   }
 
-  // But for the visitors.
+  // Everything but the visitors.
   Part part() const {
     Part part;
     for (const auto& [at, rise] : rises_) part.rises.push_back({at, rise});
@@ -114,21 +114,21 @@ class MaskSectors::Visit {
     if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, sector.cell, rise);
   }
 
-  // Whether no other region is touched, nor the own one's edges.
+  // Whether the triangle touches no other sector, and no edge of its own sector.
   bool is_inside_own(const BoxedTriangle& triangle) const {
     const GridCell& cell = sectors_.sectors_[own_].cell;
     return (triangle.least.array() > sectors_.grid_.lower(cell).array()).all() &&
            (triangle.greatest.array() < sectors_.grid_.upper(cell).array()).all();
   }
 
-  // Triangles in order mostly touch the region that the one before did.
+  // Triangles in order mostly touch the same sector as the one before.
   std::array<std::int64_t, 8>& rise_of(std::size_t at) {
     if (at != last_ || !last_rise_) last_rise_ = &rises_[static_cast<std::uint32_t>(at)];
     last_ = at;
     return *last_rise_;
   }
 
-  // Edges are in sides across two axes.
+  // An edge lies in sides across two axes.
   static bool may_cross_edges(const BoxedTriangle& triangle, const Point& lower,
                               const Point& upper) {
     return (triangle.least.array() <= lower.array() || triangle.greatest.array() >= upper.array())
@@ -141,13 +141,14 @@ class MaskSectors::Visit {
   const MaskSectors& sectors_;
   std::size_t own_ = 0;
   storage::SpillKey key_;
-  std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by region
-  std::size_t last_ = 0;                                        // whose rise was asked for
+  std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by sector
+  std::size_t last_ = 0;                                        // sector that last_rise_ is of
   std::array<std::int64_t, 8>* last_rise_ = nullptr;
   Triangles visitors_;
 };
 
-// Crossings along the cell's edges, each from the corner before it on the way from the least.
+// Adds the crossings along the cell's edges: each corner is reached from the corner before it on
+// the way from the least corner.
 void MaskSectors::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
                                   std::array<std::int64_t, 8>& rise) const {
   std::array<std::int64_t, 8> steps{};
@@ -194,7 +195,7 @@ Result<Triangles> MaskSectors::read(std::size_t at, const TriangleRuns& runs) co
   const GridCell& cell = sectors_[at].cell;
   const auto from = runs.cut(cell.first_code());
   if (!from) return from.error();
-  // The codes of a cell are as many as the finest cells in it.
+  // A cell has as many codes as there are finest cells in it.
   const auto to = runs.cut(cell.first_code() + (std::uint64_t{1} << 3 * (kLevels - cell.level)));
   if (!to) return to.error();
   const auto own = runs.read(*from, *to);
@@ -213,7 +214,7 @@ Result<Triangles> MaskSectors::read(std::size_t at, const TriangleRuns& runs) co
   return joined(*own, visitors, at);
 }
 
-// By key; of a region's own triangles those that touch it.
+// Merges the triangles by key. Of a sector's own triangles, takes those that touch it.
 Triangles MaskSectors::joined(const Triangles& own, const Triangles& visitors,
                               std::size_t sector) const {
   const GridCell& cell = sectors_[sector].cell;

@@ -13,43 +13,43 @@
 
 namespace planetree::octree {
 
-/// Cells of fewer triangles are not divided before the mask is built, which then takes one of
-/// them at a time; the mask does depend on this number.
+/// Cells with more triangles than this are divided into sectors before the mask is built, which is
+/// done for each sector by itself. The mask depends on this number.
 inline constexpr std::uint64_t kSectorTriangles = 1 << 18;
 
-/// The octree's root, divided until few triangles have their centres in a cell: the regions,
-/// in which a mask is built one by one.
+/// The sectors of a mask: the octree's root, divided until few triangles have the centres of their
+/// boxes in a cell. The mask is built for each sector by itself.
 ///
-/// threads  any number may add parts of the model; then any number may read regions.
+/// threads  any number may add parts of the model; then any number may read sectors.
 class MaskSectors {
  public:
   struct Region {
     GridCell cell;
-    std::uint32_t first_octant = 0;  ///< of eight regions; 0 in one that is not divided
-    /// Of one that is not divided: whether triangles touch it, if some of it is asked for, and
-    /// the winding number at each corner less that at the least.
+    std::uint32_t first_octant = 0;  ///< first of eight sectors; 0 if it is not divided
+    /// If it is not divided: whether triangles touch it and some of it is in the region, and the
+    /// winding number at each corner minus that at the least corner.
     bool touched = false;
     std::array<std::int64_t, 8> rise{};
 
     bool divided() const { return first_octant != 0; }
   };
 
-  /// What a triangle, or many, add to a region's rise.
+  /// What one or more triangles add to a sector's rise.
   struct Rise {
     std::uint32_t sector = 0;
     std::array<std::int64_t, 8> corners{};
   };
-  /// What a part of the model adds to the regions.
+  /// What a part of the model adds to the sectors.
   struct Part {
-    std::vector<Rise> rises;              ///< of regions it touches
-    storage::SpillRuns::Extent visitors;  ///< triangles that touch other regions than their own
+    std::vector<Rise> rises;              ///< of the sectors that it touches
+    storage::SpillRuns::Extent visitors;  ///< triangles that touch other sectors than their own
   };
 
-  /// lower       of the model's box, model frame.
-  /// known       where sides will be asked for: all triangles that touch it are in the model.
-  /// winding     number at the least corner of the root, as far as that is in `known`.
-  /// held_bytes  of triangles that touch other regions than their own may stay in memory.
-  /// file        takes the rest; must outlive this.
+  /// lower       least corner of the model's box, model frame.
+  /// known       region in which sides are needed; all triangles that touch it are in the model.
+  /// winding     number at the least corner of the root, clamped to `known`.
+  /// held_bytes  maximum, in memory, of triangles that touch other sectors than their own.
+  /// file        receives the others; must outlive this.
   MaskSectors(const Point& lower, const octree::Region& known, std::int64_t winding, bool float64,
               std::uint64_t held_bytes, storage::SpillFile& file)
       : grid_(lower, known),
@@ -58,16 +58,16 @@ class MaskSectors {
         winding_(winding),
         visitors_(Triangles::record_bytes(float64), held_bytes, file) {}
 
-  /// First of all.
+  /// Divides the root into sectors. Call it before anything else.
   Result<void> divide(const TriangleRuns& runs, std::uint64_t most = kSectorTriangles);
 
-  /// A part of the model, each triangle once. Returns what was added.
+  /// Adds a part of the model, each triangle once. Returns what was added.
   Result<Part> add(const Triangles& triangles);
-  /// Adds a part whose visitors are in the file. False: it is not one of this model, nothing
-  /// was added.
+  /// Adds a part whose visitors are in the file. If the part is not one of this model, returns
+  /// false and adds nothing.
   bool add_extents(const Part& part);
 
-  /// The root first, octants side by side and after the region they divide.
+  /// The root comes first. Octants are side by side and come after the sector that they divide.
   const std::vector<Region>& all() const { return sectors_; }
   std::size_t touched_count() const {
     return static_cast<std::size_t>(
@@ -77,7 +77,7 @@ class MaskSectors {
   /// The winding number at the root's least corner.
   std::int64_t winding() const { return winding_; }
 
-  /// All triangles that may touch a region, in Morton order. After the last part.
+  /// All triangles that may touch a sector, in Morton order. Call it after the last part.
   Result<Triangles> read(std::size_t sector, const TriangleRuns& runs) const;
 
  private:
@@ -101,7 +101,8 @@ class MaskSectors {
   const std::int64_t winding_;
   std::vector<Region> sectors_{Region{}};
   std::mutex mutex_;
-  storage::SpillRuns visitors_;  // by region, then index: that touch another than their own
+  // Triangles that touch other sectors than their own, by sector, then index.
+  storage::SpillRuns visitors_;
 };
 
 }  // namespace planetree::octree

@@ -16,13 +16,13 @@ struct MaskEntry {
   enum class Kind : std::uint8_t { kNode, kSector, kCorners, kSpecial, kListed };
 
   Kind kind = Kind::kNode;
-  /// Of a node: its octants, as in MaskNode. `first` is the entry of its first
-  /// grey octant, the others follow; of a region: its number.
+  /// For a node: its octants, as in MaskNode. `first` is the entry of its first grey octant, and
+  /// the others follow. For a sector: `first` is its number.
   std::uint8_t grey = 0, leaf = 0, black = 0, inverted = 0;
-  /// Of a special cell: into MaskTree::specials; of a listed one: into MaskTree::lists.
+  /// For a special cell: index in MaskTree::specials; for a listed one: index in MaskTree::lists.
   std::uint32_t first = 0;
   bool is_leaf() const { return kind != Kind::kNode && kind != Kind::kSector; }
-  MaskCorners corners{};  ///< of a listed cell too
+  MaskCorners corners{};  ///< also for a listed cell
 };
 
 /// The mask of a watertight model.
@@ -32,11 +32,11 @@ struct MaskTree {
   std::vector<MaskBlocks> lists;
   unsigned levels = 0;  ///< level of the finest grey cell
 
-  /// Makes the entry at `place` that of a divided cell, with room for its grey octants' entries.
-  /// winding  at the octants' least corners: the colour of those that are not grey.
+  /// Makes entry `index` that of a divided cell, and adds entries for its grey octants.
+  /// winding  numbers at the octants' least corners, which colour the octants that are not grey.
   void divide(std::size_t index, const std::array<bool, 8>& grey,
               const std::array<std::int64_t, 8>& winding);
-  /// Notes in the entry at `node` whether its octant, whose entry is at `child`, is a leaf.
+  /// Records in entry `node` whether its octant with entry `child` is a leaf.
   void note_leaf(std::size_t node, unsigned octant, std::size_t child);
 };
 

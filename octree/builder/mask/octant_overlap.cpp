@@ -19,17 +19,18 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// Where nothing is farther from the middle than R, no gap on an axis across an edge errs by more
-// than this share of R^2: its products have a factor below 2 R and one below R, each with the
-// rounding of corners and of differences of them. Nor one along the normal, of R^3. Rounding never
-// changes which of two coordinates is the greater.
+// Let R be the greatest distance of corners and sides from the middle along an axis. On an axis
+// across an edge, no gap errs by more than the first share of R^2: its products have a factor below
+// 2 R and one below R, each with the rounding of corners and of their differences. Along the
+// normal, no gap errs by more than the second share of R^3. Rounding never reverses the order of
+// two coordinates.
 constexpr float kEdgeError = 0x1p-18f;
 constexpr float kNormalError = 0x1p-14f;
-// Of other sizes the cube of R is lost.
+// With R outside of this range, the cube of R is lost.
 constexpr float kMinReach = 0x1p-30f;
 constexpr float kMaxReach = 0x1p30f;
 
-// How far apart boxes and triangles are on axes, less than 0 where they overlap.
+// How far apart boxes and triangles are on separating axes; less than 0 where they overlap.
 class OverlapLanes {
  public:
   HWY_INLINE OverlapLanes(const OctantOverlap::Seen& seen, unsigned first) : seen_(seen) {
@@ -74,7 +75,7 @@ class OverlapLanes {
   }
 
  private:
-  // Of the two halves of a box in one direction, where an axis has the component `along`.
+  // The two halves of a box in one direction, projected to an axis with the component `along`.
   struct Halves {
     TriangleFloats least[2], greatest[2];
   };
@@ -169,7 +170,7 @@ class OverlapLanes {
     return hn::Max(hn::Max(box_[0][octant & 1], box_[1][octant >> 1 & 1]), box_[2][octant >> 2]);
   }
 
-  // No corner and no side is farther from the middle along an axis.
+  // Greatest distance of corners and sides from the middle along an axis.
   HWY_INLINE TriangleFloats reach() const {
     float size = 0;
 #pragma GCC unroll 3
@@ -183,7 +184,7 @@ class OverlapLanes {
 
   const OctantOverlap::Seen& seen_;
   TriangleFloats at_[3][3];    // by corner, axis
-  TriangleFloats edge_[3][4];  // across edges and an axis; by the halves of the two others
+  TriangleFloats edge_[3][4];  // on axes across edges; by axis, and by halves of the two others
   TriangleFloats normal_[8];   // by octant
   TriangleFloats box_[3][2];   // by axis, half
 };
@@ -204,8 +205,8 @@ HWY_EXPORT(tell_octants);
 
 namespace {
 
-/// Of smaller cells, as a share of how far they are from the origin, may_touch() knows the middle
-/// by so much less than what float errs by.
+/// Minimum size of a cell, as a share of its distance from the origin. In smaller cells the
+/// rounding of the middle in may_touch() is not far below the errors of float.
 constexpr double kMinSize = 0x1p-28;
 
 }  // namespace

@@ -7,25 +7,26 @@
 
 namespace planetree::octree {
 
-/// The octants of a cell that triangles may touch, as may_touch() tells it of each, at a tenth of
-/// the cost: float tells nearly all of them, many triangles side by side.
+/// Finds the octants of a cell that triangles may touch. The result for each octant is that of
+/// may_touch(), at a tenth of the cost: float decides for nearly all octants, many triangles at a
+/// time.
 ///
 /// threads  one.
 class OctantOverlap {
  public:
   static constexpr unsigned kAtOnce = 16;
 
-  /// middle  the octants' common corner; all model frame.
+  /// middle  common corner of the octants; all points in the model frame.
   OctantOverlap(const Point& lower, const Point& middle, const Point& upper);
 
   bool full() const { return count_ == kAtOnce; }
-  /// A triangle, while not full.
-  /// octants  those to be told, one bit each.
-  /// place    the caller's, to know it by.
+  /// Adds a triangle. Must not be called while full().
+  /// octants  the octants to be decided, one bit each.
+  /// index    identifies the triangle to the caller.
   void add(const Triangle& triangle, unsigned octants, std::uint32_t index);
 
-  /// Of the triangles since the last time, those of their octants that they may touch, in the order
-  /// in which they were added: the first `count`.
+  /// Which of their octants the triangles may touch, for the triangles added since the last take():
+  /// the first `count` elements, in the order in which they were added.
   struct Certain {
     unsigned count = 0;
     std::array<std::uint8_t, kAtOnce> octants;
@@ -33,12 +34,12 @@ class OctantOverlap {
   };
   Certain take();
 
-  /// What float sees of a cell and triangles, from the cell's middle.
+  /// A cell and triangles in float, relative to the middle of the cell.
   struct Seen {
     float lower[3], upper[3];
     alignas(64) float corner[3][3][kAtOnce];  // by corner, axis, triangle
   };
-  /// What it tells: a bit for each octant.
+  /// What float decides: one bit for each octant.
   struct Sure {
     std::uint8_t touched[kAtOnce];
     std::uint8_t unsure[kAtOnce];

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-/// More than HeightField asks for, so that what float loses does not matter.
+/// Stricter than the limits of HeightField, so that errors of float do not matter.
 constexpr float kRise = 0x1p-3f;
 constexpr float kSine = 0x1p-10f;
 constexpr float kErrors = 0x1p6f;
@@ -84,7 +84,7 @@ class PrismLanes {
     const TriangleFloats z2 = hn::Mul(z, z);
     const TriangleFloats normal2 = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), z2);
     const TriangleFloats longest2 = hn::Max(hn::Max(dot(u, u), dot(v, v)), dot(w, w));
-    // What squares to less is lost.
+    // Smaller squares are lost to underflow.
     const auto tiny = hn::Lt(normal2, hn::Set(d, 0x1p-100f));
     const auto thin =
         hn::Lt(normal2, hn::Mul(hn::Mul(longest2, longest2), hn::Set(d, kSine * kSine)));
@@ -119,10 +119,11 @@ HWY_EXPORT(look_on_target);
 
 namespace {
 
-/// Coordinates in a prism's frame err by less than this share of how far a block reaches from the
-/// origin: by the rounding of a vertex, two differences, the rows, three products and two sums.
+/// Errors of coordinates in a prism's frame are below this share of the block's reach from the
+/// origin. They come from the rounding of a vertex, two differences, the rows, three products and
+/// two sums.
 constexpr double kError = 0x1p-19;
-/// Of blocks so small that squares underflow, which is what their extents are found by.
+/// For blocks so small that the squares from which their extents are found underflow.
 constexpr double kMinError = 0x1p-60;
 
 }  // namespace

@@ -7,25 +7,25 @@
 
 namespace planetree::octree {
 
-/// An upright box, in a frame of its own: the point x is at turned * (x - origin) there.
+/// A prism, in a frame of its own: there a point x has the coordinates rotated * (x - origin).
 struct FloatPrism {
-  std::array<std::array<float, 3>, 3> rotated;  ///< orthonormal rows to rounding
-  std::array<float, 3> lower, upper;            ///< the last: its ends, the upper one in front
-  float clear = 0;                              ///< what is between the ends is so far from them
-  std::array<float, 2> middle;                  ///< where a line goes from end to end
+  std::array<std::array<float, 3>, 3> rotated;  ///< rows are orthonormal but for rounding
+  std::array<float, 3> lower, upper;  ///< the last components are the ends; upper is in front
+  float clear = 0;                    ///< minimum distance from the ends of what is between them
+  std::array<float, 2> middle;        ///< where the middle line goes from end to end
 };
 
-/// A bit for each triangle of a block.
+/// Sets of a block's triangles, one bit each.
 struct PrismTriangles {
-  unsigned met = 0;     ///< all whose boxes, in the prism's frame, meet it; some others
-  unsigned rising = 0;  ///< certainly between the ends, of normals as HeightField asks for
-  unsigned middle = 0;  ///< all that the line may go through; some others
+  unsigned met = 0;     ///< all whose boxes, in the prism's frame, meet it; and some others
+  unsigned rising = 0;  ///< certainly between the ends, with normals that HeightField requires
+  unsigned middle = 0;  ///< all that the middle line may go through, and some others
 };
 
-/// What float can tell of a block's triangles and a prism.
+/// Classifies a block's triangles against a prism, in float.
 ///
-/// origin  the prism's.
-/// threads any; the same bits on every instruction set.
+/// origin   origin of the prism's frame.
+/// threads  any; the same bits on every instruction set.
 PrismTriangles look_at_triangles(const BlockView& block, const FloatPrism& prism,
                                  const Point& origin) noexcept;
 

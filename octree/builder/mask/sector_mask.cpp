@@ -18,25 +18,25 @@
 namespace planetree::octree {
 namespace {
 
-/// Cells that no more touch are not divided further.
+/// Cells that at most this many triangles touch are not divided further,
 constexpr std::size_t kFewTriangles = 64;
-/// Unless they touch so few octants.
+/// unless at most this many of their octants are touched.
 constexpr int kFewOctants = 2;
-/// Nor are those whose triangles have been listed so many times over, in octants
-/// of octants, since their number last halved: they are larger than the cell or
-/// coincide, and smaller cells would not tell them apart.
+/// Maximum number of times that triangles are listed in octants of octants since their number last
+/// halved; with more, cells are not divided further. Such triangles are larger than the cell or
+/// coincide, and smaller cells would not separate them.
 constexpr double kMaxCopies = 3;
-/// A special cell pays for its planes by so many triangles each.
+/// A special cell needs this many triangles for each plane, to be worth the memory of its planes.
 constexpr std::size_t kTrianglesPerPlane = 12;
 constexpr std::size_t kMaxSpecialTriangles = 4096;
 
 /// A cell and what is known of it.
 struct GreyCell {
   GridCell cell;
-  std::vector<std::uint32_t> triangles;  ///< positions; all that may touch it
+  std::vector<std::uint32_t> triangles;  ///< positions of all that may touch it
   std::int64_t winding = 0;              ///< at its least corner
-  std::size_t halved = 0;                ///< triangles when their number last halved
-  double copies = 1;                     ///< of each triangle since
+  std::size_t halved = 0;                ///< number of triangles when it last halved
+  double copies = 1;                     ///< how often each triangle was listed since then
 };
 
 using Octants = std::array<GreyCell, 8>;
@@ -50,7 +50,7 @@ class SectorMask {
       triangles_.emplace_back(triangles.corners(i));
   }
 
-  // winding  at the cell's least corner.
+  // winding  number at the cell's least corner.
   MaskTree run(const GridCell& cell, std::int64_t winding) const {
     GreyCell sector{cell, {}, winding, triangles_.size()};
     sector.triangles.resize(triangles_.size());
@@ -62,7 +62,7 @@ class SectorMask {
   }
 
  private:
-  // Makes the entry at `place` of a cell; what is below goes to the end.
+  // Makes entry `index` for a cell; the entries below it are appended.
   void grow(GreyCell grey, MaskTree& tree, std::size_t index) const {
     tree.levels = std::max(tree.levels, grey.cell.level);
     if (make_special(grey, tree, index)) return;
@@ -90,7 +90,7 @@ class SectorMask {
     return std::popcount(near) <= kFewOctants;
   }
 
-  // Whether octants tell triangles apart; if so, hands on by how much.
+  // Whether octants separate the triangles. Sets `halved` and `copies` of the octants.
   static bool worthwhile(const GreyCell& grey, Octants& octants) {
     std::size_t listed = 0;
     for (const GreyCell& octant : octants) listed += octant.triangles.size();
@@ -106,7 +106,7 @@ class SectorMask {
 
   Octants divide(const GreyCell& grey) const {
     Octants octants;
-    std::array<Point, 8> lower;  // the corners of the first, too
+    std::array<Point, 8> lower;  // also the corners of octant 0
     for (unsigned octant = 0; octant < 8; ++octant) {
       octants[octant].cell = grey.cell.child(octant);
       lower[octant] = grid_.lower(octants[octant].cell);
@@ -120,7 +120,7 @@ class SectorMask {
     return octants;
   }
 
-  // Each octant the triangles that may touch it, in order.
+  // Gives each octant the triangles that may touch it, in order.
   void hand_out(const GreyCell& grey, Octants& octants) const {
     const std::vector<std::uint8_t> touched = octants_touched(grey);
     std::array<std::size_t, 8> counts{};
@@ -134,7 +134,7 @@ class SectorMask {
             grey.triangles[i]);
   }
 
-  // Those that each triangle may touch, a bit each.
+  // The octants that each triangle may touch, one bit each.
   std::vector<std::uint8_t> octants_touched(const GreyCell& grey) const {
     const Point middle = grid_.middle(grey.cell);
     std::vector<std::uint8_t> touched(grey.triangles.size());
@@ -180,7 +180,7 @@ class SectorMask {
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
     const std::size_t count = grey.triangles.size();
     if (count < kTrianglesPerPlane || count > kMaxSpecialTriangles) return false;
-    // A few of them, far apart, usually tell.
+    // A few triangles, far apart in the list, usually decide.
     constexpr std::size_t kSamples = 8;
     std::vector<Triangle> triangles;
     for (std::size_t i = 0; i < kSamples; ++i)
@@ -210,7 +210,8 @@ class SectorMask {
       return -kListedTag > number && number > kListedTag;
     };
     if (!std::all_of(winding.begin(), winding.end(), fits)) return;
-    // Along other edges; were it ever another number, the cell would be left to longer ways.
+    // Counts along other edges. If the numbers differed, the corners would stay uncounted, and
+    // queries in the cell would take longer.
     const bool agree =
         winding[7] == winding[5] + count.rise(7, 5) && winding[7] == winding[3] + count.rise(7, 3);
     assert(agree);
@@ -220,7 +221,8 @@ class SectorMask {
     list_blocks(grey, tree, index);
   }
 
-  // Where one bit a corner says the rest.
+  // Lists blocks if the numbers at the corners differ by at most 1, so that one bit a corner is
+  // enough.
   void list_blocks(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
     const GridCell& cell = grey.cell;
     MaskEntry& entry = tree.entries[index];

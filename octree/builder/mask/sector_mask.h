@@ -9,19 +9,20 @@
 
 namespace planetree::octree {
 
-/// Lists the blocks that have triangles in a cell, of a level above kLevels; false where they are
-/// not to be listed.
+/// Lists the blocks that have triangles in a cell with a level less than kLevels; false if the cell
+/// is not to list them.
 using ListBlocks = std::function<bool(const GridCell& cell, MaskBlocks& blocks)>;
 
-/// The mask of one cell by itself: its entry is the first. Divides the cell until few triangles
-/// touch one, and finds the winding number at every corner of those that are left, exactly: from
-/// the cell's least corner on, by the crossings of cells' edges. At one corner of every such cell
-/// it is counted another way as well. Cells that nobody asks for are white.
+/// Builds the mask of one cell by itself, with the cell's entry as the first. Divides the cell
+/// until few triangles touch a cell. Finds the winding number at every corner of the remaining
+/// cells exactly: from the least corner on, by the crossings of cells' edges. At one corner of
+/// every such cell the number is counted along other edges as well. Cells outside of the region are
+/// white.
 ///
-/// winding    at the cell's least corner.
-/// triangles  all that may touch the cell, at least one; only the order of planes in a special
-///            cell depends on theirs.
-/// memory     about 150 bytes a triangle while it works.
+/// winding    number at the cell's least corner.
+/// triangles  all that may touch the cell, at least one. Only the order of planes in a special cell
+///            depends on their order.
+/// memory     about 150 bytes a triangle during the call.
 MaskTree mask_of_sector(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
                         const Triangles& triangles, const ListBlocks& list);
 

@@ -11,10 +11,10 @@
 namespace planetree::octree {
 namespace {
 
-/// Of a 256th of the width: far more than heights err by.
+/// In 256ths of the width: far more than the rounding errors of heights.
 constexpr double kSlack = 0x1p-6;
 
-/// The direction next to a normal; the same for the opposite one.
+/// The direction nearest to a normal; the same for the opposite normal.
 std::uint16_t direction_of(const Point& normal) {
   Eigen::Index a;
   normal.cwiseAbs().maxCoeff(&a);

@@ -19,7 +19,7 @@ std::array<int, 3> normal_signs(const Triangle& triangle) {
   return {normal_sign(a, b, c, 0), normal_sign(a, b, c, 1), normal_sign(a, b, c, 2)};
 }
 
-/// Which sides of a plane a triangle reaches.
+/// The sides of a plane that a triangle reaches.
 struct Reach {
   bool behind = false;
   bool beyond = false;
@@ -38,7 +38,7 @@ Reach reach_of(const Triangle& plane, const Triangle& triangle) {
 /// The distinct planes of some triangles, as long as they are few.
 class Planes {
  public:
-  /// False if not all triangles can be part of a special cell.
+  /// False if some triangle cannot be part of a special cell.
   bool add_all(std::span<const Triangle> triangles) {
     return std::all_of(triangles.begin(), triangles.end(),
                        [this](const Triangle& triangle) { return add(triangle); });
@@ -49,7 +49,7 @@ class Planes {
     if (signs == std::array<int, 3>{}) return false;
     for (unsigned i = 0; i < cell_.plane_count; ++i) {
       const Reach reach = reach_of(cell_.planes[i], triangle);
-      // Back to back with another there is no inside between them.
+      // Between two triangles back to back there is no inside.
       if (!reach.behind && !reach.beyond) return signs == normal_signs(cell_.planes[i]);
     }
     if (cell_.plane_count == kMaxPlanes) return false;
@@ -57,8 +57,8 @@ class Planes {
     return true;
   }
 
-  /// Whether all triangles are on or behind all planes; planes are turned around
-  /// if all are on or beyond them.
+  /// Whether all triangles are on or behind all planes. If all are on or beyond them, the planes
+  /// are reversed.
   bool enclose(std::span<const Triangle> triangles) {
     Reach reach;
     for (const Triangle& triangle : triangles)
@@ -80,7 +80,7 @@ class Planes {
   SpecialCell cell_;
 };
 
-/// Finds the two winding numbers. False if the corners do not say what they are.
+/// Finds the two winding numbers. False if the corners do not tell them.
 bool settle(SpecialCell& cell, const std::array<Point, 8>& corners,
             const std::array<std::int64_t, 8>& winding) {
   std::optional<std::int64_t> behind, beyond;

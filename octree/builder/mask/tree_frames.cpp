@@ -72,7 +72,7 @@ const std::byte* TreeFrames::bring(std::uint32_t number) {
   return bytes.data();
 }
 
-// The one that was not asked for the longest.
+// A free frame, or else the one that was least recently used.
 std::size_t TreeFrames::free_one() {
   if (frames_.size() < max_) {
     lines_.resize(lines_.size() + page_lines_);

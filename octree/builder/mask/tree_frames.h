@@ -13,29 +13,29 @@
 
 namespace planetree::octree {
 
-/// Frames of the pages of a tree that is being built, and of its mask, for walks in them: the
-/// last ones that were asked for. One thread.
+/// Frames of the pages of a tree that is being built, and of its mask, for traversals. Keeps the
+/// pages that were used last. One thread.
 class TreeFrames {
  public:
-  /// Memory of the frames.
+  /// Maximum memory of the frames.
   static constexpr std::size_t kBytes = std::size_t{16} << 20;
 
-  /// tree, mask  must outlive this; without a mask there are the tree's pages alone.
+  /// tree, mask  must outlive this. If `mask` is null there are only the pages of the tree.
   explicit TreeFrames(const BuiltTree& tree, const BuiltMask* mask = nullptr);
   TreeFrames(const TreeFrames&) = delete;
   TreeFrames& operator=(const TreeFrames&) = delete;
 
   PageReader reader() { return {this, &TreeFrames::page, &TreeFrames::peek}; }
 
-  /// Of the pages that could not be had, the first one's.
-  /// errors  those of reading what was put away.
+  /// The error of the first page that could not be read.
+  /// errors  those of reading spilled data and of decoding; kNoMemory.
   const Result<void>& state() const { return state_; }
 
  private:
   static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
   struct Frame {
     std::uint32_t page = kNoPage;
-    std::uint64_t last_use = 0;  // when last
+    std::uint64_t last_use = 0;  // uses_ at the last use
   };
   struct Line {
     alignas(kSlotBytes) std::byte bytes[kSlotBytes];
@@ -54,7 +54,7 @@ class TreeFrames {
   const std::size_t max_;
   std::vector<Line> lines_;
   std::vector<Frame> frames_;
-  std::unordered_map<std::uint32_t, std::size_t> indices_;  // of pages among the frames
+  std::unordered_map<std::uint32_t, std::size_t> indices_;  // frame of each page
   std::uint64_t uses_ = 0;
   Result<void> state_;
 };

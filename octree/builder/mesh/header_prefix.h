@@ -11,11 +11,11 @@
 
 namespace planetree::octree {
 
-/// A header, however long, from the front of a file: `parse` is given ever more of it until what
-/// is in front of the body is surely there.
+/// Parses a header of any length at the front of a file. `parse` gets longer and longer prefixes
+/// until one certainly includes everything in front of the body.
 ///
 /// parse   (text) -> Result<PlyHeader>.
-/// errors  those of reading and, of so much as a header may have, those of `parse`.
+/// errors  those of reading the file; that of `parse` for the whole file or its first 16 MiB.
 template <class Parse>
 Result<PlyHeader> parse_prefix(const MeshFile& file, const Parse& parse) {
   constexpr std::uint64_t kFirstBytes = std::uint64_t{1} << 16;
@@ -24,7 +24,7 @@ Result<PlyHeader> parse_prefix(const MeshFile& file, const Parse& parse) {
     const Result<std::string> prefix = file.prefix(bytes);
     if (!prefix) return prefix.error();
     Result<PlyHeader> header = parse(std::string_view(*prefix));
-    // What ends with the text may go on behind it.
+    // A header that ends at the end of the prefix may be cut off.
     const bool is_whole = prefix->size() == file.size_bytes();
     if (is_whole || bytes >= kMaxBytes || (header && header->body.offset < prefix->size()))
       return header;

@@ -10,7 +10,7 @@
 namespace planetree::octree {
 namespace {
 
-/// None of the formats is told by more.
+/// Length of the prefix that is looked at; no format needs more.
 constexpr std::uint64_t kProbeBytes = 4096;
 
 std::string lower_extension(const std::filesystem::path& path) {
@@ -32,9 +32,9 @@ Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::pat
   if (is_off(*prefix)) return MeshFormat::kOff;
   const std::string extension = lower_extension(path);
   if (extension == ".obj") return MeshFormat::kObj;
-  // One without a keyword, as old ones are.
+  // An OFF without a keyword, as old files are.
   if (extension == ".off") return MeshFormat::kOff;
-  // A binary STL whose size is wrong: its reader says in which way.
+  // A binary STL whose size is wrong. Its reader reports in which way.
   if (extension == ".stl") return MeshFormat::kStlBinary;
   return MeshFormat::kUnknown;
 }

@@ -10,7 +10,8 @@ namespace planetree::octree {
 
 enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
 
-/// What a mesh file is, by its content, and only then by the extension of its path.
+/// Finds the format of a mesh file by its content or, where that does not tell it, by the extension
+/// of its path.
 /// errors  those of MeshFile::read().
 Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path);
 

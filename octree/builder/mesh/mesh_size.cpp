@@ -18,8 +18,8 @@
 namespace planetree::octree {
 namespace {
 
-// What the body of a PLY has beside the items of its lists, or of an ascii one at least;
-// nothing if no file could have it.
+// Minimum length of the body of a PLY. For a binary body it is the length without the items of
+// lists. If the counts overflow it is more than any file has.
 std::uint64_t min_body_bytes(const PlyHeader& header) {
   std::uint64_t sum = 0;
   for (const PlyElement& element : header.elements) {
@@ -44,7 +44,7 @@ Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& 
   MeshSize size{faces, vertices, !header->float32()};
   size.is_indexed_text = header->encoding == PlyEncoding::kAscii;
   if (size.is_indexed_text) {
-    // A closed surface has twice as many triangles as vertices, whatever polygons they are in.
+    // A closed surface has twice as many triangles as vertices, also where its faces are polygons.
     size.triangles = std::max(faces, 2 * std::min(faces, vertices));
   } else {
     const PlyProperty& list = header->faces().properties[header->index_list];
@@ -54,10 +54,10 @@ Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& 
   return size;
 }
 
-/// Some windows of a file, evenly spaced.
+/// Evenly spaced windows of a file.
 class Sample {
  public:
-  /// Of what is behind the first bytes.
+  /// Reads windows of what follows the first bytes.
   static Result<Sample> of(const MeshFile& file, std::uint64_t first_bytes = 0) {
     Sample sample(file.size_bytes() - std::min(file.size_bytes(), first_bytes));
     const std::uint64_t step = std::max<std::uint64_t>(sample.size_ / kWindows, kWindowBytes);
@@ -72,18 +72,18 @@ class Sample {
 
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  /// Calls look(window, where it begins) for each; the text lives as long as this.
+  /// Calls look(window, offset of the window) for each window. The text lives as long as this.
   template <class Look>
   void each_window(const Look& look) const {
     for (const Window& window : windows_) look(std::string_view(window.text), window.at);
   }
 
-  /// Of a text: what count_in(line) says of all lines together, and a little more.
+  /// For a text: estimates the sum of count_in(line) over all lines, and adds a small margin.
   template <class CountIn>
   std::uint64_t total(const CountIn& count_in) const {
     std::uint64_t count = 0, seen = 0;
     each_window([&](std::string_view window, std::uint64_t) {
-      // Two lines are cut off at the ends of a window: too few to matter.
+      // A window cuts lines at its two ends: too few to matter.
       LineScanner lines(window);
       while (lines.next()) count += count_in(lines.line());
       seen += window.size();
@@ -109,8 +109,8 @@ class Sample {
   std::vector<Window> windows_;
 };
 
-/// How many vertices an STL has, which does not say: judged by corners that are near in the
-/// file, as they are written.
+/// Estimates the number of vertices of an STL, which does not state it. Counts how many of the
+/// corners that are close together in the file are distinct, compared as they are written.
 class StlCorners {
  public:
   void add(std::string_view corner) {
@@ -118,8 +118,8 @@ class StlCorners {
     distinct_.insert(corner);
   }
 
-  /// A surface repeats corners, of which it has half as many as triangles; a heap of triangles
-  /// does not.
+  /// A surface repeats corners and has half as many vertices as triangles. A triangle soup does not
+  /// repeat corners.
   std::uint64_t vertices_of(std::uint64_t triangles) const {
     const bool is_heap = distinct_.size() > count_ - count_ / 50;
     return is_heap ? 3 * triangles : triangles / 2;

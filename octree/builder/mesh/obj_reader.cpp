@@ -17,8 +17,8 @@ namespace planetree::octree {
 
 namespace {
 
-/// Steps through the statements of an OBJ: lines, joined where a line ends in
-/// a backslash. A comment is never joined: a Windows path may end it.
+/// Steps through the statements of an OBJ. A line that ends in a backslash is joined with the next.
+/// A comment is never joined: a Windows path may end it.
 class ObjStatements {
  public:
   ObjStatements(const MeshFile& file, TextPosition begin, std::size_t window_bytes)
@@ -43,12 +43,12 @@ class ObjStatements {
 
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] TextPosition position() const { return position_; }
-  /// Why there is no next one, if not for the end.
+  /// The error that ended the statements; empty at the end of the file.
   [[nodiscard]] const std::optional<Error>& failure() const { return lines_.failure(); }
   [[nodiscard]] std::uint64_t end_offset() const { return lines_.after().offset; }
 
  private:
-  /// Cuts the backslash off a line that goes on; false if it does not.
+  /// Removes the backslash from a line that goes on; false if the line does not go on.
   static bool without_backslash(std::string_view& line) {
     const std::size_t last = line.find_last_not_of(" \t\r");
     if (last == std::string_view::npos || line[last] != '\\') return false;
@@ -63,7 +63,7 @@ class ObjStatements {
   std::string joined_;
 };
 
-/// An f statement that has been read.
+/// An f statement that was read.
 class ObjFace {
  public:
   ObjFace(std::uint64_t line, const std::vector<std::int64_t>& numbers,
@@ -85,7 +85,7 @@ class ObjFace {
   const std::int64_t vertices_before_;
 };
 
-/// Reads in two passes, since an f may name a later v.
+/// Reads an OBJ in two passes, since an f may name a later v.
 class Obj {
  public:
   Obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch)
@@ -125,7 +125,7 @@ class Obj {
     return vertices_.finish();
   }
 
-  /// As FaceVertexJoin::deliver() wants it.
+  /// Calls take(face) for each face, as FaceVertexJoin::deliver() requires.
   template <class Take>
   Result<FacePosition> each_face(const FacePosition& from, const Take& take) {
     ObjStatements statements = statements_from(from.position);
@@ -147,7 +147,7 @@ class Obj {
     return FacePosition{{statements.end_offset(), 0}, 0, vertices_before};
   }
 
-  /// Colours or a weight may follow the three coordinates; they are not read.
+  /// Reads the three coordinates. A colour or a weight behind them is ignored.
   Result<void> take_vertex(const ObjStatements& statements, std::string_view rest) {
     Vec3 position;
     for (double* const value : {&position.x, &position.y, &position.z}) {
@@ -160,7 +160,7 @@ class Obj {
     return vertices_.add(position);
   }
 
-  /// Reads a face's statement into numbers_.
+  /// Reads the statement of a face into numbers_.
   Result<void> read_face(const ObjStatements& statements, std::string_view rest) {
     numbers_.clear();
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
@@ -185,7 +185,7 @@ class Obj {
   MeshScratch& scratch_;
   FanEmitter emitter_;
   TextVertices vertices_;
-  std::vector<std::int64_t> numbers_;  ///< of vertices of the f being read, as written
+  std::vector<std::int64_t> numbers_;  ///< vertices of the f being read, as written
 };
 
 }  // namespace

@@ -6,10 +6,10 @@
 
 namespace planetree::octree {
 
-/// Reads the v and f statements of an OBJ and passes over all others. An f may
-/// name vertices by number from 1, by number back from the last v so far (-1),
-/// and ones that follow it; texture and normal numbers are not read.
-/// Contract as read_mesh; reads the file twice.
+/// Reads the v and f statements of an OBJ and ignores all others. An f names a vertex by its number
+/// from 1, or by a negative number that counts back from the last v so far (-1). It may name
+/// vertices that follow it. Texture and normal numbers are not read.
+/// Contract as read_mesh(); reads the file twice.
 Result<MeshSummary> read_obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
 }  // namespace planetree::octree

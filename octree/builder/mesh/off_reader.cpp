@@ -18,7 +18,7 @@ namespace planetree::octree {
 
 namespace {
 
-/// What stands in front of "OFF" says what follows x, y and z of a vertex.
+/// Letters in front of "OFF", which tell what follows x, y and z in a vertex.
 struct OffPrefix {
   std::string_view letters;
   std::size_t more_numbers;
@@ -29,12 +29,12 @@ constexpr OffPrefix kPrefixes[] = {
     {"ST", 2, true}, {"C", 4, true}, {"N", 3, true}, {"4", 0, false}, {"n", 0, false}};
 
 struct OffKeyword {
-  std::size_t more_numbers = 0;  ///< of a vertex in a binary file; an ascii one has what it has
+  std::size_t more_numbers = 0;  ///< behind x, y and z in a binary vertex; not known for ascii
   bool supported = true;
 };
 
-/// Takes the keyword off the front of a file's first word. Geomview has its
-/// letters in one order, others write them in any, each once.
+/// Removes the keyword from the front of a file's first word. Geomview writes its letters in one
+/// order, others in any order, each once.
 std::optional<OffKeyword> take_keyword(std::string_view& word) noexcept {
   std::string_view rest = word;
   OffKeyword keyword;
@@ -55,8 +55,8 @@ std::optional<OffKeyword> take_keyword(std::string_view& word) noexcept {
   return keyword;
 }
 
-/// The records of a file as a PLY's header would declare them. Of ascii, the
-/// numbers have no precision but their own.
+/// The records of a file as a PLY header would declare them. Numbers of an ascii file have no
+/// declared precision, so that the widest is taken.
 PlyHeader records_of(PlyEncoding encoding, std::size_t more_numbers) {
   const bool is_ascii = encoding == PlyEncoding::kAscii;
   const PlyType real = is_ascii ? PlyType::kFloat64 : PlyType::kFloat32;
@@ -76,7 +76,7 @@ PlyHeader records_of(PlyEncoding encoding, std::size_t more_numbers) {
   return header;
 }
 
-/// Reads up to where the vertices begin.
+/// Parses the header up to where the vertices begin.
 class OffHeader {
  public:
   explicit OffHeader(std::string_view file)
@@ -102,7 +102,7 @@ class OffHeader {
   }
 
  private:
-  /// Those of vertices, faces and edges. The last is often wrong or left out.
+  /// Parses the counts of vertices, faces and edges. The last is often wrong or missing.
   Result<PlyHeader> counts(std::string_view text) {
     PlyHeader header = records_of(PlyEncoding::kAscii, 0);
     std::string_view rest = text;
@@ -134,7 +134,7 @@ class OffHeader {
       element.count = static_cast<std::uint64_t>(count);
       position.offset += kCountBytes;
     }
-    position.offset += kCountBytes;  // the edges
+    position.offset += kCountBytes;  // the count of edges
     header.body = position;
     return header;
   }

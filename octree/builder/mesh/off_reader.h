@@ -9,20 +9,21 @@
 
 namespace planetree::octree {
 
-/// Whether the first word of a file, of which this is the front, comments aside, is a keyword of
-/// an OFF.
+/// Whether the first word of a file, after comments, is the keyword of an OFF.
+/// file  front of the file.
 bool is_off(std::string_view file) noexcept;
 
-/// What the header of a file says, of which this is the front, its records described as a PLY's
-/// are.
+/// Parses the header of an OFF, and describes its records as those of a PLY.
+///
+/// file    front of the file.
 /// errors  kBadInput.
 Result<PlyHeader> parse_off_header(std::string_view file);
 
-/// Reads an OFF, with or without a keyword, as Geomview defines it and others
-/// write it: ascii, one vertex or face a line, or big-endian binary. Normals,
-/// colours and texture coordinates are not read, nor is the number of edges.
-/// Refuses vertices of other than three dimensions (4OFF, nOFF).
-/// Contract as read_mesh.
+/// Reads an OFF, with or without a keyword, as Geomview defines it and as others write it: ascii
+/// with one vertex or face a line, or big-endian binary. Normals, colours, texture coordinates and
+/// the number of edges are not read. Vertices with other than three dimensions (4OFF, nOFF) are
+/// refused.
+/// Contract as read_mesh().
 Result<MeshSummary> read_off(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
 }  // namespace planetree::octree

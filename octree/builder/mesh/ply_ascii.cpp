@@ -15,7 +15,7 @@ Error line_error(const TextPosition& position, const std::string& cause) {
                     cause.c_str());
 }
 
-/// The line's words, taken as the header declares them.
+/// The words of a line, read as the header declares them.
 class Row {
  public:
   explicit Row(const MeshLines& lines) : rest_(lines.line()), position_(lines.position()) {}
@@ -36,7 +36,7 @@ class Row {
                  "' is not an integer");
   }
 
-  /// Of a list; its items follow.
+  /// Reads the length of a list, which the items follow.
   Result<std::int64_t> length(const PlyProperty& property) {
     const Result<std::int64_t> length = integer(property);
     if (length && *length < 0) {
@@ -45,7 +45,7 @@ class Row {
     return length;
   }
 
-  /// In the precision the header declares, whatever digits the line has.
+  /// Reads a number in the precision that the header declares, whatever digits the line has.
   Result<double> real(const PlyProperty& property) {
     const Result<std::string_view> word = this->word(property);
     if (!word) return word.error();
@@ -78,7 +78,7 @@ class Row {
     return error("'" + printable(word) + "' follows the last declared value");
   }
 
-  /// As many words must be left as were the first time, when `count` is set.
+  /// Refuses a number of further words other than `count`, which the first call sets.
   Result<void> expect_rest(std::optional<std::uint64_t>& count) {
     std::uint64_t left = 0;
     while (!take_word(rest_).empty()) ++left;
@@ -97,7 +97,7 @@ class Row {
 
 }  // namespace
 
-/// A face whose line has been read.
+/// A face whose line was read.
 class PlyAscii::Face {
  public:
   Face(std::uint64_t record, const std::vector<std::int64_t>& indices)
@@ -139,7 +139,7 @@ template <class TakeLine>
 Result<FacePosition> PlyAscii::each_line(const PlyElement& element, const FacePosition& from,
                                          const TakeLine& take_line) {
   MeshLines lines = lines_from(from.position);
-  // A record without properties is an empty line, and those are passed over.
+  // A record without properties would be an empty line, and empty lines are ignored.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
   for (std::uint64_t record = from.record; record < count; ++record) {
     if (!lines.next_filled()) {

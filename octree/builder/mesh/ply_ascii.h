@@ -15,11 +15,11 @@
 
 namespace planetree::octree {
 
-/// An ascii body: one record a line, empty lines aside. The vertices are put away as they are
-/// read, as floats where the header declares nothing wider.
+/// An ascii body: one record a line; empty lines are ignored. Vertices are spilled as they are
+/// read, as floats where the header declares no wider type.
 class PlyAscii final : public PlyBody {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this.
   PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
            MeshScratch& scratch);
 
@@ -32,24 +32,25 @@ class PlyAscii final : public PlyBody {
   class Face;
 
   [[nodiscard]] MeshLines lines_from(TextPosition begin) const;
-  /// Calls take_line(record, lines), which returns Result<bool>, on the line of each record
-  /// from `from` on; stops where that is false, and returns the place of that line, or else
-  /// what is behind the last.
+  /// Calls take_line(record, lines), which returns Result<bool>, for the line of each record from
+  /// `from` on, until it returns false. Returns the position of that line, or the position behind
+  /// the last record.
   template <class TakeLine>
   Result<FacePosition> each_line(const PlyElement& element, const FacePosition& from,
                                  const TakeLine& take_line);
   Result<void> take_vertex(const MeshLines& lines);
-  /// Reads a face's line into indices_.
+  /// Reads the line of a face into indices_.
   Result<void> take_face(const MeshLines& lines);
 
   const MeshFile& file_;
   const PlyHeader& header_;
   FanEmitter& emitter_;
   MeshScratch& scratch_;
-  std::vector<int> axes_;  ///< per property of a vertex: 0, 1, 2 for x, y, z, or -1
+  std::vector<int> axes_;  ///< axis (0 to 2) of each property of a vertex, or -1
   TextVertices vertices_;
-  std::optional<std::uint64_t> words_behind_vertex_;  ///< of loose lines: as of the first vertex
-  std::vector<std::int64_t> indices_;                 ///< of the face being read
+  /// Words behind the values of each vertex, as counted for the first; only with loose lines.
+  std::optional<std::uint64_t> words_behind_vertex_;
+  std::vector<std::int64_t> indices_;  ///< vertices of the face being read
 };
 
 }  // namespace planetree::octree

@@ -16,7 +16,7 @@ bool needs_swap(PlyEncoding encoding) {
 
 }  // namespace
 
-/// A face of which the list is in the file.
+/// A face whose list is in the file.
 class PlyBinary::Face {
  public:
   Face(std::uint64_t record, const ListSpan& list, PlyType type, bool swap, MeshWindow& window)
@@ -128,7 +128,7 @@ Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& 
 }
 
 Result<void> PlyBinary::expect_end(TextPosition end) {
-  // A writer's last newline is no record.
+  // White space, such as a last newline, is no record.
   for (std::uint64_t at = end.offset; at < file_.size_bytes(); ++at) {
     const std::byte* const byte = window_.at(at, 1);
     if (byte == nullptr) return window_.failure();

@@ -13,11 +13,11 @@
 
 namespace planetree::octree {
 
-/// A binary PLY body. Vertices are records of one size, found by multiplying; what is not in a
-/// window of the file is read when it is needed.
+/// A binary PLY body. Vertices are records of one size, so that their offsets are computed. Bytes
+/// outside of the window of the file are read when they are needed.
 class PlyBinary final : public PlyBody {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this.
   PlyBinary(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
             MeshScratch& scratch);
 
@@ -27,25 +27,26 @@ class PlyBinary final : public PlyBody {
   Result<void> expect_end(TextPosition end) override;
 
  private:
-  /// Items of one list in the file.
+  /// The items of one list in the file.
   struct ListSpan {
     std::uint64_t offset = 0;
     std::uint64_t count = 0;
   };
   class Face;
 
-  /// Steps over the record at `position`, which is one of `element`. `list` is set for the list
-  /// at property `list_property`.
-  /// errors  kBadInput: it reaches past the file's end or has a list of negative length.
+  /// Steps over the record of `element` at `position`, and sets `list` to its list at property
+  /// `list_property`.
+  /// errors  kBadInput: the record reaches past the end of the file or has a list of negative
+  ///         length.
   Result<void> walk_record(const PlyElement& element, std::uint64_t record,
                            std::size_t list_property, std::uint64_t& position, ListSpan& list);
-  /// The same; false where it is bad, or with unread_ set where it cannot be read.
+  /// As walk_record(). False if the record is bad, or cannot be read.
   bool walk_properties(const PlyElement& element, std::size_t list_property,
                        std::uint64_t& position, ListSpan& list);
-  /// As FaceVertexJoin::deliver() wants it.
+  /// Calls take(face) for each face, as FaceVertexJoin::deliver() requires.
   template <class Take>
   Result<FacePosition> each_face(const FacePosition& from, const Take& take);
-  /// Refuses a count of records that cannot fit behind `begin`.
+  /// Refuses a count of records that do not fit in the file behind `begin`.
   [[nodiscard]] Result<void> check_space(const PlyElement& element, std::uint64_t begin) const;
   [[nodiscard]] Error bad_record(const PlyElement& element, std::uint64_t record,
                                  std::uint64_t offset) const;
@@ -57,7 +58,7 @@ class PlyBinary final : public PlyBody {
   const bool swap_;
   PlyVertices vertices_;
   MeshWindow window_;
-  bool unread_ = false;  ///< a record could not be read, rather than is bad
+  bool unread_ = false;  ///< the last record could not be read, so that it may not be bad
 };
 
 }  // namespace planetree::octree

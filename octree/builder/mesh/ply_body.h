@@ -6,19 +6,19 @@
 
 namespace planetree::octree {
 
-/// The records of a PLY file behind its header, in one encoding. Each call
-/// takes the place where an element begins and returns the one behind it.
+/// The records of a PLY file behind its header, in one encoding. Each call takes the position where
+/// an element begins, and returns the position behind the element.
 class PlyBody {
  public:
   virtual ~PlyBody() = default;
 
   /// Passes over all records of `element`.
   virtual Result<TextPosition> skip(const PlyElement& element, TextPosition begin) = 0;
-  /// Makes the vertices known; once, in front of faces().
+  /// Finds or reads the vertices. Call it once, before faces().
   virtual Result<TextPosition> vertices(TextPosition begin) = 0;
   /// Delivers the faces.
   virtual Result<TextPosition> faces(TextPosition begin) = 0;
-  /// Refuses records that no element declares: a count in the header is wrong.
+  /// Refuses records that no element declares: a count in the header is wrong then.
   virtual Result<void> expect_end(TextPosition end) = 0;
 };
 

@@ -28,7 +28,7 @@ Error header_error(const TextPosition& position, const std::string& cause) {
                     "line %" PRIu64 ": %s; export the mesh again", position.line, cause.c_str());
 }
 
-/// Reads header lines one by one into a PlyHeader.
+/// Parses a header line by line.
 class HeaderParser {
  public:
   explicit HeaderParser(std::string_view file) : lines_(file, {}, line_end_of(file)) {}
@@ -45,9 +45,8 @@ class HeaderParser {
   }
 
  private:
-  /// A binary body begins right behind the last header line, whatever its first
-  /// byte, so what ends a line is judged by the first. Some old writers end it
-  /// with '\r' alone.
+  /// A binary body begins right behind the last header line, whatever its first byte is. So the
+  /// first line tells what ends a line. Some old writers end lines with '\r' alone.
   static LineEnd line_end_of(std::string_view file) {
     const std::size_t end = file.find_first_of("\r\n");
     const bool lone = end != std::string_view::npos && file[end] == '\r' &&
@@ -167,7 +166,7 @@ class HeaderParser {
 
   Result<void> find_faces() {
     const std::optional<std::size_t> found = find_element("face");
-    // Even beside faces: passing them over would lose triangles in silence.
+    // Also where there are faces: ignoring the strips would silently lose triangles.
     if (find_element("tristrips")) {
       return error("triangle strips are not supported: write faces");
     }

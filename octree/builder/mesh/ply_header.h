@@ -18,51 +18,55 @@ enum class PlyEncoding : std::uint8_t { kAscii, kBinaryLittleEndian, kBinaryBigE
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;  ///< of the value, or of a list's items
+  PlyType type = PlyType::kFloat32;  ///< type of the value, or of a list's items
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  ///< of a list's length; an integer type
+  PlyType count_type = PlyType::kUint8;  ///< type of a list's length; an integer type
 };
 
 struct PlyElement {
   std::string name;
-  std::uint64_t count = 0;  ///< as declared: nothing is known of the body yet
+  std::uint64_t count = 0;  ///< as declared; not checked against the body
   std::vector<PlyProperty> properties;
 
   [[nodiscard]] bool has_list() const noexcept;
-  /// Bytes of one binary record in front of property `index`; no list among them.
+  /// Offset of property `index` in a binary record. No list may precede it.
   [[nodiscard]] std::uint64_t offset_of(std::size_t index) const noexcept;
-  /// Fewest bytes of one binary record: that of one whose lists are empty.
+  /// Length of a binary record with empty lists: the minimum.
   [[nodiscard]] std::uint64_t min_record_bytes() const noexcept;
 };
 
-/// What the header says, with the parts a mesh needs found and checked. Other
-/// formats whose records follow one another so are described by it too.
+/// Contents of a header, with the parts that a mesh needs found and checked. It also describes
+/// other formats whose records follow one another in the same way.
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
-  /// Of ascii: words may follow a record's last value, the same number of them
-  /// every vertex's, and '#' begins a comment.
+  /// Ascii only: further words may follow a record's last value, as many for each vertex, and '#'
+  /// begins a comment.
   bool has_loose_lines = false;
   std::vector<PlyElement> elements;
-  std::size_t vertex_element = 0;               ///< position in `elements`
-  std::size_t face_element = 0;                 ///< position in `elements`
-  std::array<std::size_t, 3> coordinates = {};  ///< x, y, z: positions in the vertex's properties
-  std::size_t index_list = 0;                   ///< position in the face's properties
-  TextPosition body;                            ///< where the first record begins
+  std::size_t vertex_element = 0;               ///< index in `elements`
+  std::size_t face_element = 0;                 ///< index in `elements`
+  std::array<std::size_t, 3> coordinates = {};  ///< x, y, z: indices in the vertex's properties
+  std::size_t index_list = 0;                   ///< index in the face's properties
+  TextPosition body;                            ///< position of the first record
 
   [[nodiscard]] const PlyElement& vertices() const { return elements[vertex_element]; }
   [[nodiscard]] const PlyElement& faces() const { return elements[face_element]; }
   [[nodiscard]] PlyType coordinate_type(std::size_t axis) const {
     return vertices().properties[coordinates[axis]].type;
   }
-  /// Whether float32 holds every coordinate of the declared types.
+  /// Whether float32 holds every value of the declared coordinate types.
   [[nodiscard]] bool float32() const;
 };
 
-/// Whether the first word of a file, of which this is the front, is PLY's.
+/// Whether the first word of a file is that of a PLY.
+/// file  front of the file.
 bool is_ply(std::string_view file) noexcept;
 
-/// Reads the header of a file that is_ply(), of which this is the front. Trusts no
-/// count: they are checked against the body by whoever reads it. kBadInput names the line.
+/// Parses the header of a file that is_ply(). Counts are not checked: the reader of the body checks
+/// them against the file.
+///
+/// file    front of the file.
+/// errors  kBadInput; the text names the line.
 Result<PlyHeader> parse_ply_header(std::string_view file);
 
 }  // namespace planetree::octree

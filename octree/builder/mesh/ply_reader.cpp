@@ -12,8 +12,7 @@ namespace planetree::octree {
 
 namespace {
 
-/// Walks the elements in the file's order. Faces in front of the vertices are
-/// passed over and read at the end.
+/// Reads the elements in the file's order. Faces in front of the vertices are read at the end.
 Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
   const bool faces_wait = header.face_element < header.vertex_element;
   TextPosition faces_begin;

@@ -8,11 +8,11 @@
 namespace planetree::octree {
 
 /// Reads a PLY file (is_ply()): ascii or binary, elements in any order.
-/// Contract as read_mesh.
+/// Contract as read_mesh().
 Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
-/// Reads the records that `header` says the file has, whatever its format.
-/// Contract as read_mesh.
+/// Reads the records that `header` describes, whatever the format of the file is.
+/// Contract as read_mesh().
 Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header, TriangleSink& sink,
                                   MeshScratch& scratch);
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-/// The number types of a PLY file and their values in a binary body.
+/// Number types of a PLY file, and their values in a binary body.
 namespace planetree::octree {
 
 enum class PlyType : std::uint8_t {
@@ -46,7 +46,7 @@ constexpr bool fits_float32(PlyType type) noexcept {
   return type == PlyType::kFloat32 || size_bytes(type) <= 2;
 }
 
-/// Reads a T at any address; `swap` if the file's byte order is not ours.
+/// Reads a T at any address. `swap` says that the file's byte order is not the machine's.
 template <class T>
 T load(const std::byte* at, bool swap) noexcept {
   std::byte raw[sizeof(T)];
@@ -83,7 +83,7 @@ inline double load_real(PlyType type, const std::byte* at, bool swap) noexcept {
   return load<double>(at, swap);
 }
 
-/// Reads a count or an index; `type` is an integer type.
+/// Reads a count or an index. `type` is an integer type.
 inline std::int64_t load_integer(PlyType type, const std::byte* at, bool swap) noexcept {
   switch (type) {
     case PlyType::kInt8:

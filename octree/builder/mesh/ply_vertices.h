@@ -11,14 +11,14 @@
 
 namespace planetree::octree {
 
-/// The vertices of a binary PLY body: records of one size, found by multiplying and read where
-/// they are.
+/// The vertices of a binary PLY body, read from the file. Records have one size, so that their
+/// offsets are computed.
 class PlyVertices final : public MeshVertices {
  public:
-  /// Both must outlive this.
+  /// `file` and `header` must outlive this.
   PlyVertices(const MeshFile& file, const PlyHeader& header, bool swap);
 
-  /// Makes them known: that they begin at `offset` and are all in the file.
+  /// Sets where the vertices are. The file must have all of them.
   void set(std::uint64_t offset, std::uint64_t count) {
     begin_ = offset;
     count_ = count;
@@ -37,10 +37,10 @@ class PlyVertices final : public MeshVertices {
   const bool float32_;
   std::uint64_t begin_ = 0, count_ = 0;
   std::uint64_t record_bytes_ = 0;
-  std::array<std::uint64_t, 3> offsets_ = {};  ///< of x, y and z in a record
+  std::array<std::uint64_t, 3> offsets_ = {};  ///< offsets of x, y and z in a record
   std::array<PlyType, 3> types_ = {};
-  bool plain_ = true;               ///< records are positions as they should be
-  std::vector<std::byte> records_;  ///< as the file has them
+  bool plain_ = true;               ///< records have the form that MeshVertices has
+  std::vector<std::byte> records_;  ///< records as in the file
 };
 
 }  // namespace planetree::octree

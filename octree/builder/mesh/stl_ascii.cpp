@@ -12,10 +12,10 @@ namespace planetree::octree {
 
 namespace {
 
-/// Reads line by line. What a line may be depends on how deep it is:
+/// Reads line by line. The keywords that a line may have depend on the depth:
 ///   kFile  -> solid -> kSolid -> facet -> kFacet -> outer loop -> kLoop
-/// and endsolid, endfacet, endloop lead back. A file that ends elsewhere than
-/// in kFile was cut off.
+/// endsolid, endfacet and endloop lead back. A file that ends at another depth than kFile was cut
+/// off.
 class StlAscii {
  public:
   StlAscii(const MeshFile& file, TriangleSink& sink)
@@ -72,7 +72,7 @@ class StlAscii {
   }
 
   Result<void> begin_loop() {
-    // Corners of two loops are not one polygon.
+    // The corners of two loops are not one polygon.
     if (has_loop_) return error("a facet with a second loop");
     has_loop_ = true;
     return enter(Depth::kLoop);
@@ -112,7 +112,7 @@ class StlAscii {
   FanEmitter emitter_;
   Depth depth_ = Depth::kFile;
   bool has_loop_ = false;
-  std::vector<Vec3> corners_;  ///< of the facet being read
+  std::vector<Vec3> corners_;  ///< corners of the facet being read
   std::uint64_t facet_count_ = 0;
   std::uint64_t vertex_count_ = 0;
 };

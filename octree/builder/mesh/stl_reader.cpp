@@ -20,7 +20,7 @@ constexpr std::uint64_t kNormalBytes = 12;
 constexpr std::uint64_t kCornerBytes = 12;
 constexpr bool kSwap = std::endian::native != std::endian::little;
 
-/// `front` has at least kFacetsOffset bytes.
+/// `prefix` has at least kFacetsOffset bytes.
 std::uint64_t facet_count(std::string_view prefix) {
   return load<std::uint32_t>(reinterpret_cast<const std::byte*>(prefix.data()) + kCountOffset,
                              kSwap);
@@ -32,7 +32,7 @@ Vec3 corner_position(const std::byte* at) {
           static_cast<double>(load<float>(at + 8, kSwap))};
 }
 
-/// The number of facets, of a file that has so many.
+/// The number of facets, checked against the size of the file.
 Result<std::uint64_t> checked_count(const MeshFile& file) {
   if (file.size_bytes() < kFacetsOffset) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, file.size_bytes(),

@@ -8,21 +8,22 @@
 
 namespace planetree::octree {
 
-/// Whether the size is exactly that of a binary STL with the count that the front has.
+/// Whether the size of a file is that of a binary STL with the number of facets in `prefix`.
 bool has_binary_stl_size(std::string_view prefix, std::uint64_t size_bytes) noexcept;
 
-/// Whether a file, of which this is the front, begins with "solid" and then goes on as text: binary
-/// files may begin so too, but have zero bytes in or near their count.
+/// Whether a file begins with "solid" and goes on as text. Binary files may begin so too, but have
+/// zero bytes in or near their count.
+/// file  front of the file.
 bool is_ascii_stl(std::string_view file) noexcept;
 
-/// Reads a binary STL. Fewer than 50 bytes behind the last facet are passed
-/// over, since no facet fits in them; more mean that the count lies.
-/// Contract as read_mesh.
+/// Reads a binary STL. Fewer than 50 bytes behind the last facet are ignored, since no facet fits
+/// in them. More bytes mean that the count is wrong.
+/// Contract as read_mesh().
 Result<MeshSummary> read_stl_binary(const MeshFile& file, TriangleSink& sink);
 
-/// Reads an ascii STL of one or more solids, keywords in any case. Normals are
-/// not read. A facet of other than three vertices is a polygon.
-/// Contract as read_mesh.
+/// Reads an ascii STL of one or more solids, with keywords in any case. Normals are not read. A
+/// facet of other than three vertices is read as a polygon.
+/// Contract as read_mesh().
 Result<MeshSummary> read_stl_ascii(const MeshFile& file, TriangleSink& sink);
 
 }  // namespace planetree::octree

@@ -7,7 +7,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Triangles whose codes are `code` but for the last `bits` bits.
+/// Triangles whose Morton codes agree with `code` except in the last `bits` bits.
 struct Stretch {
   Chunk chunk;
   std::uint64_t code = 0;
@@ -22,7 +22,7 @@ class ChunkCutter {
  public:
   ChunkCutter(const TriangleRuns& runs, std::uint64_t most) : runs_(runs), max_(most) {}
 
-  // Makes the node of a stretch, its patches and the nodes below it.
+  // Adds the node of a stretch, its chunks and the nodes below it.
   Result<void> add(Stretch stretch) {
     const std::size_t at = tree.nodes.size();
     const auto begin = static_cast<std::uint32_t>(tree.chunks.size());
@@ -44,7 +44,7 @@ class ChunkCutter {
   ChunkTree tree;
 
  private:
-  // At the first bit that is not the same in all.
+  // Splits a stretch at the first bit that is not the same in all codes.
   Result<Halves> by_code(Stretch stretch) const {
     while (stretch.bits > 0) {
       const std::uint64_t upper_code = stretch.code | std::uint64_t{1} << --stretch.bits;
@@ -58,7 +58,7 @@ class ChunkCutter {
     return by_number(std::move(stretch));
   }
 
-  // Before the least index that leaves a half before it.
+  // Splits a stretch of equal codes at the least index with half of the triangles before it.
   Result<Halves> by_number(Stretch stretch) const {
     const std::uint64_t lower = stretch.chunk.size / 2;
     std::uint64_t least = 0, most = ~std::uint64_t{0};
@@ -66,7 +66,7 @@ class ChunkCutter {
       const std::uint64_t index = least + (most - least) / 2;
       const auto middle = runs_.cut(stretch.code, index);
       if (!middle) return middle.error();
-      // Less than none where the index is before the stretch.
+      // Negative if `index` is before the stretch.
       const auto before =
           static_cast<std::int64_t>(TriangleRuns::count(stretch.chunk.from, *middle));
       if (before < static_cast<std::int64_t>(lower))

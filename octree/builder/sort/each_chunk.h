@@ -12,10 +12,10 @@
 
 namespace planetree::octree {
 
-/// Calls work(number, triangles in any order) for each patch that is not done already, on any
-/// thread; counts them as the parts of a phase. Uses the calling thread's TBB arena.
+/// Calls work(number, triangles in any order) for each chunk that is not done already, on any
+/// thread. Counts chunks as the parts of a phase. Uses the calling thread's TBB arena.
 ///
-/// is_done  of a patch's number; asked before any work.
+/// is_done  (number) -> bool, called for every chunk before any work.
 /// errors   those of SpillFile and `work`.
 template <class IsDone, class Work>
 Result<void> for_each_chunk(const TriangleRuns& runs, const std::vector<Chunk>& chunks,

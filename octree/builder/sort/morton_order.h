@@ -7,17 +7,19 @@
 
 namespace planetree::octree {
 
-/// A triangle and the finest octree cell of its box centre.
+/// Morton code and position of a triangle. The code is that of the finest octree cell that holds
+/// the centre of the triangle's box.
 struct MortonKey {
   std::uint64_t code;
-  std::uint32_t position;  ///< in its Triangles
+  std::uint32_t position;  ///< in the Triangles it belongs to
 };
 
-/// The code of a triangle's finest cell. The root cell is the cube of side 2 at the model's
-/// least corner, so that every coordinate falls inside it.
+/// Morton code of the finest cell with the centre of a triangle's box. The root cell is the cube of
+/// side 2 at the least corner of the model's box, so that it holds every such centre.
+/// lower  least corner of the model's box.
 std::uint64_t morton_code_of(const Triangle& triangle, const Point& lower);
 
-/// The keys of triangles that are in order.
+/// The keys of triangles that are sorted.
 std::vector<MortonKey> keys_of(const Triangles& sorted);
 
 }  // namespace planetree::octree

@@ -14,20 +14,21 @@
 
 namespace planetree::octree {
 
-/// A mesh, read and ordered.
+/// A mesh that was read and sorted.
 struct OrderedMesh {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
-  bool wide_ids = false;                   ///< some triangle's index takes more than 32 bits
-  std::vector<TriangleRuns::Extent> runs;  ///< if none of them is in memory
+  bool wide_ids = false;                   ///< some index takes more than 32 bits
+  std::vector<TriangleRuns::Extent> runs;  ///< the runs, if none of them is in memory
 };
 
-/// Reads the mesh at `input`, which is not ordered then.
+/// Reads the mesh at `input` without sorting it.
 ///
-/// scratch  as read_mesh() has it.
-/// intake   takes its triangles.
-/// return   all but the runs.
-/// errors   those of read_mesh and TriangleSpool; kBadInput for a bad record under options.strict.
+/// scratch  as for read_mesh().
+/// spool    receives the triangles.
+/// return   everything but the runs.
+/// errors   those of read_mesh() and TriangleSpool; kBadInput for a bad record under
+///          options.strict.
 Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
                                    TriangleSpool& spool);

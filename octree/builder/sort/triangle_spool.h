@@ -12,17 +12,17 @@
 
 namespace planetree::octree {
 
-/// Takes a mesh as it is read, in chunks of so many triangles: in memory as far as allowed,
-/// then on disk. What the chunks' model frame is, is known after the last.
+/// Receives the triangles of a mesh as they are read, and keeps them in batches: in memory up to a
+/// limit, then on disk. The model frame is known after the last triangle.
 ///
-/// threads  one while it is filled; then any number may take chunks, each once.
+/// threads  one while it is filled; then any number may take batches, each once.
 class TriangleSpool final : public TriangleSink {
  public:
   using ProgressCall = void (*)(void* context, std::uint64_t done, std::uint64_t total);
 
   /// batch_triangles  1 to 2^31.
-  /// held_bytes       of chunks may stay in memory, besides the last two.
-  /// file             takes the others; must outlive this.
+  /// held_bytes       maximum of batches in memory, besides the last two.
+  /// file             receives the other batches; must outlive this.
   TriangleSpool(std::uint32_t batch_triangles, std::uint64_t held_bytes, storage::SpillFile& file)
       : batch_triangles_(batch_triangles), held_bytes_(held_bytes), file_(file) {}
 
@@ -35,17 +35,17 @@ class TriangleSpool final : public TriangleSink {
   void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override;
   void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override;
 
-  /// Call once, after the last triangle.
+  /// Ends the spool. Call it once, after the last triangle.
   Result<ModelFrame> finish();
 
   std::size_t chunk_count() const { return batches_.size(); }
-  /// A chunk's triangles, in the order of the input, in the model frame, with their codes. Its
-  /// memory is no longer held. After finish() only.
+  /// The triangles of a batch in the order of the input, in the model frame, with their Morton
+  /// codes. Releases the memory of the batch. Call it after finish().
   Result<Triangles> take_batch(std::size_t batch);
 
  private:
   struct Batch {
-    Triangles held;  // or, if empty, `bytes` at `offset` in the file
+    Triangles held;  // if empty, the batch is `bytes` bytes at `offset` in the file
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
     bool float64 = false;
@@ -61,7 +61,7 @@ class TriangleSpool final : public TriangleSink {
   storage::SpillFile& file_;
   std::vector<Batch> batches_;
   ModelFrame frame_;
-  double min_magnitude_ = 0;  // of any coordinate but 0
+  double min_magnitude_ = 0;  // minimum over all coordinates that are not 0
   ProgressCall progress_ = nullptr;
   void* progress_context_ = nullptr;
 };

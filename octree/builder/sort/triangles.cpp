@@ -17,10 +17,11 @@ void store(const Triangle& corners, std::byte* to) {
   std::memcpy(to, values, sizeof values);
 }
 
-/// Puts elements in order: those of a few sorted runs by merging them. False if they were.
+/// Sorts elements, by merging if they are a few sorted runs. False if they were sorted already.
 template <class Element, class Precedes>
 bool merge_runs(std::vector<Element>& elements, const Precedes& precedes) {
-  constexpr std::size_t kFewElements = 64;  // a run, on average, or more: else sorting is quicker
+  // Merging is faster than sorting where runs have at least this many elements on average.
+  constexpr std::size_t kFewElements = 64;
   const auto first = elements.begin(), last = elements.end();
   std::vector<std::ptrdiff_t> ends;
   for (auto begin = first; begin != last;) {

@@ -13,12 +13,12 @@
 
 namespace planetree::octree {
 
-/// Triangles side by side, as records: Morton code and index in the input, 8 bytes each, then
+/// An array of triangles, stored as records: Morton code and index in the input, 8 bytes each, then
 /// nine coordinates in float32 or float64.
 class Triangles {
  public:
   explicit Triangles(bool float64 = false) : float64_(float64) {}
-  /// records  whole ones of `float64` triangles.
+  /// records  whole records, with coordinates as `float64` says.
   Triangles(std::vector<std::byte> records, bool float64)
       : records_(std::move(records)), float64_(float64) {
     assert(records_.size() % record_bytes() == 0);
@@ -34,7 +34,7 @@ class Triangles {
     return static_cast<std::uint32_t>(records_.size() / record_bytes());
   }
 
-  /// By code, then index.
+  /// The key that triangles are sorted by: code, then index.
   storage::SpillKey key(std::uint32_t position) const {
     storage::SpillKey key;
     std::memcpy(&key, at(position), sizeof key);
@@ -47,7 +47,7 @@ class Triangles {
     return float64_ ? corners_of<double>(from) : corners_of<float>(from);
   }
 
-  /// Coordinates are rounded to what is stored.
+  /// Adds a triangle. Coordinates are rounded to the type that is stored.
   void add(const storage::SpillKey& key, const Triangle& corners) {
     records_.resize(records_.size() + record_bytes());
     set(size() - 1, key, corners);
@@ -55,7 +55,7 @@ class Triangles {
   void set(std::uint32_t position, const storage::SpillKey& key, const Triangle& corners);
 
   void reserve(std::size_t count) { records_.reserve(count * record_bytes()); }
-  /// Puts them in the order of their keys.
+  /// Sorts the triangles by their keys.
   void sort();
 
   std::span<const std::byte> records() const { return records_; }

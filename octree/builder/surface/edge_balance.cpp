@@ -14,12 +14,12 @@
 namespace planetree::octree {
 namespace {
 
-/// The ends of an edge, in the same order whichever way a face runs along it.
+/// The ends of an edge, in the same order whatever the direction of the face.
 using Ends = std::array<double, 6>;
 
 struct HalfEdge {
   Ends ends{};
-  int way = 0;  // 1 or -1: from the lesser end to the greater or back; 0 without length
+  int way = 0;  // 1: from the lesser end to the greater; -1: back; 0: without length
 };
 
 HalfEdge half_edge(const Triangle& triangle, std::size_t corner) {
@@ -32,16 +32,16 @@ HalfEdge half_edge(const Triangle& triangle, std::size_t corner) {
 
 std::uint64_t hash_of(const Ends& ends) { return storage::hash64(std::as_bytes(std::span(ends))); }
 
-/// An edge that does not come out even in a patch.
+/// An edge that is not balanced within a chunk.
 struct LeftOver {
-  storage::SpillKey key;  // the hash of its ends
+  storage::SpillKey key;  // hash of the ends
   Ends ends{};
-  std::int64_t net = 0;  // faces that run forward less those that run back
+  std::int64_t net = 0;  // faces that run forward minus faces that run back
 };
 
 static_assert(sizeof(LeftOver) == EdgeCensus::kEdgeBytes);
 
-/// The edges of a patch, found by their hash.
+/// The edges of a chunk, in a hash table.
 class EdgeTable {
  public:
   explicit EdgeTable(const Triangles& chunk)
@@ -75,7 +75,7 @@ class EdgeTable {
   }
 
  private:
-  // Small: what is looked at is anywhere among them.
+  // Small, because accesses are scattered over the whole table.
   struct Entry {
     std::uint32_t index = kNone;  // 4 * triangle + corner of the first face that has the edge
     std::int32_t net = 0;
@@ -86,7 +86,7 @@ class EdgeTable {
     std::uint64_t hash;
     std::uint32_t index;
   };
-  // Triangles whose entries are asked of memory before the first of them is waited for.
+  // Triangles whose entries are prefetched before the first of them is used.
   static constexpr std::uint32_t kAtOnce = 16;
 
   Entry& entry_at(std::uint64_t hash) { return entries_[hash & (entries_.size() - 1)]; }
@@ -111,7 +111,7 @@ class EdgeTable {
   std::vector<Entry> entries_;
 };
 
-/// Open edges of some hashes, and those with the least ends among them.
+/// Unbalanced edges with hashes in some range, and those with the least ends among them.
 struct OpenEnds {
   std::uint64_t count = 0;
   std::vector<Ends> least;
@@ -143,7 +143,7 @@ OpenEnds open_ends(std::vector<LeftOver> edges) {
   return open;
 }
 
-/// So many left-over edges are balanced at a time, about.
+/// Approximate number of left-over edges that are balanced at a time.
 constexpr std::uint64_t kEdgesAtOnce = 1 << 17;
 
 }  // namespace
@@ -163,7 +163,7 @@ Result<void> EdgeCensus::add(const Triangles& chunk) {
 }
 
 Result<EdgeBalance> EdgeCensus::balance() {
-  // A power of two of equal shares of all hashes.
+  // The hashes are divided into equal ranges; their number is a power of two.
   const std::uint64_t shares = std::bit_ceil(left_over_.size() / kEdgesAtOnce + 1);
   const auto cut = [&](std::uint64_t share) -> Result<storage::SpillRuns::Cut> {
     if (share == shares) return left_over_.end();

@@ -25,7 +25,7 @@ std::array<std::int64_t, 8> EdgeCount::all() const {
 
 std::int64_t EdgeCount::rise(unsigned which, unsigned before) const {
   const DownwardSegment down({corners_[which], corners_[before]}, axis_of_edge(which, before));
-  // The two sides that the edge lies in.
+  // The two sides of the cell that the edge lies in.
   const unsigned needed = (~(which | before) & 7) | (which & before) << 3;
   std::int64_t sum = 0;
   for (const auto& [position, sides] : near_)
@@ -33,8 +33,8 @@ std::int64_t EdgeCount::rise(unsigned which, unsigned before) const {
   return sum;
 }
 
-// A bit for each of the cell's lower sides whose plane the triangle's box crosses, as
-// DownwardSegment tells it, and behind those one for each upper side.
+// A bit for each lower side of the cell whose plane the triangle's box crosses by the rule of
+// DownwardSegment, and behind those a bit for each upper side.
 unsigned EdgeCount::sides_crossed(const BoxedTriangle& triangle) const {
   unsigned crossed = 0;
   for (unsigned axis = 0; axis < 3; ++axis)

@@ -7,10 +7,10 @@
 
 #include "octree/geometry/predicates.h"
 
-/// What triangles are to cells' octants and edges.
+/// How triangles meet the octants and edges of cells.
 namespace planetree::octree {
 
-/// A triangle and its box, the box in one line of memory: mostly no more is looked at.
+/// A triangle and its box. The box fills one cache line, and mostly nothing else is read.
 struct alignas(64) BoxedTriangle {
   explicit BoxedTriangle(const Triangle& triangle)
       : least(triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2])),
@@ -21,15 +21,16 @@ struct alignas(64) BoxedTriangle {
   Triangle corners;
 };
 
-/// A segment that leads down along one axis, from the greater end to the lesser.
+/// A segment along one axis, from its greater end down to its lesser end.
 class DownwardSegment {
  public:
   DownwardSegment(const PerturbedSegment& segment, unsigned axis)
       : segment_(segment), axis_(axis) {}
 
-  /// As octree::crossing(), but most triangles are told apart by their boxes. One that is no
-  /// higher than the segment is below it: such are those in the sides of cells, which take long
-  /// to tell otherwise.
+  /// As octree::crossing(), but the boxes decide for most triangles. A triangle whose box does not
+  /// reach above the segment's lower end on some axis is not crossed, since the perturbation moves
+  /// the segment up. Triangles in the sides of cells, which take long to decide exactly, are among
+  /// these.
   std::int64_t crossing(const BoxedTriangle& triangle) const {
     const bool near = (triangle.least.array() <= segment_.from.array()).all() &&
                       (triangle.greatest.array() > segment_.to.array()).all();
@@ -37,8 +38,8 @@ class DownwardSegment {
   }
 
  private:
-  // Whether two of the triangle's edges are certainly passed on different sides. They are passed
-  // as the segment's line is, which seen along the axis is a point.
+  // Whether the segment certainly passes two edges of the triangle on different sides. What counts
+  // is the line of the segment, which seen along the axis is a point.
   bool passes_by(const Triangle& triangle) const {
     const unsigned i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
     bool left = false, right = false;
@@ -51,7 +52,8 @@ class DownwardSegment {
     }
     return left && right;
   }
-  /// Of a difference of products of differences, each rounded; and of products that underflow.
+  /// Error of a difference of two products of rounded differences, as a share of the products, and
+  /// error of products that underflow.
   static constexpr double kError = 0x1p-49;
   static constexpr double kUnderflow = 0x1p-1000;
 
@@ -59,7 +61,7 @@ class DownwardSegment {
   unsigned axis_;
 };
 
-/// The axis of the edge between two of a cell's corners.
+/// Axis of the edge between two corners of a cell.
 inline unsigned axis_of_edge(unsigned which, unsigned before) {
   return static_cast<unsigned>(std::countr_zero(which ^ before));
 }

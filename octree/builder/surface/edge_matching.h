@@ -13,14 +13,15 @@
 
 namespace planetree::octree {
 
-/// Certain of the triangles of a patch, in any order; on any thread.
+/// Receives the triangles of a chunk, in any order, on any thread.
 using ChunkCall = std::function<Result<void>(const Triangles& triangles)>;
 
-/// Matches the edges of a model, patch by patch, and looks for the faces of those that are open.
+/// Matches the edges of a model, chunk by chunk, and finds the faces of the listed unbalanced
+/// edges.
 ///
-/// also        given every patch once, on the way.
-/// held_bytes  of edges that patches have in common may stay in memory.
-/// scratch     takes the others.
+/// also        called for every chunk, once.
+/// held_bytes  maximum of edges in memory that are left over by chunks.
+/// scratch     receives the others.
 /// errors      those of SpillFile and `also`.
 /// Uses the calling thread's TBB arena.
 Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,

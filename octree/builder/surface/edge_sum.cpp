@@ -33,7 +33,7 @@ void EdgeSum::add_edge(const Point& from, const Point& to) {
   const std::array<Point, 2> ends{forward ? from : to, forward ? to : from};
   const storage::Hash128 hash = storage::hash128(std::as_bytes(std::span(ends)));
   EdgeSum edge;
-  // Taken away is added as its complement to 2^128.
+  // To subtract, the complement to 2^128 is added.
   edge.low_ = forward ? hash.low : ~hash.low + 1;
   edge.high_ = forward ? hash.high : ~hash.high + (hash.low == 0);
   add(edge);

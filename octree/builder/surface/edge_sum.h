@@ -6,15 +6,16 @@
 
 namespace planetree::octree {
 
-/// Tells whether a surface closes, as EdgeBalance defines it, from its triangles in any order
-/// and in constant memory: every edge adds a hash of its ends one way and takes it away the
-/// other. So the sum is zero if, and but for one case in 2^128 only if, as many faces run along
-/// every edge one way as the other.
+/// Tells whether a surface is watertight, as EdgeBalance defines it, from its triangles in any
+/// order and in constant memory. An edge adds a hash of its ends in one direction and subtracts it
+/// in the other. The sum is zero if as many faces run along every edge in one direction as in the
+/// other; of surfaces where that does not hold, one in 2^128 has the sum zero too.
 class EdgeSum {
  public:
-  /// The edges of one triangle; each triangle once, all in the same frame, zeros being +0.
+  /// Adds the edges of a triangle. Add each triangle once, all in the same frame, with +0 for
+  /// zeros.
   void add(const Triangle& triangle);
-  /// Those of other triangles.
+  /// Adds the edges that were added to another sum.
   void add(const EdgeSum& other);
 
   [[nodiscard]] bool is_watertight() const { return low_ == 0 && high_ == 0; }

@@ -11,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-// Straight out of the model's box.
+// A segment from `from` straight out of the model's box.
 DownwardSegment way_out(const Point& from, const Point& box_lower) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Point outside = from;

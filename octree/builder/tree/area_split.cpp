@@ -13,7 +13,6 @@ namespace {
 
 using WideBox = AreaSplitter::WideBox;
 
-/// A box that grows.
 class GrowingBox {
  public:
   void extend(const WideBox& box) {
@@ -34,7 +33,7 @@ float centre2(const SplitItem& item, std::size_t axis) {
   return item.box.lower[axis] + item.box.upper[axis];
 }
 
-// Ordered as the floats are; both zeros are one.
+// Bits that have the order of the floats; both zeros give the same bits.
 std::uint32_t ordered_bits(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
   return (bits >> 31) != 0 ? ~bits : bits | 0x80000000U;
@@ -45,7 +44,7 @@ float blocks_for(std::size_t triangles) {
   return static_cast<float>(blocks);
 }
 
-// How far from halves.
+// Difference in size between the two parts.
 std::uint32_t skew(std::uint32_t left_count, std::uint32_t count) {
   return std::max(2 * left_count, count) - std::min(2 * left_count, count);
 }
@@ -90,8 +89,8 @@ AreaSplitter::Split AreaSplitter::best_on(const Order& order, std::uint32_t begi
   for (std::uint32_t i = 1; i < count; ++i) {
     left.extend(boxes_[order[begin + i - 1]]);
     const float cost = left.half_area() * blocks_for(i) + right_area[i] * blocks_for(count - i);
-    // Coincident triangles all cost the same: peeled off block by block they would make a
-    // chain.
+    // All splits of coincident triangles cost the same. Splitting off one block at a time would
+    // make a chain.
     if (cost < best.cost || (cost == best.cost && best.left_count != 0 &&
                              skew(i, count) < skew(best.left_count, count)))
       best = {cost, i};
@@ -109,7 +108,7 @@ std::uint32_t AreaSplitter::split(std::uint32_t begin, std::uint32_t end) {
     best = found;
     best_axis = axis;
   }
-  // Flat or overflowing boxes have no best cost: halve, in whole blocks.
+  // Flat or overflowing boxes have no least cost: they are halved, in whole blocks.
   if (best.left_count == 0)
     best.left_count =
         ((end - begin) / 2 + kMaxBlockTriangles - 1) / kMaxBlockTriangles * kMaxBlockTriangles;
@@ -117,7 +116,7 @@ std::uint32_t AreaSplitter::split(std::uint32_t begin, std::uint32_t end) {
   return best.left_count;
 }
 
-// Parts every order as `by` is parted, in itself as it was.
+// Splits every order into the same two parts as `by`, and keeps the order within each part.
 void AreaSplitter::part(const Order& by, std::uint32_t begin, std::uint32_t middle,
                         std::uint32_t end) {
   std::array<bool, kMaxAreaSplit> is_left;

@@ -13,33 +13,35 @@ namespace planetree::octree {
 
 inline constexpr std::uint32_t kMaxAreaSplit = 512;
 
-/// A triangle about to be split off: its key and its box.
+/// A triangle to be split: its key and its box.
 struct SplitItem {
   MortonKey key;
   FloatBox box;
 };
 
-/// Splits up to kMaxAreaSplit triangles again and again, each time at the least surface area
-/// times triangle blocks, over all places in the orders of the three centre coordinates. Ties
-/// go to the first axis and the place next to the middle, equal coordinates to the lesser
-/// position. Triangles are sorted once: a half of a sorted sequence is sorted.
+/// Splits up to kMaxAreaSplit triangles in two, and the parts again. Each split minimises the sum
+/// of surface area times number of blocks over its two parts, among all positions in the orders of
+/// the three centre coordinates. Ties go to the first axis and to the position next to the middle;
+/// triangles with equal coordinates are in the order of their positions. Triangles are sorted once:
+/// a part of a sorted sequence is sorted.
 class AreaSplitter {
  public:
-  /// A box whose sides fill a vector each.
+  /// A box whose corners fill a vector each.
   struct WideBox {
     Eigen::Array4f lower, upper;
   };
 
-  /// items  used while this lives.
+  /// items  must outlive this.
   explicit AreaSplitter(std::span<const SplitItem> items);
 
-  /// Parts the triangles at places [begin, end), more than a block's, which all were or one part
-  /// of what was split before; returns how many come first then.
+  /// Splits the triangles at indices [begin, end), which are more than fit in a block. They must be
+  /// all triangles, or one part of an earlier split. Returns the number of triangles in the first
+  /// part.
   std::uint32_t split(std::uint32_t begin, std::uint32_t end);
 
-  /// The triangle at a place.
+  /// The triangle at an index.
   const SplitItem& at(std::uint32_t index) const { return items_[order_[0][index]]; }
-  /// Indices in the order that the last split sorted them by.
+  /// The triangle at an index, in the order that its last split used.
   const SplitItem& in_split_order(std::uint32_t index) const { return items_[last_[index]]; }
 
  private:
@@ -55,7 +57,7 @@ class AreaSplitter {
 
   const std::span<const SplitItem> items_;
   std::array<WideBox, kMaxAreaSplit> boxes_;
-  std::array<Order, 3> order_;  // by axis; the same triangles at the places of a part
+  std::array<Order, 3> order_;  // by axis; a part has the same triangles in each order
   Order last_;
 };
 

@@ -12,8 +12,8 @@
 namespace planetree::octree {
 namespace {
 
-// Where the highest bit that differs within the sorted range turns to 1; the
-// middle where none differs.
+// Index where the highest bit that differs in the sorted range becomes 1; the middle if no bit
+// differs.
 std::uint32_t split_by_code(std::span<const MortonKey> keys, std::uint32_t begin,
                             std::uint32_t end) {
   const std::uint64_t differing = keys[begin].code ^ keys[end - 1].code;
@@ -67,7 +67,7 @@ class SubtreeBuilder {
     return root;
   }
 
-  // Of places [first, last), keys from `begin` on being at place 0 and on.
+  // Appends the subtree over the splitter's indices [first, last); index 0 is that of keys[begin].
   std::uint32_t split_items(AreaSplitter& splitter, std::uint32_t begin, std::uint32_t first,
                             std::uint32_t last) {
     const auto at = static_cast<std::uint32_t>(nodes.size());

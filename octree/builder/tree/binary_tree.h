@@ -14,19 +14,19 @@ struct BinaryNode {
   FloatBox box;  ///< relative to the model's centre, rounded outward
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
-  std::uint32_t left = 0;  ///< child nodes; 0 in a leaf, for node 0 is the root
+  std::uint32_t left = 0;  ///< child nodes; 0 in a leaf, since node 0 is the root
   std::uint32_t right = 0;
 
   bool leaf() const { return left == 0; }
   std::uint32_t count() const { return end - begin; }
 };
 
-/// Splits the triangles in two again and again until at most 16 are left: by
-/// the bits of their Morton codes down to 512, from there by least surface
-/// area. Reorders `keys` within those last 512.
+/// Splits the triangles in two again and again until at most 16 are left: by the bits of their
+/// Morton codes down to 512 triangles, from there by least surface area. Reorders `keys` within
+/// those groups of up to 512.
 ///
-/// centre  of the model; boxes are relative to it.
-/// return  node 0 is the root; children come after their parent.
+/// centre  centre of the model; boxes are relative to it.
+/// return  the nodes; node 0 is the root, and children come after their parent.
 std::vector<BinaryNode> build_binary_tree(const Triangles& mesh, const Point& centre,
                                           std::vector<MortonKey>& keys);
 

@@ -6,7 +6,7 @@
 namespace planetree::octree {
 namespace {
 
-// Bits, lowest first, to whole bytes.
+// Packs bits, lowest first. flush() fills up the last byte.
 class BitWriter {
  public:
   explicit BitWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}

@@ -17,9 +17,9 @@ namespace planetree::octree {
 
 /// Collects the block streams of one page (octree/page/page_streams.h).
 ///
-/// A page keeps each position once. A block names its vertices in page order:
-/// those an earlier block brought, then its own new ones, which are numbered on
-/// from there and need no reference.
+/// A page stores each position once. A block lists its vertices in the order of the page: first
+/// those that an earlier block brought, then its own new ones. The new ones take the next numbers
+/// and need no reference.
 class BlockEncoder {
  public:
   BlockEncoder(const Triangles& mesh, const ChunkVertices& vertices,
@@ -29,14 +29,14 @@ class BlockEncoder {
   }
 
   void add(const WideBlock& block);
-  /// Fills the block fields of the head.
+  /// Fills in the block fields of the head.
   void describe(PageHead& head) const;
   void write(StreamWriter& writer) const;
 
  private:
   using Corners = std::array<std::array<std::uint32_t, 3>, kMaxBlockTriangles>;
 
-  static constexpr std::size_t kUsualVertices = 2048;  // of a page of 64 KiB
+  static constexpr std::size_t kUsualVertices = 2048;  // in a page of 64 KiB
 
   std::vector<std::uint32_t> sorted_positions(const WideBlock& block) const;
   void add_ids(const std::vector<std::uint32_t>& positions);
@@ -48,8 +48,8 @@ class BlockEncoder {
   const ChunkVertices& of_chunk_;
   const std::vector<MortonKey>& keys_;
   BlockShape shape_;
-  std::unordered_map<std::uint32_t, std::uint32_t> vertex_of_;  // of the page, by the patch's
-  std::vector<std::uint32_t> vertices_;                         // of the patch, by the page's
+  std::unordered_map<std::uint32_t, std::uint32_t> vertex_of_;  // page's vertex, by chunk's
+  std::vector<std::uint32_t> vertices_;                         // chunk's vertex, by page's
   std::vector<std::uint8_t> triangle_counts_, vertex_counts_, new_counts_;
   std::vector<std::uint16_t> vertex_refs_;
   std::vector<std::byte> corners_;

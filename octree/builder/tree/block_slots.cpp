@@ -5,7 +5,7 @@
 namespace planetree::octree {
 namespace {
 
-// From the least index of a block's triangles to the greatest.
+// Greatest minus least index of a block's triangles.
 std::uint64_t span_of(const Triangles& triangles, const std::vector<MortonKey>& keys,
                       const WideBlock& block) {
   std::uint64_t least = triangles.index(keys[block.begin].position), greatest = least;

@@ -11,7 +11,7 @@
 
 namespace planetree::octree {
 
-/// The slots that each block's record takes. The vertices of blocks must have been listed.
+/// Number of slots of each block's record. The vertices of the blocks must have been listed.
 std::vector<std::uint8_t> block_slots(const Triangles& triangles, const ChunkVertices& vertices,
                                       const std::vector<MortonKey>& keys,
                                       const std::vector<WideBlock>& blocks,

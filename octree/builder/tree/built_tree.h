@@ -15,13 +15,13 @@
 
 namespace planetree::octree {
 
-/// The tree of a model all of whose patches are built, its pages numbered as in the file.
+/// The tree of a model whose chunks are all built. Its pages are numbered as in the file.
 /// threads  any number.
 class BuiltTree {
  public:
-  /// All must outlive this.
-  /// patches  those of `above`.
-  /// file     has the patches' pages.
+  /// All arguments must outlive this.
+  /// chunks  those of `above`.
+  /// file    has the pages of the chunks.
   BuiltTree(const ModelFrame& frame, const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
             const BlockShape& shape, std::uint32_t page_bytes, const storage::SpillFile& file);
   BuiltTree(const BuiltTree&) = delete;
@@ -35,9 +35,9 @@ class BuiltTree {
   std::uint64_t block_count() const { return block_count_; }
   unsigned height() const;
 
-  /// For walks in it: without a sample.
+  /// Facts of the tree for traversals, without a sample.
   TreeInfo info() const;
-  /// What decoding one of its pages needs.
+  /// Facts that decoding one of its pages needs.
   PageInfo info_of_page(std::uint32_t number) const;
 
  private:

@@ -14,25 +14,25 @@
 
 namespace planetree::octree {
 
-/// A patch that was built: what the tree above it is made from.
+/// Result of building a chunk, from which the tree above it is made.
 struct BuiltChunk {
   std::vector<SpilledPage> pages;  ///< in the order of their keys
-  std::uint32_t root_link = 0;     ///< the page by its place in `pages`
-  std::uint8_t height = 0;         ///< of its root; 0 if that is a block
+  std::uint32_t root_link = 0;     ///< link to the root, with the page's index in `pages`
+  std::uint8_t height = 0;         ///< height of the root; 0 if it is a block
   std::uint64_t node_count = 0;
   std::uint64_t block_count = 0;
   std::uint64_t min_code = 0, greatest_code = 0;
-  FloatBox box;                       ///< the root's, relative to the model's centre
-  std::vector<FloatBox> boxes_below;  ///< two levels below the root
-  Point area = Point::Zero();         ///< sum of area vectors
-  SurfaceSums sums;                   ///< about the centre of `box`; of open models only
+  FloatBox box;                       ///< box of the root, relative to the model's centre
+  std::vector<FloatBox> boxes_below;  ///< boxes two levels below the root
+  Point area = Point::Zero();         ///< sum of the triangles' area vectors
+  SurfaceSums sums;                   ///< about the centre of `box`; 0 if the model is watertight
 };
 
-/// Builds the tree of a patch and puts its pages away.
+/// Builds the tree of a chunk and spills its pages.
 ///
-/// triangles  of the patch, in order; model frame.
-/// centre     of the model.
-/// threads    any number, with patches of their own.
+/// triangles  those of the chunk, sorted; model frame.
+/// centre     centre of the model.
+/// threads    any number, each with its own chunk.
 /// errors     those of plan_pages() and SpillFile.
 Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
                                const BlockShape& shape, std::uint32_t page_bytes,

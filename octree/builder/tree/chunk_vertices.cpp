@@ -12,7 +12,7 @@ namespace planetree::octree {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
-/// Triangles whose vertices' places are asked of memory before the first of them is waited for.
+/// Triangles whose table entries are prefetched before the first of them is used.
 constexpr std::uint32_t kAtOnce = 16;
 
 // No coordinate is -0, so that equal positions have equal bits.

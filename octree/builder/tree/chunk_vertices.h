@@ -12,8 +12,8 @@
 
 namespace planetree::octree {
 
-/// The distinct vertices of some triangles, bit-equal positions counted once, and those of
-/// every block.
+/// The distinct vertices of a chunk's triangles, and the vertices of each block. Positions with
+/// equal bits are one vertex.
 class ChunkVertices {
  public:
   explicit ChunkVertices(const Triangles& triangles);
@@ -25,7 +25,7 @@ class ChunkVertices {
     return corners_[triangle];
   }
 
-  /// Lists the vertices of blocks, by number: each once a block.
+  /// Lists the vertices of each block: ascending, each once.
   void list_blocks(const std::vector<WideBlock>& blocks, const std::vector<MortonKey>& keys);
   std::span<const std::uint32_t> of_block(std::uint32_t block) const {
     return std::span(listed_).subspan(first_[block], first_[block + 1] - first_[block]);

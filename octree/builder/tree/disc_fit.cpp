@@ -12,10 +12,10 @@ namespace planetree::octree {
 namespace {
 
 constexpr std::uint32_t kMaxTightTriangles = 1 << 16;
-// Of larger subtrees about this many faces stand for the normal.
+// Larger subtrees take their normal from about this many faces.
 constexpr std::uint32_t kNormalFaces = 512;
 
-// How far points reach along a decoded normal and away from it.
+// The extent of points along a decoded normal and across it.
 class DiscExtent {
  public:
   DiscExtent(const FloatBox& box, const std::array<float, 3>& normal) {
@@ -32,7 +32,7 @@ class DiscExtent {
     radius2_ = std::max(radius2_, from.cross(normal_).squaredNorm());
   }
 
-  // Rounds outward, with the slack that float evaluation needs.
+  // Rounds outward, with the slack that evaluation in float needs.
   void pack(const FloatBox& box, PackedChild& packed) const {
     const double step = box.plane_step();
     if (!(step > 0)) return;
@@ -41,7 +41,7 @@ class DiscExtent {
         std::clamp(std::floor((lower_ - slack) / step), -32767.0, 32767.0));
     packed.slab_upper = static_cast<std::int16_t>(
         std::clamp(std::ceil((upper_ + slack) / step), -32767.0, 32767.0));
-    // |normal| is 1 to a few 2^-24 only; the slack covers that too.
+    // The normal's length is 1 only to a few 2^-24; the slack covers that too.
     packed.radius = static_cast<std::uint16_t>(
         std::clamp(std::ceil((std::sqrt(radius2_) + slack) / step), 0.0, 65535.0));
   }
@@ -104,7 +104,6 @@ Point area_vector(const Triangle& triangle) {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
 }
 
-// Any, where faces cancel out.
 Point normal_of(const Point& area) {
   const double length = area.norm();
   return length > 0 ? Point(area / length) : Point(0, 0, 1);

@@ -6,7 +6,7 @@
 #include "octree/geometry/child_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 
-/// Boxes in float that enclose what was given in double.
+/// Boxes in float that enclose points in double.
 namespace planetree::octree {
 
 inline float float_below(double value) {
@@ -28,7 +28,7 @@ inline FloatBox empty_box() {
   return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 }
 
-/// Grows `box` by a point relative to the model's centre.
+/// Extends `box` to a point relative to the model's centre.
 inline void extend(FloatBox& box, const Point& point) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double value = point[static_cast<Eigen::Index>(axis)];

@@ -16,7 +16,7 @@ SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
   const Point vector = 0.5 * u.cross(v);
   SurfaceSums sums;
   sums.vector = vector;
-  // A thin triangle's area may have cancelled, but not by more than this.
+  // The area of a thin triangle may be too small by cancellation, but not by more than this.
   sums.area = vector.norm() + 0x1p-48 * u.norm() * v.norm();
   const Point sum = a + b + c;
   sums.first = sum / 3 * vector.transpose();
@@ -26,7 +26,7 @@ SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
   return sums;
 }
 
-/// Whole units next to a value, which is at most kMax of them but for rounding.
+/// Number of units nearest to a value, limited to a magnitude that only rounding exceeds.
 template <class Integer>
 Integer steps(double value, double unit, int most) {
   const double scaled = value / unit;
@@ -72,7 +72,7 @@ class MomentSummer {
     std::array<std::uint32_t, kMaxBlockTriangles> positions;
     const auto end = std::transform(keys_.begin() + first, keys_.begin() + last, positions.begin(),
                                     [](MortonKey key) { return key.position; });
-    // As they are stored: keys within a block are in no order.
+    // In the order in which they are stored: keys within a block are not sorted.
     std::sort(positions.begin(), end,
               [this](std::uint32_t a, std::uint32_t b) { return mesh_.index(a) < mesh_.index(b); });
     SurfaceSums sums;
@@ -88,7 +88,7 @@ class MomentSummer {
   const Point& centre_;
   const std::vector<MortonKey>& keys_;
   const WideTree& tree_;
-  std::vector<SurfaceSums> node_sums_;  ///< of each node, about the centre of its box
+  std::vector<SurfaceSums> node_sums_;  ///< by node, about the centre of its box
   std::vector<NodeMoments> moments_;
 };
 
@@ -109,8 +109,8 @@ void SurfaceSums::move(const Point& by) {
 }
 
 Moments packed(const SurfaceSums& sums, const FloatBox& box) {
-  // What rounding may have cost is far below these shares: moving cancels no more than the
-  // square of the box's diagonal.
+  // These shares are far more than rounding may have cost: moving the reference point cancels no
+  // more than the square of the box's diagonal.
   const auto diagonal2 = static_cast<double>(box.diagonal_squared());
   const double area = sums.area * (1 + 0x1p-20);
   const double second = std::max(0.0, sums.second) * (1 + 0x1p-20) + 0x1p-40 * diagonal2 * area;

@@ -9,34 +9,34 @@
 
 namespace planetree::octree {
 
-/// Integrals over some triangles, x being relative to a point near them.
+/// Integrals over triangles: n is the unit normal, x is relative to a point near the triangles.
 struct SurfaceSums {
-  Point vector = Point::Zero();                     ///< of the normal n
-  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();  ///< of x n^T
-  double area = 0;                                  ///< of 1, rounded up
-  Point position = Point::Zero();                   ///< of x
-  double second = 0;                                ///< of |x|^2, rounded up
+  Point vector = Point::Zero();                     ///< integral of n
+  Eigen::Matrix3d first = Eigen::Matrix3d::Zero();  ///< integral of x n^T
+  double area = 0;                                  ///< integral of 1, rounded up
+  Point position = Point::Zero();                   ///< integral of x
+  double second = 0;                                ///< integral of |x|^2, rounded up
 
   void add(const SurfaceSums& other);
-  /// Makes every x larger by `by`.
+  /// Changes the reference point: every x becomes x + `by`.
   void move(const Point& by);
 };
 
-/// A child's moments, rounded to what is stored.
+/// Rounds a child's moments to what is stored.
 ///
 /// sums  about the centre of the child's decoded box.
 Moments packed(const SurfaceSums& sums, const FloatBox& box);
 
 struct TreeMoments {
-  std::vector<NodeMoments> nodes;  ///< of every node's children, by node
+  std::vector<NodeMoments> nodes;  ///< moments of the children, by node
   SurfaceSums root;                ///< about the centre of the root's box
 };
 
-/// The moments of a tree. A child's sums are those of its triangles, or of its own children,
-/// in their order; so the result depends on the tree alone.
+/// Computes the moments of a tree. A child's sums are those of its triangles, or of its own
+/// children, in their order; so the result depends on the tree alone.
 ///
-/// centre  of the model; boxes are relative to it.
-/// box     the root's.
+/// centre  centre of the model; boxes are relative to it.
+/// box     box of the root.
 TreeMoments sum_moments(const Triangles& mesh, const Point& centre,
                         const std::vector<MortonKey>& keys, const WideTree& tree,
                         const FloatBox& box);

@@ -10,7 +10,7 @@
 namespace planetree::octree {
 namespace {
 
-// Pages made together before they are written in order.
+// Pages that are made together before they are written in order.
 constexpr std::uint32_t kBatchPages = 256;
 
 struct Encoded {

@@ -11,22 +11,22 @@
 
 namespace planetree::octree {
 
-/// A page as it goes to the file but for its compression.
+/// A page as it goes to the file, before compression.
 struct FilePage {
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;
   std::vector<std::byte> bytes;
-  std::size_t blocks_at = 0;  ///< of a distance page: its blocks' counts of triangles
+  std::size_t blocks_at = 0;  ///< distance page: offset of the blocks' triangle counts
 };
 
-/// Makes pages side by side and appends them to a file in their order.
+/// Makes pages in parallel and appends them to a file in their order.
 class PageAppender {
  public:
-  /// total  of all pages that will be appended, for `progress`.
+  /// total  number of all pages that will be appended, for `progress`.
   PageAppender(storage::PageWriter& writer, BuildProgress& progress, std::uint32_t total)
       : writer_(writer), progress_(progress), total_(total) {}
 
-  /// Appends make(i) for i below `count`. Uses the calling thread's TBB arena.
+  /// Appends make(i) for every i below `count`. Uses the calling thread's TBB arena.
   Result<void> append(std::uint32_t count,
                       const std::function<Result<FilePage>(std::uint32_t)>& make);
 

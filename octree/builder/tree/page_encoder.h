@@ -13,15 +13,15 @@
 
 namespace planetree::octree {
 
-/// A page's raw bytes, and where in them its links to other pages are.
+/// A page's raw bytes, and the offset of its links to other pages in them.
 struct EncodedPage {
   std::vector<std::byte> bytes;
   std::uint32_t links_at = 0;
   std::uint32_t link_count = 0;
 };
 
-/// Makes the raw bytes of pages, as octree/page/page_decoder.h reads them. One
-/// encoder per thread; the bytes depend on the arguments alone.
+/// Makes the raw bytes of pages, as octree/page/page_decoder.h reads them. One encoder per thread;
+/// the bytes depend on the arguments alone.
 class PageEncoder {
  public:
   PageEncoder(const Triangles& mesh, const ChunkVertices& vertices,
@@ -29,7 +29,7 @@ class PageEncoder {
               const BlockShape& shape)
       : mesh_(mesh), vertices_(vertices), keys_(keys), tree_(tree), plan_(plan), shape_(shape) {}
 
-  /// page  of the plan.
+  /// page  index in the plan.
   EncodedPage encode(std::size_t page) const;
 
  private:

@@ -6,7 +6,8 @@
 namespace planetree::octree {
 namespace {
 
-// Parents come before children: of a larger cell, of the crown, or earlier in their patch.
+// Parents come before children: they have a larger cell, are in the top tree, or come earlier in
+// their chunk.
 auto rank(const NumberedPage& page) {
   const std::uint64_t owner =
       page.chunk == NumberedPage::kTopTree ? 0 : page.chunk + std::uint64_t{1};

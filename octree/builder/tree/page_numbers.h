@@ -15,22 +15,22 @@ struct NumberedPage {
 
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;       ///< among pages of the same octcode
-  std::uint32_t chunk = kTopTree;  ///< whose it is, or the crown's
-  std::uint32_t index = 0;         ///< among its pages
+  std::uint32_t chunk = kTopTree;  ///< its chunk, or kTopTree
+  std::uint32_t index = 0;         ///< among the pages of the chunk or the top tree
 };
 
-/// The pages of crown and patches in the order of the file.
+/// The pages of the top tree and of all chunks, in the order of the file.
 class PageNumbers {
  public:
   PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
               std::uint32_t page_bytes);
 
-  /// errors  kBadArgument when links of 31 bits cannot tell so many pages apart: 2^21 of 64 KiB.
+  /// errors  kBadArgument: more pages than links of 31 bits can address, 2^21 for pages of 64 KiB.
   Result<void> check() const;
 
   const std::vector<NumberedPage>& pages() const { return pages_; }
   std::uint32_t top_tree_page(std::size_t index) const { return of_top_tree_[index]; }
-  /// What a link within a patch is in the file.
+  /// The link in the file for a link within a chunk.
   std::uint32_t link(std::uint32_t chunk, std::uint32_t link) const;
 
  private:

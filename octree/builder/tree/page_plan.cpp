@@ -14,10 +14,10 @@ namespace {
 struct Key {
   std::uint64_t octcode = 0;
   std::uint32_t ordinal = 0;
-  auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): of its zeros
+  auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-// A page before it has its number.
+// A page that has no number yet.
 struct Draft {
   PlannedPage page;
   std::uint32_t slots = 0;
@@ -57,7 +57,7 @@ class PagePlanner {
   }
 
  private:
-  // A quarter page, but room for one record of any kind.
+  // A quarter page, but enough for one record of any kind.
   static std::uint32_t bottom_slots(std::uint32_t page_bytes) {
     return std::max<std::uint32_t>(page_bytes / 4, 2048) / kSlotBytes;
   }
@@ -83,8 +83,8 @@ class PagePlanner {
     }
   }
 
-  // Completes a page from its roots, breadth first; collects, in order, the
-  // roots of treelets that hang from it.
+  // Completes a page from its roots, breadth first. Collects, in order, the roots of the treelets
+  // that hang from it.
   void fill(PlannedPage& page, std::vector<RecordRef>& below) const {
     for (std::size_t i = 0; i < page.nodes.size(); ++i) {
       const WideNode& node = tree_.nodes[page.nodes[i]];
@@ -122,11 +122,11 @@ class PagePlanner {
     return {node.children[0].begin, node.children[node.child_count - 1u].end};
   }
 
-  // The smallest cell that holds all centres of a record's triangles.
+  // Octcode of the smallest cell that holds the box centres of a record's triangles.
   std::uint64_t octcode_of(RecordRef record) const {
     const auto [begin, end] = range_of(record);
     std::uint64_t least = keys_[begin].code, greatest = least;
-    // Within an area split keys are not sorted; above it they are.
+    // Keys are not sorted within an area split, and are sorted above it.
     const std::uint32_t last = std::min(end, begin + kMaxAreaSplit);
     for (std::uint32_t i = begin; i < last; ++i) {
       least = std::min(least, keys_[i].code);
@@ -139,7 +139,8 @@ class PagePlanner {
     return octcode_of_range(least, greatest);
   }
 
-  // Treelet roots in preorder: parents come first, so ordinals ascend downward.
+  // Numbers the roots of treelets in preorder: parents come first, so that ordinals ascend
+  // downward.
   void give_keys() {
     std::map<std::uint64_t, std::uint32_t> next_ordinal;
     std::vector<RecordRef> roots;

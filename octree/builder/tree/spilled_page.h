@@ -14,13 +14,14 @@
 
 namespace planetree::octree {
 
-/// A page of a patch or a region, put away until all pages have their numbers.
+/// A page of a chunk or of a sector, spilled until all pages have their numbers. Its links to other
+/// pages name them by their indices in the chunk or sector.
 struct SpilledPage {
   std::uint64_t octcode = 0;
-  std::uint64_t offset = 0;  ///< of its raw bytes in the SpillFile
+  std::uint64_t offset = 0;  ///< offset of its raw bytes in the SpillFile
   std::uint32_t raw_bytes = 0;
-  std::uint32_t links_at = 0;    ///< of its links to other pages, shuffled, in the raw bytes
-  std::uint32_t link_count = 0;  ///< they name pages by their places among those put away
+  std::uint32_t links_at = 0;    ///< offset in them of the links to other pages, byte-split
+  std::uint32_t link_count = 0;  ///< number of those links
 };
 
 inline Result<SpilledPage> put_away(std::uint64_t octcode, const EncodedPage& page,
@@ -31,10 +32,10 @@ inline Result<SpilledPage> put_away(std::uint64_t octcode, const EncodedPage& pa
                      page.link_count};
 }
 
-/// Gets its raw bytes back, its number and every link to another page replaced.
+/// Reads the raw bytes back, and replaces the page number and every link to another page.
 ///
-/// number  in the file.
-/// link    what link(l) says a link among those put away is in the file.
+/// number  page number in the file.
+/// link    link(l) is the link in the file for the spilled link l.
 template <class Link>
 Result<std::vector<std::byte>> get_back(const SpilledPage& page, const storage::SpillFile& file,
                                         std::uint32_t number, const Link& link) {

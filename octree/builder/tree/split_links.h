@@ -5,7 +5,7 @@
 
 namespace planetree::octree {
 
-/// Replaces each of `count` byte-shuffled links by what replace(link) says.
+/// Replaces each of `count` links, stored with byte-stream split, by replace(link).
 template <class Replace>
 void replace_links(std::byte* stream, std::size_t count, const Replace& replace) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -7,7 +7,8 @@
 
 namespace planetree::octree {
 
-/// Appends arrays byte-shuffled: all first bytes, then all second bytes, ...
+/// Appends arrays, plain or with byte-stream split: all first bytes, then all second bytes, and so
+/// on.
 class StreamWriter {
  public:
   template <class T>

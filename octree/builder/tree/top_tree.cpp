@@ -87,8 +87,8 @@ class TopTreeBuilder {
   WideTree& tree_;
 };
 
-/// Packs the nodes into pages, breadth first: those that hang from one page share pages, and
-/// no others.
+/// Packs the nodes into pages, breadth first. Nodes that hang from one page share pages; nodes that
+/// hang from different pages do not.
 class TopTreePlanner {
  public:
   TopTreePlanner(const WideTree& tree, const std::vector<BuiltChunk>& chunks, std::size_t capacity)
@@ -110,7 +110,7 @@ class TopTreePlanner {
   }
 
  private:
-  // Subtrees that a page begins with: enough to share it, few enough to go deep.
+  // Maximum number of subtrees that a page begins with: enough to share it, few enough to go deep.
   static constexpr std::size_t kRoots = 8;
 
   void start(std::vector<std::uint32_t> roots) {
@@ -122,7 +122,7 @@ class TopTreePlanner {
     pages_.push_back(std::move(page));
   }
 
-  // Returns the nodes for which there was no room.
+  // Returns the nodes that do not fit.
   std::vector<std::uint32_t> fill(PlannedPage& page) const {
     std::vector<std::uint32_t> left;
     for (std::size_t i = 0; i < page.nodes.size(); ++i) {

@@ -11,16 +11,16 @@
 
 namespace planetree::octree {
 
-/// The tree above the patches. Its blocks stand for the patches, by their numbers; of a model
-/// of one patch it has no nodes.
+/// The tree above the chunks. Its blocks stand for the chunks, by number. It has no nodes if the
+/// model is one chunk.
 struct TopTree {
   WideTree tree;
-  PagePlan plan;  ///< pages without their final numbers, parents first; no links
+  PagePlan plan;  ///< pages without final numbers, parents first; no links
 };
 
-/// Makes the tree above patches that were built.
+/// Builds the tree above the chunks.
 ///
-/// patches  as above.patches, at least one.
+/// chunks  built from above.chunks; at least one.
 TopTree build_top_tree(const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
                        const BlockShape& shape, std::uint32_t page_bytes);
 

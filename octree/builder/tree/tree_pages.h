@@ -11,12 +11,12 @@
 
 namespace planetree::octree {
 
-/// The raw bytes of the distance pages of a file, by number: the patches' as they were put
-/// away, with the links of the whole tree, and the crown's.
+/// The raw bytes of a file's distance pages, by page number: the spilled pages of the chunks, with
+/// the links of the whole tree, and the pages of the top tree.
 /// threads  any number.
 class TreePages {
  public:
-  /// All must outlive this; `crown` is given its links.
+  /// All arguments must outlive this. Sets the links in `top_tree`.
   TreePages(TopTree& top_tree, const std::vector<BuiltChunk>& chunks, const PageNumbers& numbers,
             const BlockShape& shape, const storage::SpillFile& file);
 

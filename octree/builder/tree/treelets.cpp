@@ -18,12 +18,12 @@ class TreeletCutter {
 
   bool done() const { return !left_[0]; }
 
-  // Cuts every largest subtree, of what is left, of at most `limit` slots.
+  // Cuts every largest subtree of at most `limit` slots from what is left.
   void round(std::uint32_t limit) {
     std::vector<std::uint64_t> slots(own_slots_.begin(), own_slots_.end());
     for (std::size_t i = tree_.nodes.size(); i-- > 1;)
       if (left_[i]) slots[parent_[i]] += slots[i];
-    // Parents come first: a node below one cut just now goes with it.
+    // Parents come first: a node below one that is cut in this round goes with it.
     std::vector<bool> taken(tree_.nodes.size());
     for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
       if (!left_[i]) continue;
@@ -41,7 +41,7 @@ class TreeletCutter {
   TreeletCut cut;
 
  private:
-  // A node too large together with its blocks leaves them to themselves.
+  // If a node is too large together with its blocks, each of them is a treelet by itself.
   void place_blocks(std::uint32_t at, std::uint32_t bottom_slots) {
     const WideNode& node = tree_.nodes[at];
     std::uint32_t together = slots_.node;
@@ -66,9 +66,9 @@ class TreeletCutter {
 
   const WideTree& tree_;
   const RecordSlots& slots_;
-  std::vector<std::uint32_t> own_slots_;  // of a node and the blocks kept with it
+  std::vector<std::uint32_t> own_slots_;  // slots of a node and the blocks kept with it
   std::vector<std::uint32_t> parent_;
-  std::vector<bool> left_;  // not in any treelet yet
+  std::vector<bool> left_;  // in no treelet yet
 };
 
 }  // namespace

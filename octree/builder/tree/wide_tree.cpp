@@ -14,11 +14,11 @@ struct Opening {
   unsigned count = 0;
 };
 
-// Which binary nodes become wide ones: those whose surfaces add up to least, for a query
-// visits a node about as often as its surface is large. By dynamic programming over the
-// number of children a subtree may give to the wide node above it, as compressed wide trees
-// for rays are (Ylitie, Karras & Laine 2017, "Efficient incoherent ray traversal on GPUs
-// through compressed wide BVHs", section 4.2); blocks stay as they are.
+// Chooses the binary nodes that become wide nodes so that the sum of their surface areas is least,
+// since a query visits a node about as often as its surface is large. Uses dynamic programming over
+// the number of children that a subtree may give to the wide node above it, as compressed wide
+// trees for rays do (Ylitie, Karras & Laine 2017, "Efficient incoherent ray traversal on GPUs
+// through compressed wide BVHs", section 4.2). Blocks stay as they are.
 class OpenedChildren {
  public:
   explicit OpenedChildren(const std::vector<BinaryNode>& binary)
@@ -37,10 +37,10 @@ class OpenedChildren {
  private:
   static constexpr unsigned kMaxShare = kFanOut - 1;
 
-  // Of a subtree that may give up to `share` children.
+  // Least surface area of a subtree that may give up to `share` children.
   float least(std::uint32_t at, unsigned share) const { return min_[at][share - 1]; }
 
-  // The first of the best shares for the left half; the rest is for the right one.
+  // The first of the best shares for the left half; the right half gets the rest.
   unsigned best_share(const BinaryNode& node, unsigned share) const {
     const auto surface = [&](unsigned left) {
       return least(node.left, left) + least(node.right, share - left);
@@ -57,7 +57,7 @@ class OpenedChildren {
 
   void weigh(std::uint32_t at) {
     const BinaryNode& node = binary_[at];
-    if (node.leaf()) return;  // a block costs the same wherever it hangs
+    if (node.leaf()) return;  // a block costs the same below any node
     min_[at][0] = half_area(node.box) + divided(node, kFanOut);
     for (unsigned share = 2; share <= kMaxShare; ++share)
       min_[at][share - 1] = std::min(min_[at][0], divided(node, share));
@@ -79,10 +79,10 @@ class OpenedChildren {
   }
 
   const std::vector<BinaryNode>& binary_;
-  std::vector<std::array<float, kMaxShare>> min_;  // of surface, by share
+  std::vector<std::array<float, kMaxShare>> min_;  // least surface area, by share
 };
 
-// The most steps, `most` or fewer, after which holds(way) says that the true side is not passed.
+// Greatest number of steps that do not pass the true side, as holds(distance) says, within a limit.
 template <class Holds>
 std::uint8_t max_steps(float distance, float step, int most, const Holds& holds) {
   const float guess = step > 0 ? distance / step : 0.0f;
@@ -91,7 +91,7 @@ std::uint8_t max_steps(float distance, float step, int most, const Holds& holds)
   return static_cast<std::uint8_t>(steps);
 }
 
-// The most steps from the sides of the parent that decode to a box around the true one.
+// Packs the maximum steps from the parent's sides that decode to a box around the true box.
 void pack_box(const FloatBox& parent, WideChild& child) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float low = parent.lower[axis], high = parent.upper[axis];

@@ -25,29 +25,29 @@ struct WideChild {
 };
 
 struct WideNode {
-  FloatBox box;  ///< as decoded from its parent; the root's own is exact
+  FloatBox box;  ///< as decoded from its parent; the root's is exact
   std::uint8_t child_count = 0;
   std::uint8_t height = 0;
   std::array<WideChild, kFanOut> children;
 };
 
-/// Triangles keys[begin ... end), at most 16.
+/// The triangles keys[begin ... end), at most 16.
 struct WideBlock {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
 };
 
-/// The tree as it will be stored: nodes of up to eight children, parents
-/// before children, their boxes already rounded to what is stored. A model of
-/// at most 16 triangles is one block and no node.
+/// The tree as it is stored: nodes of up to eight children, with boxes that are rounded to what is
+/// stored. Parents come before children. A model of at most 16 triangles is one block without a
+/// node.
 struct WideTree {
   std::vector<WideNode> nodes;  ///< in preorder
   std::vector<WideBlock> blocks;
-  std::vector<NodeMoments> moments;  ///< by node; none of a watertight model
+  std::vector<NodeMoments> moments;  ///< by node; empty if the model is watertight
 };
 
-/// Collapses a binary tree so that the surfaces of the nodes that stay add up to least: a
-/// node then has about six of eight children. The blocks are the leaves as they are.
+/// Collapses a binary tree into wide nodes so that the sum of their surface areas is least. A node
+/// then has about six of eight children. The leaves become blocks as they are.
 WideTree collapse(const std::vector<BinaryNode>& binary);
 
 }  // namespace planetree::octree

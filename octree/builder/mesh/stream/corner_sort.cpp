@@ -9,8 +9,8 @@
 namespace planetree::octree {
 namespace {
 
-/// A corner on its way to its vertex: the vertex within its part, and the corner's number.
-/// Then on its way back: the corner within its part, and the position.
+/// On its way to the vertices a record has the vertex within its part, and the corner's number. On
+/// its way back it has the corner within its part, and the position.
 constexpr std::size_t kIndexBytes = sizeof(std::uint32_t);
 constexpr std::size_t kByVertexBytes = kIndexBytes + sizeof(std::uint64_t);
 
@@ -26,8 +26,8 @@ Error changed_error() {
 
 }  // namespace
 
-// Half of the memory for a part of the vertices or of the corners, a quarter for each dealing
-// out: while they meet there are both.
+// Half of the memory is for a part of the vertices or of the corners, a quarter for each
+// distribution. Both distributions exist during match().
 CornerSort::CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64_t memory_bytes)
     : vertices_(vertices),
       scratch_(scratch),
@@ -44,7 +44,7 @@ CornerSort::CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64
 std::uint64_t CornerSort::disk_bytes(std::uint64_t corners, bool float32) {
   const std::size_t position_bytes = 3 * (float32 ? sizeof(float) : sizeof(double));
   const std::uint64_t bytes = corners * (kByVertexBytes + by_corner_bytes(position_bytes));
-  return bytes + bytes / 32;  // of blocks, what leads from one to the next
+  return bytes + bytes / 32;  // the links between the blocks of a bucket
 }
 
 Result<void> CornerSort::add(std::uint64_t vertex) {

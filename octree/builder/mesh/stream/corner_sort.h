@@ -13,31 +13,31 @@
 
 namespace planetree::octree {
 
-/// Positions of corners that name vertices in any order, within bounded memory: corners are
-/// dealt out by vertex, meet the vertices, which are read once and in order, and are dealt out
-/// again by their own numbers.
+/// Finds the positions of corners that name vertices in any order, within bounded memory. Corners
+/// are distributed by vertex and joined with the vertices, which are read once and in order. Then
+/// they are distributed again, by their own numbers.
 ///
-/// disk  what disk_bytes() says, as long as this lives.
+/// disk  up to disk_bytes(), until this is destroyed.
 class CornerSort {
  public:
-  /// vertices      all known; both must outlive this.
-  /// memory_bytes  about the most to take.
+  /// vertices      complete; both it and `scratch` must outlive this.
+  /// memory_bytes  approximate maximum of memory.
   CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64_t memory_bytes);
 
-  /// What so many corners take on disk.
+  /// Bytes on disk for a number of corners.
   static std::uint64_t disk_bytes(std::uint64_t corners, bool float32);
 
-  /// Adds the next corner, from number 0 on, of a vertex below count().
+  /// Adds the next corner, numbered from 0. `vertex` is below vertices.count().
   Result<void> add(std::uint64_t vertex);
-  /// Adds one that names no vertex: it takes a number.
+  /// Adds a corner that names no vertex. It takes a number too.
   void add_none() { ++corner_count_; }
 
-  /// Call once, after the last corner.
-  /// done  told how many of how many parts of the vertices are.
+  /// Joins the corners with the vertices. Call it once, after the last corner.
+  /// done  called with (completed parts, all parts) after each part of the vertices.
   Result<void> match(const std::function<void(std::uint64_t, std::uint64_t)>& done);
 
-  /// The position of a corner that has a vertex, until the next call; fast where numbers
-  /// ascend. Null: failure() says why.
+  /// Position of a corner that has a vertex, valid until the next call; fast where numbers ascend.
+  /// Null if it cannot be read: see failure().
   const std::byte* at(std::uint64_t corner) {
     const std::uint64_t part = corner >> part_shift_;
     if (corner >= corner_count_ || (part != loaded_ && !load(part))) return missing(corner);
@@ -58,17 +58,17 @@ class CornerSort {
   MeshVertices& vertices_;
   MeshScratch& scratch_;
   const std::size_t position_bytes_;
-  const std::uint64_t buffer_bytes_;  ///< of one dealing out
-  int part_shift_ = 0;                ///< a part is 2^part_shift_ vertices or corners, in memory
+  const std::uint64_t buffer_bytes_;  ///< memory of one distribution
+  int part_shift_ = 0;                ///< a part has 2^part_shift_ vertices or corners, in memory
   std::uint64_t corner_count_ = 0;
 
-  // Corners are in the first until match(), then in the second.
+  // The first pair has the corners until match(), the second pair after it.
   std::optional<ScratchFile> by_vertex_file_;
   std::optional<storage::SpillBuckets> by_vertex_;
   std::optional<ScratchFile> by_corner_file_;
   std::optional<storage::SpillBuckets> by_corner_;
 
-  std::vector<std::byte> positions_;  ///< of a part
+  std::vector<std::byte> positions_;  ///< positions of one part
   std::uint64_t loaded_ = ~std::uint64_t{0};
   std::optional<Error> failure_;
 };

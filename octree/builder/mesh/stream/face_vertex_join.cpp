@@ -12,7 +12,7 @@ FaceVertexJoin::FaceVertexJoin(MeshVertices& vertices, std::int64_t first_number
       memory_bytes_(scratch.join_bytes(is_text)),
       emitter_(emitter) {}
 
-// What was not spent long ago does not count: a mesh may be in order at first only.
+// The credit has a maximum: a mesh may be in order only at its beginning.
 void FaceVertexJoin::begin_face(std::uint64_t corners) {
   held_.clear();
   const std::uint64_t read_bytes = cache_->read_bytes();

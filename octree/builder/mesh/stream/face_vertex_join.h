@@ -17,40 +17,40 @@
 
 namespace planetree::octree {
 
-/// Where a face is, for whoever goes through faces to begin there.
+/// Position of a face, from which a pass over the faces can begin.
 struct FacePosition {
   TextPosition position;
-  std::uint64_t record = 0;          ///< faces before it
-  std::int64_t vertices_before = 0;  ///< of an OBJ: those in front of it
+  std::uint64_t record = 0;          ///< number of faces before it
+  std::int64_t vertices_before = 0;  ///< OBJ only: number of vertices before it
 };
 
-/// Gives the corners of faces their positions and delivers them, in the order of the input and
-/// within bounded memory whatever the order of the vertices they name.
+/// Gives the corners of faces the positions of their vertices and delivers the faces, in the order
+/// of the input and within bounded memory whatever the order of the vertices is.
 ///
-/// Vertices near those asked for lately are in memory; so a mesh whose faces have neighbours
-/// for neighbours is read once, from front to back. From where faces jump about so much that
-/// sorting is cheaper, the rest is gone through twice: corners are sorted to meet their
-/// vertices, and delivered when they have.
+/// Vertices near those that were used lately are in memory. So a mesh whose faces refer to vertices
+/// close together in the file is read once, from front to back. From the face on where references
+/// are so scattered that sorting is cheaper, the rest of the faces is read twice: first the corners
+/// are sorted to meet their vertices, then the faces are delivered.
 ///
 /// A face is a class with
-///   record(), size()       its number and how many corners it has,
+///   record(), size()       its number, and its number of corners,
 ///   value_at(k, value)     how the file names the vertex of corner k; false if it cannot be
-///                          read, and failure() says why,
-///   vertices_before()      from which negative values of an OBJ count.
+///                          read, with the error in failure(),
+///   vertices_before()      the number from which negative values of an OBJ count back.
 class FaceVertexJoin {
  public:
-  /// vertices      all known; they, `scratch` and `delivery` must outlive this.
-  /// first_number  what the file calls the first of them.
-  /// is_text       whether the vertices themselves take of the memory.
+  /// vertices      complete; it, `scratch` and `emitter` must outlive this.
+  /// first_number  the number of the first vertex in the file.
+  /// is_text       whether the vertices take a part of the memory.
   FaceVertexJoin(MeshVertices& vertices, std::int64_t first_number, MeshScratch& scratch,
                  bool is_text, FanEmitter& emitter);
 
   /// Delivers all faces.
   ///
-  /// file_bytes  of the file.
+  /// file_bytes  size of the file.
   /// each_face   (from, take) -> Result<FacePosition>: calls take(face), which returns
-  ///             Result<bool>, for each face from `from` on, and stops where that is false.
-  ///             Returns the place of that face, or else what is behind the last.
+  ///             Result<bool>, for each face from `from` on, until it returns false. Returns the
+  ///             position of that face, or the position behind the last face.
   /// errors      those of each_face, of the sink and of temporary files.
   template <class EachFace>
   Result<FacePosition> deliver(const FacePosition& begin, std::uint64_t file_bytes,
@@ -65,9 +65,9 @@ class FaceVertexJoin {
   }
 
  private:
-  /// Sorting a corner takes about four times as many bytes, but of few and long reads.
+  /// Bytes that may be read per corner. Sorting moves about four times as many, in few long reads.
   static constexpr std::uint64_t kCreditBytes = 16;
-  /// So many corners of a polygon are not looked up again when it has been judged.
+  /// Corners of a polygon that are kept, so that they are not looked up again for delivery.
   static constexpr std::size_t kHeldCorners = 4096;
 
   template <class Face>
@@ -85,7 +85,7 @@ class FaceVertexJoin {
   template <class Face>
   Result<bool> take_sorted(CornerSort& sort, std::uint64_t& next_corner, const Face& face);
 
-  /// The vertex that a value names; count() or more if there is none.
+  /// Index of the vertex that a value names; count() or more if there is none.
   [[nodiscard]] std::uint64_t vertex_of(std::int64_t value, std::int64_t vertices_before) const {
     return static_cast<std::uint64_t>(value < 0 ? value + vertices_before : value - first_number_);
   }
@@ -105,14 +105,14 @@ class FaceVertexJoin {
   FanEmitter& emitter_;
   std::optional<VertexCache> cache_;
   std::vector<Vec3> held_;          ///< positions of the face's corners from 3 on
-  std::uint64_t credit_bytes_ = 0;  ///< that may still be read; grows with each corner
-  std::uint64_t seen_bytes_ = 0;    ///< were read when that was counted
-  std::uint64_t limit_bytes_ = 0;   ///< may be read, this face included
+  std::uint64_t credit_bytes_ = 0;  ///< may still be read; grows with each corner
+  std::uint64_t seen_bytes_ = 0;    ///< read_bytes() when the credit was updated
+  std::uint64_t limit_bytes_ = 0;   ///< maximum of read_bytes() in this face
   bool goes_over_ = false;
   std::optional<Error> failure_;
 };
 
-/// The corners of a face whose vertices are read where they are.
+/// The corners of a face, looked up in the vertex cache.
 template <class Face>
 class FaceVertexJoin::NearCorners {
  public:
@@ -149,7 +149,7 @@ class FaceVertexJoin::NearCorners {
   const Face& face_;
 };
 
-/// The corners of a face that have met their vertices.
+/// The corners of a face, looked up among the sorted corners.
 template <class Face>
 class FaceVertexJoin::SortedCorners {
  public:

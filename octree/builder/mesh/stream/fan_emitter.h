@@ -12,30 +12,30 @@
 
 namespace planetree::octree {
 
-/// A corner as a format's reader found it.
+/// A corner as the reader of a format found it.
 struct MeshCorner {
   Vec3 position;           ///< meaningless unless in_range
   std::int64_t value = 0;  ///< how the file names its vertex; see SkippedRecord::value
-  bool in_range = true;    ///< the vertex exists
+  bool in_range = true;    ///< whether the vertex exists
 };
 
-/// Hands polygons to a sink as fans: the one place that counts triangle
-/// indices, judges records and reports progress, for all formats.
+/// Hands polygons to a sink as fans of triangles. Counts triangle indices, judges records and
+/// reports progress for all formats.
 class FanEmitter {
  public:
   FanEmitter(TriangleSink& sink, RecordKind kind, std::uint64_t bytes_total)
       : sink_(sink), kind_(kind), bytes_total_(bytes_total) {}
 
-  /// Vertices in the file, as far as they are known; for messages and summary.
+  /// Sets the number of vertices in the file, as far as it is known; for messages and the summary.
   void set_vertex_count(std::uint64_t count) noexcept { vertex_count_ = count; }
 
-  /// Delivers the record's fan, or sets the record aside.
+  /// Delivers the fan of a record, or skips the record.
   ///
-  /// corners  first(k, corner) for k from 0 on, until the record is judged: that is done
-  ///          before any of it is delivered; then again(k, corner) from 3 on. Each is true, or
-  ///          false where there is none to be had.
-  /// return   false: there was none, and nothing was delivered if first() said so. Else the
-  ///          sink's error, if it gave one.
+  /// corners  first(k, corner) is called for k from 0 on until the record is judged, which is
+  ///          before any of it is delivered. Then again(k, corner) is called for k from 3 on. Both
+  ///          return false if the corner cannot be read.
+  /// return   false if a corner could not be read; nothing was delivered if it was in first().
+  ///          Otherwise true, or the sink's error.
   template <class Corners>
   Result<bool> polygon_of(std::uint64_t record, std::uint64_t corner_count, Corners& corners) {
     if (corner_count < 3) {
@@ -68,10 +68,10 @@ class FanEmitter {
     return true;
   }
 
-  /// The same of corners that are all at hand.
+  /// As polygon_of(), with all corners at hand.
   ///
   /// corner_at  (k) -> MeshCorner for k in [0, corner_count), the same each time.
-  /// return     the sink's error, if it gave one.
+  /// return     the sink's error, if there is one.
   template <class CornerAt>
   Result<void> polygon(std::uint64_t record, std::uint64_t corner_count,
                        const CornerAt& corner_at) {
@@ -88,17 +88,18 @@ class FanEmitter {
     return {};
   }
 
-  /// Tells the sink how far the reading is, about every 4 MiB.
+  /// Reports progress to the sink, about every 4 MiB.
   void advance(std::uint64_t bytes_done) {
     if (bytes_done + bytes_before_ >= next_report_bytes_) report(bytes_done + bytes_before_);
   }
-  /// Says that more is to be done than was thought: so much, as bytes of the file are counted.
+  /// Adds work to the total, counted in bytes of the file.
   void expect_more(std::uint64_t bytes) { bytes_total_ += bytes; }
-  /// Says that what advance() is told from now on was told before, and so much of it.
+  /// Adds `bytes` to all later values of advance(), which then counts from an earlier position
+  /// again.
   void begin_again(std::uint64_t bytes) { bytes_before_ += bytes; }
   [[nodiscard]] std::uint64_t bytes_total() const { return bytes_total_; }
 
-  /// Call once all is read: the summary, or kBadInput if no triangle was found.
+  /// Ends the reading. Returns the summary, or kBadInput if there was no usable triangle.
   Result<MeshSummary> finish(bool float32);
 
  private:
@@ -111,7 +112,7 @@ class FanEmitter {
     return RecordFault::kVertexNotFinite;
   }
 
-  /// Equal positions must have equal bits; -0 + 0 is +0, and all else stays.
+  /// Equal positions must have equal bits: -0 + 0 is +0, and other numbers stay the same.
   static Vec3 without_negative_zero(const Vec3& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
 
   void skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,

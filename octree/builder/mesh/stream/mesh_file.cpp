@@ -34,7 +34,7 @@ Error open_error(int cause) {
 }  // namespace
 
 Result<MeshFile> MeshFile::open(const std::filesystem::path& path, storage::FileCalls& calls) {
-  // O_NONBLOCK only so that a FIFO without a writer is refused, not waited for.
+  // With O_NONBLOCK a FIFO without a writer is refused instead of waited for.
   auto file = storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK);
   if (!file.is_open()) return open_error(errno);
   struct stat status = {};

@@ -12,25 +12,25 @@
 
 namespace planetree::octree {
 
-/// A mesh file, open for reading. The size is taken once, at open; a file that has become
-/// shorter since is an error where it is missed.
+/// A mesh file that is open for reading. Its size is taken once, when it is opened. If the file
+/// becomes shorter, reading the missing bytes is an error.
 ///
 /// threads  any number may read.
 class MeshFile {
  public:
   /// path    a regular file, possibly empty.
   /// calls   the system; must outlive this.
-  /// errors  kNotFound, kPermission, kReadFailed; kBadInput: no regular file.
+  /// errors  kNotFound, kPermission, kReadFailed; kBadInput: not a regular file.
   static Result<MeshFile> open(const std::filesystem::path& path,
                                storage::FileCalls& calls = storage::FileCalls::real());
 
   [[nodiscard]] std::uint64_t size_bytes() const noexcept { return size_bytes_; }
 
-  /// Fills `out` from `offset`, all of it within the size.
-  /// errors  kReadFailed and the like; kBadInput: the file has become shorter.
+  /// Fills `out` with the bytes from `offset` on. They must lie within size_bytes().
+  /// errors  kReadFailed and others of FileHandle::read_at(); kBadInput: the file became shorter.
   Result<void> read(std::uint64_t offset, std::span<std::byte> out) const;
 
-  /// The file's first bytes as characters: `bytes`, or all if it has fewer.
+  /// The file's first `bytes` bytes as characters, or all if it has fewer.
   Result<std::string> prefix(std::uint64_t bytes) const;
 
  private:

@@ -7,8 +7,8 @@ namespace planetree::octree {
 
 namespace {
 
-/// How much of `text`, behind which more follows, is whole lines. A '\r' at its very end may
-/// have lost its '\n'.
+/// Length of the whole lines at the front of `text`, which more text follows. A '\r' at its very
+/// end may be the first half of "\r\n".
 std::size_t whole_lines(std::string_view text) {
   const std::size_t newline = text.rfind('\n');
   if (newline != std::string_view::npos) return newline + 1;

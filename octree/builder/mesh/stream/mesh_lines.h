@@ -13,11 +13,11 @@
 
 namespace planetree::octree {
 
-/// Steps through the lines of a mesh file, of which a window is in memory: as LineScanner does
-/// through those of a text.
+/// Steps through the lines of a mesh file, as LineScanner does through those of a text. Only a
+/// window of the file is in memory.
 class MeshLines {
  public:
-  /// A line is in memory whole; one longer than this is refused.
+  /// Maximum length of a line, which is in memory as a whole. A longer line is refused.
   static constexpr std::uint64_t kMaxLineBytes = std::uint64_t{32} << 20;
 
   /// file  must outlive this.
@@ -30,21 +30,21 @@ class MeshLines {
         base_(start.offset),
         lines_({}, {0, start.line}, LineEnd::kAny, comment) {}
 
-  /// Steps to the next line; false at the end of the file, or where failure() says why it
-  /// cannot be read.
+  /// Steps to the next line. False at the end of the file, or if the line cannot be read: see
+  /// failure().
   bool next() {
     while (!lines_.next())
       if (!refill()) return false;
     return true;
   }
-  /// Steps to the next line that holds a word; false as next().
+  /// Steps to the next line that has a word; false as next().
   bool next_filled() {
     while (!lines_.next_filled())
       if (!refill()) return false;
     return true;
   }
 
-  /// As LineScanner's; the line's characters until the next step.
+  /// As those of LineScanner. The characters of line() are valid until the next step.
   [[nodiscard]] std::string_view line() const { return lines_.line(); }
   [[nodiscard]] TextPosition position() const { return in_file(lines_.position()); }
   [[nodiscard]] TextPosition after() const { return in_file(lines_.after()); }
@@ -65,12 +65,12 @@ class MeshLines {
   LineComment comment_;
   MeshWindow window_;
   std::uint64_t window_bytes_;
-  std::uint64_t base_;  ///< where the text of lines_ begins in the file
-  LineScanner lines_;   ///< of whole lines
+  std::uint64_t base_;  ///< offset of the text of lines_ in the file
+  LineScanner lines_;   ///< over whole lines
   std::optional<Error> failure_;
 };
 
-/// Where the text of a file begins, as text_begin().
+/// Position where the text of a file begins; see text_begin() in mesh_text.h.
 Result<TextPosition> text_begin(const MeshFile& file);
 
 }  // namespace planetree::octree

@@ -5,7 +5,7 @@
 namespace planetree::octree {
 namespace {
 
-// Where the system names none, there are none to be written: the error is then of who tries.
+// Empty if the system names none. Creating a temporary file then reports the error.
 std::filesystem::path temporary_directory() {
   std::error_code ignored;
   return std::filesystem::temp_directory_path(ignored);

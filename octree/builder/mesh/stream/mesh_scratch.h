@@ -12,27 +12,27 @@
 
 namespace planetree::octree {
 
-/// What a mesh may take while it is read: memory, and room for temporary files.
+/// Resources for reading a mesh: memory, and a directory for temporary files.
 ///
 /// threads  one at a time.
 class MeshScratch {
  public:
   static constexpr std::uint64_t kMemoryBytes = std::uint64_t{256} << 20;
 
-  /// memory_bytes  about the most to keep of the mesh in memory.
-  /// directory     takes what does not fit.
+  /// memory_bytes  approximate maximum of memory for the mesh.
+  /// directory     for what does not fit in memory.
   /// calls         the system; must outlive this.
   MeshScratch(std::uint64_t memory_bytes, std::filesystem::path directory,
               storage::FileCalls& calls = storage::FileCalls::real())
       : memory_bytes_(memory_bytes), directory_(std::move(directory)), calls_(calls) {}
-  /// In the system's directory for temporary files.
+  /// Uses the system's directory for temporary files.
   explicit MeshScratch(std::uint64_t memory_bytes = kMemoryBytes);
 
   [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }
   [[nodiscard]] storage::FileCalls& calls() const { return calls_; }
 
-  /// Of the memory, what is for joining corners with vertices; the rest is for a window of the
-  /// file and, of a text, for vertices.
+  /// The part of the memory for joining corners with vertices. The rest is for a window of the file
+  /// and, of a text, for vertices.
   [[nodiscard]] std::uint64_t join_bytes(bool is_text) const {
     return memory_bytes_ - window_bytes() - (is_text ? text_bytes(memory_bytes_) : 0);
   }
@@ -41,8 +41,8 @@ class MeshScratch {
     return std::min(memory_bytes_ / 4, kWindowBytes);
   }
 
-  /// Recorded once corners have to be sorted on disk, before any of them is written; an error ends
-  /// the reading.
+  /// Sets what is called once corners have to be sorted on disk, before any of them is written. Its
+  /// error ends the reading.
   void before_sorting(std::function<Result<void>()> options) {
     before_sorting_ = std::move(options);
   }
@@ -50,9 +50,9 @@ class MeshScratch {
     return before_sorting_ ? before_sorting_() : Result<void>();
   }
 
-  /// Of temporary files that are closed: bytes they had on disk, together.
+  /// Bytes that closed temporary files had on disk, together.
   [[nodiscard]] std::uint64_t disk_bytes() const { return disk_bytes_; }
-  /// Whether one of them failed.
+  /// Whether one of the closed temporary files failed.
   [[nodiscard]] bool failed() const { return failed_; }
 
  private:
@@ -67,10 +67,10 @@ class MeshScratch {
   bool failed_ = false;
 };
 
-/// A temporary file of a MeshScratch, which must outlive it.
+/// A temporary file. Its MeshScratch must outlive it.
 class ScratchFile {
  public:
-  /// held_bytes  may stay in memory.
+  /// held_bytes  maximum of its bytes in memory.
   explicit ScratchFile(MeshScratch& scratch, std::uint64_t held_bytes = 0)
       : scratch_(scratch), spill_(scratch.directory_, held_bytes, scratch.calls_) {}
   ~ScratchFile() {

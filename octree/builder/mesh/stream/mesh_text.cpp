@@ -12,9 +12,8 @@ namespace {
 
 constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-/// Whether a decimal number that no T holds is too large, not too small:
-/// whether its first digit other than 0 stands, after the exponent has moved
-/// the point, in front of it.
+/// Whether a decimal number outside of T's range is too large, not too small: whether its first
+/// digit other than 0 is in front of the point, after the exponent has shifted the point.
 bool is_large(std::string_view number) noexcept {
   const std::size_t exponent_at = std::min(number.find_first_of("eE"), number.size());
   const std::string_view digits = number.substr(0, exponent_at);
@@ -27,7 +26,7 @@ bool is_large(std::string_view number) noexcept {
     take_integer(rest, exponent);
   }
   const auto indices = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
-  // Compared without adding: a saturated exponent must not overflow.
+  // Compared without adding, so that a saturated exponent does not overflow.
   return exponent > -indices;
 }
 

@@ -4,26 +4,25 @@
 #include <string>
 #include <string_view>
 
-/// Reading text meshes: lines, words and numbers. Nothing here depends on the
-/// locale.
+/// Lines, words and numbers of text meshes. Nothing here depends on the locale.
 namespace planetree::octree {
 
-/// Where a line begins.
+/// The beginning of a line.
 struct TextPosition {
   std::uint64_t offset = 0;  ///< byte in the file
   std::uint64_t line = 1;    ///< counted from 1
 };
 
-/// What ends a line. With kAny each of "\n", "\r\n" and "\r" does, in any
-/// mixture; the others are for text that binary data follows.
+/// What ends a line. With kAny each of "\n", "\r\n" and "\r" does, in any mixture. The others are
+/// for text that binary data follows.
 enum class LineEnd : std::uint8_t { kAny, kNewline, kCarriageReturn };
 
-/// Whether a '#' begins a comment, which then goes on to the end of its line.
-/// One behind a '.' does not: "1.#IND" is what some print for a NaN.
+/// Whether a '#' begins a comment, which ends with its line. A '#' behind a '.' does not: some
+/// libraries print a NaN as "1.#IND".
 enum class LineComment : std::uint8_t { kNone, kHash };
 
-/// Where the text of a file begins, of which this is the front: behind a byte order mark, if it has
-/// one.
+/// Position where the text of a file begins: behind a byte order mark, if there is one.
+/// file  front of the file.
 TextPosition text_begin(std::string_view file) noexcept;
 
 /// Steps through the lines of a text.
@@ -39,11 +38,11 @@ class LineScanner {
   /// Steps to the next line that holds a word; false at the end of the text.
   bool next_filled() noexcept;
 
-  /// The current line without its comment and what ends it.
+  /// The current line, without its comment and its line end.
   [[nodiscard]] std::string_view line() const noexcept { return line_; }
-  /// Where the current line begins.
+  /// Position where the current line begins.
   [[nodiscard]] TextPosition position() const noexcept { return position_; }
-  /// Where the line after it begins.
+  /// Position where the next line begins.
   [[nodiscard]] TextPosition after() const noexcept { return after_; }
 
  private:
@@ -57,28 +56,28 @@ class LineScanner {
   TextPosition after_;
 };
 
-/// Whether a character parts words.
+/// Whether a character separates words.
 constexpr bool is_space(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
 
-/// Takes the first word off `rest`; empty when there is none.
+/// Removes the first word from `rest` and returns it; empty if there is none.
 std::string_view take_word(std::string_view& rest) noexcept;
 
-/// Whether `word` is `lower`, which is in lower case, in any case.
+/// Whether `word` equals `lower`, which is in lower case, if case is ignored.
 bool is_same_word(std::string_view word, std::string_view lower) noexcept;
 
-/// Reads all of `word` as a number, correctly rounded to T. A number too large
-/// for T is infinite, as are "inf" and its kin; "nan" and what old Microsoft
-/// libraries print ("-1.#IND") are not a number. False if it is none of these.
+/// Parses all of `word` as a number, correctly rounded to T. A number too large for T gives
+/// infinity, as do "inf" and its variants. "nan" gives NaN, as does what old Microsoft libraries
+/// print ("-1.#IND"). False if `word` is none of these.
 bool parse_real(std::string_view word, float& value) noexcept;
 bool parse_real(std::string_view word, double& value) noexcept;
 
-/// Reads a decimal integer off the front of `word` and leaves the remainder; a
-/// number too large is the nearest that fits. False if there is none.
+/// Removes a decimal integer from the front of `word`. One that is too large gives the nearest that
+/// fits. False if there is none.
 bool take_integer(std::string_view& word, std::int64_t& value) noexcept;
 
-/// `word`, fit to be quoted in a one-line message: short and printable.
+/// Makes `word` fit to be quoted in a one-line message: short and printable.
 std::string printable(std::string_view word);
 
 }  // namespace planetree::octree

@@ -10,8 +10,8 @@
 
 namespace planetree::octree {
 
-/// The vertices of a mesh by number, wherever they are: positions of three floats or doubles
-/// side by side, in the machine's order.
+/// The vertices of a mesh by index, wherever they are stored. A position is three floats or three
+/// doubles side by side, in the machine's byte order.
 class MeshVertices {
  public:
   virtual ~MeshVertices() = default;
@@ -19,7 +19,7 @@ class MeshVertices {
   [[nodiscard]] virtual std::uint64_t count() const = 0;
   /// Whether positions are floats.
   [[nodiscard]] virtual bool float32() const = 0;
-  /// Gets the positions of vertices from `first` on, as many as `out` has room for; all of them
+  /// Reads the positions of vertices from `first` on, as many as fit in `out`. All of them are
   /// below count().
   virtual Result<void> read(std::uint64_t first, std::span<std::byte> out) = 0;
 
@@ -28,7 +28,7 @@ class MeshVertices {
   }
 };
 
-/// A position as MeshVertices has it.
+/// Reads a position in the form that MeshVertices has.
 inline Vec3 position_at(const std::byte* at, bool float32) noexcept {
   if (float32) {
     float values[3];
@@ -41,7 +41,7 @@ inline Vec3 position_at(const std::byte* at, bool float32) noexcept {
   return {values[0], values[1], values[2]};
 }
 
-/// Writes a position; one that is to be of floats must be.
+/// Writes a position in that form. With `float32` its coordinates must be floats.
 inline void put_position(const Vec3& position, bool float32, std::byte* to) noexcept {
   if (float32) {
     const float values[] = {static_cast<float>(position.x), static_cast<float>(position.y),

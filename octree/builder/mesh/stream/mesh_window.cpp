@@ -11,7 +11,7 @@ const std::byte* MeshWindow::fill(std::uint64_t offset, std::uint64_t bytes) {
   assert(offset <= file_.size_bytes() && bytes <= file_.size_bytes() - offset);
   const std::uint64_t wanted =
       std::min(std::max<std::uint64_t>(bytes, window_bytes_), file_.size_bytes() - offset);
-  // What is here already of the new stretch is kept.
+  // Bytes of the new window that are in memory already are kept.
   const std::uint64_t kept = offset >= begin_ && offset < end_ ? end_ - offset : 0;
   const std::byte* const from = kept > 0 ? buffer_.get() + (offset - begin_) : nullptr;
   if (wanted > capacity_ || !buffer_) {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kAtOnceBytes = std::size_t{64} << 10;
 
-/// No text has more vertices than one of "0 0 0" each.
+/// No vertex of a text is shorter than the line "0 0 0".
 std::uint64_t max_bytes(const MeshFile& file, bool float32) {
   constexpr std::uint64_t kLineBytes = 6;
   return (file.size_bytes() / kLineBytes + 1) * 3 * (float32 ? sizeof(float) : sizeof(double));

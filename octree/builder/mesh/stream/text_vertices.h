@@ -9,15 +9,15 @@
 
 namespace planetree::octree {
 
-/// Vertices that were numbers of a text: put away as they are read, in memory as far as allowed
-/// and in a temporary file beyond.
+/// Vertices of a text file. They are stored as they are read: in memory up to a limit, then in a
+/// temporary file.
 class TextVertices final : public MeshVertices {
  public:
-  /// file     that they are read from: its size bounds their number.
+  /// file     the mesh; its size limits the number of vertices.
   /// scratch  must outlive this.
   TextVertices(const MeshFile& file, bool float32, MeshScratch& scratch);
 
-  /// Adds the next. After the last one finish(), and only then read().
+  /// Adds the next vertex. Call finish() after the last one, and read() only then.
   /// errors  those of SpillFile::append().
   Result<void> add(const Vec3& position);
   Result<void> finish();
@@ -29,7 +29,7 @@ class TextVertices final : public MeshVertices {
  private:
   const bool float32_;
   ScratchFile file_;
-  std::vector<std::byte> last_;  ///< not yet put away
+  std::vector<std::byte> last_;  ///< positions that are not in file_ yet
   std::uint64_t count_ = 0;
 };
 

@@ -6,8 +6,8 @@
 namespace planetree::octree {
 namespace {
 
-// A call of the system and the seek of a disk are worth a block of so many bytes; where memory
-// is too little for many blocks, they are smaller.
+// A call of the system and the seek of a disk are worth a block of about this size. Where memory is
+// too small for enough such blocks, blocks are smaller.
 constexpr std::uint64_t kBlockBytes = std::uint64_t{16} << 10;
 constexpr std::uint64_t kBlocks = 64;
 
@@ -43,7 +43,7 @@ bool VertexCache::load(std::uint64_t block, Slot& slot) {
   if (!slot.positions)
     slot.positions =
         std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(block_bytes()));
-  // What is in it is no longer what it was, whether it can be read or not.
+  // The old content is lost, whether the new block can be read or not.
   slot.block = kNone;
   const std::uint64_t first = block << block_shift_;
   const std::uint64_t count = std::min(std::uint64_t{1} << block_shift_, vertices_.count() - first);

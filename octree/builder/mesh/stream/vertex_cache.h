@@ -13,21 +13,21 @@
 
 namespace planetree::octree {
 
-/// Blocks of neighbouring vertices that were asked for lately. Vertices that faces near each
-/// other share are read about once; all of them at most once if they fit.
+/// Caches blocks of neighbouring vertices that were used lately. Vertices that faces close together
+/// share are read about once; each vertex is read at most once if all fit.
 ///
-/// A block has its place in one of several sets, in which it displaces the one that was used
-/// longest ago; or, if all fit, a place of its own.
+/// A block belongs to one of several sets, where it replaces the least recently used block. If all
+/// blocks fit, each has a slot of its own.
 class VertexCache {
  public:
-  /// vertices      all known; must outlive this.
-  /// memory_bytes  about the most to take, as it is needed.
+  /// vertices      complete; must outlive this.
+  /// memory_bytes  approximate maximum of memory, taken as it is needed.
   VertexCache(MeshVertices& vertices, std::uint64_t memory_bytes);
   VertexCache(const VertexCache&) = delete;
   VertexCache& operator=(const VertexCache&) = delete;
 
-  /// The position of a vertex below count(), until the next call. Null: it cannot be read,
-  /// failure() says why.
+  /// Position of a vertex below count(), valid until the next call. Null if it cannot be read: see
+  /// failure().
   const std::byte* at(std::uint64_t vertex) {
     const std::uint64_t block = vertex >> block_shift_;
     Slot*& slot = known_[block % kKnown];
@@ -38,7 +38,7 @@ class VertexCache {
   }
   [[nodiscard]] const Error& failure() const { return *failure_; }
 
-  /// What may be in memory, and what was read into it so far.
+  /// Capacity, and bytes that were read so far.
   [[nodiscard]] std::uint64_t capacity_bytes() const { return slots_.size() * block_bytes(); }
   [[nodiscard]] std::uint64_t read_bytes() const { return read_bytes_; }
 
@@ -49,7 +49,7 @@ class VertexCache {
 
   struct Slot {
     std::uint64_t block = kNone;
-    std::uint64_t used = 0;  ///< when it last was
+    std::uint64_t used = 0;  ///< clock_ at the last use
     std::unique_ptr<std::byte[]> positions;
   };
 
@@ -59,10 +59,10 @@ class VertexCache {
 
   MeshVertices& vertices_;
   const std::size_t position_bytes_;
-  int block_shift_ = 0;                   ///< of 2^block_shift_ vertices
-  std::vector<Slot> slots_;               ///< those of each set side by side
-  std::size_t ways_ = 1;                  ///< of a set
-  std::array<Slot*, kKnown> known_ = {};  ///< where to look first
+  int block_shift_ = 0;                   ///< a block has 2^block_shift_ vertices
+  std::vector<Slot> slots_;               ///< the slots of a set are side by side
+  std::size_t ways_ = 1;                  ///< slots of a set
+  std::array<Slot*, kKnown> known_ = {};  ///< slots to try first
   std::uint64_t clock_ = 0;
   std::uint64_t read_bytes_ = 0;
   std::optional<Error> failure_;
