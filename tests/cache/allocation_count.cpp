@@ -23,7 +23,7 @@ std::atomic<std::uint64_t> count{0};
 #if PLANETREE_COUNTS_ALLOCATIONS
 void* allocate(std::size_t bytes, std::size_t alignment) noexcept {
   count.fetch_add(1, std::memory_order_relaxed);
-  // aligned_alloc wants a multiple of the alignment, and never 0.
+  // aligned_alloc requires a multiple of the alignment, and not 0.
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   return std::aligned_alloc(alignment, rounded);
 }
@@ -48,7 +48,7 @@ std::uint64_t allocation_count() noexcept { return count.load(std::memory_order_
 }  // namespace planetree::cache
 
 #if PLANETREE_COUNTS_ALLOCATIONS
-// The array and nothrow forms of the standard library end up in these.
+// The array and nothrow forms of the standard library call these.
 void* operator new(std::size_t bytes) { return allocate_or_throw(bytes, kUsual); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return allocate_or_throw(bytes, static_cast<std::size_t>(alignment));

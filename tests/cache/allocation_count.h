@@ -4,11 +4,11 @@
 
 namespace planetree::cache {
 
-/// Whether allocations are counted here: sanitizers bring an operator new of
-/// their own, which must not be replaced.
+/// Whether allocations are counted in this build. Sanitizers bring their own operator new, which
+/// must not be replaced.
 bool allocations_are_counted() noexcept;
 
-/// Calls of any operator new in this program so far, by all threads.
+/// Number of calls of any operator new in this program so far, by all threads.
 std::uint64_t allocation_count() noexcept;
 
 }  // namespace planetree::cache

@@ -23,7 +23,7 @@ TEST(CacheLimits, MinimumIsOneFrameForEachPlaceInLimboAndOneForTheRoot) {
 }
 
 TEST(CacheLimits, MinimumCountsAllThatIsNeeded) {
-  // Frames, map, slots, stamps, reserve: none may be left out.
+  // Frames, map, slots, stamps and reserve must all be counted.
   EXPECT_GE(minimum_budget_bytes(kUsual), 6u * 4096 + 500 * 4 + 4 * 64 + 5 * 4 * 8 + 10000);
   CacheLimits more = kUsual;
   more.reserved_bytes += 1;

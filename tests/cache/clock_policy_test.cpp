@@ -42,13 +42,15 @@ TEST(ClockPolicy, ScoreStopsAtThreeUses) {
 TEST(ClockPolicy, InstalledFramesStartAtTwoUses) {
   Frames<2> frames;
   EXPECT_EQ(frames.scores[0].load(), 2 * ClockPolicy::kUse);
-  // Marked once from 0, frame 1 would go before frame 0; it starts higher.
+  // From a score of 0, one mark would let frame 1 go before frame 0; installing sets a higher
+  // score.
   frames.scores[0].store(ClockPolicy::kUse);
   EXPECT_EQ(frames.evict(), 0u);
   EXPECT_EQ(frames.scores[1].load(), ClockPolicy::kUse);
 }
 
-// Pages that frame 1 is given, one after another, before the page in frame 0 goes.
+// Number of pages that pass through frame 1, one after another, before the page in frame 0 is
+// evicted.
 unsigned outlived_by(PageTier tier) {
   Frames<2> frames;
   EXPECT_EQ(frames.evict(), 0u);
@@ -92,7 +94,7 @@ TEST(ClockPolicy, WhatIsLeftOfAnUpperPagesUseIsLostWholeWhereOthersAreToo) {
   frames.clock.install(0, PageTier::kUpper);
   EXPECT_EQ(frames.evict(), 1u);
   frames.clock.install(1);
-  // Takes from the upper page less than a use.
+  // The hand takes less than a whole use from the upper page.
   EXPECT_EQ(frames.evict(), 1u);
   frames.clock.install(1, PageTier::kUpper);
   EXPECT_EQ(frames.evict(), 0u);

@@ -9,8 +9,8 @@
 
 namespace planetree::cache {
 
-/// Makes the classes of the protocol explorable, with the orders that are set
-/// here: those shipped, until a test weakens one.
+/// Makes the classes of the protocol explorable. The memory orders are those shipped, until a test
+/// weakens one.
 class ExploredAtomics {
  public:
   template <class T>

@@ -14,16 +14,16 @@
 
 namespace planetree::cache {
 
-/// What a PageCache is made of, over atomics that can be explored, with a few
-/// pages and frames. A frame is two words, each the number of its page: so a
-/// frame of another page is found out, and one that is being written races.
+/// The parts of a PageCache over explorable atomics, with a few pages and frames. A frame is two
+/// words, each the number of its page: so a read of another page's frame is detected, and a read of
+/// a frame that is being written is a data race.
 class ExploredCache {
  public:
   using Slot = BasicReaderSlot<ExploredAtomics>;
   using Map = BasicPageMap<ExploredAtomics>;
   using Limbo = BasicLimbo<ExploredAtomics>;
 
-  /// Pages 0 ... frame_count - 1 are in the frames of the same number.
+  /// Pages 0 ... frame_count - 1 start in the frames of the same number.
   ExploredCache(std::uint32_t slot_count, std::uint32_t frame_count, std::uint32_t page_count,
                 std::uint32_t fetcher_count)
       : slots_(slot_count),
@@ -38,13 +38,13 @@ class ExploredCache {
   const Map& map() const { return map_; }
   Limbo& limbo() { return limbo_; }
 
-  /// Writes a page into a frame.
+  /// Writes a page into a frame without publishing it.
   void fill(std::uint32_t frame, std::uint32_t page) {
     for (explorer::Plain<std::uint32_t>& word : frames_[frame].words) word.write(page);
     frames_[frame].page = page;
   }
 
-  /// Writes a page into a frame and shows it.
+  /// Writes a page into a frame and publishes it.
   void install(std::uint32_t frame, std::uint32_t page) {
     fill(frame, page);
     map_.publish(page, frame);
@@ -52,7 +52,7 @@ class ExploredCache {
 
   std::uint32_t page_in(std::uint32_t frame) const { return frames_[frame].page; }
 
-  /// Reads all of a frame found for `page`.
+  /// Reads all words of a frame found for `page`.
   void read(std::uint32_t frame, std::uint32_t page) const {
     for (const explorer::Plain<std::uint32_t>& word : frames_[frame].words) {
       if (word.read() != page) explorer::Execution::current().fail("a frame of another page");
@@ -62,7 +62,7 @@ class ExploredCache {
  private:
   struct Frame {
     std::array<explorer::Plain<std::uint32_t>, 2> words;
-    std::uint32_t page = 0;  ///< the writer's
+    std::uint32_t page = 0;  ///< for the writer only
   };
 
   std::vector<Slot> slots_;

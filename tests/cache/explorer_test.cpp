@@ -10,14 +10,14 @@
 namespace planetree::explorer {
 namespace {
 
-/// Two deeds that cannot be told apart by what they load.
+/// Two visible steps that no load can tell apart.
 void exchange_twice(Litmus& all) {
   all.z.exchange(1, kRelaxed);
   all.z.exchange(1, kRelaxed);
 }
 
 TEST(Explorer, RunsEverySchedule) {
-  // The ways to choose the first thread's steps among four.
+  // The number of ways to choose the first thread's steps among four.
   EXPECT_EQ(explore_threads({exchange_twice, exchange_twice}).report.runs, 6u);
 }
 
@@ -49,8 +49,8 @@ TEST(Explorer, ReportsDataRaces) {
 }
 
 TEST(Explorer, ReportsAWriteAfterAReadAsARace) {
-  // The loads say that the reader is done; without acquire or release this
-  // does not make the read happen before the write.
+  // The load shows that the reader is done. Without acquire and release this does not make the read
+  // happen before the write.
   const auto report = [](std::memory_order store, std::memory_order load) {
     return explore_threads({[=](Litmus& all) {
                               all.a.read();

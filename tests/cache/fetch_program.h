@@ -10,19 +10,19 @@
 
 namespace planetree::cache {
 
-/// How much of it there is; and what is done wrongly on purpose.
+/// Size of a FetchProgram, and mistakes to make on purpose.
 struct Fetching {
   std::uint32_t threads = 2;
-  std::uint32_t fetches = 1;          ///< of each
-  bool same_page = false;             ///< all begin with the page that is absent
-  bool enters_too_late = false;       ///< begins the section without the mutex
-  bool does_not_hold_frames = false;  ///< though somebody waits for what is in them
+  std::uint32_t fetches = 1;          ///< fetches of each thread
+  bool same_page = false;             ///< all begin with the absent page
+  bool enters_too_late = false;       ///< begins the section after releasing the mutex
+  bool does_not_hold_frames = false;  ///< evicts frames whose page a thread still waits for
 };
 
-/// Threads that fetch what they miss, each the writer while it has the mutex,
-/// as PageCache::fetch() lets them: they fill frames without it, and who wants
-/// what another reads waits for that. With one frame more than threads, and one
-/// page more than frames, so that they take each other's pages.
+/// Threads that fetch the pages they miss. As in PageCache::fetch(), the thread that holds the
+/// mutex is the writer; frames are filled without the mutex, and a thread that needs a page which
+/// another reads waits for that read. There is one frame more than threads and one page more than
+/// frames, so threads evict each other's pages.
 class FetchProgram final : public explorer::Program {
  public:
   explicit FetchProgram(const Fetching& fetching)
@@ -36,8 +36,8 @@ class FetchProgram final : public explorer::Program {
   void run(std::uint32_t thread) override {
     const std::uint32_t page_count = fetching_.threads + 2;
     ExploredCache::Slot& slot = cache_.slot(thread);
-    // The first thread begins with the page that is absent, the next with the
-    // one that is evicted for it, or with the same.
+    // The first thread begins with the absent page. The next begins with the page that is evicted
+    // for it, or with the same page.
     std::uint32_t page = (page_count - 1 + (fetching_.same_page ? 0 : thread)) % page_count;
     for (std::uint32_t i = 0; i < fetching_.fetches; ++i, page = (page + 1) % page_count) {
       slot.enter();
@@ -117,7 +117,8 @@ class FetchProgram final : public explorer::Program {
     return limbo.take(fetcher);
   }
 
-  /// Any resident one that nobody waits for: what CLOCK prefers must not matter.
+  /// Any resident frame that no thread waits for: correctness must not depend on what CLOCK
+  /// prefers.
   std::uint32_t choose_victim() {
     std::array<std::uint32_t, explorer::kMaxThreads + 1> resident;
     std::uint32_t count = 0;

@@ -30,7 +30,7 @@ TEST(FramePool, FramesAreAlignedAndApart) {
 }
 
 TEST(FramePool, ArenaHoldsItsFramesAndAtMostOnePageMore) {
-  const Result<FramePool> pool = FramePool::create(1000, 4160);  // More than a huge page.
+  const Result<FramePool> pool = FramePool::create(1000, 4160);  // more than a huge page
   ASSERT_TRUE(pool);
   EXPECT_GE(pool->arena_bytes(), 1000u * 4160u);
   EXPECT_LT(pool->arena_bytes(), 1000u * 4160u + 65536u);
@@ -57,7 +57,7 @@ TEST(FramePool, MovesWithItsFrames) {
 }
 
 TEST(FramePool, SaysWhatTheSystemRefused) {
-  // More than an address space.
+  // More than an address space holds.
   const Result<FramePool> pool = FramePool::create(0xfffffff0u, 1u << 28);
   ASSERT_FALSE(pool);
   EXPECT_EQ(pool.error().code, ErrorCode::kNoMemory);

@@ -7,8 +7,8 @@
 
 namespace planetree::cache {
 
-/// Two readers share one slot, one after the other, while a writer takes the
-/// page's frame for another page.
+/// Two readers share one slot, one after the other, while a writer reuses the page's frame for
+/// another page.
 class HandoverProgram final : public explorer::Program {
  public:
   std::uint32_t thread_count() const noexcept override { return kReaders + 1; }
@@ -49,7 +49,8 @@ class HandoverProgram final : public explorer::Program {
   }
 
   ExploredCache cache_{1, 1, 2, 1};
-  /// For all that belongs to a slot's owner: it races if this is not handed on.
+  /// Stands for the data of the slot's reader: a data race unless release() and try_claim() order
+  /// it.
   explorer::Plain<std::uint32_t> fetchers_{0};
 };
 

@@ -1,5 +1,5 @@
-// Threads that fetch side by side: each page is read once, without the mutex, and waits for
-// those who want it.
+// Concurrent fetches: each page is read once, outside the mutex, and stays until the threads that
+// wait for it have taken it.
 
 #include "cache/in_flight_reads.h"
 
@@ -67,8 +67,8 @@ TEST(InFlightReads, PutBackWakesThoseWhoReadThemselves) {
   EXPECT_EQ(in_flight_reads.page_wanted(), 7u);
 }
 
-/// Pages of which some stand still until they are let go, and are nothing for those who do not
-/// wait.
+/// Pages, some of which are slow: a read of them stalls until released, and would block for threads
+/// that may not wait.
 struct SlowPages {
   TaggedPages tags;
   std::set<std::uint32_t> slow;
@@ -99,7 +99,7 @@ class SideBySide : public testing::Test {
     cache_ = *std::move(cache);
   }
 
-  /// A thread that fetches a page and looks at it.
+  /// Starts a thread that fetches a page and checks its frame.
   std::thread fetching(std::uint32_t page, const FetchTerms& terms = {}) {
     return std::thread([this, page, terms] {
       Reader reader = *cache_->claim_reader();
@@ -111,7 +111,7 @@ class SideBySide : public testing::Test {
     });
   }
 
-  /// The same, which has come upon a slow page.
+  /// Starts such a thread and waits until its read stalls.
   std::thread classify_at(std::uint32_t page) {
     std::thread thread = fetching(page);
     while (pages_.side_result == 0) std::this_thread::yield();
@@ -143,7 +143,7 @@ TEST_F(SideBySide, OthersReadWhileOneStandsStill) {
   open(6);
   pages_.slow = {7};
   std::thread stuck = classify_at(7);
-  // In the smallest cache too, where pages are evicted meanwhile.
+  // This is the smallest cache, so pages are evicted meanwhile.
   for (std::uint32_t page = 8; page < 50; ++page) fetching(page).join();
   EXPECT_EQ(right_, 42);
   EXPECT_EQ(pages_.side_result, 1);
@@ -180,7 +180,7 @@ TEST_F(SideBySide, WaitsNoLongerThanTheLimit) {
   EXPECT_EQ(given_up_, 1);
   EXPECT_EQ(cache_->stats().given_up, 1u);
   EXPECT_EQ(cache_->stats().quarantined, 0u);
-  // Nobody waits any more.
+  // No thread waits any more.
   Reader helper = *cache_->claim_reader();
   EXPECT_FALSE(helper.help());
   pages_.moves = true;
@@ -217,7 +217,7 @@ TEST_F(SideBySide, UnreadablePagesAreToldToAllWhoWait) {
   EXPECT_EQ(pages_.tags.fill_calls(), 1u);
 }
 
-// Everything at once, in the smallest cache: askers that have helpers, and those that have not.
+// The smallest cache, with fetches that rely on helpers and fetches that read for themselves.
 TEST_F(SideBySide, NobodyWaitsForEver) {
   open(6);
   for (std::uint32_t page = 0; page < 50; page += 3) pages_.slow.insert(page);
@@ -238,7 +238,7 @@ TEST_F(SideBySide, NobodyWaitsForEver) {
       Numbers numbers(seed);
       for (int i = 0; i < 3000; ++i) {
         reader.enter();
-        // Few pages, so that many want the same.
+        // Few pages, so that many threads need the same.
         const std::uint32_t page = numbers.below(12);
         const Fetched fetched = reader.fetch(page, seed == 3 ? FetchTerms{} : kByHelpers);
         wrong += !fetched.frame || !TaggedPages::matches(fetched.frame, kReadFrameBytes, page);

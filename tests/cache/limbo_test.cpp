@@ -8,7 +8,7 @@
 namespace planetree::cache {
 namespace {
 
-/// Two readers, and so three owners.
+/// Two readers, and so three fetchers.
 struct LimboOfTwo {
   std::array<ReaderSlot, 2> slots{};
   std::array<Limbo::Entry, 3> entries{};
@@ -43,9 +43,9 @@ TEST(Limbo, DoesNotWaitForLaterSections) {
   LimboOfTwo two;
   two.slots[0].enter();
   two.limbo.retire(2, 7);
-  two.slots[1].enter();  // Begun after the page was withdrawn.
+  two.slots[1].enter();  // begun after the page was withdrawn
   two.slots[0].leave();
-  two.slots[0].enter();  // Inside again, but not in the section that counts.
+  two.slots[0].enter();  // inside again, but in a later section
   EXPECT_EQ(two.limbo.take(2), 7u);
 }
 
@@ -90,7 +90,7 @@ TEST(Limbo, AFrameThatNobodyWaitsForCanBeAdopted) {
   two.limbo.set_awaited(0, false);
   EXPECT_TRUE(two.limbo.adopt(1));
   EXPECT_FALSE(two.limbo.holds(0));
-  // With the sections that it waits for.
+  // The sections that the frame waits for move with it.
   EXPECT_EQ(two.limbo.take(1), kNoFrame);
   two.slots[0].leave();
   EXPECT_EQ(two.limbo.take(1), 5u);

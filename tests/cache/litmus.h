@@ -17,9 +17,8 @@ inline constexpr auto kAcquire = std::memory_order_acquire;
 inline constexpr auto kRelease = std::memory_order_release;
 inline constexpr auto kSeqCst = std::memory_order_seq_cst;
 
-/// What the threads of a litmus test share, and what they found: a few
-/// variables, too few to do anything useful with, enough to tell apart what
-/// memory may do and what not.
+/// What the threads of a litmus test share: a few variables, enough to distinguish what memory may
+/// do from what it may not, and the values found.
 struct Litmus {
   Atomic<int> x{0}, y{0}, z{0};
   Plain<int> a{0}, b{0};
@@ -30,7 +29,7 @@ struct Litmus {
 using Body = std::function<void(Litmus&)>;
 using Outcomes = std::set<std::vector<int>>;
 
-/// Notes down what was found in each run.
+/// Records the values found in each run.
 class LitmusProgram final : public Program {
  public:
   LitmusProgram(const std::vector<Body>& bodies, Outcomes& outcomes)
@@ -47,12 +46,12 @@ class LitmusProgram final : public Program {
   Litmus litmus_;
 };
 
-/// All that can come of a litmus test.
+/// All outcomes of a litmus test.
 struct Explored {
   Outcomes outcomes;
   Report report;
 
-  /// What threads left out of `found` is -1.
+  /// Values missing at the end of `found` count as -1.
   bool finds(const std::vector<int>& found) const {
     std::vector<int> padded = found;
     padded.resize(4, -1);
@@ -60,7 +59,7 @@ struct Explored {
   }
 };
 
-/// Every run of threads with these bodies.
+/// Explores every run of threads with these bodies.
 inline Explored explore_threads(const std::vector<Body>& bodies) {
   Explored explored;
   explored.report = explore_all(

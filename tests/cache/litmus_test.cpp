@@ -1,5 +1,4 @@
-// Which outcomes the explorer finds for small programs without seq_cst: all that
-// C++20 allows, and no others.
+// The explorer finds exactly the outcomes that C++20 allows for small programs without seq_cst.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +49,7 @@ TEST(Litmus, NeverLoadsOlderStoresThanBefore) {
 }
 
 TEST(Litmus, LoadsNothingOlderThanWhatHappenedBefore) {
-  // Another thread's load is known through z, and its store through z too.
+  // The third thread learns of the second's load of x through z, and so of the store that it read.
   const Explored explored = explore_threads({[](Litmus& all) { all.x.store(1, kRelaxed); },
                                              [](Litmus& all) {
                                                all.found[0] = all.x.load(kRelaxed);

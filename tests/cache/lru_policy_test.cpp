@@ -53,22 +53,23 @@ TEST(LruPolicy, PassesOverWhatIsPinnedOrHeld) {
   EXPECT_EQ(frames.evict(), kNoFrame);
 }
 
-// Beside a list that is kept in order at every use.
+// Compares with a list that is reordered at every use.
 TEST(LruPolicy, IsThatOfTheBook) {
   constexpr std::uint32_t kBookFrames = 23;
   LruFrames<kBookFrames> frames;
-  std::list<std::uint32_t> book;  // the last used at the back
+  std::list<std::uint32_t> book;  // most recently used at the back
   for (std::uint32_t frame = 0; frame < kBookFrames; ++frame) book.push_back(frame);
   Numbers numbers(5);
   for (int step = 0; step < 5000; ++step) {
-    // One use between two installs, so that none are equally long ago.
+    // At most one use between two installs, so that no two uses have the same time.
     const std::uint32_t victim = frames.evict();
     ASSERT_EQ(victim, book.front()) << step;
     frames.lru.install(victim);
     book.splice(book.end(), book, book.begin());
     const std::uint32_t used = numbers.below(kBookFrames);
     if (used == victim) continue;
-    // A use is as long ago as the install before it: the one of lesser number goes first.
+    // A use has the same time as the install before it; among these the lesser frame number goes
+    // first.
     if (used < victim) continue;
     frames.use(used);
     book.splice(book.end(), book, std::find(book.begin(), book.end(), used));

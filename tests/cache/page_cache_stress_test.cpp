@@ -11,15 +11,15 @@ namespace planetree::cache {
 namespace {
 
 constexpr std::uint32_t kStormPages = 64;
-// A system page, so that a budget can give an exact number of frames.
+// The size of a system page, so that a budget can give an exact number of frames.
 constexpr std::uint32_t kStormFrameBytes = 4096;
 constexpr std::uint32_t kUnreadable = 13;
 
-/// What one thread saw.
+/// Counts of one thread.
 struct Seen {
   std::uint64_t finds = 0;
   std::uint64_t wrong = 0;       ///< frames with a word of another page
-  std::uint64_t unreadable = 0;  ///< pages other than kUnreadable that could not be had
+  std::uint64_t unreadable = 0;  ///< pages other than kUnreadable that could not be fetched
 };
 
 void check_frame(const std::byte* frame, std::uint32_t page, Seen& seen) {
@@ -30,9 +30,8 @@ void check_frame(const std::byte* frame, std::uint32_t page, Seen& seen) {
   }
 }
 
-/// One section: some pages by find or fetch. Pointers found since the last
-/// fetch are kept, and read again at the end of the section, by when others
-/// have withdrawn many of these pages.
+/// Runs one section: finds or fetches some pages. Pointers found since the last fetch are kept and
+/// read again at the end of the section, when other threads have withdrawn many of these pages.
 void run_section(Reader& reader, Numbers& numbers, Seen& seen) {
   constexpr std::uint32_t kLookups = 12;
   const std::byte* frames[kLookups];
@@ -44,7 +43,7 @@ void run_section(Reader& reader, Numbers& numbers, Seen& seen) {
     const std::byte* frame = reader.find(page);
     ++seen.finds;
     if (frame == nullptr) {
-      // Look only, most times, so that pointers are kept for long.
+      // Mostly find only, so that pointers are kept for long.
       if (numbers.below(4) != 0) continue;
       kept = 0;
       frame = reader.fetch(page);
@@ -54,7 +53,7 @@ void run_section(Reader& reader, Numbers& numbers, Seen& seen) {
     frames[kept] = frame;
     pages[kept++] = page;
   }
-  // Be caught inside the section by other threads' evictions, on few cores too.
+  // Lets other threads evict during the section, on few cores too.
   if (numbers.below(64) == 0) std::this_thread::yield();
   for (std::uint32_t i = 0; i < kept; ++i) check_frame(frames[i], pages[i], seen);
   reader.leave();
@@ -64,7 +63,7 @@ void run_reader(PageCache& cache, std::uint64_t seed, std::uint32_t sections, Se
   Numbers numbers(seed);
   std::uint32_t done = 0;
   while (done < sections) {
-    // Slots change hands too.
+    // Readers also change slots.
     Result<Reader> reader = cache.claim_reader();
     ASSERT_TRUE(reader);
     for (std::uint32_t i = 0; i < 50 && done < sections; ++i, ++done) {
@@ -89,7 +88,7 @@ void storm(std::uint32_t reader_count, std::uint32_t frame_count) {
   std::atomic<std::uint32_t> waiting{reader_count};
   for (std::uint32_t i = 0; i < reader_count; ++i) {
     threads.emplace_back([&cache, &seen, &waiting, i, reader_count] {
-      // All start together, or the first could be done before the last begins.
+      // All start together; otherwise the first could end before the last begins.
       --waiting;
       while (waiting != 0) std::this_thread::yield();
       Seen mine;

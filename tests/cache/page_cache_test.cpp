@@ -30,7 +30,7 @@ Reader make_reader(PageCache& cache) {
   return *std::move(reader);
 }
 
-/// The page by find, or else by fetch.
+/// Finds the page, or else fetches it.
 const std::byte* get(Reader& reader, std::uint32_t page) {
   const std::byte* frame = reader.find(page);
   return frame != nullptr ? frame : reader.fetch(page);
@@ -48,7 +48,7 @@ TEST(PageCache, FirstFindMissesAndLaterFindsHit) {
   EXPECT_TRUE(TaggedPages::matches(fetched, kFrameBytes, 7));
   EXPECT_EQ(reader.find(7), fetched);
   EXPECT_EQ(reader.find(7), fetched);
-  EXPECT_EQ(reader.fetch(7), fetched);  // Resident already: not filled again.
+  EXPECT_EQ(reader.fetch(7), fetched);  // resident already: not filled again
   reader.leave();
   const CacheStats stats = cache->stats();
   EXPECT_EQ(stats.hits, 2u);
@@ -89,7 +89,7 @@ TEST(PageCache, KeepsPagesThatAreFoundOften) {
     get(reader, page);
   }
   reader.leave();
-  // Page 3 was read once; in turn, it would have been evicted eight times.
+  // Page 3 was read once. Under FIFO eviction it would have been evicted eight times.
   EXPECT_EQ(cache->stats().fills, 50u);
 }
 
@@ -107,7 +107,7 @@ TEST(PageCache, NeverExceedsItsBudget) {
     EXPECT_LE(held, limits.budget_bytes);
     EXPECT_GE(stats.arena_bytes, std::uint64_t{stats.frame_count} * kFrameBytes);
     EXPECT_LE(stats.frame_count, 200u);
-    // What is left over would not have given one more frame.
+    // The remainder of the budget is too small for one more frame.
     if (stats.frame_count < 200) {
       EXPECT_LT(limits.budget_bytes - held, kFrameBytes + 8192);
     }
@@ -123,7 +123,7 @@ TEST(PageCache, PinnedPagesSurviveAStorm) {
   const std::byte* root = reader.find(0);
   ASSERT_NE(root, nullptr);
   ASSERT_EQ(cache->stats().fills, 1u);
-  // No find of the root meanwhile, so its score does not help it.
+  // The root is not found meanwhile, so its score does not protect it.
   for (std::uint32_t page = 1; page < 300; ++page) ASSERT_NE(reader.fetch(page), nullptr);
   EXPECT_EQ(reader.find(0), root);
   EXPECT_TRUE(TaggedPages::matches(root, kFrameBytes, 0));
@@ -135,7 +135,7 @@ TEST(PageCache, PinsNoMorePagesThanItCanSpare) {
   TaggedPages pages;
   const auto cache = make_cache(limits_for_frames(6, 50, 2), pages);
   for (std::uint32_t page = 0; page < 3; ++page) ASSERT_TRUE(cache->pin(page));
-  ASSERT_TRUE(cache->pin(1));  // Pinned already: costs nothing.
+  ASSERT_TRUE(cache->pin(1));  // already pinned: needs no further frame
   const Result<void> refused = cache->pin(3);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kNoMemory);
@@ -168,7 +168,7 @@ TEST(PageCache, QuarantinesUnreadablePages) {
   EXPECT_EQ(reader.find(5), nullptr);
   EXPECT_EQ(reader.fetch(5), nullptr);
   reader.leave();
-  EXPECT_EQ(pages.fill_calls(), 1u);  // Not retried.
+  EXPECT_EQ(pages.fill_calls(), 1u);  // not retried
   EXPECT_EQ(cache->stats().quarantined, 1u);
 
   const Result<void> first = cache->pin(6);
@@ -180,7 +180,7 @@ TEST(PageCache, QuarantinesUnreadablePages) {
   EXPECT_EQ(second.error().page, 6u);
   EXPECT_EQ(cache->stats().quarantined, 2u);
 
-  // The frames of failed fills are not lost.
+  // Frames of failed fills are reusable.
   reader.enter();
   for (std::uint32_t page = 7; page < 11; ++page) EXPECT_NE(reader.fetch(page), nullptr);
   reader.leave();
@@ -195,7 +195,7 @@ TEST(PageCache, FailedFillDoesNotKeepTheEvictedPage) {
   reader.enter();
   for (std::uint32_t page = 0; page < 4; ++page) reader.fetch(page);
   for (std::uint32_t page = 10; page < 40; ++page) EXPECT_EQ(reader.fetch(page), nullptr);
-  // One page made room, once; no page shows the bytes of a failed fill.
+  // One page was evicted, once. No page shows the bytes of a failed fill.
   EXPECT_EQ(cache->stats().evictions, 1u);
   for (std::uint32_t page = 0; page < 50; ++page) {
     const std::byte* frame = reader.find(page);
@@ -217,14 +217,14 @@ TEST(PageCache, HasAsManyReadersAsAskedFor) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::kBadArgument);
     EXPECT_NE(std::strstr(refused.error().text, "max_probes"), nullptr);
-    second.enter();  // Destroyed inside a section: leaves it.
+    second.enter();  // leaves the section when destroyed
   }
   Reader fourth = make_reader(*cache);
   Reader fifth = make_reader(*cache);
   EXPECT_FALSE(fourth.inside());
   EXPECT_FALSE(fifth.inside());
   EXPECT_FALSE(cache->claim_reader());
-  fourth = std::move(fifth);  // Gives up the slot it had.
+  fourth = std::move(fifth);  // releases its former slot
   EXPECT_TRUE(cache->claim_reader());
 }
 
@@ -247,7 +247,7 @@ TEST(PageCache, AllocatesNothingOnceCreated) {
   pages.make_unreadable(9);
   const std::uint64_t before_create = allocation_count();
   const auto cache = make_cache(limits_for_frames(6, 50, 2), pages);
-  EXPECT_EQ(allocation_count(), before_create + 1);  // The counter counts: one object.
+  EXPECT_EQ(allocation_count(), before_create + 1);  // one object: the counter works
   const std::uint64_t after_create = allocation_count();
   ASSERT_TRUE(cache->pin(0));
   {
@@ -264,7 +264,7 @@ TEST(PageCache, AllocatesNothingOnceCreated) {
   EXPECT_EQ(allocation_count(), after_create);
 }
 
-/// Walks from page to page, each named by the bytes of the one before.
+/// Walks from page to page; the bytes of each page choose the next.
 std::uint64_t walk(PageCache& cache, std::uint32_t page_count) {
   Reader reader = make_reader(cache);
   std::uint64_t answer = 0;
@@ -294,13 +294,13 @@ TEST(PageCache, AnswersAreTheSameAtAnyBudget) {
     fills.push_back(cache->stats().fills);
   }
   for (const std::uint64_t answer : answers) EXPECT_EQ(answer, answers.front());
-  EXPECT_EQ(fills.back(), kPages - 1u);  // Each but page 17, once.
+  EXPECT_EQ(fills.back(), kPages - 1u);  // every page except 17, once
   EXPECT_GT(fills.front(), 2000u);
 }
 
-/// Filling while another reader is inside its section is the mistake looked for.
-/// All relaxed, so that nothing but the cache orders one thread's reads of a
-/// frame before another's writes, and ThreadSanitizer can tell if it does not.
+/// Detects fills while another reader is inside its section. All operations are relaxed, so that
+/// only the cache orders one thread's reads of a frame before another's writes, and ThreadSanitizer
+/// reports it if the cache does not.
 struct WatchedPages {
   std::atomic<bool> holder_inside{false};
   std::atomic<int> fills_while_held{0};
@@ -333,10 +333,10 @@ TEST(PageCache, FetchWaitsForSectionsThatMayHoldTheFrame) {
     EXPECT_TRUE(TaggedPages::matches(reader.fetch(30), kFrameBytes, 30));
     reader.leave();
   });
-  // The other thread has taken a page off the map, and now has to wait.
+  // The other thread has withdrawn a page and now has to wait.
   while (cache.stats().evictions == 0) std::this_thread::yield();
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  EXPECT_EQ(cache.stats().evictions, 1u);  // It does not empty the cache meanwhile.
+  EXPECT_EQ(cache.stats().evictions, 1u);  // it evicts no more meanwhile
   for (std::uint32_t page = 0; page < 4; ++page) {
     EXPECT_TRUE(TaggedPages::matches(held[page], kFrameBytes, page));
   }

@@ -13,28 +13,29 @@
 #include "tests/cache/stressed_cache.h"
 #include "tests/cache/tagged_pages.h"
 
-/// Readers and a writer at full speed over real threads, where the explorer has small programs:
-/// every word that a reader reads must be of the page it asked for. What a thread sanitizer says
-/// of the same run counts as well.
+/// Readers and a writer at full speed on real threads, while the explorer runs small programs.
+/// Every word that a reader reads must be of the requested page. The same run under a thread
+/// sanitizer also checks for data races.
 namespace planetree::cache {
 
 struct StressGoal {
   std::uint32_t readers = 2;
-  std::uint64_t queries = 0;   ///< of all readers together, at least
-  std::uint64_t installs = 0;  ///< at least
-  /// Ends at the first wrong word, for runs that are to have one.
+  std::uint64_t queries = 0;   ///< minimum, over all readers together
+  std::uint64_t installs = 0;  ///< minimum
+  /// Ends at the first wrong word, for runs that must find one.
   bool until_wrong = false;
 };
 
-/// What a run came to.
+/// Counts of a run.
 struct StressCount {
   std::uint64_t queries = 0;  ///< sections, of up to kLookups pages
-  std::uint64_t found = 0;    ///< pages, each of which was read again at the section's end
+  std::uint64_t found = 0;    ///< pages found; each is read again at the end of its section
   std::uint64_t wrong = 0;    ///< pages with a word of another page or of none
   std::uint64_t installs = 0;
 };
 
-/// How far a run is. Relaxed: it must not order what the protocol has to.
+/// Progress of a run. Relaxed, because it must not provide ordering that the protocol has to
+/// provide.
 class StressProgress {
  public:
   explicit StressProgress(const StressGoal& goal) : goal_(goal) {}
@@ -57,7 +58,7 @@ class StressProgress {
   std::atomic<std::uint64_t> queries_{0}, installs_{0}, wrong_{0};
 };
 
-/// One reader's part.
+/// The loop of one reader.
 template <class Reader>
 class StressReading {
  public:
@@ -71,7 +72,7 @@ class StressReading {
       for (std::uint32_t i = 0; i < kQueriesAtOnce; ++i) read_all();
       count_.queries += kQueriesAtOnce;
       progress.count_queries(kQueriesAtOnce, count_.wrong > 0);
-      // Be seen outside a section too, on few cores.
+      // Lets the writer see it outside a section too, on few cores.
       if (numbers_.below(4) == 0) std::this_thread::yield();
     }
     return count_;
@@ -92,7 +93,7 @@ class StressReading {
       check(frames[kept], pages[kept]);
       ++kept;
     }
-    // Be caught inside a section, on few cores too.
+    // Lets the writer run during the section, on few cores too.
     if (numbers_.below(1024) == 0) std::this_thread::yield();
     for (std::uint32_t i = 0; i < kept; ++i) check(frames[i], pages[i]);
     reader_.leave();
@@ -109,10 +110,10 @@ class StressReading {
   StressCount count_;
 };
 
-/// Runs `install`, which says whether it installed a page, beside readers until the goal is
-/// reached.
+/// Runs `install` beside readers until the goal is reached. `install` returns whether it installed
+/// a page.
 ///
-/// read  is given a reader's place, and the progress.
+/// read  runs one reader; its arguments are the reader's index and the progress.
 inline StressCount run_stress(
     const StressGoal& goal, const std::function<bool()>& install,
     const std::function<StressCount(std::uint32_t, StressProgress&)>& read) {
@@ -137,7 +138,7 @@ inline StressCount run_stress(
   return sum;
 }
 
-/// Of the classes of the protocol by themselves.
+/// Stresses the classes of the protocol alone.
 template <class Atomics = StdAtomics>
 StressCount stress_protocol(const StressGoal& goal, WriterMistake mistake = WriterMistake::kNone) {
   using Cache = StressedCache<Atomics>;
@@ -151,9 +152,9 @@ StressCount stress_protocol(const StressGoal& goal, WriterMistake mistake = Writ
       });
 }
 
-/// Of a whole PageCache, where the thread that installs is one that fetches.
+/// Stresses a whole PageCache; the installing thread is one that fetches.
 inline StressCount stress_page_cache(const StressGoal& goal) {
-  // So many frames fill a system page, so that a budget can give an exact number of them.
+  // This many frames fill whole system pages, so a budget can give an exact number of them.
   constexpr std::uint32_t kStressPages = 64, kStressFrames = 32, kStressFrameBytes = 128;
   TaggedPages pages;
   auto cache = PageCache::create(

@@ -10,7 +10,7 @@ namespace planetree::cache {
 namespace {
 
 constexpr StressGoal kShort{.readers = 2, .queries = 50000, .installs = 5000};
-// One that fetches sleeps while a reader that was stopped inside a section has no processor.
+// A fetch sleeps while a reader that was preempted inside a section has no processor.
 constexpr StressGoal kShortest{.readers = 1, .queries = 20000, .installs = 500};
 
 void expect_right(const StressCount& count, const StressGoal& goal) {

@@ -1,7 +1,7 @@
-// The protocol between readers and the writer (cache/reader_slot.h) as it ships:
-// in every run of small programs, and in many of larger ones, no reader sees a
-// frame that is being written, or another page's. And each step is needed: with
-// its order weakened, some run fails.
+// Checks the protocol between readers and the writer (cache/reader_slot.h) with the memory orders
+// as shipped. In every run of small programs, and in many runs of larger ones, no reader sees a
+// frame that is being written, or another page's frame. Each step is necessary: with its order
+// weakened, some run fails.
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ TEST_F(Protocol, HoldsInEveryRunOfTwoOwnersOfASlot) {
   EXPECT_EQ(explore_all(handover(), kAnyStops).failure, "");
 }
 
-// What the programs would not notice, they could not vouch for.
+// These programs must detect mistakes; otherwise their success would prove nothing.
 
 TEST_F(Protocol, NotingOpenSectionsBeforeHidingThePageIsCaught) {
   const Report report = explore_all(turnover({.notes_sections_too_early = true}), kFewStops);

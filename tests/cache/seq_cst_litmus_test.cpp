@@ -1,5 +1,4 @@
-// Which outcomes the explorer finds for programs with seq_cst: all that C++20
-// allows, and no others.
+// The explorer finds exactly the outcomes that C++20 allows for programs with seq_cst.
 
 #include <gtest/gtest.h>
 
@@ -81,7 +80,8 @@ Explored overtaken_store(std::memory_order order) {
 }
 
 TEST(SeqCstLitmus, SeqCstStoresAreInTheOrderOfTheirAtomic) {
-  // The 2 came after the 1, so the store to x before it.
+  // Where 2 follows 1 in the modification order of y, the seq_cst store to x comes before the store
+  // of 2.
   EXPECT_TRUE(overtaken_store(kRelease).finds({0, 2}));
   EXPECT_FALSE(overtaken_store(kSeqCst).finds({0, 2}));
   EXPECT_TRUE(overtaken_store(kSeqCst).finds({0, 1}));
@@ -89,8 +89,8 @@ TEST(SeqCstLitmus, SeqCstStoresAreInTheOrderOfTheirAtomic) {
 }
 
 TEST(SeqCstLitmus, SeqCstAgreesWithWhatStronglyHappensBefore) {
-  // The first thread's store to x comes before the second's load of y, by way
-  // of z; and that, if it finds 0, before the third thread's operations.
+  // Through z, the first thread's store to x is before the second's load of y. If that load finds
+  // 0, it is before the third thread's operations.
   const auto explored = [](std::memory_order store, std::memory_order load) {
     return explore_threads({[=](Litmus& all) {
                               all.x.store(1, kSeqCst);
@@ -126,8 +126,8 @@ TEST(SeqCstLitmus, SeqCstNeedNotAgreeWithAStoreThatIsOnlyAcquired) {
 }
 
 TEST(SeqCstLitmus, LetsSeqCstDisagreeWithHappensBeforeThroughOtherOrders) {
-  // P0668R5, "Revising the C++ memory model", the first example: hardware does
-  // it, and C++20 allows it where C++17 did not.
+  // P0668R5, "Revising the C++ memory model", first example. Hardware shows this outcome, and C++20
+  // allows it where C++17 did not.
   const Explored explored = explore_threads({[](Litmus& all) {
                                                all.x.store(1, kSeqCst);
                                                all.y.store(1, kRelease);

@@ -39,7 +39,7 @@ TEST(SpscRing, WithoutSlotsDropsAll) {
   EXPECT_EQ(ring.dropped(), 1u);
 }
 
-/// One step may be weaker than it ships.
+/// The order of one step may be weakened.
 struct ExploredRing {
   template <class T>
   using Atomic = explorer::Atomic<T>;
@@ -52,7 +52,7 @@ struct ExploredRing {
   static inline const RingStep* weakened = nullptr;
 };
 
-/// 1, 2, 3, ... go through two slots.
+/// Passes 1, 2, 3, ... through two slots.
 class RingProgram final : public explorer::Program {
  public:
   explicit RingProgram(std::uint64_t& lasts_taken) : lasts_taken_(lasts_taken) {

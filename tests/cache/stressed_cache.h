@@ -14,19 +14,19 @@
 
 namespace planetree::cache {
 
-/// What a writer may do wrongly on purpose, to see that it is found out.
+/// A mistake that the writer makes on purpose, to see that it is detected.
 enum class WriterMistake : std::uint8_t {
   kNone,
   kReusesAtOnce,    ///< waits for no section
-  kForgetsAReader,  ///< waits for those of all readers but the last
-  kNotesTooEarly,   ///< notes the open sections before it hides the page
+  kForgetsAReader,  ///< waits for the sections of all readers but the last
+  kNotesTooEarly,   ///< notes the open sections before it withdraws the page
 };
 
-/// What a PageCache is made of, with one writer that does nothing but evict and install, as fast
-/// as it can. Frames are written with what no page has as soon as they may be reused, then with
-/// the words of their next page.
+/// The parts of a PageCache, with one writer that only evicts and installs, as fast as it can. A
+/// frame that may be reused is first overwritten with words of no page, then with the words of its
+/// next page.
 ///
-/// Atomics  as the classes of the protocol have them, or with an order weakened.
+/// Atomics  as for the classes of the protocol, or with an order weakened
 template <class Atomics>
 class StressedCache {
  public:
@@ -43,7 +43,7 @@ class StressedCache {
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) install(frame, frame);
   }
 
-  /// One reader's way in: as cache::Reader, without its counts.
+  /// One reader's access: as cache::Reader, without its counts.
   class Reader {
    public:
     Reader(StressedCache& cache, std::uint32_t index)
@@ -61,7 +61,7 @@ class StressedCache {
     Slot& slot_;
   };
 
-  /// Puts an absent page into a frame, if one can be had; the writer's thread alone.
+  /// Installs an absent page if a frame is available. For the writer's thread only.
   bool install_another(Numbers& numbers) {
     const std::uint32_t frame = take_frame(numbers);
     if (frame == kNoFrame) return false;
@@ -79,8 +79,8 @@ class StressedCache {
     return mistake_ == WriterMistake::kForgetsAReader ? all.first(all.size() - 1) : all;
   }
 
-  // Nothing comes between finding that a frame's sections are over and writing it: looking at
-  // other sections would acquire what that had to.
+  // Nothing may come between finding that a frame's sections are over and writing the frame.
+  // Reading the state of other sections there would acquire what this check has to acquire.
   std::uint32_t take_frame(Numbers& numbers) {
     for (std::uint32_t fetcher = 0; fetcher < kFetchers; ++fetcher) {
       if (limbo_.holds(fetcher)) continue;
@@ -119,7 +119,7 @@ class StressedCache {
   std::vector<typename Map::Cell> cells_ = std::vector<typename Map::Cell>(kPages);
   Map map_{cells_};
   FramePool frames_ = *FramePool::create(kFrames, kFrameBytes);
-  // The writer's.
+  // For the writer only.
   std::array<std::uint32_t, kFrames> pages_;
   std::array<typename BasicLimbo<Atomics>::Entry, kFetchers> entries_;
   std::vector<std::uint64_t> stamps_;

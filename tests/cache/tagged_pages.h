@@ -11,9 +11,8 @@
 
 namespace planetree::cache {
 
-/// A model for tests: every 8-byte word of a page follows from its page number
-/// and its place, so that a reader sees at once if it holds the wrong page or
-/// one that is being overwritten.
+/// Pages for tests. Every 8-byte word is a function of its page number and its index, so that a
+/// reader can tell whether it holds another page or one that is being overwritten.
 class TaggedPages {
  public:
   static std::uint64_t word(std::uint32_t page, std::size_t index) noexcept {
@@ -31,7 +30,7 @@ class TaggedPages {
     return true;
   }
 
-  /// First what no page has: whoever still reads the frame is to see that.
+  /// Writes bytes of no page first, so that a reader that still uses the frame sees them.
   static void write(std::span<std::byte> frame, std::uint32_t page) noexcept {
     std::memset(frame.data(), 0xa5, frame.size());
     for (std::size_t i = 0; i < frame.size() / sizeof(std::uint64_t); ++i) {
@@ -40,13 +39,13 @@ class TaggedPages {
     }
   }
 
-  /// The FillPage; `context` is a TaggedPages.
+  /// A FillPage; `context` is a TaggedPages.
   static Result<Filled> fill(void* context, const FillRequest& request) {
     auto& pages = *static_cast<TaggedPages*>(context);
     const std::uint32_t page = request.page;
     pages.fill_calls_.fetch_add(1, std::memory_order_relaxed);
     write(request.frame, page);
-    // Fails after writing, as a page does that turns out wrong when decoded.
+    // Fails after writing, as with a page whose damage shows only when it is decoded.
     if (pages.unreadable_.contains(page)) {
       return make_error(ErrorCode::kDamaged, page, Error::kNowhere, "page %u is damaged", page);
     }
@@ -61,7 +60,7 @@ class TaggedPages {
   std::atomic<std::uint64_t> fill_calls_{0};
 };
 
-/// Limits with a budget that gives exactly `frame_count` frames.
+/// Returns limits with a budget that gives exactly `frame_count` frames.
 inline CacheLimits limits_for_frames(std::uint32_t frame_count, std::uint32_t page_count,
                                      std::uint32_t max_readers,
                                      std::uint32_t frame_bytes = 4096) noexcept {
@@ -70,12 +69,12 @@ inline CacheLimits limits_for_frames(std::uint32_t frame_count, std::uint32_t pa
   return limits;
 }
 
-/// A small repeatable stream of numbers.
+/// A small repeatable sequence of pseudo-random numbers.
 class Numbers {
  public:
   explicit Numbers(std::uint64_t seed) noexcept : state_(seed) {}
 
-  /// 0 ... limit - 1.
+  /// Returns 0 ... limit - 1.
   std::uint32_t below(std::uint32_t limit) noexcept {
     state_ = state_ * 6364136223846793005u + 1442695040888963407u;
     return static_cast<std::uint32_t>((state_ >> 33) % limit);

@@ -8,20 +8,20 @@
 
 namespace planetree::cache {
 
-/// How much of it there is; and what is done wrongly on purpose.
+/// Size of a TurnoverProgram, and mistakes to make on purpose.
 struct Turnover {
   std::uint32_t readers = 1;   ///< threads
-  std::uint32_t sections = 1;  ///< of each
+  std::uint32_t sections = 1;  ///< sections of each reader
   std::uint32_t frames = 1;    ///< 1 or 2
-  std::uint32_t rounds = 1;    ///< in each, every frame gets the other page
+  std::uint32_t rounds = 1;    ///< each round gives every frame the other page
   bool notes_sections_too_early = false;
   bool waits_for_nobody = false;
   bool shows_the_wrong_page = false;
 };
 
-/// Readers look at two pages while one writer keeps changing which of them is
-/// in which frame. The least program in which every step of the protocol
-/// matters. The writer does as PageCache does when it evicts and fills.
+/// Readers look up two pages while one writer keeps exchanging which page is in which frame. This
+/// is the smallest program in which every step of the protocol matters. The writer follows
+/// PageCache when it evicts and fills.
 class TurnoverProgram final : public explorer::Program {
  public:
   explicit TurnoverProgram(const Turnover& turnover)
@@ -42,7 +42,7 @@ class TurnoverProgram final : public explorer::Program {
   static constexpr std::uint32_t kPageCount = 2;
   static constexpr std::uint32_t kTries = 3;
 
-  /// Whatever was found is read again after each lookup.
+  /// Reads every frame found so far again after each lookup.
   void read_section(ExploredCache::Slot& slot) {
     std::array<std::uint32_t, kPageCount> found;
     slot.enter();
@@ -57,7 +57,7 @@ class TurnoverProgram final : public explorer::Program {
 
   void write() {
     for (std::uint32_t round = 0; round < turnover_.rounds; ++round) {
-      // All frames before one is filled, so that pages change frames.
+      // Evicts all frames before it fills one, so that pages change frames.
       for (std::uint32_t frame = 0; frame < turnover_.frames; ++frame) evict(frame);
       for (std::uint32_t fetcher = 0; fetcher < turnover_.frames; ++fetcher) {
         const std::uint32_t frame = turnover_.waits_for_nobody ? fetcher : take(fetcher);
@@ -69,7 +69,7 @@ class TurnoverProgram final : public explorer::Program {
     }
   }
 
-  /// Each frame's limbo is the owner of the same number.
+  /// The frame with number i is retired by fetcher i.
   void evict(std::uint32_t frame) {
     if (turnover_.notes_sections_too_early) cache_.limbo().retire(frame, frame);
     cache_.map().withdraw(cache_.page_in(frame));

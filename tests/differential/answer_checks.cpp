@@ -44,7 +44,7 @@ void expect_finite(const ClosestPoint& answer) {
   for (const double number : numbers) EXPECT_TRUE(std::isfinite(number));
 }
 
-// The truth is inside, and so is the distance that was found.
+// The interval holds the true distance and the distance found.
 void expect_interval_holds(const ClosestPoint& answer, const Wide& truth) {
   EXPECT_LE(0, answer.lower);
   EXPECT_LT(answer.lower, answer.upper);
@@ -57,7 +57,7 @@ void expect_interval_holds(const ClosestPoint& answer, const Wide& truth) {
   }
 }
 
-// The triangle is the least by (value, index), and the value is what it says.
+// The triangle is the least by (value, index), and the distance follows from its value.
 void expect_least(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
   const octree::Point point = in_frame(query, model.scale_exponent());
   std::uint64_t least = 0;
@@ -90,8 +90,8 @@ double largest_coordinate(const Corners& triangle) {
   return largest;
 }
 
-// `point` is on the triangle, where the barycentric coordinates say, as far
-// away as the interval says; all to a few roundings of coordinates.
+// `point` lies on the triangle at the barycentric coordinates, and its distance is within the
+// interval, all up to a few roundings of the coordinates.
 void expect_on_triangle(const Corners& t, const Vec3& query, const ClosestPoint& answer) {
   const Vec3& b = answer.barycentric;
   EXPECT_NEAR(b.x + b.y + b.z, 1, 4e-16);
@@ -110,9 +110,9 @@ void expect_on_triangle(const Corners& t, const Vec3& query, const ClosestPoint&
   EXPECT_GE(gap(query, answer.point), Wide(answer.lower) - rounding);
 }
 
-// An exact interval is no wider than the rounding of what may have decided it:
-// some 2^-41 of the farthest corner, in the worst of cases, and 2^-500 of the
-// model, below which squares underflow.
+// An exact interval is no wider than the rounding that may have decided it: some 2^-41 of the
+// farthest corner's distance in the worst case, and 2^-500 of the model's size, below which squares
+// underflow.
 void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
   const ModelInfo& info = model.model().info();
   const auto reach = [](double low, double high, double at) {
@@ -128,8 +128,8 @@ void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoin
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// The pseudo-normal of its feature, or the opposite; and out of the solid, where
-// the way from the nearest point to the query can be told from rounding.
+// The normal is the pseudo-normal of the feature or its opposite. It points out of the solid where
+// the direction from the nearest point to the query exceeds rounding.
 void expect_normal(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
   const Vec3& normal = answer.normal;
   EXPECT_NEAR(dot(normal, normal), 1, 1e-15);
@@ -164,11 +164,11 @@ void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint
   expect_normal(model, query, answer);
 }
 
-/// Winding numbers so near one half are not judged.
+/// Winding numbers this near one half are not judged.
 constexpr long double kNearHalf = 1e-7L;
 
-// In the model frame, where the smallest of subnormal numbers are rounded away;
-// kUnknown where the winding number is one half, nearly.
+// The true side, computed in the model frame, where the smallest subnormal numbers are rounded
+// away. kUnknown if the winding number is nearly one half.
 Side true_side(const BuiltModel& model, const Vec3& query) {
   const auto scaled = [&](const Vec3& p) {
     const auto scale = [&](double value) { return std::ldexp(value, model.scale_exponent()); };
@@ -229,7 +229,7 @@ ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const QueryOptio
       EXPECT_LE(answer.upper - answer.lower, options.max_error);
       break;
     case Status::kDegraded:
-      // Visited for the distance, for each of six ways out and for the normal.
+      // Records are visited for the distance, for each of six exit segments and for the normal.
       EXPECT_LT(options.max_work, 8 * (model.model().info().nodes + model.model().info().blocks));
       break;
     case Status::kBeyondMaxDistance:

@@ -3,19 +3,18 @@
 #include "planetree/types.h"
 #include "tests/oracle/built_model.h"
 
-/// What must hold of every answer, as expectations of googletest.
+/// Expectations of googletest that every answer must meet.
 namespace planetree::oracle {
 
-/// Queries, checks and returns the answer. Expected of every one: the same bits
-/// when asked again, no number that is not finite, the exact distance within
-/// [lower, upper], an interval that is honest but not lazy. Of an exact one:
-/// the triangle of least (value, index) among all, found by evaluating each,
-/// and a point that lies on it at that distance. Of an inexact one: that the
-/// limits asked for allow it. A side that is told must be the exact one.
+/// Queries, checks the answer and returns it. Every answer has the same bits when the query is
+/// repeated, only finite numbers, the exact distance within [lower, upper], and no needlessly wide
+/// interval. An exact answer names the triangle of least (value, index), found by evaluating every
+/// triangle, and a point on it at that distance. An inexact answer is one that the limits allow. A
+/// known side is the exact one.
 ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const QueryOptions& options = {});
 
-/// Queries for the side alone; it must be the exact one. Where a model is not
-/// watertight and the winding number is one half, nearly, it may be any.
+/// Queries for the side alone; it must be the exact one. If a model is not watertight and the
+/// winding number is nearly one half, any side passes.
 void expect_side(BuiltModel& model, const Vec3& query);
 
 /// Every field has the same bits.

@@ -1,5 +1,5 @@
-// The judge of answers lets right ones pass and reports wrong ones, however the mesh is cut
-// into rounds and parts.
+// The judge accepts right answers and reports wrong ones, however the mesh is split into rounds and
+// parts.
 
 #include "tests/oracle/answer_judge.h"
 
@@ -17,7 +17,7 @@
 namespace planetree::oracle {
 namespace {
 
-// Several rounds of several parts, the last of them short.
+// Several rounds of several parts; the last ones are short.
 constexpr JudgeLimits kShortRounds{100, 30, 200'000'000};
 
 AnswerRow row_of(const Vec3& query, const ClosestPoint& answer) {
@@ -25,7 +25,7 @@ AnswerRow row_of(const Vec3& query, const ClosestPoint& answer) {
           answer.side, answer.triangle, answer.status, {}};
 }
 
-// A mesh, its answers and what the judge says of them.
+// A mesh, its answers, and their judgement.
 class JudgedMesh {
  public:
   explicit JudgedMesh(const Soup& soup) : model_(soup) { write_ply(mesh(), soup); }
@@ -46,7 +46,7 @@ class JudgedMesh {
   BuiltModel model_;
 };
 
-// A ball that a box runs into, and a box that touches it.
+// A ball that intersects a box, and a second box that touches the first.
 Soup solids() {
   return ball(2) + box({0.5, -0.25, -0.25}, {2, 0.25, 0.25}) + box({2, -1, -1}, {3, 1, 1});
 }
@@ -57,7 +57,7 @@ Soup open_solids() {
   return soup;
 }
 
-// Anywhere about, on corners, on edges, on faces, and on rays along x through all of them.
+// Queries anywhere around, on corners, edges and faces, and on rays along x through all of these.
 std::vector<Vec3> points_about(const Soup& soup) {
   Random random(11);
   std::vector<Vec3> queries;
@@ -105,7 +105,8 @@ TEST(AnswerJudge, LetsRightAnswersOfAnOpenMeshPass) {
   EXPECT_EQ(judgement.sides_by_solid_angles, rows.size() / 10);
 }
 
-// Nothing is asked of sums that would take too long, but of an open mesh as many as do not.
+// If the limit is too low, no side of a watertight mesh is summed; of an open mesh as many as it
+// allows.
 TEST(AnswerJudge, SumsSolidAnglesWithinItsLimits) {
   for (const Soup& soup : {solids(), open_solids()}) {
     JudgedMesh mesh(soup);
@@ -139,7 +140,7 @@ TEST(AnswerJudge, LetsHonestInexactAnswersPass) {
   EXPECT_EQ(judgement.not_judged, rows.size() / 4);
 }
 
-// A change to a right answer and a word of what must be said of it then.
+// A change to a right answer, and text that the judge must report then.
 struct Lie {
   const char* said;
   std::function<void(AnswerRow&)> tell;
@@ -153,7 +154,7 @@ void expect_found(const JudgedMesh& mesh, const AnswerRow& right, const Lie& lie
       << "not '" << lie.said << "' but '" << mesh.fault(wrong) << "'";
 }
 
-// From the middle of a face of the last box, which is 0.5 away.
+// The query is 0.5 away from a face of the last box.
 TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
@@ -167,7 +168,7 @@ TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
        }},
       {"is nearer than the interval",
        [&](AnswerRow& row) {
-         // As if the nearest had been overlooked: another, as far away as it is.
+         // As if the nearest triangle had been missed: names another one, with its true distance.
          const AnswerRow other = mesh.closest_point({3.5, 0.25, 0.5});
          const auto distance = static_cast<double>(extended_distance(other.query, soup[far]));
          row.triangle = far;
@@ -195,7 +196,7 @@ TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
   for (const Lie& lie : lies) expect_found(mesh, right, lie);
 }
 
-// Three faces and more meet in a corner; the first of them is to be named.
+// Three or more faces meet at a corner; the first of them must be named.
 TEST(AnswerJudge, FindsThatAnEqualTriangleComesFirst) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
@@ -212,7 +213,7 @@ TEST(AnswerJudge, FindsThatAnEqualTriangleComesFirst) {
 TEST(AnswerJudge, FindsWrongSidesWhereverThePointIs) {
   JudgedMesh mesh(solids());
   const auto says = [](Side side) { return [side](AnswerRow& row) { row.side = side; }; };
-  const AnswerRow inside = mesh.closest_point({0.75, 0, 0});  // of two solids
+  const AnswerRow inside = mesh.closest_point({0.75, 0, 0});  // inside two solids
   expect_found(mesh, inside, {"point is inside", says(Side::kOutside)});
   const AnswerRow on = mesh.closest_point({3, 0, 0});
   expect_found(mesh, on, {"on the surface", says(Side::kOutside)});

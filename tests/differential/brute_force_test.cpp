@@ -1,4 +1,4 @@
-// The judges judge alike: exact integers, long double and CGAL.
+// The oracles agree: exact integers, long double and CGAL.
 
 #include "tests/oracle/brute_force.h"
 
@@ -28,7 +28,7 @@ TEST(BruteForce, KnowsEveryRegion) {
   }
 }
 
-// No double is too large or too small for whole numbers.
+// No double is too large or too small for the integers.
 TEST(BruteForce, IsExactAtAnyScale) {
   for (const double size : {0x1p-1074, 0x1p-600, 1.0, 0x1p500, 0x1p1020}) {
     const Corners triangle{Vec3{0, 0, 0}, Vec3{4 * size, 0, 0}, Vec3{0, 3 * size, 0}};
@@ -37,7 +37,7 @@ TEST(BruteForce, IsExactAtAnyScale) {
   }
 }
 
-// The shortcut past far triangles misses none; segments and points are met.
+// Skipping far triangles misses none. The models include segments and points.
 TEST(BruteForce, AgreesWithLookingAtEach) {
   for (const NastyFamily& family : nasty_families()) {
     Random random(8);

@@ -7,11 +7,11 @@
 #include "tests/oracle/random.h"
 #include "tests/oracle/winding.h"
 
-// Sides that the nearest faces tell, where they are in a sheet.
+// Sides decided by the nearest faces, where these are in a height field.
 namespace planetree::oracle {
 namespace {
 
-// Off the middle of a face, by `height` times its normal's length.
+// A point above the middle of a face, at `height` times the face's normal.
 Vec3 off_middle(const Corners& face, double height) {
   const auto [a, b, c] = face;
   const Vec3 u{b.x - a.x, b.y - a.y, b.z - a.z}, v{c.x - a.x, c.y - a.y, c.z - a.z};
@@ -25,8 +25,8 @@ class HeightFieldSides {
   explicit HeightFieldSides(const Soup& soup)
       : model_(soup, {.max_probes = 2}), other_(*Probe::create(model_.model())) {}
 
-  // How many of the points off faces have their side told for the pages of the distance alone,
-  // of all that are not known at a look.
+  // Share of the points off faces whose side needs no pages besides those of the distance, among
+  // the points whose side the side grid does not give.
   double share_spared(double height) {
     unsigned queried = 0, spared = 0;
     for (const Corners& face : model_.triangles()) {
@@ -60,7 +60,8 @@ TEST(HeightFieldSides, TakeNoPagesBesideThoseOfDistances) {
   EXPECT_GT(sides.share_spared(-0.3), 0.9);
 }
 
-// Where a solid is everywhere inside twice, or inside out, no face tells a side by itself.
+// If every inner point is inside twice, or the surface is inside out, no face decides a side by
+// itself.
 TEST(HeightFieldSides, AreLookedForWhereFacesDoNotTellThem) {
   for (const Soup& soup : {ball(4) + ball(4), inside_out(ball(4))}) {
     HeightFieldSides sides(soup);

@@ -1,4 +1,4 @@
-// What nodes say of their children is true, after quantising and in float.
+// The bounds that nodes store for their children hold, after quantising and in float.
 
 #include "octree/traversal/bounds.h"
 
@@ -36,8 +36,8 @@ FloatQuery float_query(const TreePages& pages, const Point& query) {
   return FloatQuery::from(query, pages.centre());
 }
 
-// A child's box and disc hold every corner below it. Stored numbers are taken
-// as they are; corners may miss them by the rounding of the centre alone.
+// A child's box holds every corner below it. Stored numbers are used as they are; corners may
+// exceed them by the rounding of the centre alone.
 void expect_encloses(const Node& node, unsigned child, const Point& from_centre, double slack) {
   const octree::FloatBox box = child_box(node, child);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,7 +56,7 @@ void expect_enclosing_nodes(const TreePages& pages) {
   });
 }
 
-// No child's bound rules it out at its true distance.
+// No bound of a child excludes the child at its true distance.
 void expect_bounds_below(const Node& node, unsigned child, const Soup& below,
                          const TreePages& pages, const Point& query) {
   const FloatQuery wide = float_query(pages, query);
@@ -107,8 +107,8 @@ TEST(NodeBounds, HoldAfterQuantising) {
   }
 }
 
-// Clusters so small that the boxes about them are a float's ulp or two wide:
-// the box's centre is then as far off as its corner.
+// Clusters so small that their boxes are a float's ulp or two wide: the box's centre is then as far
+// off as its corner.
 Soup ulp_cluster(Random& random, double width) {
   const Vec3 at{0.5, 0.5, 0.5};
   Soup triangles{{Vec3{-0.99, -0.99, -0.99}, Vec3{-0.98, -0.99, -0.99}, Vec3{-0.99, -0.98, -0.99}},
@@ -151,9 +151,9 @@ TEST(NodeBounds, HoldInBoxesOfFewUlps) {
 
 namespace on_target = octree::HWY_NAMESPACE;
 
-// The float filter lets every triangle pass that is no farther than the limit, and promises
-// none nearer than there is. filter(local query, limit, filtered) runs it; the query is
-// relative to `origin`.
+// The float filter passes every triangle that is no farther than the limit, and its upper bound is
+// no less than the nearest distance. filter(local query, limit, filtered) runs it; the local query
+// is relative to `origin`.
 template <class Filter>
 void expect_filter_passes(const std::vector<Triangle>& triangles, const FloatQuery& wide,
                           const Point& query, const Point& origin, float extent,
@@ -185,7 +185,7 @@ void expect_block_passes(const octree::BlockView& block, const FloatQuery& wide,
                        });
 }
 
-// The same triangles as a list about some point.
+// The same triangles as a list relative to some point.
 void expect_list_passes(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
                         const Point& centre) {
   std::vector<Triangle> triangles;
@@ -204,7 +204,7 @@ void expect_list_passes(const octree::BlockView& block, const FloatQuery& wide, 
                        });
 }
 
-// The same ones, and the same said of them, whatever a register holds.
+// Every instruction set finds the same triangles at the same distances.
 void expect_found_alike(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
                         double distance) {
   double first[octree::kMaxBlockTriangles], nearest[octree::kMaxBlockTriangles];
@@ -218,7 +218,7 @@ void expect_found_alike(const octree::BlockView& block, const FloatQuery& wide, 
   }
 }
 
-// Those as near as one of them are all found, and none is said to be farther than it is.
+// All triangles as near as a given one are found, and none is reported farther than it is.
 void expect_found_within(const octree::BlockView& block, const FloatQuery& wide, const Point& query,
                          unsigned which) {
   std::vector<double> distances;

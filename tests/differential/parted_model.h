@@ -12,7 +12,7 @@
 #include "tests/oracle/nasty_models.h"
 #include "tests/oracle/random.h"
 
-/// Models and their parts that touch a box, held against each other.
+/// Models and the files of their regions, compared with each other.
 namespace planetree::oracle {
 
 using octree::RegionBox;
@@ -21,7 +21,7 @@ inline constexpr double kNoWall = std::numeric_limits<double>::infinity();
 
 inline std::array<double, 3> numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-/// A region as whoever asks sees it: a box of which the sides outside of the model's do not count.
+/// The walls of a region: the sides of its box that lie within the model's box.
 class Walls {
  public:
   explicit Walls(const ModelInfo& info) {
@@ -33,7 +33,7 @@ class Walls {
     }
   }
   bool any() const { return distance({0, 0, 0}) < kNoWall; }
-  /// Negative beyond one.
+  /// Distance to the nearest wall; negative beyond one.
   double distance(const Vec3& point) const {
     const auto at = numbers(point);
     double least = kNoWall;
@@ -46,12 +46,12 @@ class Walls {
   std::array<double, 3> lower_{}, upper_{};
 };
 
-/// What was learnt, so that a test does not pass for want of cases.
+/// Counts of the cases met, so that a test cannot pass for want of cases.
 struct Seen {
   int exact = 0, degraded = 0, within_error = 0, beyond = 0, inside = 0, outside = 0, unknown = 0;
 };
 
-/// A model, and its part that touches a box.
+/// A model, and the file of its region: of the triangles that touch a box.
 class Parted {
  public:
   Parted(const Soup& soup, const RegionBox& box, double size = 1, std::uint32_t page_bytes = 4096)
@@ -77,7 +77,8 @@ class Parted {
   }
 
  private:
-  // Without a side, normals are as the mesh is oriented; and they are sums in the order of a tree.
+  // Without a side, normals follow the orientation of the mesh. They are sums in the order of a
+  // tree, so their last bits may differ.
   static ClosestPoint as_far_as_told(const ClosestPoint& answer, ClosestPoint truth) {
     const Vec3 &n = answer.normal, &m = truth.normal;
     const double along = n.x * m.x + n.y * m.y + n.z * m.z;
@@ -136,13 +137,13 @@ class Parted {
   Seen seen_;
 };
 
-// An ulp beside, but for what the model frame rounds away.
+// An ulp beside `at`, unless the model frame rounds that away.
 inline double beside(double at, bool above, double size) {
   if (at == 0) return above ? size * 0x1p-60 : size * -0x1p-60;
   return std::nextafter(at, above ? kNoWall : -kNoWall);
 }
 
-/// In, on, and about a box.
+/// A point in, on or around a box.
 inline Vec3 query_about(Random& random, const RegionBox& box, double size) {
   const auto lower = numbers(box.lower), upper = numbers(box.upper);
   std::array<double, 3> at{};
@@ -175,13 +176,14 @@ inline Vec3 greatest(const Vec3& a, const Vec3& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-/// One that some triangle touches: about a place on one, between vertices, flat, or a point.
+/// A box that some triangle touches: around a point of one, between vertices, flat, or a single
+/// point.
 inline RegionBox random_box(Random& random, const Soup& soup, double size) {
   const Corners& triangle = soup[random.below(soup.size())];
   const Vec3 corner = triangle[random.below(3)];
   const Vec3 other = soup[random.below(soup.size())][random.below(3)];
   const Vec3 point = random.one_in(2) ? corner : (corner + triangle[random.below(3)]) * 0.5;
-  // As far from there on as rounding may have taken it off the triangle.
+  // The point may be this far off the triangle because of rounding.
   const double margin = size * 1e-12;
   Vec3 first = random.in_some_cube(-6, 0), second = random.in_some_cube(-6, 0);
   first = {std::fabs(first.x) * size, std::fabs(first.y) * size, std::fabs(first.z) * size};
@@ -206,7 +208,7 @@ inline RegionBox random_box(Random& random, const Soup& soup, double size) {
   }
 }
 
-// Where the model frame rounds nothing.
+// A query that the model frame does not round.
 inline Vec3 some_query(Random& random, const Soup& soup, const RegionBox& box, double size) {
   const Vec3 query =
       random.one_in(3) ? nasty_query(random, soup, size) : query_about(random, box, size);

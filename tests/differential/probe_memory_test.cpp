@@ -1,4 +1,4 @@
-// What a probe remembers of its last asks changes no answer to the next one.
+// What a probe keeps from earlier queries changes no later answer.
 
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@ namespace planetree::oracle {
 namespace {
 
 constexpr BuildChoices kTwoProbes{4096, std::uint64_t{8} << 20, 2};
-constexpr std::size_t kStretches = 12;  // of a path, each from another place
+constexpr std::size_t kStretches = 12;  // stretches of a path, each with another start
 constexpr std::size_t kStretchSteps = 25;
 
-// Along a surface, near it and through it, and with it along the sides of mask cells.
+// A path along a surface, near it and through it, with points on the faces of mask cells.
 std::vector<Vec3> surface_path(Random& random, const Soup& triangles) {
   std::vector<Vec3> path;
   for (std::size_t stretch = 0; stretch < 8 * kStretches; ++stretch) {
@@ -36,7 +36,7 @@ std::vector<Vec3> surface_path(Random& random, const Soup& triangles) {
   return path;
 }
 
-// From nasty places on, in steps of every length; now and then none at all.
+// A path from nasty points, with steps of every length; some steps are zero.
 std::vector<Vec3> nasty_path(Random& random, const Soup& triangles) {
   std::vector<Vec3> path;
   for (std::size_t stretch = 0; stretch < kStretches; ++stretch) {
@@ -56,7 +56,7 @@ Probe new_probe(const Model& model) {
   return *std::move(probe);
 }
 
-// Queries for this and that along a path, of one probe all the time and each time of a new one.
+// Queries various parts along a path, with one probe throughout and with a new probe each time.
 void expect_same_as_new(const Soup& soup, const std::vector<Vec3>& path, Random& random) {
   BuiltModel built(soup, kTwoProbes);
   for (const Vec3& query : path) {
@@ -95,7 +95,7 @@ TEST(ProbeMemory, ChangesNoAnswerOfNastyModels) { expect_same_for_all(nasty_fami
 
 TEST(ProbeMemory, ChangesNoAnswerOfClosedModels) { expect_same_for_all(closed_families(), 13); }
 
-// Winding numbers of 2 and of 0 within, and more triangles than are kept at once.
+// Winding numbers of 2, of 0 within a solid, and more triangles than are kept at once.
 TEST(ProbeMemory, ChangesNoAnswerAlongASurface) {
   Random random(14);
   const Soup twice = ball(5) + perturbed(scaled(ball(5), 0.75), {0.5, 0.25, 0});

@@ -1,5 +1,5 @@
-// Whatever the model and the query: sound answers. PLANETREE_TEST_EFFORT in
-// the environment multiplies the number of models.
+// Answers are sound for any model and any query. PLANETREE_TEST_EFFORT in the environment
+// multiplies the number of models.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct NastyModel {
   BuiltModel built;
 };
 
-// Scales so far out that squares of coordinates overflow or underflow.
+// Scales so extreme that squares of coordinates overflow or underflow.
 double nasty_scale(Random& random) {
   constexpr double kExponents[] = {0, 0, -996, 500, -300, 37};
   const double fraction = random.between(1, 2);
@@ -36,7 +36,7 @@ NastyModel nasty_model(Random& random, const NastyFamily& family) {
   return {size, BuiltModel(scaled(family.make(random), size), choices)};
 }
 
-// Calls check(random, model, query) for many of them.
+// Calls check(random, model, query) for many models and queries.
 template <class Check>
 void each_nasty_case(std::uint64_t seed, const Check& check) {
   const int models = static_cast<int>(kModelsPerFamily * test_effort());

@@ -1,4 +1,4 @@
-// Tens of thousands of random asks; the million is `./dev check-random`.
+// Tens of thousands of random queries; `./dev check-random` makes a million.
 
 #include "tests/oracle/random_queries.h"
 
@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kQueriesPerModel = 2500;
 constexpr std::size_t kModelsPerTest = 4;
 
-// So that no test takes long with a sanitizer.
+// Split so that no test takes long with a sanitizer.
 class RandomQueries : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(RandomQueries, AreAnsweredRight) {

@@ -1,5 +1,5 @@
-// Whatever the model, the region and the query. PLANETREE_TEST_EFFORT in the environment
-// multiplies the number of models.
+// Regions of any model, with any query. PLANETREE_TEST_EFFORT in the environment multiplies the
+// number of models.
 
 #include <gtest/gtest.h>
 

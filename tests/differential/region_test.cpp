@@ -1,4 +1,4 @@
-// A file of a region answers as that of the whole surface does, or says that it cannot.
+// The file of a region gives the answers of the whole surface's file, or reports that it cannot.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace planetree::oracle {
 namespace {
 
-// Recorded all over it and about it; what is inside of the box is told a side.
+// Queries all over the region and around it. Every point within the walls gets a side.
 void check_solid(const Soup& soup, const RegionBox& box, Seen* seen = nullptr) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
     Parted model(soup, box, 1, page_bytes);
@@ -46,7 +46,8 @@ TEST(Region, KnowsNestedAndOverlappingSolids) {
   }
 }
 
-// Far in, where no way out does without what was left out: every number is two or three.
+// Far inside, every exit segment needs surface that the region lacks: every winding number is two
+// or three.
 TEST(Region, CountsWhatWindsAboutItFromFarAway) {
   const Soup shells = ball(3) + scaled(ball(2), 1.5) + scaled(ball(2), 0.5);
   Parted model(shells, {{0.3, -0.2, -0.2}, {0.6, 0.2, 0.2}});
@@ -75,7 +76,7 @@ TEST(Region, MayBeAPlaneALineOrAPoint) {
   check_solid(solid, {corner, corner});
 }
 
-// Where the box is larger than the model there is nothing to be missed.
+// If the box is larger than the model, nothing is missing.
 TEST(Region, ThatHoldsAllAnswersAsTheWholeDoesEverywhere) {
   Random random(12);
   Soup holed = ball(3);
@@ -95,7 +96,7 @@ TEST(Region, ThatHoldsAllAnswersAsTheWholeDoesEverywhere) {
   }
 }
 
-// Half a model has one wall; away from it answers go on to the other sides and beyond.
+// Half a model has one wall. Away from the wall, answers reach the model's other sides and beyond.
 TEST(Region, HasWallsOnlyWithinTheModel) {
   const Soup solid = ball(4);
   Parted model(solid, {{-5, -5, 0.2}, {5, 5, 5}});
@@ -116,8 +117,8 @@ TEST(Region, HasWallsOnlyWithinTheModel) {
   }
 }
 
-// So far away that all of the model is in one direction; but which walls a point is beyond, its
-// other coordinates say.
+// So far away that all of the model is in one direction. The other coordinates of a point decide
+// which walls it is beyond.
 TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
   const Soup cube = box({0, 0, 0}, {1, 1, 1});
   for (const double far : {1e80, 1e100, 1e300, 1e308, -1e100}) {
@@ -137,7 +138,7 @@ TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
   }
 }
 
-// At the same distance from the wall as from the surface something beyond could round nearer.
+// If the wall is as far as the surface, something beyond the wall could be nearer after rounding.
 TEST(Region, IsCarefulWhereTheWallIsAsNearAsTheSurface) {
   const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
   Parted model(two, {{-1, -1, -1}, {2, 2, 2}});
@@ -154,7 +155,7 @@ TEST(Region, LooksNoFartherThanAskedIfThatIsProven) {
   options.max_distance = 0.25;
   model.check({2, 0.5, 0.5}, options);
   EXPECT_EQ(model.part().closest_point({2, 0.5, 0.5}, options).status, Status::kBeyondMaxDistance);
-  // The wall is nearer than what was asked for, the other box not.
+  // The wall is nearer than max_distance, the other box is not.
   const ClosestPoint answer = model.part().closest_point({2.375, 0.5, 0.5}, options);
   EXPECT_EQ(answer.status, Status::kDegraded);
   EXPECT_EQ(answer.triangle, kNoTriangle);
@@ -178,7 +179,7 @@ TEST(Region, AnswersBatchesAndRealTimeAsksAlike) {
   for (std::size_t k = 0; k < queries.size(); ++k) {
     expect_same_bits(model.part().closest_point(queries[k]), answers[k]);
     model.check(queries[k]);
-    // All pages are there by now.
+    // All pages are resident by now.
     expect_same_bits(model.part().closest_point(queries[k], at_once), answers[k]);
   }
 }

@@ -7,12 +7,12 @@
 #include "tests/oracle/random.h"
 #include "tests/oracle/winding.h"
 
-// Sides that the planes tell between which the surface in a cell of the mask is.
+// Sides decided by slabs: two planes between which the surface in a mask cell lies.
 namespace planetree::oracle {
 namespace {
 
-// How many asks about points off the surface, of those not known at a glance, take no page but the
-// mask's.
+// Share of the points off the surface whose side takes a single page, which is one of the mask,
+// among the points whose side the side grid does not give.
 double share_told_by_the_mask(const Soup& soup, double reach) {
   const BuiltModel model(soup, {.max_probes = 2});
   Probe probe = *Probe::create(model.model());

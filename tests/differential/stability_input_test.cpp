@@ -1,5 +1,4 @@
-// Mesh files with records that cannot answer, and files too large for 32 bits:
-// built and asked.
+// Mesh files with bad records, and files too large for 32 bits, are built and queried.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -22,7 +21,7 @@ namespace {
 
 using octree::TemporaryFile;
 
-// One bad record between two good ones; the good ones keep their indices.
+// One bad record between two good ones, which keep their indices.
 void expect_skipped(const std::string& obj) {
   const TemporaryFile file(obj, ".obj");
   BuiltModel model(file.path());
@@ -51,8 +50,8 @@ TEST(StabilityInput, FaceOfTwoCornersIsSetAside) {
   expect_skipped(kVertices + "f 1 2 3\nf 1 2\nf 4 5 6\n");
 }
 
-// In every format: a vertex that is infinite and, where there are such, an index that
-// is none and a face of two corners. The good faces keep their numbers and answer.
+// In every format: an infinite vertex and, where the format has them, an index out of range and a
+// face of two corners. The good faces keep their indices and are found.
 TEST(StabilityInput, BadRecordsOfEveryFormatAreSetAsideAndTheRestAnswers) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const octree::MeshFormat& format :
@@ -91,8 +90,8 @@ TEST(StabilityInput, VertexThatIsNoNumberIsSetAside) {
   }
 }
 
-// A PLY whose vertices end 52 GB into the file, most of them holes of it, and
-// whose faces name some that only unsigned numbers reach.
+// A PLY whose vertices end 52 GB into the file, mostly as holes of a sparse file. Some of the
+// faces' indices fit unsigned numbers only.
 class SparseMesh {
  public:
   SparseMesh() : file_("", ".ply"), descriptor_(::open(file_.path().c_str(), O_RDWR | O_CLOEXEC)) {

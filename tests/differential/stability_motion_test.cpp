@@ -1,4 +1,4 @@
-// The same model larger, elsewhere, turned: the same answers.
+// The same model scaled, translated or rotated gives the same answers.
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,8 @@ Vec3 by_power_of_two(const Vec3& p, int exponent) {
   return {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
 }
 
-// Every power of two from 2^-40 to 2^40 scales every number of an answer
-// without changing a bit of its fraction.
+// Every power of two from 2^-40 to 2^40 scales every number of an answer without changing a bit of
+// its fraction.
 TEST(StabilityMotion, ScalingByAPowerOfTwo) {
   const Soup triangles = some_triangles(1, 150);
   const std::vector<Vec3> queries = some_queries(triangles, 100);
@@ -53,8 +53,8 @@ TEST(StabilityMotion, ScalingByAPowerOfTwo) {
   }
 }
 
-// Perturbed by a power of two that loses no bit of any coordinate, distances keep
-// all of theirs.
+// Translated by a power of two that loses no bit of any coordinate, a model keeps every bit of its
+// distances.
 TEST(StabilityMotion, TranslationByAPowerOfTwo) {
   Random random(2);
   const auto coordinate = [&] { return static_cast<double>(random.below(1 << 20)) * 0x1p-20; };
@@ -77,8 +77,7 @@ TEST(StabilityMotion, TranslationByAPowerOfTwo) {
   }
 }
 
-// Turned about an axis, distances change by no more than turning rounds the
-// coordinates.
+// A rotation about an axis changes distances by no more than it rounds the coordinates.
 TEST(StabilityMotion, Rotation) {
   const Soup triangles = some_triangles(3, 150);
   BuiltModel original(triangles);
@@ -100,7 +99,7 @@ TEST(StabilityMotion, Rotation) {
   }
 }
 
-// Models of the closed families whose coordinates are of few enough bits.
+// Watertight models whose coordinates have few enough bits.
 Soup closed_model(std::uint64_t seed) {
   Random random(seed);
   const auto coordinate = [&] { return static_cast<double>(random.below(1 << 20)) * 0x1p-20; };
@@ -128,7 +127,7 @@ void expect_direction(const Vec3& found, const Vec3& expected) {
   EXPECT_NEAR(found.z, expected.z, 1e-7);
 }
 
-// Whether a normal can be turned by the way to the query.
+// Whether the direction to the query can orient the normal.
 bool can_be_certain(const ClosestPoint& answer) { return answer.distance > 1e-9; }
 
 TEST(StabilityMotion, ScalingAWatertightModelByAPowerOfTwo) {
@@ -174,7 +173,7 @@ TEST(StabilityMotion, TranslationOfAWatertightModel) {
   }
 }
 
-// In another order, triangles are named by another index and nothing else.
+// Reordering triangles changes their indices and nothing else.
 TEST(StabilityMotion, OrderOfTriangles) {
   Soup triangles = closed_model(7);
   const std::vector<Vec3> queries = some_queries(triangles, 200);
@@ -192,7 +191,7 @@ TEST(StabilityMotion, OrderOfTriangles) {
     const ClosestPoint expected = original.closest_point(query),
                        answer = expect_sound(model, query);
     expect_same_place(answer, expected);
-    if (was[answer.triangle] != expected.triangle) continue;  // as far, and now the first
+    if (was[answer.triangle] != expected.triangle) continue;  // a tie, and now the first
     EXPECT_EQ(answer.lower, expected.lower);
     EXPECT_EQ(answer.upper, expected.upper);
     EXPECT_EQ(answer.feature, expected.feature);
@@ -200,7 +199,7 @@ TEST(StabilityMotion, OrderOfTriangles) {
   }
 }
 
-// With its corners the other way about, or its first corner another.
+// Corners in reverse order, or starting with another corner.
 TEST(StabilityMotion, OrderOfCorners) {
   Soup triangles = closed_model(8);
   const std::vector<Vec3> queries = some_queries(triangles, 200);
@@ -217,7 +216,7 @@ TEST(StabilityMotion, OrderOfCorners) {
       EXPECT_EQ(answer.triangle, expected.triangle);
       EXPECT_EQ(answer.feature, expected.feature);
     }
-    // Out of the solid, however its faces are made.
+    // Normals point out of the solid, however its faces are oriented.
     if (can_be_certain(expected)) {
       expect_direction(turned.closest_point(query).normal, expected.normal);
       expect_direction(reversed.closest_point(query).normal, expected.normal);
@@ -225,8 +224,8 @@ TEST(StabilityMotion, OrderOfCorners) {
   }
 }
 
-// A mirror turns faces inside out. What is inside stays so, and with it the way
-// out of the solid.
+// A mirror reverses faces. What is inside stays inside, and so the direction out of the solid stays
+// too.
 TEST(StabilityMotion, Mirror) {
   const auto mirrored = [](const Vec3& p) { return Vec3{p.x, -p.y, p.z}; };
   Soup open = some_triangles(9, 100);
@@ -249,7 +248,7 @@ TEST(StabilityMotion, Mirror) {
   }
 }
 
-// Flat faces cut in four: the same surface.
+// Flat faces split into four give the same surface.
 TEST(StabilityMotion, SubdivisionOfFlatFaces) {
   const Soup coarse = box({0, 0, 0}, {1, 1, 1}) + box({0.25, 0.5, 0.75}, {2, 1.5, 1.25}) +
                       tetrahedron({-2, 0, 0}, {-2, 1, 0}, {-1, 0, 0}, {-2, 0, 1});
@@ -267,13 +266,13 @@ TEST(StabilityMotion, SubdivisionOfFlatFaces) {
     EXPECT_LE(answer.lower, expected.upper);
     EXPECT_GE(answer.upper, expected.lower);
     const Vec3 apart = answer.point - expected.point;
-    // Else two places are as far.
+    // Otherwise two points are equally far.
     if (std::fabs(apart.x) + std::fabs(apart.y) + std::fabs(apart.z) > 1e-12) continue;
     if (answer.side != Side::kOnSurface) expect_direction(answer.normal, expected.normal);
   }
 }
 
-// Twice as many pages, or one: the page size changes no answer.
+// The page size changes no answer, whether there are many pages or one.
 TEST(StabilityMotion, PageSizeDoesNotMatter) {
   const Soup triangles = some_triangles(4, 3000);
   BuiltModel original(triangles);

@@ -1,5 +1,5 @@
-// Pseudo-normals where a plain sum of face normals, or the nearest face alone,
-// points the wrong way.
+// Pseudo-normals where a plain sum of face normals, or the nearest face alone, has the wrong
+// direction.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ void expect_direction(const Vec3& found, const Vec3& wanted) {
   EXPECT_NEAR(found.z, wanted.z / length, 1e-12);
 }
 
-// expect_sound() checks normals; of queries around every corner and edge.
+// Queries around corners and edges; expect_sound() checks the normals.
 void expect_normals(const Soup& triangles, double size, int count) {
   BuiltModel model(triangles, {4096, 1 << 20, 1});
   Random random(16);
@@ -33,7 +33,7 @@ void expect_normals(const Soup& triangles, double size, int count) {
   }
 }
 
-// From far off the tip, two of its faces are seen from behind.
+// Far from the tip, two of its faces face away from the query.
 TEST(StabilityNormal, AcuteTetrahedronFromFar) {
   const Soup spike = tetrahedron({0, 0, 0}, {0, 0.01, 0}, {0.01, 0, 0}, {0.003, 0.003, 1});
   expect_normals(spike, 1, 300);
@@ -46,7 +46,7 @@ TEST(StabilityNormal, AcuteTetrahedronFromFar) {
   }
 }
 
-// Normals have length 1 before they are summed: the huge face does not win.
+// Normals are scaled to length 1 before they are summed, so the huge face does not dominate.
 TEST(StabilityNormal, AcuteEdgeBetweenATinyAndAHugeFace) {
   const Soup wedge = tetrahedron({0, 0, 0}, {-1e6, 0.5, 1e5}, {0, 1, 0}, {-1e-3, 0.5, -1e-4});
   expect_normals(wedge, 1e-3, 300);
@@ -75,7 +75,7 @@ TEST(StabilityNormal, VertexOfAThousandFaces) {
   expect_direction(model.closest_point({0, 0, -2}).normal, {0, 0, -1});
 }
 
-// Half of the faces around it lean one way, half the other.
+// Half of the faces around the vertex lean one way, half the other.
 TEST(StabilityNormal, SaddleVertex) {
   constexpr int kSides = 16;
   const auto rim = [](int i) {
@@ -94,7 +94,7 @@ TEST(StabilityNormal, SaddleVertex) {
   expect_normals(saddle, 0.3, 300);
 }
 
-// A flat face cut in more pieces weighs no more.
+// Splitting a flat face does not change its weight.
 TEST(StabilityNormal, SubdividedFlatFace) {
   const Soup coarse = box({0, 0, 0}, {1, 1, 1});
   Soup fine;
@@ -110,7 +110,7 @@ TEST(StabilityNormal, SubdividedFlatFace) {
   expect_direction(left.closest_point({2, 2, 2}).normal, {1, 1, 1});
 }
 
-// From beyond where doubles can measure, normals turn as they do from near.
+// From farther than doubles can measure, normals are oriented as from nearby.
 TEST(StabilityNormal, FarQueriesOfAnInsideOutModel) {
   const Soup solid = ball(2);
   BuiltModel outward(solid), inward(inside_out(solid));
@@ -125,7 +125,7 @@ TEST(StabilityNormal, FarQueriesOfAnInsideOutModel) {
     }
 }
 
-// The sum is zero: the first face speaks.
+// The sum is zero, so the first face decides.
 TEST(StabilityNormal, OppositeDuplicateFaces) {
   const Corners face{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
   const Corners back{face[0], face[2], face[1]};
@@ -134,7 +134,7 @@ TEST(StabilityNormal, OppositeDuplicateFaces) {
     const ClosestPoint answer = model.closest_point(query);
     EXPECT_NE(answer.feature, Feature::kFace);
     EXPECT_EQ(std::fabs(answer.normal.z), 1);
-    EXPECT_GT(answer.normal.z, 0);  // nothing is inside: it points to the query
+    EXPECT_GT(answer.normal.z, 0);  // nothing is inside, so it points to the query
   }
 }
 
@@ -146,7 +146,7 @@ TEST(StabilityNormal, EdgeOfThreeFaces) {
   expect_sound(model, {-1, 0, 0.5});
 }
 
-// Outside on both sides: it points to the query.
+// Both sides are outside, so the normal points to the query.
 TEST(StabilityNormal, OpenBorder) {
   BuiltModel model({{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}});
   expect_direction(model.closest_point({-1, -1, 0.5}).normal, {0, 0, 1});

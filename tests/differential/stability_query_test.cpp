@@ -1,4 +1,4 @@
-// Queries and limits that break careless answers.
+// Queries and limits that break careless arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Soup strip(int count) {
   return triangles;
 }
 
-// On a corner, an edge or the face the distance is 0 and said to be so.
+// On a corner, an edge or a face the distance is 0, and so is the lower bound.
 TEST(StabilityQuery, OnTheSurface) {
   const Soup triangles{{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}},
                        {Vec3{4, 4, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}}};
@@ -42,7 +42,7 @@ TEST(StabilityQuery, OnTheSurface) {
   EXPECT_EQ(model.closest_point({1, 1, 0}).feature, Feature::kFace);
 }
 
-// The least step there is beside a corner, in all 26 directions.
+// The smallest step off a corner, in all 26 directions.
 TEST(StabilityQuery, OneUlpOff) {
   const Soup triangles{{Vec3{0.1, 0.2, 0.3}, Vec3{1.1, 0.7, -0.3}, Vec3{0.4, 1.2, 0.9}}};
   BuiltModel model(triangles);
@@ -56,8 +56,8 @@ TEST(StabilityQuery, OneUlpOff) {
           expect_sound(model, {step(corner.x, x), step(corner.y, y), step(corner.z, z)});
 }
 
-// From next to the surface to where doubles end: exact at any distance, be the
-// model one block or a tree.
+// Exact at any distance, from next to the surface to the end of doubles, for a model of one block
+// and for a tree.
 TEST(StabilityQuery, AnyDistance) {
   for (const int count : {3, 300}) {
     BuiltModel model(strip(count));
@@ -70,7 +70,7 @@ TEST(StabilityQuery, AnyDistance) {
   }
 }
 
-// NaN and infinity, in any place, are answered with the status for them.
+// NaN or infinity in any coordinate gives kBadQuery.
 TEST(StabilityQuery, NotANumber) {
   BuiltModel model(strip(3));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity})
@@ -85,7 +85,7 @@ TEST(StabilityQuery, NotANumber) {
     }
 }
 
-// Limits that make no sense; an infinite max_distance does.
+// Bad limits are refused; an infinite max_distance is not one.
 TEST(StabilityQuery, LimitsThatAreNoNumbers) {
   BuiltModel model(strip(3));
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -100,8 +100,8 @@ TEST(StabilityQuery, LimitsThatAreNoNumbers) {
   }
 }
 
-// Corner to corner of all that doubles reach, the distance is no double: the
-// lower end of the interval must stay one.
+// Between opposite ends of the range of doubles the distance is no double; the lower bound must
+// still be one.
 TEST(StabilityQuery, DistanceBeyondDoubles) {
   const double h = 0.95 * kGreatest;
   const Soup triangles{{Vec3{-h, -h, -h}, Vec3{-h, -h, -h / 2}, Vec3{-h, -h / 2, -h}}};
@@ -116,7 +116,7 @@ TEST(StabilityQuery, DistanceBeyondDoubles) {
   }
 }
 
-// What lies within max_distance is found, however large an error is allowed.
+// A surface within max_distance is found, however large an error is allowed.
 TEST(StabilityQuery, ErrorAndDistanceLimitsTogether) {
   BuiltModel model(perturbed(strip(100), {0, 9.5, 0}));
   QueryOptions options;
@@ -127,8 +127,8 @@ TEST(StabilityQuery, ErrorAndDistanceLimitsTogether) {
   EXPECT_EQ(expect_sound(model, {50, 0, 0}, options).status, Status::kBeyondMaxDistance);
 }
 
-// A limit an ulp below the distance found: "beyond it" must be true in truth,
-// not only after rounding.
+// The limit is an ulp below the distance found: "beyond it" must hold exactly, not only after
+// rounding.
 TEST(StabilityQuery, DistanceLimitAtTheDistance) {
   Random random(3);
   const Soup triangles{{random.in_cube(), random.in_cube(), random.in_cube()}};
@@ -143,7 +143,7 @@ TEST(StabilityQuery, DistanceLimitAtTheDistance) {
   }
 }
 
-// No work at all still gives bounds, at once.
+// No work at all still gives bounds.
 TEST(StabilityQuery, NoNodes) {
   BuiltModel model(strip(300));
   QueryOptions options;

@@ -1,5 +1,5 @@
-// Sides that careless arithmetic gets wrong: lattices, shells, contact, points
-// on the surface and an ulp beside it.
+// Sides that careless arithmetic gets wrong: lattices, shells, contact, points on the surface and
+// an ulp beside it.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Side side_of(BuiltModel& model, const Vec3& query) { return model.probe().contains(query).side; }
 
-// Of a watertight model, all that nasty_query() thinks of.
+// Queries a watertight model with every kind of nasty_query().
 void expect_sides(const Soup& triangles, int count, std::uint64_t seed = 1) {
   BuiltModel model(triangles, {4096, 1 << 20, 1});
   ASSERT_TRUE(model.model().info().watertight());
@@ -28,7 +28,7 @@ void expect_sides(const Soup& triangles, int count, std::uint64_t seed = 1) {
   for (int i = 0; i < count; ++i) expect_side(model, nasty_query(random, triangles, 1));
 }
 
-// Every ray along an axis meets edges and corners, and whole faces lie in it.
+// Every ray along an axis meets edges and corners, or lies within a face.
 TEST(StabilitySide, LatticeQueriesOfACube) {
   BuiltModel cube(box({0, 0, 0}, {1, 1, 1}));
   for (int x = -1; x <= 5; ++x)
@@ -67,7 +67,7 @@ TEST(StabilitySide, SelfIntersection) {
   expect_sides(crossed, 300);
 }
 
-// Winding number 2 is as inside as 1.
+// A winding number of 2 is as inside as 1.
 TEST(StabilitySide, DuplicatedModel) {
   BuiltModel model(ball(2) + ball(2));
   EXPECT_EQ(side_of(model, {0, 0, 0}), Side::kInside);
@@ -83,7 +83,7 @@ TEST(StabilitySide, InsideOutModel) {
   expect_sides(inside_out(ball(2)), 200);
 }
 
-// Faces that cancel: nothing is inside of them.
+// Faces that cancel each other enclose nothing.
 TEST(StabilitySide, OppositeDuplicateFaces) {
   const Soup nothing = ball(1) + inside_out(ball(1));
   BuiltModel model(nothing);
@@ -109,7 +109,7 @@ TEST(StabilitySide, ExactlyOnTheSurface) {
   const Soup solid = tetrahedron({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
   BuiltModel model(solid);
   for (int i = 0; i < 200; ++i) {
-    // Of few bits, so that its plane holds it exactly.
+    // Few bits, so that the plane contains the point exactly.
     const double u = static_cast<double>(random.below(17)) / 16;
     const double v = static_cast<double>(random.below(17)) / 16 * (1 - u);
     EXPECT_EQ(side_of(model, {u, v, 1 - u - v}), Side::kOnSurface);
@@ -137,7 +137,7 @@ TEST(StabilitySide, UlpGridAboutAFace) {
   EXPECT_GT(on, 10);
 }
 
-// A model and lattice of the smallest number there is.
+// A model and a lattice whose unit is the smallest double.
 TEST(StabilitySide, NearTheSmallestNumbers) {
   const double unit = 0x1p-1074;
   const auto at = [unit](int x, int y, int z) { return Vec3{x * unit, y * unit, z * unit}; };
@@ -158,7 +158,7 @@ TEST(StabilitySide, NearTheSmallestNumbers) {
   EXPECT_EQ(inside, 1);
 }
 
-// Outside, and all but in the plane of a face.
+// Outside, and almost in the plane of a face.
 TEST(StabilitySide, NearlyCoplanarOutside) {
   const Soup solid = tetrahedron({0, 0, 0}, {0, 1, 1e-9}, {1, 0, 1e-9}, {0.2, 0.2, 1});
   BuiltModel model(solid);

@@ -1,4 +1,4 @@
-// Models whose shape as a whole strains the tree.
+// Models whose overall shape strains the tree.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ Soup scattered(Random& random, int count, double size) {
   return triangles;
 }
 
-// Corners on the lines where cells of every level meet, and on the outermost.
+// Corners on the lines where cells of every level meet, and on the outermost one.
 TEST(StabilityStructure, CellBordersAndTheLastCorner) {
   Soup triangles;
   for (int x = 0; x <= 8; ++x)
@@ -64,8 +64,8 @@ TEST(StabilityStructure, OneTriangleOverAllCells) {
   expect_sound_around(model, 0.5, 200);
 }
 
-// A million times the same triangle: every one is as near as the first, which
-// must win; and looking at each must not be repeated work.
+// A million copies of one triangle. Every copy is as near as the first, which must be named, and
+// evaluating them must not repeat work.
 TEST(StabilityStructure, MillionCoincidentTriangles) {
   const Corners triangle{Vec3{0.1, 0.2, 0.3}, Vec3{1.1, 0.3, 0.2}, Vec3{0.4, 1.3, 0.9}};
   BuiltModel model(Soup(1000000, triangle));
@@ -86,7 +86,7 @@ TEST(StabilityStructure, MillionCoincidentTriangles) {
   EXPECT_LE(stats.page_misses, 2 * info.pages);
 }
 
-// A fine part and a coarse one: no mean edge length describes both.
+// A fine part and a coarse part: no mean edge length describes both.
 TEST(StabilityStructure, EdgeLengthsOfTwoScales) {
   Random random(11);
   Soup triangles = perturbed(scaled(scattered(random, 300, 0.1), 1e-7), {0.4, 0.5, 0.6});
@@ -96,15 +96,15 @@ TEST(StabilityStructure, EdgeLengthsOfTwoScales) {
   expect_sound_around(model, 1, 100);
 }
 
-// A whole model no larger than an atom is a model like any other.
+// A model no larger than an atom is answered like any other.
 TEST(StabilityStructure, TinyDimensions) {
   Random random(12);
   BuiltModel model(scaled(scattered(random, 200, 0.2), 1e-12));
   expect_sound_around(model, 1e-12, 200);
 }
 
-// Clusters within clusters, each half as far from a corner, down to where
-// cells no longer tell triangles apart.
+// Clusters within clusters, each half as far from a corner as the one before, down to where cells
+// no longer separate triangles.
 TEST(StabilityStructure, DepthLimitReached) {
   Random random(13);
   Soup triangles{{Vec3{1, 1, 1}, Vec3{0.9, 1, 1}, Vec3{1, 0.9, 1}}};
@@ -125,7 +125,7 @@ TEST(StabilityStructure, DepthLimitReached) {
   expect_sound_around(model, 1, 100);
 }
 
-// Planes a few ulps apart, parallel but for a rounding.
+// Planes a few ulps apart, parallel up to rounding.
 TEST(StabilityStructure, PlanesNearlyEqual) {
   Random random(14);
   Soup triangles;
@@ -139,7 +139,7 @@ TEST(StabilityStructure, PlanesNearlyEqual) {
   expect_sound_around(model, 1e-15, 200);
 }
 
-// The least model there is.
+// The smallest model.
 TEST(StabilityStructure, OneTriangle) {
   BuiltModel model({{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}});
   EXPECT_EQ(model.model().info().blocks, 1U);
@@ -147,12 +147,12 @@ TEST(StabilityStructure, OneTriangle) {
   expect_sound_around(model, 1, 100);
 }
 
-// A model of nothing is refused, with a word.
+// An empty model is refused with a message.
 TEST(StabilityStructure, EmptyModelIsRefused) {
   EXPECT_NE(build_failure({}).find("no triangle"), std::string::npos);
 }
 
-// A node's eight children, at the number where one becomes a tree of two.
+// Counts of triangles around the sizes at which a block or node is split.
 TEST(StabilityStructure, CountsAroundBlockAndNodeSizes) {
   for (const int count : {1, 2, 15, 16, 17, 31, 32, 33, 127, 128, 129, 130, 256, 257}) {
     Random random(15);

@@ -1,4 +1,4 @@
-// Indices that are equally far from many triangles: axes, centres, medial planes.
+// Points that are equally far from many triangles: axes, centres, medial planes.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ Vec3 rim(std::size_t i, double z) {
   return {x, y, z};
 }
 
-// Closed, of radius 1, from z = -1 to 1; a cone where the top is a point.
+// A closed cylinder of radius 1 from z = -1 to 1, or a cone with its tip at the top.
 Soup upright(bool cone) {
   const auto top = [cone](std::size_t i) { return cone ? Vec3{0, 0, 1} : rim(i, 1); };
   Soup soup;
@@ -32,7 +32,7 @@ Soup upright(bool cone) {
   return soup;
 }
 
-// On the axis, where every side is as far, on the rim and where ends meet sides.
+// Queries on the axis, where every side is equally far, on the rim, and where ends meet sides.
 void expect_sound_about_the_axis(const Soup& soup) {
   BuiltModel model(soup, {4096, 1 << 20, 1});
   ASSERT_TRUE(model.model().info().watertight());
@@ -63,8 +63,8 @@ TEST(StabilityTies, Cylinder) { expect_sound_about_the_axis(upright(false)); }
 
 TEST(StabilityTies, Cone) { expect_sound_about_the_axis(upright(true)); }
 
-// The centre is 1 / sqrt(3) from all faces of an octahedron, which of all
-// triangles is the first; and half from all of a cube.
+// The centre is 1 / sqrt(3) from all faces of an octahedron, and half from all of a cube, whose
+// first triangle is named.
 TEST(StabilityTies, CentreOfASphereAndOfACube) {
   BuiltModel octahedron(ball(0));
   const ClosestPoint answer = expect_sound(octahedron, {0, 0, 0});
@@ -80,8 +80,8 @@ TEST(StabilityTies, CentreOfASphereAndOfACube) {
   EXPECT_EQ(middle.signed_distance(), -0.5);
 }
 
-// The medial surface of a box: the planes through its edges that halve their
-// angles. Two and three faces are equally far, and a step off tells them apart.
+// The medial surface of a box: the planes through its edges that halve their angles. Two or three
+// faces are equally far, and a step off decides between them.
 TEST(StabilityTies, MedialSurfaceOfABox) {
   BuiltModel model(box({0, 0, 0}, {1, 2, 4}));
   for (int i = 1; i <= 8; ++i) {
@@ -94,7 +94,7 @@ TEST(StabilityTies, MedialSurfaceOfABox) {
     }
     EXPECT_EQ(model.closest_point({t, t, t}).distance, t);
   }
-  // One step nearer to one face than to the other: that face.
+  // One step nearer to one face than to the other gives that face.
   EXPECT_EQ(model.closest_point({0.25, 0.25 - 0x1p-54, 2}).normal.y, -1);
   EXPECT_EQ(model.closest_point({0.25 - 0x1p-54, 0.25, 2}).normal.x, -1);
 }
@@ -103,7 +103,7 @@ TEST(StabilityTies, MedialSurfaceOfABox) {
 TEST(StabilityTies, MidwayBetweenTwoSolids) {
   BuiltModel model(box({0, 0, 0}, {1, 1, 1}) + box({2, 0, 0}, {3, 1, 1}));
   for (int y = -2; y <= 6; ++y) expect_sound(model, {1.5, y / 4.0, 0.5});
-  EXPECT_EQ(model.closest_point({1.5, 0.5, 0.5}).point.x, 1);  // the first
+  EXPECT_EQ(model.closest_point({1.5, 0.5, 0.5}).point.x, 1);  // the first solid
   EXPECT_EQ(model.closest_point({1.5 + 0x1p-52, 0.5, 0.5}).normal.x, -1);
   EXPECT_EQ(model.closest_point({1.5 - 0x1p-52, 0.5, 0.5}).normal.x, 1);
 }

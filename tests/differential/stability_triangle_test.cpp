@@ -14,7 +14,7 @@
 namespace planetree::oracle {
 namespace {
 
-// Queries all about a model whose features are about `size` large.
+// Queries around a model whose features are about `size` large.
 void expect_sound_around(const Soup& triangles, double size, int queries = 300) {
   BuiltModel model(triangles);
   Random random(17);
@@ -22,7 +22,7 @@ void expect_sound_around(const Soup& triangles, double size, int queries = 300) 
     expect_sound(model, nasty_query(random, triangles, size));
 }
 
-// Turned, so that no coordinate is an easy number.
+// Rotates, so that no coordinate is a simple number.
 Soup tilted(Soup triangles) {
   constexpr double kC = 0.8253356149096783, kS = 0.5646424733950354;
   for (Corners& triangle : triangles)
@@ -33,14 +33,14 @@ Soup tilted(Soup triangles) {
   return triangles;
 }
 
-// A hundred million times as long as wide.
+// A triangle a hundred million times as long as wide.
 TEST(StabilityTriangle, Needle) {
   const Soup needle{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1e-8, 0}}};
   expect_sound_around(needle, 1);
   expect_sound_around(tilted(needle), 1);
 }
 
-// One angle is all but half a turn.
+// One angle is almost 180 degrees.
 TEST(StabilityTriangle, Cap) {
   for (const double height : {1e-3, 0x1p-5, 1e-6, 1e-9, 1e-12, 1e-15, 1e-18}) {
     const Soup cap{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.4, height, 0}}};
@@ -56,21 +56,21 @@ TEST(StabilityTriangle, Collinear) {
   expect_sound_around(tilted(line), 1);
 }
 
-// A segment in a triangle's clothes, whichever corner is the double one.
+// A segment stored as a triangle; each corner in turn is the repeated one.
 TEST(StabilityTriangle, RepeatedVertex) {
   const Vec3 a{0.1, 0.2, 0.3}, b{1.1, -0.7, 0.4};
   for (const Corners& triangle : {Corners{a, a, b}, Corners{a, b, a}, Corners{b, a, a}})
     expect_sound_around({triangle}, 1, 100);
 }
 
-// A point is a model too; and it may be the origin, where no scale is to be had.
+// A point is a model too. It may be the origin, where no scale can be derived.
 TEST(StabilityTriangle, ZeroSize) {
   const Vec3 at{0.1, 1e9, -3};
   expect_sound_around({{at, at, at}}, 1);
   expect_sound_around({{Vec3{}, Vec3{}, Vec3{}}}, 1);
 }
 
-// Edges that are subnormal numbers, down to the least there is.
+// Edges of subnormal length, down to the smallest double.
 TEST(StabilityTriangle, SubnormalEdges) {
   for (const double size : {1e-310, 1e-322, 5e-324}) {
     const Soup small{{Vec3{0, 0, 0}, Vec3{size, 0, 0}, Vec3{0, size, size}},
@@ -80,14 +80,14 @@ TEST(StabilityTriangle, SubnormalEdges) {
   }
 }
 
-// Edges whose squares, let alone fourth powers, no double holds.
+// Edges whose squares, let alone fourth powers, exceed the range of double.
 TEST(StabilityTriangle, EdgesWhoseSquaresOverflow) {
   expect_sound_around({{Vec3{0, 0, 0}, Vec3{1e150, 0, 1e149}, Vec3{0, 3e150, 0}},
                        {Vec3{-1e150, 1e150, 0}, Vec3{1e150, 2e150, 1e149}, Vec3{0, 3e150, 5e150}}},
                       1e150);
 }
 
-// Millimetres at a place on the map some thousands of kilometres from its zero.
+// Edges below a millimetre in map coordinates, thousands of kilometres from the origin.
 TEST(StabilityTriangle, SmallEdgesFarFromTheOrigin) {
   const double x = 1e7, y = -1e7, z = 300;
   expect_sound_around(
@@ -96,8 +96,7 @@ TEST(StabilityTriangle, SmallEdgesFarFromTheOrigin) {
       1e-4);
 }
 
-// A triangle of next to no size in a model of size one: products of its edges
-// underflow.
+// An extremely small triangle in a model of size 1: products of its edges underflow.
 TEST(StabilityTriangle, TinyFaceInALargeModel) {
   for (int exponent = -140; exponent > -480; exponent -= 20) {
     const double edge = std::ldexp(1.0, exponent);
@@ -108,8 +107,8 @@ TEST(StabilityTriangle, TinyFaceInALargeModel) {
   }
 }
 
-// The borders between the regions in which a corner, an edge or the face is
-// nearest, and an ulp to either side of them.
+// The borders between the regions in which a corner, an edge or the face is nearest, and an ulp to
+// either side of them.
 TEST(StabilityTriangle, RegionBorders) {
   const Soup triangles{{Vec3{0, 0, 0}, Vec3{3, 0, 0}, Vec3{1, 2, 0}}};
   BuiltModel model(triangles);
@@ -128,8 +127,8 @@ TEST(StabilityTriangle, RegionBorders) {
   }
 }
 
-// Beyond an obtuse corner the nearest edge is not the one that the sign of one
-// barycentric coordinate suggests.
+// Beyond an obtuse corner, the nearest edge is not the one that the sign of one barycentric
+// coordinate suggests.
 TEST(StabilityTriangle, ObtuseCornerSwapsRegions) {
   const Soup triangles{{Vec3{0, 0, 0}, Vec3{10, 0, 0}, Vec3{-8, 1, 0}}};
   BuiltModel model(triangles);
@@ -138,7 +137,7 @@ TEST(StabilityTriangle, ObtuseCornerSwapsRegions) {
       for (const double z : {0.0, 0.25}) expect_sound(model, {x, y, z});
 }
 
-// A millionth beside a million, and nearer than the large one's rounding.
+// Triangles of size 1e-6 beside one of size 1e6, and nearer than the large one's rounding.
 TEST(StabilityTriangle, SmallBesideLarge) {
   Soup triangles{{Vec3{-1e6, -1e6, 0.1}, Vec3{1e6, -1e6, 0.3}, Vec3{0.7, 1e6, 0.9}}};
   Random random(3);
@@ -150,8 +149,8 @@ TEST(StabilityTriangle, SmallBesideLarge) {
   expect_sound_around(triangles, 1);
 }
 
-// Specks all but on a large face: the nearest in truth may be the one whose
-// value is the larger by a rounding.
+// Specks almost on a large face: the truly nearest triangle may be the one whose computed value is
+// larger by a rounding.
 TEST(StabilityTriangle, LargeFaceUnderSpecks) {
   Random random(1);
   const Corners face{Vec3{-0.95, -0.97, 0.3}, Vec3{1, -0.9, -0.4}, Vec3{0.1, 1, 0.2}};
@@ -166,8 +165,7 @@ TEST(StabilityTriangle, LargeFaceUnderSpecks) {
   for (int i = 0; i < 500; ++i) expect_sound(model, centre + random.in_cube() * 2e-15);
 }
 
-// Corners in any order, triangles in any order: the same distance, and among
-// equals the lowest index.
+// Corners and triangles in any order give the same distance, and among equals the lowest index.
 TEST(StabilityTriangle, OrderDoesNotMatter) {
   const Vec3 a{0.1, 0.3, 0.7}, b{1.3, -0.2, 0.4}, c{0.6, 1.1, -0.5};
   const Corners other{Vec3{2, 2, 2}, Vec3{3, 2, 2.5}, Vec3{2, 3, 2}};

@@ -1,5 +1,5 @@
-// Sides of surfaces that do not close: holes, flipped patches, soups, points on
-// the surface, and work that ends too early.
+// Sides of surfaces that are not watertight: holes, reversed parts, soups, points on the surface,
+// and work that runs out.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ void expect_sides(const Soup& triangles, int count, std::uint64_t seed = 1) {
   for (int i = 0; i < count; ++i) expect_side(model, nasty_query(random, triangles, 1));
 }
 
-// The solid's skin follows the hole inward: sides never jump, and the middle is
-// inside until less than half of the sphere is left.
+// The boundary of the inside follows the hole inward: sides never jump, and the middle is inside
+// until less than half of the sphere is left.
 TEST(StabilityWinding, AHoleThatGrows) {
   double depth_before = 2;
   for (double rim = 0.99; rim > -0.6; rim -= 0.15) {
@@ -47,7 +47,7 @@ TEST(StabilityWinding, AHoleThatGrows) {
     EXPECT_EQ(side_of(model, {0, 0, -0.97}), Side::kInside);
     EXPECT_EQ(side_of(model, {0, 0, -1.03}), Side::kOutside);
     EXPECT_EQ(side_of(model, {0, 0, 1.03}), Side::kOutside);
-    // Down the axis it changes once.
+    // Down the axis the side changes once.
     int changes = 0;
     double depth = 2;
     Side side = Side::kOutside;
@@ -64,7 +64,7 @@ TEST(StabilityWinding, AHoleThatGrows) {
   }
 }
 
-// A patch the wrong way round counts against the rest, and only near it.
+// A part with reversed faces counts against the rest, and only near it.
 TEST(StabilityWinding, AFlippedPatch) {
   Soup faces = ball(4);
   for (Corners& t : faces)
@@ -78,7 +78,7 @@ TEST(StabilityWinding, AFlippedPatch) {
   expect_sides(faces, 300);
 }
 
-// Turned inside out it encloses the same.
+// Inside out, the surface encloses the same points.
 TEST(StabilityWinding, AnInsideOutBowl) {
   const Soup faces = bowl(3, 0.7);
   BuiltModel model(faces), turned(inside_out(faces));
@@ -94,7 +94,7 @@ TEST(StabilityWinding, AnInsideOutBowl) {
   }
 }
 
-// Solid angles are 0 / 0 there (S36).
+// Solid angles are 0 / 0 there.
 TEST(StabilityWinding, OnATriangle) {
   const Soup faces = bowl(3, 0.7);
   BuiltModel model(faces);
@@ -109,7 +109,7 @@ TEST(StabilityWinding, OnATriangle) {
   const double least = std::numeric_limits<double>::denorm_min(), small = 0x1p-30;
   EXPECT_EQ(side_of(one, {0.25, 0.5, 0}), Side::kOnSurface);
   EXPECT_EQ(side_of(one, {0.5, 0, 0}), Side::kOnSurface);
-  // One half less the least of doubles cannot be told from one half.
+  // One half minus the smallest double cannot be distinguished from one half.
   EXPECT_EQ(side_of(one, {0.25, 0.5, least}), Side::kUnknown);
   EXPECT_EQ(side_of(one, {0.25, 0.5, small}), Side::kOutside);
   EXPECT_EQ(side_of(one, {0.25, 0.5, -small}), Side::kOutside);
@@ -117,7 +117,7 @@ TEST(StabilityWinding, OnATriangle) {
   EXPECT_EQ(side_of(one, {2, 0, 0}), Side::kOutside);
 }
 
-// One face twice is a winding number of one beside it and below it.
+// One face twice gives a winding number of one just above and just below it.
 TEST(StabilityWinding, BesideADoubledFace) {
   const Corners face = {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
   BuiltModel two(Soup{face, face});
@@ -126,8 +126,7 @@ TEST(StabilityWinding, BesideADoubledFace) {
   EXPECT_EQ(side_of(two, {0.3, 0.3, 10}), Side::kOutside);
 }
 
-// However little work is allowed, a side that is told is true; and the more, the
-// more are told (S37).
+// However little work is allowed, a known side is true. More work makes more sides known.
 TEST(StabilityWinding, WorkThatEnds) {
   const Soup faces = bowl(4, 0.3);
   BuiltModel model(faces);
@@ -152,7 +151,8 @@ TEST(StabilityWinding, WorkThatEnds) {
   EXPECT_EQ(certain_before, queries.size());
 }
 
-// Eighths of a sphere that sum to one half: nothing can tell, and that is known.
+// Octants of a sphere whose solid angles sum to one half: no side can be decided, and that is
+// proven.
 TEST(StabilityWinding, ExactlyOneHalf) {
   const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   Soup faces(20, {x, y, z});
@@ -171,7 +171,7 @@ TEST(StabilityWinding, FarQueries) {
   }
 }
 
-// Nothing wrong about any soup, however near and however small.
+// No side of any soup is wrong, however near and however small.
 TEST(StabilityWinding, NastyModels) {
   for (const NastyFamily& family : nasty_families())
     for (int i = 0; i < static_cast<int>(3 * test_effort()); ++i) {

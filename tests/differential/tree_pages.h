@@ -13,8 +13,8 @@
 
 namespace planetree::oracle {
 
-/// Every page of a .ptree file, decoded, to look at nodes and blocks as a
-/// descent sees them. Meant for small files; what fails ends the program.
+/// Every page of a .ptree file, decoded, to inspect nodes and blocks as a traversal sees them. For
+/// small files. A failure ends the program.
 class TreePages {
  public:
   explicit TreePages(const std::filesystem::path& path);

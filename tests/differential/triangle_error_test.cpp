@@ -1,5 +1,5 @@
-// The error that a triangle's distance claims, sought to be exceeded: random
-// needles and caps, and from the worst of them uphill.
+// Tries to exceed the error bound of a triangle's distance: with random needles and caps, then by
+// steps uphill from the worst of them.
 
 #include "octree/geometry/triangle_distance.h"
 
@@ -24,7 +24,7 @@ using Case = std::array<double, 12>;
 Vec3 vertex(const Case& c, std::size_t k) { return {c[3 * k], c[3 * k + 1], c[3 * k + 2]}; }
 octree::Point point(const Case& c, std::size_t k) { return {c[3 * k], c[3 * k + 1], c[3 * k + 2]}; }
 
-// The error made as a share of the error claimed.
+// Actual error divided by the error bound.
 double share(const Case& c) {
   const auto nearest =
       octree::nearest_on_triangle(point(c, 3), {point(c, 0), point(c, 1), point(c, 2)});

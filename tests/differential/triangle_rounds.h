@@ -10,7 +10,7 @@
 
 namespace planetree::oracle {
 
-/// Hands a mesh on round by round, so that no more than one round of it is in memory.
+/// Passes a mesh on in rounds, so that at most one round of it is in memory.
 class TriangleRounds : public octree::TriangleSink {
  public:
   explicit TriangleRounds(std::size_t most) : max_(most) {}
@@ -24,14 +24,14 @@ class TriangleRounds : public octree::TriangleSink {
   void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) final {}
   void progress(std::uint64_t, std::uint64_t) final {}
 
-  /// The last round: to be called once the mesh was read.
+  /// Passes on the last round. Call it once the mesh is read.
   void finish() {
     if (!triangles_.empty()) finish_round();
   }
   [[nodiscard]] std::uint64_t triangle_count() const { return count_; }
 
  protected:
-  /// At least one triangle; indices ascend.
+  /// Takes one round: at least one triangle; indices ascend.
   virtual void take(std::span<const Corners> triangles, std::span<const std::uint64_t> indices) = 0;
 
  private:

@@ -27,7 +27,7 @@ const char* word(Side side) {
 }  // namespace
 
 double AnswerEvidence::reach() const {
-  // Without a triangle to hold `upper` against, any that is near enough will do.
+  // Without a triangle to compare with `upper`, any triangle within `upper` suffices.
   const bool any = !names_triangle() && std::isfinite(answer_->upper);
   return is_exact() || any ? answer_->upper : answer_->lower;
 }
@@ -39,7 +39,7 @@ void AnswerEvidence::see_near(std::uint64_t index, const Corners& triangle) {
     nearer_ = std::min(nearer_, index);
   if (!names_triangle()) reached_ = reached_ || is_within(query, triangle, answer_->upper);
   if (!is_exact()) return;
-  // Which is first is decided in double, where triangles that share the nearest vertex or
+  // The first of the nearest is decided in double, where triangles that share the nearest vertex or
   // edge have the same bits.
   const double squared =
       octree::triangle_value(point(query),

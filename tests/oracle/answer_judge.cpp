@@ -18,9 +18,10 @@
 namespace planetree::oracle {
 namespace {
 
-constexpr std::size_t kSolidAnglesOfEach = 10;  // answers, where they can be afforded
+// One answer out of this many has its side judged by solid angles, within the limits.
+constexpr std::size_t kSolidAnglesOfEach = 10;
 
-// Of a query that makes no sense nothing is to be said.
+// A bad query has no answer to judge.
 bool is_judged(const AnswerRow& answer) { return answer.status != Status::kBadQuery; }
 bool is_heard(const AnswerRow& answer) { return is_judged(answer) && is_finite(answer.query); }
 
@@ -29,7 +30,7 @@ octree::Triangle points_of(const Corners& t) {
           octree::Point(t[2].x, t[2].y, t[2].z)};
 }
 
-// Shows each answer what its ball and its ray may meet.
+// Collects, for each answer, evidence from the triangles that its ball and its ray may meet.
 class Hearing final : public TriangleRounds {
  public:
   Hearing(std::span<const AnswerRow> answers, const JudgeLimits& limits)
@@ -104,13 +105,14 @@ class Hearing final : public TriangleRounds {
   octree::EdgeSum edges_;
 };
 
-// The winding numbers of some answers, triangle by triangle.
+// Sums the winding numbers of some answers, triangle by triangle.
 class SolidAngles final : public TriangleRounds {
  public:
   SolidAngles(std::vector<const AnswerRow*> answers, std::size_t round_triangles)
       : TriangleRounds(round_triangles), answers_(std::move(answers)), windings_(answers_.size()) {}
 
-  // What is wrong with the side of one; nothing where the number is too near a half to tell.
+  // Fault of the side of one answer; empty if there is none, or if the winding number is too near a
+  // half to decide.
   [[nodiscard]] std::string side_fault(std::size_t i) const {
     if (windings_[i].on_surface) return oracle::side_fault(*answers_[i], Side::kOnSurface);
     const long double over = std::fabs(windings_[i].value) - 0.5L;
@@ -131,7 +133,7 @@ class SolidAngles final : public TriangleRounds {
   std::vector<OpenWinding> windings_;
 };
 
-// Answers, by place, whose sides are to be found from all solid angles.
+// Indices of the answers whose sides are to be computed from all solid angles.
 std::vector<std::size_t> chosen(std::span<const AnswerRow> answers, const Judgement& judgement,
                                 const JudgeLimits& limits) {
   const std::uint64_t affordable =

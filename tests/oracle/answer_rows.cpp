@@ -75,7 +75,7 @@ std::optional<T> meaning(const std::pair<std::string_view, T> (&words)[kCount],
   return {};
 }
 
-// False where the field is not what its column holds.
+// False if the field has no value of its column's type.
 template <class T>
 bool put(const std::optional<T>& from, T& into) {
   if (from) into = *from;

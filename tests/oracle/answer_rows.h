@@ -11,7 +11,7 @@
 
 namespace planetree::oracle {
 
-/// What a row that `planetree query` wrote claims; numbers as in ClosestPoint.
+/// One row of answers written by `planetree query`; numbers as in ClosestPoint.
 struct AnswerRow {
   Vec3 query;
   double distance = 0, lower = 0, upper = 0;
@@ -23,9 +23,9 @@ struct AnswerRow {
 
 [[nodiscard]] bool is_finite(const Vec3& query);
 
-/// The first `most` rows of a CSV file of answers, whose first line names the columns.
+/// Reads at most `most` rows of a CSV file of answers, whose first line names the columns.
 ///
-/// errors  kBadInput: a column is not there, or a row says what no answer says.
+/// errors  kBadInput: a column is missing, or a row is no answer
 Result<std::vector<AnswerRow>> read_answers(std::istream& csv, std::size_t most);
 
 }  // namespace planetree::oracle

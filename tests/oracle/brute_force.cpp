@@ -63,7 +63,7 @@ Fraction<Scalar> to_edges(const Vector<Scalar>& p, const std::array<Vector<Scala
   return best;
 }
 
-// Signs of region tests are right where Scalar is exact.
+// The signs of the region tests are right if Scalar is exact.
 template <class Scalar>
 Fraction<Scalar> to_triangle(const Vector<Scalar>& p, const std::array<Vector<Scalar>, 3>& corner) {
   const auto& [a, b, c] = corner;
@@ -95,8 +95,8 @@ Vector<Integer> whole(const Vec3& p, int exponent) {
 
 Wide power_of_two(int exponent) { return ldexp(Wide(1), exponent); }
 
-// Bounds on a triangle's distance that hold with room for rounding: to its box
-// from below, to its nearest corner from above.
+// Bounds on a triangle's distance that hold in spite of rounding: from below by its box, from above
+// by its nearest corner.
 struct RoughBounds {
   long double lower, upper;
 };

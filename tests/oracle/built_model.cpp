@@ -60,7 +60,7 @@ void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& ch
   Silent silent;
   octree::BuildSeams seams;
   if (choices.page_bytes < options.page_bytes) {
-    // As a large model is built: of many patches, spilled, and a mask of many regions.
+    // Built as large models are: in several chunks, spilled, and with a mask of several sectors.
     seams.chunk_triangles = 60;
     seams.sector_triangles = 90;
     seams.memory = octree::BuildMemory{.threads = 2, .batch_triangles = 100};

@@ -18,30 +18,29 @@ namespace planetree::oracle {
 
 using Soup = std::vector<Corners>;
 
-/// Writes triangles as a binary PLY of doubles, three vertices each, so that
-/// every coordinate arrives as it is.
+/// Writes triangles as a binary PLY of doubles, with three vertices for each triangle. Every
+/// coordinate keeps its bits.
 void write_ply(const std::filesystem::path& path, std::span<const Corners> triangles);
 
 struct BuildChoices {
-  std::uint32_t page_bytes = 65536;  ///< smaller ones: built as large models are
+  std::uint32_t page_bytes = 65536;  ///< below the default: built as large models are
   std::uint64_t budget_bytes = std::uint64_t{64} << 20;
   unsigned max_probes = 1;
-  std::optional<octree::RegionBox> box = std::nullopt;  ///< build only what touches it
+  std::optional<octree::RegionBox> box = std::nullopt;  ///< build only triangles that touch it
 };
 
-/// A .ptree file built from a soup, opened, with a probe to ask it. Everything
-/// in a temporary folder that goes with it. What fails ends the test program
-/// with a word.
+/// A .ptree file built from a soup, opened, with a probe to query it. All files are in a temporary
+/// directory that this owns. A failure ends the test program with a message.
 class BuiltModel {
  public:
   explicit BuiltModel(Soup triangles, const BuildChoices& choices = {});
-  /// From any mesh file; `triangles` is left empty.
+  /// Builds from any mesh file; triangles() is empty then.
   explicit BuiltModel(const std::filesystem::path& mesh, const BuildChoices& choices = {});
 
   [[nodiscard]] const Soup& triangles() const { return triangles_; }
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "model.ptree"; }
-  /// model frame = input * 2^scale_exponent().
+  /// model frame = input * 2^scale_exponent()
   [[nodiscard]] int scale_exponent() const { return scale_exponent_; }
 
   ClosestPoint closest_point(const Vec3& query, const QueryOptions& options = {}) {
@@ -59,7 +58,7 @@ class BuiltModel {
   std::optional<Probe> probe_;
 };
 
-/// The error of a build that must fail, as its text; empty if it went well.
+/// Text of the error of a build that must fail; empty if the build succeeds.
 std::string build_failure(std::span<const Corners> triangles,
                           const std::optional<octree::RegionBox>& box = std::nullopt);
 

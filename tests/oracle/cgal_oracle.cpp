@@ -19,7 +19,7 @@ using Triangles = std::vector<Triangle>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Traits = CGAL::AABB_traits<Kernel, Primitive>;
 
-// Squared sines below this leave a projection in double too few digits.
+// Below this squared sine a projection in double loses too many digits.
 constexpr double kThinSine2 = 1e-8;
 
 Point point(const Vec3& p) { return {p.x, p.y, p.z}; }

@@ -8,9 +8,8 @@
 
 namespace planetree::oracle {
 
-/// Nearest triangles by CGAL's AABB tree in double, for models too large for
-/// brute force. Triangles too thin for CGAL's double projection are left out of
-/// its tree and looked at one by one.
+/// Nearest triangles by CGAL's AABB tree in double, for models too large for brute force. Triangles
+/// too thin for CGAL's projection in double are kept out of its tree and evaluated one by one.
 class CgalOracle {
  public:
   /// `triangles` must outlive this.
@@ -19,10 +18,10 @@ class CgalOracle {
   CgalOracle(const CgalOracle&) = delete;
   CgalOracle& operator=(const CgalOracle&) = delete;
 
-  /// Distance to the nearest triangle. CGAL says which; how far it is is
-  /// computed in long double.
+  /// Distance to the nearest triangle. CGAL finds the triangle; its distance is computed in long
+  /// double.
   [[nodiscard]] long double distance(const Vec3& query) const;
-  /// Triangles left out of the tree.
+  /// Number of triangles kept out of the tree.
   [[nodiscard]] std::size_t thin_count() const;
 
  private:

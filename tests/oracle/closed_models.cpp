@@ -24,12 +24,12 @@ Soup tetrahedra(std::size_t count, const Place& index) {
   return soup;
 }
 
-// Any size, any way round, through each other.
+// Of any size and orientation, intersecting each other.
 Soup overlapping(Random& random) {
   return tetrahedra(20, [&] { return random.in_cube(); });
 }
 
-// Many flat ones, faces in one plane, edges through corners.
+// Many flat ones, with faces in one plane and edges through corners.
 Soup lattice_tetrahedra(Random& random) {
   return tetrahedra(60, [&] { return on_lattice(random, 4); });
 }
@@ -69,7 +69,7 @@ Soup rotated_ball(Random& random) {
   return soup;
 }
 
-// As far from the origin as maps are, and as fine.
+// As far from the origin, and as small, as details in map coordinates.
 Soup far_away(Random& random) {
   return perturbed(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
 }

@@ -24,8 +24,8 @@ Long3 cross(const Long3& u, const Long3& v) {
 
 long double squared(const Long3& u) { return u.x * u.x + u.y * u.y + u.z * u.z; }
 
-// Some hundred roundings of 2^-64, over the squared sine of the angle between
-// the two longest edges; none is promised of slender triangles.
+// Relative error of extended_distance(): some hundred roundings of 2^-64, divided by the squared
+// sine of the angle between the two longest edges. Infinite for slender triangles.
 long double relative_error(const Corners& t) {
   const Long3 edges[3] = {from_to(t[0], t[1]), from_to(t[1], t[2]), from_to(t[2], t[0])};
   long double lengths2[3] = {squared(edges[0]), squared(edges[1]), squared(edges[2])};
@@ -39,7 +39,8 @@ long double outside(double lower, double upper, double at) {
       {static_cast<long double>(lower) - at, static_cast<long double>(at) - upper, 0.0L});
 }
 
-// As compare_distance(); extended_distance() errs by `relative` of the farthest corner's distance.
+// As compare_distance(). `relative` is the error of extended_distance() divided by the distance of
+// the farthest corner.
 int compare(const Vec3& query, const Corners& corners, long double relative, double distance) {
   long double farthest2 = 0;
   for (const Vec3& corner : corners)
@@ -49,7 +50,7 @@ int compare(const Vec3& query, const Corners& corners, long double relative, dou
   if (std::fabs(difference) > error) return difference > 0 ? 1 : -1;
   const ExactSquare exact = exact_square(query, corners);
   using Integer = boost::multiprecision::cpp_int;
-  // distance = digits * 2^bits, so that both squares are whole after a shift.
+  // distance = digits * 2^bits, so both squares are integers after a shift.
   int bits = 0;
   const double fraction = std::frexp(distance, &bits);
   const Integer digits = static_cast<std::int64_t>(std::ldexp(fraction, 53));

@@ -9,13 +9,12 @@
 
 namespace planetree::oracle {
 
-/// -1 where the triangle is nearer to `query` than `distance`, which is finite, 0 at it, 1
-/// beyond: in long double with a bound on the error, then in integers.
+/// Returns -1 if the triangle is nearer to `query` than `distance`, which is finite, 0 if at this
+/// distance, 1 if farther. Computed in long double with an error bound, then in integers.
 int compare_distance(const Vec3& query, const Corners& triangle, double distance);
 
-/// Holds intervals of distance against every triangle: by its box first, then in
-/// long double with a bound on the error, then in integers. As sure as
-/// exact_distance(), and a hundred times as fast.
+/// Compares distance intervals with every triangle: by its box first, then in long double with an
+/// error bound, then in integers. As certain as exact_distance(), and a hundred times as fast.
 class IntervalOracle {
  public:
   /// `triangles` must outlive this.
@@ -29,7 +28,7 @@ class IntervalOracle {
  private:
   struct Measured {
     Vec3 lower, upper;
-    long double error;  ///< of extended_distance(), as a share of the farthest corner's distance
+    long double error;  ///< of extended_distance(), divided by the farthest corner's distance
   };
   [[nodiscard]] int compare(const Vec3& query, std::size_t triangle, double distance) const;
 

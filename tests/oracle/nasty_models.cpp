@@ -23,7 +23,7 @@ Axes random_axes(Random& random) {
   return {x, y, cross(x, y)};
 }
 
-// A triangle of one long edge, `height` high above it at `place` of its length.
+// A triangle with one long edge, and a corner at `height` above `point` of its length.
 Corners slender(Random& random, double height, double point) {
   const Axes axes = random_axes(random);
   const Vec3 start = random.in_cube();
@@ -60,8 +60,8 @@ Soup caps(Random& random) {
   });
 }
 
-// Angles about where the engine changes its way of computing: sines of 2^-4,
-// 2^-5 and 2^-50.
+// Angles near the thresholds at which the library changes its method: sines of 2^-4, 2^-5 and
+// 2^-50.
 Soup thresholds(Random& random) {
   return repeat(1 + random.below(100), random, [](Random& r) {
     constexpr double kSines[] = {0x1p-4, 0x1p-5, 0x1p-50};
@@ -85,8 +85,7 @@ Soup fan(Random& random) {
   return triangles;
 }
 
-// Copies of few triangles, some with their corners in another order, some
-// shifted by next to nothing.
+// Copies of few triangles, some with their corners in another order, some shifted by a tiny amount.
 Soup layers(Random& random) {
   const Soup few = soup(random);
   Soup triangles;
@@ -120,7 +119,7 @@ Soup degenerates(Random& random) {
   });
 }
 
-// Everything from very small to very large about one place.
+// Triangles of sizes from very small to very large about one point.
 Soup mixed_scales(Random& random) {
   Soup triangles;
   const Vec3 point = random.in_cube();
@@ -134,7 +133,7 @@ Soup mixed_scales(Random& random) {
   return triangles;
 }
 
-// A grid in the plane z = 0, or one with steps of next to nothing.
+// A grid in the plane z = 0, or one with tiny steps.
 Soup grid(Random& random) {
   const std::size_t side = 1 + random.below(14);
   const double step = random.one_in(2) ? 0 : random.magnitude(-50, -5);
@@ -151,14 +150,14 @@ Soup grid(Random& random) {
   return scaled(triangles, 1.0 / 16);
 }
 
-// Small things far from the origin, where few bits are left.
+// Small triangles far from the origin, where few bits are left.
 Soup map_coordinates(Random& random) {
   const double distance = random.magnitude(5, 45);
   const Soup near = soup(random);
   return perturbed(near, random.in_cube() * distance);
 }
 
-// Bits fall off by doubling the angle to the point where all meet.
+// Triangles that all share one corner.
 Soup many_at_a_corner(Random& random) {
   Soup triangles;
   const Vec3 corner = random.in_cube();

@@ -6,36 +6,36 @@
 #include "tests/oracle/built_model.h"
 #include "tests/oracle/random.h"
 
-/// Models that break careless arithmetic, and queries that find the places.
+/// Models that break careless arithmetic, and queries that hit their critical points.
 namespace planetree::oracle {
 
-/// One family of nasty models; each makes up to 500 triangles of size about 1.
+/// One family of nasty models; make() returns up to 500 triangles of size about 1.
 struct NastyFamily {
   std::string_view name;
   Soup (*make)(Random& random);
 };
 
-/// All of them.
+/// All families.
 std::span<const NastyFamily> nasty_families();
 
-/// A query for `triangles`, all of size about `size`: far, near, on the
-/// surface, on a corner, an ulp beside one, on an edge's middle.
+/// A query for `triangles`, all of size about `size`: far, near, on the surface, on a corner, an
+/// ulp beside a corner, or at the middle of an edge.
 Vec3 nasty_query(Random& random, std::span<const Corners> triangles, double size);
 
 Vec3 operator+(const Vec3& a, const Vec3& b);
 Vec3 operator-(const Vec3& a, const Vec3& b);
 Vec3 operator*(const Vec3& a, double factor);
 
-/// A point of the unit circle, all around from turn 0 to 1, not quite evenly: by
+/// A point of the unit circle. Turns from 0 to 1 go around it once, not quite evenly. Uses
 /// arithmetic alone, because sines may differ from machine to machine.
 std::array<double, 2> on_circle(double turn);
 
-/// Every corner times `factor`.
+/// Multiplies every corner by `factor`.
 Soup scaled(Soup triangles, double factor);
-/// Every corner plus `offset`.
+/// Adds `offset` to every corner.
 Soup perturbed(Soup triangles, const Vec3& offset);
 
-/// A point of the triangle's plane, inside it where `random` says so.
+/// A random point in the triangle's plane, mostly within the triangle.
 Vec3 point_on(Random& random, const Corners& triangle);
 
 }  // namespace planetree::oracle

@@ -22,7 +22,7 @@ Wide dot(const Wide3& u, const Wide3& v) { return u[0] * v[0] + u[1] * v[1] + u[
 
 bool same(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-// Adds the face's unit normal, if it has one, times the angle at a corner or 1.
+// Adds the face's unit normal, if it has one, weighted by the angle at a corner or by 1.
 void add_face(const Corners& t, std::size_t corner, bool by_angle, Long3& sum,
               long double& weights) {
   const Wide3 u = from_to(t[corner], t[(corner + 1) % 3]);

@@ -9,9 +9,8 @@
 
 namespace planetree::oracle {
 
-/// Numbers that are the same everywhere (SplitMix64), as long as no two are asked
-/// for in one expression: compilers differ in what they evaluate first. Braces
-/// are evaluated in order.
+/// Random numbers that are the same everywhere (SplitMix64), provided that no expression draws two:
+/// compilers differ in the order of evaluation. Braced initialisers are evaluated in order.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -27,8 +26,8 @@ class Random {
   double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
   double either_sign() { return between(-1, 1); }
-  /// Of any order of magnitude between 2^low and 2^high; a power of two by
-  /// arithmetic alone, with straight lines between the whole ones.
+  /// A number between 2^low and 2^high, of any order of magnitude. Computed by arithmetic alone: a
+  /// power of two for whole exponents, linear between them.
   double magnitude(double low, double high) {
     const double exponent = between(low, high), whole = std::floor(exponent);
     return std::ldexp(1 + (exponent - whole), static_cast<int>(whole));
@@ -42,7 +41,7 @@ class Random {
     const double x = either_sign(), y = either_sign(), z = either_sign();
     return {x, y, z};
   }
-  /// In a cube of any order of magnitude.
+  /// A point in a cube of any order of magnitude.
   Vec3 in_some_cube(double low, double high) {
     const Vec3 at = in_cube();
     const double size = magnitude(low, high);
@@ -53,8 +52,8 @@ class Random {
   std::uint64_t state_;
 };
 
-/// How often random tests repeat, as a multiple of what they do by themselves:
-/// the environment's PLANETREE_TEST_EFFORT, else 1.
+/// Factor for the number of repetitions of random tests: the environment's PLANETREE_TEST_EFFORT,
+/// or 1.
 inline double test_effort() {
   const char* text = std::getenv("PLANETREE_TEST_EFFORT");
   const double effort = text ? std::strtod(text, nullptr) : 1;

@@ -54,7 +54,7 @@ class Judge {
         intervals_(model.built.triangles()),
         watertight_(model.built.model().info().watertight()),
         in_frame_(model.built.triangles()) {
-    // Where the smallest of subnormal numbers are rounded away.
+    // In the model frame, where the smallest subnormal numbers are rounded away.
     for (Corners& triangle : in_frame_)
       for (Vec3& corner : triangle) corner = in_frame(corner);
   }
@@ -100,7 +100,7 @@ class Judge {
     tally.side += alone.side != answer.side || (expected && answer.side != *expected);
   }
 
-  // Nothing where the winding number is too near one half to tell.
+  // No value if the winding number is too near one half to decide.
   std::optional<Side> open_side(const Vec3& query) const {
     const Vec3 at = in_frame(query);
     if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z)) return Side::kOutside;
@@ -116,7 +116,7 @@ class Judge {
     const Vec3 way = query - a.point;
     // Not the length, which may overflow.
     const double reach = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
-    // What has no area has no normal.
+    // Faces without area have no normal: the answer is (0, 0, 1) then.
     const bool certain = a.normal.x != 0 || a.normal.y != 0 || a.normal.z != 1;
     if (certain && (a.side == Side::kInside || a.side == Side::kOutside) && std::isfinite(reach) &&
         a.triangle < model_.built.triangles().size() &&

@@ -7,14 +7,14 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-// The triangle as the ray sees it, head-on: y and z.
+// Projection along the ray: y and z.
 Kernel::Point_2 seen(const Vec3& p) { return {p.y, p.z}; }
 Kernel::Point_3 scaled(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
-// On which side of the line from a to b, as seen, the query is once moved by (e, e * e) in y
-// and z, e infinitesimal. 0 where a and b are seen as one.
+// Side of the projected line from a to b on which the query lies, once it is moved by (e, e * e) in
+// y and z with e infinitesimal. 0 where a and b project to one point.
 int perturbed_side(const Vec3& a, const Vec3& b, const Vec3& query) {
   const auto side = static_cast<int>(CGAL::orientation(seen(a), seen(b), seen(query)));
   if (side != 0) return side;
@@ -28,7 +28,7 @@ int ray_crossing(const Vec3& query, const Corners& t) {
   if (side == 0 || perturbed_side(t[1], t[2], query) != side ||
       perturbed_side(t[2], t[0], query) != side)
     return 0;
-  // It is seen turning left where its normal points along the ray.
+  // The projection is counterclockwise where the triangle's normal points along the ray.
   const auto height =
       static_cast<int>(CGAL::orientation(scaled(t[0]), scaled(t[1]), scaled(t[2]), scaled(query)));
   return height == -side ? side : 0;

@@ -40,13 +40,13 @@ std::vector<Entry> entries_of(std::span<const Corners> triangles) {
   return entries;
 }
 
-// Where an R-tree puts what it finds.
+// Output iterator for what an R-tree finds.
 auto indices(std::vector<std::uint32_t>& found) {
   return boost::make_function_output_iterator(
       [&found](const Entry& entry) { found.push_back(entry.second); });
 }
 
-// A few roundings wider than a ball: the box about it, and its radius squared.
+// A ball made larger by a few roundings: its box and its squared radius.
 struct WideBall {
   WideBall(const Vec3& at, double reach) : centre(at.x, at.y, at.z) {
     const double wide = reach * (1 + 0x1p-48);
@@ -75,8 +75,8 @@ class TrianglePart::Tree {
   void find_near(const Vec3& query, double reach, std::vector<std::uint32_t>& found) const {
     const WideBall ball(query, reach);
     if (!ball.may_meet(bounds_)) return;
-    // A ball that meets the bounds seldom meets a box: few pass the first look, which is
-    // short; only the box about the ball guides the second.
+    // A ball that meets the bounds rarely meets a triangle's box. The first search is short and few
+    // balls pass it; the second is guided by the ball's box alone.
     const auto nearest = boxes_.qbegin(tree::nearest(ball.centre, 1));
     if (!ball.may_meet(nearest->first)) return;
     const auto may_meet = [&ball](const Entry& entry) { return ball.may_meet(entry.first); };

@@ -25,7 +25,7 @@ inline int last_exponent(const Vec3& p) {
   return std::min({last_exponent(p.x), last_exponent(p.y), last_exponent(p.z)});
 }
 
-/// value / 2^exponent, which is whole.
+/// value / 2^exponent, which must be an integer.
 inline Integer whole(double value, int exponent) {
   if (value == 0) return 0;
   int top = 0;

@@ -22,13 +22,14 @@ Triple<T> from_to(const Vec3& from, const Vec3& to) {
   return {T(to.x) - T(from.x), T(to.y) - T(from.y), T(to.z) - T(from.z)};
 }
 
-// u . (v x w), and in `size` the sum of the magnitudes of its terms.
+// u . (v x w)
 template <class T>
 T volume(const Triple<T>& u, const Triple<T>& v, const Triple<T>& w) {
   return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
+// Sum of the magnitudes of the terms of volume().
 long double magnitude(const Triple<long double>& u, const Triple<long double>& v,
                       const Triple<long double>& w) {
   const auto a = [](long double value) { return std::fabs(value); };
@@ -36,17 +37,17 @@ long double magnitude(const Triple<long double>& u, const Triple<long double>& v
          a(u[2]) * (a(v[0] * w[1]) + a(v[1] * w[0]));
 }
 
-// The sign of p . (q x r) of three differences of points, without any error.
-// `origin` is where they start; a direction is given as a point from 0.
+// A difference of two points. A direction is given as a point minus the origin.
 struct Difference {
   Vec3 from, to;
 };
 
+// Sign of u . (v x w), without any error.
 int volume_sign(const Difference& u, const Difference& v, const Difference& w) {
   const auto approximate = [](const Difference& d) { return from_to<long double>(d.from, d.to); };
   const auto a = approximate(u), b = approximate(v), c = approximate(w);
   const long double found = volume(a, b, c);
-  // Three differences and three operations deep, each rounded to 2^-64.
+  // Each of the three differences and up to three further operations is rounded to 2^-64.
   const long double error = 16 * 0x1p-64L * magnitude(a, b, c);
   if (std::fabs(found) > error && std::isfinite(error) && error > 0x1p-16000L)
     return found > 0 ? 1 : -1;
@@ -80,15 +81,15 @@ Pass pass(const Vec3& query, const Vec3& direction, const Corners& t) {
     const Difference edges[2] = {{t[0], t[1]}, {t[0], t[2]}};
     for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
       if (volume_sign({{0, 0, 0}, axis}, edges[0], edges[1]) != 0) return Pass::kUnclear;
-    return Pass::kMisses;  // it has no area
+    return Pass::kMisses;  // the triangle has no area
   }
   const int height = volume_sign(to[0], to[1], to[2]);
   if (height == 0) return Pass::kOnIt;
-  if (height != sides[0]) return Pass::kMisses;  // it lies behind
+  if (height != sides[0]) return Pass::kMisses;  // the triangle lies behind the query
   return height > 0 ? Pass::kForwards : Pass::kBackwards;
 }
 
-// Corners as directions from the query; false where there is none.
+// Unit vectors from the query to the corners; false if a corner equals the query.
 template <class T>
 bool directions(const Vec3& query, const Corners& t, std::array<Triple<T>, 3>& found) {
   using std::sqrt;
@@ -107,19 +108,19 @@ T scalar(const Triple<T>& u, const Triple<T>& v) {
   return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
-// 1 + a . b + b . c + c . a of three directions: with their volume, the tangent
+// 1 + a . b + b . c + c . a of three unit vectors. Together with their volume it gives the tangent
 // of half the solid angle.
 template <class T>
 T width_of(const std::array<Triple<T>, 3>& d) {
   return 1 + scalar(d[0], d[1]) + scalar(d[1], d[2]) + scalar(d[2], d[0]);
 }
 
-// Enough for a point that misses an edge by the least of doubles.
+// Enough bits for a point that misses an edge by the smallest double.
 using Widest = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<4608, boost::multiprecision::digit_base_2>,
     boost::multiprecision::et_off>;
 
-// Half a solid angle of known sign; false where T has not the bits to tell.
+// Half a solid angle of known sign; false if T has too few bits.
 template <class T>
 bool half_angle(const Vec3& query, const Corners& t, int sign, long double& found) {
   std::array<Triple<T>, 3> d;
@@ -149,7 +150,7 @@ OpenWinding open_winding(const Vec3& query, std::span<const Corners> triangles) 
     std::array<Triple<long double>, 3> d;
     if (directions(query, t, d)) {
       const long double width = width_of(d), height = volume(d[0], d[1], d[2]);
-      // Of a triangle far aside the angle is small, and so is its error.
+      // The angle of a triangle far aside is small, and so is its error.
       if (width > 1e-3L || (std::fabs(height) > 1e-17L && std::hypot(width, height) > 1e-3L)) {
         sum += std::atan2(height, width);
         continue;
@@ -166,8 +167,8 @@ OpenWinding open_winding(const Vec3& query, std::span<const Corners> triangles) 
 }
 
 double quick_winding(const Vec3& query, std::span<const Corners> triangles) {
-  // Half the solid angles are the angles of complex numbers, and their sum that
-  // of the product, but for the turns it has made.
+  // Half the solid angles are arguments of complex numbers. Their sum is the argument of the
+  // product, plus the full turns that the product has made.
   std::complex<double> product = 1;
   int turns = 0;
   for (const Corners& t : triangles) {
@@ -205,7 +206,7 @@ long double solid_angle_winding(const Vec3& query, std::span<const Corners> tria
 Side exact_side(const Vec3& query, std::span<const Corners> triangles) {
   Random random(20240607);
   for (;;) {
-    // Few bits, so that rationals stay short.
+    // Few bits, so that the integers stay short.
     const auto step = [&] { return static_cast<double>(random.below(2001)) - 1000.0; };
     const Vec3 direction{step(), step(), step()};
     std::int64_t winding = 0;

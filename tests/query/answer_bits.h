@@ -8,8 +8,8 @@
 
 namespace planetree {
 
-/// Everything an answer says, in bits: distance, lower, upper, point, triangle,
-/// normal, barycentric, feature, side, status.
+/// All fields of an answer as bits: distance, lower, upper, point, normal, triangle, barycentric,
+/// feature, side, status.
 using AnswerBits = std::array<std::uint64_t, 16>;
 
 inline AnswerBits bits_of(const ClosestPoint& answer) {

@@ -18,7 +18,8 @@ class Batch : public testing::Test {
  protected:
   static constexpr std::size_t kWindow = BatchBuffers::kMax;
 
-  // So many more than the probe has room for that the last answers lend theirs; some of them odd.
+  // More queries than a probe's batch buffers hold, so that the memory of the last answers is used
+  // too; some queries are unusual.
   Batch() : sample_(octree::sphere(4)), queries_(random_queries(kWindow * 5 / 4, -1.5, 1.5)) {
     queries_[3] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     queries_[kWindow - 1] = {1e300, -1e300, 0};
@@ -57,7 +58,7 @@ TEST_F(Batch, TellsSidesWithSeveralThreadsToo) {
   }
 }
 
-// Whoever comes while the crew is at work answers alone.
+// A batch that starts while the batch threads are busy is answered by its own thread alone.
 TEST_F(Batch, MayBeAskedByManyAtOnce) {
   const Model model = sample_.open_for_batches(2, 4);
   std::vector<std::vector<ClosestPoint>> answers(4, std::vector<ClosestPoint>(queries_.size()));
@@ -69,7 +70,7 @@ TEST_F(Batch, MayBeAskedByManyAtOnce) {
     for (const auto& own : answers) ASSERT_EQ(bits_of(own[i]), bits_of(answers[0][i])) << i;
 }
 
-// Rounding up and flushing, the caller's way, is not the crew's.
+// The caller rounds up and flushes to zero; the batch threads do not.
 TEST_F(Batch, ComputesAsEverInThreadsOfOddArithmetic) {
   const Model model = sample_.open_for_batches(2);
   Probe probe = make_probe(model);
@@ -105,7 +106,7 @@ TEST_F(Batch, MayBeOfAnySize) {
   probe.closest_points({}, {});
   std::vector<ClosestPoint> expected;
   for (const Vec3& query : queries_) expected.push_back(probe.closest_point(query));
-  // From one of these on, answers lend memory, as little as there may be.
+  // From one of these sizes on the memory of answers is used, as little of it as possible.
   const std::size_t lent = kWindow + kWindow / (sizeof(ClosestPoint) / sizeof(std::uint64_t));
   for (const std::size_t size : {std::size_t{1}, std::size_t{2}, kWindow - 1, kWindow, kWindow + 1,
                                  lent, lent + 1, lent + 2, lent + 3}) {
@@ -116,7 +117,7 @@ TEST_F(Batch, MayBeOfAnySize) {
   }
 }
 
-// The memory of the last answers takes the order of the others, again and again.
+// The memory of the last answers holds the order of the others, several times in turn.
 TEST_F(Batch, MayBeSoLargeThatWhatIsLeftIsLargeToo) {
   const SampleModel small(octree::sphere(0));
   const Model model = small.open();
@@ -140,7 +141,7 @@ TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
   EXPECT_LT(batch.stats().pages_read * 2, one.stats().pages_read);
 }
 
-// Put in order all together, and not as many at a time as a probe has room for.
+// A batch is ordered as a whole, not in parts that fit a probe's buffers.
 TEST_F(Batch, TurnsFewerPagesTheLargerItIs) {
   const std::uint64_t budget = sample_.min_budget() + sample_.page_count() / 3 * 4096;
   const std::vector<Vec3> queries = random_queries(8 * kWindow, -1.5, 1.5);

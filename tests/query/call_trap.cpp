@@ -35,7 +35,7 @@ bool set_call_trap() noexcept {
   action.sa_flags = SA_SIGINFO;
   if (::sigaction(SIGSYS, &action, nullptr) != 0) return false;
   constexpr auto kNumberAt = offsetof(seccomp_data, nr);
-  // What a thread needs to come back from the handler, and to end.
+  // The calls that a thread needs to return from the handler and to end.
   sock_filter steps[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kNumberAt),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_rt_sigreturn, 4, 0),

@@ -4,13 +4,13 @@
 
 namespace planetree::query {
 
-/// Catches what the calling thread asks of the system: from set_call_trap() to the end of the
-/// thread every call is counted and refused (ENOSYS), but those with which threads end.
+/// Traps the system calls of the calling thread. From this call to the end of the thread every
+/// system call is counted and refused (ENOSYS), except those that end a thread.
 ///
-/// return  false where the system does not let itself be watched: nothing is trapped then.
+/// return  false where the system does not support this: nothing is trapped then
 bool set_call_trap() noexcept;
 
-/// System calls of all threads that were trapped so far.
+/// Number of system calls trapped so far, of all threads.
 std::uint64_t trapped_calls() noexcept;
 
 }  // namespace planetree::query

@@ -22,7 +22,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 TEST(ClosestPoint, IsNearestAndOnItsTriangle) {
-  // Input units that the model frame is 2^7 times smaller than.
+  // In these input units the model is 2^7 times as large as in the model frame.
   Soup soup = sphere(4);
   for (auto& triangle : soup)
     for (Vec3& corner : triangle) corner = {corner.x * 100, corner.y * 100, corner.z * 100};
@@ -88,7 +88,7 @@ TEST(ClosestPoint, AnswersQueriesFromVeryFarAway) {
       EXPECT_EQ(answer.status, Status::kExact) << far;
       EXPECT_NE(answer.triangle, kNoTriangle);
       EXPECT_LT(answer.lower, answer.upper);
-      // Divided first, so that the truth is a double.
+      // Divided first, so that the true distance is a double.
       const double truth = length({query.x / far, query.y / far, query.z / far});
       EXPECT_LE(answer.lower / far, truth);
       EXPECT_GE(answer.upper / far, truth - 1 / far);
@@ -193,7 +193,7 @@ TEST(ClosestPoint, AnswersAtOnceWithoutAnyNode) {
   EXPECT_EQ(answer.triangle, kNoTriangle);
   EXPECT_EQ(answer.distance, answer.upper);
   EXPECT_TRUE(sample.interval_holds(answer, query));
-  EXPECT_GT(answer.lower, 1.9);  // the box is known
+  EXPECT_GT(answer.lower, 1.9);  // from the model's box
   EXPECT_EQ(model.stats().page_hits, hits);
   EXPECT_EQ(model.stats().degraded_answers, 1u);
 }
@@ -223,7 +223,8 @@ TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
   EXPECT_GT(small.stats().pages_evicted, 100u);
 }
 
-// Where very many triangles are nearly as near, so that more of them are noted than are kept.
+// Near the centre of a sphere very many triangles are almost equally near: more candidates are
+// found than can be kept.
 TEST(ClosestPoint, DoesNotDependOnMemoryWhereErrorsAndWorkAreAllowed) {
   const SampleModel sample(octree::sphere(6));
   const Model large = sample.open(), small = sample.open(sample.min_budget());

@@ -11,13 +11,13 @@
 #include "tests/query/sample_model.h"
 #include "tests/storage/file/file_image.h"
 
-// Sides of models with a mask: what it spares, and that nothing depends on it.
+// Sides of models with a mask: the work it saves, and that no answer depends on it.
 namespace planetree::query {
 namespace {
 
 using storage::FileImage;
 
-/// Points anywhere in the box, on vertices, and on the sides of cells.
+/// Points anywhere in the box, on vertices, and on faces of cells.
 std::vector<Vec3> points_about(const SampleModel& sample, std::size_t count) {
   const octree::SampleMesh& mesh = sample.sample().mesh;
   const double unscale = std::ldexp(1.0, -mesh.frame.scale_exponent);
@@ -37,7 +37,7 @@ std::vector<Vec3> points_about(const SampleModel& sample, std::size_t count) {
   return points;
 }
 
-/// A model that is open, asked below the Probe so that work can be counted.
+/// An open model, queried below the level of Probe so that work can be counted.
 class CountedSides {
  public:
   explicit CountedSides(const SampleModel& sample)
@@ -109,7 +109,7 @@ TEST(ContainsMask, SaysTheSidesThatAreSaidWithoutIt) {
       const SideResult found = masked.side(query, work), expected = bare.side(query, work);
       ASSERT_EQ(found.status, Status::kExact);
       ASSERT_EQ(found.side, expected.side) << query.x << ' ' << query.y << ' ' << query.z;
-      // Of a cell of one colour only the sign is known.
+      // In a cell of one colour only the sign of the winding number is known.
       ASSERT_EQ(found.winding > 0, expected.winding > 0);
       ASSERT_EQ(found.winding < 0, expected.winding < 0);
     }
@@ -134,7 +134,7 @@ class DamagedMask : public testing::Test {
     quarantined_ = model.stats().quarantined_pages;
     return answers;
   }
-  // As a failing disk would; a second time puts it right.
+  // Changes one byte, as a failing disk would; a second call restores it.
   void damage(std::uint32_t mask_page) {
     FileImage image(storage::read_bytes(sample_.path()));
     const storage::PageEntry entry = image.entry(sample_.page_count() + mask_page);
@@ -173,7 +173,7 @@ TEST_F(DamagedMask, IsNotReadForDistances) {
   for (std::uint32_t page = 0; page < mask_pages(); ++page) damage(page);
   const SampleModel without(octree::sphere(5));
   const Model model = sample_.open(), bare = without.open();
-  // Its first page is looked for once, for SideGrid.
+  // Its first page is read once at open, for the side grid.
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
   EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
   Probe probe = make_probe(model), of_bare = make_probe(bare);
@@ -186,7 +186,7 @@ TEST_F(DamagedMask, IsNotReadForDistances) {
   EXPECT_EQ(model.stats().pages_read, bare.stats().pages_read);
 }
 
-// Few visits leave sides unknown, never wrong.
+// A small work limit leaves sides unknown, never wrong.
 TEST(ContainsMask, EndsItsWorkWhereItIsTold) {
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
   const Model model = sample.open();
@@ -207,7 +207,7 @@ TEST(ContainsMask, EndsItsWorkWhereItIsTold) {
   EXPECT_GT(unknown, 300);
 }
 
-// Numbers of corners do not reach so far.
+// Winding numbers here exceed the range of corner numbers.
 TEST(ContainsMask, HoldsWhereNumbersAreLarge) {
   const SampleModel sample = SampleModel::masked(octree::shells(130));
   const Model model = sample.open();

@@ -122,7 +122,7 @@ TEST_F(Contains, IsDegradedWhenTheWorkEnds) {
   EXPECT_EQ(probe.contains({5, 0, 0}, {.max_work = 0}).side, Side::kOutside);
 }
 
-// A way that another page can tell of is taken where one is lost.
+// Where one exit segment needs a lost page, another is used.
 TEST_F(Contains, GoesAroundAPageThatIsLost) {
   storage::FileImage image(storage::read_bytes(sample_.path()));
   const storage::PageEntry entry = image.entry(sample_.page_count() - 2);
@@ -143,7 +143,7 @@ TEST_F(Contains, GoesAroundAPageThatIsLost) {
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
 }
 
-/// A sphere with a hole about +z, wider than a page.
+/// A sphere with a hole about +z that is wider than a page.
 class ContainsOpen : public testing::Test {
  protected:
   static octree::Soup bowl() {
@@ -152,7 +152,7 @@ class ContainsOpen : public testing::Test {
       if (triangle[0].z + triangle[1].z + triangle[2].z < 3 * 0.9) soup.push_back(triangle);
     return soup;
   }
-  /// The sum of solid angles over 4 pi; of points that are not near the surface.
+  /// Sum of solid angles over 4 pi, for points that are not near the surface.
   static double winding(const octree::Soup& soup, const Vec3& query) {
     const octree::Point q(query.x, query.y, query.z);
     double sum = 0;
@@ -214,7 +214,7 @@ TEST_F(ContainsOpen, IsDegradedWhenTheWorkEnds) {
   EXPECT_EQ(found.side, Side::kUnknown);
   EXPECT_EQ(found.status, Status::kDegraded);
   EXPECT_EQ(model.stats().degraded_answers, 1u);
-  // Sooner or later it is told, and then for good.
+  // With enough work the side is known, and more work does not change it.
   Side side = Side::kUnknown;
   for (std::uint32_t nodes = 2; nodes < 300; ++nodes) {
     const Containment now = probe.contains({0.2, 0.3, -0.4}, {.max_work = nodes});
@@ -227,7 +227,7 @@ TEST_F(ContainsOpen, IsDegradedWhenTheWorkEnds) {
   EXPECT_EQ(side, Side::kInside);
 }
 
-// What a lost page holds is known by its moments from afar.
+// From afar, moments stand in for the content of a lost page.
 TEST_F(ContainsOpen, IsRightWhereALostPageCannotMatter) {
   storage::FileImage image(storage::read_bytes(sample_.path()));
   const storage::PageEntry entry = image.entry(sample_.page_count() / 2);
@@ -248,8 +248,8 @@ TEST_F(ContainsOpen, IsRightWhereALostPageCannotMatter) {
   EXPECT_LT(unknown, 100);
 }
 
-// Out of the solid, as for a watertight surface; and on the surface as the rest
-// of it winds.
+// Normals point out of the solid, as for a watertight surface. At a point on the surface, the
+// winding number of the remaining surface decides.
 TEST_F(ContainsOpen, TurnsNormalsOutOfTheSolid) {
   octree::Soup inside_out = soup_;
   for (auto& triangle : inside_out) std::swap(triangle[1], triangle[2]);

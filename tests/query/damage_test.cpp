@@ -1,4 +1,4 @@
-// Files that change for the worse while they are open.
+// Files that are damaged while they are open.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ class DamagedWhileOpen : public testing::Test {
  protected:
   DamagedWhileOpen() : sample_(octree::sphere(4)), queries_(random_queries(200, -1.3, 1.3)) {}
 
-  // Changes one byte of the file in its place, as a failing disk would.
+  // Changes one byte of the file in place, as a failing disk would.
   void damage_page(std::uint32_t page) {
     const storage::FileImage image(storage::read_bytes(sample_.path()));
     const storage::PageEntry entry = image.entry(page);
@@ -65,7 +65,7 @@ TEST_F(DamagedWhileOpen, QuarantinesAPageForGood) {
   Probe probe = make_probe(model);
   damage_page(sample_.page_count() - 1);
   const Outcome first = query_everything(probe);
-  damage_page(sample_.page_count() - 1);  // which puts it right again
+  damage_page(sample_.page_count() - 1);  // restores the byte
   const Outcome second = query_everything(probe);
   EXPECT_EQ(first.degraded, second.degraded);
   EXPECT_EQ(model.stats().quarantined_pages, 1u);

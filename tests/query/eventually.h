@@ -6,7 +6,8 @@
 
 namespace planetree::query {
 
-/// Whether something comes true: a minute is for machines that do other things meanwhile.
+/// Waits up to a minute for a condition; returns whether it became true. A minute allows for busy
+/// machines.
 inline bool eventually(const std::function<bool()>& is_true) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!is_true()) {

@@ -1,4 +1,4 @@
-// Real time without threads or clocks: who does what when follows from a seed.
+// Real-time queries without threads or clocks: a seed decides what happens when.
 
 #include "tests/query/fetch_steps.h"
 
@@ -21,11 +21,11 @@ namespace {
 
 constexpr QueryOptions kHastily{.wait = Wait::kNever};
 
-// A clock that a test turns on: it goes a tick each time it is looked at.
+// A simulated clock that advances by one millisecond each time it is read.
 double simulated_seconds = 0;
 FetchWorker::Seconds simulated_time() { return FetchWorker::Seconds(simulated_seconds += 0.001); }
 
-/// A disk of which reads fail by chance.
+/// A disk whose reads fail at random.
 class ChancyDisk final : public storage::FileCalls {
  public:
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
@@ -39,7 +39,7 @@ class ChancyDisk final : public storage::FileCalls {
   bool opened = false;
 };
 
-/// A disk of which the system has nothing in memory.
+/// A disk with no bytes in the system's memory.
 class ColdDisk final : public storage::FileCalls {
  public:
   ssize_t preadv2(int, const iovec*, int, off_t, int) noexcept override {
@@ -68,7 +68,7 @@ class Simulation : public testing::Test {
     return answers;
   }
 
-  // All that can be seen of a run: answers, and what it cost.
+  // Everything observable of a run: answers, and counts of the work done.
   std::vector<std::uint64_t> run(unsigned seed) {
     simulated_seconds = 0;
     ChancyDisk disk;
@@ -137,7 +137,7 @@ TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
   }
 }
 
-// A worker that remembered its last answers would read nothing for the same question again.
+// A worker that kept its last answers would read no pages for a repeated query.
 TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
   const Model model = open(storage::FileCalls::real(), 6 * 4096);
   const ModelState& state = ModelState::of(model);
@@ -189,7 +189,8 @@ TEST_F(Simulation, StopsBeforeTheNextPage) {
   EXPECT_EQ(model.stats().pages_read, read);
 }
 
-// However stale the triangle is, its normal is the mesh's, and that of a sphere points out.
+// However stale the triangle is, its normal is one of the mesh, and on a sphere those point
+// outward.
 TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
   const Model model = open(storage::FileCalls::real(), 0);
   const ModelState& state = ModelState::of(model);
@@ -220,7 +221,7 @@ TEST_F(Simulation, WishesComeBeforePlans) {
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
 }
 
-// The one place with another thread, which does nothing but wait.
+// The only test here with a second thread, which only waits.
 TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
   ColdDisk disk;
   const Model model = open(disk, 64 << 20);
@@ -241,7 +242,7 @@ TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
     return did;
   };
   EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 1), FetchWorker::Did::kReadForAQuery);
-  // Its page is read too, in between.
+  // The awaited page is read as well, while the request is served.
   EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 2), FetchWorker::Did::kServedARequest);
   EXPECT_EQ(probe.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kExact);
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);

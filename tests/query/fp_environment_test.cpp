@@ -1,4 +1,4 @@
-// What the host thread tells its processor changes no bit of any answer.
+// The floating-point mode of the calling thread changes no bit of any answer.
 
 #include "query/serve/fp_environment.h"
 
@@ -15,7 +15,7 @@
 namespace planetree::query {
 namespace {
 
-// Every verb of a probe, as bits.
+// The answers of every query function of a probe, as bits.
 class StabilityHostThread : public testing::Test {
  protected:
   StabilityHostThread()
@@ -81,7 +81,7 @@ TEST_F(StabilityHostThread, MayRoundAnotherWayAndFlushToZero) {
   }
 }
 
-// A model opened so is the same model.
+// A model opened in another rounding mode gives the same answers.
 TEST_F(StabilityHostThread, MayOpenAModelWhileItRoundsAnotherWay) {
   for (const int rounding : kRoundings) {
     const auto open = [&] {

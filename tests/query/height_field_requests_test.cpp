@@ -1,4 +1,4 @@
-// Where faces tell sides, asks that do not wait may still need the mask.
+// Where faces decide sides, real-time queries may still need the mask.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class HeightFieldRequests : public octree::SmallChunks {
     options.page_bytes = 4096;
     if (!octree::build_tree(mesh_, output_, options, witness)) std::abort();
   }
-  // With little more memory than it takes to open, so that pages come and go.
+  // Opens with little more memory than opening takes, so that pages are evicted.
   Model open() const {
     OpenOptions options;
     options.max_probes = 3;
@@ -43,8 +43,8 @@ class HeightFieldRequests : public octree::SmallChunks {
   const std::atomic<bool> never_{false};
 };
 
-// A thread that fetches has no last answers: what it finds without the mask, the probe that wished
-// may not.
+// A fetch thread keeps no earlier answers. It may find a side without the mask where the requesting
+// probe cannot.
 TEST_F(HeightFieldRequests, BringTheMaskWhereFacesTellTheSide) {
   const Model model = open();
   const ModelState& state = ModelState::of(model);
@@ -53,7 +53,7 @@ TEST_F(HeightFieldRequests, BringTheMaskWhereFacesTellTheSide) {
   Probe probe = make_probe(model);
   unsigned wished = 0;
   for (const Vec3& point : random_queries(300, -1, 1)) {
-    // Near the surface, where no colour of the mask's upper cells tells the side.
+    // Near the surface, where no cell of the side grid has one colour.
     const double length = std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z);
     const double share = 0.999 / length;
     const Vec3 near{point.x * share, point.y * share, point.z * share};

@@ -1,4 +1,4 @@
-// What hinders the model's threads costs freshness: answers come at once all the same, and no
+// Whatever delays the model's threads only delays refinement: answers still come at once, and no
 // memory grows.
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr QueryOptions kUnhindered{.wait = Wait::kNever};
 
-/// A disk so slow that much is asked while it reads one page: here, on the reading thread itself,
-/// so that an ask which waited for anything the reader has would wait for ever.
+/// A disk so slow that many queries are made while it reads one page. They run on the reading
+/// thread itself, so a query that waited for anything the reader holds would wait for ever.
 class SlowDisk final : public storage::FileCalls {
  public:
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
@@ -41,7 +41,7 @@ class HinderedFetching : public testing::Test {
     make_probe(model).closest_points(points_, exact_);
   }
 
-  // The next place's answer.
+  // Queries the next point.
   Status query_once(Probe& probe) {
     const std::size_t at = next_++ % points_.size();
     const ClosestPoint answer = probe.closest_point(points_[at], kUnhindered);
@@ -68,7 +68,7 @@ class HinderedFetching : public testing::Test {
 
 FetchWorker::Seconds still_time() { return FetchWorker::Seconds(0); }
 
-// A page takes 100 ticks, so that of the wishes of 100 ticks but one is fetched.
+// A page takes 100 ticks to read, so one of the fetch requests of 100 ticks is served.
 TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
   SlowDisk disk;
   OpenOptions options;
@@ -100,12 +100,13 @@ TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
   EXPECT_GT(reads, 50u);
   EXPECT_GT(after.pages_evicted, 0u);
   EXPECT_EQ(after.degraded_answers, degraded_);
-  // Each degraded answer lacked pages, and all wishes but the last of each stretch were overtaken.
+  // Each degraded answer lacked pages. In each stretch of ticks every request but the last was
+  // replaced by a later one.
   EXPECT_EQ(after.fetch_requests, degraded_);
   EXPECT_GT(after.fetch_requests, 40 * served);
 }
 
-// What a reader may be looking at is not written again, however long it looks.
+// A frame that a reader may hold is not reused, however long the reader's section lasts.
 TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) {
   const unsigned probes = 2;
   const Model model = sample_.open(sample_.min_budget(probes) + 8 * 4096, probes);
@@ -115,7 +116,7 @@ TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) 
     ASSERT_TRUE(stuck);
     stuck->enter();
     const Stats before = model.stats();
-    // Until the model's thread has spent what it may, and for some time more.
+    // Repeats until the model's thread can evict no more, and for some time afterwards.
     std::uint64_t read = ~std::uint64_t{0};
     ASSERT_TRUE(eventually([&] {
       const std::uint64_t last = std::exchange(read, model.stats().pages_read);
@@ -124,7 +125,7 @@ TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) 
     }));
     const Stats after = model.stats();
     expect_same_memory(before, after);
-    // A frame in limbo for each that may fetch, and no more.
+    // At most one frame in limbo for each fetcher.
     EXPECT_LE(after.pages_evicted - before.pages_evicted, probes + 2);
     EXPECT_GT(degraded_, 0u);
     EXPECT_GT(after.fetch_requests, after.fetch_requests_served);

@@ -31,7 +31,7 @@ std::uint64_t lock_count() noexcept { return locks_taken; }
 #endif
 
 #ifndef PLANETREE_COUNTS_LOCKS
-// Stands before the system's own, which it calls.
+// Interposes the system's function and calls it.
 extern "C" [[gnu::visibility("default")]] int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
   using Lock = int (*)(pthread_mutex_t*);
   static std::atomic<Lock> next{nullptr};

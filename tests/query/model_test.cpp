@@ -86,7 +86,7 @@ TEST(Model, RefusesBatchThreadsThatMakeNoSense) {
   }
 }
 
-// What the crew needs is within the budget.
+// The memory of batch threads counts towards the budget.
 TEST(Model, CountsBatchThreadsIntoTheBudget) {
   const SampleModel sample(sphere(5));
   OpenOptions options;
@@ -222,7 +222,7 @@ TEST(Probe, MayMoveAndGivesItsPlaceBackOnce) {
     EXPECT_EQ(second.closest_point({0, 0, 3}).distance, 2);
     Probe third = make_probe(model);
     EXPECT_FALSE(Probe::create(model));
-    third = std::move(second);  // frees a place
+    third = std::move(second);  // releases a reader slot
     EXPECT_EQ(third.closest_point({0, 0, -4}).distance, 3);
     EXPECT_TRUE(Probe::create(model));
   }

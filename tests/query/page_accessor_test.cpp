@@ -12,7 +12,7 @@
 #include "query/serve/page_accessor.h"
 #include "tests/query/sample_model.h"
 
-// What is promised of frames that a PageAccessor has handed out.
+// Guarantees about frames that a PageAccessor has returned.
 namespace planetree::query {
 namespace {
 
@@ -36,7 +36,7 @@ class PageAccessorTest : public testing::Test {
   std::optional<cache::Reader> reader_;
 };
 
-// Frames that were handed out, and the pages that were in them, until they may go.
+// Records the frames that an accessor returned, and the pages in them, until they are released.
 class Kept {
  public:
   explicit Kept(octree::FrameReleaseHook& release_hook) {
@@ -88,7 +88,7 @@ TEST_F(PageAccessorTest, KeepsFramesFromCallToCallOfWhatIsResident) {
     kept.add(accessor.page(page), page);
     most = std::max(most, kept.size());
   }
-  // Sections are long, but they end: others wait for that.
+  // Sections are long, but they end: other threads wait for that.
   EXPECT_GE(most, 100u);
   EXPECT_LT(most, 1000u);
 }

@@ -1,4 +1,4 @@
-// The trace of what asks that do not wait looked for: without threads or clocks.
+// Page traces of real-time queries, without threads or clocks.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,8 @@ class PageTouches : public testing::Test {
     return probe.closest_point(point, {.wait = Wait::kNever});
   }
 
-  // A tip that wanders, while a worker gets what it misses and where it goes.
+  // Moves a probe and queries, while a worker fetches the pages that it misses and those along its
+  // motion.
   std::vector<TouchRow> wander(std::uint64_t more_bytes) {
     const Model model = open(4096, min_budget_with(4096) + more_bytes);
     FetchWorker worker = worker_of(model);
@@ -84,8 +85,8 @@ TEST_F(PageTouches, AreTheSameOfTheSameRun) {
   EXPECT_NE(wander(40 * 4096), rows);
 }
 
-// Where nothing is evicted, a cache that is fed the hits of the trace says which pages can be
-// missed; and the counts are those of the model's own cache.
+// Nothing is evicted here, so a page that was hit is never missed later. Hits and misses agree with
+// the counts of the model's cache.
 TEST_F(PageTouches, ReplayToWhatTheCacheCounted) {
   const Model model = open(4096);
   FetchWorker worker = worker_of(model);
@@ -142,19 +143,19 @@ TEST_F(PageTouches, TellTheLevelsOfPages) {
   const Model model = open(4096);
   Probe probe = make_probe(model);
   for (const Vec3& point : random_queries(50, -1.2, 1.2)) {
-    (void)probe.closest_point(point);  // waits, and is not traced
+    (void)probe.closest_point(point);  // blocking, so not traced
     (void)query_once(probe, point);
   }
-  std::map<std::uint32_t, unsigned> levels;  // of pages
+  std::map<std::uint32_t, unsigned> levels;  // by page
   for (const PageAccess& access : take_all(model)) {
     levels.emplace(access.page, access.level);
     EXPECT_EQ(levels[access.page], access.level);
     EXPECT_LT(access.query, 50u);
   }
-  // Pages are in the order of their keys, coarse cells first.
+  // Pages are ordered by their keys, coarse cells first.
   unsigned last = 0;
   for (const auto& [page, level] : levels) {
-    if (page >= sample_.page_count()) break;  // the mask has an order of its own
+    if (page >= sample_.page_count()) break;  // pages of the mask have an order of their own
     EXPECT_GE(level, last);
     last = level;
   }

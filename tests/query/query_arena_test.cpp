@@ -19,7 +19,7 @@
 namespace planetree::query {
 namespace {
 
-// What the kernel says that this process has locked.
+// Bytes that this process has locked, as reported by the kernel.
 std::uint64_t kernel_locked_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -62,7 +62,7 @@ TEST_F(QueryArenaTest, HoldsProbesOneAfterAnother) {
     std::vector<std::thread> threads;
     for (unsigned i = 0; i < options_.max_probes; ++i)
       threads.emplace_back([&] {
-        // Others may have it still, but do not keep it.
+        // Another thread may still hold a probe, but not for long.
         std::optional<Probe> probe;
         while (!probe)
           if (auto created = Probe::create(*model)) probe.emplace(*std::move(created));
@@ -72,7 +72,7 @@ TEST_F(QueryArenaTest, HoldsProbesOneAfterAnother) {
   }
 }
 
-// A probe has its room; what is allocated for it is for batches.
+// A probe lies in the arena; its one allocation is for batches.
 TEST_F(QueryArenaTest, IsAllThatProbesAndAsksTake) {
   if (!cache::allocations_are_counted()) GTEST_SKIP() << "a sanitizer counts instead";
   const auto model = Model::open(sample_.path(), options_);

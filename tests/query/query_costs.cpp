@@ -21,7 +21,7 @@
 namespace planetree::query {
 namespace {
 
-// A file of the kernel's, which has no length.
+// Text of a file of the kernel, which has no length.
 struct KernelText {
   char text[4096] = {};
 
@@ -40,7 +40,7 @@ std::uint64_t faults_of(pid_t thread) noexcept {
   char path[64];
   std::snprintf(path, sizeof path, "/proc/self/task/%d/stat", static_cast<int>(thread));
   const KernelText stat(path);
-  // The third field is the first behind the name, which is in brackets.
+  // Field 3 is the first one after the name, which is in brackets.
   const char* at = std::strrchr(stat.text, ')');
   std::uint64_t faults = 0;
   for (int field = 3; at != nullptr && field <= 12; ++field) {
@@ -50,7 +50,8 @@ std::uint64_t faults_of(pid_t thread) noexcept {
   return faults;
 }
 
-// How far the asking thread is. It waits for nobody but by looking: its calls are trapped.
+// Stage of the querying thread. That thread can only wait by polling, because its system calls are
+// trapped.
 enum class Stage : int { kWarmingUp, kReady, kQuerying, kDone, kOver };
 
 void wait_busily(const std::atomic<Stage>& stage, Stage wanted) noexcept {
@@ -66,24 +67,26 @@ void wait_asleep(const std::atomic<Stage>& stage, Stage wanted, const Look& look
   }
 }
 
-// The asking thread's own business, and not the model's.
+// Stack of the querying thread, which is not part of the model's memory.
 constexpr std::size_t kStackBytes = std::size_t{1} << 17;
 
-// As a thread does that must not be late. How deep an ask goes depends on what is resident, so
-// that asks before the others need not go as deep.
+// Writes to the whole stack, as a real-time thread does at its start. How much stack a query needs
+// depends on the pages that are resident, so the warm-up queries may need less than the counted
+// ones.
 [[gnu::noinline]] void touch_stack() noexcept {
   volatile std::byte stack[kStackBytes];
   for (std::size_t at = 0; at < sizeof stack; at += 64) stack[at] = std::byte{};
 }
 
-// Code that no ask before has run is not mapped yet: as a thread does that locks its memory.
+// Reads all code, as a thread that locks its memory does: code that no query has run yet is not
+// mapped.
 void touch_code() noexcept {
   using Header = ElfW(Phdr);
   const auto access = [](dl_phdr_info* object, std::size_t, void*) {
     for (const Header& part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
       if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
       const auto address = object->dlpi_addr + part.p_vaddr;
-      // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader knows places by number.
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader gives addresses as numbers.
       const auto* bytes = reinterpret_cast<const volatile std::byte*>(address);
       for (std::size_t at = 0; at < part.p_memsz; at += 4096) (void)bytes[at];
     }

@@ -1,5 +1,5 @@
-// What an ask may not do: allocate, ever; take a lock, when all is resident; call the system,
-// when it does not wait.
+// Queries never allocate. They take no lock if all pages are resident, and real-time queries make
+// no system call.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST_F(QueryPath, DoesNotAllocateWhileItFetches) {
   EXPECT_GT(model.stats().pages_evicted, 1000u);
 }
 
-// On a thread of its own, because a trap is set for good.
+// Tests that trap calls run on a thread of their own, because a trap cannot be removed.
 class RealTimePath : public QueryPath {
  protected:
   static std::uint64_t page_faults() {
@@ -96,7 +96,7 @@ class RealTimePath : public QueryPath {
       }
   }
 
-  // Of some rounds: the system itself may take pages away to look whether they are used.
+  // Minimum over some rounds: the kernel itself may unmap pages to see whether they are used.
   std::uint64_t min_faults(Probe& probe) {
     std::uint64_t least = ~std::uint64_t{0};
     for (int round = 0; round < 5; ++round) {
@@ -119,7 +119,7 @@ TEST_F(RealTimePath, IsTrapped) {
   }).join();
 }
 
-// While the fetch thread turns every page there is, again and again.
+// The fetch thread reads and evicts pages meanwhile.
 TEST_F(RealTimePath, NeitherAllocatesNorLocksNorCallsTheSystemNorFaults) {
   const Model model = sample_.open(sample_.min_budget() + 8 * 4096);
   Probe probe = make_probe(model);

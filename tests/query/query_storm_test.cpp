@@ -1,4 +1,4 @@
-// What check_query_costs counts over ten million asks, over as many as there is time for here.
+// Counts the costs that check_query_costs counts, over far fewer queries than its ten million.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST_P(QueryStorm, TakesNothingButTheProcessor) {
   }
   EXPECT_GE(evicted, 300u);
   EXPECT_GT(degraded, 0u);
-  // Nobody took any.
+  // The trace was never drained.
   EXPECT_EQ(model.stats().page_trace_dropped > 0, GetParam() > 0);
 }
 

@@ -19,7 +19,7 @@ class RealTime : public testing::Test {
   RealTime()
       : sample_(SampleModel::masked(octree::sphere(5))), queries_(random_queries(300, -1.4, 1.4)) {}
 
-  // What an ask that waits says.
+  // Answers of blocking queries.
   std::vector<ClosestPoint> exact_answers() {
     const Model model = sample_.open();
     Probe probe = make_probe(model);
@@ -28,7 +28,7 @@ class RealTime : public testing::Test {
     return answers;
   }
 
-  // Queries again and again, until each of the first `count` answers is exact: then to the bit.
+  // Repeats each of the first `count` queries until its answer is exact, then compares the bits.
   void expect_refined(Probe& probe, std::size_t count) {
     const std::vector<ClosestPoint> exact = exact_answers();
     for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ TEST_F(RealTime, AnswersAtOnceByAnIntervalThatHolds) {
 TEST_F(RealTime, ReadsNothingItself) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  // Fetch threads have not looked yet, or bring what one question needs.
+  // The fetch thread has read nothing for this query yet.
   const ClosestPoint first = probe.closest_point(queries_[0], kAtOnce);
   EXPECT_EQ(first.status, Status::kDegraded);
   EXPECT_GT(model.stats().page_misses, 0u);
@@ -95,7 +95,7 @@ TEST_F(RealTime, TellsSidesAtOnceOrNotAtAll) {
     }
     ++known;
     const double radius = std::sqrt(query.x * query.x + query.y * query.y + query.z * query.z);
-    // The sphere is made of flat faces.
+    // The faces of the sphere are flat.
     if (radius > 0.95 && radius <= 1) continue;
     EXPECT_EQ(answer.side, radius > 1 ? Side::kOutside : Side::kInside);
   }
@@ -109,7 +109,7 @@ TEST_F(RealTime, KeepsTheLastTriangleWhereNothingElseIsKnown) {
   const Vec3 here{1.1, 0.1, 0.2}, beside{1.0, 0.2, 0.35};
   ASSERT_TRUE(
       eventually([&] { return probe.closest_point(here, kAtOnce).status == Status::kExact; }));
-  // The least memory holds few pages, so that those of other places drive these out.
+  // The minimum budget holds few pages, so the pages of other queries evict these.
   for (const Vec3& query : queries_) (void)probe.closest_point(query, {.parts = kDistance});
   const ClosestPoint answer = probe.closest_point(beside, kAtOnce);
   EXPECT_NE(answer.triangle, kNoTriangle);
@@ -125,14 +125,14 @@ TEST_F(RealTime, StopsWhereTheWorkIsSpent) {
   const ClosestPoint answer =
       probe.closest_point({0.01, 0, 0}, {.parts = kDistance, .wait = Wait::kNever, .max_work = 3});
   EXPECT_EQ(answer.status, Status::kDegraded);
-  // All is resident: there is nothing to wish for.
+  // All pages are resident, so there is nothing to request.
   EXPECT_EQ(model.stats().fetch_requests_served, fetch_requests);
 }
 
 TEST_F(RealTime, FetchesWhatAMotionLeadsTo) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
-  // 5 ms ahead, at least, the probe will be at the other end.
+  // At least 5 ms ahead, the probe will be at the other end.
   probe.motion({-1.2, 0, 0}, {2.4 / 0.005, 0, 0});
   ASSERT_TRUE(eventually([&] { return model.stats().positions_prefetched == 4; }));
   EXPECT_EQ(probe.closest_point({1.2, 0, 0}, kAtOnce).status, Status::kExact);

@@ -15,7 +15,7 @@ namespace {
 using query::SeqLock;
 using query::SeqLockStep;
 
-/// One step may be weaker than it ships.
+/// The order of one step may be weakened.
 struct ExploredSeqLock {
   template <class T>
   using Atomic = explorer::Atomic<T>;
@@ -30,7 +30,7 @@ struct Twice {
   std::uint64_t value = 0, again = 0;
 };
 
-/// One thread gives 1 and 2, the others look for each.
+/// One thread gives 1 and 2; the others try to take both.
 class SeqLockProgram final : public Program {
  public:
   SeqLockProgram(std::uint32_t takers, std::uint64_t& lasts_taken)

@@ -1,4 +1,4 @@
-// Disks that fail, or take their time, while answers must be on time.
+// Disks that fail or stall while answers must be on time.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr QueryOptions kNow{.wait = Wait::kNever};
 
-/// A disk that can be made to stand still, or to fail; and whether the system has what is on it
+/// A disk that can be made to stall or to fail. The flags also say whether the system has its bytes
 /// in memory.
 class MoodyDisk final : public storage::FileCalls {
  public:
@@ -30,10 +30,10 @@ class MoodyDisk final : public storage::FileCalls {
   std::atomic<bool> is_in_memory{false};
   std::atomic<int> waiting{0};
   std::atomic<int> reads{0};
-  std::atomic<int> looks{0};  ///< and calls that tell what will be wanted
+  std::atomic<int> looks{0};  ///< non-blocking reads and read-ahead advice
   std::atomic<bool> gives_what_is_waited_for{false};
   std::atomic<int> rings{0};
-  std::atomic<int> waits{0};  ///< by rings
+  std::atomic<int> waits{0};  ///< waits on rings
   std::atomic<std::int64_t> longest_wait_ns{0};
 
   int posix_fadvise(int, off_t, off_t, int) noexcept override {
@@ -92,7 +92,7 @@ class StuckDisk : public testing::Test {
     return *std::move(model);
   }
 
-  // Every query once; how many answers were degraded.
+  // Makes every query once; returns the number of degraded answers.
   std::size_t query_all(Probe& probe) {
     std::size_t degraded = 0;
     for (const Vec3& query : queries_) {
@@ -114,7 +114,7 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   disk_.stands_still = true;
   EXPECT_GT(query_all(probe), 0u);
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
-  // A page is being read now, and will be for as long as this takes.
+  // A page is being read now, and will be until the disk continues.
   const std::uint64_t read = model.stats().pages_read;
   for (int round = 0; round < 3; ++round) EXPECT_GT(query_all(probe), 0u);
   EXPECT_EQ(model.stats().pages_read, read);
@@ -122,7 +122,8 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   disk_.stands_still = false;
   EXPECT_TRUE(
       eventually([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
-  // Queries that do not wait leave even that to others, who wait in any case.
+  // Real-time queries do not even read without blocking. They leave that to the fetch threads,
+  // which may block.
   EXPECT_EQ(disk_.looks, 0);
 }
 
@@ -144,7 +145,7 @@ TEST_F(StuckDisk, HoldsUpThoseThatWait) {
   EXPECT_TRUE(answered);
 }
 
-// No other thread reads what the disk gives in time.
+// No other thread reads pages that the disk gives in time.
 TEST_F(StuckDisk, IsWaitedForByTheAskItself) {
   if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
   const Model model = open(std::uint64_t{64} << 20);
@@ -159,7 +160,7 @@ TEST_F(StuckDisk, IsWaitedForByTheAskItself) {
   EXPECT_EQ(disk_.rings, 1);
 }
 
-// Descriptors are not the model's alone.
+// File descriptors belong to the whole process, so a model uses few rings.
 TEST_F(StuckDisk, IsWaitedForByFewAtATime) {
   if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
   constexpr unsigned kProbes = 20;
@@ -191,11 +192,11 @@ TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
     const ClosestPoint answer = probe.closest_point(queries_[0]);
     EXPECT_EQ(answer.status, Status::kDegraded);
     EXPECT_TRUE(sample_.interval_holds(answer, queries_[0]));
-    // It waits for one page, not for one after the other.
+    // A query waits for one page in vain, not for several in turn.
     EXPECT_EQ(model.stats().waits_given_up, queried);
   }
   EXPECT_EQ(model.stats().degraded_answers, 3u);
-  const Vec3 near_surface{0.6, 0.8, 0.001};  // where no colour tells
+  const Vec3 near_surface{0.6, 0.8, 0.001};  // not in a cell of one colour
   EXPECT_EQ(probe.contains(near_surface).status, Status::kDegraded);
   disk_.stands_still = false;
   ASSERT_TRUE(eventually([&] { return disk_.waiting == 0; }));
@@ -204,7 +205,7 @@ TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
       eventually([&] { return probe.closest_point(queries_[0]).status == Status::kExact; }));
 }
 
-// Others' pages are read meanwhile, by those who want them: one page at most is stuck.
+// Queries read other pages meanwhile; at most one page is stuck.
 TEST_F(StuckDisk, DoesNotMatterToPagesThatTheSystemHas) {
   const Model model = open(std::uint64_t{64} << 20, 20);
   Probe stuck = make_probe(model), lucky = make_probe(model);
@@ -251,12 +252,12 @@ TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
   EXPECT_GT(query_all(probe), 0u);
 }
 
-// What is known of a page that is missing is the box of what is there.
+// The boxes of a missing page's content are known.
 TEST_F(StuckDisk, BoundsTheDistanceFromAboveToo) {
   const Model model = open(std::uint64_t{64} << 20);
   Probe probe = make_probe(model);
   disk_.stands_still = true;
-  // The sphere's sample vertex is opposite.
+  // The sphere's sample vertex is on the opposite side.
   const Vec3 beside{-1.5, 0, 0};
   const ClosestPoint answer =
       probe.closest_point(beside, {.parts = kDistance, .wait = Wait::kNever});

@@ -15,8 +15,8 @@ namespace {
 
 constexpr unsigned kThreads = 16;
 
-// Every thread asks everything, each beginning elsewhere, and with hardly any
-// memory: pages are taken from under one thread by another all the time.
+// Every thread makes all queries, each starting elsewhere, with hardly any memory: the threads
+// evict each other's pages all the time.
 TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
   const SampleModel sample(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(400, -1.3, 1.3);
@@ -55,7 +55,7 @@ TEST(Threads, GetThemWhicheverPageGoesFirst) {
   for (const cache::Policy policy : {cache::Policy::kClock, cache::Policy::kLru}) {
     OpenOptions options;
     options.max_probes = 4;
-    // Uses take some bytes more than scores.
+    // The use times of LRU take some bytes more than the scores of CLOCK.
     options.memory_budget_bytes = sample.min_budget(4) + 4096;
     const auto model =
         ModelState::open_model(sample.path(), options, {.starts_fetching = true, .policy = policy});
@@ -74,7 +74,7 @@ TEST(Threads, GetThemWhicheverPageGoesFirst) {
   for (const std::vector<AnswerBits>& others : answers) EXPECT_EQ(others, answers.front());
 }
 
-// Those that do not wait have pages fetched for them, of which those that wait evict some.
+// Fetch threads read pages for the real-time queries, and the blocking queries evict some of them.
 TEST(Threads, WaitOrDoNotWaitSideBySide) {
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(60, -1.3, 1.3);

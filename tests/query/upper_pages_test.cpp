@@ -7,7 +7,7 @@
 #include "query/model_state.h"
 #include "tests/query/sample_model.h"
 
-// Pages on the way to others stay where memory is short.
+// Pages that link to others stay in memory where it is short.
 namespace planetree::query {
 namespace {
 
@@ -26,7 +26,8 @@ std::uint64_t pages_read(const SampleModel& sample, cache::Policy policy) {
   return model->stats().pages_read;
 }
 
-// LRU knows no upper pages; where all are lower ones, CLOCK reads as many as it does.
+// LRU does not distinguish upper pages. If CLOCK did not either, it would read as many pages as
+// LRU.
 TEST(UpperPages, StayWhereMemoryIsShort) {
   const SampleModel sample(octree::sphere(6), kPageBytes);
   const std::uint64_t clock = pages_read(sample, cache::Policy::kClock);

@@ -36,7 +36,7 @@ class CgalSide::Mesh {
       if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0])
         faces.push_back(std::move(face));
     }
-    pmp::orient_polygon_soup(points, faces);  // parts vertices where surfaces touch
+    pmp::orient_polygon_soup(points, faces);  // splits vertices where surfaces touch
     if (!pmp::is_polygon_soup_a_polygon_mesh(faces)) return;
     pmp::polygon_soup_to_polygon_mesh(points, faces, mesh_);
     if (CGAL::is_closed(mesh_)) side_.emplace(mesh_);

@@ -11,13 +11,13 @@ namespace planetree::oracle {
 /// Sides by CGAL's Side_of_triangle_mesh, with exact predicates.
 class CgalSide {
  public:
-  /// A closed surface; corners at equal positions are one vertex.
+  /// Takes a closed surface; corners at equal positions are one vertex.
   explicit CgalSide(std::span<const Corners> triangles);
   ~CgalSide();
   CgalSide(const CgalSide&) = delete;
   CgalSide& operator=(const CgalSide&) = delete;
 
-  /// Whether CGAL takes the triangles for a closed mesh; if not, ask nothing.
+  /// Whether CGAL accepts the triangles as a closed mesh; if not, side() must not be called.
   [[nodiscard]] bool usable() const;
   [[nodiscard]] Side side(const Vec3& query) const;
 

@@ -1,5 +1,5 @@
-// Holds the answers of `planetree query` against every triangle of the mesh, which need not
-// fit into memory if it is a binary one.
+// Compares the answers of `planetree query` with every triangle of the mesh. A binary mesh need not
+// fit into memory.
 // usage: check_answers MESH ANSWERS.csv [COUNT]
 // Checks the first COUNT answers (default: all). Exit status 1 if any is wrong.
 

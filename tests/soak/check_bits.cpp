@@ -1,10 +1,9 @@
-// Digests of answers and of built files, to compare compilers and processors.
+// Prints digests of answers and of built files, to compare compilers and processors.
 // usage: check_bits [COUNT] [--target NAME]
 //        check_bits --compare COUNT
-// COUNT asks, shared out among the models; default: a million. NAME is an
-// instruction set as Highway calls it. --compare runs this program once for
-// every instruction set at hand and once with a libm for old processors; exit
-// status 1 if they do not agree.
+// COUNT queries are distributed over the models; default: a million. NAME is an instruction set as
+// Highway calls it. --compare runs this program once for every instruction set available and once
+// with a libm for old processors; exit status 1 if the digests differ.
 
 #include <hwy/highway.h>
 
@@ -45,7 +44,7 @@ void use_only(std::string_view name) {
   give_up("no instruction set " + std::string(name) + " here");
 }
 
-// What is digested, collected in two files.
+// The answers and the built files to digest, collected in two files.
 class Collection {
  public:
   Collection() : answers_(folder_ / "answers"), files_(folder_ / "files") {}
@@ -87,7 +86,7 @@ void collect(std::size_t queries, Collection& collection) {
       collection.add(model.built.probe().contains(query));
     }
   }
-  // And a tree of many levels.
+  // A tree of many levels.
   BuiltModel large(ball(6), {4096, 1 << 22, 1});
   collection.add_file(large.path());
   Random random(7);

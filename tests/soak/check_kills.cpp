@@ -1,4 +1,4 @@
-// Kills a great many builds and looks at what each leaves.
+// Kills many builds and checks what each leaves behind.
 
 #include <cstdio>
 #include <cstdlib>

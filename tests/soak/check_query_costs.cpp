@@ -1,10 +1,10 @@
-// Counts what asks that do not wait take besides the processor.
+// Counts the costs of real-time queries besides processor time.
 // usage: check_query_costs MODEL.ptree [QUERIES]
 //
-// Ten million by default, with the least memory that the model opens with, each at another place
-// anywhere in its box, as fast as they go: every page is evicted again and again meanwhile. Exit
-// status 1 if the asking thread allocated, took a lock, called the system or faulted a page in,
-// or if the process grew or the model took more than its budget.
+// Makes QUERIES queries, ten million by default, with the minimum memory that the model opens with,
+// each at another point anywhere in its box, as fast as possible: every page is evicted again and
+// again meanwhile. Exit status 1 if the querying thread allocated, took a lock, made a system call
+// or faulted a page in, or if the process grew or the model exceeded its budget.
 
 #include <cstdio>
 #include <cstdlib>
@@ -19,7 +19,7 @@
 namespace planetree::query {
 namespace {
 
-// The error names it.
+// The minimum budget that the model opens with, as the error names it.
 std::uint64_t min_budget(const std::string& file, OpenOptions options) {
   options.memory_budget_bytes = 1;
   const auto refused = Model::open(file, options);
@@ -42,7 +42,7 @@ std::vector<Vec3> places_in(const ModelInfo& info, std::size_t count) {
   return points;
 }
 
-// Whether it is none.
+// Prints a count; returns whether it is 0.
 bool report(const char* what, std::uint64_t count) {
   std::printf("  %-28s %llu\n", what, static_cast<unsigned long long>(count));
   return count == 0;

@@ -1,7 +1,7 @@
-// Queries nasty models at random and judges every answer.
+// Makes random queries to nasty models and judges every answer.
 // usage: check_random [COUNT]
-// COUNT asks, shared out among the models; default: a million. Exit status 1 if
-// any answer is wrong.
+// COUNT queries are distributed over the models; default: a million. Exit status 1 if any answer is
+// wrong.
 
 #include <algorithm>
 #include <cstdio>

@@ -1,8 +1,8 @@
-// Holds the answers on real meshes against CGAL and brute force.
+// Compares the answers on real meshes with those of CGAL and brute force.
 // usage: check_real FOLDER [FOLDER] [NAME...]
-// NAME is a mesh without .ply; default: those of kMeshes and every other in the
-// folders. A mesh is looked for in the folders, then in planetree-data in the
-// temporary folder. Exit status 1 if any answer is wrong or a mesh is missing.
+// NAME is a mesh without .ply; default: the meshes of kMeshes and all others in the folders. Meshes
+// are searched for in the folders, then in planetree-data in the temporary directory. Exit status 1
+// if any answer is wrong or a mesh is missing.
 
 #include <algorithm>
 #include <array>
@@ -36,12 +36,12 @@ constexpr std::string_view kMeshes[] = {"nefertiti_70k", "skull_100k", "lion_63k
                                         "motorbike_332k_nonmanifold", "ct_air_6.6M"};
 constexpr std::string_view kPagedMesh = "ct_air_6.6M";
 constexpr std::size_t kQueriesPerKind = 10000;
-constexpr std::size_t kTieChecks = 20;   // by looking at every triangle
-constexpr double kAllowedShare = 1e-12;  // of the diagonal
+constexpr std::size_t kTieChecks = 20;   // against every triangle
+constexpr double kAllowedShare = 1e-12;  // maximum error / diagonal
 constexpr std::uint64_t kLargeBudgetBytes = std::uint64_t{4} << 30;
 constexpr std::uint64_t kProgramBytes = std::uint64_t{40} << 20;
 
-// The triangles of a mesh, by index; those set aside are nowhere.
+// The triangles of a mesh, by index. Skipped triangles are an error.
 class MeshTriangles final : public octree::TriangleSink {
  public:
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
@@ -64,7 +64,7 @@ double diagonal_of(const ModelInfo& info) {
                     info.box_upper.z - info.box_lower.z);
 }
 
-// Half of them in the box and a tenth around it, half near the surface.
+// Half of the queries in the box enlarged by a tenth, half near the surface.
 std::vector<Vec3> make_queries(const ModelInfo& info, const std::vector<Corners>& triangles) {
   Random random(20240601);
   const auto anywhere = [&](double low, double high) {
@@ -86,7 +86,7 @@ std::vector<Vec3> make_queries(const ModelInfo& info, const std::vector<Corners>
   return queries;
 }
 
-// Ways straight through the model, a twentieth of a percent of its diagonal a step.
+// Straight paths through the model, in steps of a twentieth of a percent of its diagonal.
 std::vector<Vec3> make_path(const ModelInfo& info, const std::vector<Corners>& triangles) {
   Random random(20240602);
   const double step = 0.0005 * diagonal_of(info);
@@ -106,10 +106,10 @@ std::vector<Vec3> make_path(const ModelInfo& info, const std::vector<Corners>& t
   return path;
 }
 
-// Counts of what went wrong on one mesh.
+// Counts of the faults on one mesh.
 struct Misses {
   std::size_t status = 0, distance = 0, interval = 0, triangle = 0, tie = 0, side = 0, paging = 0;
-  double worst_share = 0;  // of kAllowedShare
+  double worst_share = 0;  // largest error divided by the error allowed
 
   [[nodiscard]] std::size_t all() const {
     return status + distance + interval + triangle + tie + side + paging;
@@ -137,8 +137,8 @@ class MeshCheck {
     for (std::size_t i = 0; i < kTieChecks; ++i) judge_tie(i * (queries_.size() / kTieChecks));
   }
 
-  // Sides, on a path besides: of a watertight mesh against CGAL, unless that does
-  // not take it for a closed mesh, and of any other against brute force.
+  // Checks sides, on a path as well: of a watertight mesh with CGAL, unless CGAL does not accept it
+  // as a closed mesh, and of any other with brute force.
   void run_sides() {
     const std::vector<Vec3> path = make_path(info_, triangles_);
     const std::vector<ClosestPoint> on_path = answers_of(tree_, kLargeBudgetBytes, path);
@@ -157,7 +157,7 @@ class MeshCheck {
     sides_ = path.size() + queries_.size();
   }
 
-  // The same bits with hardly any memory, and no more memory than that.
+  // Checks that the bits are the same in little memory, and that no more memory than that is used.
   void run_paged() {
     const PagedAnswers paged = query_in_new_process(tree_, tree_.parent_path(), queries_);
     resident_bytes_ = paged.peak_resident_bytes;
@@ -188,7 +188,7 @@ class MeshCheck {
       ++misses_.triangle;
       return;
     }
-    // Long double, of the triangle that the input has under this index.
+    // In long double, to the triangle with this index in the input.
     const long double own = extended_distance(queries_[i], triangles_[answer.triangle]);
     misses_.triangle += !(std::fabs(own - truth) <= allowed);
     const long double nearest = std::min(own, truth);
@@ -197,8 +197,8 @@ class MeshCheck {
           answer.distance <= answer.upper && answer.lower <= answer.distance);
   }
 
-  // By every triangle, quickly, and with care where the answer differs. Nothing is
-  // asked of points whose winding number is within a thousandth of one half.
+  // Sums over every triangle quickly, and precisely where the answer differs. Points whose winding
+  // number is within a thousandth of one half are not judged.
   void judge_open_side(const Vec3& query, Side side) {
     constexpr double kMinDifference = 0.001;
     const auto certain = [](double w) { return std::fabs(std::fabs(w) - 0.5) > kMinDifference; };
@@ -213,7 +213,7 @@ class MeshCheck {
       misses_.side += side != of(value);
   }
 
-  // Of the least index among triangles whose value has the same bits.
+  // Checks that the index is the least among triangles whose values have the same bits.
   void judge_tie(std::size_t i) {
     const auto point = [](const Vec3& p) { return octree::Point(p.x, p.y, p.z); };
     double least = std::numeric_limits<double>::infinity();
@@ -238,7 +238,7 @@ class MeshCheck {
   std::vector<Vec3> queries_;
   std::vector<ClosestPoint> answers_;
   std::size_t thin_ = 0;
-  std::size_t sides_ = 0;  // compared
+  std::size_t sides_ = 0;  // number of sides compared
   std::uint64_t resident_bytes_ = 0;
   Misses misses_;
 };
@@ -251,7 +251,7 @@ fs::path find_mesh(const std::vector<fs::path>& folders, std::string_view name) 
   return {};
 }
 
-// The real meshes, whether they are there or not, and all others that are.
+// The real meshes, whether they exist or not, and all other meshes in the folders.
 std::vector<std::string> all_names(const std::vector<fs::path>& folders) {
   std::set<std::string> names(std::begin(kMeshes), std::end(kMeshes));
   for (const fs::path& folder : folders)

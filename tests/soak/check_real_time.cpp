@@ -1,11 +1,10 @@
-// Holds answers that did not wait for pages against ones that did.
+// Compares real-time answers with those of blocking queries.
 // usage: check_real_time MODEL.ptree [QUERIES]
 //
-// Budgets of 5, 10, 25 and 50 % of what the whole model takes (of a small one, those that it opens
-// with), each way that a tip moves, by a disk that is well, one that stalls and one that fails,
-// while another probe has pages brought and others evicted: every interval must hold the true
-// distance, and an answer that calls itself exact must be the exact one to the last bit. Exit
-// status 1 if any is wrong.
+// Runs budgets of 5, 10, 25 and 50 % of the memory of the whole model (of a small model, those that
+// it opens with), each motion of a tip, and a disk that is healthy, stalls or fails, while another
+// probe causes pages to be read and evicted. Every interval must hold the true distance, and an
+// exact answer must have the bits of the exact one. Exit status 1 if any answer is wrong.
 
 #include <atomic>
 #include <cerrno>
@@ -39,8 +38,8 @@ const char* name_of(Health health) {
   return health == Health::kWell ? "well" : health == Health::kStalls ? "stalls" : "fails";
 }
 
-// Once it is hindered, a disk has nothing at once, and of every so many bytes of it those at some
-// places take long or cannot be read.
+// A disk that, once hindered, has no bytes in the system's memory; in one of every kEvery stretches
+// its reads stall or fail.
 class Disk final : public storage::FileCalls {
  public:
   explicit Disk(Health health) : health_(health) {}
@@ -67,7 +66,7 @@ class Disk final : public storage::FileCalls {
   const Health health_;
 };
 
-// Queries of any of some points that wait for pages, until it ends.
+// Makes blocking queries of some points at random until it is destroyed.
 class Rival {
  public:
   Rival(const Model& model, const std::vector<Vec3>& points)
@@ -84,7 +83,7 @@ class Rival {
 
  private:
   std::atomic<bool> stops_{false};
-  std::thread thread_;  // last: it looks at what is before it
+  std::thread thread_;  // last: it uses the members above
 };
 
 bool agrees(const ClosestPoint& answer, const ClosestPoint& exact) {
@@ -94,7 +93,7 @@ bool agrees(const ClosestPoint& answer, const ClosestPoint& exact) {
          answer.upper >= exact.lower && answer.distance >= exact.lower;
 }
 
-// Queries nothing where a model does not open with so little memory.
+// Makes no queries if the model does not open with so little memory.
 Count check(const std::string& file, std::uint64_t budget_bytes, Health health,
             const std::vector<Vec3>& path, const std::vector<ClosestPoint>& exact) {
   OpenOptions options;

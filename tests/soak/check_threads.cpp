@@ -1,12 +1,13 @@
-// Readers and a writer of the cache at full speed: is every word of the page asked for?
+// Runs readers and a writer of the cache at full speed and checks that every word read is of the
+// requested page.
 // usage: check_threads [QUERIES INSTALLS]
 //        check_threads --weakened NAME
 //
-// The first has the protocol's own classes do 10 million asks against a million installs at
-// least, and then a whole PageCache; exit status 1 if a word is wrong. Built with a thread
-// sanitizer, a data race ends it with status 66. The second runs the classes with one order
-// weakened, or one mistake of the writer's, until something is wrong: what it does not find by
-// then, it does not see on this processor. --list names those.
+// The first form runs at least 10 million queries and a million installs on the protocol's own
+// classes, then on a whole PageCache; exit status 1 if a word is wrong. Built with a thread
+// sanitizer, a data race ends it with status 66. The second form runs the classes with one memory
+// order weakened, or with one mistake of the writer, until a word is wrong; a fault that it does
+// not find by then does not show on this processor. --list prints the names.
 
 #include <cstdio>
 #include <cstdlib>
@@ -57,7 +58,7 @@ const std::map<std::string, Stress>& wrong_ways() {
   return all;
 }
 
-// Whether no word was wrong.
+// Prints the counts; returns whether no word was wrong.
 bool report(const char* what, const StressCount& count) {
   std::printf("%s: %llu queries found %llu pages, %llu installs, %llu wrong\n", what,
               static_cast<unsigned long long>(count.queries),
@@ -82,8 +83,7 @@ int run(std::uint64_t queries, std::uint64_t installs) {
     const std::string what = "protocol, " + std::to_string(readers) + " readers";
     right &= report(what.c_str(), stress_protocol(goal));
   }
-  // The thread that fetches sleeps where a reader stands still inside a section: each wants a
-  // processor.
+  // A fetch sleeps while a reader is stopped inside a section, so each thread needs a processor.
   const StressGoal goal{.readers = 1, .queries = queries, .installs = installs};
   right &= report("page cache, 1 reader", stress_page_cache(goal));
   return right ? 0 : 1;

@@ -40,8 +40,8 @@ std::vector<T> load(const fs::path& path) {
   return values;
 }
 
-// Greatest resident memory since this program was started. Not getrusage: that
-// counts the memory of who started it, too.
+// Peak resident memory since this program was started. Not from getrusage(), which includes the
+// memory of the process that started it.
 std::uint64_t peak_resident_bytes() {
   std::ifstream file("/proc/self/status");
   std::string word;

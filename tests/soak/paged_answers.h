@@ -10,8 +10,8 @@
 #include "planetree/types.h"
 #include "tests/query/answer_bits.h"
 
-/// ClosestPointQuery with much memory, and with little in a process of its own, so that
-/// its memory can be measured. For check_real: what fails ends the program.
+/// Answers with much memory, and with little memory in a process of its own, so that the memory can
+/// be measured. For check_real; a failure ends the program.
 namespace planetree::oracle {
 
 inline constexpr std::uint64_t kSmallBudgetBytes = std::uint64_t{32} << 20;
@@ -27,23 +27,22 @@ T need(Result<T> result, const char* what) {
   return std::move(*result);
 }
 
-/// One answer per query, by one probe.
+/// Returns one answer for each query, by one probe.
 std::vector<ClosestPoint> answers_of(const std::filesystem::path& tree, std::uint64_t budget_bytes,
                                      const std::vector<Vec3>& queries);
 
 struct PagedAnswers {
   std::vector<AnswerBits> answers;
-  std::uint64_t peak_resident_bytes = 0;  ///< of the process that asked
+  std::uint64_t peak_resident_bytes = 0;  ///< of the process that queried
 };
 
-/// Starts this program again to ask within kSmallBudgetBytes. `folder` takes
-/// what the two tell each other.
+/// Starts this program again to query within kSmallBudgetBytes. The two processes exchange files in
+/// `folder`.
 PagedAnswers query_in_new_process(const std::filesystem::path& tree,
                                   const std::filesystem::path& folder,
                                   const std::vector<Vec3>& queries);
 
-/// What the program started so does: its arguments, from the first on, are
-/// "--ask" and two paths.
+/// Entry point of the process started this way: its arguments are "--query" and two paths.
 bool is_new_process(int count, char** arguments);
 int run_new_process(char** arguments);
 

@@ -9,7 +9,7 @@
 
 namespace planetree::explorer {
 
-/// Stands in for std::atomic of an integer or bool in a Program.
+/// Replaces std::atomic of an integer or bool in an explored Program.
 template <class T>
 class Atomic {
   static_assert(std::is_integral_v<T>);
@@ -35,8 +35,8 @@ class Atomic {
   std::size_t atomic_;
 };
 
-/// An ordinary variable that threads may share: two accesses, one of them a
-/// write, of which neither happens before the other, fail the run.
+/// An ordinary variable that threads may share. The run fails on a data race: two accesses, at
+/// least one of them a write, neither of which happens before the other.
 template <class T>
 class Plain {
  public:
@@ -58,7 +58,7 @@ class Plain {
   T value_;
 };
 
-/// Stands in for std::mutex.
+/// Replaces std::mutex in an explored Program.
 class Mutex {
  public:
   void lock() { Execution::current().lock(held_, told_); }

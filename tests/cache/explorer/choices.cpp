@@ -6,7 +6,7 @@ namespace planetree::explorer {
 
 std::uint32_t EveryChoice::decide(std::uint32_t count) {
   if (depth_ == path_.size()) path_.push_back({0, count});
-  // Runs are the same until they choose differently.
+  // Runs that chose the same so far are the same.
   assert(path_[depth_].count == count);
   return path_[depth_++].chosen;
 }

@@ -5,23 +5,23 @@
 
 namespace planetree::explorer {
 
-/// Decides, again and again, one of several ways for a run to go on.
+/// Decides how a run continues wherever it can continue in several ways.
 class Choices {
  public:
   virtual ~Choices() = default;
 
-  /// One of 0 ... count - 1.
+  /// Returns one of 0 ... count - 1.
   std::uint32_t choose(std::uint32_t count) { return count == 1 ? 0 : decide(count); }
 
-  /// Prepares for another run; false if there is none left.
+  /// Prepares for the next run; false if there is none left.
   virtual bool next_run() = 0;
 
  private:
   virtual std::uint32_t decide(std::uint32_t count) = 0;
 };
 
-/// Every run once, depth first: each repeats the last one up to the latest
-/// choice that has another way left.
+/// Enumerates every run once, depth first. Each run repeats the previous one up to the last choice
+/// that has an alternative left.
 class EveryChoice final : public Choices {
  public:
   bool next_run() override;
@@ -37,7 +37,7 @@ class EveryChoice final : public Choices {
   std::size_t depth_ = 0;
 };
 
-/// A number of runs with each way equally likely, the same on every machine.
+/// Makes a fixed number of runs with every alternative equally likely; the same on every machine.
 class RandomChoice final : public Choices {
  public:
   RandomChoice(std::uint64_t runs, std::uint64_t seed) noexcept : runs_left_(runs), state_(seed) {}

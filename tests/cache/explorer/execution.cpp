@@ -8,7 +8,7 @@ namespace {
 
 Execution* the_current = nullptr;
 
-// Times have 16 bits. No program here comes near; one that does never ends.
+// Step numbers have 16 bits. No program here comes near this limit unless a thread never ends.
 constexpr std::uint16_t kMaxSteps = 10'000;
 
 const char* name_of(std::memory_order order) noexcept {
@@ -59,8 +59,8 @@ bool Execution::run(const MakeProgram& make) {
   return why_failed_ == nullptr;
 }
 
-// What sets the program up takes its steps in the name of thread 0, as if this
-// started the others; and so does what finishes it, as if it joined them.
+// Setting up and finishing the program count as steps of thread 0, as if it started and joined the
+// others.
 void Execution::start_threads() {
   thread_count_ = program_->thread_count();
   assert(thread_count_ <= kMaxThreads);
@@ -76,7 +76,7 @@ void Execution::join_threads() {
   for (std::uint32_t i = 1; i < thread_count_; ++i) memory_.learn(0, memory_.tell(i));
 }
 
-// A fiber lives as long as its stack, and runs one thread of each run.
+// A fiber lives as long as its stack and runs one thread in each run.
 void Execution::fiber_body() {
   for (;;) current().run_thread();
 }
@@ -96,8 +96,8 @@ bool Execution::may_go_on(std::uint32_t thread) const noexcept {
   return !one.ended && (one.awaited_mutex == nullptr || !*one.awaited_mutex);
 }
 
-/// Decides who runs next; false if nobody may go on. The running thread counts
-/// only if it may stay, and to stop it is then one of the stops.
+/// Chooses the thread that runs next; false if no thread can run. The running thread is a candidate
+/// only if it may stay; switching away from it then counts as a preemption.
 bool Execution::choose_thread(bool may_stay) {
   if (may_stay && stops_left_ == 0) return true;
   std::array<std::uint32_t, kMaxThreads> able;
@@ -184,7 +184,7 @@ void Execution::unlock(bool& held, Knowledge& knowledge) {
 
 void Execution::fail(const char* why) {
   if (why_failed_ == nullptr) why_failed_ = why;
-  // The other fibers stay where they are, for ever.
+  // The other fibers stay suspended for good.
   if (threads_run_) fibers_.switch_to_maker();
 }
 

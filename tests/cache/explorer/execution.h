@@ -18,31 +18,29 @@ namespace planetree::explorer {
 
 using MakeProgram = std::function<std::unique_ptr<Program>()>;
 
-/// Executes a program, one run after the other, as `choices` say: which thread
-/// goes on, and which store a load returns.
+/// Executes a program, one run after the other. `choices` decides which thread runs next and which
+/// store a load returns.
 ///
-/// Another thread can go on only after a deed, which is what others may notice:
-/// a store, an exchange, a lock or an unlock. A load is none, and might as well
-/// have come later, directly before the next deed of its thread: it could still
-/// return the same store, because stores stay visible however many follow, and
-/// perhaps a newer one. Nor is a plain access: if it races, then whichever of
-/// the two comes first. So nothing is lost, and runs are fewer by far.
+/// Threads are switched only after a visible step: a store, an exchange, a lock or an unlock. A
+/// load need not be a switch point. It could equally be executed later, directly before the next
+/// visible step of its thread: there it may still return the same store, because older stores stay
+/// readable, or a newer one. A plain access need not be one either: a race is found whichever
+/// access comes first. So no behaviour is lost, and far fewer runs are needed.
 class Execution {
  public:
-  /// In each run, at most `stops` times is a thread stopped that could have
-  /// gone on.
+  /// The second argument limits how often, in each run, a thread that could continue is preempted.
   Execution(Choices& choices, std::uint32_t stops);
   ~Execution();
 
-  /// False if the run failed, after which no other may follow.
+  /// Executes one run. False if it failed; no other run may follow then.
   bool run(const MakeProgram& make);
 
-  /// Why, and the steps that led there.
+  /// Reason for the failure and the steps that led to it; empty if no run failed.
   std::string failure() const;
 
-  // The rest is for Atomic, Plain, Mutex and programs.
+  // For Atomic, Plain, Mutex and programs only.
 
-  /// The one there is.
+  /// The execution in progress; there is at most one.
   static Execution& current() noexcept;
 
   std::size_t add_atomic(std::uint64_t value) { return memory_.add_atomic(value); }
@@ -54,21 +52,20 @@ class Execution {
   void read_plain(std::size_t plain);
   void write_plain(std::size_t plain);
 
-  /// `told` is what the mutex's last holder knew.
+  /// `knowledge` is what the last holder of the mutex knew when it unlocked.
   void lock(bool& held, const Knowledge& knowledge);
   void unlock(bool& held, Knowledge& knowledge);
 
-  /// Lets another thread go on, if there is one.
+  /// Lets another thread run, if one can.
   void yield();
 
-  /// Each of 0 ... count - 1, in different runs: for what a program may decide
-  /// in any way.
+  /// Returns each of 0 ... count - 1, in different runs. For decisions that a program leaves open.
   std::uint32_t choose(std::uint32_t count) { return choices_.choose(count); }
 
-  /// Ends the run as failed; returns only when no thread runs.
+  /// Ends the run as failed. Returns only if no thread is running.
   void fail(const char* why);
 
-  /// A line for the trace; `what` is a literal.
+  /// Adds a line to the trace; `what` is a string literal.
   void note(const char* what, std::uint64_t number);
 
  private:
@@ -85,8 +82,8 @@ class Execution {
 
   struct Thread {
     bool ended = true;
-    bool did_a_deed = false;              ///< since others could last run
-    const bool* awaited_mutex = nullptr;  ///< whether it is held
+    bool did_a_deed = false;              ///< visible step since other threads could last run
+    const bool* awaited_mutex = nullptr;  ///< whether that mutex is held; nullptr: waits for none
   };
 
   Choices& choices_;
@@ -99,7 +96,7 @@ class Execution {
   std::array<Thread, kMaxThreads> threads_;
   std::uint32_t thread_count_ = 0;
   std::uint32_t running_ = 0;
-  bool threads_run_ = false;  ///< else the program is being set up, or finishes
+  bool threads_run_ = false;  ///< false while the program is set up or finishes
   std::uint32_t stops_left_ = 0;
   const char* why_failed_ = nullptr;
 };

@@ -7,9 +7,9 @@
 
 namespace planetree::explorer {
 
-/// How much tests explore where it is not every run. Less in builds with
-/// asserts, which include those with sanitizers: they are slow, and the
-/// explorer, being one thread of the system, gives them nothing to find.
+/// Amount of exploration where exploring every run would take too long. Smaller in builds with
+/// asserts, which include those with sanitizers: they are slow, and the explorer runs on one system
+/// thread, so sanitizers have nothing to find in it.
 #ifdef NDEBUG
 inline constexpr std::uint32_t kFewStops = 3;
 inline constexpr std::uint64_t kRandomRuns = 50'000;
@@ -18,21 +18,21 @@ inline constexpr std::uint32_t kFewStops = 2;
 inline constexpr std::uint64_t kRandomRuns = 5'000;
 #endif
 
-/// More stops than any program has steps.
+/// More preemptions than any program has steps.
 inline constexpr std::uint32_t kAnyStops = ~std::uint32_t{0};
 
-/// What came of exploring a program.
+/// Result of an exploration.
 struct Report {
   std::uint64_t runs = 0;
-  std::string failure;  ///< of the last run, with its steps; empty if none failed
+  std::string failure;  ///< reason and steps of the failed run; empty if none failed
 };
 
-/// Executes every run of a program in which threads that could have gone on are
-/// stopped at most `stops` times, each with every store that its loads can
-/// return; up to the first that fails. Few stops show most mistakes.
+/// Executes every run with a limited number of preemptions, that is switches away from a thread
+/// that could continue, and with every store that each load can return. Ends at the first run that
+/// fails. Few preemptions reveal most mistakes.
 Report explore_all(const MakeProgram& make, std::uint32_t stops);
 
-/// Executes `runs` of them at random, with any number of stops.
+/// Executes `runs` random runs, with any number of preemptions.
 Report explore_at_random(const MakeProgram& make, std::uint64_t runs, std::uint64_t seed);
 
 }  // namespace planetree::explorer

@@ -1,7 +1,7 @@
 #include "tests/cache/explorer/fibers.h"
 
-// ThreadSanitizer keeps a stack of calls for each thread and has to be told.
-// g++ says by one macro that it is on, clang++ by another.
+// ThreadSanitizer keeps a call stack for each thread and must be informed of switches. g++ and
+// clang++ use different macros to show that it is on.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define PLANETREE_TELLS_TSAN

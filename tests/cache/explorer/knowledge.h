@@ -10,28 +10,28 @@ namespace planetree::explorer {
 inline constexpr std::size_t kMaxThreads = 4;
 inline constexpr std::size_t kMaxAtomics = 32;
 
-/// One step of one thread; a thread's steps are numbered from 1.
+/// One step of one thread. The steps of a thread are numbered from 1.
 struct Step {
   std::uint32_t thread = 0;
   std::uint16_t time = 0;  ///< 0: before all threads began
 };
 
-/// What happens before a point of a run. Each thread has its own; a store with
-/// release hands a copy on, and a load with acquire that reads the store adds
-/// it to its thread's.
+/// The set of steps that happen before a point of a run, as a vector clock. Each thread has one. A
+/// release store saves a copy of it, and an acquire load that reads the store adds that copy to its
+/// own thread's.
 class Knowledge {
  public:
   /// Whether `step` happens before this point.
   bool includes(Step step) const noexcept { return step.time <= times_[step.thread]; }
 
-  /// The last step of a thread that happens before this point: a vector clock.
+  /// The last step of a thread that happens before this point.
   std::uint16_t time_of(std::uint32_t thread) const noexcept { return times_[thread]; }
   void set_time(Step step) noexcept { times_[step.thread] = step.time; }
 
-  /// The oldest store to an atomic that may still be read, by its place in the
-  /// modification order. Whoever knows of a store, or of a load that read it,
-  /// reads no older one. This is all there is to coherence: write-read and
-  /// read-read here; write-write and read-write because a new store goes last.
+  /// The oldest store to an atomic that may still be read, as its index in the modification order.
+  /// A thread that knows of a store, or of a load that read it, reads no older one. This covers all
+  /// of coherence: write-read and read-read by this index, write-write and read-write because a new
+  /// store is always appended.
   std::uint16_t oldest_visible(std::size_t atomic) const noexcept { return oldest_[atomic]; }
   void saw(std::size_t atomic, std::size_t store) noexcept {
     oldest_[atomic] = std::max(oldest_[atomic], static_cast<std::uint16_t>(store));

@@ -46,8 +46,8 @@ Step Memory::next_step(std::uint32_t thread) noexcept {
   return step;
 }
 
-/// The seq_cst operations on an atomic that are ordered, by coherence, before
-/// one that loads `store`: the stores up to it, and the loads of older ones.
+/// The seq_cst operations on an atomic that coherence orders before a load of `store`: the stores
+/// up to it, and the loads of older stores.
 Memory::Set Memory::coherence_before(const History& history, std::size_t store) noexcept {
   Set before = history[store].seq_cst_store;
   for (std::size_t i = 0; i < store; ++i) {
@@ -56,7 +56,8 @@ Memory::Set Memory::coherence_before(const History& history, std::size_t store) 
   return before;
 }
 
-/// Those ordered after one that loads `store`: newer stores, and their loads.
+/// The seq_cst operations that coherence orders after a load of `store`: newer stores and their
+/// loads.
 Memory::Set Memory::coherence_after(const History& history, std::size_t store) noexcept {
   Set after = 0;
   for (std::size_t i = store + 1; i < history.size(); ++i) {
@@ -70,7 +71,7 @@ Memory::Loaded Memory::load(std::uint32_t thread, std::size_t atomic, std::memor
   History& history = histories_[atomic];
   const bool seq_cst = order == std::memory_order_seq_cst;
   const Set strongly_before = seq_cst ? order_.strongly_before(thread, known_[thread]) : 0;
-  // Newest first, so that the first run explored is the one to be expected.
+  // Newest first, so that the first run explored is the expected one.
   candidates_.clear();
   for (std::size_t i = history.size(); i-- > known_[thread].oldest_visible(atomic);) {
     if (!seq_cst || order_.allows(strongly_before | coherence_before(history, i),
@@ -78,7 +79,7 @@ Memory::Loaded Memory::load(std::uint32_t thread, std::size_t atomic, std::memor
       candidates_.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  // The newest is always one: nothing comes after its load yet.
+  // The newest store is always a candidate: nothing is ordered after its load yet.
   const std::size_t found =
       candidates_[choices.choose(static_cast<std::uint32_t>(candidates_.size()))];
   const Step step = next_step(thread);
@@ -91,7 +92,7 @@ Memory::Loaded Memory::load(std::uint32_t thread, std::size_t atomic, std::memor
   return {history[found].value, history.size() - 1 - found};
 }
 
-/// Makes `made` the newest store, after all stores and loads that there were.
+/// Appends `made` as the newest store, ordered after all stores and loads so far.
 void Memory::append(std::uint32_t thread, std::size_t atomic, Store made, std::memory_order order) {
   History& history = histories_[atomic];
   const std::size_t newest = history.size() - 1;
@@ -115,8 +116,8 @@ void Memory::store(std::uint32_t thread, std::size_t atomic, std::uint64_t value
 std::uint64_t Memory::exchange(std::uint32_t thread, std::size_t atomic, std::uint64_t value,
                                std::memory_order order) {
   const Store replaced = histories_[atomic].back();
-  // It goes on with the release sequence that it found: who acquires from it
-  // learns what the replaced store released.
+  // An exchange continues the release sequence of the store it replaces: a thread that acquires
+  // from it also learns what the replaced store released.
   append(thread, atomic, Store{value, replaced.released}, order);
   if (acquires(order)) known_[thread].add(replaced.released);
   return replaced.value;

@@ -12,32 +12,31 @@
 
 namespace planetree::explorer {
 
-/// The memory of one run, as C++20 defines it ([intro.races], [atomics.order]):
-/// an atomic keeps every store ever made to it, and a load may return any that
-/// it cannot rule out. Of plain variables it knows only who touched them when,
-/// to find data races; their values are kept elsewhere.
+/// The memory of one run, as C++20 defines it ([intro.races], [atomics.order]). An atomic keeps
+/// every store ever made to it, and a load may return any store that the standard does not rule
+/// out. Of plain variables only the accesses are recorded, to find data races; their values are
+/// kept elsewhere.
 ///
-/// What it does not show, though the language allows it:
-/// - loads of stores executed later (load buffering; relaxed loads only);
-/// - stores by several threads to one atomic that take their places in its
-///   modification order otherwise than as executed. With one writing thread,
-///   or threads that exclude each other, there is no other way.
-/// Of read-modify-writes it has exchange; it has no fences.
+/// Behaviours that the language allows and this does not show:
+/// - loads of stores that are executed later (load buffering; relaxed loads only);
+/// - modification orders that differ from the order of execution where several threads store to one
+///   atomic. With one writing thread, or with threads that exclude each other, they cannot differ.
+/// The only read-modify-write is exchange. There are no fences.
 class Memory {
  public:
-  /// What a load found.
+  /// Result of a load.
   struct Loaded {
     std::uint64_t value;
-    std::size_t newer_stores;  ///< than the one it returned
+    std::size_t newer_stores;  ///< stores newer than the one returned
   };
 
-  /// Forgets everything.
+  /// Removes all variables and everything known about them.
   void clear() noexcept;
 
   std::size_t add_atomic(std::uint64_t value);
   std::size_t add_plain();
 
-  // A step of a thread each. `thread` is below kMaxThreads.
+  // Each call is one step of a thread. `thread` is below kMaxThreads.
 
   Loaded load(std::uint32_t thread, std::size_t atomic, std::memory_order order, Choices& choices);
   void store(std::uint32_t thread, std::size_t atomic, std::uint64_t value,
@@ -50,8 +49,8 @@ class Memory {
   /// False if this races with a read or a write by another thread.
   [[nodiscard]] bool write_plain(std::uint32_t thread, std::size_t plain);
 
-  /// What a thread knows, for another to learn: mutexes, starts and ends of
-  /// threads.
+  /// Returns what a thread knows, for another thread to learn(): for mutexes, and for starts and
+  /// joins of threads.
   Knowledge tell(std::uint32_t thread);
   void learn(std::uint32_t thread, const Knowledge& knowledge) noexcept;
 
@@ -64,9 +63,9 @@ class Memory {
 
   struct Store {
     std::uint64_t value;
-    Knowledge released;     ///< what a load with acquire learns from it
-    Set seq_cst_store = 0;  ///< itself, if it is one
-    Set seq_cst_loads = 0;  ///< that returned it
+    Knowledge released;     ///< what an acquire load of it learns
+    Set seq_cst_store = 0;  ///< this store, if it is seq_cst
+    Set seq_cst_loads = 0;  ///< seq_cst loads that returned it
   };
   using History = std::vector<Store>;
 

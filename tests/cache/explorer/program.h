@@ -4,23 +4,23 @@
 
 namespace planetree::explorer {
 
-/// What is explored: threads over shared state, both made afresh for every run.
-/// The state is made of Atomic, Plain and Mutex, set up by the constructor.
+/// The program to explore: threads over shared state. Both are created anew for every run; the
+/// constructor sets up the state, which consists of Atomic, Plain and Mutex.
 ///
-/// Threads must do the same whenever they read the same, and come to an end in
-/// every run: so they wait a bounded number of times, each time by yield().
-/// They own no memory: when a run fails, they stop in the middle, for good.
+/// Threads must be deterministic in what they read, and must end in every run: they wait a bounded
+/// number of times, each time by yield(). They must own no memory, because a failed run abandons
+/// them in the middle.
 class Program {
  public:
   virtual ~Program() = default;
 
-  /// At most kMaxThreads.
+  /// Number of threads, at most kMaxThreads.
   virtual std::uint32_t thread_count() const noexcept = 0;
 
-  /// The body of one thread.
+  /// Body of one thread.
   virtual void run(std::uint32_t thread) = 0;
 
-  /// After all threads have ended and been joined.
+  /// Runs after all threads have ended and been joined.
   virtual void finish() {}
 };
 

@@ -15,12 +15,11 @@ constexpr SeqCstOrder::Set only(std::size_t operation) noexcept {
 
 }  // namespace
 
-// [intro.races]: what is sequenced before, in the same thread; and what is
-// sequenced before something which happens before something sequenced before
-// our step. The latter is all that another thread did before the last step of
-// its that we know of, provided that we knew it before our own step: `known`
-// lacks what the step itself acquires. A seq_cst load is after the seq_cst
-// store it reads in any case, by coherence.
+// [intro.races]: strongly before a step is what is sequenced before it in the same thread, and what
+// is sequenced before a step that happens before one sequenced before it. The latter is all that
+// another thread did before its last step that this thread knows of, provided that this thread knew
+// it before its own step: `known` lacks what the step itself acquires. Coherence already orders a
+// seq_cst load after the seq_cst store that it reads.
 SeqCstOrder::Set SeqCstOrder::strongly_before(std::uint32_t thread,
                                               const Knowledge& known) const noexcept {
   Set before = 0;

@@ -6,23 +6,23 @@
 
 namespace planetree::explorer {
 
-/// What happened in one run, to be read when it went wrong.
+/// Records the steps of one run, for the report of a failure.
 class Trace {
  public:
-  /// `what` is kept by address: a literal.
+  /// `what` and `how` are kept by address: string literals.
   struct Line {
     std::uint32_t thread;
     const char* what;
-    std::uint64_t number;  ///< of the atomic or plain variable; or any, with a note
+    std::uint64_t number;  ///< index of the atomic or plain variable; in a note, any number
     std::uint64_t value;
-    const char* how;  ///< the memory order, or nullptr: then there is no value
+    const char* how;  ///< memory order, or nullptr: the line has no value then
     std::uint64_t newer_stores;
   };
 
   void clear() noexcept { lines_.clear(); }
   void add(const Line& line) { lines_.push_back(line); }
 
-  /// One line each; atomics are numbered in the order they were made.
+  /// One line a step; atomics are numbered in the order of their creation.
   std::string text() const;
 
  private:

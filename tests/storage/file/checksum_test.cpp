@@ -8,7 +8,7 @@
 namespace planetree::storage {
 namespace {
 
-// The bytes over which xxHash publishes its own known answers.
+// The bytes for which xxHash publishes known answers.
 std::vector<std::byte> sanity_bytes(std::size_t count) {
   std::vector<std::byte> bytes(count);
   std::uint64_t state = 2654435761u;
@@ -24,7 +24,7 @@ TEST(Checksum, Hash64GivesKnownAnswers) {
     std::size_t bytes;
     std::uint64_t hash;
   };
-  // One length for each of the ways XXH3 takes.
+  // One length for each code path of XXH3.
   constexpr Known kKnown[] = {
       {0, 0x2d06800538d394c2},    {1, 0xc44bdff4074eecdb},   {6, 0x27b56a84cd2d7325},
       {12, 0xa713daf0dfbb77e7},   {24, 0xa3fe70bf9d3510eb},  {80, 0xbcdefbbb2c47c90a},

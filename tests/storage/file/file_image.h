@@ -30,8 +30,8 @@ inline void write_bytes(const std::filesystem::path& path, std::span<const std::
             static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The bytes of a .ptree file, to be changed and then given hashes that fit,
-/// so that what is refused is the change and not the hash.
+/// The bytes of a .ptree file, to be changed and then given matching hashes, so that a reader
+/// refuses the change and not the hash.
 class FileImage {
  public:
   explicit FileImage(Bytes bytes) : bytes_(std::move(bytes)) {}
@@ -62,13 +62,13 @@ class FileImage {
     return std::span(bytes_).subspan(entry(page).offset, entry(page).stored_bytes);
   }
 
-  /// Whether the table the header speaks of lies within the bytes.
+  /// Whether the page table that the header describes lies within the bytes.
   bool table_fits() const {
     return bytes_.size() >= kHeaderBytes && table_end(header().page_count) <= bytes_.size();
   }
 
-  /// Page checks and content id, from the stored bytes. Pages that lie outside the file keep
-  /// their check.
+  /// Computes page checks and content id from the stored bytes. Pages that lie outside the file get
+  /// a hash of 0.
   void seal_pages() {
     std::vector<PageEntry> entries = all_entries();
     FileHeader sealed = header();
@@ -94,7 +94,7 @@ class FileImage {
     set_header(sealed);
   }
 
-  /// The header's own hash, and its copy at the end where there is room.
+  /// Computes the header's own hash, and writes the copy at the end if the file is long enough.
   void seal_header() {
     FileHeader sealed = header();
     sealed.header_hash = header_hash(sealed);

@@ -91,7 +91,7 @@ TEST(PageCodec, SurvivesEveryBrokenBlock) {
   const Bytes stored = encode_page(raw).bytes;
   std::size_t refused = 0;
   for (std::size_t bit = 0; bit < stored.size() * 8; ++bit) {
-    // Buffers of exactly these sizes, so that a sanitizer sees one byte too far.
+    // Buffers of exactly these sizes, so that a sanitizer detects an access one byte too far.
     Bytes broken = stored;
     broken[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     Bytes out(raw.size());

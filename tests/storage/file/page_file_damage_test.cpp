@@ -9,7 +9,7 @@
 #include "tests/storage/file/sample_file.h"
 #include "tests/storage/system/temporary_directory.h"
 
-/// Files damaged as disks and people damage them.
+/// Files damaged in the ways of disks and people.
 namespace planetree::storage {
 namespace {
 
@@ -26,7 +26,7 @@ class PageFileDamage : public testing::Test {
     ::close(file);
   }
 
-  // Whether all is served as it was written, whatever may be wrong with one of the headers.
+  // Whether every page reads as it was written, even if one of the headers is damaged.
   bool serves_all() const {
     const Result<std::vector<Bytes>> pages = read_all(path_);
     if (!pages || pages->size() != sample_.page_count) return false;
@@ -120,7 +120,7 @@ TEST_F(PageFileDamage, HeadersThatDifferAreReported) {
 
 TEST(PageFileMixUp, SwappedPagesFail) {
   const TemporaryDirectory directory;
-  // Pages 1 and 3 are stored raw at lengths that the swap keeps apart: only bytes trade places.
+  // Pages 1 and 3 are stored uncompressed. The swap exchanges bytes and keeps the lengths.
   const SampleFile sample{4, 500};
   ASSERT_TRUE(sample.write(directory / "a.ptree"));
   FileImage image(read_bytes(directory / "a.ptree"));
@@ -136,7 +136,7 @@ TEST(PageFileMixUp, SwappedPagesFail) {
   EXPECT_FALSE(read_page(*file, 3));
 }
 
-// Equal pages: nothing but the page number in the hash tells them apart.
+// The pages are equal: only the page number in the hash distinguishes them.
 TEST(PageFileMixUp, ChecksOfEqualPagesDiffer) {
   const TemporaryDirectory directory;
   Result<PageWriter> writer = PageWriter::create(directory / "a.ptree", 2, false);
@@ -149,7 +149,7 @@ TEST(PageFileMixUp, ChecksOfEqualPagesDiffer) {
   EXPECT_NE(image.entry(0).check, image.entry(1).check);
 }
 
-// The same page at the same place under the same number, but of another file.
+// A page with the same number and offset, but of another file.
 TEST(PageFileMixUp, PagesOfAnotherFileFail) {
   const TemporaryDirectory directory;
   ASSERT_TRUE((SampleFile{2, 500, 1}.write(directory / "a.ptree")));
@@ -163,7 +163,7 @@ TEST(PageFileMixUp, PagesOfAnotherFileFail) {
   const Result<PageFile> file = PageFile::open(directory / "c.ptree");
   ASSERT_TRUE(file);
   EXPECT_FALSE(read_page(*file, 1));
-  // Nor with its own line of the table.
+  // The check of the other file's page table does not make it valid either.
   image.change_entry(1, [&](PageEntry& entry) { entry.check = other.entry(1).check; });
   image.seal_table();
   image.seal_header();

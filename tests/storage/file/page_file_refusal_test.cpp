@@ -9,8 +9,8 @@
 #include "tests/storage/file/sample_file.h"
 #include "tests/storage/system/temporary_directory.h"
 
-/// Files whose hashes are right and whose content is not: each rule of
-/// storage/file/file_check.h is broken alone.
+/// Files whose hashes are right and whose content is wrong. Each test breaks rules of
+/// storage/file/file_check.h one at a time.
 namespace planetree::storage {
 namespace {
 
@@ -321,7 +321,7 @@ TEST_F(PageFileRefusal, KeysOutOfOrder) {
       "key does not follow");
 }
 
-// A page of 13 bytes that says it stands for a mebibyte.
+// A small page that claims to decode to a mebibyte.
 TEST_F(PageFileRefusal, Bombs) {
   FileImage image = good();
   image.change_entry(0, [](PageEntry& e) { e.raw_bytes = kMaxRawBytes; });
@@ -331,7 +331,7 @@ TEST_F(PageFileRefusal, Bombs) {
 }
 
 TEST_F(PageFileRefusal, DamagedStartsOfOurOwn) {
-  // What a transfer in text mode makes of the first bytes.
+  // The first bytes after a transfer in text mode.
   FileImage image = good();
   image.bytes().erase(image.bytes().begin() + 6);
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);

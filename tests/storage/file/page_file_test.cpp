@@ -17,7 +17,7 @@ namespace {
 thread_local std::size_t allocation_count = 0;
 }  // namespace
 
-// Counted for the whole test program; every other form of new comes here. Weak, because some
+// Counted for the whole test program; every other form of new calls this one. Weak, because some
 // sanitizers bring their own.
 [[gnu::weak]] void* operator new(std::size_t bytes) {
   ++allocation_count;
@@ -155,7 +155,7 @@ TEST(PageFile, SaysWhatIsThereInstead) {
   EXPECT_EQ(open("folder").code, ErrorCode::kNotPlanetree);
   EXPECT_NE(std::strstr(open("folder").text, "directory"), nullptr);
 
-  // Must not wait for a writer.
+  // Opening must not wait for a writer.
   ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0600), 0);
   EXPECT_EQ(open("pipe").code, ErrorCode::kNotPlanetree);
 

@@ -22,7 +22,7 @@ ErrorCode code_of(const Result<T>& result) {
 
 TEST(PageWriter, WritesTheSameBytesTwice) {
   const TemporaryDirectory directory;
-  const SampleFile sample{26, 64'000};  // more than the buffer holds
+  const SampleFile sample{26, 64'000};  // more than the write buffer holds
   ASSERT_TRUE(sample.write(directory / "a"));
   ASSERT_TRUE(sample.write(directory / "b"));
   EXPECT_EQ(read_bytes(directory / "a"), read_bytes(directory / "b"));

@@ -5,7 +5,7 @@
 #include "tests/storage/system/faulty_calls.h"
 #include "tests/storage/system/temporary_directory.h"
 
-/// Every system call of opening and reading a file goes wrong once.
+/// Every system call of opening and reading a file fails once.
 namespace planetree::storage {
 namespace {
 
@@ -15,7 +15,7 @@ class ReadFaults : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(sample_.write(path_)); }
 
-  // Returns how many calls there are to fail.
+  // Fails the n-th call for every n until a run has no fault; returns the number of calls.
   template <class Check>
   int for_every_call(Fault fault, int number, bool every, Check check) {
     for (int fault_at = 0;; ++fault_at) {
@@ -63,7 +63,7 @@ TEST_F(ReadFaults, AFailedCallIsACleanError) {
   EXPECT_GE(error_count, 8);
 }
 
-// The advice that finds bad sectors says EFAULT for them, and EINVAL where it is unknown.
+// madvise() reports bad sectors as EFAULT, and EINVAL where the system does not know the advice.
 TEST_F(ReadFaults, ABadSectorUnderAMapIsAnError) {
   int bad = 0;
   for_every_call(Fault::kError, EFAULT, false,
@@ -88,7 +88,7 @@ TEST_F(ReadFaults, AnInterruptedCallIsResumed) {
                      [](const FaultyCalls& calls, const Result<std::vector<Bytes>>& pages) {
                        EXPECT_TRUE(pages) << calls.failed_call();
                      });
-  EXPECT_EQ(call_count, 7);  // one open, three maps read in, three pages
+  EXPECT_EQ(call_count, 7);  // one open, three mappings populated, three pages read
 }
 
 TEST_F(ReadFaults, AShortReadIsResumed) {
@@ -126,7 +126,7 @@ TEST_F(ReadFaults, AMapCoversAnyRange) {
                            whole.begin() + static_cast<std::ptrdiff_t>(offset)));
     EXPECT_TRUE(made->bytes().empty());
   }
-  // Two system pages, for all that it is short.
+  // A short range that crosses a border of system pages.
   std::filesystem::resize_file(path_, 1 << 20);
   const Result<Mapping> across = Mapping::create(file, 65536 - 10, 20);
   ASSERT_TRUE(across);

@@ -1,4 +1,4 @@
-// How pages are read that the system does not have in memory.
+// Reads of pages that the system may not have in memory.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace planetree::storage {
 namespace {
 
-/// A system that has bytes in memory only when they have been looked for often enough.
+/// A system that has bytes in memory only after a number of attempts to read them.
 class ForgetfulCalls final : public RingCalls {
  public:
   static constexpr int kEnd = -1;
@@ -55,11 +55,11 @@ class ForgetfulCalls final : public RingCalls {
 
  private:
   const int looks_in_vain_;
-  const int errno_of_those_;  // 0: they find all bytes but the last; kEnd: the file's end
+  const int errno_of_those_;  // errno; 0: all bytes but the last; kEnd: the file's end
   const std::chrono::milliseconds time_of_those_;
 };
 
-/// Page 1 of a file.
+/// Reads page 1 of a sample file.
 class PageSoon {
  public:
   explicit PageSoon(ForgetfulCalls& calls) {
@@ -70,7 +70,7 @@ class PageSoon {
   }
 
   const PageEntry& entry() const { return file_->entries()[1]; }
-  /// Whether it was had.
+  /// Returns whether the page was read in time.
   bool read(const SoonTerms& terms = {}) const {
     Bytes stored(file_->header().max_stored_bytes), raw(entry().raw_bytes);
     const Result<bool> read = file_->read_page_soon(1, stored, raw, terms);
@@ -112,7 +112,7 @@ TEST(ReadSoon, LooksAgainOnceItWasTold) {
   }
 }
 
-// However long a look takes: not as often as it likes, but as long.
+// An attempt may take long itself: the time is limited, not only the number of attempts.
 TEST(ReadSoon, DoesNotLookForLong) {
   for (const int errno_of_those : {EAGAIN, 0}) {
     ForgetfulCalls calls(1 << 20, errno_of_those, std::chrono::milliseconds(1));
@@ -144,7 +144,7 @@ class ReadSoonByAWait : public testing::Test {
   void SetUp() override {
     if (!RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
   }
-  // The calls outlive what waits by them.
+  // `calls` outlives the ReadWait that uses it.
   static bool read(ForgetfulCalls& calls,
                    std::chrono::milliseconds max_waited = std::chrono::minutes(10)) {
     ReadWait wait;
@@ -190,7 +190,7 @@ TEST_F(ReadSoonByAWait, LooksOnceForWhatItHasWaitedForInVain) {
   }
 }
 
-// However many waits there are: of as long, three.
+// The limit holds for all waits together, not for each.
 TEST_F(ReadSoonByAWait, WaitsNoLongerThanTheLimitInAll) {
   ForgetfulCalls calls(1 << 20);
   calls.time_of_waits = std::chrono::milliseconds(30);

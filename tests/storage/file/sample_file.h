@@ -10,11 +10,10 @@
 #include "storage/file/page_writer.h"
 #include "tests/storage/file/file_image.h"
 
-/// Small files for tests: pages that LZ4 shrinks and pages it does not.
+/// Small files for tests, with pages that LZ4 shrinks and pages that it does not.
 namespace planetree::storage {
 
-/// The same bytes for the same arguments: noise, of which every other page is
-/// made of few values.
+/// Returns the same bytes for the same arguments: noise, in which even pages use four values only.
 inline Bytes sample_page(std::uint32_t page, std::size_t bytes, std::uint64_t seed = 1) {
   Bytes raw(bytes);
   std::uint64_t state = seed * 0x9e3779b97f4a7c15u + page + 1;
@@ -45,7 +44,7 @@ inline ModelRecord sample_model() {
 
 struct SampleFile {
   std::uint32_t page_count = 3;
-  std::size_t page_bytes = 120;  ///< of page 0; each further page is 7 bytes longer
+  std::size_t page_bytes = 120;  ///< bytes of page 0; each further page is 7 bytes longer
   std::uint64_t seed = 1;
 
   Bytes raw(std::uint32_t page) const { return sample_page(page, page_bytes + 7 * page, seed); }
@@ -64,7 +63,7 @@ struct SampleFile {
   }
 };
 
-/// Reads one page into buffers of exactly the sizes asked for.
+/// Reads one page into buffers of exactly the sizes required.
 inline Result<Bytes> read_page(const PageFile& file, std::uint32_t page) {
   Bytes scratch(file.header().max_stored_bytes);
   Bytes raw(file.entries()[page].raw_bytes);
@@ -73,7 +72,7 @@ inline Result<Bytes> read_page(const PageFile& file, std::uint32_t page) {
   return raw;
 }
 
-/// Opens a file and reads all its pages: the first error, or the pages.
+/// Opens a file and reads all its pages. Returns them, or the first error.
 inline Result<std::vector<Bytes>> read_all(const std::filesystem::path& path,
                                            FileCalls& calls = FileCalls::real()) {
   const Result<PageFile> file = PageFile::open(path, calls);

@@ -26,7 +26,7 @@ class JournalTest : public testing::Test {
     return Journal(
         FileHandle::open(calls, AT_FDCWD, path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
   }
-  // What the journal holds, as far as `wanted`.
+  // Replays at most `wanted` notes of the journal.
   Notes notes(std::size_t wanted = ~std::size_t{0}) {
     Notes found;
     EXPECT_TRUE(open(calls_).replay([&](std::uint32_t kind, std::span<const std::byte> payload) {
@@ -39,7 +39,7 @@ class JournalTest : public testing::Test {
   static Result<void> append(Journal& journal, const Note& note) {
     return journal.append(note.kind, std::as_bytes(std::span(note.text)));
   }
-  // Behind what is there.
+  // Appends after the existing records.
   void append(const Notes& notes) {
     Journal journal = open(calls_);
     ASSERT_TRUE(journal.replay([](std::uint32_t, std::span<const std::byte>) { return true; }));
@@ -70,7 +70,7 @@ TEST_F(JournalTest, EndsBeforeATornRecord) {
     const Notes found = notes();
     ASSERT_LT(found.size(), three_.size());
     ASSERT_TRUE(std::equal(found.begin(), found.end(), three_.begin()));
-    // And goes on there.
+    // Appending continues there.
     append({{9, "new"}});
     Notes expected = found;
     expected.push_back({9, "new"});
@@ -91,7 +91,8 @@ TEST_F(JournalTest, EndsBeforeADamagedByte) {
   }
 }
 
-// Else records of the same length could end up behind others than they were written behind.
+// Otherwise records of the same length could end up after others than those they were written
+// after.
 TEST_F(JournalTest, ForgetsWhatComesBehindARefusedRecord) {
   append(three_);
   EXPECT_EQ(notes(1), Notes{three_[0]});
@@ -125,7 +126,7 @@ TEST_F(JournalTest, AppendsNoMoreAfterAFailure) {
       kept += appended ? 1 : 0;
     }
     if (!failed) break;
-    // What was written but not synced may be there.
+    // A record that was written but not synced may be present.
     EXPECT_GE(notes().size(), kept);
     EXPECT_LE(notes().size(), kept + 1);
   }

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t kRecordBytes = 12;
 
-/// A record that says what it is.
+/// Writes a record that holds its own number and bucket.
 void put(std::byte* to, std::uint64_t number, std::uint32_t bucket) {
   std::memcpy(to, &number, sizeof number);
   std::memcpy(to + sizeof number, &bucket, sizeof bucket);
 }
 
-/// The numbers of a bucket's records, in order.
+/// Numbers of a bucket's records, sorted.
 std::vector<std::uint64_t> numbers_in(SpillBuckets& buckets, std::uint32_t bucket) {
   std::vector<std::uint64_t> numbers;
   const auto read = buckets.each_block(bucket, [&](std::span<const std::byte> records) {
@@ -47,7 +47,7 @@ TEST(SpillBuckets, GiveBackEachItsOwn) {
     std::vector<std::vector<std::uint64_t>> expected(7);
     std::mt19937 random(1);
     for (std::uint64_t i = 0; i < 5000; ++i) {
-      // Not evenly, and none into the last.
+      // Unevenly distributed, with no record in the last bucket.
       const auto bucket = static_cast<std::uint32_t>(std::min(random() % 6, random() % 6));
       std::byte* const record = buckets.add(bucket);
       ASSERT_NE(record, nullptr);
@@ -60,7 +60,7 @@ TEST(SpillBuckets, GiveBackEachItsOwn) {
     EXPECT_FALSE(buckets.is_empty(0));
     EXPECT_TRUE(buckets.is_empty(6));
     EXPECT_EQ(file.size_bytes() == 0, buffer_bytes == 1 << 20);
-    // Each block has 8 bytes more than its records.
+    // Each block has 8 bytes besides its records.
     EXPECT_LE(file.size_bytes(), 5000 * kRecordBytes * 1.1);
   }
 }

@@ -36,7 +36,7 @@ TEST(SpillFile, GivesBackWhatWasPutAway) {
       std::vector<std::byte> found(bytes.size());
       ASSERT_TRUE(file.read(offset, found));
       EXPECT_EQ(found, bytes);
-      // Parts of what was put away as one, on whatever side of the border they are.
+      // Also reads parts of one append, on both sides of the border between memory and disk.
       if (bytes.size() < 3) continue;
       found.resize(bytes.size() / 3);
       ASSERT_TRUE(file.read(offset + bytes.size() / 3, found));
@@ -59,7 +59,7 @@ TEST(SpillFile, HasNoName) {
   }
 }
 
-// Where a file has a name for a moment, that can be guessed: what is planted there is neither
+// Where the file has a name for a moment, the name can be guessed. A link planted there is neither
 // followed nor replaced.
 TEST(SpillFile, PassesOverAPlantedLink) {
   const TemporaryDirectory directory;
@@ -132,7 +132,7 @@ TEST(SpillFile, GoesOnInAFileWithAName) {
   EXPECT_TRUE(std::equal(second.begin(), second.end(), found.begin() + 90));
 }
 
-// The system tells of what it lost but once, to one of all who ask.
+// The system reports a lost write only once, to one of the callers.
 TEST(SpillFile, IsNotDurableAfterASyncThatFailed) {
   const TemporaryDirectory directory;
   FaultyCalls calls;
@@ -165,7 +165,8 @@ class SpillRunsTest : public testing::TestWithParam<std::uint64_t> {
     std::mt19937_64 random(7);
     for (std::uint64_t run = 0; run < 9; ++run) {
       std::vector<Record> records;
-      // Few of one first half in the first runs, more than lie between two marks in the last.
+      // In the first runs few records share the first half of their key; in the last runs, more
+      // share it than lie between two marks.
       const std::uint64_t halves = run < 5 ? 64 : 3;
       for (std::uint64_t i = 0; i < 100 + 300 * run; ++i)
         records.push_back(

@@ -16,7 +16,7 @@ class WorkDirectoryTest : public testing::Test {
  protected:
   using Names = std::vector<std::string>;
 
-  // The code of the error there must be.
+  // Code of the error on opening the directory or a file in it; none if both open.
   std::optional<ErrorCode> refusal() const {
     auto work = WorkDirectory::open(path_);
     if (!work) return work.error().code;
@@ -66,7 +66,7 @@ TEST_F(WorkDirectoryTest, IsOneProcessesAtATime) {
   EXPECT_TRUE(WorkDirectory::open(path_));
 }
 
-// As one that was killed, of which the system is not yet done.
+// Simulates a lock of a process that was killed and that the system has not yet cleaned up.
 class DyingCalls final : public FileCalls {
  public:
   int flock(int descriptor, int operation) noexcept override {
@@ -86,7 +86,7 @@ TEST_F(WorkDirectoryTest, WaitsForAProcessThatIsAboutToEnd) {
   EXPECT_TRUE(WorkDirectory::open(path_, calls));
 }
 
-// One process removes the directory between two calls of another.
+// Simulates a process that removes the directory between two calls of another.
 class RemovingCalls final : public FileCalls {
  public:
   explicit RemovingCalls(std::filesystem::path path) : path_(std::move(path)) {}
@@ -176,7 +176,7 @@ TEST_F(WorkDirectoryTest, AFailedCallIsACleanError) {
       failed = !work || !work->open_file("file") || !work->sync_names() || !work->remove();
     }
     if (!calls.happened()) break;
-    // Closing does not matter, and what cannot be removed is tried again.
+    // A failed close is harmless, and a failed removal is tried again.
     EXPECT_NE(failed, calls.failed_call() == "close" || calls.failed_call() == "unlinkat")
         << calls.failed_call();
     std::filesystem::remove_all(path_);

@@ -25,7 +25,7 @@ TEST(DeviceSpace, IsThatOfTheSystem) {
   ASSERT_EQ(::statvfs((directory / ".").c_str(), &device), 0);
   const auto space = DeviceSpace::of(directory / ".");
   ASSERT_TRUE(space.free_bytes);
-  // Others write meanwhile.
+  // Other processes write to the device meanwhile.
   EXPECT_LE(*space.free_bytes, std::uint64_t{device.f_blocks} * device.f_frsize);
   EXPECT_TRUE(DeviceSpace::of({}).free_bytes) << "of the working directory";
 }

@@ -17,7 +17,7 @@
 
 namespace planetree::storage {
 
-/// A device with so many free blocks.
+/// Returns a device with this number of free blocks.
 inline struct statvfs device_with_free(std::uint64_t free_blocks, std::uint64_t block_bytes = 1) {
   struct statvfs device = {};
   device.f_bsize = device.f_frsize = block_bytes;
@@ -26,25 +26,25 @@ inline struct statvfs device_with_free(std::uint64_t free_blocks, std::uint64_t 
   return device;
 }
 
-/// The system, of which one call goes wrong: the n-th that the fault can befall.
+/// The system with one faulty call: number `fault_at` of those that the fault can affect.
 class FaultyCalls final : public FileCalls {
  public:
   enum class Fault : std::uint8_t {
     kNone,
-    kError,      ///< any call fails with `number`
-    kInterrupt,  ///< a call that a signal can interrupt does nothing and says so
-    kShort,      ///< a read or write stops half way
+    kError,      ///< any call fails with errno `number`
+    kInterrupt,  ///< a call that a signal can interrupt does nothing and fails with EINTR
+    kShort,      ///< a read or write transfers half of its bytes
     kKill,       ///< the process is killed before the call
   };
 
   Fault fault = Fault::kNone;
   int number = EIO;                      ///< errno of kError
-  int fault_at = 0;                      ///< which of the calls, from 0
-  bool every = false;                    ///< from then on, rather than once
+  int fault_at = 0;                      ///< index of the faulty call, from 0
+  bool every = false;                    ///< all calls from there on, rather than one
   bool no_unnamed = false;               ///< a file system without O_TMPFILE
   bool no_proc = false;                  ///< a system without /proc
   bool no_noreplace = false;             ///< a file system that renames only with replacement
-  std::optional<struct statvfs> device;  ///< that every device has
+  std::optional<struct statvfs> device;  ///< status reported for every device, if set
 
   bool happened() const { return !failed_call_.empty(); }
   const std::string& failed_call() const { return failed_call_; }
@@ -84,7 +84,7 @@ class FaultyCalls final : public FileCalls {
   }
   int fsync(int descriptor) noexcept override {
     ++fsync_count_;
-    (void)descriptor;  // no test here cuts the power, and syncing a disk takes long
+    (void)descriptor;  // no test here cuts the power, and syncing a disk is slow
     return strikes("fsync", false) ? failed(number_) : 0;
   }
   int fdatasync(int descriptor) noexcept override {
@@ -112,7 +112,7 @@ class FaultyCalls final : public FileCalls {
     return FileCalls::renameat2(old_directory, old_path, new_directory, new_path, flags);
   }
   int unlinkat(int directory, const char* path, int flags) noexcept override {
-    // A disk that stays full still lets names go.
+    // A full disk still permits removing names.
     if (!every && strikes("unlinkat", false)) return failed(number_);
     return FileCalls::unlinkat(directory, path, flags);
   }
@@ -134,7 +134,7 @@ class FaultyCalls final : public FileCalls {
   }
 
  private:
-  // Counts the calls the fault can befall; true when this one fails.
+  // Counts the calls that the fault can affect; true if this one fails.
   bool strikes(const char* call, bool interruptible) noexcept {
     if (fault == Fault::kNone || fault == Fault::kShort) return false;
     if (fault == Fault::kInterrupt && !interruptible) return false;

@@ -23,7 +23,7 @@ std::chrono::steady_clock::time_point in(std::chrono::microseconds most) {
   return std::chrono::steady_clock::now() + most;
 }
 
-/// What a read of waits until somebody writes.
+/// A pipe: a read of it waits until a byte is written.
 struct Pipe {
   Pipe() { EXPECT_EQ(::pipe(ends), 0); }
   ~Pipe() {
@@ -102,7 +102,7 @@ TEST_F(AReadWait, GoesOnAfterSignals) {
   EXPECT_EQ(calls_.waits, 4);
 }
 
-// Of a call that has told the system something, a signal ends the wait with no error.
+// If the call has already submitted a request, a signal ends the wait without an error.
 TEST_F(AReadWait, GoesOnAfterSignalsThatAreNotCalledSo) {
   calls_.silent_interruptions = 3;
   EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
@@ -131,7 +131,7 @@ TEST_F(AReadWait, IsForALateReadBeforeTheNext) {
   EXPECT_EQ(wait_->wait_until(calls_, file_.descriptor(), 0, in(kShort)), Outcome::kLate);
   pipe.write_byte();
   EXPECT_EQ(wait_for_the_file(), Outcome::kCame);
-  // Of the pipe one read was started, and it took the byte.
+  // Only one read of the pipe was started, and it consumed the byte.
   EXPECT_EQ(wait_for(pipe, kShort), Outcome::kLate);
 }
 

@@ -10,18 +10,18 @@
 
 namespace planetree::storage {
 
-/// The system, of which io_uring can be refused, interrupted, or made to stand still.
+/// The system with an io_uring that can be refused, interrupted, or made to stall.
 class RingCalls : public FileCalls {
  public:
   bool refuses = false;
-  bool knows_no_limits = false;  ///< as systems before 5.11
-  bool stands_still = false;     ///< time goes by, and nothing comes
-  int interruptions = 0;         ///< by signals, before anything comes
-  int silent_interruptions = 0;  ///< likewise, that say nothing of signals
+  bool knows_no_limits = false;  ///< as systems before 5.11: no timeout for waits
+  bool stands_still = false;     ///< waits time out and no completion arrives
+  int interruptions = 0;         ///< number of waits interrupted by signals
+  int silent_interruptions = 0;  ///< number of waits interrupted without an error
   bool refuses_to_wait = false;
   std::chrono::milliseconds time_of_waits{0};
   int rings = 0, rings_gone = 0, waits = 0;
-  std::chrono::nanoseconds longest_wait{0};  ///< that was asked for
+  std::chrono::nanoseconds longest_wait{0};  ///< longest timeout requested
 
   int io_uring_queue_init(unsigned entries, io_uring* ring, unsigned flags) noexcept override {
     ++rings;
@@ -54,8 +54,8 @@ class RingCalls : public FileCalls {
     FileCalls::io_uring_queue_exit(ring);
   }
 
-  /// Whether the tests' own system has what is wanted of it. Not where it is forbidden, as in
-  /// some containers: there the library goes without.
+  /// Whether this machine's io_uring has what ReadWait needs. Some containers forbid io_uring; the
+  /// library then works without it.
   static bool are_to_be_had() {
     io_uring ring;
     if (::io_uring_queue_init(1, &ring, 0) != 0) return false;

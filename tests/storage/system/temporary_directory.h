@@ -9,7 +9,7 @@
 
 namespace planetree::storage {
 
-/// A new folder, removed with all it holds at the end of the test.
+/// A new directory, removed with its content at the end of the test.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
@@ -26,7 +26,7 @@ class TemporaryDirectory {
 
   std::filesystem::path operator/(const char* name) const { return path_ / name; }
 
-  /// The names in the folder, sorted.
+  /// Names in the directory, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {

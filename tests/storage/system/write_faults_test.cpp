@@ -7,16 +7,15 @@
 #include "tests/storage/system/faulty_calls.h"
 #include "tests/storage/system/temporary_directory.h"
 
-/// Every system call of a build goes wrong once, in every way it can: the
-/// destination is old or absent, or the whole new file, and nothing else is
-/// left in its directory.
+/// Every system call of writing a file fails once, in every way it can. Afterwards the destination
+/// is the old file, absent, or the complete new file, and its directory holds nothing else.
 namespace planetree::storage {
 namespace {
 
 using Fault = FaultyCalls::Fault;
 using Names = std::vector<std::string>;
 
-/// What the file system offers, and whether there is an old file to replace.
+/// Features of the file system, and whether there is an old file to replace.
 struct Surroundings {
   bool replace;
   bool no_unnamed;
@@ -60,7 +59,7 @@ class WriteFaults : public testing::TestWithParam<Surroundings> {
     return std::filesystem::exists(path_) ? Names{"a.ptree"} : Names{};
   }
 
-  // Fails the n-th call for every n until a run meets no fault; returns how many there were.
+  // Fails the n-th call for every n until a run has no fault; returns the number of calls.
   int for_every_call(
       Fault fault, int number, bool every,
       const std::function<void(const FaultyCalls&, const Result<FileHeader>&)>& check) {
@@ -98,7 +97,7 @@ TEST_P(WriteFaults, AFailedCallIsACleanError) {
           if (header) return;
           ++error_count;
           EXPECT_EQ(header.error().code, code) << made.failed_call();
-          // The directory is synced when the file already has its name.
+          // When the directory is synced, the file already has its name.
           const bool named = made.failed_call() == "fsync" && made.fsync_count() == 2;
           EXPECT_TRUE(named ? destination_is_complete() : destination_is_as_before())
               << made.failed_call();
@@ -163,7 +162,7 @@ TEST_P(WriteFaults, ANameTakenMeanwhileIsLeftAlone) {
   EXPECT_EQ(directory_.names(), Names{"a.ptree"});
 }
 
-// The process dies before its n-th call.
+// The process is killed before its n-th call.
 TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
   const bool named = GetParam().no_unnamed || GetParam().no_proc;
   for (int fault_at = 0;; ++fault_at) {
@@ -177,7 +176,7 @@ TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_TRUE(destination_is_as_before() || destination_is_complete()) << fault_at;
-    // A file that needs a temporary name cannot take it along; one name is all there is.
+    // A killed process cannot remove the temporary name of its file; it leaves one at most.
     const Names names = directory_.names();
     const std::size_t allowed = named || GetParam().replace ? 1 : 0;
     EXPECT_LE(names.size(), names_without_debris().size() + allowed) << fault_at;
@@ -193,7 +192,7 @@ TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
   }
 }
 
-// Temporary names can be guessed: what is planted there is neither followed nor replaced.
+// Temporary names can be guessed. A link planted there is neither followed nor replaced.
 TEST(TemporaryNames, APlantedLinkIsPassedOver) {
   const TemporaryDirectory directory;
   const Bytes precious(10, std::byte{7});

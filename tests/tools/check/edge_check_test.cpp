@@ -28,7 +28,7 @@ TEST(EdgeCheck, BelievesAHeaderThatIsRight) {
   EXPECT_FALSE(finds_fault({}, twice));
 }
 
-// What it lists is so, and yet no edge is open.
+// The edge that the header lists is as stated, and yet no edge is unbalanced.
 TEST(EdgeCheck, FindsAClosedSurfaceThatIsSaidToBeOpen) {
   storage::ModelRecord model{};
   model.unbalanced_edge_count = 1;
@@ -37,7 +37,7 @@ TEST(EdgeCheck, FindsAClosedSurfaceThatIsSaidToBeOpen) {
   EXPECT_TRUE(finds_fault(model, closed_faces()));
 }
 
-// A hole, a face the other way round, a face too many.
+// A hole, a face with its orientation reversed, a face too many.
 TEST(EdgeCheck, FindsAnOpenSurfaceThatIsSaidToBeClosed) {
   std::vector<octree::Triangle> faces = closed_faces();
   faces.pop_back();

@@ -17,13 +17,13 @@
 #include "tools/check/file_check.h"
 #include "tools/report/file_survey.h"
 
-/// What the tests of file_check share: a file in memory and a sample to forge.
+/// Shared by the tests of file_check: a file in memory and a sample to forge.
 namespace planetree::tools {
 
 using storage::Bytes;
 using Codes = std::set<std::string>;
 
-/// A file that is in memory only; reads of some bytes may be made to fail.
+/// A file in memory. Reads at one offset can be made to fail.
 class MemoryFile final : public storage::FileCalls {
  public:
   explicit MemoryFile(std::span<const std::byte> bytes) : bytes_(bytes) {}

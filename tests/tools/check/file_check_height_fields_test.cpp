@@ -6,7 +6,7 @@
 #include "octree/page/page_streams.h"
 #include "tests/tools/check/mask_check_fixture.h"
 
-// What verify finds in the bits that say which blocks are in sheets.
+// Issues that verify finds in the height-field bits of blocks.
 namespace planetree::tools {
 namespace {
 
@@ -14,7 +14,7 @@ class FileCheckOfHeightFields : public FileCheckOfMasks {
  protected:
   using Counts = std::function<std::uint8_t(std::uint8_t count)>;
 
-  // Of the counts of triangles of all blocks.
+  // Forges the triangle counts of all blocks.
   Forgery forgery_of(const Counts& changed) {
     Forgery forgery;
     forgery.page = [changed](std::uint32_t, RawPage& page) {
@@ -27,7 +27,7 @@ class FileCheckOfHeightFields : public FileCheckOfMasks {
     return check_forgery(tree, forgery_of(changed), full);
   }
 
-  // Sets the bit of the block that is so many-th of those without it.
+  // Sets the bit of block number `which` among the blocks without it.
   Counts marking(std::size_t which) {
     return [left = which](std::uint8_t count) mutable -> std::uint8_t {
       const bool clear = (count & octree::kHeightFieldBit) == 0;
@@ -66,7 +66,7 @@ TEST_F(FileCheckOfHeightFields, AllowsBlocksThatAreNotSaidToBe) {
     EXPECT_EQ(codes_of(check_counts(tree, clear, true)), Codes{});
 }
 
-// Not even those that are in sheets of the whole mesh.
+// Even blocks that are height fields of the whole mesh are found in the file of a region.
 TEST_F(FileCheckOfHeightFields, FindsThemInFilesOfRegions) {
   const std::filesystem::path region = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/region.ptree";
   const std::size_t unmarked = count_unmarked(region);
@@ -76,7 +76,7 @@ TEST_F(FileCheckOfHeightFields, FindsThemInFilesOfRegions) {
     EXPECT_EQ(codes_of(check_counts(region, marking(i), true)), Codes{"BLOCK_SHEET"});
 }
 
-// They are proven by it.
+// The bits are proven by the mask.
 TEST_F(FileCheckOfHeightFields, AreNotLookedAtWhereTheMaskIsWrong) {
   Forgery forgery = forgery_of(marking(0));
   forgery.mask = [done = false](std::uint32_t, RawMaskPage& page) mutable {

@@ -7,22 +7,22 @@
 
 #include "tests/tools/check/mask_check_fixture.h"
 
-// What verify finds in the lists of blocks that cells of a mask have.
+// Issues that verify finds in the lists of blocks of mask cells.
 namespace planetree::tools {
 namespace {
 
 class FileCheckOfLists : public FileCheckOfMasks {};
 
 TEST_F(FileCheckOfLists, FindsBlocksThatAreNotListed) {
-  // One octant of one block too few.
+  // One octant of one block is missing.
   for (const bool first : {true, false})
     expect_found("MASK_BLOCKS", has_lists, [&](RawMaskPage& page) {
       std::uint8_t& octants = first ? page.block_octants.front() : page.block_octants.back();
-      // That of the lowest bit, or, if it is the only one, another in its place.
+      // Clears the lowest bit; if it is the only one, sets another instead.
       const auto left = static_cast<std::uint8_t>(octants & (octants - 1));
       octants = left != 0 ? left : std::rotl(octants, 1);
     });
-  // The whole of another place's block.
+  // One block of a longer list is missing.
   const auto has_long_list = [](const RawMaskPage& page) {
     return page.head.listed_count > 0 && page.block_counts[0] > 1;
   };
@@ -35,7 +35,7 @@ TEST_F(FileCheckOfLists, FindsBlocksThatAreNotListed) {
 }
 
 TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
-  // The slot behind a block's first is none's first.
+  // The slot after the first slot of a block is not the first slot of any block.
   expect_found("MASK_BLOCKS", has_lists, [](RawMaskPage& page) {
     ++page.block_counts[page.block_counts.size() - 1];
     ++page.head.block_link_count;
@@ -45,7 +45,7 @@ TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
 }
 
 TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
-  // That say something, and of which has(page, i).
+  // Indices of slabs thicker than one step for which has(page, i) holds.
   const auto slabs = [](const RawMaskPage& page, const auto& has) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < page.slab_uppers.size(); ++i)

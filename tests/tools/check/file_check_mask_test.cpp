@@ -9,7 +9,7 @@
 
 #include "tests/tools/check/mask_check_fixture.h"
 
-// What verify finds in masks: each page forged with its hashes made right.
+// Issues that verify finds in masks. Each forged page has right hashes.
 namespace planetree::tools {
 namespace {
 
@@ -43,7 +43,7 @@ TEST_F(FileCheckOfMasks, FindsCornersThatAreNot) {
     });
 }
 
-// Corners that are not stated are no lie.
+// A corner number that is not stored is not wrong.
 TEST_F(FileCheckOfMasks, AllowsCornersThatAreNotStated) {
   const auto unsay = [](RawMaskPage& page) {
     std::fill_n(page.corners.begin(), 8, octree::kUncounted);
@@ -57,7 +57,7 @@ std::function<bool(const RawMaskPage&)> has(const std::function<Node(const RawMa
   return [find](const RawMaskPage& page) { return find(page).has_value(); };
 }
 
-// The first node with a bit in what `octants` gives.
+// Index of the first node for which octants(index) is not 0.
 Node node_with(const RawMaskPage& page, const std::function<unsigned(std::size_t)>& octants) {
   for (std::size_t i = 0; i < page.grey.size(); ++i)
     if (octants(i) != 0) return i;
@@ -98,7 +98,7 @@ TEST_F(FileCheckOfMasks, FindsColoursThatAreNot) {
   });
 }
 
-// A leaf that is said to be the octant beside it: the surface is in a white cell.
+// A leaf is moved to the octant beside it, so that the surface lies in a white cell.
 TEST_F(FileCheckOfMasks, FindsTrianglesInCellsOfOneColour) {
   const auto movable = [](const RawMaskPage& page, std::size_t i) {
     const unsigned other = unsigned{page.grey[i]} | page.black[i] | page.inverted[i];
@@ -129,11 +129,11 @@ TEST_F(FileCheckOfMasks, FindsPlanesThatAreNot) {
                [](RawMaskPage& page) { std::swap(page.behind[0], page.beyond[0]); });
   expect_found("MASK_PLANES", has_special, [](RawMaskPage& page) { page.behind[0] = 5; });
   expect_found("MASK_PLANES", has_special, [](RawMaskPage& page) { page.beyond.back() = -5; });
-  // Turned: b and c change places.
+  // Swaps corners b and c, so that the plane faces the other way.
   expect_found("MASK_PLANES", has_special, [](RawMaskPage& page) {
     std::swap_ranges(page.planes.begin() + 3, page.planes.begin() + 6, page.planes.begin() + 6);
   });
-  // Along its normal, by the least that a float has.
+  // Shifts a plane along its normal by one unit in the last place of a float.
   expect_found("MASK_PLANES", has_special, [](RawMaskPage& page) {
     const double* at = page.planes.data();
     const octree::Point a(at[0], at[1], at[2]), b(at[3], at[4], at[5]), c(at[6], at[7], at[8]);
@@ -166,7 +166,7 @@ TEST_F(FileCheckOfMasks, FindsLinksThatLeadNowhere) {
       const Codes codes = codes_of_change(
           sphere(), has_links,
           [&](RawMaskPage& page) { page.page_links[1] += static_cast<std::uint32_t>(by); }, full);
-      // Before or behind a family of one there may be another's beginning.
+      // The slot before or after a family of one member may be the start of another family.
       EXPECT_TRUE(codes.contains("LINK_TARGET") || codes.contains("LINK_TWICE")) << by;
       EXPECT_TRUE(codes.contains("SUBTREE_UNLINKED")) << by;
     }
@@ -179,7 +179,8 @@ TEST_F(FileCheckOfMasks, FindsTwoLinksToOneFamily) {
   EXPECT_TRUE(codes.contains("SUBTREE_UNLINKED"));
 }
 
-// Of which node of a page, counted among nodes, the family is in another and has several members.
+// Index, among the nodes of a page, of one whose family lies in another page and has several
+// members.
 Node node_above(const RawMaskPage& page) {
   std::size_t node = 0;
   for (const std::uint8_t kind : page.kinds) {
@@ -196,7 +197,7 @@ TEST_F(FileCheckOfMasks, FindsFamiliesOfOtherKindsThanTheirNodeSays) {
     page.leaf[at] ^= lowest(page.grey[at]);
   });
   EXPECT_TRUE(kinds.contains("LINK_TARGET"));
-  // One member fewer: the last has no parent.
+  // One member fewer: the last one has no parent.
   const Codes fewer = codes_of_change(sphere(), has(node_above), [](RawMaskPage& page) {
     const std::size_t at = *node_above(page);
     const auto kept = static_cast<std::uint8_t>(~unsigned{lowest(page.grey[at])});
@@ -219,7 +220,7 @@ TEST_F(FileCheckOfMasks, FindsASecondRoot) {
   EXPECT_EQ(codes_of_change(tetrahedron(), is_first, add_root, false), Codes{"SUBTREE_UNLINKED"});
 }
 
-// Twenty nodes one below the other.
+// Twenty nodes, each the child of the one before.
 TEST_F(FileCheckOfMasks, FindsCellsBelowTheFinestLevel) {
   Forgery forgery;
   forgery.mask = [](std::uint32_t, RawMaskPage& page) {
@@ -248,7 +249,7 @@ TEST_F(FileCheckOfMasks, FindsCellsBelowTheFinestLevel) {
   EXPECT_EQ(codes_of(check_forgery(one_page, forgery, false)), Codes{"PAGE_STRUCTURE"});
 }
 
-// A page that is lost is told once, with nothing that hangs from it.
+// A lost page is reported once, without the pages that only it links to.
 TEST_F(FileCheckOfMasks, TellsOfALostPageAlone) {
   const Bytes bytes = storage::read_bytes(sphere());
   const storage::FileHeader header = storage::FileImage(bytes).header();

@@ -25,7 +25,7 @@ TEST_F(FileCheck, FindsPagesThatBreakTheirRules) {
   EXPECT_EQ(codes_of_forgery(forgery), Codes{"PAGE_STRUCTURE"});
 }
 
-/// Calls change(raw) for the first page that has at least two links to others.
+/// Calls change(raw) for the first page that has at least two links to other pages.
 Forgery change_links(const std::function<void(RawPage&)>& change) {
   Forgery forgery;
   forgery.page = [change, done = false](std::uint32_t, RawPage& raw) mutable {
@@ -77,7 +77,7 @@ TEST_F(FileCheck, FindsAHeaderWhoseBoxIsNotTheModels) {
 
 TEST_F(FileCheck, FindsHeightsThatAreNot) {
   EXPECT_EQ(codes_of_model([](auto& model) { ++model.height; }), Codes{"HEIGHT"});
-  // The root's height alone: the highest below it then has two less.
+  // Raises the root's height alone; its highest child is then two lower.
   Forgery forgery;
   forgery.page = [](std::uint32_t page, RawPage& raw) {
     if (page == 0)
@@ -138,7 +138,7 @@ TEST_F(FileCheck, FindsPlanesThatDoNotEnclose) {
   const Codes expected = {"VERTEX_OUTSIDE_PLANES"};
   EXPECT_EQ(codes_of_forgery(narrowed("child_radii", std::uint16_t{0}, 1)), expected);
   EXPECT_EQ(codes_of_forgery(narrowed("child_slabs", std::int16_t{0}, 1)), expected);
-  // Of an inner node, far above the vertices it should hold.
+  // In an inner node, far above the vertices that it must enclose.
   EXPECT_EQ(codes_of_forgery(narrowed("child_radii", std::uint16_t{0}, 0)), expected);
 }
 
@@ -148,7 +148,7 @@ TEST_F(FileCheck, FindsASampleThatIsNone) {
 }
 
 TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
-  // Then the nodes would have no moments.
+  // The nodes of a watertight model have no moments.
   EXPECT_EQ(codes_of_model([](auto& model) {
               model.unbalanced_edge_count = 0;
               for (auto& edge : model.unbalanced_edge) edge = {};
@@ -173,7 +173,7 @@ TEST_F(FileCheck, FindsMomentsThatAreNot) {
     return forgery;
   };
   const Codes expected = {"MOMENTS"};
-  // Of blocks, and far above them.
+  // Moments of blocks, and of nodes far above them.
   for (const std::uint32_t page : {0u, 1u}) {
     EXPECT_EQ(codes_of_forgery(changed("child_dipoles", std::int16_t{9000}, page)), expected);
     EXPECT_EQ(codes_of_forgery(changed("child_quadrupoles", std::int8_t{40}, page)), expected);

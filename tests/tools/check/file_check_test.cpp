@@ -10,7 +10,7 @@
 namespace planetree::tools {
 namespace {
 
-// The surface of a box, each side a square of squares.
+// The surface of a box; each side is a grid of squares.
 std::string closed_box(int side) {
   std::ostringstream obj;
   int vertices = 0;
@@ -44,8 +44,7 @@ TEST_F(FileCheck, FindsNothingInAFileThatIsWell) {
   EXPECT_EQ(report.pages, image().header().page_count);
 }
 
-// A single bit wrong anywhere, and a single byte missing, must be found; and
-// neither the check nor the survey may stumble over it.
+// Every single flipped bit must be found, and neither check nor survey may fail because of it.
 TEST(FileCheckOfDamage, FindsEverySingleBit) {
   storage::TemporaryDirectory folder;
   write_mesh(folder / "mesh.obj", 12);
@@ -68,7 +67,7 @@ TEST(FileCheckOfDamage, FindsEverySingleBit) {
   EXPECT_EQ(check(file).issues.count(), 0u);
 }
 
-// As large models are built: patch by patch, and a mask of many regions.
+// Built as large models are: in several chunks, with a mask of many sectors.
 TEST(FileCheckOfChunks, FindsNothing) {
   storage::TemporaryDirectory folder;
   std::ofstream(folder / "closed.obj") << closed_box(12);

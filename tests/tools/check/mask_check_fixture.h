@@ -33,15 +33,15 @@ inline CheckReport check_path(const std::filesystem::path& path, bool full) {
 
 class FileCheckOfMasks : public testing::Test {
  protected:
-  // With corners from -1 to 2 and special cells.
+  // Has corner numbers from -1 to 2 and special cells.
   std::filesystem::path boxes() const {
     return PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.ptree";
   }
-  // With a mask of one leaf.
+  // Has a mask of one leaf.
   std::filesystem::path tetrahedron() const {
     return PLANETREE_SOURCE_DIR "/format-spec/v1/samples/tetrahedron.ptree";
   }
-  // With a mask of several pages.
+  // Has a mask of several pages.
   std::filesystem::path sphere() {
     const std::filesystem::path tree = folder_ / "sphere.ptree";
     if (std::filesystem::exists(tree)) return tree;
@@ -53,7 +53,7 @@ class FileCheckOfMasks : public testing::Test {
     forge(tree, folder_ / "forged.ptree", forgery);
     return check_path(folder_ / "forged.ptree", full);
   }
-  // Changes the first mask page that `fits`.
+  // Changes the first mask page for which fits(page) holds.
   Codes codes_of_change(const std::filesystem::path& tree,
                         const std::function<bool(const RawMaskPage&)>& fits, const Change& change,
                         bool full = true) {
@@ -68,7 +68,7 @@ class FileCheckOfMasks : public testing::Test {
     EXPECT_TRUE(done) << "no page of the sample suits";
     return codes;
   }
-  // Found with --full, and not looked for without.
+  // The change is found with --full and not looked for without it.
   template <class Find>
   void expect_found(const char* code, const Find& find, const Change& change) {
     const auto fits = [&](const RawMaskPage& page) { return static_cast<bool>(find(page)); };

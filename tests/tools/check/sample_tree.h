@@ -42,7 +42,7 @@ class NoProgress final : public octree::BuildProgress {
   void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
 };
 
-/// Builds a tree of pages of 4096 bytes.
+/// Builds a tree with pages of 4096 bytes.
 inline void build_sample(const std::filesystem::path& mesh, const std::filesystem::path& tree) {
   octree::BuildOptions options;
   options.page_bytes = 4096;
@@ -52,7 +52,7 @@ inline void build_sample(const std::filesystem::path& mesh, const std::filesyste
   ASSERT_TRUE(octree::build_tree(mesh, tree, options, progress));
 }
 
-/// The raw bytes of one page, changed stream by stream.
+/// Raw bytes of one page, to be changed stream by stream.
 class RawPage {
  public:
   RawPage(std::vector<std::byte> bytes, const octree::BlockShape& shape)
@@ -85,7 +85,7 @@ class RawPage {
       if (each.name == stream) return each;
     std::abort();
   }
-  // Streams are byte-shuffled.
+  // Streams are byte-stream split.
   std::size_t position(std::string_view stream, std::size_t index, std::size_t byte) const {
     std::size_t offset = 0;
     for (const StreamRow& each : rows_) {
@@ -99,10 +99,10 @@ class RawPage {
   std::vector<StreamRow> rows_;
 };
 
-/// What forge() may change of a tree.
+/// Changes that forge() makes to a tree.
 struct Forgery {
   std::function<void(std::uint32_t page, RawPage&)> page = [](std::uint32_t, RawPage&) {};
-  /// A page of the mask, counted from its first.
+  /// A page of the mask; numbers start at its first page.
   std::function<void(std::uint32_t page, octree::RawMaskPage&)> mask = [](std::uint32_t,
                                                                           octree::RawMaskPage&) {};
   std::function<void(storage::ModelRecord&)> model = [](storage::ModelRecord&) {};
@@ -110,7 +110,7 @@ struct Forgery {
       [](std::uint32_t, storage::StoredPage&) {};
 };
 
-/// Copies a tree with changes and right hashes: what is found is the change.
+/// Copies a tree with changes and right hashes, so that a check finds the changes themselves.
 inline void forge(const std::filesystem::path& from, const std::filesystem::path& to,
                   const Forgery& forgery) {
   const auto file = storage::PageFile::open(from);

@@ -1,5 +1,4 @@
-// Builds by the command itself: on disks that fill up, beside one another, and where links are
-// planted.
+// Builds by the command itself: on disks that fill up, several at once, and with links planted.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -29,8 +28,8 @@ Outcome shell(const std::string& script) {
 
 class BuildFaults : public Command {
  protected:
-  // Faces that join vertices by chance: few edges meet others, which takes more space than is
-  // foreseen of a mesh with so few vertices.
+  // Writes faces between random vertices. Few edges match others, which takes more space than is
+  // predicted for a mesh with so few vertices.
   static void write_tangle(const fs::path& path) {
     constexpr std::uint32_t kVertices = 20000, kFaces = 40000;
     std::mt19937 random(3);
@@ -66,7 +65,7 @@ class BuildFaults : public Command {
   }
 };
 
-/// With a folder `small` that can be a disk of its own.
+/// Has a directory `small` that can be mounted as a disk of its own.
 class BuildOnSmallDisk : public BuildFaults {
  protected:
   void SetUp() override {
@@ -89,7 +88,7 @@ TEST_F(BuildOnSmallDisk, DoesNotBeginWhatCannotEnd) {
   const Outcome with_more_memory =
       shell(on_small_disk("8M", build("model.ply -o out/new.ptree --memory 1G --temp-dir small")));
   EXPECT_EQ(with_more_memory.status, 0) << with_more_memory.output;
-  // What is kept is on disk, however much memory there is.
+  // A checkpoint is on disk, however much memory there is.
   const Outcome resumable = shell(on_small_disk(
       "6M", build("model.ply -o out/new.ptree --force --resume --memory 1G --temp-dir small") +
                 "; echo $?; ls -A small"));
@@ -174,7 +173,7 @@ TEST_F(BuildFaults, WorkThatCannotBeKeptIsAnErrorOfItsDirectory) {
   EXPECT_EQ(names("out"), Names{});
 }
 
-// The page size tells whose the file is.
+// The page size identifies the build that wrote the file.
 TEST_F(BuildFaults, OfTwoBuildsOfOneFileOneWins) {
   ASSERT_EQ(run({"generate", "model.ply", "--triangles", "50K", "--quiet"}).status, 0);
   std::vector<storage::Bytes> expected;

@@ -1,4 +1,4 @@
-// What a build takes on disk beside what was foreseen, on surfaces of the sizes that matter.
+// Disk space of builds, compared with the prediction, on surfaces of realistic sizes.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace planetree::tools {
 namespace {
 
-// Of memory that holds nothing.
+// So little memory that nothing is held in it.
 constexpr const char* kMin = "160M";
 
 octree::SpaceNeed foreseen_of(const fs::path& mesh) {
@@ -22,7 +22,8 @@ octree::SpaceNeed foreseen_of(const fs::path& mesh) {
   return octree::SpaceNeed::before_reading(*size, *memory);
 }
 
-// The same mesh with doubles that floats do not hold; of what `planetree generate` writes.
+// Writes the same mesh with double coordinates that no float represents. `from` is a file written
+// by `planetree generate`.
 void widen(const fs::path& from, const fs::path& to) {
   const storage::Bytes bytes = storage::read_bytes(from);
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -62,12 +63,12 @@ class FilesOnDisk : public Command {
     EXPECT_GE(static_cast<double>(need.temporary_bytes), temporary);
     EXPECT_LE(static_cast<double>(need.temporary_bytes), 1.25 * temporary);
     EXPECT_GE(static_cast<double>(need.output_bytes), output);
-    // LZ4 makes little of regular surfaces.
+    // LZ4 compresses regular surfaces well.
     EXPECT_LE(static_cast<double>(need.output_bytes), 4.5 * output);
   }
 };
 
-// With sanitizers, which are slow here, fewer.
+// Fewer in builds with sanitizers, which are slow here.
 #ifdef NDEBUG
 constexpr const char* kTriangleCount = "60K";
 #else
@@ -107,7 +108,7 @@ TEST_F(FilesOnDisk, AreReported) {
   };
   EXPECT_EQ(temporary_bytes({"8G"}), 0u);
   EXPECT_GT(temporary_bytes({"8G", "--resume"}), kTriangles * (16 + 36));
-  // Each triangle twice, with code, index and nine coordinates; and its page.
+  // Each triangle twice, with code, index and nine coordinates, and its page.
   EXPECT_GT(temporary_bytes({kMin}), kTriangles * 2 * (16 + 36));
 }
 

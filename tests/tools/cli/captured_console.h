@@ -51,7 +51,7 @@ class CapturedConsole {
   Console console_;
 };
 
-/// What a run of the command gave.
+/// Result of a run of the command.
 struct Outcome {
   int status = 0;
   std::string output;

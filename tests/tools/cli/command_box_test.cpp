@@ -11,7 +11,7 @@ namespace {
 const std::string kSolids = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.obj";
 const std::string kHoled = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/sheet.obj";
 
-/// Builds of a part, and what the verbs say of them.
+/// Builds of a region, and what the subcommands report about them.
 class CommandBox : public Command {
  protected:
   static Json build(const std::string& mesh, const std::string& box) {

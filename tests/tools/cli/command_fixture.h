@@ -13,7 +13,7 @@
 #include "tests/tools/check/sample_tree.h"
 #include "tests/tools/cli/captured_console.h"
 
-/// What the tests of the command share: a folder with a mesh and its tree.
+/// Shared by the tests of the command: a directory with a mesh and its tree.
 namespace planetree::tools {
 
 namespace fs = std::filesystem;

@@ -144,7 +144,7 @@ TEST_F(Command, InspectFindsNodesByOctcode) {
   }
 }
 
-// Of a long model, so that there are few pixels.
+// The model is long, so the image has few pixels.
 TEST_F(Command, InspectDrawsASlice) {
   write("rod.obj", "v 0 0 0\nv 64 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   build_sample("rod.obj", "rod.ptree");

@@ -18,7 +18,7 @@ class CommandResume : public Command {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   }
-  // Leaves what a build leaves whose disk is full once its triangles are ordered.
+  // Leaves the checkpoint of a build whose disk failed once its triangles were ordered.
   static void interrupt() {
     class Watch final : public octree::BuildProgress {
      public:

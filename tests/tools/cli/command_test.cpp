@@ -19,8 +19,8 @@ struct Refused {
   std::string line;
 };
 
-// These lines are what people and scripts see: each names the file, the place
-// in it, the cause and what to do.
+// People and scripts see these lines: each names the file, the position in it, the cause and the
+// remedy.
 TEST_F(Command, RefusesInOneLine) {
   write("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 7\n");
   write("short.csv", "x,y,z\n1,2,3\n1,2\n");
@@ -308,7 +308,7 @@ TEST_F(Command, ReportsAFullDevice) {
 }
 
 #ifdef PLANETREE_COMMAND
-// Points that keep it waiting for longer than progress keeps quiet.
+// The second point comes later than progress stays silent.
 TEST_F(Command, TellsProgramsOfItsProgressUnlessQuiet) {
   const std::string query = std::string("{ echo 1,1,1; sleep 5.2; echo 2,2,2; } | ") +
                             PLANETREE_COMMAND + " query tree.ptree --json ";

@@ -89,7 +89,7 @@ TEST(Why, InspectCountsColoursByLevel) {
   EXPECT_EQ(report["special_configurations"], sum["special"]);
   EXPECT_GT(sum["special"], 0);
   EXPECT_GT(sum["black"], 0);
-  // Every octant of a divided cell has a colour; the root has none above it.
+  // Every octant of a divided cell has a colour; the root is no octant.
   const int divided =
       sum["grey"].get<int>() - sum["with_corners"].get<int>() - sum["special"].get<int>();
   EXPECT_EQ(sum["white"].get<int>() + sum["black"].get<int>() + sum["grey"].get<int>(),

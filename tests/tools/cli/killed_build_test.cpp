@@ -9,7 +9,7 @@ namespace {
 #ifdef NDEBUG
 constexpr const char* kTriangles = "200K";
 #else
-constexpr const char* kTriangles = "20K";  // where building takes long
+constexpr const char* kTriangles = "20K";  // builds are slow here
 #endif
 
 TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElseButWorkToResume) {
@@ -19,7 +19,7 @@ TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElseButWorkToResume)
   constexpr unsigned kCount = 20;
   unsigned killed = 0, resumable = 0;
   for (unsigned i = 0; i < kCount; ++i) {
-    const bool resume = i % 4 == i / 4 % 2;  // to replace a file, and to be the first
+    const bool resume = i % 4 == i / 4 % 2;  // both with and without a file to replace
     const KilledBuilds::Left left = builds.strike(i, kCount, resume);
     EXPECT_EQ(left.wrong, "");
     killed += left.killed ? 1 : 0;

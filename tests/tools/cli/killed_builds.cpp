@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The process, silent but for errors.
+// Starts the program, silent except for errors.
 pid_t spawn(const fs::path& program, const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   std::vector<std::string> all = arguments;
@@ -117,7 +117,7 @@ KilledBuilds::Left KilledBuilds::look(bool replace, bool resume) const {
   return left;
 }
 
-// What goes wrong with it, if anything does. The file may be there already.
+// Resumes the build; returns what went wrong, empty if nothing. The output may exist already.
 std::string KilledBuilds::go_on() const {
   std::string wrong;
   if (status_of(start(fs::exists(output_), true)) != 0)

@@ -11,35 +11,35 @@
 
 namespace planetree::tools {
 
-/// Builds of one model by the command itself, with so little memory that all is spilled, each
-/// killed at some moment.
+/// Builds of one model by the command itself, each killed at some moment. Memory is so small that
+/// all data is spilled.
 class KilledBuilds {
  public:
-  /// command  the program `planetree`.
-  /// seed     of the moments.
+  /// command  the program `planetree`
+  /// seed     of the random moments
   KilledBuilds(std::filesystem::path command, unsigned seed);
 
-  /// Generates the model and builds it undisturbed, with and without --resume. What went wrong,
-  /// if anything.
+  /// Generates the model and builds it undisturbed, with and without --resume. Returns what went
+  /// wrong, empty if nothing.
   std::string prepare(const std::string& triangles);
 
-  /// Where files have no names before they are complete; elsewhere a kill may leave one.
+  /// Whether the file system has files without names; on others a kill may leave a file behind.
   bool has_unnamed_files() const;
 
-  /// What a killed build left.
+  /// Files and processes left by a killed build.
   struct Left {
-    bool killed = false;  ///< it was not done before
-    bool whole = false;   ///< the destination is the new file
-    /// Between the two calls by which a file that is complete replaces another, it has a name
-    /// of its own.
+    bool killed = false;  ///< killed before it was done
+    bool whole = false;   ///< the destination is the complete new file
+    /// A complete file has a temporary name of its own between the two calls that replace an old
+    /// one.
     bool temporary_name = false;
-    bool work = false;  ///< there is work that --resume goes on with
-    std::string wrong;  ///< in words; empty if nothing is
+    bool work = false;  ///< a checkpoint is left for --resume
+    std::string wrong;  ///< what went wrong, in words; empty if nothing
   };
-  /// Starts a build and kills it within part `which` of `parts` of the time that one takes.
-  /// Every other one is to replace an old file.
-  /// resume  it keeps its work; once killed it is built again, and must come to the same file and
-  ///         leave nothing beside it.
+  /// Starts a build and kills it within part `which` of `parts` of a build's duration. Every other
+  /// build replaces an old file.
+  /// resume  keep a checkpoint; after the kill, the build is resumed and must give the same file
+  /// and leave nothing beside it
   Left strike(unsigned which, unsigned parts, bool resume);
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, removed afterwards.
+/// A directory for each test, removed afterwards.
 class GenerateFile : public testing::Test {
  protected:
   void SetUp() override {
@@ -147,7 +147,7 @@ TEST_F(GenerateFile, ReportsAFullDevice) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-/// While it lives, files of this process may not grow beyond a size.
+/// Limits the size of this process's files while it exists.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

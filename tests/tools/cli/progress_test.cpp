@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-/// A Progress that writes to memory, by a clock that the test moves.
+/// A Progress that writes to memory, with a clock that the test advances.
 class Recorder {
  public:
   explicit Recorder(Progress::Style style)

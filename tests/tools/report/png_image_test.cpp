@@ -28,7 +28,7 @@ class PngImageTest : public testing::Test {
   fs::path folder_;
 };
 
-/// A picture in which no two neighbours, rows or channels are alike.
+/// An image in which no two neighbouring pixels, rows or channels are alike.
 PngImage pattern(std::uint32_t width, std::uint32_t height) {
   PngImage image(width, height);
   for (std::uint32_t row = 0; row < height; ++row) {
@@ -85,7 +85,7 @@ TEST_F(PngImageTest, HoldsThePictureThatCompressesWorst) {
     }
   }
   ASSERT_TRUE(image.write(folder_ / "noise.png", false));
-  // Readers may not notice a missing end: the last chunk is IEND, as ever.
+  // Readers may not notice a missing end, so the last chunk is checked: it is IEND.
   std::ifstream file(folder_ / "noise.png", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   EXPECT_GT(bytes.size(), 500U * 400U * 2U);

@@ -130,8 +130,8 @@ TEST(SlicePlane, ReadsNumbersAndShares) {
     EXPECT_FALSE(SlicePlane::parse(text)) << text;
 }
 
-// The middle of a slice through a flat square: the surface is a dark line, and
-// the farther from it, the darker the bands.
+// A slice through a flat square: the surface is a dark line in the middle, and the bands are darker
+// the farther they are from it.
 TEST(SliceImage, ShowsTheSurface) {
   storage::TemporaryDirectory folder;
   std::ofstream(folder / "mesh.obj") << "v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\nf 1 2 3 4\n";
@@ -168,7 +168,7 @@ TEST(Issue, HasANameForEveryCode) {
   EXPECT_EQ(names.size(), kIssueCodeCount);
 }
 
-// What people look up must be there.
+// Every code is documented.
 TEST(Issue, IsDocumented) {
   std::ifstream stream(std::string(PLANETREE_SOURCE_DIR) + "/format-spec/ISSUES.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

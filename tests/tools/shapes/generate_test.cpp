@@ -36,10 +36,10 @@ class Generate : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// The exit status of `planetree generate` with these words, and what it says.
+  /// Runs `planetree generate` with these words, keeps its output and returns the exit status.
   int run(std::vector<std::string> words) {
     words.insert(words.begin(), "generate");
-    // The model itself goes to the descriptor of standard output.
+    // The model itself is written to the descriptor of standard output.
     testing::internal::CaptureStdout();
     const Outcome outcome = tools::run(words);
     said_ = testing::internal::GetCapturedStdout() + outcome.output;
@@ -58,8 +58,8 @@ struct Golden {
   std::uint64_t hash;
 };
 
-// The same on every compiler and machine; a change here changes every model that
-// people have generated and measured with.
+// Equal on every compiler and machine. A change here changes every model that people have generated
+// and measured with.
 constexpr Golden kGoldens[] = {
     {ShapeKind::kStatue, 2860983112225372389U},    {ShapeKind::kSphere, 15310695791135817050U},
     {ShapeKind::kCylinder, 18413768334433729037U}, {ShapeKind::kCone, 18185607728681744585U},
@@ -102,7 +102,7 @@ TEST_F(Generate, WritesHeaderVerticesAndTriangles) {
   }
 }
 
-/// A shape that is nothing but its counts.
+/// A shape with counts only.
 class Counts final : public Shape {
  public:
   Counts(std::uint64_t vertices, std::uint64_t triangles)

@@ -20,7 +20,7 @@ TEST(FractalNoise, IsContinuousAndBounded) {
     };
     const Vec3 p = {coordinate(0), coordinate(1), coordinate(2)};
     const double here = noise.at(p);
-    // From one lattice cell to the next there may be no step, in any octave.
+    // The noise has no step between lattice cells, in any octave.
     EXPECT_NEAR(noise.at({p.x + 1e-9, p.y - 1e-9, p.z + 1e-9}), here, 1e-6);
     least = std::min(least, here);
     greatest = std::max(greatest, here);

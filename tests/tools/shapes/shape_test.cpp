@@ -30,7 +30,7 @@ std::unique_ptr<Shape> shape_of(ShapeKind kind, std::uint64_t triangles,
   return shape ? std::move(*shape) : nullptr;
 }
 
-/// As it will lie in the file.
+/// Vertex as it is stored in the file.
 Vec3 rounded_vertex(const Shape& shape, std::uint64_t index) {
   const Vec3 p = shape.vertex(index);
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
@@ -60,7 +60,7 @@ double volume(const Shape& shape) {
   return sum / 6;
 }
 
-/// How often each directed edge occurs.
+/// Number of occurrences of each directed edge.
 std::map<Edge, int> directed_edges(const Shape& shape) {
   std::map<Edge, int> edges;
   for (std::uint64_t t = 0; t < shape.triangle_count(); ++t) {
@@ -70,7 +70,7 @@ std::map<Edge, int> directed_edges(const Shape& shape) {
   return edges;
 }
 
-/// Directed edges whose reverse is missing; -1 if any edge occurs twice.
+/// Number of directed edges without their reverse; -1 if any edge occurs twice.
 std::int64_t boundary_edges(const Shape& shape) {
   const std::map<Edge, int> edges = directed_edges(shape);
   std::int64_t boundary = 0;
@@ -143,7 +143,7 @@ TEST(Shape, ApproachesTheVolumeOfTheBody) {
     const double fine_error = 1 - volume(*fine) / expected;
     EXPECT_GT(fine_error, 0) << "vertices lie on the body, so the mesh is inside";
     EXPECT_LT(fine_error, 0.004);
-    // Chords cut off an area as the square of their length, so as 1 / triangles.
+    // Chords cut off an area proportional to their squared length, so to 1 / triangles.
     const double finer =
         static_cast<double>(fine->triangle_count()) / static_cast<double>(coarse->triangle_count());
     EXPECT_NEAR(coarse_error / fine_error, finer, 0.05 * finer);
@@ -248,7 +248,7 @@ TEST(Shape, RefusesNoneAndTooMany) {
       EXPECT_EQ(shape.error().code, ErrorCode::kBadArgument);
     }
   }
-  // Three vertices each: the last that 32 bits can index, and one more.
+  // Three vertices a triangle: the last that 32 bits can index, and one more.
   EXPECT_TRUE(make_shape(ShapeKind::kSoup, 1'431'655'765, kSeed));
   EXPECT_FALSE(make_shape(ShapeKind::kSoup, 1'431'655'766, kSeed));
 }
