@@ -32,7 +32,7 @@ using Answers = std::vector<ClosestPoint>;
 struct Way {
   std::string name;
   const Model& model;
-  std::function<void(Answers&)> query_options;
+  std::function<void(Answers&)> answer;
   Answers answers;
   std::vector<double> times{};
   double pages = 0;
@@ -79,20 +79,20 @@ int run(const Arguments& arguments) {
     const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
     const std::vector<Vec3> points =
         make_queries(workload, {info.box_lower, info.box_upper}, surface, arguments.points, 1);
-    const Answers capacity(points.size());
+    const Answers unanswered(points.size());
     std::vector<Way> ways{
         {"one by one", *alone,
          [&](Answers& answers) {
            for (std::size_t i = 0; i < points.size(); ++i)
              answers[i] = probe->closest_point(points[i], kDistanceAlone);
          },
-         capacity},
+         unanswered},
         {"a batch", *alone,
          [&](Answers& answers) { probe->closest_points(points, answers, kDistanceAlone); },
-         capacity},
+         unanswered},
         {fmt::format("a batch, {} threads", arguments.threads), *batch_threads,
          [&](Answers& answers) { thread_probe->closest_points(points, answers, kDistanceAlone); },
-         capacity}};
+         unanswered}};
     for (Way& way : ways) way.run();  // to warm up
     for (Way& way : ways) way.times.clear();
     for (std::size_t round = 0; round < arguments.rounds; ++round)

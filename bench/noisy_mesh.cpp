@@ -78,7 +78,7 @@ class FinerMesh {
   }
 
  private:
-  using Place = std::array<double, 3>;
+  using Position = std::array<double, 3>;
 
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
@@ -97,24 +97,24 @@ class FinerMesh {
   }
 
   // The position `step` pieces from vertex a towards vertex b.
-  Place at(std::size_t a, std::size_t b, std::uint32_t step) const {
-    Place index{};
+  Position at(std::size_t a, std::size_t b, std::uint32_t step) const {
+    Position position{};
     const double share = static_cast<double>(step) / pieces_;
     for (unsigned axis = 0; axis < 3; ++axis)
-      index[axis] =
+      position[axis] =
           mesh_.positions[3 * a + axis] * (1 - share) + mesh_.positions[3 * b + axis] * share;
-    return index;
+    return position;
   }
-  Place within(std::size_t triangle, std::uint32_t u, std::uint32_t v) const {
-    Place index{};
+  Position within(std::size_t triangle, std::uint32_t u, std::uint32_t v) const {
+    Position position{};
     const double shares[3] = {static_cast<double>(pieces_ - u - v) / pieces_,
                               static_cast<double>(u) / pieces_, static_cast<double>(v) / pieces_};
     for (unsigned corner = 0; corner < 3; ++corner)
       for (unsigned axis = 0; axis < 3; ++axis)
-        index[axis] +=
+        position[axis] +=
             shares[corner] *
             mesh_.positions[3 * std::size_t{mesh_.corners[3 * triangle + corner]} + axis];
-    return index;
+    return position;
   }
 
   // The number of the vertex that is u pieces from the first corner towards the second and v pieces
@@ -146,11 +146,11 @@ class FinerMesh {
     z = (z ^ z >> 27) * 0x94d049bb133111eb;
     return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-52 - 1;
   }
-  void put(std::ostream& out, std::uint64_t number, const Place& index) const {
-    std::array<float, 3> perturbed{};
+  void put(std::ostream& out, std::uint64_t number, const Position& position) const {
+    std::array<float, 3> noisy{};
     for (unsigned axis = 0; axis < 3; ++axis)
-      perturbed[axis] = static_cast<float>(index[axis] + reach_ * noise(3 * number + axis));
-    out.write(reinterpret_cast<const char*>(perturbed.data()), sizeof perturbed);
+      noisy[axis] = static_cast<float>(position[axis] + reach_ * noise(3 * number + axis));
+    out.write(reinterpret_cast<const char*>(noisy.data()), sizeof noisy);
   }
   static void put_face(std::ostream& out, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const std::array<std::uint32_t, 3> face{a, b, c};

@@ -71,7 +71,7 @@ void read_pages(benchmark::State& state, const storage::PageFile& file, const Pa
   }
 }
 
-void bring_pages(benchmark::State& state, const storage::PageFile& file, const Pages& pages) {
+void load_pages(benchmark::State& state, const storage::PageFile& file, const Pages& pages) {
   PageWalk walk(file, pages);
   for (auto _ : state) {
     if (!walk.read() || !walk.decode()) return state.SkipWithError("a page is damaged");
@@ -98,9 +98,9 @@ int run(int argc, char** argv) {
   const Pages tree{0, file->header().first_mask_page()};
   const Pages mask{tree.count, file->page_count() - tree.count};
   add("tree: read and verify", tree, read_pages);
-  add("tree: read, verify and unpack", tree, bring_pages);
+  add("tree: read, verify and unpack", tree, load_pages);
   add("mask: read and verify", mask, read_pages);
-  add("mask: read, verify and unpack", mask, bring_pages);
+  add("mask: read, verify and unpack", mask, load_pages);
   int flags = argc - 1;
   benchmark::Initialize(&flags, argv + 1);
   benchmark::RunSpecifiedBenchmarks();

@@ -55,17 +55,18 @@ bool use_only(const std::string& instructions) {
 }
 
 // One contender: a part of the answer, computed by planetree or by a peer.
-struct Recorded {
+struct NamedContender {
   std::string who, what;  // `what`: "distance", "side" or "all parts"
-  Contender query_options;
+  Contender contender;
 };
 
 // Converts without a branch, which would be mispredicted for every other point and take as long as
 // a query.
 double number(bool answer) { return static_cast<double>(static_cast<int>(answer)); }
 
-std::vector<Recorded> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers, bool watertight) {
-  std::vector<Recorded> all;
+std::vector<NamedContender> contenders_of(Probe& probe, std::vector<BuiltPeer>& peers,
+                                          bool watertight) {
+  std::vector<NamedContender> all;
   all.push_back({"planetree", "distance", [&](const Vec3& query) {
                    return probe.closest_point(query, {.parts = kDistance}).distance;
                  }});
@@ -89,23 +90,23 @@ class Comparison {
              std::vector<BuiltPeer>& peers)
       : options_(options),
         info_(info),
-        queried_(contenders_of(probe, peers, info.watertight())),
+        named_contenders_(contenders_of(probe, peers, info.watertight())),
         surface_([&](const Vec3& query) { return probe.closest_point(query); }) {}
 
   nlohmann::json run(Workload workload) {
     const std::vector<Vec3> queries =
         make_queries(workload, {info_.box_lower, info_.box_upper}, surface_, options_.queries, 1);
     std::vector<Contender> contenders;
-    for (const Recorded& queried : queried_) contenders.push_back(queried.query_options);
+    for (const NamedContender& named : named_contenders_) contenders.push_back(named.contender);
     const std::vector<Timing> timings = take_turns(contenders, queries, options_.rounds);
     nlohmann::json rows = nlohmann::json::array();
-    for (std::size_t i = 0; i < queried_.size(); ++i) {
+    for (std::size_t i = 0; i < named_contenders_.size(); ++i) {
       // Compares a peer with planetree's contender for the same part.
-      const std::size_t ours = queried_[i].what == "side" ? 2 : 0;
-      const Latency latency = latency_of(queried_[i].query_options, queries);
+      const std::size_t ours = named_contenders_[i].what == "side" ? 2 : 0;
+      const Latency latency = latency_of(named_contenders_[i].contender, queries);
       rows.push_back({{"workload", name_of(workload)},
-                      {"part", queried_[i].what},
-                      {"of", queried_[i].who},
+                      {"part", named_contenders_[i].what},
+                      {"of", named_contenders_[i].who},
                       {"ns", timings[i].median_ns},
                       {"times_ours", timings[i].median_ns / timings[ours].median_ns},
                       {"sum_differs", std::fabs(timings[i].checksum - timings[ours].checksum)},
@@ -127,7 +128,7 @@ class Comparison {
 
   const Options& options_;
   const ModelInfo& info_;
-  std::vector<Recorded> queried_;
+  std::vector<NamedContender> named_contenders_;
   SurfaceOf surface_;
 };
 

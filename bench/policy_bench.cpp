@@ -24,8 +24,8 @@ constexpr Workload kQueried[] = {Workload::kUniform, Workload::kNear, Workload::
                                  Workload::kTeleport};
 
 // Returns the pages read per query in the second half; the first half fills the frames.
-Result<double> reads_a_query(const Arguments& arguments, const std::vector<Vec3>& points,
-                             std::uint64_t budget_bytes, cache::Policy policy) {
+Result<double> reads_per_query(const Arguments& arguments, const std::vector<Vec3>& points,
+                               std::uint64_t budget_bytes, cache::Policy policy) {
   const auto model = query::ModelState::open_model(
       arguments.model, {.memory_budget_bytes = budget_bytes, .max_probes = 1},
       {.starts_fetching = false, .policy = policy});
@@ -60,8 +60,8 @@ int run(const Arguments& arguments) {
     for (const double percent : arguments.percents) {
       const auto budget = static_cast<std::uint64_t>(
           percent / 100 * static_cast<double>(model->stats().arena_bytes));
-      const auto clock = reads_a_query(arguments, points, budget, cache::Policy::kClock);
-      const auto lru = reads_a_query(arguments, points, budget, cache::Policy::kLru);
+      const auto clock = reads_per_query(arguments, points, budget, cache::Policy::kClock);
+      const auto lru = reads_per_query(arguments, points, budget, cache::Policy::kLru);
       if (!clock || !lru) return fail((clock ? lru : clock).error().text);
       fmt::print("{:<12}{:>10}{:>10.4f}{:>10.4f}\n", name_of(workload), percent, *clock, *lru);
     }

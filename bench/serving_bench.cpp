@@ -83,7 +83,7 @@ double installs_a_second(const Model& model) {
 
 /// Times of the queries of one round: median and 99.9th percentile.
 struct QueryTimes {
-  double half_ns, p999_ns;
+  double median_ns, p999_ns;
   std::size_t degraded;
 };
 
@@ -100,20 +100,20 @@ QueryTimes query_path(Probe& probe, const std::vector<Vec3>& path) {
     result.degraded += answer.status == Status::kDegraded;
   }
   std::sort(times.begin(), times.end());
-  result.half_ns = times[times.size() / 2];
+  result.median_ns = times[times.size() / 2];
   result.p999_ns = times[times.size() * 999 / 1000];
   return result;
 }
 
-void say(const char* what, const std::vector<QueryTimes>& rounds) {
-  std::vector<double> half, p999;
+void print_times(const char* what, const std::vector<QueryTimes>& rounds) {
+  std::vector<double> medians, p999;
   std::size_t degraded = 0;
   for (const QueryTimes& round : rounds) {
-    half.push_back(round.half_ns);
+    medians.push_back(round.median_ns);
     p999.push_back(round.p999_ns);
     degraded += round.degraded;
   }
-  fmt::print("{}: half {:.0f} ns, 99.9 % {:.0f} ns, {} degraded\n", what, median(half),
+  fmt::print("{}: half {:.0f} ns, 99.9 % {:.0f} ns, {} degraded\n", what, median(medians),
              median(p999), degraded);
 }
 
@@ -136,8 +136,8 @@ void compare_queries(const Model& model, const std::vector<Vec3>& path) {
   }
   over = true;
   installer.join();
-  say("queries, nothing else done", idle);
-  say("queries beside installs", loaded);
+  print_times("queries, nothing else done", idle);
+  print_times("queries beside installs", loaded);
   fmt::print("pages read meanwhile: {}\n", model.stats().pages_read - before);
 }
 

@@ -55,7 +55,7 @@ class Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  void bring(std::uint32_t page) {
+  void read(std::uint32_t page) {
     const PageEntry& entry = file_.entries()[page];
     if (!map_) {
       if (::pread(descriptor_, out_.data(), entry.stored_bytes, static_cast<off_t>(entry.offset)) <
@@ -81,7 +81,7 @@ class Source {
   std::size_t bytes_ = 0;
 };
 
-std::vector<std::uint32_t> byte_split_pages(const storage::PageFile& file) {
+std::vector<std::uint32_t> shuffled_pages(const storage::PageFile& file) {
   std::vector<std::uint32_t> pages(file.page_count());
   for (std::uint32_t i = 0; i < pages.size(); ++i) pages[i] = i;
   std::shuffle(pages.begin(), pages.end(), std::mt19937(1));
@@ -89,9 +89,9 @@ std::vector<std::uint32_t> byte_split_pages(const storage::PageFile& file) {
 }
 
 /// Reads every page once. Returns microseconds a page.
-double bring_all(Source& source, const std::vector<std::uint32_t>& pages) {
+double read_all(Source& source, const std::vector<std::uint32_t>& pages) {
   const auto start = Clock::now();
-  for (const std::uint32_t page : pages) source.bring(page);
+  for (const std::uint32_t page : pages) source.read(page);
   return us_since(start) / static_cast<double>(pages.size());
 }
 
@@ -108,7 +108,7 @@ class Ticker {
     for (std::uint32_t& next : arena_) next = static_cast<std::uint32_t>(random() % arena_.size());
   }
   struct Ticks {
-    double half, p999, most;  // us
+    double median, p999, max;  // us
     std::size_t count;
   };
   Ticks run(double seconds) {
@@ -141,23 +141,23 @@ constexpr Row kRows[] = {{"positioned", Source::Way::kPositioned},
                          {"mapped, given back", Source::Way::kMappedAndDropped}};
 
 void measure(int descriptor, const storage::PageFile& file, Ticker& ticker, double seconds) {
-  const std::vector<std::uint32_t> pages = byte_split_pages(file);
+  const std::vector<std::uint32_t> pages = shuffled_pages(file);
   for (const Row& row : kRows) {
     drop_from_page_cache(descriptor);
     Source source(descriptor, file, row.way);
-    const double cold = bring_all(source, pages);
-    double warm = bring_all(source, pages);
-    for (int round = 0; round < 4; ++round) warm = std::min(warm, bring_all(source, pages));
+    const double cold = read_all(source, pages);
+    double warm = read_all(source, pages);
+    for (int round = 0; round < 4; ++round) warm = std::min(warm, read_all(source, pages));
     std::atomic<bool> stop{false};
     std::thread fetching([&] {
       while (!stop)
-        for (const std::uint32_t page : pages) source.bring(page);
+        for (const std::uint32_t page : pages) source.read(page);
     });
     const Ticker::Ticks ticks = ticker.run(seconds);
     stop = true;
     fetching.join();
     fmt::print("{:<20}{:>10.1f}{:>10.2f}{:>10.0f}{:>10.0f}{:>10.0f}\n", row.name, cold, warm,
-               ticks.half, ticks.p999, ticks.most);
+               ticks.median, ticks.p999, ticks.max);
   }
 }
 
@@ -173,7 +173,7 @@ int run(const Arguments& arguments) {
              "99.9 %", "longest");
   const Ticker::Ticks alone = ticker.run(arguments.seconds);
   fmt::print("{:<20}{:>10}{:>10}{:>10.0f}{:>10.0f}{:>10.0f}\n", "nothing beside", "", "",
-             alone.half, alone.p999, alone.most);
+             alone.median, alone.p999, alone.max);
   for (int round = 0; round < 3; ++round) measure(descriptor, *file, ticker, arguments.seconds);
   ::close(descriptor);
   return 0;

@@ -15,9 +15,9 @@ namespace {
 constexpr std::uint64_t kObjectBytes = 2048;
 static_assert(sizeof(PageCache) + 64 <= kObjectBytes);
 
-Error out_of_range(const char* name, std::uint32_t value, std::uint32_t most) noexcept {
+Error out_of_range(const char* name, std::uint32_t value, std::uint32_t maximum) noexcept {
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "%s is %u: choose a value from 1 to %u", name, value, most);
+                    "%s is %u: choose a value from 1 to %u", name, value, maximum);
 }
 
 }  // namespace

@@ -14,16 +14,16 @@ std::uint32_t ClockPolicy::choose_victim(const FrameStates& states) noexcept {
   // After this many rounds every score is 0 unless readers raised it in the meantime. They could
   // do so without end, so scores are ignored afterwards: one more round finds an evictable frame
   // if there is one.
-  constexpr unsigned kPatientRounds = kUse * kMaxUses;
-  const std::uint64_t patient_steps = std::uint64_t{kPatientRounds} * scores_.size();
-  const std::uint64_t max_steps = patient_steps + scores_.size();
-  const bool patient_with_upper = upper_count_ <= scores_.size() / 2;
+  constexpr unsigned kScoredRounds = kUse * kMaxUses;
+  const std::uint64_t scored_steps = std::uint64_t{kScoredRounds} * scores_.size();
+  const std::uint64_t max_steps = scored_steps + scores_.size();
+  const bool favours_upper = upper_count_ <= scores_.size() / 2;
   for (std::uint64_t step = 0; step < max_steps; ++step) {
     const std::uint32_t frame = advance();
     if (states.of(frame) != FrameStates::State::kEvictable) continue;
     const std::uint8_t score = scores_[frame].load(std::memory_order_relaxed);
-    if ((score & kScoreBits) == 0 || step >= patient_steps) return frame;
-    const std::uint8_t loss = is_upper(score) && patient_with_upper ? 1 : kUse;
+    if ((score & kScoreBits) == 0 || step >= scored_steps) return frame;
+    const std::uint8_t loss = is_upper(score) && favours_upper ? 1 : kUse;
     const std::uint8_t lost = std::min<std::uint8_t>(loss, score & kScoreBits);
     scores_[frame].store(static_cast<std::uint8_t>(score - lost), std::memory_order_relaxed);
   }

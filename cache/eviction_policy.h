@@ -53,7 +53,7 @@ class EvictionPolicy {
         clock_(tables.scores),
         lru_(tables.now, tables.uses, tables.entries) {}
 
-  ReferenceBits marks() const noexcept {
+  ReferenceBits reference_bits() const noexcept {
     return {tables_.scores.data(), tables_.uses.data(), tables_.now.data()};
   }
 

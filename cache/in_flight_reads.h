@@ -38,7 +38,7 @@ struct InFlightRead {
 class InFlightReads {
  public:
   /// Page number that means "no page".
-  static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
 
   /// `in_flight_reads` has one element per fetcher, all 0.
   explicit InFlightReads(std::span<InFlightRead> in_flight_reads) noexcept
@@ -47,7 +47,7 @@ class InFlightReads {
   const InFlightRead& of(std::uint32_t fetcher) const noexcept { return in_flight_reads_[fetcher]; }
 
   /// Whether a fetcher is reading `page`.
-  bool is_read(std::uint32_t page) const noexcept;
+  bool is_being_read(std::uint32_t page) const noexcept;
   /// Notes that `fetcher` begins to read a page that no fetcher reads.
   void read(std::uint32_t fetcher, std::uint32_t page) noexcept;
   /// Notes that `fetcher` begins to wait for a page that is not resident.
@@ -57,24 +57,24 @@ class InFlightReads {
 
   /// Among the pages that are waited for and that no fetcher reads, returns the one whose wait
   /// began first, or "no page" if there is none.
-  std::uint32_t page_wanted() const noexcept;
+  std::uint32_t next_wanted_page() const noexcept;
 
   /// Notes that the page is in `frame`. Calls wake(fetcher) for each fetcher that waited for it
   /// and returns their number.
   template <class Wake>
   std::uint32_t serve(std::uint32_t page, std::uint32_t frame, const Wake& wake) noexcept {
-    return tell_all(page, InFlightRead::Stage::kServed, frame, wake);
+    return end_waits(page, InFlightRead::Stage::kServed, frame, wake);
   }
   /// Notes that the page is unreadable. Calls wake(fetcher) for each fetcher that waited for it.
   template <class Wake>
   void fail(std::uint32_t page, const Wake& wake) noexcept {
-    tell_all(page, InFlightRead::Stage::kFailed, kNoFrame, wake);
+    end_waits(page, InFlightRead::Stage::kFailed, kNoFrame, wake);
   }
   /// Notes that the fetcher that read the page gave up because the read would block. Calls
   /// wake(fetcher) for the waiting fetchers that read pages themselves. The others go on waiting,
   /// for a helper.
   template <class Wake>
-  void put_back(std::uint32_t page, const Wake& wake) noexcept;
+  void abandon(std::uint32_t page, const Wake& wake) noexcept;
 
   /// Whether a fetcher that waited for the page in this frame has still to take it.
   bool holds(std::uint32_t frame) const noexcept;
@@ -85,26 +85,26 @@ class InFlightReads {
             in_flight.stage == InFlightRead::Stage::kWanted) &&
            in_flight.page == page;
   }
-  template <class Tell>
-  void each_waiting(std::uint32_t page, const Tell& tell) noexcept;
+  template <class Visit>
+  void each_waiting(std::uint32_t page, const Visit& visit) noexcept;
   template <class Wake>
-  std::uint32_t tell_all(std::uint32_t page, InFlightRead::Stage stage, std::uint32_t frame,
-                         const Wake& wake) noexcept;
+  std::uint32_t end_waits(std::uint32_t page, InFlightRead::Stage stage, std::uint32_t frame,
+                          const Wake& wake) noexcept;
 
   std::span<InFlightRead> in_flight_reads_;
   std::uint32_t waiting_ = 0;  // entries in kWaits or kWanted; usually 0, which saves searching
   std::uint64_t next_number_ = 0;
 };
 
-template <class Tell>
-void InFlightReads::each_waiting(std::uint32_t page, const Tell& tell) noexcept {
+template <class Visit>
+void InFlightReads::each_waiting(std::uint32_t page, const Visit& visit) noexcept {
   for (std::uint32_t fetcher = 0; waiting_ > 0 && fetcher < in_flight_reads_.size(); ++fetcher)
-    if (waits_for(in_flight_reads_[fetcher], page)) tell(fetcher, in_flight_reads_[fetcher]);
+    if (waits_for(in_flight_reads_[fetcher], page)) visit(fetcher, in_flight_reads_[fetcher]);
 }
 
 template <class Wake>
-std::uint32_t InFlightReads::tell_all(std::uint32_t page, InFlightRead::Stage stage,
-                                      std::uint32_t frame, const Wake& wake) noexcept {
+std::uint32_t InFlightReads::end_waits(std::uint32_t page, InFlightRead::Stage stage,
+                                       std::uint32_t frame, const Wake& wake) noexcept {
   std::uint32_t woken = 0;
   each_waiting(page, [&](std::uint32_t fetcher, InFlightRead& in_flight) {
     in_flight.stage = stage;
@@ -117,7 +117,7 @@ std::uint32_t InFlightReads::tell_all(std::uint32_t page, InFlightRead::Stage st
 }
 
 template <class Wake>
-void InFlightReads::put_back(std::uint32_t page, const Wake& wake) noexcept {
+void InFlightReads::abandon(std::uint32_t page, const Wake& wake) noexcept {
   each_waiting(page, [&](std::uint32_t fetcher, InFlightRead& in_flight) {
     in_flight.stage =
         in_flight.reads_itself ? InFlightRead::Stage::kRetry : InFlightRead::Stage::kWanted;

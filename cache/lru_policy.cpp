@@ -5,8 +5,8 @@
 namespace planetree::cache {
 
 bool LruPolicy::is_before(std::uint32_t frame, std::uint32_t other) const noexcept {
-  const std::uint64_t known = entries_[frame].known, others = entries_[other].known;
-  return known != others ? known < others : frame < other;
+  const std::uint64_t last_use = entries_[frame].last_use, other_use = entries_[other].last_use;
+  return last_use != other_use ? last_use < other_use : frame < other;
 }
 
 void LruPolicy::install(std::uint32_t frame) noexcept {
@@ -21,7 +21,7 @@ void LruPolicy::install(std::uint32_t frame) noexcept {
 void LruPolicy::push(std::uint32_t frame) noexcept {
   if (entries_[frame].in_heap) return;
   entries_[frame].in_heap = true;
-  entries_[frame].known = uses_[frame].load(std::memory_order_relaxed);
+  entries_[frame].last_use = uses_[frame].load(std::memory_order_relaxed);
   std::uint32_t at = size_++;
   entries_[at].heap = frame;
   while (at > 0 && is_before(frame, entries_[(at - 1) / 2].heap)) {
@@ -55,8 +55,8 @@ std::uint32_t LruPolicy::choose_victim(const FrameStates& states) noexcept {
     const std::uint64_t use = uses_[frame].load(std::memory_order_relaxed);
     if (states.of(frame) != FrameStates::State::kEvictable) {
       pop();
-    } else if (use > entries_[frame].known) {
-      entries_[frame].known = use;
+    } else if (use > entries_[frame].last_use) {
+      entries_[frame].last_use = use;
       sink();
     } else {
       return frame;

@@ -22,9 +22,9 @@ class LruPolicy {
  public:
   using Tick = std::atomic<std::uint64_t>;
   struct Entry {
-    std::uint64_t known;  ///< last use of this frame that the writer has read
-    std::uint32_t heap;   ///< frame at this position of the heap
-    bool in_heap;         ///< whether this frame is in the heap
+    std::uint64_t last_use;  ///< last use of this frame that the writer has read
+    std::uint32_t heap;      ///< frame at this position of the heap
+    bool in_heap;            ///< whether this frame is in the heap
   };
 
   /// `now` has one tick, on a cache line of its own. `uses` and `entries` have one element per

@@ -27,19 +27,19 @@ namespace planetree::cache {
 struct FillRequest {
   std::uint32_t page;
   std::uint32_t fetcher;       ///< 0 ... max_readers; simultaneous requests have different fetchers
-  bool may_wait;               ///< whether to wait as long as the disk takes
+  bool may_block;              ///< whether to wait as long as the disk takes
   std::span<std::byte> frame;  ///< frame_bytes long; holds arbitrary old bytes
 };
 /// What a FillPage did.
-enum class Filled : std::uint8_t {
+enum class FillResult : std::uint8_t {
   kFilled,       ///< the frame holds a page of the lower tier
   kFilledUpper,  ///< the frame holds a page of the upper tier: it links to other pages
-  kWouldWait,    ///< the read would block; only if the request forbids to wait
+  kWouldBlock,   ///< the read would block; only if the request forbids to wait
 };
 
 /// Fills a frame with the decoded page. Any number of threads call it at once, without the
 /// cache's mutex and outside of their sections. It must not throw and must not call the cache.
-using FillPage = Result<Filled> (*)(void* context, const FillRequest& request);
+using FillPage = Result<FillResult> (*)(void* context, const FillRequest& request);
 
 /// Counts since create(). While other threads work, the counts may be inconsistent with each
 /// other by a few events.
@@ -105,7 +105,8 @@ class PageCache {
 
   /// For helpers: returns when a fetcher waits for a page that no fetcher reads, when `stop` is
   /// true, or when the given time has passed. After setting `stop`, call wake_helpers().
-  void wait_for_read(std::chrono::microseconds most, const std::atomic<bool>& stop) noexcept;
+  void wait_for_wanted_page(std::chrono::microseconds max_wait,
+                            const std::atomic<bool>& stop) noexcept;
   void wake_helpers() noexcept;
 
   /// Returns the counts and sizes.
@@ -117,7 +118,7 @@ class PageCache {
   using Lock = std::unique_lock<std::mutex>;
 
   /// Result of an attempt to make a page resident.
-  enum class Outcome { kResident, kUnreadable, kWouldWait, kRetry, kGivenUp };
+  enum class Outcome { kResident, kUnreadable, kWouldBlock, kRetry, kGivenUp };
 
   PageCache(const CacheLimits& limits, FillPage fill, void* context, PrefaultedMemory memory,
             FramePool frames) noexcept;
@@ -126,12 +127,12 @@ class PageCache {
   // reader's index or by pin_fetcher(); it has one entry in limbo_ and one in in_flight_reads_.
   // Functions with a Lock parameter hold the mutex when they are called and when they return, but
   // may release it in between.
-  Fetched fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept;
+  FetchResult fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept;
   bool help(std::uint32_t fetcher) noexcept;
   Outcome make_resident(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                         const FetchTerms& terms, Error* why) noexcept;
   Outcome read_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page, std::uint32_t frame,
-                    bool may_wait, Error* why) noexcept;
+                    bool may_block, Error* why) noexcept;
   Outcome wait_for_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
                         const FetchTerms& terms) noexcept;
   std::uint32_t take_frame(Lock& lock, std::uint32_t fetcher, std::uint32_t attempt) noexcept;

@@ -46,7 +46,8 @@ void wait_for_sections(std::uint32_t attempt) noexcept {
 
 }  // namespace
 
-Fetched PageCache::fetch(ReaderSlot& slot, std::uint32_t page, const FetchTerms& terms) noexcept {
+FetchResult PageCache::fetch(ReaderSlot& slot, std::uint32_t page,
+                             const FetchTerms& terms) noexcept {
   assert(page < limits_.page_count);
   const auto fetcher = static_cast<std::uint32_t>(&slot - tables_.slots.data());
   Lock lock(mutex_);
@@ -62,8 +63,8 @@ bool PageCache::help(std::uint32_t fetcher) noexcept {
   Lock lock(mutex_);
   for (std::uint32_t attempt = 0;; ++attempt) {
     limbo_.set_awaited(fetcher, false);
-    const std::uint32_t page = in_flight_reads_.page_wanted();
-    if (page == InFlightReads::kNobody) return false;
+    const std::uint32_t page = in_flight_reads_.next_wanted_page();
+    if (page == InFlightReads::kNoPage) return false;
     const std::uint32_t frame = take_frame(lock, fetcher, attempt);
     if (frame == kNoFrame) continue;
     read_page(lock, fetcher, page, frame, true, nullptr);
@@ -78,19 +79,19 @@ PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t fetcher, s
     limbo_.set_awaited(fetcher, false);
     // Another fetcher may have made the page resident in the meantime.
     if (const std::uint32_t frame = map_.frame_of(page); frame != kNoFrame) {
-      policy_.marks().mark(frame);
+      policy_.reference_bits().mark(frame);
       return Outcome::kResident;
     }
     if (quarantined(page)) return Outcome::kUnreadable;
     Outcome outcome;
-    if (would_block || in_flight_reads_.is_read(page)) {
+    if (would_block || in_flight_reads_.is_being_read(page)) {
       outcome = wait_for_page(lock, fetcher, page, terms);
     } else {
       const std::uint32_t frame = take_frame(lock, fetcher, attempt);
       if (frame == kNoFrame) continue;
       outcome = read_page(lock, fetcher, page, frame, terms.reads_itself, why);
     }
-    if (outcome == Outcome::kWouldWait)
+    if (outcome == Outcome::kWouldBlock)
       would_block = true;
     else if (outcome != Outcome::kRetry)
       return outcome;
@@ -98,12 +99,12 @@ PageCache::Outcome PageCache::make_resident(Lock& lock, std::uint32_t fetcher, s
 }
 
 PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t fetcher, std::uint32_t page,
-                                        std::uint32_t frame, bool may_wait, Error* why) noexcept {
+                                        std::uint32_t frame, bool may_block, Error* why) noexcept {
   const auto wake_waiting = [this](std::uint32_t waiting) { wake(waiting); };
   in_flight_reads_.read(fetcher, page);
   lock.unlock();
-  const Result<Filled> filled =
-      fill_(context_, {page, fetcher, may_wait, {frames_.frame(frame), limits_.frame_bytes}});
+  const Result<FillResult> filled =
+      fill_(context_, {page, fetcher, may_block, {frames_.frame(frame), limits_.frame_bytes}});
   lock.lock();
   in_flight_reads_.end(fetcher);
   if (!filled) {
@@ -113,14 +114,14 @@ PageCache::Outcome PageCache::read_page(Lock& lock, std::uint32_t fetcher, std::
     if (why != nullptr) *why = filled.error();
     return Outcome::kUnreadable;
   }
-  if (*filled == Filled::kWouldWait) {
-    assert(!may_wait);
+  if (*filled == FillResult::kWouldBlock) {
+    assert(!may_block);
     tables_.free_frames[free_count_++] = frame;
-    in_flight_reads_.put_back(page, wake_waiting);
-    return Outcome::kWouldWait;
+    in_flight_reads_.abandon(page, wake_waiting);
+    return Outcome::kWouldBlock;
   }
   tables_.pages[frame] = page;
-  policy_.install(frame, *filled == Filled::kFilledUpper ? PageTier::kUpper : PageTier::kLower);
+  policy_.install(frame, *filled == FillResult::kFilledUpper ? PageTier::kUpper : PageTier::kLower);
   map_.publish(page, frame);
   add_one(counts_.fills);
   if (in_flight_reads_.serve(page, frame, wake_waiting) > 0) policy_.hold(frame);
@@ -159,12 +160,12 @@ PageCache::Outcome PageCache::wait_for_page(Lock& lock, std::uint32_t fetcher, s
   }
 }
 
-void PageCache::wait_for_read(std::chrono::microseconds most,
-                              const std::atomic<bool>& stop) noexcept {
+void PageCache::wait_for_wanted_page(std::chrono::microseconds max_wait,
+                                     const std::atomic<bool>& stop) noexcept {
   Lock lock(mutex_);
-  helpers_waker_.wait_for(lock, most, [&] {
+  helpers_waker_.wait_for(lock, max_wait, [&] {
     return stop.load(std::memory_order_relaxed) ||
-           in_flight_reads_.page_wanted() != InFlightReads::kNobody;
+           in_flight_reads_.next_wanted_page() != InFlightReads::kNoPage;
   });
 }
 

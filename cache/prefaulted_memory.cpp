@@ -17,7 +17,7 @@ static_assert(sizeof(std::size_t) == sizeof(std::uint64_t), "budgets are 64-bit 
 
 constexpr std::uint64_t kHugePageBytes = std::uint64_t{2} << 20;
 /// A claim of at least this size takes at least a huge page.
-constexpr std::uint64_t kNearlyHugeBytes = kHugePageBytes / 4 * 3;
+constexpr std::uint64_t kMinHugeBytes = kHugePageBytes / 4 * 3;
 
 std::uint64_t system_page_bytes() noexcept {
   static const auto bytes = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -76,7 +76,7 @@ std::uint64_t PrefaultedMemory::claimed_bytes(std::uint64_t bytes) noexcept {
   // Saturates instead of wrapping to a small number.
   if (bytes > std::numeric_limits<std::uint64_t>::max() - last) return bytes;
   const std::uint64_t rounded = (bytes + last) & ~last;
-  return rounded >= kNearlyHugeBytes ? std::max(rounded, kHugePageBytes) : rounded;
+  return rounded >= kMinHugeBytes ? std::max(rounded, kHugePageBytes) : rounded;
 }
 
 Result<PrefaultedMemory> PrefaultedMemory::claim(std::uint64_t bytes) noexcept {

@@ -9,15 +9,15 @@ namespace planetree::cache {
 /// places where the memory order matters. reader_slot.h and page_map.h justify the order of each
 /// step. R, E and I number the steps of reading, evicting and installing a page.
 enum class ProtocolStep : std::uint8_t {
-  kClaim,     ///< a new reader continues the sequence and counts of the slot's last reader
-  kGiveUp,    ///< a reader hands the slot on; the other side of kClaim
-  kEnter,     ///< R1: a reader begins a section
-  kFind,      ///< R2: the reader looks up a page
-  kLeave,     ///< R5: the reader ends the section
-  kWithdraw,  ///< E2: the writer hides a page
-  kSeeOpen,   ///< E3: the writer notes which sections are open
-  kSeeOver,   ///< E5: the writer finds that a noted section has ended
-  kPublish,   ///< I7: the writer shows a filled frame
+  kClaim,          ///< a new reader continues the sequence and counts of the slot's last reader
+  kRelease,        ///< a reader hands the slot on; the other side of kClaim
+  kEnter,          ///< R1: a reader begins a section
+  kFind,           ///< R2: the reader looks up a page
+  kLeave,          ///< R5: the reader ends the section
+  kWithdraw,       ///< E2: the writer hides a page
+  kNoteSections,   ///< E3: the writer notes which sections are open
+  kSeeSectionEnd,  ///< E5: the writer finds that a noted section has ended
+  kPublish,        ///< I7: the writer shows a filled frame
 };
 
 /// Memory order of each step.
@@ -26,12 +26,12 @@ constexpr std::memory_order order_of(ProtocolStep step) noexcept {
     case ProtocolStep::kEnter:
     case ProtocolStep::kFind:
     case ProtocolStep::kWithdraw:
-    case ProtocolStep::kSeeOpen:
+    case ProtocolStep::kNoteSections:
       return std::memory_order_seq_cst;
     case ProtocolStep::kClaim:
-    case ProtocolStep::kSeeOver:
+    case ProtocolStep::kSeeSectionEnd:
       return std::memory_order_acquire;
-    case ProtocolStep::kGiveUp:
+    case ProtocolStep::kRelease:
     case ProtocolStep::kLeave:
     case ProtocolStep::kPublish:
       return std::memory_order_release;

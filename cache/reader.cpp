@@ -8,7 +8,7 @@ namespace planetree::cache {
 
 Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept
     : map_(cache.map_),
-      marks_(cache.policy_.marks()),
+      reference_bits_(cache.policy_.reference_bits()),
       frames_(cache.frames_.frame(0)),
       stride_bytes_(cache.frames_.stride_bytes()),
       slot_(&slot),
@@ -17,7 +17,7 @@ Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept
 
 Reader::Reader(Reader&& other) noexcept
     : map_(other.map_),
-      marks_(other.marks_),
+      reference_bits_(other.reference_bits_),
       frames_(other.frames_),
       stride_bytes_(other.stride_bytes_),
       slot_(std::exchange(other.slot_, nullptr)),
@@ -28,7 +28,7 @@ Reader& Reader::operator=(Reader&& other) noexcept {
   if (this == &other) return *this;
   give_back();
   map_ = other.map_;
-  marks_ = other.marks_;
+  reference_bits_ = other.reference_bits_;
   frames_ = other.frames_;
   stride_bytes_ = other.stride_bytes_;
   slot_ = std::exchange(other.slot_, nullptr);
@@ -45,7 +45,7 @@ void Reader::give_back() noexcept {
   std::exchange(slot_, nullptr)->release();
 }
 
-Fetched Reader::fetch(std::uint32_t page, const FetchTerms& terms) noexcept {
+FetchResult Reader::fetch(std::uint32_t page, const FetchTerms& terms) noexcept {
   slot_->leave();
   return cache_->fetch(*slot_, page, terms);
 }

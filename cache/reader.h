@@ -26,7 +26,7 @@ struct FetchTerms {
 };
 
 /// Result of a fetch.
-struct Fetched {
+struct FetchResult {
   const std::byte* frame = nullptr;  ///< nullptr if the page is unreadable or `given_up` is true
   bool given_up = false;             ///< the wait limit has passed; a later fetch may succeed
 };
@@ -65,7 +65,7 @@ class Reader {
       return nullptr;
     }
     slot_->count_hit();
-    marks_.mark(frame);
+    reference_bits_.mark(frame);
     return at(frame);
   }
 
@@ -93,7 +93,7 @@ class Reader {
   /// May wait for the disk, for other fetches and for the sections of other readers. Not for
   /// real-time queries.
   const std::byte* fetch(std::uint32_t page) noexcept { return fetch(page, {}).frame; }
-  Fetched fetch(std::uint32_t page, const FetchTerms& terms) noexcept;
+  FetchResult fetch(std::uint32_t page, const FetchTerms& terms) noexcept;
 
   /// Reads a page for another thread: among the pages that are waited for and that no thread reads,
   /// the one whose wait began first. Returns false if there is none. Call it outside of sections.
@@ -110,7 +110,7 @@ class Reader {
   // Copies of what find() needs, so that it does not read the PageCache object, whose cache lines
   // the writer changes.
   PageMap map_;
-  ReferenceBits marks_;
+  ReferenceBits reference_bits_;
   const std::byte* frames_;
   std::uint64_t stride_bytes_;
   ReaderSlot* slot_;  // nullptr after a move

@@ -43,7 +43,7 @@ class alignas(64) BasicReaderSlot {
   /// reader.
   void release() noexcept {
     assert(!inside());
-    claimed_.store(false, Atomics::order(ProtocolStep::kGiveUp));
+    claimed_.store(false, Atomics::order(ProtocolStep::kRelease));
   }
 
   bool claimed() const noexcept { return claimed_.load(std::memory_order_relaxed); }
@@ -83,12 +83,12 @@ class alignas(64) BasicReaderSlot {
   /// E3: seq_cst, for the reason given above. Also acquires what the reader did in sections that
   /// have ended.
   std::uint64_t sequence_after_withdrawal() const noexcept {
-    return sequence_.load(Atomics::order(ProtocolStep::kSeeOpen));
+    return sequence_.load(Atomics::order(ProtocolStep::kNoteSections));
   }
 
   /// E5: acquire, the other side of leave().
   std::uint64_t sequence_before_reuse() const noexcept {
-    return sequence_.load(Atomics::order(ProtocolStep::kSeeOver));
+    return sequence_.load(Atomics::order(ProtocolStep::kSeeSectionEnd));
   }
 
   std::uint64_t hits() const noexcept { return hits_.load(std::memory_order_relaxed); }

@@ -12,15 +12,16 @@ namespace planetree::cache {
 
 /// Steps of SpscRing, below, at which the memory order matters.
 enum class RingStep : std::uint8_t {
-  kShow,     ///< P3
-  kSee,      ///< C1
-  kFree,     ///< C3
-  kSeeFree,  ///< P1
+  kPublishRecord,  ///< P3
+  kSeeRecords,     ///< C1
+  kFreeSlots,      ///< C3
+  kSeeFreeSlots,   ///< P1
 };
 
 constexpr std::memory_order order_of(RingStep step) noexcept {
-  return step == RingStep::kShow || step == RingStep::kFree ? std::memory_order_release
-                                                            : std::memory_order_acquire;
+  return step == RingStep::kPublishRecord || step == RingStep::kFreeSlots
+             ? std::memory_order_release
+             : std::memory_order_acquire;
 }
 
 struct StdRing {
@@ -68,26 +69,26 @@ class alignas(64) SpscRing {
   }
 
   /// Adds a record, or drops it if the ring is full. For the producer.
-  void give(const Record& record) noexcept {
-    const std::uint64_t given = given_.load(std::memory_order_relaxed);
-    if (given - taken_.load(Atomics::order(RingStep::kSeeFree)) == slots_.size()) {
+  void push(const Record& record) noexcept {
+    const std::uint64_t pushed = pushed_.load(std::memory_order_relaxed);
+    if (pushed - popped_.load(Atomics::order(RingStep::kSeeFreeSlots)) == slots_.size()) {
       dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
       return;
     }
-    slots_[given & (slots_.size() - 1)].write(record);
-    given_.store(given + 1, Atomics::order(RingStep::kShow));
+    slots_[pushed & (slots_.size() - 1)].write(record);
+    pushed_.store(pushed + 1, Atomics::order(RingStep::kPublishRecord));
   }
 
   /// Removes the oldest records into `records`, in the order in which they were added. Returns
   /// their number, at most records.size(). For the consumer.
-  std::size_t take(std::span<Record> records) noexcept {
-    const std::uint64_t given = given_.load(Atomics::order(RingStep::kSee));
-    const std::uint64_t taken = taken_.load(std::memory_order_relaxed);
+  std::size_t pop(std::span<Record> records) noexcept {
+    const std::uint64_t pushed = pushed_.load(Atomics::order(RingStep::kSeeRecords));
+    const std::uint64_t popped = popped_.load(std::memory_order_relaxed);
     const auto count =
-        static_cast<std::size_t>(std::min<std::uint64_t>(given - taken, records.size()));
+        static_cast<std::size_t>(std::min<std::uint64_t>(pushed - popped, records.size()));
     for (std::size_t i = 0; i < count; ++i)
-      records[i] = slots_[(taken + i) & (slots_.size() - 1)].read();
-    taken_.store(taken + count, Atomics::order(RingStep::kFree));
+      records[i] = slots_[(popped + i) & (slots_.size() - 1)].read();
+    popped_.store(popped + count, Atomics::order(RingStep::kFreeSlots));
     return count;
   }
 
@@ -98,9 +99,9 @@ class alignas(64) SpscRing {
   using Number = typename Atomics::template Atomic<std::uint64_t>;
 
   std::span<Slot> slots_;
-  Number given_{0};
+  Number pushed_{0};
   Number dropped_{0};
-  alignas(64) Number taken_{0};  // on a line of its own, away from what the producer writes
+  alignas(64) Number popped_{0};  // on a line of its own, away from what the producer writes
 };
 
 }  // namespace planetree::cache

@@ -188,7 +188,7 @@ std::size_t ModelState::drain_page_trace(std::span<PageAccess> accesses) const n
     std::array<TracedAccess, 64> taken;
     for (std::size_t got = taken.size(); got == taken.size();) {
       const std::size_t capacity = std::min(taken.size(), accesses.size() - count);
-      got = serving_->arena.traces[index].ring.take(std::span(taken).first(capacity));
+      got = serving_->arena.traces[index].ring.pop(std::span(taken).first(capacity));
       for (const TracedAccess& access : std::span(taken).first(got)) {
         const std::uint64_t octcode = pager_->file().entries()[access.page].octcode;
         const auto level = static_cast<std::uint8_t>(octree::cell_of_octcode(octcode).level);

@@ -62,7 +62,7 @@ class BuildMeter final : public octree::BuildProgress {
     done_ = std::max(done, done_);
   }
   void failed_at(octree::BuildDirectory, const fs::path& path) override { failed_at_ = path; }
-  void takes_up(const std::string& what) override {
+  void resumes(const std::string& what) override {
     if (arguments_.quiet) return;
     console_.note(fmt::format("planetree: {}: {}\n", arguments_.output.string(), what));
   }

@@ -35,8 +35,8 @@ class Inspection {
 
  private:
   FileSurvey survey(Json& page_rows);
-  int tell_issues(const IssueList& issues);
-  void tell(const Issue& issue);
+  int print_issues(const IssueList& issues);
+  void print_issue(const Issue& issue);
   Json issues_json(const IssueList& issues) const;
 
   const InspectArguments& arguments_;
@@ -48,17 +48,17 @@ Error refusal(const std::string& text) {
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere, "%s", text.c_str());
 }
 
-void Inspection::tell(const Issue& issue) {
+void Inspection::print_issue(const Issue& issue) {
   fmt::print(console_.errors(), "planetree: {}: {}\n", arguments_.file.string(), issue_text(issue));
 }
 
 /// Prints the first few issues; `verify` lists all. Returns the exit status.
-int Inspection::tell_issues(const IssueList& issues) {
+int Inspection::print_issues(const IssueList& issues) {
   constexpr std::size_t kMaxListed = 10;
   if (issues.count() == 0) return kDone;
   std::fflush(console_.output());
   const std::size_t listed = std::min(issues.kept().size(), kMaxListed);
-  for (std::size_t i = 0; i < listed; ++i) tell(issues.kept()[i]);
+  for (std::size_t i = 0; i < listed; ++i) print_issue(issues.kept()[i]);
   if (issues.count() > listed)
     fmt::print(console_.errors(), "planetree: {}: {} more issues; planetree verify lists them\n",
                arguments_.file.string(), issues.count() - listed);
@@ -92,7 +92,7 @@ int Inspection::show_all() {
   if (!arguments_.json) {
     if (arguments_.levels) console_.print(levels_text(found));
     console_.print(summary_text(arguments_.file.string(), parts_, found));
-    return console_.finish(tell_issues(found.issues));
+    return console_.finish(print_issues(found.issues));
   }
   Json json = {{"file", arguments_.file.string()}};
   json.update(summary_json(parts_, found));
@@ -120,7 +120,7 @@ int Inspection::show_page(std::uint32_t page) {
   if (issue) issues.add(*issue);
   if (!arguments_.json) {
     console_.print(page_details_text(details));
-    return console_.finish(tell_issues(issues));
+    return console_.finish(print_issues(issues));
   }
   details["issues"] = issues_json(issues);
   console_.print(json_line(details));
@@ -150,7 +150,7 @@ int Inspection::show_nodes() {
   }
   if (pages.empty()) {
     const Error error = refusal("no page begins at that octcode; --pages lists where pages begin");
-    return std::max(tell_issues(issues), console_.fail(arguments_.file.string(), error));
+    return std::max(print_issues(issues), console_.fail(arguments_.file.string(), error));
   }
   if (arguments_.json) {
     console_.print(json_line({{"pages", pages}, {"issues", issues_json(issues)}}));
@@ -160,7 +160,7 @@ int Inspection::show_nodes() {
     console_.print(fmt::format("page {} at {} ({}), ordinal {}\n{}", page["page"].dump(),
                                page["cell"].get<std::string>(), page["octcode"].get<std::string>(),
                                page["ordinal"].dump(), nodes_text(page["nodes"])));
-  return console_.finish(tell_issues(issues));
+  return console_.finish(print_issues(issues));
 }
 
 int show_slice(const InspectArguments& arguments, Console& console) {

@@ -41,9 +41,9 @@ struct Tally {
   }
 };
 
-class Session {
+class QueryRun {
  public:
-  Session(const QueryArguments& arguments, Console& console, const Model& model, Probe& probe)
+  QueryRun(const QueryArguments& arguments, Console& console, const Model& model, Probe& probe)
       : arguments_(arguments), console_(console), model_(model), probe_(probe) {}
 
   int run(PointReader& points) {
@@ -94,11 +94,11 @@ class Session {
         return console_.fail(points.name(), count.error());
       }
       if (*count == 0) break;
-      const auto some = std::span(queries).first(*count);
-      const auto theirs = std::span(answers).first(*count);
-      run(some, theirs);
-      tally_.add<Answer>(theirs);
-      wanted = writer.write(some, std::span<const Answer>(theirs));
+      const auto batch_queries = std::span(queries).first(*count);
+      const auto batch_answers = std::span(answers).first(*count);
+      run(batch_queries, batch_answers);
+      tally_.add<Answer>(batch_answers);
+      wanted = writer.write(batch_queries, std::span<const Answer>(batch_answers));
       progress.add(*count);
     }
     return kDone;
@@ -133,10 +133,10 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (!points) return console.fail(points_name(arguments.points.string()), points.error());
 
   const auto started = std::chrono::steady_clock::now();
-  Session session(arguments, console, *model, *probe);
-  const int status = session.run(**points);
+  QueryRun query_run(arguments, console, *model, *probe);
+  const int status = query_run.run(**points);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  if (arguments.json) console.note(session.json_report(elapsed.count()));
+  if (arguments.json) console.note(query_run.json_report(elapsed.count()));
   return console.finish(status);
 }
 

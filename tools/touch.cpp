@@ -45,7 +45,7 @@ Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& co
 
 /// Opens an additional output file, if `path` names one. Opened before the session, which may be
 /// long, so that the command fails early.
-Result<std::optional<OutputFile>> open_beside(const std::filesystem::path& path, bool force) {
+Result<std::optional<OutputFile>> open_extra_output(const std::filesystem::path& path, bool force) {
   if (path.empty()) return std::optional<OutputFile>();
   auto file = OutputFile::create(path, force);
   if (!file) return file.error();
@@ -69,9 +69,9 @@ OpenOptions options_of(const TouchArguments& arguments) {
 
 int run_touch(const TouchArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
-  auto ticks = open_beside(arguments.ticks, arguments.force);
+  auto ticks = open_extra_output(arguments.ticks, arguments.force);
   if (!ticks) return console.fail(arguments.ticks.string(), ticks.error());
-  auto trace = open_beside(arguments.trace, arguments.force);
+  auto trace = open_extra_output(arguments.trace, arguments.force);
   if (!trace) return console.fail(arguments.trace.string(), trace.error());
   const auto path = find_path(arguments, console);
   if (!path) return console.fail(file, path.error());
@@ -83,17 +83,17 @@ int run_touch(const TouchArguments& arguments, Console& console) {
   if (!probe) return console.fail(file, probe.error());
   const auto period = std::chrono::nanoseconds(std::chrono::seconds(1)) /
                       static_cast<std::int64_t>(arguments.rate_hz);
-  std::optional<PageTraceDrain> taker;
-  if (*trace) taker.emplace(*model);
+  std::optional<PageTraceDrain> drain;
+  if (*trace) drain.emplace(*model);
   const TouchRecord record = run_touch_session(*probe, *path, period);
-  const std::string touches = taker ? touch_trace(taker->finish()) : "";
+  const std::string trace_text = drain ? touch_trace(drain->finish()) : "";
   console.print(arguments.json ? touch_json(arguments, record, *model)
                                : touch_words(arguments, record, *model));
   if (*ticks)
     if (const auto written = write_whole(**ticks, touch_ticks(*path, record)); !written)
       return console.finish(console.fail(arguments.ticks.string(), written.error()));
   if (*trace)
-    if (const auto written = write_whole(**trace, touches); !written)
+    if (const auto written = write_whole(**trace, trace_text); !written)
       return console.finish(console.fail(arguments.trace.string(), written.error()));
   const auto error = pages_lost(model->stats());
   return console.finish(error ? console.fail(file, *error) : kDone);

@@ -34,7 +34,7 @@ std::uint64_t BuildFiles::disk_bytes() const {
          (work_ ? work_->disk_bytes() : 0);
 }
 
-Result<void> BuildFiles::look_for(const SpaceNeed& need) {
+Result<void> BuildFiles::check_space(const SpaceNeed& need) {
   BuildDirectory directory = BuildDirectory::kTemporary;
   const auto checked =
       need.check(directory_, BuildOptions::output_directory(output_), calls_, directory);

@@ -51,7 +51,7 @@ class BuildFiles {
   std::uint64_t disk_bytes() const;
   /// Checks whether there is enough space for `need`, that of the output included.
   /// errors  those of SpaceNeed::check().
-  Result<void> look_for(const SpaceNeed& need);
+  Result<void> check_space(const SpaceNeed& need);
   /// The directory where something failed or is short of space, and the path; nothing if no call
   /// here failed.
   std::optional<std::pair<BuildDirectory, std::filesystem::path>> failed_at() const;

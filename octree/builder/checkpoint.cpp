@@ -50,7 +50,7 @@ Result<void> Checkpoint::resume(const BuildIdentity& identity, std::uint64_t jou
       });
   if (!replayed) return replayed;
   removable_ = !mesh_;
-  taken_up_bytes_ = extent.bytes();
+  resumed_bytes_ = extent.bytes();
   if (*file_bytes > extent.end())
     if (const auto cut = file->truncate(extent.end()); !cut) return cut;
   spill_.emplace(*std::move(file), extent.end());
@@ -103,11 +103,11 @@ bool Checkpoint::restore_chunk(std::span<const std::byte> payload, SpillExtent& 
 
 bool Checkpoint::restore_sector(std::span<const std::byte> payload, SpillExtent& extent) {
   std::uint32_t number = 0;
-  BuiltSector region;
-  if (!read_record(payload, number, region) ||
-      !extent.take(number, region, MaskLinkFormat(page_bytes_)))
+  BuiltSector sector;
+  if (!read_record(payload, number, sector) ||
+      !extent.take(number, sector, MaskLinkFormat(page_bytes_)))
     return false;
-  regions_.insert_or_assign(number, std::move(region));
+  sectors_.insert_or_assign(number, std::move(sector));
   return true;
 }
 
@@ -118,8 +118,8 @@ Checkpoint::~Checkpoint() {
 }
 
 std::string Checkpoint::start() const {
-  if (!regions_.empty())
-    return "going on after colouring " + std::to_string(regions_.size()) + " parts";
+  if (!sectors_.empty())
+    return "going on after colouring " + std::to_string(sectors_.size()) + " parts";
   if (mesh_ && !surface_) return "going on after ordering";
   if (mesh_ && chunks_.empty()) return "going on after matching edges";
   if (mesh_) return "going on after bounding " + std::to_string(chunks_.size()) + " parts";
@@ -155,8 +155,8 @@ Result<void> Checkpoint::keep(std::uint32_t number, const ChunkWork& chunk) {
   return append(Kind::kChunk, number, chunk);
 }
 
-Result<void> Checkpoint::keep(std::uint32_t number, const BuiltSector& region) {
-  return append(Kind::kSector, number, region);
+Result<void> Checkpoint::keep(std::uint32_t number, const BuiltSector& sector) {
+  return append(Kind::kSector, number, sector);
 }
 
 Result<void> Checkpoint::remove() {

@@ -41,7 +41,7 @@ class Checkpoint {
   /// The file for all spilled data that is to be kept.
   storage::SpillFile& spill() { return *spill_; }
   /// Bytes of resumed work in spill().
-  std::uint64_t taken_up_bytes() const { return taken_up_bytes_; }
+  std::uint64_t resumed_bytes() const { return resumed_bytes_; }
   /// Bytes on disk, of resumed and of new work.
   std::uint64_t disk_bytes() const { return spill_->disk_bytes() + journal_.size_bytes(); }
   /// Whether storing or reading work ever failed.
@@ -53,13 +53,13 @@ class Checkpoint {
   /// Takes the resumed work of a chunk; once for each chunk.
   std::optional<ChunkWork> take_chunk(std::uint32_t number);
   /// Takes the resumed work of all sectors; once.
-  std::map<std::uint32_t, BuiltSector> take_sectors() { return std::move(regions_); }
+  std::map<std::uint32_t, BuiltSector> take_sectors() { return std::move(sectors_); }
 
   /// Stores the result of a phase durably, with everything that is in spill() so far.
   Result<void> keep(const OrderedMesh& mesh);
   Result<void> keep(const SurfaceWork& surface);
   Result<void> keep(std::uint32_t number, const ChunkWork& chunk);
-  Result<void> keep(std::uint32_t number, const BuiltSector& region);
+  Result<void> keep(std::uint32_t number, const BuiltSector& sector);
 
   /// Removes the directory. Call it when the build is done.
   Result<void> remove();
@@ -86,9 +86,9 @@ class Checkpoint {
   std::optional<OrderedMesh> mesh_;
   std::optional<SurfaceWork> surface_;
   std::map<std::uint32_t, ChunkWork> chunks_;
-  std::map<std::uint32_t, BuiltSector> regions_;
+  std::map<std::uint32_t, BuiltSector> sectors_;
   std::uint32_t page_bytes_ = 0;
-  std::uint64_t taken_up_bytes_ = 0;
+  std::uint64_t resumed_bytes_ = 0;
   bool removable_ = false;  // there is no work to resume
 };
 

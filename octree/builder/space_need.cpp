@@ -15,8 +15,8 @@ namespace {
 
 // One edge that chunks share is expected for this many triangles, and one triangle that touches
 // another sector than its own. The most crumpled surfaces at hand have a third as many.
-constexpr std::uint64_t kTrianglesABorderEdge = 12;
-constexpr std::uint64_t kTrianglesAVisitor = 10;
+constexpr std::uint64_t kTrianglesPerBorderEdge = 12;
+constexpr std::uint64_t kTrianglesPerVisitor = 10;
 // Bytes of pages per triangle, without vertices: indices, corners, nodes and the mask. And bytes of
 // pages that are nearly empty, however few triangles there are.
 constexpr std::uint64_t kPageBytes = 12;
@@ -24,32 +24,32 @@ constexpr std::uint64_t kWideIdBytes = 4;
 constexpr std::uint64_t kMinPageBytes = 4096;
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
-std::uint64_t beyond(std::uint64_t bytes, std::uint64_t held_bytes) {
+std::uint64_t excess(std::uint64_t bytes, std::uint64_t held_bytes) {
   return bytes - std::min(bytes, held_bytes);
 }
 
 /// Bytes of triangles that are spilled, batch by batch. Where a batch is spilled, less memory was
 /// left than it takes, so that up to one batch of memory stays unused.
-std::uint64_t put_away_bytes(const MeshSize& size, const BuildMemory& memory,
-                             std::uint64_t held_bytes) {
+std::uint64_t spilled_bytes(const MeshSize& size, const BuildMemory& memory,
+                            std::uint64_t held_bytes) {
   const std::uint64_t record = Triangles::record_bytes(size.float64);
   const std::uint64_t bytes = size.triangles * record;
   return bytes <= held_bytes ? 0
-                             : beyond(bytes, beyond(held_bytes, memory.batch_triangles * record));
+                             : excess(bytes, excess(held_bytes, memory.batch_triangles * record));
 }
 
 std::uint64_t edge_bytes(const MeshSize& size, const BuildMemory& memory) {
   // By Euler's formula for a surface without handles, about 2 V - F edges belong to one face only.
-  const std::uint64_t open =
-      std::min(beyond(2 * size.vertices, size.triangles), 3 * size.triangles);
+  const std::uint64_t border_edges =
+      std::min(excess(2 * size.vertices, size.triangles), 3 * size.triangles);
   const std::uint64_t bytes =
-      EdgeCensus::kEdgeBytes * (open + size.triangles / kTrianglesABorderEdge);
+      EdgeCensus::kEdgeBytes * (border_edges + size.triangles / kTrianglesPerBorderEdge);
   return bytes <= memory.edge_bytes ? 0 : bytes;
 }
 
 std::uint64_t visitor_bytes(const MeshSize& size, const BuildMemory& memory) {
   const std::uint64_t bytes =
-      Triangles::record_bytes(size.float64) * (size.triangles / kTrianglesAVisitor);
+      Triangles::record_bytes(size.float64) * (size.triangles / kTrianglesPerVisitor);
   return bytes <= memory.visitor_bytes ? 0 : bytes;
 }
 
@@ -81,10 +81,10 @@ constexpr const char* kTemporaryRemedy =
 SpaceNeed SpaceNeed::after_cutting(const MeshSize& part, const BuildMemory& memory,
                                    std::uint64_t kept_bytes) {
   const std::uint64_t pages = raw_page_bytes(part);
-  const std::uint64_t to_keep = visitor_bytes(part, memory) + beyond(pages, memory.pages_bytes);
+  const std::uint64_t to_keep = visitor_bytes(part, memory) + excess(pages, memory.pages_bytes);
   // Stored pages are not longer than raw ones, and each page, of 4 KiB or more, has 40 bytes in the
   // table.
-  return {beyond(to_keep, kept_bytes), pages + pages / 64 + 2 * storage::kHeaderBytes};
+  return {excess(to_keep, kept_bytes), pages + pages / 64 + 2 * storage::kHeaderBytes};
 }
 
 SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memory,
@@ -92,17 +92,17 @@ SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memo
   SpaceNeed need;
   if (!cut) need = after_cutting(size, memory, 0);
   need.temporary_bytes =
-      beyond(need.temporary_bytes + put_away_bytes(size, memory, memory.runs_bytes), kept_bytes);
+      excess(need.temporary_bytes + spilled_bytes(size, memory, memory.runs_bytes), kept_bytes);
   if (!matched) need.temporary_bytes += edge_bytes(size, memory);
   return need;
 }
 
 SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory, bool cut) {
   SpaceNeed need = after_reading(size, memory, 0, false, cut);
-  need.temporary_bytes += put_away_bytes(size, memory, memory.spool_bytes);
+  need.temporary_bytes += spilled_bytes(size, memory, memory.spool_bytes);
   if (size.is_indexed_text)
     need.temporary_bytes +=
-        beyond(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
+        excess(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));
   return need;
 }
 
@@ -110,7 +110,7 @@ SpaceNeed SpaceNeed::before_sorting(const MeshSize& size, const BuildMemory& mem
                                     std::uint64_t written_bytes, bool cut) {
   SpaceNeed need = before_reading(size, memory, cut);
   need.temporary_bytes =
-      beyond(need.temporary_bytes + CornerSort::disk_bytes(3 * size.triangles, !size.float64),
+      excess(need.temporary_bytes + CornerSort::disk_bytes(3 * size.triangles, !size.float64),
              written_bytes);
   return need;
 }

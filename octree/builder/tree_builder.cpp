@@ -40,8 +40,8 @@ class TreeBuild {
         files_(output, options, memory, seams.calls) {}
 
   Result<BuildReport> run() {
-    if (const auto taken_up = resume_work(); !taken_up) return taken_up.error();
-    if (const auto enough = foresee_space(); !enough) return enough.error();
+    if (const auto resumed = resume_work(); !resumed) return resumed.error();
+    if (const auto enough = estimate_space(); !enough) return enough.error();
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
     if (const auto looked = look_at_surface(); !looked) return looked.error();
     if (const auto cut = cut_out_part(); !cut) return cut.error();
@@ -54,16 +54,16 @@ class TreeBuild {
   }
 
   /// Reports where an error of run() comes from.
-  void tell_failed() const {
-    const auto [extent, path] =
+  void report_failure() const {
+    const auto [directory, path] =
         files_.failed_at().value_or(writing_ ? std::pair(BuildDirectory::kOutput, output_)
                                              : std::pair(BuildDirectory::kInput, input_));
-    progress_.failed_at(extent, path);
+    progress_.failed_at(directory, path);
   }
 
  private:
   Result<void> resume_work();
-  Result<void> foresee_space();
+  Result<void> estimate_space();
   Result<void> order_triangles();
   Result<void> read();
   Result<void> resume_mesh();
@@ -97,7 +97,7 @@ class TreeBuild {
   BuiltModel model_;
   std::optional<TriangleRuns> whole_;
   std::optional<TriangleRuns> part_;    // triangles of whole_ that touch the region
-  std::optional<MaskSectors> regions_;  // only if the model is watertight
+  std::optional<MaskSectors> sectors_;  // only if the model is watertight
   std::optional<BuiltTree> tree_;
 };
 
@@ -106,18 +106,18 @@ Result<void> TreeBuild::resume_work() {
   const auto identity = BuildIdentity::of(input_, options_, seams_);
   if (!identity) return identity.error();
   progress_.progress(BuildPhase::kResuming, 0, 1);
-  const auto taken_up = files_.resume_work(*identity);
-  if (taken_up) progress_.takes_up(files_.work()->start());
-  return taken_up;
+  const auto resumed = files_.resume_work(*identity);
+  if (resumed) progress_.resumes(files_.work()->start());
+  return resumed;
 }
 
 // Checks the space before a day of work rather than after it.
-Result<void> TreeBuild::foresee_space() {
-  const auto size = MeshSize::foresee(input_, seams_.calls);
+Result<void> TreeBuild::estimate_space() {
+  const auto size = MeshSize::estimate(input_, seams_.calls);
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
-  return files_.look_for(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
+  return files_.check_space(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
 }
 
 Result<void> TreeBuild::order_triangles() {
@@ -133,21 +133,21 @@ Result<void> TreeBuild::resume_mesh() {
   const OrderedMesh& mesh = *files_.work()->mesh();
   if (const auto set = set_mesh(mesh); !set) return set;
   whole_.emplace(mesh.frame.float64, 0, files_.triangles());
-  whole_->add_extents(mesh.runs);
+  whole_->add_extent(mesh.runs);
   return {};
 }
 
 Result<void> TreeBuild::read() {
   TriangleSpool spool(memory_.batch_triangles, memory_.spool_bytes, files_.scratch());
   files_.mesh().before_sorting([this] {
-    return files_.look_for(SpaceNeed::before_sorting(size_, memory_, files_.scratch().disk_bytes(),
-                                                     options_.box.has_value()));
+    return files_.check_space(SpaceNeed::before_sorting(
+        size_, memory_, files_.scratch().disk_bytes(), options_.box.has_value()));
   });
   auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool);
   if (!mesh) return mesh.error();
   if (const auto set = set_mesh(*mesh); !set) return set;
   whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
-  PhaseCount count(progress_, BuildPhase::kOrdering, spool.chunk_count());
+  PhaseCount count(progress_, BuildPhase::kOrdering, spool.batch_count());
   if (const auto taken = whole_->take(spool, [&count] { count.add(); }); !taken) return taken;
   if (files_.work()) mesh->runs = whole_->extents();
   return keep(*mesh);
@@ -161,11 +161,12 @@ Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.shape.float64 = mesh.frame.float64;
   model_.shape.wide_ids = mesh.wide_ids;
   if (model_.box)
-    if (const auto near = model_.box->check_near(model_.frame); !near) return near;
+    if (const auto near = model_.box->check_meets(model_.frame); !near) return near;
   size_ = {mesh.frame.triangle_count, size_.vertices, mesh.frame.float64};
   const Checkpoint* const work = files_.work();
-  return files_.look_for(SpaceNeed::after_reading(size_, memory_, work ? work->taken_up_bytes() : 0,
-                                                  work && work->surface(), model_.box.has_value()));
+  return files_.check_space(
+      SpaceNeed::after_reading(size_, memory_, work ? work->resumed_bytes() : 0,
+                               work && work->surface(), model_.box.has_value()));
 }
 
 Region TreeBuild::region() const {
@@ -178,7 +179,7 @@ Result<void> TreeBuild::look_at_surface() {
   if (work && work->surface()) {
     model_.edges = work->surface()->edges;
     model_.cut = work->surface()->cut;
-    if (part_) part_->add_extents(work->surface()->kept);
+    if (part_) part_->add_extent(work->surface()->kept);
   } else if (const auto matched = match_edges(); !matched) {
     return matched;
   }
@@ -207,7 +208,7 @@ Result<void> TreeBuild::match_edges() {
 Result<void> TreeBuild::cut_out_part() {
   if (!part_) return {};
   whole_.reset();
-  if (part_->size() == 0) return nothing_touches(model_.frame);
+  if (part_->size() == 0) return no_triangle_touches(model_.frame);
   auto above = cut_chunks(*part_, seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
@@ -215,17 +216,17 @@ Result<void> TreeBuild::cut_out_part() {
   const MeshSize part{triangles, std::min(size_.vertices, 3 * triangles), size_.float64};
   // Of the resumed bytes, all but those of triangles count.
   const std::uint64_t record = Triangles::record_bytes(size_.float64);
-  const std::uint64_t kept_bytes = files_.work() ? files_.work()->taken_up_bytes() : 0;
+  const std::uint64_t kept_bytes = files_.work() ? files_.work()->resumed_bytes() : 0;
   const std::uint64_t of_triangles = record * (size_.triangles + triangles);
-  return files_.look_for(
+  return files_.check_space(
       SpaceNeed::after_cutting(part, memory_, kept_bytes - std::min(kept_bytes, of_triangles)));
 }
 
 Result<void> TreeBuild::build_chunks() {
   if (model_.edges.unbalanced_edges == 0) {
-    regions_.emplace(model_.frame.lower(), region(), model_.cut.winding, model_.frame.float64,
+    sectors_.emplace(model_.frame.lower(), region(), model_.cut.winding, model_.frame.float64,
                      memory_.visitor_bytes, files_.triangles());
-    if (const auto divided = regions_->divide(runs(), seams_.sector_triangles); !divided)
+    if (const auto divided = sectors_->divide(runs(), seams_.sector_triangles); !divided)
       return divided;
   }
   model_.chunks.resize(model_.above.chunks.size());
@@ -240,7 +241,7 @@ void TreeBuild::resume_chunks() {
   if (!files_.work()) return;
   for (std::uint32_t i = 0; i < model_.chunks.size(); ++i) {
     auto chunk = files_.work()->take_chunk(i);
-    if (!chunk || (regions_ && !regions_->add_extents(chunk->part))) continue;
+    if (!chunk || (sectors_ && !sectors_->add_extent(chunk->part))) continue;
     model_.chunks[i] = std::move(chunk->built);
   }
 }
@@ -248,8 +249,8 @@ void TreeBuild::resume_chunks() {
 Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
   triangles.sort();
   ChunkWork chunk;
-  if (regions_) {
-    auto part = regions_->add(triangles);
+  if (sectors_) {
+    auto part = sectors_->add(triangles);
     if (!part) return part.error();
     chunk.part = *std::move(part);
   }
@@ -270,19 +271,19 @@ Result<void> TreeBuild::number_pages() {
 
 // Only a watertight model has a mask: its winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
-  if (!regions_) return {};
+  if (!sectors_) return {};
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
   auto earlier =
       files_.work() ? files_.work()->take_sectors() : std::map<std::uint32_t, BuiltSector>();
-  PhaseCount count(progress_, BuildPhase::kColouring, regions_->touched_count(), earlier.size());
+  PhaseCount count(progress_, BuildPhase::kColouring, sectors_->touched_count(), earlier.size());
   for (auto& [number, region] : earlier) model_.mask->resume(number, std::move(region));
   const auto done = [&](std::uint32_t number, const BuiltSector& region) {
     const auto kept = keep(number, region);
     if (kept) count.add();
     return kept;
   };
-  const auto built = model_.mask->build(*regions_, runs(), &*tree_, done);
-  regions_.reset();
+  const auto built = model_.mask->build(*sectors_, runs(), &*tree_, done);
+  sectors_.reset();
   return built;
 }
 
@@ -309,14 +310,14 @@ Result<BuildReport> build_tree(const std::filesystem::path& input,
   if (!memory) return memory.error();
   if (options.box)
     if (const auto checked = options.box->check(); !checked) return checked.error();
-  if (options.resume) memory = memory->holding_nothing_kept();
+  if (options.resume) memory = memory->with_checkpoint();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(memory->threads));
   tbb::task_arena arena(memory->threads);
   return arena.execute([&] {
     TreeBuild build(input, output, options, *memory, progress, seams);
     auto report = build.run();
-    if (!report) build.tell_failed();
+    if (!report) build.report_failure();
     return report;
   });
 }

@@ -74,7 +74,7 @@ struct GridCoordinates {
   }
   /// Returns the cell at these indices, counted from the start of the rim.
   SideGridCells::Cell cell_at(const std::array<std::uint32_t, 3>& at) const {
-    constexpr unsigned kBits = SideGridCells::kBlockBits;
+    constexpr unsigned kBits = SideGridCells::kBrickBits;
     const auto bits = [&](unsigned bit) {
       return (at[0] >> bit & 1) | (at[1] >> bit & 1) << 1 | (at[2] >> bit & 1) << 2;
     };

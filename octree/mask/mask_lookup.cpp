@@ -12,8 +12,8 @@ namespace planetree::octree {
 namespace {
 
 /// Finds on which side of a special cell's planes the point is.
-void query_planes(const MaskSpecial& special, const double* planes, const Point& point,
-                  MaskLookup& finding) {
+void find_by_planes(const MaskSpecial& special, const double* planes, const Point& point,
+                    MaskLookup& found) {
   bool beyond = false, perturbed_beyond = false, on_plane = false;
   for (unsigned i = 0; i < special.plane_count; ++i) {
     const Triangle plane = mask_plane(planes, i);
@@ -22,97 +22,97 @@ void query_planes(const MaskSpecial& special, const double* planes, const Point&
     on_plane = on_plane || side == 0;
     perturbed_beyond = perturbed_beyond || (side != 0 ? side : perturbed_side(plane, point)) > 0;
   }
-  finding.kind = MaskLookup::Kind::kPlanes;
-  finding.winding = perturbed_beyond ? int{special.beyond} : int{special.behind};
-  finding.on_surface = on_plane && !beyond;
+  found.kind = MaskLookup::Kind::kPlanes;
+  found.winding = perturbed_beyond ? int{special.beyond} : int{special.behind};
+  found.on_surface = on_plane && !beyond;
 }
 
 // Copies the list of a cell, because its page may be gone after the next lookup of a page.
-void read_list(const MaskListed& listed, const MaskRecords& records, MaskLookup& finding) {
+void read_list(const MaskListed& listed, const MaskRecords& records, MaskLookup& found) {
   // A cell of the last level has no octants, so that its list has no meaning.
-  if (finding.cell.level == kLevels) return;
-  finding.kind = MaskLookup::Kind::kCorners;
-  finding.listed = listed;
-  copy_list(records.slot(0), listed, finding.blocks);
+  if (found.cell.level == kLevels) return;
+  found.kind = MaskLookup::Kind::kCorners;
+  found.listed = listed;
+  copy_list(records.slot(0), listed, found.blocks);
   // If the file was replaced after the side grid was filled, these bytes may be no list.
-  if (!finding.blocks.slab.direction_is_valid()) finding.blocks.slab = {};
+  if (!found.blocks.slab.direction_is_valid()) found.blocks.slab = {};
 }
 
 void read_leaf(const std::byte* record, const MaskRecords& records, const Point& point,
-               MaskLookup& finding) {
+               MaskLookup& found) {
   const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
   if (is_special(corners)) {
     const auto& special = *reinterpret_cast<const MaskSpecial*>(record);
     const auto* planes = reinterpret_cast<const double*>(records.slot(special.plane_slot));
-    query_planes(special, planes, point, finding);
+    find_by_planes(special, planes, point, found);
   } else if (is_listed(corners)) {
-    read_list(*reinterpret_cast<const MaskListed*>(record), records, finding);
+    read_list(*reinterpret_cast<const MaskListed*>(record), records, found);
   } else if (corners[0] != kUncounted) {
-    finding.kind = MaskLookup::Kind::kCorners;
-    finding.corners = corners;
+    found.kind = MaskLookup::Kind::kCorners;
+    found.corners = corners;
   }
 }
 
 // Goes down from the node of the cell reached so far. octant_in(cell) returns the octant of a cell
 // that the point is in.
 template <class OctantIn>
-void descend(MaskRecords& records, const MaskNode& from, const Point& point, std::uint64_t max_work,
-             const OctantIn& octant_in, TraversalStats& work, MaskLookup& finding) {
+void go_down(MaskRecords& records, const MaskNode& from, const Point& point, std::uint64_t max_work,
+             const OctantIn& octant_in, TraversalStats& work, MaskLookup& found) {
   MaskNode node = from;
   // Stops at the last level: a forged mask could be deeper.
-  for (std::uint64_t left = std::min<std::uint64_t>(max_work, kLevels - finding.cell.level);
-       left > 0; --left) {
+  for (std::uint64_t left = std::min<std::uint64_t>(max_work, kLevels - found.cell.level); left > 0;
+       --left) {
     ++work.nodes;
-    const unsigned octant = octant_in(finding.cell);
-    finding.cell = finding.cell.child(octant);
+    const unsigned octant = octant_in(found.cell);
+    found.cell = found.cell.child(octant);
     if ((node.grey >> octant & 1) == 0) {
-      finding.kind = MaskLookup::Kind::kColour;
-      finding.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
+      found.kind = MaskLookup::Kind::kColour;
+      found.winding = (node.black >> octant & 1) - (node.inverted >> octant & 1);
       return;
     }
     const std::byte* record = records.child(node, octant, work);
     if (!record) return;
-    if ((node.leaf >> octant & 1) != 0) return read_leaf(record, records, point, finding);
+    if ((node.leaf >> octant & 1) != 0) return read_leaf(record, records, point, found);
     node = *reinterpret_cast<const MaskNode*>(record);
   }
 }
 
 // Looks a point up from the root down.
 void look_from_root(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
-                    const PageReader& pages, TraversalStats& work, MaskLookup& finding) {
+                    const PageReader& pages, TraversalStats& work, MaskLookup& found) {
   if (mask.page_count == 0 || max_work == 0) return;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
   if (!record) return;
-  if (!records.root_is_node()) return read_leaf(record, records, point, finding);
+  if (!records.root_is_node()) return read_leaf(record, records, point, found);
   const std::uint64_t octants = CellGrid(mask.lower).finest(point).first_code();
   const auto octant_in = [octants](const GridCell& cell) {
     return static_cast<unsigned>(octants >> 3 * (kLevels - cell.level - 1) & 7);
   };
-  descend(records, *reinterpret_cast<const MaskNode*>(record), point, max_work, octant_in, work,
-          finding);
+  go_down(records, *reinterpret_cast<const MaskNode*>(record), point, max_work, octant_in, work,
+          found);
 }
 
 // Looks a point up from the record that the side grid found for it.
 void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point& point,
                std::uint64_t max_work, const PageReader& pages, TraversalStats& work,
-               MaskLookup& finding) {
-  finding.cell = lookup.cell;
+               MaskLookup& found) {
+  found.cell = lookup.cell;
   MaskRecords records(mask, pages);
   const SideGridRecord& record = *lookup.record;
   if (record.is_listed()) {
     // The list was valid when the side grid was filled; the file may have been replaced since.
     const MaskListed listed = record.listed(records.slot_of(record.link));
-    if (records.has_capacity(record.link, list_slots(listed.block_count)) &&
-        records.turn_to_page_of(record.link, work))
-      read_list(listed, records, finding);
+    if (records.fits_in_page(record.link, list_slots(listed.block_count)) &&
+        records.switch_to_page_of(record.link, work))
+      read_list(listed, records, found);
   } else if (record.is_leaf()) {
     const std::byte* leaf = records.record(record.link, true, work);
-    if (leaf) read_leaf(leaf, records, point, finding);
+    if (leaf) read_leaf(leaf, records, point, found);
   } else {
     const CellGrid grid(mask.lower);
     const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
-    descend(records, record.node(), point, max_work, octant_in, work, finding);
+    go_down(records, record.node(), point, max_work, octant_in, work, found);
   }
 }
 
@@ -120,19 +120,19 @@ void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point
 
 MaskLookup look_up(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
                    const PageReader& pages, TraversalStats& work) noexcept {
-  MaskLookup finding;
-  look_from_root(mask, point, max_work, pages, work, finding);
-  return finding;
+  MaskLookup found;
+  look_from_root(mask, point, max_work, pages, work, found);
+  return found;
 }
 
 MaskLookup look_up(const MaskInfo& mask, const SideGrid::Lookup& lookup, const Point& point,
                    std::uint64_t max_work, const PageReader& pages, TraversalStats& work) noexcept {
-  MaskLookup finding;
+  MaskLookup found;
   if (lookup.record && max_work > 0)
-    look_from(lookup, mask, point, max_work, pages, work, finding);
+    look_from(lookup, mask, point, max_work, pages, work, found);
   else
-    look_from_root(mask, point, max_work, pages, work, finding);
-  return finding;
+    look_from_root(mask, point, max_work, pages, work, found);
+  return found;
 }
 
 }  // namespace planetree::octree

@@ -14,29 +14,29 @@ MaskPrefetcher::MaskPrefetcher(const MaskInfo& mask, const SideGrid& side_grid, 
   if (!lookup.record) return;
   record_ = lookup.record;
   cell_ = lookup.cell;
-  next_ = Next::kMapRecord;
+  next_ = Next::kGridRecord;
   __builtin_prefetch(record_);
 }
 
 void MaskPrefetcher::step(const PageReader& pages) noexcept {
   assert(goes_on());
   const Next now = std::exchange(next_, Next::kNothing);
-  if (now == Next::kMapRecord) {
+  if (now == Next::kGridRecord) {
     if (record_->is_node()) return go_below(record_->node(), pages);
-    if (record_->is_listed()) request_for(record_->link, pages);
+    if (record_->is_listed()) prefetch_at(record_->link, pages);
     if (!record_->is_leaf()) return;
     next_ = Next::kLeaf;
     link_ = record_->link;
-    request_for(link_, pages);
+    prefetch_at(link_, pages);
     return;
   }
-  const std::byte* record = request_for(link_, pages);
+  const std::byte* record = prefetch_at(link_, pages);
   if (!record) return;
   if (now == Next::kNode) return go_below(*reinterpret_cast<const MaskNode*>(record), pages);
   if (!is_listed(*reinterpret_cast<const MaskCorners*>(record))) return;
   const MaskLinkFormat links(mask_.page_bytes);
   const auto& listed = *reinterpret_cast<const MaskListed*>(record);
-  request_for(links.make(links.page(link_), listed.list_slot), pages);
+  prefetch_at(links.make(links.page(link_), listed.list_slot), pages);
 }
 
 void MaskPrefetcher::go_below(const MaskNode& node, const PageReader& pages) {
@@ -46,11 +46,11 @@ void MaskPrefetcher::go_below(const MaskNode& node, const PageReader& pages) {
   cell_ = cell_.child(octant);
   link_ = MaskRecords(mask_, pages).child_link(node, octant);
   next_ = (node.leaf >> octant & 1) != 0 ? Next::kLeaf : Next::kNode;
-  request_for(link_, pages);
+  prefetch_at(link_, pages);
 }
 
 // Prefetches what a link leads to, and returns it; null if its page is not resident.
-const std::byte* MaskPrefetcher::request_for(std::uint32_t link, const PageReader& pages) const {
+const std::byte* MaskPrefetcher::prefetch_at(std::uint32_t link, const PageReader& pages) const {
   const std::byte* record = MaskRecords(mask_, pages).peek(link);
   if (record) __builtin_prefetch(record);
   return record;

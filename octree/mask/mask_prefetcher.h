@@ -34,10 +34,10 @@ class MaskPrefetcher {
   }
 
  private:
-  enum class Next : std::uint8_t { kNothing, kMapRecord, kNode, kLeaf };
+  enum class Next : std::uint8_t { kNothing, kGridRecord, kNode, kLeaf };
 
   void go_below(const MaskNode& node, const PageReader& pages);
-  const std::byte* request_for(std::uint32_t link, const PageReader& pages) const;
+  const std::byte* prefetch_at(std::uint32_t link, const PageReader& pages) const;
 
   const MaskInfo& mask_;
   const Point point_;

@@ -21,7 +21,7 @@ class MaskRecords {
 
   /// Returns the record of the mask's root; null if its page is missing.
   const std::byte* root(TraversalStats& work) {
-    turn_to(0, work);
+    switch_to(0, work);
     return frame_ ? slot(header().first_record_slot) : nullptr;
   }
   bool root_is_node() const { return is_mask_node(frame_, header().first_record_slot); }
@@ -66,19 +66,19 @@ class MaskRecords {
   ///
   /// leaf  whether the parent says that it is a leaf; else it is a node
   const std::byte* record(std::uint32_t link, bool leaf, TraversalStats& work) {
-    turn_to(links_.page(link), work);
+    switch_to(links_.page(link), work);
     const std::uint32_t at = links_.slot(link);
     return frame_ && holds(at, leaf) ? slot(at) : nullptr;
   }
 
   /// Switches to the page of a link, which slot() then refers to. Returns false if it is missing.
-  bool turn_to_page_of(std::uint32_t link, TraversalStats& work) {
-    turn_to(links_.page(link), work);
+  bool switch_to_page_of(std::uint32_t link, TraversalStats& work) {
+    switch_to(links_.page(link), work);
     return frame_ != nullptr;
   }
   std::uint32_t slot_of(std::uint32_t link) const { return links_.slot(link); }
   /// Whether `slots` slots from a link on are within its page.
-  bool has_capacity(std::uint32_t link, unsigned slots) const {
+  bool fits_in_page(std::uint32_t link, unsigned slots) const {
     return links_.slot(link) + slots <= links_.slots();
   }
   /// Returns the link to a slot of the last record's page.
@@ -95,7 +95,7 @@ class MaskRecords {
            is_mask_node(frame_, at) != leaf;
   }
   const MaskHeader& header() const { return *reinterpret_cast<const MaskHeader*>(frame_); }
-  void turn_to(std::uint32_t page, TraversalStats& work) {
+  void switch_to(std::uint32_t page, TraversalStats& work) {
     if (page == page_) return;
     ++work.page_switches;
     page_ = page;

@@ -25,11 +25,11 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
   const double per_unit = 0.5 * static_cast<double>(std::uint64_t{1} << level);
   level_ = level;
   min_side_ = 0.25 / per_unit;
-  steps_.model = FixedPoint(level, 0);
+  coordinates_.model = FixedPoint(level, 0);
   // find_fast() is off for a region with walls and for extreme scales. It does not test walls,
   // beyond which the grid is not valid, and it does not read the bits of subnormal numbers.
   const bool certain = !clipped && std::abs(scale) <= FixedPoint::kMaxScale;
-  steps_.input = FixedPoint(level, certain ? scale : FixedPoint::kNoScale);
+  coordinates_.input = FixedPoint(level, certain ? scale : FixedPoint::kNoScale);
   // The steps of the point and of the box err by one each, faces by 2^-53 of the greatest
   // coordinate.
   constexpr std::int64_t kUncertainty = 1 << 8;
@@ -38,31 +38,32 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
   std::size_t stride = 1;
   for (unsigned axis = 0; axis < 3; ++axis) {
     width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1 + 2 * kRim;
-    steps_.stride[axis] = stride;
-    stride *= blocks_along(axis);
-    steps_.last_middle[axis] = (width_[axis] - 1) * FixedPoint::kCell + GridCoordinates::kRimMiddle;
-    const FixedPoint::Digits lower = steps_.model.digits_of(lower_[axis]);
+    coordinates_.stride[axis] = stride;
+    stride *= bricks_along(axis);
+    coordinates_.last_middle[axis] =
+        (width_[axis] - 1) * FixedPoint::kCell + GridCoordinates::kRimMiddle;
+    const FixedPoint::Digits lower = coordinates_.model.digits_of(lower_[axis]);
     near = near && lower.shift > 1;
-    steps_.first[axis] = near ? lower.steps() - kRim * FixedPoint::kCell - kUncertainty : 0;
+    coordinates_.first[axis] = near ? lower.steps() - kRim * FixedPoint::kCell - kUncertainty : 0;
   }
-  steps_.uncertainty = 2 * (near ? kUncertainty : GridCoordinates::kMin);
+  coordinates_.uncertainty = 2 * (near ? kUncertainty : GridCoordinates::kMin);
 }
 
 // Fills in the cells of a level and what is known about the grey ones. Returns false if `memory` is
 // too small for it.
 bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool clipped,
                           std::span<std::byte> memory) {
-  const double block_count = 1.0 * blocks_along(0) * blocks_along(1) * blocks_along(2);
-  if (block_count > static_cast<double>(memory.size())) return false;
-  const auto blocks = static_cast<std::size_t>(block_count);
-  const std::size_t index_bytes = whole_records(blocks * sizeof(std::uint32_t));
-  const std::size_t code_bytes = whole_records(blocks * sizeof(SideGridCells::Codes));
+  const double brick_count = 1.0 * bricks_along(0) * bricks_along(1) * bricks_along(2);
+  if (brick_count > static_cast<double>(memory.size())) return false;
+  const auto bricks = static_cast<std::size_t>(brick_count);
+  const std::size_t index_bytes = whole_records(bricks * sizeof(std::uint32_t));
+  const std::size_t code_bytes = whole_records(bricks * sizeof(SideGridCells::Codes));
   if (index_bytes + code_bytes > memory.size()) return false;
   // The builder writes codes to the end of the memory. Records go there once these are laid out.
   const std::size_t filled_at =
       (memory.size() - code_bytes) / alignof(SideGridRecord) * alignof(SideGridRecord);
   const std::span<SideGridCells::Codes> filled(
-      reinterpret_cast<SideGridCells::Codes*>(memory.data() + filled_at), blocks);
+      reinterpret_cast<SideGridCells::Codes*>(memory.data() + filled_at), bricks);
   std::uninitialized_fill(filled.begin(), filled.end(), SideGridCells::kUnfilled);
   SideGridBuilder builder(*this, filled, mask, pages, clipped);
   builder.fill_cells();
@@ -72,7 +73,7 @@ bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool cl
   const std::size_t words = cells_.lay_out(filled, capacity);
   if (words > capacity) return false;
   builder.fill_octants();
-  const std::size_t records = cells_.count_records(blocks);
+  const std::size_t records = cells_.count_records(bricks);
   const std::size_t cell_bytes = index_bytes + whole_records(words * sizeof(std::uint64_t));
   if (cell_bytes + records * sizeof(SideGridRecord) > memory.size()) return false;
   cells_.records = reinterpret_cast<SideGridRecord*>(memory.data() + cell_bytes);

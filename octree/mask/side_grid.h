@@ -59,8 +59,8 @@ class SideGrid {
   template <class Ahead>
   Lookup look(const Point& point, const Ahead& ahead) const noexcept {
     GridCoordinates::Position position;
-    const bool certain =
-        steps_.find(point.data(), steps_.model, position) || find_among_sides(point, position);
+    const bool certain = coordinates_.find(point.data(), coordinates_.model, position) ||
+                         find_among_sides(point, position);
     return certain ? look_at(position, point, ahead) : Lookup{};
   }
   /// Returns what look() knows about a point in a grey cell before it reads a record. Returns
@@ -68,8 +68,8 @@ class SideGrid {
   /// ancestor of the cell returned.
   Lookup lookup_of(const Point& point) const noexcept {
     GridCoordinates::Position position;
-    if (!steps_.find(point.data(), steps_.model, position)) return {};
-    const SideGridCells::Cell cell = steps_.cell_at(position.cell());
+    if (!coordinates_.find(point.data(), coordinates_.model, position)) return {};
+    const SideGridCells::Cell cell = coordinates_.cell_at(position.cell());
     if (cells_.code_of<1>(cell) != SideGridCells::kListed) return {};
     const SideGridCells::Found found = cells_.find_below(cell, position.octant());
     return {found.winding, octant_at(position), found.record};
@@ -79,7 +79,7 @@ class SideGrid {
   ///
   /// x, y, z  in the input's units; any values, also infinite ones and NaN
   int find_fast(double x, double y, double z) const noexcept {
-    return find_fast_(steps_, cells_, x, y, z);
+    return find_fast_(coordinates_, cells_, x, y, z);
   }
 
  private:
@@ -91,7 +91,8 @@ class SideGrid {
   bool find_among_sides(const Point& point, GridCoordinates::Position& position) const {
     constexpr std::uint32_t kRim = GridCoordinates::kRim;
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const std::int64_t at = (position.step[axis] - steps_.uncertainty / 2) >> FixedPoint::kBits;
+      const std::int64_t at =
+          (position.step[axis] - coordinates_.uncertainty / 2) >> FixedPoint::kBits;
       if (at < kRim || at + kRim >= width_[axis]) return false;
       const std::int64_t first = 4 * (at - kRim);
       if (!(side(axis, first) <= point[axis] && point[axis] < side(axis, first + 4))) return false;
@@ -104,13 +105,13 @@ class SideGrid {
   template <class Ahead>
   Lookup look_at(const GridCoordinates::Position& position, const Point& point,
                  const Ahead& ahead) const {
-    const SideGridCells::Found found = find(steps_, cells_, position);
+    const SideGridCells::Found found = find(coordinates_, cells_, position);
     if (found.winding != kUnknown) return {found.winding, {}, nullptr};
     if (!found.record || found.record->is_nothing()) return {};
     ahead(*found.record);
     const GridCell octant = octant_at(position);
     const unsigned above = found.record->levels_above();
-    return query_slab({kUnknown, octant.ancestor(octant.level - above), found.record}, point);
+    return find_by_slab({kUnknown, octant.ancestor(octant.level - above), found.record}, point);
   }
   GridCell octant_at(const GridCoordinates::Position& position) const {
     constexpr std::uint32_t kRim = GridCoordinates::kRim;
@@ -119,7 +120,7 @@ class SideGrid {
     return cell.child(position.octant());
   }
   // Finds the winding number by the slab of a leaf, if it has one that the point is beyond.
-  Lookup query_slab(const Lookup& lookup, const Point& point) const {
+  Lookup find_by_slab(const Lookup& lookup, const Point& point) const {
     if (!lookup.record->is_listed()) return lookup;
     const Point lower = CellGrid(lower_).lower(lookup.cell);
     const unsigned corner =
@@ -132,16 +133,16 @@ class SideGrid {
   double side(unsigned axis, std::int64_t at) const {
     return lower_[axis] + min_side_ * static_cast<double>(at);
   }
-  std::uint32_t blocks_along(unsigned axis) const {
-    return ((width_[axis] - 1) >> SideGridCells::kBlockBits) + 1;
+  std::uint32_t bricks_along(unsigned axis) const {
+    return ((width_[axis] - 1) >> SideGridCells::kBrickBits) + 1;
   }
   void measure(const Point& size, unsigned level, bool clipped, int scale);
   bool fill_cells(const MaskInfo& mask, const PageReader& pages, bool clipped,
                   std::span<std::byte> memory);
 
-  GridCoordinates steps_;
+  GridCoordinates coordinates_;
   SideGridCells cells_;
-  SideGridLookup find_fast_ = map_glance();
+  SideGridLookup find_fast_ = fastest_side_grid_lookup();
   std::array<std::uint32_t, 3> width_{};  // in cells, with the rim
   unsigned level_ = 0;
   Point lower_ = Point::Zero();

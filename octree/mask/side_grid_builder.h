@@ -16,9 +16,9 @@ namespace planetree::octree {
 class SideGrid::SideGridBuilder {
  public:
   /// cells  receives the codes of bricks; not used once these are laid out.
-  SideGridBuilder(SideGrid& map, std::span<SideGridCells::Codes> cells, const MaskInfo& mask,
+  SideGridBuilder(SideGrid& grid, std::span<SideGridCells::Codes> cells, const MaskInfo& mask,
                   const PageReader& pages, bool clipped)
-      : map_(map), cells_(cells), mask_(mask), pages_(pages), clipped_(clipped) {}
+      : grid_(grid), cells_(cells), mask_(mask), pages_(pages), clipped_(clipped) {}
 
   void fill_cells() {
     fill_rim();
@@ -40,7 +40,7 @@ class SideGrid::SideGridBuilder {
   static constexpr unsigned kMaxAbove = 2;
 
   // Number of cells along an axis, without the rim.
-  std::uint32_t width(unsigned axis) const { return map_.width_[axis] - 2 * kRim; }
+  std::uint32_t width(unsigned axis) const { return grid_.width_[axis] - 2 * kRim; }
 
   // Makes the rim white, up to the ends of the bricks.
   void fill_rim() {
@@ -48,7 +48,7 @@ class SideGrid::SideGridBuilder {
       return at < kRim || at >= width(axis) + kRim;
     };
     const auto end = [&](unsigned axis) {
-      return map_.blocks_along(axis) << SideGridCells::kBlockBits;
+      return grid_.bricks_along(axis) << SideGridCells::kBrickBits;
     };
     for (std::uint32_t z = 0; z < end(2); ++z)
       for (std::uint32_t y = 0; y < end(1); ++y) {
@@ -63,7 +63,7 @@ class SideGrid::SideGridBuilder {
     MaskRecords records(mask_, pages_);
     records_ = &records;
     const std::byte* root = records.root(work_);
-    if (root && records.root_is_node() && map_.level_ > 0) go_below(root, {});
+    if (root && records.root_is_node() && grid_.level_ > 0) go_below(root, {});
   }
 
   void go_below(const std::byte* record, const GridCell& cell) {
@@ -79,17 +79,17 @@ class SideGrid::SideGridBuilder {
 
   void go_to_grey(const MaskNode& node, unsigned octant, const GridCell& child) {
     for (unsigned axis = 0; axis < 3; ++axis)
-      if (child.at[axis] << (map_.level_ - child.level) >= width(axis)) return;
+      if (child.at[axis] << (grid_.level_ - child.level) >= width(axis)) return;
     const bool leaf = (node.leaf >> octant & 1) != 0;
-    const bool listed = child.level == map_.level_ || leaf;
-    if (leaf && map_.level_ - child.level > kMaxAbove) return;
+    const bool listed = child.level == grid_.level_ || leaf;
+    if (leaf && grid_.level_ - child.level > kMaxAbove) return;
     if (listed && pass_ == Pass::kCells)
       return each_cell(child, [&](const Position& at) { set(at, SideGridCells::kListed); });
     const std::byte* record = below(node, octant);
     if (!record) return;
     if (!listed) return go_below(record, child);
     if (leaf) return go_to_leaf(read_leaf(record, records_->child_link(node, octant), child));
-    go_to_listed(*reinterpret_cast<const MaskNode*>(record), child);
+    go_to_node(*reinterpret_cast<const MaskNode*>(record), child);
   }
 
   // Returns the record of a grey octant; null if its page is missing or kMaxBrought is reached.
@@ -100,7 +100,7 @@ class SideGrid::SideGridBuilder {
   }
 
   // Fills in what is below a node of the grid's level.
-  void go_to_listed(const MaskNode node, const GridCell& cell) {
+  void go_to_node(const MaskNode node, const GridCell& cell) {
     const Position at{cell.at[0] + kRim, cell.at[1] + kRim, cell.at[2] + kRim};
     for (unsigned octant = 0; octant < 8; ++octant) {
       if ((node.grey >> octant & 1) == 0) {
@@ -152,9 +152,9 @@ class SideGrid::SideGridBuilder {
 
   // Fills in the grid's cells within a leaf of the grid's level or above.
   void go_to_leaf(const Leaf& leaf) {
-    const unsigned above = map_.level_ + 1 - leaf.cell.level;
+    const unsigned above = grid_.level_ + 1 - leaf.cell.level;
     each_cell(leaf.cell, [&](const Position& at) {
-      const GridCell cell{map_.level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
+      const GridCell cell{grid_.level_, {at[0] - kRim, at[1] - kRim, at[2] - kRim}};
       for (unsigned octant = 0; octant < 8; ++octant) {
         const unsigned of_leaf = cell.child(octant).octant_of(leaf.cell.level + 1);
         if ((leaf.touched >> of_leaf & 1) == 0)
@@ -168,31 +168,33 @@ class SideGrid::SideGridBuilder {
   void fill(const Position& at, unsigned octant, int winding) {
     if (!is_certain(winding)) return note(at, octant, SideGridRecord::of_colour(winding));
     if (pass_ != Pass::kOctants || !is_listed_at(at)) return;
-    const SideGridCells::Octant filled = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
+    const SideGridCells::Octant filled =
+        grid_.cells_.octant_of(grid_.coordinates_.cell_at(at), octant);
     filled.group.unknown &= ~filled.bit;
     if (winding != 0) filled.group.inside |= filled.bit;
   }
   void note(const Position& at, unsigned octant, const SideGridRecord& record) {
     if (pass_ != Pass::kRecords || !is_listed_at(at)) return;
-    const SideGridCells::Octant noted = map_.cells_.octant_of(map_.steps_.cell_at(at), octant);
-    if (noted.is_unknown()) map_.cells_.records[noted.record()] = record;
+    const SideGridCells::Octant noted =
+        grid_.cells_.octant_of(grid_.coordinates_.cell_at(at), octant);
+    if (noted.is_unknown()) grid_.cells_.records[noted.record()] = record;
   }
   // A page that was missing in the first pass may be available later; its cells are not listed.
   bool is_listed_at(const Position& at) const {
-    return map_.cells_.code_of(map_.steps_.cell_at(at)) == SideGridCells::kListed;
+    return grid_.cells_.code_of(grid_.coordinates_.cell_at(at)) == SideGridCells::kListed;
   }
   void set(const Position& at, SideGridCells::Code code) {
-    const SideGridCells::Cell cell = map_.steps_.cell_at(at);
-    cells_[cell.block].set(cell.at, code);
+    const SideGridCells::Cell cell = grid_.coordinates_.cell_at(at);
+    cells_[cell.brick].set(cell.at, code);
   }
 
   // Codes have one sign for all inside cells: that of the first one found.
   bool is_certain(int winding) {
     if (winding != 0 && !has_inside_) {
       has_inside_ = true;
-      map_.cells_.inside = winding;
+      grid_.cells_.inside = winding;
     }
-    return winding == 0 || winding == map_.cells_.inside;
+    return winding == 0 || winding == grid_.cells_.inside;
   }
 
   void fill_colour(const GridCell& cell, int winding) {
@@ -204,7 +206,7 @@ class SideGrid::SideGridBuilder {
   // Calls call(position) for each of the grid's cells within a cell.
   template <class Call>
   void each_cell(const GridCell& cell, const Call& call) {
-    const unsigned shift = map_.level_ - cell.level;
+    const unsigned shift = grid_.level_ - cell.level;
     std::array<std::uint32_t, 3> first{}, end{};
     for (unsigned axis = 0; axis < 3; ++axis) {
       first[axis] = (cell.at[axis] << shift) + kRim;
@@ -214,7 +216,7 @@ class SideGrid::SideGridBuilder {
       for (std::uint32_t y = first[1]; y < end[1]; ++y)
         for (std::uint32_t x = first[0]; x < end[0]; ++x) call(Position{x, y, z});
   }
-  SideGrid& map_;
+  SideGrid& grid_;
   const std::span<SideGridCells::Codes> cells_;
   const MaskInfo& mask_;
   const PageReader pages_;

@@ -27,10 +27,10 @@ struct SideGridCells {
   /// A cell: the number of its brick, and its index there. Bits 3 to 5 of the index are the upper
   /// halves of the brick in x, y and z, bits 0 to 2 the upper halves of those halves.
   struct Cell {
-    std::size_t block;
+    std::size_t brick;
     unsigned at;
   };
-  static constexpr unsigned kBlockBits = 2;  ///< log2 of the cells along a brick's side
+  static constexpr unsigned kBrickBits = 2;  ///< log2 of the cells along a brick's side
 
   /// The codes of a brick's cells: their lower bits in one word, their upper bits in the other.
   struct Codes {
@@ -70,41 +70,41 @@ struct SideGridCells {
   /// Writes the words of bricks with these codes. All octants of listed cells become unknown.
   /// Bricks of one colour share their words. Returns the number of words; if it is above
   /// `capacity`, some did not fit.
-  std::size_t lay_out(std::span<const Codes> blocks, std::size_t capacity) {
+  std::size_t lay_out(std::span<const Codes> bricks, std::size_t capacity) {
     constexpr std::array kShared{Codes{0, 0}, Codes{kAll, 0}, kUnfilled};
     constexpr std::size_t kCodeWords = sizeof(Codes) / sizeof(std::uint64_t);
     std::size_t size = 0;
-    for (const Codes& codes : kShared) size = add_block(size, codes, capacity);
-    for (std::size_t block = 0; block < blocks.size() && size <= capacity; ++block) {
+    for (const Codes& codes : kShared) size = add_brick(size, codes, capacity);
+    for (std::size_t brick = 0; brick < bricks.size() && size <= capacity; ++brick) {
       const auto shared = static_cast<std::size_t>(
-          std::find(kShared.begin(), kShared.end(), blocks[block]) - kShared.begin());
+          std::find(kShared.begin(), kShared.end(), bricks[brick]) - kShared.begin());
       const bool shares = shared < kShared.size();
-      first_word[block] = static_cast<std::uint32_t>(shares ? kCodeWords * shared : size);
-      if (!shares) size = add_block(size, blocks[block], capacity);
+      first_word[brick] = static_cast<std::uint32_t>(shares ? kCodeWords * shared : size);
+      if (!shares) size = add_brick(size, bricks[brick], capacity);
     }
     return size;
   }
   /// Sets first_record of each group. Returns the number of records.
-  std::size_t count_records(std::size_t block_count) {
+  std::size_t count_records(std::size_t brick_count) {
     std::size_t before = 0;
-    for (std::size_t block = 0; block < block_count; ++block)
-      for (std::size_t i = 0; i < groups_in(codes_of(block)); ++i) {
-        Group& next = group(first_word[block], i);
+    for (std::size_t brick = 0; brick < brick_count; ++brick)
+      for (std::size_t i = 0; i < groups_in(codes_of(brick)); ++i) {
+        Group& next = group(first_word[brick], i);
         next.first_record = before;
         before += count(next.unknown);
       }
     return before;
   }
 
-  const Codes& codes_of(std::size_t block) const {
-    return *reinterpret_cast<const Codes*>(words + first_word[block]);
+  const Codes& codes_of(std::size_t brick) const {
+    return *reinterpret_cast<const Codes*>(words + first_word[brick]);
   }
   /// Returns the code of a cell. Also prefetches the kLines cache lines after that of the codes,
   /// where the groups of listed cells are. One line holds the first two groups or more, three hold
   /// nearly all.
   template <std::size_t kLines = 0>
   Code code_of(Cell cell) const {
-    const Codes& codes = codes_of(cell.block);
+    const Codes& codes = codes_of(cell.brick);
     for (std::size_t line = 1; line <= kLines; ++line)
       __builtin_prefetch(reinterpret_cast<const std::byte*>(&codes) + line * kLineBytes);
     return codes.of(cell.at);
@@ -121,8 +121,8 @@ struct SideGridCells {
   };
   Octant octant_of(Cell cell, unsigned octant) const {
     const std::uint64_t before = (std::uint64_t{1} << cell.at) - 1;
-    const unsigned number = count(codes_of(cell.block).listed() & before);
-    return {group(first_word[cell.block], number / Group::kCells),
+    const unsigned number = count(codes_of(cell.brick).listed() & before);
+    return {group(first_word[cell.brick], number / Group::kCells),
             std::uint64_t{1} << (8 * (number % Group::kCells) + octant)};
   }
 
@@ -155,7 +155,7 @@ struct SideGridCells {
 
   // Appends a brick to `size` words. Returns how many words there are then; capacity + 1 if it does
   // not fit.
-  std::size_t add_block(std::size_t size, const Codes& codes, std::size_t capacity) {
+  std::size_t add_brick(std::size_t size, const Codes& codes, std::size_t capacity) {
     const std::size_t groups = groups_in(codes), end = size + 2 + kGroupWords * groups;
     if (end > capacity) return capacity + 1;
     std::construct_at(reinterpret_cast<Codes*>(words + size), codes);

@@ -39,9 +39,9 @@ HWY_INLINE std::size_t weighted_sum(Words values, Words factors) {
 
 // Returns one bit of each axis: an octant.
 template <int kShift>
-HWY_INLINE unsigned bits_at(Steps steps) {
+HWY_INLINE unsigned bits_at(Steps coordinates) {
   const StepTag signs;
-  return mask_bits(signs, hn::Lt(hn::ShiftLeft<63 - kShift>(steps), hn::Zero(signs))) & 7;
+  return mask_bits(signs, hn::Lt(hn::ShiftLeft<63 - kShift>(coordinates), hn::Zero(signs))) & 7;
 }
 
 // `noipa` hides this function's body from its caller. When gcc 12 sees that a function uses no
@@ -54,7 +54,7 @@ HWY_INLINE unsigned bits_at(Steps steps) {
 
 // Does what GridCoordinates::find() and FixedPoint::digits_of() do, with one axis in each lane. The
 // fourth lane is uncertain only if another one is.
-int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells, double x,
+int find_fast_on_target(const GridCoordinates& coordinates, const SideGridCells& cells, double x,
                         double y, double z) {
   const WordTag words;
   const StepTag signs;
@@ -62,21 +62,22 @@ int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells
   const Words exponent = hn::And(hn::ShiftRight<52>(bits), hn::Set(words, 0x7ff));
   const Words highest = hn::Set(words, std::uint64_t{1} << 63);
   const Words digits = hn::ShiftRight<2>(hn::Or(hn::ShiftLeft<11>(bits), highest));
-  const Steps shift = hn::Sub(hn::Set(signs, steps.input.shift()), hn::BitCast(signs, exponent));
+  const Steps shift =
+      hn::Sub(hn::Set(signs, coordinates.input.shift()), hn::BitCast(signs, exponent));
   const Words shown = digits >> hn::BitCast(words, hn::Min(shift, hn::Set(signs, 63)));
   const Steps sign = hn::BroadcastSignBit(hn::BitCast(signs, bits));
   const Steps from_zero = hn::Sub(hn::Xor(hn::BitCast(signs, shown), sign), sign);
-  const Steps beyond = hn::Sub(from_zero, hn::Load(signs, steps.first.data()));
+  const Steps beyond = hn::Sub(from_zero, hn::Load(signs, coordinates.first.data()));
   const Steps step = hn::Min(hn::Max(beyond, hn::Set(signs, GridCoordinates::kRimMiddle)),
-                             hn::Load(signs, steps.last_middle.data()));
+                             hn::Load(signs, coordinates.last_middle.data()));
   const Steps past_side = hn::And(step, hn::Set(signs, GridCoordinates::kMin - 1));
-  const auto uncertainty =
-      hn::Or(hn::Lt(shift, hn::Zero(signs)), hn::Lt(past_side, hn::Set(signs, steps.uncertainty)));
+  const auto uncertainty = hn::Or(hn::Lt(shift, hn::Zero(signs)),
+                                  hn::Lt(past_side, hn::Set(signs, coordinates.uncertainty)));
   if (!hn::AllFalse(signs, uncertainty)) return SideGridCells::kUnknown;
-  constexpr int kBlockShift = FixedPoint::kBits + int{SideGridCells::kBlockBits};
+  constexpr int kBrickShift = FixedPoint::kBits + int{SideGridCells::kBrickBits};
   const SideGridCells::Cell cell{
-      weighted_sum(hn::ShiftRight<kBlockShift>(hn::BitCast(words, step)),
-                   hn::Load(words, steps.stride.data())),
+      weighted_sum(hn::ShiftRight<kBrickShift>(hn::BitCast(words, step)),
+                   hn::Load(words, coordinates.stride.data())),
       bits_at<FixedPoint::kBits + 1>(step) << 3 | bits_at<FixedPoint::kBits>(step)};
   // Points that this lookup answers are seldom in the brick of the one before, so that none of the
   // brick's lines is likely to be in the cache.
@@ -88,12 +89,12 @@ int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells
 
 #else
 
-int find_fast_on_target(const GridCoordinates& steps, const SideGridCells& cells, double x,
+int find_fast_on_target(const GridCoordinates& coordinates, const SideGridCells& cells, double x,
                         double y, double z) {
   const std::array<double, 3> point{x, y, z};
   GridCoordinates::Position position;
-  if (!steps.find(point.data(), steps.input, position)) return SideGridCells::kUnknown;
-  return find(steps, cells, position).winding;
+  if (!coordinates.find(point.data(), coordinates.input, position)) return SideGridCells::kUnknown;
+  return find(coordinates, cells, position).winding;
 }
 
 #endif
@@ -107,7 +108,7 @@ namespace planetree::octree {
 
 HWY_EXPORT(find_fast_on_target);
 
-SideGridLookup map_glance() noexcept {
+SideGridLookup fastest_side_grid_lookup() noexcept {
   // Without this, the pointer might be to Highway's function that chooses a target.
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   return &HWY_DYNAMIC_DISPATCH(find_fast_on_target);

@@ -8,9 +8,9 @@
 namespace planetree::octree {
 
 /// Finds what the cells know about a position.
-inline SideGridCells::Found find(const GridCoordinates& steps, const SideGridCells& cells,
+inline SideGridCells::Found find(const GridCoordinates& coordinates, const SideGridCells& cells,
                                  const GridCoordinates::Position& position) {
-  const SideGridCells::Cell cell = steps.cell_at(position.cell());
+  const SideGridCells::Cell cell = coordinates.cell_at(position.cell());
   const unsigned code = cells.code_of<1>(cell);
   return code == SideGridCells::kListed ? cells.find_below(cell, position.octant(), position.part())
                                         : cells.find_by_code(code);
@@ -22,10 +22,10 @@ inline SideGridCells::Found find(const GridCoordinates& steps, const SideGridCel
 ///
 /// x, y, z  in the input's units; any values, also infinite ones and NaN
 /// threads  any; no allocation, no lock, no exception.
-using SideGridLookup = int (*)(const GridCoordinates& steps, const SideGridCells& cells, double x,
-                               double y, double z);
+using SideGridLookup = int (*)(const GridCoordinates& coordinates, const SideGridCells& cells,
+                               double x, double y, double z);
 
 /// Returns the fastest implementation for this processor. All return the same signs.
-SideGridLookup map_glance() noexcept;
+SideGridLookup fastest_side_grid_lookup() noexcept;
 
 }  // namespace planetree::octree

@@ -13,7 +13,8 @@ namespace planetree::octree {
 /// The best triangle of a traversal so far, and the thresholds for pruning that follow from it.
 class BestTriangle {
  public:
-  BestTriangle(const FloatQuery& wide, const NearestLimits& limits) : wide_(wide), limits_(limits) {
+  BestTriangle(const FloatQuery& float_query, const NearestLimits& limits)
+      : float_query_(float_query), limits_(limits) {
     refresh();
   }
 
@@ -22,7 +23,7 @@ class BestTriangle {
   const Triangle& corners() const { return corners_; }
   bool is_height_field() const { return is_height_field_; }
   /// Writes the best triangle's nearest point.
-  void place_nearest(NearestOnTriangle& nearest) const { locate(corners_, finding_, nearest); }
+  void write_nearest(NearestOnTriangle& nearest) const { locate(corners_, finding_, nearest); }
 
   /// Distance beyond which no triangle matters.
   double reach() const { return reach_; }
@@ -56,7 +57,7 @@ class BestTriangle {
     lower_ = std::min(lower_, distance - finding.value.error);
     const double best = finding_.value.squared;
     if (found() && (squared > best || (squared == best && index >= triangle_))) return;
-    if (distance > farthest_) return;
+    if (distance > max_reach_) return;
     finding_ = finding;
     triangle_ = index;
     is_height_field_ = is_height_field;
@@ -69,28 +70,29 @@ class BestTriangle {
 
  private:
   void refresh() {
-    exact_threshold_ = prune_threshold(wide_, reach_);
+    exact_threshold_ = prune_threshold(float_query_, reach_);
     threshold_ = exact_threshold_;
     // max_error needs a distance to some triangle.
     if (!bounded_ || !(limits_.max_error > 0)) return;
     // The share of 2^-40 covers the rounding of both ends of the interval.
-    const double wanted = limits_.max_error - (reach_ + limits_.max_error) * 0x1p-40;
-    if (wanted > 0)
-      threshold_ = std::min(threshold_, prune_threshold(wide_, std::max(0.0, reach_ - wanted)));
+    const double max_gain = limits_.max_error - (reach_ + limits_.max_error) * 0x1p-40;
+    if (max_gain > 0)
+      threshold_ =
+          std::min(threshold_, prune_threshold(float_query_, std::max(0.0, reach_ - max_gain)));
   }
 
-  const FloatQuery& wide_;
+  const FloatQuery& float_query_;
   const NearestLimits& limits_;
   // max_distance and the error of a value near it. The corners of a triangle there are at most
   // max_distance and the model's diagonal away, which is below 4. The factor is kValueErrorFactor
   // over the least sine, 2^-5, with a margin of 4 (octree/geometry/triangle_distance.h).
-  double farthest_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
+  double max_reach_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
   bool is_height_field_ = false;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
   TriangleFinding finding_;
-  double reach_ = farthest_;
+  double reach_ = max_reach_;
   bool bounded_ = false;  // reach_ is the distance of a triangle
   float threshold_ = 0;
   float exact_threshold_ = 0;

@@ -18,9 +18,9 @@ namespace {
 // again and again.
 class LimitedFinder {
  public:
-  LimitedFinder(const TreeInfo& tree, std::uint64_t most, const PageReader& pages,
+  LimitedFinder(const TreeInfo& tree, std::uint64_t max_count, const PageReader& pages,
                 TraversalStats& work)
-      : records_(tree, pages), work_(work), left_(std::min(most, tree.record_count)) {}
+      : records_(tree, pages), work_(work), left_(std::min(max_count, tree.record_count)) {}
 
   // Returns null if the record's page is missing or no work is left.
   const std::byte* find(std::uint32_t link) {

@@ -40,7 +40,7 @@ class CoherenceCache {
   /// diagonal  of the model's box
   double wanted_radius(const Point& query, double distance, double diagonal) const {
     const double step = step_to(query);
-    return step <= diagonal * kLongestStep ? radius_for(step, distance) : 0;
+    return step <= diagonal * kMaxStep ? radius_for(step, distance) : 0;
   }
   /// The triangles of subtrees() that reach into the ball; complete only if they are few.
   const NearbyTriangles& triangles() const { return triangles_; }
@@ -67,8 +67,8 @@ class CoherenceCache {
 
   /// Records an exact answer that came from the ball. Drops the ball if it is far larger than steps
   /// of the last length need, because it then holds too much.
-  void outlive(const Point& query, double distance, const Point& nearest) {
-    if (radius_ > kTooWide * radius_for(step_to(query), distance)) forget();
+  void note_and_trim(const Point& query, double distance, const Point& nearest) {
+    if (radius_ > kMaxRadiusRatio * radius_for(step_to(query), distance)) forget();
     note(query, nearest);
   }
 
@@ -91,12 +91,12 @@ class CoherenceCache {
   // and they may be far larger than the model.
   static double rounding(const Point& point) { return point.cwiseAbs().maxCoeff() * 0x1p-51; }
 
-  static constexpr double kSlack = 0x1p-24;       ///< far above the error of bounds and sums
-  static constexpr double kLongestStep = 0x1p-6;  ///< share of the model's diagonal
-  static constexpr double kMinStep = 0x1p-6;      ///< share of the distance to the surface
-  static constexpr double kPathSteps = 24;        ///< steps that a ball lasts for, on a path
-  static constexpr double kCurveSteps = 3;        ///< the same, on a curve
-  static constexpr double kTooWide = 16;          ///< dropped beyond this multiple of radius_for()
+  static constexpr double kSlack = 0x1p-24;      ///< far above the error of bounds and sums
+  static constexpr double kMaxStep = 0x1p-6;     ///< share of the model's diagonal
+  static constexpr double kMinStep = 0x1p-6;     ///< share of the distance to the surface
+  static constexpr double kPathSteps = 24;       ///< steps that a ball lasts for, on a path
+  static constexpr double kCurveSteps = 3;       ///< the same, on a curve
+  static constexpr double kMaxRadiusRatio = 16;  ///< dropped beyond this multiple of radius_for()
 
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());

@@ -192,12 +192,12 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
   FacingSides sides(query);
   Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.is_height_field ? &sides : nullptr);
   if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
-  const bool nearby = coherence_cache && coherence_cache->has_all_at(nearest.point);
-  if (nearby && coherence_cache->triangles().complete()) {
+  const bool use_cache = coherence_cache && coherence_cache->has_all_at(nearest.point);
+  if (use_cache && coherence_cache->triangles().complete()) {
     add_faces(vertex, coherence_cache->triangles(), fan);
   } else {
     const std::uint64_t before = work.nodes + work.blocks;
-    const NearbySubtrees* subtrees = nearby ? &coherence_cache->subtrees() : nullptr;
+    const NearbySubtrees* subtrees = use_cache ? &coherence_cache->subtrees() : nullptr;
     found.complete = walk_to(vertex, subtrees, fan, tree, max_work, pages, work);
     // So many faces are summed in the order of a walk from the root, which no cache changes.
     if (subtrees && !fan.is_sorted())

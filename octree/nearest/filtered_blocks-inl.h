@@ -34,7 +34,7 @@ class FilteredBlocks {
   // limit_of(extent of the block), then empties the list. The frames of the blocks must still be
   // valid.
   template <class LimitOf, class Note>
-  HWY_INLINE void note_near(const BlockShape& shape, const LimitOf& limit_of, const Note& note) {
+  HWY_INLINE void take_near(const BlockShape& shape, const LimitOf& limit_of, const Note& note) {
     for (unsigned at = 0; at < size_; ++at) {
       const BlockView block(*block_[at], shape);
       const FilteredTriangles& filtered = triangles_[at];

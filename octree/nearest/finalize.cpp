@@ -52,7 +52,7 @@ bool may_matter(float bound, const BestTriangle& best) {
 }
 
 void answer_with(const BestTriangle& best, NearestAnswer& answer) {
-  best.place_nearest(answer);
+  best.write_nearest(answer);
   answer.distance = std::sqrt(answer.value.squared);
   answer.lower = down(best.lower());
   answer.upper = up(answer.distance + answer.value.error);
@@ -65,19 +65,19 @@ void answer_with(const BestTriangle& best, NearestAnswer& answer) {
 }  // namespace
 
 NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
-                       const BestTriangle& best, const FloatQuery& wide,
+                       const BestTriangle& best, const FloatQuery& float_query,
                        const SkippedBounds& skipped) noexcept {
   // One variable, which the compiler can build in the caller's memory.
   NearestAnswer answer;
-  const bool spent = may_matter(skipped.unread, best);
+  const bool is_incomplete = may_matter(skipped.unread, best);
   const auto bound_of = [&](float squared) {
-    return std::max(distance_to_box(tree, query), certified(wide, squared));
+    return std::max(distance_to_box(tree, query), certified(float_query, squared));
   };
   if (!best.found()) {
-    answer =
-        spent ? nothing_read(tree, query, std::min(limits.max_distance, bound_of(skipped.unread)),
-                             skipped.within)
-              : beyond(limits);
+    answer = is_incomplete ? nothing_read(tree, query,
+                                          std::min(limits.max_distance, bound_of(skipped.unread)),
+                                          skipped.within)
+                           : beyond(limits);
     return answer;
   }
   answer_with(best, answer);
@@ -86,9 +86,9 @@ NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLi
     answer.status = Status::kWithinError;
   }
   // Tested after the bounds of what max_error skipped: that may be nearer than the triangle found.
-  if (answer.lower > limits.max_distance && !spent) {
+  if (answer.lower > limits.max_distance && !is_incomplete) {
     answer = beyond(limits);
-  } else if (spent) {
+  } else if (is_incomplete) {
     answer.lower = std::min(answer.lower, bound_of(skipped.unread));
     answer.upper = std::min(answer.upper, up(skipped.within));
     answer.status = Status::kDegraded;

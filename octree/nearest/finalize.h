@@ -19,7 +19,7 @@ struct SkippedBounds {
 
 /// Makes the answer of a finished traversal.
 NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
-                       const BestTriangle& best, const FloatQuery& wide,
+                       const BestTriangle& best, const FloatQuery& float_query,
                        const SkippedBounds& skipped) noexcept;
 
 }  // namespace planetree::octree

@@ -96,7 +96,8 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
 // Offers the triangles of a list that may be nearest. Triangles farther than `reach` from the
 // list's centre cannot matter.
 HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Point& query,
-                             const FloatQuery& wide, BestTriangle& best, TraversalStats& work) {
+                             const FloatQuery& float_query, BestTriangle& best,
+                             TraversalStats& work) {
   const TriangleTag d;
   const std::size_t count = list.count_within(reach);
   const FloatOffset from(query, list.centre());
@@ -113,7 +114,7 @@ HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Po
   }
   const float min_upper = hn::GetLane(hn::MinOfLanes(d, least));
   const double upper = std::min(best.reach(), filter_upper(min_upper, list.extent()));
-  const float limit = filter_threshold(wide, upper, list.extent());
+  const float limit = filter_threshold(float_query, upper, list.extent());
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     unsigned near = bits_not_above(hn::Load(d, squared + i), limit);
     if (count - i < hn::Lanes(d)) near &= (1u << (count - i)) - 1;

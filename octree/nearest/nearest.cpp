@@ -23,10 +23,10 @@ namespace HWY_NAMESPACE {
 // `reach` from the list's centre.
 NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                               const NearbyTriangles& list, double reach, TraversalStats& work) {
-  const FloatQuery wide = FloatQuery::from(query, tree.centre);
-  BestTriangle best(wide, limits);
-  offer_nearby(list, reach, query, wide, best, work);
-  return finalize(tree, query, limits, best, wide, {});
+  const FloatQuery float_query = FloatQuery::from(query, tree.centre);
+  BestTriangle best(float_query, limits);
+  offer_nearby(list, reach, query, float_query, best, work);
+  return finalize(tree, query, limits, best, float_query, {});
 }
 
 NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
@@ -34,32 +34,33 @@ NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
                                 TraversalStats& work, CoherenceCache* coherence_cache) {
   const std::uint64_t before = work.nodes + work.blocks;
   const double reach = coherence_cache ? coherence_cache->reach_of(query) : 0;
-  const bool held = coherence_cache && coherence_cache->holds(reach);
-  const bool listed = held && coherence_cache->triangles().complete();
-  const auto descend = [&](bool from_ball) {
-    NearestTraversal descent(tree, query, limits, pages, work);
-    from_ball ? descent.run_from(*coherence_cache) : descent.run_from_root();
-    if (limits.known) descent.fall_back_on(*limits.known);
-    return finalize(tree, query, limits, descent.best(), descent.wide(), descent.skipped_bounds());
+  const bool in_ball = coherence_cache && coherence_cache->holds(reach);
+  const bool in_list = in_ball && coherence_cache->triangles().complete();
+  const auto traverse = [&](bool from_ball) {
+    NearestTraversal traversal(tree, query, limits, pages, work);
+    from_ball ? traversal.run_from(*coherence_cache) : traversal.run_from_root();
+    if (limits.known) traversal.fall_back_on(*limits.known);
+    return finalize(tree, query, limits, traversal.best(), traversal.float_query(),
+                    traversal.skipped_bounds());
   };
   NearestAnswer answer =
-      listed ? nearest_of_list(tree, query, limits, coherence_cache->triangles(), reach, work)
-             : descend(held);
-  if (listed) {
+      in_list ? nearest_of_list(tree, query, limits, coherence_cache->triangles(), reach, work)
+              : traverse(in_ball);
+  if (in_list) {
     if (answer.status == Status::kExact) {
       coherence_cache->note(query, answer.point);
       return answer;
     }
-    answer = descend(true);
+    answer = traverse(true);
   }
-  if (held) {
+  if (in_ball) {
     if (answer.status == Status::kExact)
-      coherence_cache->outlive(query, answer.distance, answer.point);
+      coherence_cache->note_and_trim(query, answer.distance, answer.point);
     if (answer.status == Status::kExact || limits.known) return answer;
     // Pages are missing, or nothing lies within max_distance. The traversal is repeated from the
     // root, so that the answer is the same as without a cache.
     coherence_cache->forget();
-    answer = descend(false);
+    answer = traverse(false);
   }
   if (coherence_cache && answer.status == Status::kExact) {
     const std::uint64_t spent = work.nodes + work.blocks - before;

@@ -38,13 +38,13 @@ class NearestTraversal {
                    const PageReader& pages, TraversalStats& work)
       : tree_(tree),
         query_(query),
-        wide_(FloatQuery::from(query, tree.centre)),
+        float_query_(FloatQuery::from(query, tree.centre)),
         limits_(limits),
         visits_left_(std::min<std::uint64_t>(limits.max_work, tree.record_count)),
         work_(work),
         release_hook_(limits.allow_any_way() ? pages.release_hook : nullptr),
         records_(tree, pages),
-        best_(wide_, limits_) {
+        best_(float_query_, limits_) {
     if (release_hook_) *release_hook_ = {this, &on_release};
   }
   ~NearestTraversal() {
@@ -60,9 +60,10 @@ class NearestTraversal {
   // Starts at the subtrees of the cache's ball, nearest first.
   void run_from(const CoherenceCache& coherence_cache) {
     subtrees_ = &coherence_cache.subtrees();
-    if (limits_.max_error == 0 && wide_.usable) best_.tighten(coherence_cache.nearest_of(query_));
+    if (limits_.max_error == 0 && float_query_.usable)
+      best_.tighten(coherence_cache.nearest_of(query_));
     SubtreeKeys keys;
-    find_near(*subtrees_, wide_, best_.exact_threshold(), keys);
+    find_near(*subtrees_, float_query_, best_.exact_threshold(), keys);
     for (std::size_t i = 0; i < keys.size(); ++i) {
       if (keys.bound(i) > best_.threshold()) {
         skipped_.pruned = std::min(skipped_.pruned, keys.bound(i));
@@ -77,17 +78,17 @@ class NearestTraversal {
   // the best so far.
   void fall_back_on(const NearestAnswer& known) {
     if (known.triangle == kNoTriangle || skipped_.unread > best_.exact_threshold()) return;
-    note(known.corners, known.triangle, 0, known.is_height_field, 0);
+    add_candidate(known.corners, known.triangle, 0, known.is_height_field, 0);
     settle();
   }
 
   const BestTriangle& best() const { return best_; }
-  const FloatQuery& wide() const { return wide_; }
+  const FloatQuery& float_query() const { return float_query_; }
   const SkippedBounds& skipped_bounds() const { return skipped_; }
 
  private:
-  static constexpr unsigned kPrefetched = 3;  // children of a node, nearest first
-  static constexpr unsigned kMaxSought = 4;   // skipped records whose boxes are looked up
+  static constexpr unsigned kPrefetched = 3;     // children of a node, nearest first
+  static constexpr unsigned kMaxBoxLookups = 4;  // skipped records whose boxes are looked up
 
   // Visits everything near in a subtree. Not inlined, because the code is large and has two
   // callers.
@@ -125,7 +126,8 @@ class NearestTraversal {
     }
     --visits_left_;
     // Without a release hook, the frame of these blocks may be gone after the next lookup.
-    if (!release_hook_ && !blocks_.empty() && !records_.is_at_hand(entry.link)) note_blocks();
+    if (!release_hook_ && !blocks_.empty() && !records_.is_at_hand(entry.link))
+      add_candidates_of_blocks();
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
       skip(entry);
@@ -143,9 +145,9 @@ class NearestTraversal {
   // from above.
   void skip(const FrontierEntry& entry) {
     skipped_.unread = std::min(skipped_.unread, entry.bound);
-    if (sought_ == kMaxSought) return;
-    ++sought_;
-    if (entry.from == LinkResolver::kNoPage) return skip_listed(entry.link);
+    if (box_lookups_ == kMaxBoxLookups) return;
+    ++box_lookups_;
+    if (entry.from == LinkResolver::kNoPage) return skip_subtree_of_ball(entry.link);
     const LinkResolver::Child child = records_.find_parent(entry.link, entry.from);
     if (!child.node) return;
     const FloatBox box = child_box(*child.node, child.index);
@@ -154,7 +156,7 @@ class NearestTraversal {
 
   // Skips a subtree of the ball, whose box is in the list. The root is skipped here too, but it
   // has no box in the list.
-  void skip_listed(std::uint32_t link) {
+  void skip_subtree_of_ball(std::uint32_t link) {
     for (std::size_t i = 0; subtrees_ && i < subtrees_->size(); ++i)
       if (subtrees_->link(i) == link)
         skipped_.within = std::min(skipped_.within, subtrees_->farthest(i, query_ - tree_.centre));
@@ -169,7 +171,8 @@ class NearestTraversal {
     // Far from the surface, bounds say little about where the nearest triangle is.
     const bool far = entry.bound > node.gate;
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
-    const NearChildren children = sorted_children(node, wide_, far, best_.threshold(), group);
+    const NearChildren children =
+        sorted_children(node, float_query_, far, best_.threshold(), group);
     const unsigned near = children.count;
     // Selected without a branch.
     const float first_left = group.bound(near % kFanOut);
@@ -183,10 +186,10 @@ class NearestTraversal {
       far ? prefetch<kNodeSlots>(nearest, group, near)
           : prefetch<kNearNodeSlots>(nearest, group, near);
     }
-    const bool at_once = !far && near > 0;
-    frontier_.push(at_once ? 1 : 0, near, page);
-    if (at_once) entry = {children.bound(), node.link[children.child()], page};
-    return at_once;
+    const bool is_next = !far && near > 0;
+    frontier_.push(is_next ? 1 : 0, near, page);
+    if (is_next) entry = {children.bound(), node.link[children.child()], page};
+    return is_next;
   }
 
   // Prefetches the nearest of the near children. Where there are fewer than kPrefetched, it
@@ -203,35 +206,39 @@ class NearestTraversal {
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
     // The block is too small for float, or the query too far away.
-    if (!filter_tells(wide_, header.extent)) {
-      for (unsigned i = 0; i < header.triangle_count; ++i) note(block, i, 0);
+    if (!filter_tells(float_query_, header.extent)) {
+      for (unsigned i = 0; i < header.triangle_count; ++i) add_candidate(block, i, 0);
       return;
     }
-    if (blocks_.full()) note_blocks();
+    if (blocks_.full()) add_candidates_of_blocks();
     const FloatOffset from(query_, block.vertex(0));
     FilteredTriangles& filtered = blocks_.next();
-    filter_block(header, from.at, limit_of(header.extent), filtered);
+    filter_block(header, from.at, filter_limit(header.extent), filtered);
     if (filtered.near == 0) return;
     blocks_.add(header);
     best_.tighten(filter_upper(filtered.min_upper, header.extent));
   }
 
   // Filter values above this belong to triangles that cannot be nearest.
-  float limit_of(float extent) const { return filter_threshold(wide_, best_.reach(), extent); }
+  float filter_limit(float extent) const {
+    return filter_threshold(float_query_, best_.reach(), extent);
+  }
 
   // Adds those triangles of the collected blocks to the candidates that float cannot rule out.
-  void note_blocks() {
-    blocks_.note_near(
-        tree_.shape, [&](float extent) { return limit_of(extent); },
-        [&](const BlockView& block, unsigned i, float squared) { note(block, i, squared); });
+  void add_candidates_of_blocks() {
+    blocks_.take_near(
+        tree_.shape, [&](float extent) { return filter_limit(extent); },
+        [&](const BlockView& block, unsigned i, float squared) {
+          add_candidate(block, i, squared);
+        });
   }
 
-  void note(const BlockView& block, unsigned i, float squared) {
-    note(block.triangle(i), block.id(i), block.header().extent, block.header().is_height_field(),
-         squared);
+  void add_candidate(const BlockView& block, unsigned i, float squared) {
+    add_candidate(block.triangle(i), block.id(i), block.header().extent,
+                  block.header().is_height_field(), squared);
   }
-  void note(const Triangle& corners, std::uint64_t id, float extent, bool is_height_field,
-            float squared) {
+  void add_candidate(const Triangle& corners, std::uint64_t id, float extent, bool is_height_field,
+                     float squared) {
     if (candidates_.full()) {
       keep_possible();
       if (candidates_.full()) settle();
@@ -240,17 +247,18 @@ class NearestTraversal {
   }
 
   void keep_possible() {
-    candidates_.keep_if([&](float squared, float extent) { return squared <= limit_of(extent); });
+    candidates_.keep_if(
+        [&](float squared, float extent) { return squared <= filter_limit(extent); });
   }
 
   // Called before frames are released. The collected blocks point into frames, so their candidates
   // are taken now, by the best distance so far.
-  static void on_release(void* descent) noexcept {
-    static_cast<NearestTraversal*>(descent)->note_blocks();
+  static void on_release(void* traversal) noexcept {
+    static_cast<NearestTraversal*>(traversal)->add_candidates_of_blocks();
   }
 
   void finish() {
-    note_blocks();
+    add_candidates_of_blocks();
     settle();
   }
 
@@ -274,7 +282,7 @@ class NearestTraversal {
 
   const TreeInfo& tree_;
   const Point query_;
-  const FloatQuery wide_;
+  const FloatQuery float_query_;
   const NearestLimits limits_;
   // At most the number of records: in a forged tree links could lead in circles.
   std::uint64_t visits_left_;
@@ -288,7 +296,7 @@ class NearestTraversal {
   Frontier::Order order_ = Frontier::Order::kLast;
   const NearbySubtrees* subtrees_ = nullptr;  // those of a ball; null if the root is the start
   SkippedBounds skipped_;
-  unsigned sought_ = 0;
+  unsigned box_lookups_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -28,7 +28,7 @@ struct PageReader {
   /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
   const std::byte* (*peek)(void* context, std::uint32_t number) noexcept = nullptr;
   FrameTable frames{};                       ///< without cells: nothing is asked for ahead
-  PrefetchHook* prefetch_hook = nullptr;  ///< one at a time; null: nothing goes on beside
+  PrefetchHook* prefetch_hook = nullptr;     ///< one at a time; null: nothing goes on beside
   FrameReleaseHook* release_hook = nullptr;  ///< one at a time; null: frames may go with each call
 };
 

@@ -77,7 +77,7 @@ class BlockCrossings {
  public:
   BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, TraversalStats& work)
       : segment_(segment),
-        in_blocks_(FloatSegment::between(
+        block_segment_(FloatSegment::between(
             segment.from, segment.to, Point::Zero(),
             std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff()))),
         crossings_(segment),
@@ -85,8 +85,8 @@ class BlockCrossings {
 
   void visit(const BlockView& block) {
     const float* vertices = block.float_vertices();
-    unsigned met =
-        vertices ? triangles_met(block.header(), vertices, in_blocks_) : boxes_met(block, segment_);
+    unsigned met = vertices ? triangles_met(block.header(), vertices, block_segment_)
+                            : boxes_met(block, segment_);
     for (; met != 0; met &= met - 1) {
       crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
       ++work_.triangles;
@@ -101,18 +101,18 @@ class BlockCrossings {
 
  private:
   const PerturbedSegment& segment_;
-  const FloatSegment in_blocks_;
+  const FloatSegment block_segment_;
   CrossingSum crossings_;
   TraversalStats& work_;
 };
 
 Crossings count_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
                           std::uint64_t max_work, const PageReader& pages, TraversalStats& work) {
-  const FloatSegment in_nodes = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
+  const FloatSegment node_segment = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
   BlockCrossings crossings(tree, segment, work);
   const auto visit = [&](const BlockView& block, std::uint32_t)
                          HWY_ATTR { crossings.visit(block); };
-  const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, in_nodes); };
+  const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, node_segment); };
   const bool complete = TreeWalk(tree, pages, work).run(max_work, visit, meeting);
   return crossings.found(complete);
 }

@@ -20,11 +20,11 @@ namespace planetree::octree {
 struct FloatSegment {
   unsigned axis = 0;
   float lower = 0, upper = 0;
-  struct Aside {
+  struct CrossAxis {
     unsigned axis = 0;
-    float slope = 0, least = 0, most = 0;
+    float slope = 0, lowest = 0, highest = 0;
   };
-  Aside aside[2];
+  CrossAxis cross_axes[2];
 
   /// Makes the segment from `from` to `to`, relative to `origin`.
   ///
@@ -37,19 +37,20 @@ struct FloatSegment {
     const Point length = way.cwiseAbs();
     segment.axis = length.x() >= length.y() ? (length.x() >= length.z() ? 0 : 2)
                                             : (length.y() >= length.z() ? 1 : 2);
-    const double most = std::max({largest, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
-    const double slack = 0x1p-20 * most + kAbsoluteSlack;
+    const double highest =
+        std::max({largest, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
+    const double slack = 0x1p-20 * highest + kAbsoluteSlack;
     const double first = start[segment.axis], last = end[segment.axis];
     segment.lower = static_cast<float>(std::min(first, last) - slack);
     segment.upper = static_cast<float>(std::max(first, last) + slack);
     const double along = way[segment.axis];
     for (unsigned i = 0; i < 2; ++i) {
-      Aside& aside = segment.aside[i];
-      aside.axis = (segment.axis + 1 + i) % 3;
-      aside.slope = along != 0 ? static_cast<float>(way[aside.axis] / along) : 0;
-      const double offset = start[aside.axis] - static_cast<double>(aside.slope) * first;
-      aside.least = static_cast<float>(offset - slack);
-      aside.most = static_cast<float>(offset + slack);
+      CrossAxis& cross_axes = segment.cross_axes[i];
+      cross_axes.axis = (segment.axis + 1 + i) % 3;
+      cross_axes.slope = along != 0 ? static_cast<float>(way[cross_axes.axis] / along) : 0;
+      const double offset = start[cross_axes.axis] - static_cast<double>(cross_axes.slope) * first;
+      cross_axes.lowest = static_cast<float>(offset - slack);
+      cross_axes.highest = static_cast<float>(offset + slack);
     }
     return segment;
   }

@@ -55,7 +55,7 @@ class Multipoles {
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
   Multipoles(const Point& query, const Point& centre)
-      : from_(query - centre), moved_(kAbsoluteSlack + 0x1p-51 * from_.cwiseAbs().maxCoeff()) {}
+      : from_(query - centre), delta_(kAbsoluteSlack + 0x1p-51 * from_.cwiseAbs().maxCoeff()) {}
 
   /// Computes the shares of a node's children.
   void shares(const Node& node, std::array<Share, kFanOut>& shares) const {
@@ -70,7 +70,7 @@ class Multipoles {
   Share share(const Node& node, const Moments& moments, std::size_t child) const;
 
   Point from_;    ///< the query, relative to the model's centre
-  double moved_;  ///< delta
+  double delta_;  ///< delta
 };
 
 inline Multipoles::Share Multipoles::share(const Node& node, const Moments& moments,
@@ -89,7 +89,7 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
     gap2 += gap * gap;
     extent2 += extent * extent;
   }
-  const double rho = std::sqrt(gap2) * (1 - 0x1p-48) - moved_;
+  const double rho = std::sqrt(gap2) * (1 - 0x1p-48) - delta_;
   if (!(rho > 0x1p-60)) return {0, kUnknown};
   const double area = Moments::wide(moments.area), second = Moments::wide(moments.second);
   const double vector_unit = moments.vector_unit(), first_unit = moments.first_unit();
@@ -100,21 +100,22 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
   if (share < 1)
     tail = std::min(tail, (3 - 2 * share) / ((1 - share) * (1 - share)) * over_way * over_way *
                               over_way * over_way);
-  const double most = area * over_rho2;
+  const double max_share = area * over_rho2;
   const double error = kVectorError * area * over_way * over_way +
                        3 * kFirstError * first_unit * over_way * over_way * over_way +
-                       second * tail + 2 * moved_ * area * over_rho2 * over_rho;
+                       second * tail + 2 * delta_ * area * over_rho2 * over_rho;
   constexpr double kUp = kOverFourPi * (1 + 0x1p-40);
-  if (most < error) return {0, kUp * most};
+  if (max_share < error) return {0, kUp * max_share};
   const Point u = way * over_way;
   const auto& [xx, yy, xy, yz, zx] = moments.first;
-  const double flux =
+  const double dipole_term =
       u.x() * moments.vector[0] + u.y() * moments.vector[1] + u.z() * moments.vector[2];
-  const double turn = u.x() * u.x() * xx + u.y() * u.y() * yy - u.z() * u.z() * (xx + yy) +
-                      2 * (u.x() * u.y() * xy + u.y() * u.z() * yz + u.z() * u.x() * zx);
-  return {
-      kOverFourPi * over_way * over_way * (vector_unit * flux - 3 * first_unit * over_way * turn),
-      kUp * error};
+  const double quadrupole_term = u.x() * u.x() * xx + u.y() * u.y() * yy -
+                                 u.z() * u.z() * (xx + yy) +
+                                 2 * (u.x() * u.y() * xy + u.y() * u.z() * yz + u.z() * u.x() * zx);
+  return {kOverFourPi * over_way * over_way *
+              (vector_unit * dipole_term - 3 * first_unit * over_way * quadrupole_term),
+          kUp * error};
 }
 
 }  // namespace planetree::octree

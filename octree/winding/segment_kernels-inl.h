@@ -32,13 +32,13 @@ HWY_INLINE unsigned children_met(const Node& node, const FloatSegment& segment) 
     const Floats last = hn::Min(upper_sides(node, segment.axis, i), hn::Set(d, segment.upper));
     auto apart = hn::Gt(first, last);
 #pragma GCC unroll 2
-    for (const FloatSegment::Aside& aside : segment.aside) {
-      const Floats slope = hn::Set(d, aside.slope);
+    for (const FloatSegment::CrossAxis& cross_axes : segment.cross_axes) {
+      const Floats slope = hn::Set(d, cross_axes.slope);
       const Floats a = hn::Mul(slope, first), b = hn::Mul(slope, last);
-      const Floats least = hn::Add(hn::Min(a, b), hn::Set(d, aside.least));
-      const Floats most = hn::Add(hn::Max(a, b), hn::Set(d, aside.most));
-      apart = hn::Or(apart, hn::Gt(lower_sides(node, aside.axis, i), most));
-      apart = hn::Or(apart, hn::Lt(upper_sides(node, aside.axis, i), least));
+      const Floats lowest = hn::Add(hn::Min(a, b), hn::Set(d, cross_axes.lowest));
+      const Floats highest = hn::Add(hn::Max(a, b), hn::Set(d, cross_axes.highest));
+      apart = hn::Or(apart, hn::Gt(lower_sides(node, cross_axes.axis, i), highest));
+      apart = hn::Or(apart, hn::Lt(upper_sides(node, cross_axes.axis, i), lowest));
     }
     found |= mask_bits(d, hn::Not(apart)) << i;
   }
@@ -51,11 +51,11 @@ class SegmentSides {
  public:
   HWY_INLINE explicit SegmentSides(const FloatSegment& segment)
       : along_(segment.axis),
-        aside_{segment.aside[0].axis, segment.aside[1].axis},
+        cross_axes_{segment.cross_axes[0].axis, segment.cross_axes[1].axis},
         lower_(hn::Set(FloatTag(), segment.lower)),
         upper_(hn::Set(FloatTag(), segment.upper)),
-        first_(segment.aside[0]),
-        second_(segment.aside[1]) {}
+        first_(segment.cross_axes[0]),
+        second_(segment.cross_axes[1]) {}
 
   // Writes the codes of `stride` vertices, in whole vectors. Float holds the vertices exactly.
   HWY_INLINE void write_codes(const float* HWY_RESTRICT vertices, unsigned stride,
@@ -63,13 +63,13 @@ class SegmentSides {
     const FloatTag d;
     const hn::Rebind<std::uint8_t, FloatTag> bytes;
     const float* along = vertices + std::size_t{along_} * stride;
-    const float* aside0 = vertices + std::size_t{aside_[0]} * stride;
-    const float* aside1 = vertices + std::size_t{aside_[1]} * stride;
+    const float* cross0 = vertices + std::size_t{cross_axes_[0]} * stride;
+    const float* cross1 = vertices + std::size_t{cross_axes_[1]} * stride;
     for (std::size_t i = 0; i < stride; i += hn::Lanes(d)) {
       const Floats z = hn::Load(d, along + i);
       Ints code = hn::Or(bit_where(hn::Lt(z, lower_), 1), bit_where(hn::Gt(z, upper_), 2));
-      code = hn::Or(code, first_.code(z, hn::Load(d, aside0 + i), 4));
-      code = hn::Or(code, second_.code(z, hn::Load(d, aside1 + i), 16));
+      code = hn::Or(code, first_.code(z, hn::Load(d, cross0 + i), 4));
+      code = hn::Or(code, second_.code(z, hn::Load(d, cross1 + i), 16));
       hn::StoreU(hn::DemoteTo(bytes, code), bytes, codes + i);
     }
   }
@@ -80,22 +80,22 @@ class SegmentSides {
     return hn::IfThenElseZero(hn::RebindMask(d, mask), hn::Set(d, bit));
   }
 
-  struct Aside {
-    HWY_INLINE explicit Aside(const FloatSegment::Aside& aside)
-        : slope(hn::Set(FloatTag(), aside.slope)),
-          least(hn::Set(FloatTag(), aside.least)),
-          most(hn::Set(FloatTag(), aside.most)) {}
+  struct CrossAxis {
+    HWY_INLINE explicit CrossAxis(const FloatSegment::CrossAxis& cross_axes)
+        : slope(hn::Set(FloatTag(), cross_axes.slope)),
+          lowest(hn::Set(FloatTag(), cross_axes.lowest)),
+          highest(hn::Set(FloatTag(), cross_axes.highest)) {}
     HWY_INLINE Ints code(Floats z, Floats at, std::int32_t bit) const {
       const Floats offset = hn::Mul(slope, z);
-      return hn::Or(bit_where(hn::Lt(at, hn::Add(offset, least)), bit),
-                    bit_where(hn::Gt(at, hn::Add(offset, most)), 2 * bit));
+      return hn::Or(bit_where(hn::Lt(at, hn::Add(offset, lowest)), bit),
+                    bit_where(hn::Gt(at, hn::Add(offset, highest)), 2 * bit));
     }
-    Floats slope, least, most;
+    Floats slope, lowest, highest;
   };
 
-  const unsigned along_, aside_[2];
+  const unsigned along_, cross_axes_[2];
   const Floats lower_, upper_;
-  const Aside first_, second_;
+  const CrossAxis first_, second_;
 };
 
 // Returns a bit for each triangle of a block that a segment may meet: its corners are not all

@@ -49,7 +49,7 @@ void FetchThreads::run(FetchWorker& worker) noexcept {
     const FetchWorker::Did did = worker.work();
     if (did == FetchWorker::Did::kReadForAQuery) continue;
     if (did == FetchWorker::Did::kNothing) {
-      cache_.wait_for_read(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
+      cache_.wait_for_wanted_page(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
       continue;
     }
     last = Clock::now();

@@ -12,7 +12,7 @@ const std::byte* PageAccessor::fetch(std::uint32_t number) noexcept {
     reader_.help();
     reader_.enter();
   }
-  const cache::Fetched fetched = reader_.fetch(number, terms_);
+  const cache::FetchResult fetched = reader_.fetch(number, terms_);
   if (fetched.given_up) {
     missed_ = true;
     waits_ = false;

@@ -54,7 +54,7 @@ class PageTraceWriter {
 
  private:
   void note(std::uint32_t page, PageAccess::Kind kind) noexcept {
-    trace_->ring.give({trace_->queries - 1, page, kind});
+    trace_->ring.push({trace_->queries - 1, page, kind});
   }
 
   PageTrace* trace_;

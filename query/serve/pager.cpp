@@ -38,7 +38,7 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.max_readers = limits.readers();
   // pin() is one more.
   const std::uint64_t fetcher_count = std::uint64_t{cache_limits.max_readers} + 1;
-  max_waited_ = std::min(limits.wait_limit, kMaxWaited);
+  max_wait_ = std::min(limits.wait_limit, kMaxWaited);
   const std::uint64_t wait_bytes =
       fetcher_count * sizeof(OwnWait) +
       std::min(fetcher_count, kMaxWaits) * storage::ReadWait::kMappedBytes;
@@ -74,7 +74,7 @@ Result<void> Pager::lock(Locking locking) noexcept {
                     "lower the memory budget, or open the model without locking");
 }
 
-Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
+Result<cache::FillResult> Pager::fill(const cache::FillRequest& request) noexcept {
   const storage::FileHeader& header = file_.header();
   const storage::PageEntry& entry = file_.entries()[request.page];
   std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes();
@@ -83,24 +83,24 @@ Result<cache::Filled> Pager::fill(const cache::FillRequest& request) noexcept {
   const std::span<std::byte> stored =
       stored_fits_frame() ? request.frame
                           : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
-  if (request.may_wait) {
+  if (request.may_block) {
     if (const auto read = file_.read_page(request.page, stored, raw); !read) return read.error();
   } else {
-    const auto read = file_.read_page_soon(request.page, stored, raw, soon_terms(request));
+    const auto read = file_.try_read_page(request.page, stored, raw, read_limits(request));
     if (!read) return read.error();
-    if (!*read) return cache::Filled::kWouldWait;
+    if (!*read) return cache::FillResult::kWouldBlock;
   }
   if (const auto decoded = decode_frame(header, entry, request.page, raw, request.frame); !decoded)
     return decoded.error();
-  return leads_to_pages(header, request.page, request.frame) ? cache::Filled::kFilledUpper
-                                                             : cache::Filled::kFilled;
+  return leads_to_pages(header, request.page, request.frame) ? cache::FillResult::kFilledUpper
+                                                             : cache::FillResult::kFilled;
 }
 
-storage::SoonTerms Pager::soon_terms(const cache::FillRequest& request) noexcept {
-  storage::SoonTerms terms;
-  if (max_waited_.count() > 0) terms.wait = wait_of(request.fetcher);
-  terms.max_waited = max_waited_;
-  terms.soon_written = request.frame;
+storage::ReadLimits Pager::read_limits(const cache::FillRequest& request) noexcept {
+  storage::ReadLimits terms;
+  if (max_wait_.count() > 0) terms.wait = wait_of(request.fetcher);
+  terms.max_wait = max_wait_;
+  terms.prefetch_for_write = request.frame;
   return terms;
 }
 

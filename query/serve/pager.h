@@ -56,8 +56,8 @@ class Pager {
   bool stored_fits_frame() const noexcept {
     return file_.header().max_stored_bytes <= file_.header().page_bytes;
   }
-  Result<cache::Filled> fill(const cache::FillRequest& request) noexcept;
-  storage::SoonTerms soon_terms(const cache::FillRequest& request) noexcept;
+  Result<cache::FillResult> fill(const cache::FillRequest& request) noexcept;
+  storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
   storage::ReadWait* wait_of(std::uint32_t fetcher) noexcept;
 
   storage::PageFile file_;
@@ -74,7 +74,7 @@ class Pager {
   };
   std::unique_ptr<OwnWait[]> waits_;  // of each owner, who may use it if it is given
   std::atomic<std::uint64_t> waits_given_{0};
-  std::chrono::milliseconds max_waited_{};
+  std::chrono::milliseconds max_wait_{};
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<QueryArena> query_arena_;
   bool query_arena_is_locked_ = false;

@@ -183,8 +183,8 @@ Result<void> check_region(const ModelRecord& model) noexcept {
   }
   // Each triangle contributes at most 1 to a winding number. The limit of kMaxWinding keeps sums of
   // winding numbers from overflowing.
-  const auto most = static_cast<std::int64_t>(std::min(model.input_triangles, kMaxWinding));
-  if (model.region_winding > most || model.region_winding < -most) {
+  const auto maximum = static_cast<std::int64_t>(std::min(model.input_triangles, kMaxWinding));
+  if (model.region_winding > maximum || model.region_winding < -maximum) {
     return bad_model(offsetof(ModelRecord, region_winding),
                      "the winding number at the region's corner is out of range");
   }

@@ -32,7 +32,7 @@ Result<std::uint64_t> length_of(const FileHandle& file) noexcept {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-Error scaled(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
+Error located(Error error, std::uint32_t page, std::uint64_t offset) noexcept {
   error.page = page;
   error.offset = offset;
   return error;
@@ -113,20 +113,20 @@ Result<void> PageFile::read_page(std::uint32_t page, std::span<std::byte> stored
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
   if (const Result<void> read = file_.read_at(entry.offset, stored); !read) {
-    return scaled(read.error(), page, entry.offset);
+    return located(read.error(), page, entry.offset);
   }
   return unpack(page, stored, raw_out);
 }
 
-Result<bool> PageFile::read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
-                                      std::span<std::byte> raw_out,
-                                      const SoonTerms& terms) const noexcept {
+Result<bool> PageFile::try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
+                                     std::span<std::byte> raw_out,
+                                     const ReadLimits& terms) const noexcept {
   if (const Result<void> checked = check_buffers(page, stored_scratch, raw_out); !checked) {
     return checked.error();
   }
   const PageEntry& entry = entries_[page];
   const std::span<std::byte> stored = stored_scratch.first(entry.stored_bytes);
-  if (!file_.read_soon(entry.offset, stored, terms)) return false;
+  if (!file_.try_read(entry.offset, stored, terms)) return false;
   if (const Result<void> unpacked = unpack(page, stored, raw_out); !unpacked) {
     return unpacked.error();
   }
@@ -142,7 +142,7 @@ Result<void> PageFile::unpack(std::uint32_t page, std::span<const std::byte> sto
         "the page's checksum is wrong; restore the file from a copy or build it again");
   }
   if (const Result<void> decoded = decode_page(entry.codec, stored, raw_out); !decoded) {
-    return scaled(decoded.error(), page, entry.offset);
+    return located(decoded.error(), page, entry.offset);
   }
   return {};
 }

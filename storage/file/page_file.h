@@ -59,9 +59,9 @@ class PageFile {
   /// Does the same within the time limits of `terms`. Returns false if the read would block or
   /// fails. In both cases read_page() reads the page or returns the error.
   /// errors  kBadArgument, kDamaged.
-  Result<bool> read_page_soon(std::uint32_t page, std::span<std::byte> stored_scratch,
-                              std::span<std::byte> raw_out,
-                              const SoonTerms& terms = {}) const noexcept;
+  Result<bool> try_read_page(std::uint32_t page, std::span<std::byte> stored_scratch,
+                             std::span<std::byte> raw_out,
+                             const ReadLimits& terms = {}) const noexcept;
 
  private:
   PageFile() noexcept = default;

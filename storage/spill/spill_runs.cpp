@@ -31,7 +31,7 @@ Result<SpillRuns::Extent> SpillRuns::add(std::vector<std::byte> records) {
   return runs_.emplace_back(std::move(run)).extent;
 }
 
-void SpillRuns::add_extents(Extent extent) {
+void SpillRuns::add_extent(Extent extent) {
   if (extent.size == 0) return;
   assert(extent.offset + extent.size * record_bytes_ <= file_.size_bytes());
   assert(extent.marks.size() == mark_count(extent.size));

@@ -54,7 +54,7 @@ class SpillRuns {
   /// errors  those of SpillFile::append().
   Result<Extent> add(std::vector<std::byte> records);
   /// Adds a run that is in the file already.
-  void add_extents(Extent extent);
+  void add_extent(Extent extent);
   /// Positions of all runs. None of them may be in memory.
   std::vector<Extent> extents() const;
 

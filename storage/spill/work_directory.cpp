@@ -27,7 +27,7 @@ constexpr int kFileFlags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK;
 
 Error work_error(const char* what) noexcept { return file_error(errno, FileAction::kWrite, what); }
 
-Error in_the_way(ErrorCode code, const char* cause) noexcept {
+Error conflict_error(ErrorCode code, const char* cause) noexcept {
   return make_error(code, Error::kNowhere, Error::kNowhere,
                     "%s; remove it or choose another directory for temporary files", cause);
 }
@@ -39,21 +39,21 @@ Result<void> check_owned(const FileHandle& handle, bool directory) noexcept {
   if (handle.calls().fstat(handle.descriptor(), &status) != 0)
     return work_error("examine the work directory");
   if (status.st_uid != ::geteuid() || (status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    return in_the_way(ErrorCode::kPermission, "earlier work there is open to other users");
+    return conflict_error(ErrorCode::kPermission, "earlier work there is open to other users");
   if (!directory && (!S_ISREG(status.st_mode) || status.st_nlink > 1))
-    return in_the_way(ErrorCode::kAlreadyExists, "there are other files than those of a build");
+    return conflict_error(ErrorCode::kAlreadyExists, "there are other files than those of a build");
   return {};
 }
 
 Error directory_error() noexcept {
   if (errno == ENOTDIR || errno == ELOOP)
-    return in_the_way(ErrorCode::kAlreadyExists, "a file or link is where work shall be kept");
+    return conflict_error(ErrorCode::kAlreadyExists, "a file or link is where work shall be kept");
   return work_error("open the work directory");
 }
 
 Error file_open_error() noexcept {
   if (errno == ELOOP || errno == EISDIR || errno == ENXIO)
-    return in_the_way(ErrorCode::kAlreadyExists, "there are other files than those of a build");
+    return conflict_error(ErrorCode::kAlreadyExists, "there are other files than those of a build");
   return work_error("open a file in the work directory");
 }
 

@@ -94,8 +94,9 @@ int FileCalls::io_uring_queue_init(unsigned entries, io_uring* ring, unsigned fl
 }
 
 int FileCalls::io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion,
-                                                unsigned count, __kernel_timespec* most) noexcept {
-  return ::io_uring_submit_and_wait_timeout(ring, completion, count, most, nullptr);
+                                                unsigned count,
+                                                __kernel_timespec* max_wait) noexcept {
+  return ::io_uring_submit_and_wait_timeout(ring, completion, count, max_wait, nullptr);
 }
 
 void FileCalls::io_uring_queue_exit(io_uring* ring) noexcept { ::io_uring_queue_exit(ring); }

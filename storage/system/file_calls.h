@@ -49,7 +49,8 @@ class FileCalls {
   /// Functions of liburing: they return error numbers negated and do not set errno.
   virtual int io_uring_queue_init(unsigned entries, io_uring* ring, unsigned flags) noexcept;
   virtual int io_uring_submit_and_wait_timeout(io_uring* ring, io_uring_cqe** completion,
-                                               unsigned count, __kernel_timespec* most) noexcept;
+                                               unsigned count,
+                                               __kernel_timespec* max_wait) noexcept;
   virtual void io_uring_queue_exit(io_uring* ring) noexcept;
 
   /// The real system; lives as long as the program.

@@ -78,41 +78,41 @@ Result<void> FileHandle::read_at(std::uint64_t offset, std::span<std::byte> out,
   return {};
 }
 
-bool FileHandle::read_soon(std::uint64_t offset, std::span<std::byte> out,
-                           const SoonTerms& terms) const noexcept {
-  Look look = look_once(offset, out);
-  if (look.found != Found::kPart) return look.found == Found::kAll;
+bool FileHandle::try_read(std::uint64_t offset, std::span<std::byte> out,
+                          const ReadLimits& terms) const noexcept {
+  Poll poll = poll_once(offset, out);
+  if (poll.found != Found::kPart) return poll.found == Found::kAll;
   calls_->posix_fadvise(descriptor_, static_cast<off_t>(offset), static_cast<off_t>(out.size()),
                         POSIX_FADV_WILLNEED);
   // The loop is not a function of its own, because the compiler would take it for one without
   // effect and remove the call.
-  for (std::size_t at = 0; at < terms.soon_written.size(); at += kLineBytes)
-    __builtin_prefetch(&terms.soon_written[at], 1);
-  const auto end = std::chrono::steady_clock::now() + terms.max_waited;
+  for (std::size_t at = 0; at < terms.prefetch_for_write.size(); at += kLineBytes)
+    __builtin_prefetch(&terms.prefetch_for_write[at], 1);
+  const auto end = std::chrono::steady_clock::now() + terms.max_wait;
   // Wait for the last byte, which usually arrives last.
   std::size_t awaited = out.size() - 1;
   for (unsigned i = 0; terms.wait != nullptr && i < kMaxWaits; ++i) {
     const auto waited = terms.wait->wait_until(*calls_, descriptor_, offset + awaited, end);
     if (waited == ReadWait::Outcome::kRefused) break;
-    look = look_once(offset, out);
-    if (look.found != Found::kPart) return look.found == Found::kAll;
+    poll = poll_once(offset, out);
+    if (poll.found != Found::kPart) return poll.found == Found::kAll;
     if (waited == ReadWait::Outcome::kLate) return false;
-    awaited = look.bytes;
+    awaited = poll.bytes;
   }
-  return look_until(std::chrono::steady_clock::now() + terms.max_looked, offset, out);
+  return poll_until(std::chrono::steady_clock::now() + terms.max_poll, offset, out);
 }
 
-bool FileHandle::look_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,
+bool FileHandle::poll_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,
                             std::span<std::byte> out) const noexcept {
-  Look look{};
+  Poll poll{};
   do {
     pause_a_little();
-    look = look_once(offset, out);
-  } while (look.found == Found::kPart && std::chrono::steady_clock::now() < end);
-  return look.found == Found::kAll;
+    poll = poll_once(offset, out);
+  } while (poll.found == Found::kPart && std::chrono::steady_clock::now() < end);
+  return poll.found == Found::kAll;
 }
 
-FileHandle::Look FileHandle::look_once(std::uint64_t offset,
+FileHandle::Poll FileHandle::poll_once(std::uint64_t offset,
                                        std::span<std::byte> out) const noexcept {
   const iovec part{out.data(), out.size()};
   const ssize_t count =

@@ -14,16 +14,16 @@
 namespace planetree::storage {
 
 /// Time limits of a read whose bytes the system may not have in memory.
-struct SoonTerms {
+struct ReadLimits {
   /// Maximum time to poll for the bytes without giving up the processor. The default is about the
   /// time that it takes to put a thread to sleep and wake it.
-  std::chrono::microseconds max_looked{300};
+  std::chrono::microseconds max_poll{300};
   /// The ReadWait to wait with, used by no other thread meanwhile; null: only poll.
   ReadWait* wait = nullptr;
   /// Maximum time to wait with `wait`.
-  std::chrono::microseconds max_waited{0};
+  std::chrono::microseconds max_wait{0};
   /// Memory that the caller writes next. It is prefetched while the device works.
-  std::span<const std::byte> soon_written{};
+  std::span<const std::byte> prefetch_for_write{};
 };
 
 /// An open file; the destructor closes it. Reads and writes name their offset, so any number of
@@ -60,8 +60,8 @@ class FileHandle {
   /// Returns false if the bytes do not come in time, the system cannot read without blocking, or
   /// reading fails. The content of `out` is then unspecified. Call read_at() to read the bytes or
   /// to learn the error.
-  bool read_soon(std::uint64_t offset, std::span<std::byte> out,
-                 const SoonTerms& terms) const noexcept;
+  bool try_read(std::uint64_t offset, std::span<std::byte> out,
+                const ReadLimits& terms) const noexcept;
 
   /// Writes all of `bytes` at `offset`. Continues after interruptions and short writes.
   /// what    the action to name in an error; see file_error().
@@ -85,12 +85,12 @@ class FileHandle {
   /// Which bytes the system has in memory. kPart includes "none yet"; kNever means that the read
   /// fails or the file ends too early.
   enum class Found : std::uint8_t { kAll, kPart, kNever };
-  struct Look {
+  struct Poll {
     Found found;
     std::size_t bytes;  // number of bytes read, from the first on
   };
-  Look look_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
-  bool look_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,
+  Poll poll_once(std::uint64_t offset, std::span<std::byte> out) const noexcept;
+  bool poll_until(std::chrono::steady_clock::time_point end, std::uint64_t offset,
                   std::span<std::byte> out) const noexcept;
 
   FileCalls* calls_ = nullptr;

@@ -43,9 +43,9 @@ ReadWait::Outcome ReadWait::finish(Clock::time_point end) noexcept {
     const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
     if (left.count() <= 0) return Outcome::kLate;
     constexpr std::int64_t kSecond = 1'000'000'000;
-    __kernel_timespec most{left.count() / kSecond, left.count() % kSecond};
+    __kernel_timespec max_wait{left.count() / kSecond, left.count() % kSecond};
     io_uring_cqe* completion = nullptr;
-    const int outcome = calls_->io_uring_submit_and_wait_timeout(&ring_, &completion, 1, &most);
+    const int outcome = calls_->io_uring_submit_and_wait_timeout(&ring_, &completion, 1, &max_wait);
     if (completion != nullptr) {
       const int count = completion->res;
       io_uring_cqe_seen(&ring_, completion);

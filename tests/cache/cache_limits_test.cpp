@@ -15,14 +15,14 @@ namespace {
 
 constexpr CacheLimits kUsual{0, 500, 4096, 4, 10000};
 
-TEST(CacheLimits, MinimumIsOneFrameForEachPlaceInLimboAndOneForTheRoot) {
+TEST(CacheLimits, MinimumIsOneFrameForEachLimboEntryAndOneForTheRoot) {
   EXPECT_EQ(minimum_frame_count({0, 500, 4096, 4, 0}), 6u);
   EXPECT_EQ(minimum_frame_count({0, 6, 4096, 4, 0}), 6u);
   EXPECT_EQ(minimum_frame_count({0, 5, 4096, 4, 0}), 5u);
   EXPECT_EQ(minimum_frame_count({0, 1, 4096, 4, 0}), 1u);
 }
 
-TEST(CacheLimits, MinimumCountsAllThatIsNeeded) {
+TEST(CacheLimits, MinimumBudgetCountsFramesTablesAndReserve) {
   // Frames, map, slots, stamps and reserve must all be counted.
   EXPECT_GE(minimum_budget_bytes(kUsual), 6u * 4096 + 500 * 4 + 4 * 64 + 5 * 4 * 8 + 10000);
   CacheLimits more = kUsual;
@@ -33,7 +33,7 @@ TEST(CacheLimits, MinimumCountsAllThatIsNeeded) {
   EXPECT_GE(minimum_budget_bytes(more), minimum_budget_bytes(kUsual) + 4'000'000);
 }
 
-TEST(CacheLimits, FramesUseTheBudgetUp) {
+TEST(CacheLimits, FrameCountIsTheLargestThatFitsTheBudget) {
   CacheLimits limits = kUsual;
   std::uint32_t last = 0;
   for (limits.budget_bytes = 0; limits.budget_bytes < 2'200'000; limits.budget_bytes += 997) {
@@ -50,7 +50,7 @@ TEST(CacheLimits, FramesUseTheBudgetUp) {
   EXPECT_EQ(last, limits.page_count);
 }
 
-TEST(CacheLimits, HugeNumbersSaturate) {
+TEST(CacheLimits, BytesNeededSaturatesAtHugeLimits) {
   CacheLimits limits{std::numeric_limits<std::uint64_t>::max(), 0xfffffffeu, kMaxFrameBytes,
                      kMaxReaders, std::numeric_limits<std::uint64_t>::max()};
   EXPECT_EQ(minimum_budget_bytes(limits), std::numeric_limits<std::uint64_t>::max());
@@ -59,7 +59,7 @@ TEST(CacheLimits, HugeNumbersSaturate) {
   EXPECT_GT(bytes_needed(limits, limits.page_count), std::uint64_t{0xfffffffe} * kMaxFrameBytes);
 }
 
-TEST(CacheLimits, RefusesWhatIsOutOfRange) {
+TEST(CacheLimits, RefusesLimitsOutOfRange) {
   const auto code_of = [](const CacheLimits& limits) {
     TaggedPages pages;
     const auto cache = PageCache::create(limits, TaggedPages::fill, &pages);
@@ -78,7 +78,7 @@ TEST(CacheLimits, RefusesWhatIsOutOfRange) {
   }
 }
 
-TEST(CacheLimits, NamesTheMinimumAndAcceptsIt) {
+TEST(CacheLimits, ErrorNamesTheMinimumBudgetWhichIsAccepted) {
   for (const std::uint32_t page_count : {1u, 3u, 6u, 7u, 500u}) {
     TaggedPages pages;
     CacheLimits limits = kUsual;

@@ -25,7 +25,7 @@ struct Frames {
   std::uint32_t evict() { return evict_one(clock); }
 };
 
-TEST(ClockPolicy, TakesUnusedFramesInTurn) {
+TEST(ClockPolicy, EvictsUnusedFramesInTurn) {
   Frames<4> frames;
   for (std::uint32_t frame = 0; frame < 4; ++frame) EXPECT_EQ(frames.evict(), frame);
   EXPECT_EQ(frames.evict(), kNoFrame);
@@ -65,7 +65,7 @@ TEST(ClockPolicy, UpperPagesKeepAUseForMoreRounds) {
   EXPECT_EQ(outlived_by(PageTier::kUpper), 3u);
 }
 
-TEST(ClockPolicy, UpperPagesOfMoreThanHalfTheFramesAreAsOthers) {
+TEST(ClockPolicy, UpperPagesLoseTheirAdvantageAboveHalfTheFrames) {
   for (const std::uint32_t upper : {1u, 2u}) {
     Frames<3> frames;
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
@@ -77,7 +77,7 @@ TEST(ClockPolicy, UpperPagesOfMoreThanHalfTheFramesAreAsOthers) {
   }
 }
 
-TEST(ClockPolicy, UpperPagesGoInTheEnd) {
+TEST(ClockPolicy, UpperPagesAreEvictedEventually) {
   Frames<2> frames;
   for (std::uint32_t frame = 0; frame < 2; ++frame) {
     EXPECT_EQ(frames.evict(), frame);
@@ -88,7 +88,7 @@ TEST(ClockPolicy, UpperPagesGoInTheEnd) {
   EXPECT_EQ(frames.evict(), 1u);
 }
 
-TEST(ClockPolicy, WhatIsLeftOfAnUpperPagesUseIsLostWholeWhereOthersAreToo) {
+TEST(ClockPolicy, UpperPageLosesAPartlySpentUseInOneRoundAboveHalfTheFrames) {
   Frames<2> frames;
   EXPECT_EQ(frames.evict(), 0u);
   frames.clock.install(0, PageTier::kUpper);
@@ -101,7 +101,7 @@ TEST(ClockPolicy, WhatIsLeftOfAnUpperPagesUseIsLostWholeWhereOthersAreToo) {
   EXPECT_EQ(frames.evict(), 1u);
 }
 
-TEST(ClockPolicy, UpperPagesStopAtThreeUsesToo) {
+TEST(ClockPolicy, UpperPageScoreStopsAtThreeUses) {
   Frames<1> frames;
   EXPECT_EQ(frames.evict(), 0u);
   frames.clock.install(0, PageTier::kUpper);
@@ -120,7 +120,7 @@ TEST(ClockPolicy, UsedFramesOutliveUnusedOnes) {
   EXPECT_EQ(frames.evict(), 2u);
 }
 
-TEST(ClockPolicy, PassesOverPinnedAndIdleFrames) {
+TEST(ClockPolicy, SkipsPinnedAndIdleFrames) {
   Frames<4> frames;
   frames.clock.pin(0);
   frames.clock.pin(2);
@@ -132,7 +132,7 @@ TEST(ClockPolicy, PassesOverPinnedAndIdleFrames) {
   EXPECT_EQ(frames.clock.state(0), FrameStates::State::kPinned);
 }
 
-TEST(ClockPolicy, FindsAVictimEvenWhenEveryScoreIsHighest) {
+TEST(ClockPolicy, FindsAVictimWhenEveryScoreIsAtItsMaximum) {
   Frames<3> frames;
   for (std::uint32_t frame = 0; frame < 3; ++frame) frames.mark(frame, 3);
   EXPECT_EQ(frames.evict(), 0u);

@@ -21,7 +21,7 @@ TEST(Explorer, RunsEverySchedule) {
   EXPECT_EQ(explore_threads({exchange_twice, exchange_twice}).report.runs, 6u);
 }
 
-TEST(Explorer, StopsThreadsNoMoreOftenThanTold) {
+TEST(Explorer, PreemptsNoMoreOftenThanTheLimit) {
   const std::vector<Body> bodies{exchange_twice, exchange_twice};
   Outcomes outcomes;
   const auto make = [&] { return std::make_unique<LitmusProgram>(bodies, outcomes); };
@@ -84,7 +84,7 @@ TEST(Explorer, ReadsDoNotRaceWithReads) {
   EXPECT_EQ(explore_threads({read, read, read}).report.failure, "");
 }
 
-TEST(Explorer, MutexesExcludeAndPassOnWhatWasDone) {
+TEST(Explorer, MutexExcludesAndOrdersCriticalSections) {
   const auto add_one = [](Litmus& all) {
     const std::lock_guard<Mutex> lock(all.mutex);
     all.a.write(all.a.read() + 1);
@@ -98,14 +98,14 @@ TEST(Explorer, MutexesExcludeAndPassOnWhatWasDone) {
   EXPECT_TRUE(explored.finds({2}));
 }
 
-TEST(Explorer, ReportsThreadsThatWaitForEachOther) {
+TEST(Explorer, ReportsDeadlock) {
   const Report report = explore_threads({[](Litmus& all) { all.mutex.lock(); },
                                          [](Litmus& all) { all.mutex.lock(); }})
                             .report;
   EXPECT_NE(report.failure.find("every thread waits"), std::string::npos);
 }
 
-TEST(Explorer, ReportsAThreadThatWaitsForEver) {
+TEST(Explorer, ReportsAThreadThatNeverEnds) {
   const Report report = explore_threads({[](Litmus& all) {
                           while (all.x.load(kRelaxed) == 0) {
                           }
@@ -113,7 +113,7 @@ TEST(Explorer, ReportsAThreadThatWaitsForEver) {
   EXPECT_NE(report.failure.find("a thread does not end"), std::string::npos);
 }
 
-TEST(Explorer, ThreadsThatYieldLetOthersGoOn) {
+TEST(Explorer, YieldLetsAnotherThreadRun) {
   const Explored explored = explore_threads({[](Litmus& all) {
                                                Execution::current().yield();
                                                all.found[0] = all.x.exchange(1, kRelaxed);
@@ -122,7 +122,7 @@ TEST(Explorer, ThreadsThatYieldLetOthersGoOn) {
   EXPECT_EQ(explored.outcomes, Outcomes({{2, -1, -1, -1}}));
 }
 
-TEST(Explorer, TellsTheStepsThatLedToAFailure) {
+TEST(Explorer, FailureListsTheStepsThatLedToIt) {
   const std::string failure = plain_message(kRelaxed, kAcquire).failure;
   EXPECT_NE(failure.find("thread 0: stores atomic 1, 1, relaxed\n"), std::string::npos) << failure;
   EXPECT_NE(failure.find("thread 1: loads atomic 1, 1, acquire\n"), std::string::npos) << failure;

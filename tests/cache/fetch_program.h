@@ -78,7 +78,7 @@ class FetchProgram final : public explorer::Program {
     in_flight_reads_.end(fetcher);
     if (in_flight.stage == InFlightRead::Stage::kServed) return in_flight.frame;
     if (const std::uint32_t frame = cache_.map().frame_of(page); frame != kNoFrame) return frame;
-    if (in_flight_reads_.is_read(page)) {
+    if (in_flight_reads_.is_being_read(page)) {
       in_flight_reads_.wait(fetcher, page, true);
       return kNoFrame;
     }

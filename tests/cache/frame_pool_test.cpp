@@ -12,7 +12,7 @@ namespace {
 static_assert(!std::is_copy_constructible_v<FramePool> && !std::is_copy_assignable_v<FramePool>);
 static_assert(std::is_nothrow_move_constructible_v<FramePool>);
 
-TEST(FramePool, FramesAreAlignedAndApart) {
+TEST(FramePool, FramesAreAlignedAndDisjoint) {
   for (const std::uint32_t frame_bytes : {1u, 64u, 100u, 4096u, 65536u}) {
     const Result<FramePool> pool = FramePool::create(40, frame_bytes);
     ASSERT_TRUE(pool);
@@ -29,34 +29,34 @@ TEST(FramePool, FramesAreAlignedAndApart) {
   }
 }
 
-TEST(FramePool, ArenaHoldsItsFramesAndAtMostOnePageMore) {
+TEST(FramePool, ArenaIsBarelyLargerThanItsFrames) {
   const Result<FramePool> pool = FramePool::create(1000, 4160);  // more than a huge page
   ASSERT_TRUE(pool);
   EXPECT_GE(pool->arena_bytes(), 1000u * 4160u);
   EXPECT_LT(pool->arena_bytes(), 1000u * 4160u + 65536u);
 }
 
-TEST(FramePool, BeginsOnAHugePageWhenItHasOne) {
+TEST(FramePool, ArenaOfAHugePageOrMoreStartsOnAHugePage) {
   const Result<FramePool> pool = FramePool::create(1024, 4096);
   ASSERT_TRUE(pool);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(pool->frame(0)) % (2u << 20), 0u);
 }
 
-TEST(FramePool, MovesWithItsFrames) {
+TEST(FramePool, MoveKeepsFrameAddressesAndContents) {
   Result<FramePool> pool = FramePool::create(4, 128);
   ASSERT_TRUE(pool);
   std::byte* const frame = pool->frame(3);
   *frame = std::byte{42};
-  FramePool perturbed = *std::move(pool);
-  EXPECT_EQ(perturbed.frame(3), frame);
+  FramePool moved_pool = *std::move(pool);
+  EXPECT_EQ(moved_pool.frame(3), frame);
   Result<FramePool> other = FramePool::create(2, 64);
   ASSERT_TRUE(other);
-  *other = std::move(perturbed);
+  *other = std::move(moved_pool);
   EXPECT_EQ(other->frame(3), frame);
   EXPECT_EQ(*other->frame(3), std::byte{42});
 }
 
-TEST(FramePool, SaysWhatTheSystemRefused) {
+TEST(FramePool, ErrorNamesTheBytesTheSystemRefused) {
   // More than an address space holds.
   const Result<FramePool> pool = FramePool::create(0xfffffff0u, 1u << 28);
   ASSERT_FALSE(pool);

@@ -18,15 +18,15 @@ namespace {
 
 constexpr std::uint32_t kReadFrameBytes = 4096;
 
-TEST(InFlightReads, ServesAllWhoWaitForAPage) {
+TEST(InFlightReads, ServesAllThreadsThatWaitForAPage) {
   std::vector<InFlightRead> table(4);
   InFlightReads in_flight_reads(table);
   in_flight_reads.read(0, 7);
-  EXPECT_TRUE(in_flight_reads.is_read(7));
+  EXPECT_TRUE(in_flight_reads.is_being_read(7));
   in_flight_reads.wait(1, 7, false);
   in_flight_reads.wait(2, 7, true);
   in_flight_reads.wait(3, 8, false);
-  EXPECT_EQ(in_flight_reads.page_wanted(), 8u);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), 8u);
   std::set<std::uint32_t> woken;
   const auto wake = [&](std::uint32_t fetcher) { woken.insert(fetcher); };
   in_flight_reads.end(0);
@@ -38,33 +38,33 @@ TEST(InFlightReads, ServesAllWhoWaitForAPage) {
   EXPECT_FALSE(in_flight_reads.holds(5));
 }
 
-TEST(InFlightReads, WantsThePageThatWasWaitedForLongest) {
+TEST(InFlightReads, FirstWantedPageIsTheLongestAwaited) {
   std::vector<InFlightRead> table(4);
   InFlightReads in_flight_reads(table);
-  EXPECT_EQ(in_flight_reads.page_wanted(), InFlightReads::kNobody);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), InFlightReads::kNoPage);
   in_flight_reads.wait(3, 8, false);
   in_flight_reads.wait(0, 9, false);
   in_flight_reads.wait(1, 8, false);
-  EXPECT_EQ(in_flight_reads.page_wanted(), 8u);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), 8u);
   in_flight_reads.read(2, 8);
-  EXPECT_EQ(in_flight_reads.page_wanted(), 9u);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), 9u);
   in_flight_reads.end(0);
-  EXPECT_EQ(in_flight_reads.page_wanted(), InFlightReads::kNobody);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), InFlightReads::kNoPage);
 }
 
-TEST(InFlightReads, PutBackWakesThoseWhoReadThemselves) {
+TEST(InFlightReads, PutBackWakesOnlyThreadsThatReadForThemselves) {
   std::vector<InFlightRead> table(3);
   InFlightReads in_flight_reads(table);
   in_flight_reads.read(0, 7);
   in_flight_reads.wait(1, 7, true);
   in_flight_reads.wait(2, 7, false);
-  EXPECT_EQ(in_flight_reads.page_wanted(), InFlightReads::kNobody);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), InFlightReads::kNoPage);
   in_flight_reads.end(0);
   std::set<std::uint32_t> woken;
-  in_flight_reads.put_back(7, [&](std::uint32_t fetcher) { woken.insert(fetcher); });
+  in_flight_reads.abandon(7, [&](std::uint32_t fetcher) { woken.insert(fetcher); });
   EXPECT_EQ(woken, std::set<std::uint32_t>{1});
   EXPECT_EQ(in_flight_reads.of(1).stage, InFlightRead::Stage::kRetry);
-  EXPECT_EQ(in_flight_reads.page_wanted(), 7u);
+  EXPECT_EQ(in_flight_reads.next_wanted_page(), 7u);
 }
 
 /// Pages, some of which are slow: a read of them stalls until released, and would block for threads
@@ -72,26 +72,26 @@ TEST(InFlightReads, PutBackWakesThoseWhoReadThemselves) {
 struct SlowPages {
   TaggedPages tags;
   std::set<std::uint32_t> slow;
-  std::atomic<bool> moves{false};
-  std::atomic<int> side_result{0};
+  std::atomic<bool> released{false};
+  std::atomic<int> stalled{0};
   std::atomic<int> refused{0};
 
-  static Result<Filled> fill(void* context, const FillRequest& request) {
+  static Result<FillResult> fill(void* context, const FillRequest& request) {
     auto& pages = *static_cast<SlowPages*>(context);
     if (pages.slow.contains(request.page)) {
-      if (!request.may_wait) {
+      if (!request.may_block) {
         ++pages.refused;
-        return Filled::kWouldWait;
+        return FillResult::kWouldBlock;
       }
-      ++pages.side_result;
-      while (!pages.moves) std::this_thread::yield();
-      --pages.side_result;
+      ++pages.stalled;
+      while (!pages.released) std::this_thread::yield();
+      --pages.stalled;
     }
     return TaggedPages::fill(&pages.tags, request);
   }
 };
 
-class SideBySide : public testing::Test {
+class ConcurrentFetches : public testing::Test {
  protected:
   void open(std::uint32_t frames) {
     auto cache = PageCache::create(limits_for_frames(frames, 50, 4), SlowPages::fill, &pages_);
@@ -104,7 +104,7 @@ class SideBySide : public testing::Test {
     return std::thread([this, page, terms] {
       Reader reader = *cache_->claim_reader();
       reader.enter();
-      const Fetched fetched = reader.fetch(page, terms);
+      const FetchResult fetched = reader.fetch(page, terms);
       if (fetched.given_up) ++given_up_;
       if (fetched.frame && TaggedPages::matches(fetched.frame, kReadFrameBytes, page)) ++right_;
       reader.leave();
@@ -112,9 +112,9 @@ class SideBySide : public testing::Test {
   }
 
   /// Starts such a thread and waits until its read stalls.
-  std::thread classify_at(std::uint32_t page) {
+  std::thread start_stalled(std::uint32_t page) {
     std::thread thread = fetching(page);
-    while (pages_.side_result == 0) std::this_thread::yield();
+    while (pages_.stalled == 0) std::this_thread::yield();
     return thread;
   }
 
@@ -127,35 +127,35 @@ constexpr FetchTerms kByHelpers{.reads_itself = false};
 constexpr FetchTerms kAtOnceOrNot{.reads_itself = false,
                                   .wait_limit = std::chrono::milliseconds(1)};
 
-TEST_F(SideBySide, OneReadsWhatTwoWant) {
+TEST_F(ConcurrentFetches, TwoFetchesOfOnePageReadItOnce) {
   open(6);
   pages_.slow = {7};
-  std::thread first = classify_at(7);
+  std::thread first = start_stalled(7);
   std::thread second = fetching(7);
-  pages_.moves = true;
+  pages_.released = true;
   first.join();
   second.join();
   EXPECT_EQ(right_, 2);
   EXPECT_EQ(pages_.tags.fill_calls(), 1u);
 }
 
-TEST_F(SideBySide, OthersReadWhileOneStandsStill) {
+TEST_F(ConcurrentFetches, OtherFetchesProceedWhileOneReadStalls) {
   open(6);
   pages_.slow = {7};
-  std::thread stuck = classify_at(7);
+  std::thread stuck = start_stalled(7);
   // This is the smallest cache, so pages are evicted meanwhile.
   for (std::uint32_t page = 8; page < 50; ++page) fetching(page).join();
   EXPECT_EQ(right_, 42);
-  EXPECT_EQ(pages_.side_result, 1);
-  pages_.moves = true;
+  EXPECT_EQ(pages_.stalled, 1);
+  pages_.released = true;
   stuck.join();
   EXPECT_EQ(right_, 43);
 }
 
-TEST_F(SideBySide, HelpersReadWhatMustBeWaitedFor) {
+TEST_F(ConcurrentFetches, HelpersReadPagesThatWouldBlock) {
   open(6);
   pages_.slow = {7, 8};
-  pages_.moves = true;
+  pages_.released = true;
   Reader helper = *cache_->claim_reader();
   EXPECT_FALSE(helper.help());
   std::thread first = fetching(7, kByHelpers), second = fetching(8, kByHelpers);
@@ -167,13 +167,13 @@ TEST_F(SideBySide, HelpersReadWhatMustBeWaitedFor) {
   EXPECT_FALSE(helper.help());
 }
 
-TEST_F(SideBySide, WhatNeedsNoWaitingNeedsNoHelper) {
+TEST_F(ConcurrentFetches, ReadsThatDoNotBlockNeedNoHelper) {
   open(6);
   for (std::uint32_t page = 0; page < 20; ++page) fetching(page, kByHelpers).join();
   EXPECT_EQ(right_, 20);
 }
 
-TEST_F(SideBySide, WaitsNoLongerThanTheLimit) {
+TEST_F(ConcurrentFetches, GivesUpAtTheWaitLimit) {
   open(6);
   pages_.slow = {7};
   fetching(7, kAtOnceOrNot).join();
@@ -183,32 +183,32 @@ TEST_F(SideBySide, WaitsNoLongerThanTheLimit) {
   // No thread waits any more.
   Reader helper = *cache_->claim_reader();
   EXPECT_FALSE(helper.help());
-  pages_.moves = true;
+  pages_.released = true;
   fetching(7).join();
   EXPECT_EQ(right_, 1);
 }
 
-TEST_F(SideBySide, WhoReadsItselfGoesOnWhereAnotherGaveUp) {
+TEST_F(ConcurrentFetches, FetchContinuesAfterAnotherGaveUp) {
   open(6);
   pages_.slow = {7};
-  std::thread stuck = classify_at(7);
+  std::thread stuck = start_stalled(7);
   std::thread patient = fetching(7), hasty = fetching(7, kAtOnceOrNot);
   hasty.join();
   EXPECT_EQ(given_up_, 1);
-  pages_.moves = true;
+  pages_.released = true;
   stuck.join();
   patient.join();
   EXPECT_EQ(right_, 2);
   EXPECT_EQ(pages_.tags.fill_calls(), 1u);
 }
 
-TEST_F(SideBySide, UnreadablePagesAreToldToAllWhoWait) {
+TEST_F(ConcurrentFetches, UnreadablePageFailsAllThreadsThatWait) {
   open(6);
   pages_.slow = {7};
   pages_.tags.make_unreadable(7);
-  std::thread first = classify_at(7);
+  std::thread first = start_stalled(7);
   std::thread second = fetching(7), third = fetching(7, kByHelpers);
-  pages_.moves = true;
+  pages_.released = true;
   first.join();
   second.join();
   third.join();
@@ -218,16 +218,16 @@ TEST_F(SideBySide, UnreadablePagesAreToldToAllWhoWait) {
 }
 
 // The smallest cache, with fetches that rely on helpers and fetches that read for themselves.
-TEST_F(SideBySide, NobodyWaitsForEver) {
+TEST_F(ConcurrentFetches, EveryFetchEndsInTheSmallestCache) {
   open(6);
   for (std::uint32_t page = 0; page < 50; page += 3) pages_.slow.insert(page);
-  pages_.moves = true;
+  pages_.released = true;
   std::atomic<bool> stop{false};
   std::atomic<int> wrong{0};
   std::thread helper([&] {
     Reader reader = *cache_->claim_reader();
     while (!stop) {
-      cache_->wait_for_read(std::chrono::microseconds(100), stop);
+      cache_->wait_for_wanted_page(std::chrono::microseconds(100), stop);
       reader.help();
     }
   });
@@ -240,7 +240,7 @@ TEST_F(SideBySide, NobodyWaitsForEver) {
         reader.enter();
         // Few pages, so that many threads need the same.
         const std::uint32_t page = numbers.below(12);
-        const Fetched fetched = reader.fetch(page, seed == 3 ? FetchTerms{} : kByHelpers);
+        const FetchResult fetched = reader.fetch(page, seed == 3 ? FetchTerms{} : kByHelpers);
         wrong += !fetched.frame || !TaggedPages::matches(fetched.frame, kReadFrameBytes, page);
         reader.leave();
       }

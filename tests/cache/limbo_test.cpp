@@ -16,7 +16,7 @@ struct LimboOfTwo {
   Limbo limbo{slots, entries, stamps};
 };
 
-TEST(Limbo, GivesAFrameBackAtOnceWhenNobodyIsInside) {
+TEST(Limbo, ReturnsAFrameAtOnceWithoutOpenSections) {
   LimboOfTwo two;
   EXPECT_FALSE(two.limbo.holds(1));
   EXPECT_EQ(two.limbo.take(1), kNoFrame);
@@ -49,7 +49,7 @@ TEST(Limbo, DoesNotWaitForLaterSections) {
   EXPECT_EQ(two.limbo.take(2), 7u);
 }
 
-TEST(Limbo, SectionSeenToBeOverStaysOver) {
+TEST(Limbo, EndedSectionStaysEndedAfterTheReaderReenters) {
   LimboOfTwo two;
   two.slots[0].enter();
   two.slots[1].enter();
@@ -61,7 +61,7 @@ TEST(Limbo, SectionSeenToBeOverStaysOver) {
   EXPECT_EQ(two.limbo.take(2), 7u);
 }
 
-TEST(Limbo, OwnersFramesWaitForTheirOwnSections) {
+TEST(Limbo, FramesWaitOnlyForTheSectionsNotedForThem) {
   LimboOfTwo two;
   two.limbo.retire(0, 5);
   two.slots[1].enter();
@@ -70,7 +70,7 @@ TEST(Limbo, OwnersFramesWaitForTheirOwnSections) {
   EXPECT_EQ(two.limbo.take(0), 5u);
 }
 
-TEST(Limbo, AwaitedFramesAreLeftToTheirOwner) {
+TEST(Limbo, AwaitedFramesAreLeftToTheirFetcher) {
   LimboOfTwo two;
   two.limbo.retire(0, 5);
   two.limbo.retire(1, 6);
@@ -81,7 +81,7 @@ TEST(Limbo, AwaitedFramesAreLeftToTheirOwner) {
   EXPECT_EQ(two.limbo.take_unawaited(), 5u);
 }
 
-TEST(Limbo, AFrameThatNobodyWaitsForCanBeAdopted) {
+TEST(Limbo, UnawaitedFrameCanBeAdoptedWithItsSections) {
   LimboOfTwo two;
   two.slots[0].enter();
   two.limbo.retire(0, 5);

@@ -63,7 +63,7 @@ struct Explored {
 inline Explored explore_threads(const std::vector<Body>& bodies) {
   Explored explored;
   explored.report = explore_all(
-      [&] { return std::make_unique<LitmusProgram>(bodies, explored.outcomes); }, kAnyStops);
+      [&] { return std::make_unique<LitmusProgram>(bodies, explored.outcomes); }, kAnyPreemptions);
   return explored;
 }
 

@@ -22,7 +22,7 @@ Explored message_passing(std::memory_order store, std::memory_order load) {
                           }});
 }
 
-TEST(Litmus, PassesMessagesByReleaseAndAcquireOnly) {
+TEST(Litmus, MessagePassingNeedsReleaseAndAcquire) {
   EXPECT_TRUE(message_passing(kRelaxed, kRelaxed).finds({1, 0}));
   EXPECT_TRUE(message_passing(kRelease, kRelaxed).finds({1, 0}));
   EXPECT_TRUE(message_passing(kRelaxed, kAcquire).finds({1, 0}));
@@ -33,7 +33,7 @@ TEST(Litmus, PassesMessagesByReleaseAndAcquireOnly) {
   EXPECT_TRUE(right.finds({1, 1}));
 }
 
-TEST(Litmus, NeverLoadsOlderStoresThanBefore) {
+TEST(Litmus, LoadsNeverReturnOlderStoresThanEarlierLoads) {
   const Explored explored = explore_threads({[](Litmus& all) {
                                                all.x.store(1, kRelaxed);
                                                all.x.store(2, kRelaxed);
@@ -48,7 +48,7 @@ TEST(Litmus, NeverLoadsOlderStoresThanBefore) {
   EXPECT_EQ(seen, rising);
 }
 
-TEST(Litmus, LoadsNothingOlderThanWhatHappenedBefore) {
+TEST(Litmus, LoadsNothingOlderThanALoadThatHappensBefore) {
   // The third thread learns of the second's load of x through z, and so of the store that it read.
   const Explored explored = explore_threads({[](Litmus& all) { all.x.store(1, kRelaxed); },
                                              [](Litmus& all) {
@@ -76,7 +76,7 @@ Explored passing_on(std::memory_order store) {
                           }});
 }
 
-TEST(Litmus, ExchangesPassOnTheReleaseOfWhatTheyReplace) {
+TEST(Litmus, ExchangeContinuesAReleaseSequence) {
   EXPECT_FALSE(passing_on(kRelease).finds({1, 2, 0}));
   EXPECT_TRUE(passing_on(kRelease).finds({0, 2, 0}));
   EXPECT_TRUE(passing_on(kRelease).finds({1, 2, 1}));

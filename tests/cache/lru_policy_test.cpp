@@ -25,11 +25,11 @@ struct LruFrames {
       Policy::kLru, {.states = states, .scores = {}, .now = now, .uses = uses, .entries = entries}};
 
   LruFrames() { install_all(lru, kFrames); }
-  void use(std::uint32_t frame) { lru.marks().mark(frame); }
+  void use(std::uint32_t frame) { lru.reference_bits().mark(frame); }
   std::uint32_t evict() { return evict_one(lru); }
 };
 
-TEST(LruPolicy, TakesWhatWasUsedLongestAgo) {
+TEST(LruPolicy, EvictsTheLeastRecentlyUsedFrame) {
   LruFrames<4> frames;
   EXPECT_EQ(frames.evict(), 0u);
   frames.lru.install(0);
@@ -41,7 +41,7 @@ TEST(LruPolicy, TakesWhatWasUsedLongestAgo) {
   EXPECT_EQ(frames.evict(), kNoFrame);
 }
 
-TEST(LruPolicy, PassesOverWhatIsPinnedOrHeld) {
+TEST(LruPolicy, SkipsPinnedAndHeldFrames) {
   LruFrames<4> frames;
   frames.lru.pin(0);
   frames.lru.hold(1);
@@ -54,29 +54,29 @@ TEST(LruPolicy, PassesOverWhatIsPinnedOrHeld) {
 }
 
 // Compares with a list that is reordered at every use.
-TEST(LruPolicy, IsThatOfTheBook) {
+TEST(LruPolicy, MatchesAListKeptInOrderOfUse) {
   constexpr std::uint32_t kBookFrames = 23;
   LruFrames<kBookFrames> frames;
-  std::list<std::uint32_t> book;  // most recently used at the back
-  for (std::uint32_t frame = 0; frame < kBookFrames; ++frame) book.push_back(frame);
+  std::list<std::uint32_t> by_use;  // most recently used at the back
+  for (std::uint32_t frame = 0; frame < kBookFrames; ++frame) by_use.push_back(frame);
   Numbers numbers(5);
   for (int step = 0; step < 5000; ++step) {
     // At most one use between two installs, so that no two uses have the same time.
     const std::uint32_t victim = frames.evict();
-    ASSERT_EQ(victim, book.front()) << step;
+    ASSERT_EQ(victim, by_use.front()) << step;
     frames.lru.install(victim);
-    book.splice(book.end(), book, book.begin());
+    by_use.splice(by_use.end(), by_use, by_use.begin());
     const std::uint32_t used = numbers.below(kBookFrames);
     if (used == victim) continue;
     // A use has the same time as the install before it; among these the lesser frame number goes
     // first.
     if (used < victim) continue;
     frames.use(used);
-    book.splice(book.end(), book, std::find(book.begin(), book.end(), used));
+    by_use.splice(by_use.end(), by_use, std::find(by_use.begin(), by_use.end(), used));
   }
 }
 
-TEST(LruPolicy, AnswersOfACacheAreThoseOfClock) {
+TEST(LruPolicy, CacheReturnsCorrectPagesUnderEitherPolicy) {
   for (const Policy policy : {Policy::kClock, Policy::kLru}) {
     TaggedPages pages;
     CacheLimits limits{0, 100, 4096, 2, 0, policy};

@@ -112,14 +112,14 @@ void storm(std::uint32_t reader_count, std::uint32_t frame_count) {
   EXPECT_LE(stats.fills - stats.evictions, frame_count);
 }
 
-TEST(PageCacheStorm, ReadersNeverSeeAnotherPagesBytes) {
+TEST(PageCacheStress, ReadersNeverSeeAnotherPagesBytes) {
   for (const std::uint32_t reader_count : {1u, 2u, 3u, 4u, 8u}) {
     SCOPED_TRACE(reader_count);
     storm(reader_count, reader_count + 2);
   }
 }
 
-TEST(PageCacheStorm, HoldsWithRoomToSpareToo) {
+TEST(PageCacheStress, ReadersNeverSeeAnotherPagesBytesWithSpareFrames) {
   for (const std::uint32_t reader_count : {2u, 8u}) {
     SCOPED_TRACE(reader_count);
     storm(reader_count, 24);

@@ -114,7 +114,7 @@ TEST(PageCache, NeverExceedsItsBudget) {
   }
 }
 
-TEST(PageCache, PinnedPagesSurviveAStorm) {
+TEST(PageCache, PinnedPageSurvivesEvictionOfAllOthers) {
   TaggedPages pages;
   const auto cache = make_cache(limits_for_frames(6, 300, 2), pages);
   ASSERT_TRUE(cache->pin(0));
@@ -131,7 +131,7 @@ TEST(PageCache, PinnedPagesSurviveAStorm) {
   EXPECT_EQ(cache->stats().evictions, 300u - 6u);
 }
 
-TEST(PageCache, PinsNoMorePagesThanItCanSpare) {
+TEST(PageCache, RefusesToPinWhereFetchesWouldLackFrames) {
   TaggedPages pages;
   const auto cache = make_cache(limits_for_frames(6, 50, 2), pages);
   for (std::uint32_t page = 0; page < 3; ++page) ASSERT_TRUE(cache->pin(page));
@@ -187,7 +187,7 @@ TEST(PageCache, QuarantinesUnreadablePages) {
   EXPECT_EQ(cache->stats().evictions, 0u);
 }
 
-TEST(PageCache, FailedFillDoesNotKeepTheEvictedPage) {
+TEST(PageCache, FailedFillsEvictOnlyOnePage) {
   TaggedPages pages;
   for (std::uint32_t page = 10; page < 40; ++page) pages.make_unreadable(page);
   const auto cache = make_cache(limits_for_frames(4, 50, 2), pages);
@@ -206,7 +206,7 @@ TEST(PageCache, FailedFillDoesNotKeepTheEvictedPage) {
   reader.leave();
 }
 
-TEST(PageCache, HasAsManyReadersAsAskedFor) {
+TEST(PageCache, RefusesMoreReadersThanMaxReaders) {
   TaggedPages pages;
   const auto cache = make_cache(limits_for_frames(8, 50, 3), pages);
   Reader first = make_reader(*cache);
@@ -228,7 +228,7 @@ TEST(PageCache, HasAsManyReadersAsAskedFor) {
   EXPECT_TRUE(cache->claim_reader());
 }
 
-TEST(PageCache, CountsOutliveReaders) {
+TEST(PageCache, StatsKeepTheCountsOfDestroyedReaders) {
   TaggedPages pages;
   const auto cache = make_cache(limits_for_frames(8, 50, 1), pages);
   for (int i = 0; i < 3; ++i) {
@@ -305,7 +305,7 @@ struct WatchedPages {
   std::atomic<bool> holder_inside{false};
   std::atomic<int> fills_while_held{0};
 
-  static Result<Filled> fill(void* context, const FillRequest& request) {
+  static Result<FillResult> fill(void* context, const FillRequest& request) {
     auto& watched = *static_cast<WatchedPages*>(context);
     if (watched.holder_inside.load(std::memory_order_relaxed)) {
       watched.fills_while_held.fetch_add(1, std::memory_order_relaxed);

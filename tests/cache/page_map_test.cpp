@@ -16,7 +16,7 @@ TEST(PageMap, StartsEmpty) {
   }
 }
 
-TEST(PageMap, ShowsWhatIsPublishedUntilItIsWithdrawn) {
+TEST(PageMap, FindsAPublishedPageUntilItIsWithdrawn) {
   std::array<PageMap::Cell, 3> cells{};
   const PageMap map(cells);
   map.publish(1, 0);

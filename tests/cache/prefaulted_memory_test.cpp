@@ -10,21 +10,21 @@ namespace {
 
 constexpr std::uint64_t kHuge = std::uint64_t{2} << 20;
 
-TEST(PrefaultedMemory, TakesWholePages) {
+TEST(PrefaultedMemory, ClaimsWholePages) {
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(1), 4096u);
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(4096), 4096u);
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(4097), 8192u);
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(~std::uint64_t{0}), ~std::uint64_t{0}) << "no wrapping";
 }
 
-TEST(PrefaultedMemory, TakesAHugePageWhereLittleIsMissing) {
+TEST(PrefaultedMemory, RoundsUpToAHugePageFromThreeQuartersOn) {
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge / 4 * 3 - 4096), kHuge / 4 * 3 - 4096);
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge / 4 * 3), kHuge);
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge), kHuge);
   EXPECT_EQ(PrefaultedMemory::claimed_bytes(kHuge + 1), kHuge + 4096);
 }
 
-TEST(PrefaultedMemory, GivesWhatItSaysInZeros) {
+TEST(PrefaultedMemory, ClaimedMemoryIsZeroAndOfTheStatedSize) {
   for (const std::uint64_t bytes : {std::uint64_t{100}, kHuge / 10 * 9, kHuge + 5000}) {
     const auto memory = PrefaultedMemory::claim(bytes);
     ASSERT_TRUE(memory);

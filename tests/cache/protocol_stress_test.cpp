@@ -20,17 +20,17 @@ void expect_right(const StressCount& count, const StressGoal& goal) {
   EXPECT_EQ(count.wrong, 0u);
 }
 
-TEST(ProtocolStress, EveryWordReadIsOfThePageAskedFor) {
+TEST(ProtocolStress, EveryWordReadIsOfTheRequestedPage) {
   expect_right(stress_protocol(kShort), kShort);
 }
 
-TEST(ProtocolStress, EveryWordReadInAPageCacheIsOfThePageAskedFor) {
+TEST(ProtocolStress, EveryWordReadFromAPageCacheIsOfTheRequestedPage) {
   expect_right(stress_page_cache(kShortest), kShortest);
 }
 
 class WriterMistakes : public testing::TestWithParam<WriterMistake> {};
 
-TEST_P(WriterMistakes, AreSeenAsWordsOfAnotherPage) {
+TEST_P(WriterMistakes, AreDetectedAsWordsOfAnotherPage) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer would end the program";
   constexpr std::uint64_t kMany = 20'000'000;
   const StressGoal goal{.readers = 2, .queries = kMany, .installs = kMany, .until_wrong = true};

@@ -20,8 +20,8 @@ namespace {
 
 using explorer::explore_all;
 using explorer::explore_at_random;
-using explorer::kAnyStops;
-using explorer::kFewStops;
+using explorer::kAnyPreemptions;
+using explorer::kFewPreemptions;
 using explorer::kRandomRuns;
 using explorer::MakeProgram;
 using explorer::Report;
@@ -46,23 +46,23 @@ class Protocol : public testing::Test {
 TEST_F(Protocol, HoldsInEveryRunOfOneReader) {
   for (const std::uint32_t frames : {1u, 2u}) {
     const Turnover options{.readers = 1, .sections = 2, .frames = frames, .rounds = 2};
-    EXPECT_EQ(explore_all(turnover(options), kAnyStops).failure, "") << frames;
+    EXPECT_EQ(explore_all(turnover(options), kAnyPreemptions).failure, "") << frames;
   }
 }
 
 TEST_F(Protocol, HoldsInEveryRunOfTwoReadersWhilePagesReturnToTheirFrame) {
   const Turnover options{.readers = 2, .sections = 1, .frames = 1, .rounds = 2};
-  EXPECT_EQ(explore_all(turnover(options), kAnyStops).failure, "");
+  EXPECT_EQ(explore_all(turnover(options), kAnyPreemptions).failure, "");
 }
 
 TEST_F(Protocol, HoldsInEveryRunOfTwoReadersWhilePagesChangeFrames) {
   const Turnover options{.readers = 2, .sections = 1, .frames = 2, .rounds = 1};
-  EXPECT_EQ(explore_all(turnover(options), kAnyStops).failure, "");
+  EXPECT_EQ(explore_all(turnover(options), kAnyPreemptions).failure, "");
 }
 
-TEST_F(Protocol, HoldsWithFewStopsWhileSectionsFollowEachOther) {
+TEST_F(Protocol, HoldsWithFewPreemptionsOfConsecutiveSections) {
   const Turnover options{.readers = 2, .sections = 2, .frames = 1, .rounds = 1};
-  EXPECT_EQ(explore_all(turnover(options), kFewStops).failure, "");
+  EXPECT_EQ(explore_all(turnover(options), kFewPreemptions).failure, "");
 }
 
 TEST_F(Protocol, HoldsInRandomRuns) {
@@ -73,17 +73,17 @@ TEST_F(Protocol, HoldsInRandomRuns) {
 }
 
 TEST_F(Protocol, HoldsInEveryRunOfTwoFetches) {
-  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 1}), kAnyStops).failure, "");
+  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 1}), kAnyPreemptions).failure, "");
 }
 
-TEST_F(Protocol, HoldsWithFewStopsOfFourFetches) {
-  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 2}), kFewStops).failure, "");
+TEST_F(Protocol, HoldsWithFewPreemptionsOfFourFetches) {
+  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 2}), kFewPreemptions).failure, "");
 }
 
 TEST_F(Protocol, HoldsInEveryRunOfTwoFetchesOfOnePage) {
-  EXPECT_EQ(
-      explore_all(fetching({.threads = 2, .fetches = 1, .same_page = true}), kAnyStops).failure,
-      "");
+  EXPECT_EQ(explore_all(fetching({.threads = 2, .fetches = 1, .same_page = true}), kAnyPreemptions)
+                .failure,
+            "");
 }
 
 TEST_F(Protocol, HoldsInRandomRunsOfFetches) {
@@ -96,34 +96,34 @@ TEST_F(Protocol, HoldsInRandomRunsOfFetches) {
   }
 }
 
-TEST_F(Protocol, HoldsInEveryRunOfTwoOwnersOfASlot) {
-  EXPECT_EQ(explore_all(handover(), kAnyStops).failure, "");
+TEST_F(Protocol, HoldsInEveryRunOfTwoReadersThatShareASlot) {
+  EXPECT_EQ(explore_all(handover(), kAnyPreemptions).failure, "");
 }
 
 // These programs must detect mistakes; otherwise their success would prove nothing.
 
 TEST_F(Protocol, NotingOpenSectionsBeforeHidingThePageIsCaught) {
-  const Report report = explore_all(turnover({.notes_sections_too_early = true}), kFewStops);
+  const Report report = explore_all(turnover({.notes_sections_too_early = true}), kFewPreemptions);
   EXPECT_NE(report.failure.find("data race"), std::string::npos);
 }
 
 TEST_F(Protocol, FillingAFrameWithoutWaitingIsCaught) {
-  const Report report = explore_all(turnover({.waits_for_nobody = true}), kFewStops);
+  const Report report = explore_all(turnover({.reuses_at_once = true}), kFewPreemptions);
   EXPECT_NE(report.failure.find("data race"), std::string::npos);
 }
 
-TEST_F(Protocol, ShowingAFrameUnderAnotherPageIsCaught) {
-  const Report report = explore_all(turnover({.shows_the_wrong_page = true}), kFewStops);
+TEST_F(Protocol, PublishingAFrameUnderAnotherPageIsCaught) {
+  const Report report = explore_all(turnover({.shows_the_wrong_page = true}), kFewPreemptions);
   EXPECT_NE(report.failure.find("a frame of another page"), std::string::npos);
 }
 
 TEST_F(Protocol, EnteringWithoutTheMutexAfterAFetchIsCaught) {
   const Report report =
-      explore_all(fetching({.threads = 2, .fetches = 1, .enters_too_late = true}), kFewStops);
+      explore_all(fetching({.threads = 2, .fetches = 1, .enters_too_late = true}), kFewPreemptions);
   EXPECT_NE(report.failure.find("data race"), std::string::npos);
 }
 
-TEST_F(Protocol, EvictingWhatSomebodyWaitedForIsCaught) {
+TEST_F(Protocol, EvictingAnAwaitedPageIsCaught) {
   const Report report = explore_at_random(
       fetching({.threads = 3, .fetches = 2, .same_page = true, .does_not_hold_frames = true}),
       kRandomRuns, 1);
@@ -144,12 +144,12 @@ constexpr Weakened kWeakenedSteps[] = {
     {"R5Relaxed", ProtocolStep::kLeave, std::memory_order_relaxed},
     {"E2Release", ProtocolStep::kWithdraw, std::memory_order_release},
     {"E2Relaxed", ProtocolStep::kWithdraw, std::memory_order_relaxed},
-    {"E3Acquire", ProtocolStep::kSeeOpen, std::memory_order_acquire},
-    {"E3Relaxed", ProtocolStep::kSeeOpen, std::memory_order_relaxed},
-    {"E5Relaxed", ProtocolStep::kSeeOver, std::memory_order_relaxed},
+    {"E3Acquire", ProtocolStep::kNoteSections, std::memory_order_acquire},
+    {"E3Relaxed", ProtocolStep::kNoteSections, std::memory_order_relaxed},
+    {"E5Relaxed", ProtocolStep::kSeeSectionEnd, std::memory_order_relaxed},
     {"I7Relaxed", ProtocolStep::kPublish, std::memory_order_relaxed},
     {"ClaimRelaxed", ProtocolStep::kClaim, std::memory_order_relaxed},
-    {"GiveUpRelaxed", ProtocolStep::kGiveUp, std::memory_order_relaxed},
+    {"GiveUpRelaxed", ProtocolStep::kRelease, std::memory_order_relaxed},
 };
 
 class WeakenedStep : public testing::TestWithParam<Weakened> {
@@ -160,12 +160,12 @@ class WeakenedStep : public testing::TestWithParam<Weakened> {
   }
 };
 
-TEST_P(WeakenedStep, IsCaught) {
+TEST_P(WeakenedStep, MakesSomeRunFail) {
   const ProtocolStep step = GetParam().step;
-  const bool of_slot = step == ProtocolStep::kClaim || step == ProtocolStep::kGiveUp;
+  const bool of_slot = step == ProtocolStep::kClaim || step == ProtocolStep::kRelease;
   const MakeProgram make = of_slot ? handover() : turnover({});
   for (const Report& report :
-       {explore_all(make, kFewStops), explore_at_random(make, kRandomRuns, 1)}) {
+       {explore_all(make, kFewPreemptions), explore_at_random(make, kRandomRuns, 1)}) {
     EXPECT_NE(report.failure.find("data race"), std::string::npos) << report.failure;
   }
 }

@@ -5,7 +5,7 @@
 namespace planetree::cache {
 namespace {
 
-TEST(ReaderSlot, IsOneCacheLine) {
+TEST(ReaderSlot, OccupiesOneCacheLine) {
   ReaderSlot slots[2];
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&slots[0]) % 64, 0u);
   EXPECT_EQ(
@@ -26,7 +26,7 @@ TEST(ReaderSlot, SequenceIsOddInsideAndNeverRepeats) {
   }
 }
 
-TEST(ReaderSlot, HasOneOwnerAndKeepsItsSequenceForTheNext) {
+TEST(ReaderSlot, HasOneReaderAtATimeAndKeepsItsSequence) {
   ReaderSlot slot;
   EXPECT_FALSE(slot.claimed());
   EXPECT_TRUE(slot.try_claim());

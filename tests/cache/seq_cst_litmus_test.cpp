@@ -30,7 +30,7 @@ TEST(SeqCstLitmus, ShowsStoreBufferingUnlessAllIsSeqCst) {
   EXPECT_TRUE(strong.finds({1, 1}));
 }
 
-TEST(SeqCstLitmus, ForbidsStoreBufferingOfThreeToo) {
+TEST(SeqCstLitmus, ForbidsStoreBufferingOfThreeThreads) {
   const Explored explored = explore_threads({[](Litmus& all) {
                                                all.x.store(1, kSeqCst);
                                                all.found[0] = all.y.load(kSeqCst);
@@ -79,7 +79,7 @@ Explored overtaken_store(std::memory_order order) {
                           }});
 }
 
-TEST(SeqCstLitmus, SeqCstStoresAreInTheOrderOfTheirAtomic) {
+TEST(SeqCstLitmus, SeqCstStoresFollowTheModificationOrder) {
   // Where 2 follows 1 in the modification order of y, the seq_cst store to x comes before the store
   // of 2.
   EXPECT_TRUE(overtaken_store(kRelease).finds({0, 2}));
@@ -125,7 +125,7 @@ TEST(SeqCstLitmus, SeqCstNeedNotAgreeWithAStoreThatIsOnlyAcquired) {
   EXPECT_FALSE(explored(kSeqCst).finds({1, 0, 0}));
 }
 
-TEST(SeqCstLitmus, LetsSeqCstDisagreeWithHappensBeforeThroughOtherOrders) {
+TEST(SeqCstLitmus, SeqCstMayDisagreeWithHappensBeforeThroughWeakerOrders) {
   // P0668R5, "Revising the C++ memory model", first example. Hardware shows this outcome, and C++20
   // allows it where C++17 did not.
   const Explored explored = explore_threads({[](Litmus& all) {

@@ -14,28 +14,28 @@ namespace {
 
 using IntRing = SpscRing<int>;
 
-TEST(SpscRing, GivesInOrderAndCountsWhatItDrops) {
+TEST(SpscRing, DeliversInOrderAndCountsDroppedRecords) {
   std::vector<IntRing::Slot> slots(IntRing::slots_for(3));
   ASSERT_EQ(slots.size(), 4u);
   IntRing ring;
   ring.attach(slots);
-  std::vector<int> taken(3);
+  std::vector<int> popped(3);
   for (int round = 0; round < 5; ++round) {
-    for (int value = 0; value < 6; ++value) ring.give(10 * round + value);
+    for (int value = 0; value < 6; ++value) ring.push(10 * round + value);
     EXPECT_EQ(ring.dropped(), 2u * static_cast<unsigned>(round + 1));
-    ASSERT_EQ(ring.take(taken), 3u);
-    EXPECT_EQ(taken, (std::vector<int>{10 * round, 10 * round + 1, 10 * round + 2}));
-    ASSERT_EQ(ring.take(taken), 1u);
-    EXPECT_EQ(taken[0], 10 * round + 3);
-    EXPECT_EQ(ring.take(taken), 0u);
+    ASSERT_EQ(ring.pop(popped), 3u);
+    EXPECT_EQ(popped, (std::vector<int>{10 * round, 10 * round + 1, 10 * round + 2}));
+    ASSERT_EQ(ring.pop(popped), 1u);
+    EXPECT_EQ(popped[0], 10 * round + 3);
+    EXPECT_EQ(ring.pop(popped), 0u);
   }
 }
 
-TEST(SpscRing, WithoutSlotsDropsAll) {
+TEST(SpscRing, DropsEveryRecordWithoutSlots) {
   IntRing ring;
-  ring.give(1);
-  std::vector<int> taken(1);
-  EXPECT_EQ(ring.take(taken), 0u);
+  ring.push(1);
+  std::vector<int> popped(1);
+  EXPECT_EQ(ring.pop(popped), 0u);
   EXPECT_EQ(ring.dropped(), 1u);
 }
 
@@ -63,16 +63,16 @@ class RingProgram final : public explorer::Program {
 
   void run(std::uint32_t thread) override {
     if (thread == 0) {
-      for (int value = 1; value <= kValues; ++value) ring_.give(value);
+      for (int value = 1; value <= kValues; ++value) ring_.push(value);
       return;
     }
     int last = 0;
     for (int i = 0; i < 3; ++i) {
-      std::array<int, 2> taken{};
-      const std::size_t count = ring_.take(taken);
+      std::array<int, 2> popped{};
+      const std::size_t count = ring_.pop(popped);
       for (std::size_t at = 0; at < count; ++at) {
-        if (taken[at] <= last) explorer::Execution::current().fail("out of order");
-        last = taken[at];
+        if (popped[at] <= last) explorer::Execution::current().fail("out of order");
+        last = popped[at];
       }
     }
     lasts_taken_ += last == kValues;
@@ -89,12 +89,12 @@ class RingProgram final : public explorer::Program {
 explorer::Report explore_ring() {
   std::uint64_t lasts_taken = 0;
   explorer::Report report = explorer::explore_all(
-      [&] { return std::make_unique<RingProgram>(lasts_taken); }, explorer::kFewStops);
+      [&] { return std::make_unique<RingProgram>(lasts_taken); }, explorer::kFewPreemptions);
   EXPECT_TRUE(lasts_taken > 0 || !report.failure.empty());
   return report;
 }
 
-TEST(SpscRingOrder, HoldsInEveryRun) { EXPECT_EQ(explore_ring().failure, ""); }
+TEST(SpscRingOrder, DeliversInOrderInEveryRun) { EXPECT_EQ(explore_ring().failure, ""); }
 
 class WeakenedRing : public testing::TestWithParam<RingStep> {
  protected:
@@ -102,11 +102,11 @@ class WeakenedRing : public testing::TestWithParam<RingStep> {
   void TearDown() override { ExploredRing::weakened = nullptr; }
 };
 
-TEST_P(WeakenedRing, IsCaught) { EXPECT_NE(explore_ring().failure, ""); }
+TEST_P(WeakenedRing, MakesSomeRunFail) { EXPECT_NE(explore_ring().failure, ""); }
 
 INSTANTIATE_TEST_SUITE_P(Steps, WeakenedRing,
-                         testing::Values(RingStep::kShow, RingStep::kSee, RingStep::kFree,
-                                         RingStep::kSeeFree));
+                         testing::Values(RingStep::kPublishRecord, RingStep::kSeeRecords,
+                                         RingStep::kFreeSlots, RingStep::kSeeFreeSlots));
 
 }  // namespace
 }  // namespace planetree::cache

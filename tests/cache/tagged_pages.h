@@ -40,7 +40,7 @@ class TaggedPages {
   }
 
   /// A FillPage; `context` is a TaggedPages.
-  static Result<Filled> fill(void* context, const FillRequest& request) {
+  static Result<FillResult> fill(void* context, const FillRequest& request) {
     auto& pages = *static_cast<TaggedPages*>(context);
     const std::uint32_t page = request.page;
     pages.fill_calls_.fetch_add(1, std::memory_order_relaxed);
@@ -49,7 +49,7 @@ class TaggedPages {
     if (pages.unreadable_.contains(page)) {
       return make_error(ErrorCode::kDamaged, page, Error::kNowhere, "page %u is damaged", page);
     }
-    return Filled::kFilled;
+    return FillResult::kFilled;
   }
 
   void make_unreadable(std::uint32_t page) { unreadable_.insert(page); }

@@ -15,7 +15,7 @@ struct Turnover {
   std::uint32_t frames = 1;    ///< 1 or 2
   std::uint32_t rounds = 1;    ///< each round gives every frame the other page
   bool notes_sections_too_early = false;
-  bool waits_for_nobody = false;
+  bool reuses_at_once = false;
   bool shows_the_wrong_page = false;
 };
 
@@ -60,7 +60,7 @@ class TurnoverProgram final : public explorer::Program {
       // Evicts all frames before it fills one, so that pages change frames.
       for (std::uint32_t frame = 0; frame < turnover_.frames; ++frame) evict(frame);
       for (std::uint32_t fetcher = 0; fetcher < turnover_.frames; ++fetcher) {
-        const std::uint32_t frame = turnover_.waits_for_nobody ? fetcher : take(fetcher);
+        const std::uint32_t frame = turnover_.reuses_at_once ? fetcher : take(fetcher);
         if (frame == kNoFrame) return;
         const std::uint32_t page = 1 - cache_.page_in(frame);
         cache_.install(frame, page);

@@ -22,17 +22,17 @@ using query::make_probe;
 using query::SampleModel;
 
 // Flips bits of a file in place and restores them.
-class Patient {
+class CorruptibleFile {
  public:
-  explicit Patient(const std::filesystem::path& path)
+  explicit CorruptibleFile(const std::filesystem::path& path)
       : bytes_(storage::read_bytes(path)), file_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {}
-  ~Patient() { ::close(file_); }
-  Patient(const Patient&) = delete;
-  Patient& operator=(const Patient&) = delete;
+  ~CorruptibleFile() { ::close(file_); }
+  CorruptibleFile(const CorruptibleFile&) = delete;
+  CorruptibleFile& operator=(const CorruptibleFile&) = delete;
 
   std::size_t size() const { return bytes_.size(); }
-  void turn(std::size_t at, unsigned bit) { put(at, bytes_[at] ^ std::byte{1} << bit); }
-  void heal(std::size_t at) { put(at, bytes_[at]); }
+  void flip(std::size_t at, unsigned bit) { put(at, bytes_[at] ^ std::byte{1} << bit); }
+  void restore(std::size_t at) { put(at, bytes_[at]); }
 
  private:
   void put(std::size_t at, std::byte byte) {
@@ -91,13 +91,13 @@ class StabilityBitFlip : public testing::Test {
 
 TEST_F(StabilityBitFlip, NeverGivesAWrongInterval) {
   ASSERT_GE(sample_.page_count(), 3u);
-  Patient patient(sample_.path());
+  CorruptibleFile file(sample_.path());
   std::map<std::string, std::size_t> outcomes;
-  for (std::size_t at = 0; at < patient.size(); ++at)
+  for (std::size_t at = 0; at < file.size(); ++at)
     for (unsigned bit = 0; bit < 8; ++bit) {
-      patient.turn(at, bit);
+      file.flip(at, bit);
       ++outcomes[outcome()];
-      patient.heal(at);
+      file.restore(at);
       ASSERT_FALSE(HasFailure()) << "byte " << at << ", bit " << bit;
     }
   EXPECT_EQ(outcome(), "unharmed");
@@ -108,7 +108,7 @@ TEST_F(StabilityBitFlip, NeverGivesAWrongInterval) {
   EXPECT_GT(outcomes["degraded"], 1000u);
   std::size_t all = 0;
   for (const auto& [name, count] : outcomes) all += count;
-  EXPECT_EQ(all, 8 * patient.size());
+  EXPECT_EQ(all, 8 * file.size());
 }
 
 }  // namespace

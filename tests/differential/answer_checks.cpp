@@ -170,15 +170,15 @@ constexpr long double kNearHalf = 1e-7L;
 // The true side, computed in the model frame, where the smallest subnormal numbers are rounded
 // away. kUnknown if the winding number is nearly one half.
 Side true_side(const BuiltModel& model, const Vec3& query) {
-  const auto scaled = [&](const Vec3& p) {
+  const auto to_frame = [&](const Vec3& p) {
     const auto scale = [&](double value) { return std::ldexp(value, model.scale_exponent()); };
     return Vec3{scale(p.x), scale(p.y), scale(p.z)};
   };
   Soup triangles = model.triangles();
   for (Corners& triangle : triangles)
-    for (Vec3& corner : triangle) corner = scaled(corner);
-  if (model.model().info().watertight()) return exact_side(scaled(query), triangles);
-  const Vec3 point = scaled(query);
+    for (Vec3& corner : triangle) corner = to_frame(corner);
+  if (model.model().info().watertight()) return exact_side(to_frame(query), triangles);
+  const Vec3 point = to_frame(query);
   if (!(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z)))
     return Side::kOutside;
   const OpenWinding winding = open_winding(point, triangles);

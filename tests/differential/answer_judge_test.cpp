@@ -79,7 +79,7 @@ void expect_all_right(const Soup& soup, const Judgement& judgement) {
   for (const std::string& fault : judgement.faults) EXPECT_EQ(fault, "");
 }
 
-TEST(AnswerJudge, LetsRightAnswersOfAWatertightMeshPass) {
+TEST(AnswerJudge, AcceptsRightAnswersOfAWatertightMesh) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
   std::vector<AnswerRow> rows;
@@ -93,7 +93,7 @@ TEST(AnswerJudge, LetsRightAnswersOfAWatertightMeshPass) {
   }
 }
 
-TEST(AnswerJudge, LetsRightAnswersOfAnOpenMeshPass) {
+TEST(AnswerJudge, AcceptsRightAnswersOfAnOpenMesh) {
   const Soup soup = open_solids();
   JudgedMesh mesh(soup);
   std::vector<AnswerRow> rows;
@@ -121,7 +121,7 @@ TEST(AnswerJudge, SumsSolidAnglesWithinItsLimits) {
   }
 }
 
-TEST(AnswerJudge, LetsHonestInexactAnswersPass) {
+TEST(AnswerJudge, AcceptsRightInexactAnswers) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
   std::vector<AnswerRow> rows;
@@ -141,26 +141,26 @@ TEST(AnswerJudge, LetsHonestInexactAnswersPass) {
 }
 
 // A change to a right answer, and text that the judge must report then.
-struct Lie {
-  const char* said;
-  std::function<void(AnswerRow&)> tell;
+struct FaultCase {
+  const char* expected;
+  std::function<void(AnswerRow&)> change;
 };
 
-void expect_found(const JudgedMesh& mesh, const AnswerRow& right, const Lie& lie) {
+void expect_found(const JudgedMesh& mesh, const AnswerRow& right, const FaultCase& fault_case) {
   ASSERT_EQ(mesh.fault(right), "");
   AnswerRow wrong = right;
-  lie.tell(wrong);
-  EXPECT_NE(mesh.fault(wrong).find(lie.said), std::string::npos)
-      << "not '" << lie.said << "' but '" << mesh.fault(wrong) << "'";
+  fault_case.change(wrong);
+  EXPECT_NE(mesh.fault(wrong).find(fault_case.expected), std::string::npos)
+      << "not '" << fault_case.expected << "' but '" << mesh.fault(wrong) << "'";
 }
 
 // The query is 0.5 away from a face of the last box.
-TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
+TEST(AnswerJudge, FindsEveryFaultInAnExactAnswer) {
   const Soup soup = solids();
   JudgedMesh mesh(soup);
   const AnswerRow right = mesh.closest_point({3.5, 0.25, 0.5});
   const std::uint64_t far = 0;
-  const Lie lies[] = {
+  const FaultCase fault_cases[] = {
       {"is nearer than the interval",
        [](AnswerRow& row) {
          row.lower = std::nextafter(0.5, 1);
@@ -193,7 +193,7 @@ TEST(AnswerJudge, FindsEveryLieInAnExactAnswer) {
       {"point is outside", [](AnswerRow& row) { row.side = Side::kInside; }},
       {"point is outside", [](AnswerRow& row) { row.side = Side::kOnSurface; }},
       {"point is outside", [](AnswerRow& row) { row.side = Side::kUnknown; }}};
-  for (const Lie& lie : lies) expect_found(mesh, right, lie);
+  for (const FaultCase& fault_case : fault_cases) expect_found(mesh, right, fault_case);
 }
 
 // Three or more faces meet at a corner; the first of them must be named.
@@ -228,7 +228,7 @@ TEST(AnswerJudge, FindsWrongSidesOfAnOpenMesh) {
   expect_found(mesh, mesh.closest_point({3, 0, 0}), {"on the surface", says(Side::kInside)});
 }
 
-TEST(AnswerJudge, FindsLiesInInexactAnswers) {
+TEST(AnswerJudge, FindsFaultsInInexactAnswers) {
   JudgedMesh mesh(solids());
   const Vec3 query{3.5, 0.25, 0.5};
   const auto too_high = [](AnswerRow& row) { row.lower = std::nextafter(0.5, 1); };
@@ -246,13 +246,13 @@ TEST(AnswerJudge, FindsLiesInInexactAnswers) {
   expect_found(mesh, degraded, {"no triangle is within", too_low});
 }
 
-TEST(AnswerJudge, SaysThatThereIsNoMesh) {
+TEST(AnswerJudge, ReportsAMissingMesh) {
   const auto judgement = judge_answers("/nonexistent/mesh.ply", {});
   ASSERT_FALSE(judgement);
   EXPECT_EQ(judgement.error().code, ErrorCode::kNotFound);
 }
 
-TEST(AnswerRows, ReadsWhatAQueryWrote) {
+TEST(AnswerRows, ReadsTheOutputOfQuery) {
   std::istringstream csv(
       "x,y,z,distance,lower,upper,side,px,py,pz,nx,ny,nz,triangle,feature,status\n"
       "1,-2,0.5,3,2.5,3.5,on_surface,0,0,0,0,0,1,17,edge,within_error\n"
@@ -274,7 +274,7 @@ TEST(AnswerRows, ReadsWhatAQueryWrote) {
   EXPECT_EQ(rows->back().status, Status::kBadQuery);
 }
 
-TEST(AnswerRows, RefusesWhatNoQueryWrites) {
+TEST(AnswerRows, RefusesMalformedRows) {
   const std::string header = "x,y,z,distance,lower,upper,side,triangle,status\n";
   for (const std::string& text :
        {std::string(), std::string("x,y,z,side,status\n0,0,0,inside,exact\n"),

@@ -14,7 +14,7 @@ namespace {
 const Corners kTriangle{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 3, 0}};
 
 // Known answers in each of the seven regions.
-TEST(BruteForce, KnowsEveryRegion) {
+TEST(BruteForce, GivesKnownDistancesInEveryRegion) {
   struct Known {
     Vec3 query;
     double distance;
@@ -38,7 +38,7 @@ TEST(BruteForce, IsExactAtAnyScale) {
 }
 
 // Skipping far triangles misses none. The models include segments and points.
-TEST(BruteForce, AgreesWithLookingAtEach) {
+TEST(BruteForce, AgreesWithEvaluatingEveryTriangle) {
   for (const NastyFamily& family : nasty_families()) {
     Random random(8);
     const Soup triangles = family.make(random);

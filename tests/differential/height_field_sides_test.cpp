@@ -54,7 +54,7 @@ class HeightFieldSides {
   Probe other_;
 };
 
-TEST(HeightFieldSides, TakeNoPagesBesideThoseOfDistances) {
+TEST(HeightFieldSides, NeedNoPagesBesidesThoseOfDistances) {
   HeightFieldSides sides(ball(4));
   EXPECT_GT(sides.share_spared(0.3), 0.9);
   EXPECT_GT(sides.share_spared(-0.3), 0.9);
@@ -62,7 +62,7 @@ TEST(HeightFieldSides, TakeNoPagesBesideThoseOfDistances) {
 
 // If every inner point is inside twice, or the surface is inside out, no face decides a side by
 // itself.
-TEST(HeightFieldSides, AreLookedForWhereFacesDoNotTellThem) {
+TEST(HeightFieldSides, AreComputedWhereFacesDoNotDecideThem) {
   for (const Soup& soup : {ball(4) + ball(4), inside_out(ball(4))}) {
     HeightFieldSides sides(soup);
     EXPECT_EQ(sides.share_spared(0.3), 0);

@@ -52,9 +52,10 @@ struct Seen {
 };
 
 /// A model, and the file of its region: of the triangles that touch a box.
-class Parted {
+class WholeAndRegion {
  public:
-  Parted(const Soup& soup, const RegionBox& box, double size = 1, std::uint32_t page_bytes = 4096)
+  WholeAndRegion(const Soup& soup, const RegionBox& box, double size = 1,
+                 std::uint32_t page_bytes = 4096)
       : whole_(soup, {page_bytes, 1 << 20, 1}),
         part_(soup, {page_bytes, 1 << 20, 1, box}),
         walls_(part_.model().info()),
@@ -71,7 +72,8 @@ class Parted {
     const ClosestPoint answer = part_.closest_point(query, options);
     SCOPED_TRACE(testing::Message() << "at " << query.x << ' ' << query.y << ' ' << query.z);
     check_interval(query, truth, answer);
-    if (answer.status == Status::kExact) expect_same_bits(answer, as_far_as_told(answer, truth));
+    if (answer.status == Status::kExact)
+      expect_same_bits(answer, without_unknown_side(answer, truth));
     check_status(query, options, truth, answer);
     check_side(query, options, truth, answer);
   }
@@ -79,7 +81,7 @@ class Parted {
  private:
   // Without a side, normals follow the orientation of the mesh. They are sums in the order of a
   // tree, so their last bits may differ.
-  static ClosestPoint as_far_as_told(const ClosestPoint& answer, ClosestPoint truth) {
+  static ClosestPoint without_unknown_side(const ClosestPoint& answer, ClosestPoint truth) {
     const Vec3 &n = answer.normal, &m = truth.normal;
     const double along = n.x * m.x + n.y * m.y + n.z * m.z;
     if ((answer.side == Side::kUnknown ? std::fabs(along) : along) > 1 - 1e-14) truth.normal = n;
@@ -100,11 +102,11 @@ class Parted {
                     const ClosestPoint& answer) {
     const bool plain =
         options.max_error == 0 && options.max_distance == kNoWall && options.max_work > 1000;
-    const double capacity = walls_.distance(query) - size_ * 1e-10;
-    if (plain && truth.upper < capacity) {
+    const double wall_margin = walls_.distance(query) - size_ * 1e-10;
+    if (plain && truth.upper < wall_margin) {
       EXPECT_EQ(answer.status, Status::kExact);
     }
-    if (plain && truth.lower > capacity + size_ * 2e-10) {
+    if (plain && truth.lower > wall_margin + size_ * 2e-10) {
       EXPECT_EQ(answer.status, Status::kDegraded);
     }
     if (answer.status == Status::kWithinError) {

@@ -91,14 +91,14 @@ void expect_same_for_all(std::span<const NastyFamily> families, std::uint64_t se
   }
 }
 
-TEST(ProbeMemory, ChangesNoAnswerOfNastyModels) { expect_same_for_all(nasty_families(), 12); }
+TEST(ProbeCoherence, ChangesNoAnswerOfNastyModels) { expect_same_for_all(nasty_families(), 12); }
 
-TEST(ProbeMemory, ChangesNoAnswerOfClosedModels) { expect_same_for_all(closed_families(), 13); }
+TEST(ProbeCoherence, ChangesNoAnswerOfClosedModels) { expect_same_for_all(closed_families(), 13); }
 
 // Winding numbers of 2, of 0 within a solid, and more triangles than are kept at once.
-TEST(ProbeMemory, ChangesNoAnswerAlongASurface) {
+TEST(ProbeCoherence, ChangesNoAnswerAlongASurface) {
   Random random(14);
-  const Soup twice = ball(5) + perturbed(scaled(ball(5), 0.75), {0.5, 0.25, 0});
+  const Soup twice = ball(5) + translated(scaled(ball(5), 0.75), {0.5, 0.25, 0});
   const Soup hollow = ball(5) + inside_out(scaled(ball(4), 0.5));
   const Soup nested = ball(4) + scaled(ball(5), 0.75);
   for (const Soup& soup : {twice, hollow, nested, ball(3)})

@@ -55,7 +55,7 @@ TEST(RandomModels, AnswerExactly) {
       1, [](Random&, NastyModel& model, const Vec3& query) { expect_sound(model.built, query); });
 }
 
-TEST(RandomModels, KeepTheErrorAskedFor) {
+TEST(RandomModels, StayWithinMaxError) {
   each_nasty_case(2, [](Random& random, NastyModel& model, const Vec3& query) {
     QueryOptions options;
     options.max_error = model.size * random.magnitude(-52, 2);
@@ -63,7 +63,7 @@ TEST(RandomModels, KeepTheErrorAskedFor) {
   });
 }
 
-TEST(RandomModels, LookNoFartherThanAsked) {
+TEST(RandomModels, StopAtMaxDistance) {
   each_nasty_case(3, [](Random& random, NastyModel& model, const Vec3& query) {
     const double distance = model.built.closest_point(query).distance;
     QueryOptions options;
@@ -89,7 +89,7 @@ TEST(RandomModels, LookNoFartherThanAsked) {
   });
 }
 
-TEST(RandomModels, StopAfterTheNodesAskedFor) {
+TEST(RandomModels, StopAtMaxWork) {
   each_nasty_case(4, [](Random& random, NastyModel& model, const Vec3& query) {
     QueryOptions options;
     options.max_work = static_cast<std::uint32_t>(random.below(12));
@@ -99,7 +99,7 @@ TEST(RandomModels, StopAfterTheNodesAskedFor) {
   });
 }
 
-TEST(RandomModels, AnswerAlikeWithHardlyAnyMemoryAndInBatches) {
+TEST(RandomModels, AnswersAreTheSameInLittleMemoryAndInBatches) {
   for (const NastyFamily& family : nasty_families()) {
     Random random(5);
     const Soup triangles = family.make(random);

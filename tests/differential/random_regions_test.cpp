@@ -22,7 +22,7 @@ void check_families(std::span<const NastyFamily> families, std::uint64_t seed,
       SCOPED_TRACE(std::string(family.name) + " model " + std::to_string(i));
       const Soup soup = scaled(family.make(random), size);
       const RegionBox box = random_box(random, soup, size);
-      Parted model(soup, box, size, random.one_in(2) ? 65536 : 4096);
+      WholeAndRegion model(soup, box, size, random.one_in(2) ? 65536 : 4096);
       for (int k = 0; k < 60 && !testing::Test::HasFailure(); ++k) {
         QueryOptions options;
         if (random.one_in(4)) options.max_error = size * random.magnitude(-20, 1);
@@ -41,7 +41,7 @@ void check_families(std::span<const NastyFamily> families, std::uint64_t seed,
     }
 }
 
-TEST(RandomRegions, AnswerAsTheWholeDoesOfNastyModels) {
+TEST(RandomRegions, MatchTheWholeModelForNastyModels) {
   Seen seen;
   check_families(nasty_families(), 7000, {1}, seen);
   EXPECT_GT(seen.exact, 100);
@@ -50,7 +50,7 @@ TEST(RandomRegions, AnswerAsTheWholeDoesOfNastyModels) {
   EXPECT_GT(seen.beyond, 10);
 }
 
-TEST(RandomRegions, AnswerAsTheWholeDoesOfNastyWatertightModels) {
+TEST(RandomRegions, MatchTheWholeModelForNastyWatertightModels) {
   Seen seen;
   check_families(closed_families(), 8000, {1, 1, 0x1p-996, 0x1p500, 0x1p37}, seen);
   EXPECT_GT(seen.exact, 100);

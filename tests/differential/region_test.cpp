@@ -16,7 +16,7 @@ namespace {
 // Queries all over the region and around it. Every point within the walls gets a side.
 void check_solid(const Soup& soup, const RegionBox& box, Seen* seen = nullptr) {
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
-    Parted model(soup, box, 1, page_bytes);
+    WholeAndRegion model(soup, box, 1, page_bytes);
     ASSERT_TRUE(model.part().model().info().watertight());
     Random random(9);
     for (int k = 0; k < 300 && !testing::Test::HasFailure(); ++k) {
@@ -30,15 +30,15 @@ void check_solid(const Soup& soup, const RegionBox& box, Seen* seen = nullptr) {
   }
 }
 
-TEST(Region, CutsThinParts) {
+TEST(Region, AnswersWhereTheBoxCutsThinParts) {
   check_solid(box({0, 0, 0}, {1, 1, 1e-6}), {{0.25, 0.25, -1}, {0.5, 0.5, 1}});
   check_solid(box({0, 0, 0}, {1, 1, 1e-6}), {{0.25, 0.25, 5e-7}, {0.5, 0.5, 2e-6}});
   check_solid(box({0, 0, 0}, {1, 1e-9, 1e-9}), {{0.25, -1, 4e-10}, {0.5, 1, 1}});
 }
 
-TEST(Region, KnowsNestedAndOverlappingSolids) {
+TEST(Region, FindsSidesInNestedAndOverlappingSolids) {
   const Soup nested = ball(3) + scaled(inside_out(ball(3)), 0.75) + scaled(ball(2), 0.5);
-  const Soup twice = ball(3) + perturbed(ball(3), {0.3, 0.1, 0.2});
+  const Soup twice = ball(3) + translated(ball(3), {0.3, 0.1, 0.2});
   for (const Soup& soup : {nested, twice, inside_out(twice), twice + twice}) {
     Seen seen;
     check_solid(soup, {{0.1, -0.2, -0.3}, {0.9, 0.4, 0.35}}, &seen);
@@ -48,16 +48,16 @@ TEST(Region, KnowsNestedAndOverlappingSolids) {
 
 // Far inside, every exit segment needs surface that the region lacks: every winding number is two
 // or three.
-TEST(Region, CountsWhatWindsAboutItFromFarAway) {
+TEST(Region, CountsWindingsOfSurfaceOutsideTheRegion) {
   const Soup shells = ball(3) + scaled(ball(2), 1.5) + scaled(ball(2), 0.5);
-  Parted model(shells, {{0.3, -0.2, -0.2}, {0.6, 0.2, 0.2}});
+  WholeAndRegion model(shells, {{0.3, -0.2, -0.2}, {0.6, 0.2, 0.2}});
   EXPECT_EQ(model.part().probe().contains({0.55, 0, 0}).side, Side::kInside);
   Seen seen;
   check_solid(shells, {{0.3, -0.2, -0.2}, {0.6, 0.2, 0.2}}, &seen);
   EXPECT_EQ(seen.outside, 0);
 }
 
-TEST(Region, MayHaveItsWallsInFacesAndVertices) {
+TEST(Region, AcceptsWallsInFacesAndVertices) {
   const Soup cube = box({0, 0, 0}, {1, 1, 1}), two = cube + box({1, 0, 0}, {2, 1, 1});
   check_solid(cube, {{0, 0, 0}, {1, 1, 1}});
   check_solid(cube, {{0.5, 0, 0}, {1, 0.5, 0.5}});
@@ -77,14 +77,14 @@ TEST(Region, MayBeAPlaneALineOrAPoint) {
 }
 
 // If the box is larger than the model, nothing is missing.
-TEST(Region, ThatHoldsAllAnswersAsTheWholeDoesEverywhere) {
+TEST(Region, OfTheWholeModelAnswersAsTheModelDoes) {
   Random random(12);
   Soup holed = ball(3);
   holed.resize(300);
   for (const Soup& soup : {ball(3), holed}) {
     for (const RegionBox& box :
          {RegionBox{{-1, -1, -1}, {1, 1, 1}}, RegionBox{{-1e300, -2, -1e9}, {3, 1e308, 1}}}) {
-      Parted model(soup, box);
+      WholeAndRegion model(soup, box);
       EXPECT_EQ(model.part().model().info().triangles, soup.size());
       EXPECT_EQ(model.part().model().info().content_id[0],
                 model.whole().model().info().content_id[0]);
@@ -99,7 +99,7 @@ TEST(Region, ThatHoldsAllAnswersAsTheWholeDoesEverywhere) {
 // Half a model has one wall. Away from the wall, answers reach the model's other sides and beyond.
 TEST(Region, HasWallsOnlyWithinTheModel) {
   const Soup solid = ball(4);
-  Parted model(solid, {{-5, -5, 0.2}, {5, 5, 5}});
+  WholeAndRegion model(solid, {{-5, -5, 0.2}, {5, 5, 5}});
   for (const Vec3& query : {Vec3{0, 0, 3}, Vec3{0.9, 0, 1.5}, Vec3{0, 0, 1e4}}) {
     model.check(query);
     EXPECT_EQ(model.part().closest_point(query).status, Status::kExact);
@@ -119,12 +119,12 @@ TEST(Region, HasWallsOnlyWithinTheModel) {
 
 // So far away that all of the model is in one direction. The other coordinates of a point decide
 // which walls it is beyond.
-TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
+TEST(Region, FindsTheWallsThatAFarPointIsBeyond) {
   const Soup cube = box({0, 0, 0}, {1, 1, 1});
   for (const double far : {1e80, 1e100, 1e300, 1e308, -1e100}) {
     for (const RegionBox& box :
          {RegionBox{{0.25, -10, -10}, {10, 10, 10}}, RegionBox{{-10, -10, -10}, {0.5, 10, 10}}}) {
-      Parted model(cube, box);
+      WholeAndRegion model(cube, box);
       for (const double x : {0.1, 0.4, 0.9}) {
         const bool within = box.lower.x <= x && x <= box.upper.x;
         const Side side = within ? Side::kOutside : Side::kUnknown;
@@ -139,18 +139,18 @@ TEST(Region, KnowsFromFarAwayWhichWallsAPointIsBeyond) {
 }
 
 // If the wall is as far as the surface, something beyond the wall could be nearer after rounding.
-TEST(Region, IsCarefulWhereTheWallIsAsNearAsTheSurface) {
+TEST(Region, IsDegradedWhereTheWallIsAsNearAsTheSurface) {
   const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
-  Parted model(two, {{-1, -1, -1}, {2, 2, 2}});
+  WholeAndRegion model(two, {{-1, -1, -1}, {2, 2, 2}});
   for (const double step : {0.0, 0x1p-52, -0x1p-52, 1e-9, -1e-9})
     model.check({1.5 + step, 0.5, 0.5});
   EXPECT_EQ(model.part().closest_point({1.5, 0.5, 0.5}).status, Status::kDegraded);
   EXPECT_EQ(model.part().closest_point({1.5 - 1e-9, 0.5, 0.5}).status, Status::kExact);
 }
 
-TEST(Region, LooksNoFartherThanAskedIfThatIsProven) {
+TEST(Region, StopsAtMaxDistanceOnlyIfThatIsProven) {
   const Soup two = box({0, 0, 0}, {1, 1, 1}) + box({3, 0, 0}, {4, 1, 1});
-  Parted model(two, {{-1, -1, -1}, {2.5, 2, 2}});
+  WholeAndRegion model(two, {{-1, -1, -1}, {2.5, 2, 2}});
   QueryOptions options;
   options.max_distance = 0.25;
   model.check({2, 0.5, 0.5}, options);
@@ -165,10 +165,10 @@ TEST(Region, LooksNoFartherThanAskedIfThatIsProven) {
   EXPECT_EQ(model.part().closest_point({2.375, 0.5, 0.5}, options).status, Status::kWithinError);
 }
 
-TEST(Region, AnswersBatchesAndRealTimeAsksAlike) {
-  const Soup solid = ball(4) + perturbed(ball(3), {0.4, 0.3, 0.2});
+TEST(Region, BatchesAndRealTimeQueriesGiveTheSameAnswers) {
+  const Soup solid = ball(4) + translated(ball(3), {0.4, 0.3, 0.2});
   const RegionBox box{{-0.1, -0.2, 0.1}, {0.7, 0.6, 1}};
-  Parted model(solid, box);
+  WholeAndRegion model(solid, box);
   Random random(31);
   std::vector<Vec3> queries;
   for (int k = 0; k < 400; ++k) queries.push_back(some_query(random, solid, box, 1));
@@ -184,7 +184,7 @@ TEST(Region, AnswersBatchesAndRealTimeAsksAlike) {
   }
 }
 
-TEST(Region, MustTouchTheModel) {
+TEST(Region, RefusesABoxThatTouchesNoTriangle) {
   for (const RegionBox& box :
        {RegionBox{{2, 2, 2}, {3, 3, 3}}, RegionBox{{0, 0, 0}, {0.1, 0.1, 0.1}},
         RegionBox{{0.9, 0.9, 0.9}, {1, 1, 1}}}) {

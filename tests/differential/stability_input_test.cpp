@@ -42,17 +42,17 @@ const std::string kVertices =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     "v 0 0 10\nv 1 0 10\nv 0 1 10\n";
 
-TEST(StabilityInput, FaceOfAVertexThatIsNotThereIsSetAside) {
+TEST(StabilityInput, FaceWithAMissingVertexIsSkipped) {
   expect_skipped(kVertices + "f 1 2 3\nf 1 2 99\nf 4 5 6\n");
 }
 
-TEST(StabilityInput, FaceOfTwoCornersIsSetAside) {
+TEST(StabilityInput, FaceWithTwoCornersIsSkipped) {
   expect_skipped(kVertices + "f 1 2 3\nf 1 2\nf 4 5 6\n");
 }
 
 // In every format: an infinite vertex and, where the format has them, an index out of range and a
 // face of two corners. The good faces keep their indices and are found.
-TEST(StabilityInput, BadRecordsOfEveryFormatAreSetAsideAndTheRestAnswers) {
+TEST(StabilityInput, BadRecordsOfEveryFormatAreSkippedAndTheRestAnswers) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const octree::MeshFormat& format :
        octree::formats_that([](const octree::MeshFormat&) { return true; })) {
@@ -76,7 +76,7 @@ TEST(StabilityInput, BadRecordsOfEveryFormatAreSetAsideAndTheRestAnswers) {
 }
 
 // In a binary file a vertex may be NaN or infinite.
-TEST(StabilityInput, VertexThatIsNoNumberIsSetAside) {
+TEST(StabilityInput, NonFiniteVertexIsSkipped) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Soup triangles{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}},

@@ -58,15 +58,16 @@ TEST(StabilityMotion, ScalingByAPowerOfTwo) {
 TEST(StabilityMotion, TranslationByAPowerOfTwo) {
   Random random(2);
   const auto coordinate = [&] { return static_cast<double>(random.below(1 << 20)) * 0x1p-20; };
-  const auto index = [&] { return Vec3{coordinate(), coordinate(), coordinate()}; };
+  const auto lattice_point = [&] { return Vec3{coordinate(), coordinate(), coordinate()}; };
   Soup triangles;
-  for (int i = 0; i < 150; ++i) triangles.push_back({index(), index(), index()});
+  for (int i = 0; i < 150; ++i)
+    triangles.push_back({lattice_point(), lattice_point(), lattice_point()});
   BuiltModel original(triangles);
   std::vector<Vec3> queries;
-  for (int i = 0; i < 100; ++i) queries.push_back(index());
+  for (int i = 0; i < 100; ++i) queries.push_back(lattice_point());
   for (const int exponent : {1, 8, 16, 24, 31}) {
     const Vec3 offset = Vec3{1, -1, 1} * std::ldexp(1.0, exponent);
-    BuiltModel model(perturbed(triangles, offset));
+    BuiltModel model(translated(triangles, offset));
     for (const Vec3& query : queries) {
       const ClosestPoint expected = original.closest_point(query);
       const ClosestPoint answer = expect_sound(model, query + offset);
@@ -84,17 +85,17 @@ TEST(StabilityMotion, Rotation) {
   const std::vector<Vec3> queries = some_queries(triangles, 100);
   for (const double angle : {0.1, 1.0, 2.5}) {
     const double c = std::cos(angle), s = std::sin(angle);
-    const auto turned = [&](const Vec3& p) {
+    const auto rotated = [&](const Vec3& p) {
       return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
     };
     Soup around = triangles;
     for (Corners& triangle : around)
-      for (Vec3& corner : triangle) corner = turned(corner);
+      for (Vec3& corner : triangle) corner = rotated(corner);
     BuiltModel model(around);
     for (const Vec3& query : queries) {
       const double before = original.closest_point(query).distance;
       const double largest = 3 + std::fabs(query.x) + std::fabs(query.y) + std::fabs(query.z);
-      EXPECT_NEAR(expect_sound(model, turned(query)).distance, before, 8 * 0x1p-53 * largest);
+      EXPECT_NEAR(expect_sound(model, rotated(query)).distance, before, 8 * 0x1p-53 * largest);
     }
   }
 }
@@ -103,19 +104,19 @@ TEST(StabilityMotion, Rotation) {
 Soup closed_model(std::uint64_t seed) {
   Random random(seed);
   const auto coordinate = [&] { return static_cast<double>(random.below(1 << 20)) * 0x1p-20; };
-  const auto index = [&] {
+  const auto lattice_point = [&] {
     const double x = coordinate(), y = coordinate(), z = coordinate();
     return Vec3{x, y, z};
   };
   Soup soup;
   for (int i = 0; i < 20; ++i) {
-    const Vec3 a = index(), b = index(), c = index(), d = index();
+    const Vec3 a = lattice_point(), b = lattice_point(), c = lattice_point(), d = lattice_point();
     soup = soup + tetrahedron(a, b, c, d);
   }
   return soup;
 }
 
-void expect_same_place(const ClosestPoint& answer, const ClosestPoint& expected) {
+void expect_same_distance_and_side(const ClosestPoint& answer, const ClosestPoint& expected) {
   EXPECT_EQ(answer.distance, expected.distance);
   EXPECT_EQ(answer.side, expected.side);
   EXPECT_EQ(answer.status, expected.status);
@@ -128,7 +129,7 @@ void expect_direction(const Vec3& found, const Vec3& expected) {
 }
 
 // Whether the direction to the query can orient the normal.
-bool can_be_certain(const ClosestPoint& answer) { return answer.distance > 1e-9; }
+bool has_certain_direction(const ClosestPoint& answer) { return answer.distance > 1e-9; }
 
 TEST(StabilityMotion, ScalingAWatertightModelByAPowerOfTwo) {
   const Soup triangles = closed_model(5);
@@ -154,7 +155,7 @@ TEST(StabilityMotion, TranslationOfAWatertightModel) {
   Random random(6);
   BuiltModel original(triangles);
   for (const Vec3& offset : {Vec3{1, -3, 0.5}, Vec3{-4096, 0, 1024.25}, Vec3{1, 1, 1} * 0x1p30}) {
-    BuiltModel model(perturbed(triangles, offset));
+    BuiltModel model(translated(triangles, offset));
     for (int i = 0; i < 100; ++i) {
       const Vec3 on_lattice = [&] {
         const auto coordinate = [&] {
@@ -166,7 +167,7 @@ TEST(StabilityMotion, TranslationOfAWatertightModel) {
       const Vec3 query = i % 3 == 0 ? triangles[random.below(triangles.size())][0] : on_lattice;
       const ClosestPoint expected = original.closest_point(query),
                          answer = model.closest_point(query + offset);
-      expect_same_place(answer, expected);
+      expect_same_distance_and_side(answer, expected);
       EXPECT_EQ(answer.triangle, expected.triangle);
       expect_direction(answer.normal, expected.normal);
     }
@@ -190,7 +191,7 @@ TEST(StabilityMotion, OrderOfTriangles) {
   for (const Vec3& query : queries) {
     const ClosestPoint expected = original.closest_point(query),
                        answer = expect_sound(model, query);
-    expect_same_place(answer, expected);
+    expect_same_distance_and_side(answer, expected);
     if (was[answer.triangle] != expected.triangle) continue;  // a tie, and now the first
     EXPECT_EQ(answer.lower, expected.lower);
     EXPECT_EQ(answer.upper, expected.upper);
@@ -207,18 +208,18 @@ TEST(StabilityMotion, OrderOfCorners) {
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t turns = i % 3; turns > 0; --turns)
       triangles[i] = {triangles[i][1], triangles[i][2], triangles[i][0]};
-  BuiltModel turned(triangles), reversed(inside_out(triangles));
+  BuiltModel rotated(triangles), reversed(inside_out(triangles));
   for (const Vec3& query : queries) {
     const ClosestPoint expected = original.closest_point(query);
-    for (BuiltModel* model : {&turned, &reversed}) {
+    for (BuiltModel* model : {&rotated, &reversed}) {
       const ClosestPoint answer = expect_sound(*model, query);
-      expect_same_place(answer, expected);
+      expect_same_distance_and_side(answer, expected);
       EXPECT_EQ(answer.triangle, expected.triangle);
       EXPECT_EQ(answer.feature, expected.feature);
     }
     // Normals point out of the solid, however its faces are oriented.
-    if (can_be_certain(expected)) {
-      expect_direction(turned.closest_point(query).normal, expected.normal);
+    if (has_certain_direction(expected)) {
+      expect_direction(rotated.closest_point(query).normal, expected.normal);
       expect_direction(reversed.closest_point(query).normal, expected.normal);
     }
   }
@@ -243,7 +244,8 @@ TEST(StabilityMotion, Mirror) {
       EXPECT_LE(answer.lower, expected.upper);
       EXPECT_GE(answer.upper, expected.lower);
       if (answer.triangle != expected.triangle || answer.feature != expected.feature) continue;
-      if (can_be_certain(expected)) expect_direction(answer.normal, mirrored(expected.normal));
+      if (has_certain_direction(expected))
+        expect_direction(answer.normal, mirrored(expected.normal));
     }
   }
 }

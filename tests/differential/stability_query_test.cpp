@@ -71,7 +71,7 @@ TEST(StabilityQuery, AnyDistance) {
 }
 
 // NaN or infinity in any coordinate gives kBadQuery.
-TEST(StabilityQuery, NotANumber) {
+TEST(StabilityQuery, NonFiniteCoordinates) {
   BuiltModel model(strip(3));
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity})
     for (const Vec3& query : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}, Vec3{0, 0, bad}}) {
@@ -86,7 +86,7 @@ TEST(StabilityQuery, NotANumber) {
 }
 
 // Bad limits are refused; an infinite max_distance is not one.
-TEST(StabilityQuery, LimitsThatAreNoNumbers) {
+TEST(StabilityQuery, BadLimits) {
   BuiltModel model(strip(3));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {nan, -1.0, -kInfinity, kInfinity}) {
@@ -118,7 +118,7 @@ TEST(StabilityQuery, DistanceBeyondDoubles) {
 
 // A surface within max_distance is found, however large an error is allowed.
 TEST(StabilityQuery, ErrorAndDistanceLimitsTogether) {
-  BuiltModel model(perturbed(strip(100), {0, 9.5, 0}));
+  BuiltModel model(translated(strip(100), {0, 9.5, 0}));
   QueryOptions options;
   options.max_error = 1;
   options.max_distance = 10;
@@ -144,7 +144,7 @@ TEST(StabilityQuery, DistanceLimitAtTheDistance) {
 }
 
 // No work at all still gives bounds.
-TEST(StabilityQuery, NoNodes) {
+TEST(StabilityQuery, ZeroWork) {
   BuiltModel model(strip(300));
   QueryOptions options;
   options.max_work = 0;

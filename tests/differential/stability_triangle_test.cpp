@@ -177,8 +177,8 @@ TEST(StabilityTriangle, OrderDoesNotMatter) {
   const Corners corners{a, b, c};
   for (const auto& order : {Order{0, 1, 2}, Order{0, 2, 1}, Order{1, 0, 2}, Order{1, 2, 0},
                             Order{2, 0, 1}, Order{2, 1, 0}}) {
-    const Corners turned{corners[order[0]], corners[order[1]], corners[order[2]]};
-    BuiltModel model({other, turned, {a, b, c}, other});
+    const Corners permuted{corners[order[0]], corners[order[1]], corners[order[2]]};
+    BuiltModel model({other, permuted, {a, b, c}, other});
     for (const Vec3& query : queries) {
       const ClosestPoint expected = reference.closest_point(query),
                          answer = expect_sound(model, query);

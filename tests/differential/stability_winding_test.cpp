@@ -35,7 +35,7 @@ void expect_sides(const Soup& triangles, int count, std::uint64_t seed = 1) {
 
 // The boundary of the inside follows the hole inward: sides never jump, and the middle is inside
 // until less than half of the sphere is left.
-TEST(StabilityWinding, AHoleThatGrows) {
+TEST(StabilityWinding, GrowingHole) {
   double depth_before = 2;
   for (double rim = 0.99; rim > -0.6; rim -= 0.15) {
     SCOPED_TRACE(rim);
@@ -65,7 +65,7 @@ TEST(StabilityWinding, AHoleThatGrows) {
 }
 
 // A part with reversed faces counts against the rest, and only near it.
-TEST(StabilityWinding, AFlippedPatch) {
+TEST(StabilityWinding, PartWithReversedFaces) {
   Soup faces = ball(4);
   for (Corners& t : faces)
     if (t[0].z + t[1].z + t[2].z > 3 * 0.9) std::swap(t[0], t[1]);
@@ -79,15 +79,15 @@ TEST(StabilityWinding, AFlippedPatch) {
 }
 
 // Inside out, the surface encloses the same points.
-TEST(StabilityWinding, AnInsideOutBowl) {
+TEST(StabilityWinding, InsideOutBowl) {
   const Soup faces = bowl(3, 0.7);
-  BuiltModel model(faces), turned(inside_out(faces));
+  BuiltModel model(faces), reversed(inside_out(faces));
   Random random(2);
   for (int i = 0; i < 200; ++i) {
     const Vec3 query = random.in_cube() * 1.2;
-    EXPECT_EQ(side_of(model, query), side_of(turned, query));
+    EXPECT_EQ(side_of(model, query), side_of(reversed, query));
     const Vec3 normal = model.closest_point(query).normal,
-               other = turned.closest_point(query).normal;
+               other = reversed.closest_point(query).normal;
     EXPECT_EQ(normal.x, other.x);
     EXPECT_EQ(normal.y, other.y);
     EXPECT_EQ(normal.z, other.z);
@@ -127,7 +127,7 @@ TEST(StabilityWinding, BesideADoubledFace) {
 }
 
 // However little work is allowed, a known side is true. More work makes more sides known.
-TEST(StabilityWinding, WorkThatEnds) {
+TEST(StabilityWinding, LimitedWork) {
   const Soup faces = bowl(4, 0.3);
   BuiltModel model(faces);
   const ModelInfo& info = model.model().info();

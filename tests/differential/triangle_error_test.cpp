@@ -51,7 +51,7 @@ Case beside(Random& random, Case at) {
   return at;
 }
 
-TEST(TriangleError, IsNeverMoreThanClaimed) {
+TEST(TriangleError, NeverExceedsItsBound) {
   double worst = 0;
   for (const NastyFamily& family : nasty_families()) {
     SCOPED_TRACE(std::string(family.name));

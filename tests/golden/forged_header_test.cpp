@@ -27,7 +27,7 @@ std::string open_with_root_link(std::uint32_t link) {
   return model ? "opened" : model.error().text;
 }
 
-TEST(ForgedHeader, HasItsRootOnPageZero) {
+TEST(ForgedHeader, MustHaveItsRootOnPageZero) {
   EXPECT_EQ(open_with_root_link(0x80000002), "opened");
   for (const std::uint32_t page : {1u, 2u, 500'000u, (1u << 25) - 1})
     EXPECT_NE(open_with_root_link(0x80000002 | page << 6).find("root"), std::string::npos) << page;

@@ -50,7 +50,7 @@ class Update final : public testing::Environment {
 [[maybe_unused]] const testing::Environment* const kUpdate =
     testing::AddGlobalTestEnvironment(new Update);
 
-TEST_P(Samples, AreWhatTheBuilderMakes) {
+TEST_P(Samples, MatchTheBuildersOutput) {
   const Sample& sample = GetParam();
   const std::vector<std::byte> expected = read_file(sample.ptree_path());
   for (const unsigned threads : {1u, 2u})
@@ -66,7 +66,7 @@ TEST(Samples, AreSmall) {
   EXPECT_LE(total, 100'000u);
 }
 
-TEST(Samples, HaveALineInTheirReadme) {
+TEST(Samples, AreListedInTheReadme) {
   std::ifstream stream(samples().front().mesh_path().parent_path() / "README.md");
   const std::string readme{std::istreambuf_iterator<char>(stream), {}};
   for (const auto& file :
@@ -77,7 +77,7 @@ TEST(Samples, HaveALineInTheirReadme) {
   }
 }
 
-TEST(SampleListing, IsTheWorkedExample) {
+TEST(SampleListing, MatchesTheWorkedExample) {
   const std::vector<std::byte> bytes = read_file(samples().front().ptree_path());
   const std::string file = list_file(bytes);
   const std::string page = list_page(SpecFile(bytes).raw_page(0));

@@ -45,7 +45,7 @@ struct HeightFieldSample {
   std::vector<SpecTriangle> all;
 };
 
-TEST(SpecHeightFields, AreOfBlocksThatHaveTheOutsideInFrontAndTheInsideBehind) {
+TEST(SpecHeightFields, HaveTheOutsideInFrontAndTheInsideBehind) {
   for (const Sample& sample : {sphere_sample(), boxes_sample()}) {
     const HeightFieldSample file(sample);
     const std::size_t count = file.each_height_field([&](const SpecBlock& block) {

@@ -153,7 +153,7 @@ TEST_P(SpecLists, HaveEveryBlockThatTouchesAnOctant) {
   EXPECT_LE(bits, needed + needed / 100);
 }
 
-TEST_P(SpecLists, LeaveOctantsOfOneWindingNumber) {
+TEST_P(SpecLists, UnlistedOctantsHaveOneWindingNumber) {
   std::size_t certain = 0;
   each_listed([&](const SpecCell& cell, const SpecMaskRecord& record) {
     unsigned met = 0;
@@ -234,7 +234,7 @@ TEST_P(SpecLists, HaveSlabsWithOneWindingNumberOnEitherSide) {
 }
 
 // Two cones of many faces: around their tips no leaf can list all blocks.
-TEST(SpecListsOfMany, AreLeftOut) {
+TEST(SpecListsOfManyBlocks, AreNotStored) {
   constexpr int kSides = 500;
   const storage::TemporaryDirectory folder;
   std::ofstream mesh(folder / "cones.obj");

@@ -68,7 +68,7 @@ std::string name_of(const testing::TestParamInfo<Sample>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, SpecMasks, testing::ValuesIn(watertight_samples()), name_of);
 
-TEST(SpecMaskSamples, AreOfEveryWatertightMesh) {
+TEST(SpecMaskSamples, ExistForEveryWatertightMesh) {
   for (const Sample& sample : samples()) {
     const SpecHeader header = SpecFile(read_file(sample.ptree_path())).header();
     EXPECT_EQ(header.mask_pages > 0, sample.mesh != kOpenMesh) << sample.mesh;
@@ -89,7 +89,7 @@ TEST(SpecMaskSamples, HaveRecordsOfAllKindsButPlainLeaves) {
   EXPECT_NE(inverted, 0u);
 }
 
-TEST_P(SpecMasks, RecordsAreOneMask) {
+TEST_P(SpecMasks, RecordsFormOneTree) {
   std::size_t records = 0, visited = 0;
   unsigned levels = 0;
   for (const SpecMaskPage& page : mask_.pages()) records += page.records.size();
@@ -165,7 +165,7 @@ TEST_P(SpecMasks, CornersAreWindingNumbers) {
 }
 
 // Signs are computed in double. Points so close to a plane that a sign may be wrong are skipped.
-TEST_P(SpecMasks, SpecialCellsAreTwoWindingNumbers) {
+TEST_P(SpecMasks, SpecialCellsHaveTwoWindingNumbers) {
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     if (record.kind != 4) return;
     for (int i = 0; i < 27; ++i) {

@@ -76,11 +76,11 @@ double off(const std::array<SpecPoint, 3>& stored, const std::array<SpecPoint, 3
 }
 
 // far() of "Side of a point: any other surface".
-struct Far {
+struct FarShare {
   double value, error;
 };
 
-Far far(const SpecTree& tree, const SpecChild& child, const SpecPoint& p) {
+FarShare far(const SpecTree& tree, const SpecChild& child, const SpecPoint& p) {
   const SpecPoint q = minus(p, tree.header().centre), d = minus(middle_of(child), q);
   const double slack =
       0x1p-50 * (1 + std::max({std::fabs(q[0]), std::fabs(q[1]), std::fabs(q[2])}));
@@ -130,7 +130,7 @@ SpecTree open_sample() {
   throw std::runtime_error("no sample has moments");
 }
 
-TEST(SpecMoments, AreThoseOfTheTriangles) {
+TEST(SpecMoments, MatchTheTriangles) {
   const SpecTree tree = open_sample();
   each_child(tree, [&](const SpecChild& child) {
     const Integrals exact = integrate(tree, child);
@@ -144,7 +144,7 @@ TEST(SpecMoments, AreThoseOfTheTriangles) {
   });
 }
 
-TEST(SpecMoments, TellSharesOfWindingNumbers) {
+TEST(SpecMoments, GiveSharesOfWindingNumbers) {
   const SpecTree tree = open_sample();
   std::mt19937_64 random(7);
   const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-51 - 2; };

@@ -21,9 +21,9 @@
 namespace planetree::golden {
 namespace {
 
-class SpecPromises : public testing::TestWithParam<Sample> {
+class SpecGuarantees : public testing::TestWithParam<Sample> {
  protected:
-  SpecPromises() : tree_(SpecFile(read_file(GetParam().ptree_path()))) {}
+  SpecGuarantees() : tree_(SpecFile(read_file(GetParam().ptree_path()))) {}
 
   // Calls look(page number, link, node) for every node.
   template <class Look>
@@ -39,9 +39,9 @@ std::string name_of(const testing::TestParamInfo<Sample>& info) {
   return std::filesystem::path(info.param.mesh).stem();
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SpecPromises, testing::ValuesIn(samples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(samples()), name_of);
 
-TEST_P(SpecPromises, RecordsAreOneTree) {
+TEST_P(SpecGuarantees, RecordsFormOneTree) {
   std::set<std::uint32_t> linked = {tree_.header().root_link};
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children)
@@ -59,7 +59,7 @@ TEST_P(SpecPromises, RecordsAreOneTree) {
   EXPECT_EQ(tree_.header().block_count, blocks);
 }
 
-TEST_P(SpecPromises, LinksBetweenPagesLeadDownToRoots) {
+TEST_P(SpecGuarantees, LinksBetweenPagesLeadDownToRoots) {
   std::map<std::uint32_t, std::uint32_t> parent_of;
   each_node([&](std::uint32_t page, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children) {
@@ -75,7 +75,7 @@ TEST_P(SpecPromises, LinksBetweenPagesLeadDownToRoots) {
   EXPECT_EQ(tree_.pages()[0].roots, std::set{tree_.header().root_link});
 }
 
-TEST_P(SpecPromises, BoxesNestWithinAndAcrossPages) {
+TEST_P(SpecGuarantees, BoxesNestWithinAndAcrossPages) {
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -102,7 +102,7 @@ std::vector<SpecPoint> corners_below(const SpecTree& tree, std::uint32_t link) {
   return corners;
 }
 
-TEST_P(SpecPromises, BoxesEncloseWithoutSlack) {
+TEST_P(SpecGuarantees, BoxesEncloseWithoutSlack) {
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children)
       for (const SpecPoint& d : corners_below(tree_, child.link))
@@ -129,14 +129,14 @@ void expect_enclosed(const SpecDisc& disc, const SpecPoint& d) {
   EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 4 * 0x1p-24);
 }
 
-TEST_P(SpecPromises, DiscsEncloseWithTheirSlack) {
+TEST_P(SpecGuarantees, DiscsEncloseWithTheirSlack) {
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children)
       for (const SpecPoint& d : corners_below(tree_, child.link)) expect_enclosed(child.disc, d);
   });
 }
 
-TEST_P(SpecPromises, RootBoxIsTheLeast) {
+TEST_P(SpecGuarantees, RootBoxIsTight) {
   const std::uint32_t root = tree_.header().root_link;
   if (SpecTree::is_block(root)) return;  // a block has no box of its own
   const std::vector<SpecPoint> corners = corners_below(tree_, root);
@@ -154,7 +154,7 @@ TEST_P(SpecPromises, RootBoxIsTheLeast) {
   }
 }
 
-TEST_P(SpecPromises, HeightsCountTheLongestWay) {
+TEST_P(SpecGuarantees, HeightsAreThoseOfTheLongestPath) {
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     unsigned below = 0;
     for (const SpecChild& child : node.children)
@@ -167,7 +167,7 @@ TEST_P(SpecPromises, HeightsCountTheLongestWay) {
   EXPECT_EQ(tree_.header().height, SpecTree::is_block(root) ? 0 : tree_.node(root).height);
 }
 
-TEST_P(SpecPromises, BlocksAreSmallAndAscend) {
+TEST_P(SpecGuarantees, BlocksAreSmallAndAscend) {
   for (const SpecPage& page : tree_.pages())
     for (const auto& [link, block] : page.blocks) {
       EXPECT_GE(block.triangles.size(), 1u);
@@ -178,7 +178,7 @@ TEST_P(SpecPromises, BlocksAreSmallAndAscend) {
     }
 }
 
-TEST_P(SpecPromises, VerticesAreNumberedByFirstUse) {
+TEST_P(SpecGuarantees, VerticesAreNumberedByFirstUse) {
   for (const SpecPage& page : tree_.pages()) {
     std::map<SpecPoint, std::uint32_t> number_of;
     for (const auto& [link, block] : page.blocks) {
@@ -226,7 +226,7 @@ std::uint64_t octcode_below(const SpecTree& tree, std::uint32_t link) {
   return (length / 3) << 59 | std::stoull(prefix, nullptr, 2) << 2 | length % 3;
 }
 
-TEST_P(SpecPromises, PageKeysNameTheirFirstSubtree) {
+TEST_P(SpecGuarantees, PageKeysNameTheirFirstSubtree) {
   for (const SpecPage& page : tree_.pages()) {
     std::uint64_t least = ~std::uint64_t{0};
     for (const std::uint32_t root : page.roots) least = std::min(least, octcode_below(tree_, root));
@@ -234,7 +234,7 @@ TEST_P(SpecPromises, PageKeysNameTheirFirstSubtree) {
   }
 }
 
-TEST_P(SpecPromises, OrdinalsCountPagesOfOneCell) {
+TEST_P(SpecGuarantees, OrdinalsCountPagesOfOneCell) {
   std::map<std::uint64_t, std::uint32_t> pages;
   for (const SpecPage& page : tree_.pages()) EXPECT_EQ(page.ordinal, pages[page.octcode]++);
 }

@@ -88,7 +88,7 @@ TEST_P(SpecReader, FindsBoxAndSampleInTheMesh) {
 }
 
 // Reader and library share no code, so their rounding may differ in the last bits.
-TEST_P(SpecReader, AnswersAsTheLibraryDoes) {
+TEST_P(SpecReader, AgreesWithTheLibrary) {
   const SpecTree tree = open_tree(GetParam());
   const auto model = Model::open(GetParam().ptree_path());
   ASSERT_TRUE(model) << model.error().text;
@@ -111,7 +111,7 @@ TEST_P(SpecReader, AnswersAsTheLibraryDoes) {
   }
 }
 
-TEST(SpecReaderFile, GoesByTheLastHeaderWhenTheFirstIsDamaged) {
+TEST(SpecReaderFile, UsesTheLastHeaderWhenTheFirstIsDamaged) {
   std::vector<std::byte> bytes = read_file(samples().front().ptree_path());
   bytes[100] ^= std::byte{1};
   EXPECT_EQ(SpecFile(bytes).header().triangle_count, 4u);
@@ -126,7 +126,7 @@ void read_all(const std::vector<std::byte>& bytes) {
 }
 
 // A hash or check covers every byte. Only the header has a second copy.
-TEST(SpecReaderFile, NoticesEveryDamagedByteButOfOneHeader) {
+TEST(SpecReaderFile, DetectsEveryDamagedByteOutsideTheHeaders) {
   const std::vector<std::byte> whole = read_file(samples().front().ptree_path());
   for (std::size_t at = 576; at + 576 < whole.size(); ++at) {
     std::vector<std::byte> bytes = whole;

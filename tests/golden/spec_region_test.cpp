@@ -70,7 +70,7 @@ class SpecRegion : public testing::Test {
   }
 };
 
-TEST_F(SpecRegion, IsWhatTheBuilderMakes) {
+TEST_F(SpecRegion, MatchesTheBuildersOutput) {
   const Sample& sample = region_sample();
   EXPECT_EQ(build_bytes(sample.mesh_path(), sample.page_bytes, 2, sample.box),
             read_file(sample.ptree_path()))
@@ -89,7 +89,7 @@ TEST_F(SpecRegion, HasTheHeaderOfTheWhole) {
   EXPECT_EQ(whole.input_triangles, 0u);
 }
 
-TEST_F(SpecRegion, HoldsWhatTouchesIt) {
+TEST_F(SpecRegion, HoldsTheTrianglesThatTouchIt) {
   std::map<std::uint64_t, std::array<SpecPoint, 3>> kept;
   for (const SpecTriangle& triangle : tree_.triangles(header().root_link))
     kept[triangle.id] = triangle.corners;
@@ -117,7 +117,7 @@ TEST_F(SpecRegion, HoldsWhatTouchesIt) {
 }
 
 TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
-  std::size_t side_grid = 0, corners = 0, beyond = 0;
+  std::size_t coloured_cells = 0, corners = 0, beyond = 0;
   mask_.each_grey([&](const SpecCell& cell, const SpecMaskRecord& record) {
     for (unsigned i = 0; i < 8; ++i) {
       if (record.is_node() && (record.grey >> i & 1) == 0) {
@@ -132,7 +132,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
         ASSERT_TRUE(number);
         EXPECT_EQ(*number > 0, (record.black >> i & 1) != 0);
         EXPECT_EQ(*number < 0, (record.inverted >> i & 1) != 0);
-        ++side_grid;
+        ++coloured_cells;
       } else if (record.has_corners()) {
         const auto number = winding(mask_.corner(cell, i));
         if (!number) continue;
@@ -141,7 +141,7 @@ TEST_F(SpecRegion, HasTheWindingNumbersOfTheWhole) {
       }
     }
   });
-  EXPECT_GT(side_grid, 0u);
+  EXPECT_GT(coloured_cells, 0u);
   EXPECT_GT(corners, 0u);
   EXPECT_GT(beyond, 0u);
   const auto number = winding(mask_.corner({}, 0));

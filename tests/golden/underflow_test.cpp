@@ -28,7 +28,7 @@ std::string fan_of_slivers(int triangle_count) {
   return text;
 }
 
-TEST(Underflow, MakesOnePositionOfBothZeros) {
+TEST(Underflow, JoinsPositiveAndNegativeZero) {
   const storage::TemporaryDirectory folder;
   std::ofstream(folder / "slivers.obj") << fan_of_slivers(100);
   const SpecTree tree{SpecFile(build_bytes(folder / "slivers.obj", 4096, 1))};

@@ -34,30 +34,30 @@ std::set<std::string> paths() {
   return all;
 }
 
-TEST(House, HasSourcesToRead) {
+TEST(SourceRules, FindsSources) {
   EXPECT_TRUE(paths().contains("include/planetree/error.h"));
   EXPECT_TRUE(paths().contains("tests/layering/house_test.cpp"));
 }
 
-TEST(House, IncludesOnlyWhatItsLayersAllow) {
+TEST(SourceRules, IncludesFollowTheLayers) {
   for (const SourceText& source : sources()) {
     for (const std::string& line : forbidden_includes(source)) ADD_FAILURE() << line;
   }
 }
 
-TEST(House, ReachesNoFolderThatItsRowDoesNotName) {
+TEST(SourceRules, ReachesNoFolderThatItsRowDoesNotName) {
   std::map<std::string, SourceText> by_path;
   for (const SourceText& source : sources()) by_path.emplace(source.path, source);
   for (const SourceText& source : sources())
     for (const std::string& line : forbidden_reach(source, by_path)) ADD_FAILURE() << line;
 }
 
-TEST(House, HasNoArrowThatRunsBackUp) {
+TEST(SourceRules, HasNoArrowThatRunsBackUp) {
   for (const std::string& line : arrows_back_up(layers())) ADD_FAILURE() << line;
 }
 
 // A folder is a CMake target: planetree_add_layer() names the folders that it depends on.
-TEST(House, StatesTheSameFoldersToCMake) {
+TEST(SourceRules, StatesTheSameFoldersToCMake) {
   const std::map<std::string, CMakeLayer> targets = read_cmake_layers(kRoot);
   for (const Layer& layer : layers()) {
     const std::string folder(layer.folder);
@@ -72,7 +72,7 @@ TEST(House, StatesTheSameFoldersToCMake) {
   }
 }
 
-TEST(House, EveryFolderSaysWhatItHolds) {
+TEST(SourceRules, EveryFolderSaysWhatItHolds) {
   for (const Layer& layer : layers()) {
     if (layer.folder.starts_with("include")) continue;
     EXPECT_TRUE(std::filesystem::exists(kRoot + '/' + std::string(layer.folder) + "/README.md"))
@@ -80,14 +80,14 @@ TEST(House, EveryFolderSaysWhatItHolds) {
   }
 }
 
-TEST(House, FoldersStaySmall) {
+TEST(SourceRules, FoldersStaySmall) {
   constexpr int kMaxFiles = 40;
   std::map<std::string, int> counts;
   for (const SourceText& source : sources()) ++counts[source.folder()];
   for (const auto& [folder, count] : counts) EXPECT_LE(count, kMaxFiles) << folder;
 }
 
-TEST(House, SourcesIncludeTheirOwnHeaderFirst) {
+TEST(SourceRules, SourcesIncludeTheirOwnHeaderFirst) {
   const std::set<std::string> all = paths();
   for (const SourceText& source : sources()) {
     if (source.is_header()) continue;
@@ -100,20 +100,20 @@ TEST(House, SourcesIncludeTheirOwnHeaderFirst) {
   }
 }
 
-TEST(House, HeadersSayPragmaOnce) {
+TEST(SourceRules, HeadersHavePragmaOnce) {
   for (const SourceText& source : sources()) {
     if (!source.is_header() || source.path.ends_with("-inl.h")) continue;
     EXPECT_TRUE(source.text.find("#pragma once\n") != std::string::npos) << source.path;
   }
 }
 
-TEST(House, FilesStayShort) {
+TEST(SourceRules, FilesStayShort) {
   for (const SourceText& source : sources()) {
     EXPECT_LE(std::ranges::count(source.text, '\n'), kLongestFileLines) << source.path;
   }
 }
 
-TEST(House, InstallsEveryPublicHeader) {
+TEST(SourceRules, InstallsEveryPublicHeader) {
   std::ifstream stream(kRoot + "/cmake/library.cmake");
   const std::set<std::string> words{std::istream_iterator<std::string>(stream), {}};
   for (const SourceText& source : sources()) {

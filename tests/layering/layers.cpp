@@ -43,8 +43,8 @@ bool is_allowed_by_row(const Layer& layer, std::string_view include) {
   return begins_with_any(include, layer.libraries);
 }
 
-bool is_allowed_by_keepers(const SourceText& source, std::string_view include) {
-  return std::ranges::all_of(kept_headers(), [&](const KeptHeader& kept) {
+bool is_allowed_includer(const SourceText& source, std::string_view include) {
+  return std::ranges::all_of(restricted_headers(), [&](const RestrictedHeader& kept) {
     return !include.starts_with(kept.beginning) || begins_with_any(source.path, kept.includers);
   });
 }
@@ -169,8 +169,8 @@ const std::vector<Layer>& layers() {
   return all;
 }
 
-const std::vector<KeptHeader>& kept_headers() {
-  static const std::vector<KeptHeader> all = {
+const std::vector<RestrictedHeader>& restricted_headers() {
+  static const std::vector<RestrictedHeader> all = {
       // The reader written from the specification shares no line with ours.
       {"lz4", {"storage/file/page_codec.cpp", "tests/golden/spec_reader.cpp"}},
       {"liburing",
@@ -194,7 +194,7 @@ std::vector<std::string> forbidden_includes(const SourceText& source) {
   std::vector<std::string> found;
   if (!layer && !is_free(folder)) found.push_back(source.path + " lies in a folder without a row");
   for (const std::string& include : includes_of(source.text)) {
-    if ((!layer || is_allowed_by_row(*layer, include)) && is_allowed_by_keepers(source, include))
+    if ((!layer || is_allowed_by_row(*layer, include)) && is_allowed_includer(source, include))
       continue;
     found.push_back(source.path + " may not include " + include);
   }

@@ -22,14 +22,14 @@ struct Layer {
 };
 
 /// A library that only a few files or folders may include.
-struct KeptHeader {
+struct RestrictedHeader {
   std::string_view beginning;  ///< beginning of the include name
   Names includers;             ///< beginnings of paths from the root of the repository
 };
 
 /// One row for each folder of sources, the lowest first.
 const std::vector<Layer>& layers();
-const std::vector<KeptHeader>& kept_headers();
+const std::vector<RestrictedHeader>& restricted_headers();
 
 /// The row of a folder, or null.
 const Layer* layer_of(std::string_view folder);

@@ -14,19 +14,19 @@ Lines forbidden_in(const std::string& path, const std::string& text) {
   return forbidden_includes({path, text});
 }
 
-TEST(SourceText, FindsIncludesHoweverTheyAreWritten) {
+TEST(SourceText, FindsIncludesInAnySpelling) {
   EXPECT_EQ(includes_of("#include \"cache/limbo.h\"\nint a;\n  #  include <sys/mman.h> // b\n"
                         "// #include <c>\n#pragma once\n#include MACRO\n#include <vector>"),
             (Lines{"cache/limbo.h", "sys/mman.h", "vector"}));
 }
 
-TEST(SourceText, TellsTheStandardLibraryFromTheRest) {
+TEST(SourceText, RecognisesStandardHeaders) {
   EXPECT_TRUE(is_standard_header("vector"));
   EXPECT_FALSE(is_standard_header("lz4.h"));
   EXPECT_FALSE(is_standard_header("Eigen/Core"));
 }
 
-TEST(Layers, AllowWhatLiesBelow) {
+TEST(Layers, AllowFoldersBelow) {
   EXPECT_EQ(forbidden_in("octree/builder/merge.cpp",
                          "#include \"storage/file/page_writer.h\"\n"
                          "#include \"octree/geometry/plane.h\"\n"
@@ -37,7 +37,7 @@ TEST(Layers, AllowWhatLiesBelow) {
             Lines{});
 }
 
-TEST(Layers, RefuseWhatLiesAboveOrBeside) {
+TEST(Layers, RefuseFoldersAboveOrBeside) {
   EXPECT_EQ(forbidden_in("storage/file/a.cpp", "#include \"cache/limbo.h\"\n"),
             Lines{"storage/file/a.cpp may not include cache/limbo.h"});
   EXPECT_EQ(forbidden_in("cache/a.h", "#include \"storage/file/page_file.h\"\n").size(), 1u);
@@ -77,7 +77,7 @@ TEST(Layers, RefuseIncludesRelativeToTheIncluder) {
   EXPECT_EQ(forbidden_in("cache/a.h", "#include \"../storage/system/mapping.h\"\n").size(), 1u);
 }
 
-TEST(Layers, KeepLibrariesToTheirSoleIncluders) {
+TEST(Layers, RestrictLibrariesToTheirIncluders) {
   EXPECT_EQ(forbidden_in("storage/file/page_file.cpp", "#include <lz4.h>\n").size(), 1u);
   EXPECT_EQ(forbidden_in("storage/file/page_codec.cpp", "#include <xxhash.h>\n").size(), 1u);
   EXPECT_EQ(forbidden_in("include/planetree/a.h", "#include <Eigen/Core>\n").size(), 1u);

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_passed_over(const fs::path& folder) {
+bool is_skipped(const fs::path& folder) {
   const std::string name = folder.filename().string();
   return name.starts_with('.') || name == "build" || name.starts_with("cmake-build");
 }
@@ -51,7 +51,7 @@ std::vector<SourceText> read_sources(const fs::path& root) {
     if (entry->is_directory()) {
       // Only a folder named build at the root holds build trees.
       const bool is_at_root = entry.depth() == 0;
-      if (is_at_root && is_passed_over(entry->path())) entry.disable_recursion_pending();
+      if (is_at_root && is_skipped(entry->path())) entry.disable_recursion_pending();
       continue;
     }
     const fs::path extension = entry->path().extension();

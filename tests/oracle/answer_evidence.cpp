@@ -32,7 +32,7 @@ double AnswerEvidence::reach() const {
   return is_exact() || any ? answer_->upper : answer_->lower;
 }
 
-void AnswerEvidence::see_near(std::uint64_t index, const Corners& triangle) {
+void AnswerEvidence::add_near(std::uint64_t index, const Corners& triangle) {
   const Vec3& query = answer_->query;
   if (answer_->lower == 0 && compare_distance(query, triangle, 0) == 0) on_surface_ = true;
   if (answer_->lower > 0 && is_nearer(query, triangle, answer_->lower))
@@ -50,12 +50,12 @@ void AnswerEvidence::see_near(std::uint64_t index, const Corners& triangle) {
   first_ = index;
 }
 
-void AnswerEvidence::see_named(const Corners& triangle) {
+void AnswerEvidence::add_named(const Corners& triangle) {
   named_seen_ = true;
   named_within_ = is_within(answer_->query, triangle, answer_->upper);
 }
 
-void AnswerEvidence::see_ahead(const Corners& triangle) {
+void AnswerEvidence::add_ahead(const Corners& triangle) {
   crossings_ += ray_crossing(answer_->query, triangle);
 }
 

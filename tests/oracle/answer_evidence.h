@@ -16,11 +16,11 @@ class AnswerEvidence {
 
   /// Triangles farther than this need not be added as near ones.
   [[nodiscard]] double reach() const;
-  void see_near(std::uint64_t index, const Corners& triangle);
+  void add_near(std::uint64_t index, const Corners& triangle);
   /// Adds the triangle that the answer names.
-  void see_named(const Corners& triangle);
+  void add_named(const Corners& triangle);
   /// Adds a triangle's crossing to the winding number; see ray_crossing().
-  void see_ahead(const Corners& triangle);
+  void add_ahead(const Corners& triangle);
 
   /// Fault of the distance, interval or triangle; empty if there is none.
   [[nodiscard]] std::string fault() const;

@@ -23,7 +23,9 @@ constexpr std::size_t kSolidAnglesOfEach = 10;
 
 // A bad query has no answer to judge.
 bool is_judged(const AnswerRow& answer) { return answer.status != Status::kBadQuery; }
-bool is_heard(const AnswerRow& answer) { return is_judged(answer) && is_finite(answer.query); }
+bool has_finite_query(const AnswerRow& answer) {
+  return is_judged(answer) && is_finite(answer.query);
+}
 
 octree::Triangle points_of(const Corners& t) {
   return {octree::Point(t[0].x, t[0].y, t[0].z), octree::Point(t[1].x, t[1].y, t[1].z),
@@ -31,9 +33,9 @@ octree::Triangle points_of(const Corners& t) {
 }
 
 // Collects, for each answer, evidence from the triangles that its ball and its ray may meet.
-class Hearing final : public TriangleRounds {
+class EvidenceCollector final : public TriangleRounds {
  public:
-  Hearing(std::span<const AnswerRow> answers, const JudgeLimits& limits)
+  EvidenceCollector(std::span<const AnswerRow> answers, const JudgeLimits& limits)
       : TriangleRounds(limits.round_triangles), answers_(answers), limits_(limits) {
     for (const AnswerRow& answer : answers) evidence_.emplace_back(answer);
   }
@@ -55,7 +57,7 @@ class Hearing final : public TriangleRounds {
   void take(std::span<const Corners> triangles, std::span<const std::uint64_t> indices) override {
     const Round round{triangles, indices, parts_of(triangles)};
     tbb::parallel_for(std::size_t{0}, answers_.size(), [&](std::size_t i) {
-      if (is_heard(answers_[i])) hear(round, answers_[i], evidence_[i]);
+      if (has_finite_query(answers_[i])) collect(round, answers_[i], evidence_[i]);
     });
   }
 
@@ -81,20 +83,20 @@ class Hearing final : public TriangleRounds {
     edges_.add(sum);
   }
 
-  static void hear(const Round& round, const AnswerRow& answer, AnswerEvidence& evidence) {
+  static void collect(const Round& round, const AnswerRow& answer, AnswerEvidence& evidence) {
     const auto named = std::ranges::lower_bound(round.indices, answer.triangle);
     if (named != round.indices.end() && *named == answer.triangle)
-      evidence.see_named(round.triangles[static_cast<std::size_t>(named - round.indices.begin())]);
+      evidence.add_named(round.triangles[static_cast<std::size_t>(named - round.indices.begin())]);
     thread_local std::vector<std::uint32_t> found;
     for (const Part& part : round.parts) {
       found.clear();
       part.triangles.find_near(answer.query, evidence.reach(), found);
       for (const std::uint32_t index : found)
-        evidence.see_near(round.indices[part.first + index], round.triangles[part.first + index]);
+        evidence.add_near(round.indices[part.first + index], round.triangles[part.first + index]);
       found.clear();
       part.triangles.find_ahead(answer.query, found);
       for (const std::uint32_t index : found)
-        evidence.see_ahead(round.triangles[part.first + index]);
+        evidence.add_ahead(round.triangles[part.first + index]);
     }
   }
 
@@ -144,7 +146,7 @@ std::vector<std::size_t> chosen(std::span<const AnswerRow> answers, const Judgem
   while ((answers.size() + step - 1) / step > affordable) ++step;
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < answers.size(); i += step)
-    if (is_heard(answers[i])) indices.push_back(i);
+    if (has_finite_query(answers[i])) indices.push_back(i);
   return indices;
 }
 
@@ -153,9 +155,9 @@ Result<void> judge_solid_angles(const std::filesystem::path& mesh,
                                 Judgement& judgement) {
   const std::vector<std::size_t> indices = chosen(answers, judgement, limits);
   if (indices.empty()) return {};
-  std::vector<const AnswerRow*> queried;
-  for (const std::size_t i : indices) queried.push_back(&answers[i]);
-  SolidAngles angles(std::move(queried), limits.round_triangles);
+  std::vector<const AnswerRow*> chosen_rows;
+  for (const std::size_t i : indices) chosen_rows.push_back(&answers[i]);
+  SolidAngles angles(std::move(chosen_rows), limits.round_triangles);
   if (const auto read = octree::read_mesh(mesh, angles); !read) return read.error();
   angles.finish();
   for (std::size_t k = 0; k < indices.size(); ++k)
@@ -169,20 +171,20 @@ Result<void> judge_solid_angles(const std::filesystem::path& mesh,
 
 Result<Judgement> judge_answers(const std::filesystem::path& mesh,
                                 std::span<const AnswerRow> answers, const JudgeLimits& limits) {
-  Hearing hearing(answers, limits);
-  if (const auto read = octree::read_mesh(mesh, hearing); !read) return read.error();
-  hearing.finish();
+  EvidenceCollector collector(answers, limits);
+  if (const auto read = octree::read_mesh(mesh, collector); !read) return read.error();
+  collector.finish();
   Judgement judgement;
-  judgement.triangles = hearing.triangle_count();
-  judgement.watertight = hearing.is_watertight();
+  judgement.triangles = collector.triangle_count();
+  judgement.watertight = collector.is_watertight();
   for (std::size_t i = 0; i < answers.size(); ++i) {
     std::string& fault = judgement.faults.emplace_back();
     if (!is_judged(answers[i])) {
       ++judgement.not_judged;
       continue;
     }
-    fault = hearing.evidence()[i].fault();
-    if (judgement.watertight && fault.empty()) fault = hearing.evidence()[i].side_fault();
+    fault = collector.evidence()[i].fault();
+    if (judgement.watertight && fault.empty()) fault = collector.evidence()[i].side_fault();
     judgement.sides_by_crossings += judgement.watertight;
   }
   if (const auto done = judge_solid_angles(mesh, answers, limits, judgement); !done)

@@ -41,7 +41,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-Result<Indices> places_in(const std::string& header) {
+Result<Indices> columns_in(const std::string& header) {
   const std::vector<std::string> names = fields_of(header);
   Indices indices{};
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
@@ -109,7 +109,7 @@ bool is_finite(const Vec3& query) {
 Result<std::vector<AnswerRow>> read_answers(std::istream& csv, std::size_t most) {
   std::string line;
   std::getline(csv, line);
-  const Result<Indices> indices = places_in(line);
+  const Result<Indices> indices = columns_in(line);
   if (!indices) return indices.error();
   std::vector<AnswerRow> rows;
   while (rows.size() < most && std::getline(csv, line)) {

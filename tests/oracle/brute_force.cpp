@@ -89,8 +89,9 @@ Fraction<Scalar> to_triangle(const Vector<Scalar>& p, const std::array<Vector<Sc
 
 Vector<long double> extended(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-Vector<Integer> whole(const Vec3& p, int exponent) {
-  return {oracle::whole(p.x, exponent), oracle::whole(p.y, exponent), oracle::whole(p.z, exponent)};
+Vector<Integer> to_integer(const Vec3& p, int exponent) {
+  return {oracle::to_integer(p.x, exponent), oracle::to_integer(p.y, exponent),
+          oracle::to_integer(p.z, exponent)};
 }
 
 Wide power_of_two(int exponent) { return ldexp(Wide(1), exponent); }
@@ -117,8 +118,8 @@ RoughBounds rough_bounds(const Vec3& query, const Corners& triangle) {
   };
   const Vector<long double> gap{outside(low.x, high.x, p.x), outside(low.y, high.y, p.y),
                                 outside(low.z, high.z, p.z)};
-  constexpr long double kCapacity = 0x1p-50L;
-  return {std::sqrt(dot(gap, gap)) * (1 - kCapacity), nearest * (1 + kCapacity)};
+  constexpr long double kRoundingMargin = 0x1p-50L;
+  return {std::sqrt(dot(gap, gap)) * (1 - kRoundingMargin), nearest * (1 + kRoundingMargin)};
 }
 
 }  // namespace
@@ -144,9 +145,10 @@ ExactSquare exact_square(const Vec3& query, const Corners& triangle) {
   int exponent = std::min({last_exponent(query), last_exponent(triangle[0]),
                            last_exponent(triangle[1]), last_exponent(triangle[2])});
   if (exponent == std::numeric_limits<int>::max()) exponent = 0;
-  auto fraction = to_triangle<Integer>(
-      whole(query, exponent),
-      {whole(triangle[0], exponent), whole(triangle[1], exponent), whole(triangle[2], exponent)});
+  auto fraction =
+      to_triangle<Integer>(to_integer(query, exponent),
+                           {to_integer(triangle[0], exponent), to_integer(triangle[1], exponent),
+                            to_integer(triangle[2], exponent)});
   return {std::move(fraction.numerator), std::move(fraction.denominator), exponent};
 }
 

@@ -14,11 +14,11 @@ Vec3 on_lattice(Random& random, std::size_t steps) {
   return {coordinate(), coordinate(), coordinate()};
 }
 
-template <class Place>
-Soup tetrahedra(std::size_t count, const Place& index) {
+template <class MakePoint>
+Soup tetrahedra(std::size_t count, const MakePoint& make_point) {
   Soup soup;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 a = index(), b = index(), c = index(), d = index();
+    const Vec3 a = make_point(), b = make_point(), c = make_point(), d = make_point();
     soup = soup + tetrahedron(a, b, c, d);
   }
   return soup;
@@ -71,7 +71,7 @@ Soup rotated_ball(Random& random) {
 
 // As far from the origin, and as small, as details in map coordinates.
 Soup far_away(Random& random) {
-  return perturbed(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
+  return translated(tetrahedra(20, [&] { return random.in_cube() * 0x1p-16; }), {1, -0.75, 0.5});
 }
 
 Vec3 on_sphere(const Vec3& a, const Vec3& b) {

@@ -154,7 +154,7 @@ Soup grid(Random& random) {
 Soup map_coordinates(Random& random) {
   const double distance = random.magnitude(5, 45);
   const Soup near = soup(random);
-  return perturbed(near, random.in_cube() * distance);
+  return translated(near, random.in_cube() * distance);
 }
 
 // Triangles that all share one corner.
@@ -221,7 +221,7 @@ Soup scaled(Soup triangles, double factor) {
   return triangles;
 }
 
-Soup perturbed(Soup triangles, const Vec3& offset) {
+Soup translated(Soup triangles, const Vec3& offset) {
   for (Corners& triangle : triangles)
     for (Vec3& corner : triangle) corner = corner + offset;
   return triangles;

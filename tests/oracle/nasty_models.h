@@ -33,7 +33,7 @@ std::array<double, 2> on_circle(double turn);
 /// Multiplies every corner by `factor`.
 Soup scaled(Soup triangles, double factor);
 /// Adds `offset` to every corner.
-Soup perturbed(Soup triangles, const Vec3& offset);
+Soup translated(Soup triangles, const Vec3& offset);
 
 /// A random point in the triangle's plane, mostly within the triangle.
 Vec3 point_on(Random& random, const Corners& triangle);

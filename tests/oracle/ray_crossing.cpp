@@ -9,7 +9,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 // Projection along the ray: y and z.
 Kernel::Point_2 seen(const Vec3& p) { return {p.y, p.z}; }
-Kernel::Point_3 scaled(const Vec3& p) { return {p.x, p.y, p.z}; }
+Kernel::Point_3 to_point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
@@ -29,8 +29,8 @@ int ray_crossing(const Vec3& query, const Corners& t) {
       perturbed_side(t[2], t[0], query) != side)
     return 0;
   // The projection is counterclockwise where the triangle's normal points along the ray.
-  const auto height =
-      static_cast<int>(CGAL::orientation(scaled(t[0]), scaled(t[1]), scaled(t[2]), scaled(query)));
+  const auto height = static_cast<int>(
+      CGAL::orientation(to_point(t[0]), to_point(t[1]), to_point(t[2]), to_point(query)));
   return height == -side ? side : 0;
 }
 

@@ -26,7 +26,7 @@ inline int last_exponent(const Vec3& p) {
 }
 
 /// value / 2^exponent, which must be an integer.
-inline Integer whole(double value, int exponent) {
+inline Integer to_integer(double value, int exponent) {
   if (value == 0) return 0;
   int top = 0;
   const double fraction = std::frexp(value, &top);

@@ -56,7 +56,7 @@ int volume_sign(const Difference& u, const Difference& v, const Difference& w) {
     exponent = std::min({exponent, last_exponent(d->from), last_exponent(d->to)});
   const auto exact = [exponent](const Difference& d) {
     const auto along = [exponent](double from, double to) {
-      return Integer(whole(to, exponent) - whole(from, exponent));
+      return Integer(to_integer(to, exponent) - to_integer(from, exponent));
     };
     return Triple<Integer>{along(d.from.x, d.to.x), along(d.from.y, d.to.y),
                            along(d.from.z, d.to.z)};

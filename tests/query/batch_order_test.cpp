@@ -25,26 +25,26 @@ std::vector<std::size_t> order_of(std::size_t count, const Code& code) {
 
 std::uint64_t scattered(std::size_t i) { return i * i * 7919 * 104729 % kCodes; }
 
-TEST(BatchOrder, GoesByCode) {
+TEST(BatchOrder, OrdersQueriesByCode) {
   const std::uint64_t codes[] = {kCodes - 1, 0, kCodes / 2, kCodes / 4};
   EXPECT_EQ(order_of(4, [&](std::size_t i) { return codes[i]; }),
             (std::vector<std::size_t>{1, 3, 2, 0}));
 }
 
-TEST(BatchOrder, TellsPlacesApartThatAreAllInOneCorner) {
+TEST(BatchOrder, OrdersCodesThatShareTheirLeadingBits) {
   const std::size_t count = 1000;
   const auto code = [](std::size_t i) { return kCodes / 3 * 2 + i * 7 % count; };
   const auto order = order_of(count, code);
   for (std::size_t i = 1; i < count; ++i) EXPECT_LT(code(order[i - 1]), code(order[i]));
 }
 
-TEST(BatchOrder, GoesByAsManyBitsAsAnIndexLeaves) {
+TEST(BatchOrder, OrdersByTheCodeBitsThatTheIndexLeaves) {
   const auto order = order_of(100'000, &scattered);
   for (std::size_t i = 1; i < order.size(); ++i)
     EXPECT_LE(scattered(order[i - 1]) >> 10, scattered(order[i]) >> 10);
 }
 
-TEST(BatchOrder, NamesEachQueryOnce) {
+TEST(BatchOrder, ContainsEachQueryOnce) {
   for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{4095},
                                   std::size_t{4096}, std::size_t{4097}, std::size_t{100'000}}) {
     std::vector<std::size_t> order = order_of(count, &scattered), all(count);
@@ -54,13 +54,13 @@ TEST(BatchOrder, NamesEachQueryOnce) {
   }
 }
 
-TEST(BatchOrder, KeepsTheCallersOrderOfEquals) {
+TEST(BatchOrder, KeepsTheCallersOrderOfEqualCodes) {
   std::vector<std::size_t> all(5000);
   std::iota(all.begin(), all.end(), 0);
   EXPECT_EQ(order_of(all.size(), [](std::size_t) { return kCodes - 1; }), all);
 }
 
-TEST(BatchOrder, MayBeOfNothing) { EXPECT_TRUE(order_of(0, &scattered).empty()); }
+TEST(BatchOrder, AcceptsAnEmptyBatch) { EXPECT_TRUE(order_of(0, &scattered).empty()); }
 
 }  // namespace
 }  // namespace planetree::query

@@ -41,13 +41,13 @@ class Batch : public testing::Test {
   std::vector<Vec3> queries_;
 };
 
-TEST_F(Batch, HasTheBitsOfOneByOne) { expect_as_one_by_one({}); }
+TEST_F(Batch, AnswersHaveTheBitsOfSingleQueries) { expect_as_one_by_one({}); }
 
-TEST_F(Batch, HasThemWithAnyNumberOfThreads) {
+TEST_F(Batch, AnswersAreTheSameWithAnyNumberOfThreads) {
   for (const unsigned threads : {2u, 3u, 16u}) expect_as_one_by_one({}, threads);
 }
 
-TEST_F(Batch, TellsSidesWithSeveralThreadsToo) {
+TEST_F(Batch, SidesAreTheSameWithSeveralThreads) {
   const Model model = sample_.open_for_batches(2);
   Probe probe = make_probe(model);
   std::vector<Containment> answers(queries_.size());
@@ -59,7 +59,7 @@ TEST_F(Batch, TellsSidesWithSeveralThreadsToo) {
 }
 
 // A batch that starts while the batch threads are busy is answered by its own thread alone.
-TEST_F(Batch, MayBeAskedByManyAtOnce) {
+TEST_F(Batch, ConcurrentBatchesGetTheSameAnswers) {
   const Model model = sample_.open_for_batches(2, 4);
   std::vector<std::vector<ClosestPoint>> answers(4, std::vector<ClosestPoint>(queries_.size()));
   std::vector<std::thread> queriers;
@@ -71,7 +71,7 @@ TEST_F(Batch, MayBeAskedByManyAtOnce) {
 }
 
 // The caller rounds up and flushes to zero; the batch threads do not.
-TEST_F(Batch, ComputesAsEverInThreadsOfOddArithmetic) {
+TEST_F(Batch, AnswersAreTheSameInAnyFloatingPointMode) {
   const Model model = sample_.open_for_batches(2);
   Probe probe = make_probe(model);
   std::vector<ClosestPoint> plain(queries_.size()), odd(queries_.size());
@@ -84,23 +84,23 @@ TEST_F(Batch, ComputesAsEverInThreadsOfOddArithmetic) {
     ASSERT_EQ(bits_of(odd[i]), bits_of(plain[i])) << i;
 }
 
-TEST_F(Batch, HasThemUnderLimitsToo) {
+TEST_F(Batch, AnswersAreTheSameUnderLimits) {
   expect_as_one_by_one({.max_error = 0.1, .max_distance = 0.5, .max_work = 12});
 }
 
-TEST_F(Batch, HasThemInAnyOrderAndAnyMemory) {
+TEST_F(Batch, AnswersAreTheSameInAnyOrderAndBudget) {
   const Model large = sample_.open(), small = sample_.open(sample_.min_budget());
   Probe of_large = make_probe(large), of_small = make_probe(small);
-  std::vector<ClosestPoint> answers(queries_.size()), turned(queries_.size());
+  std::vector<ClosestPoint> answers(queries_.size()), reversed(queries_.size());
   of_large.closest_points(queries_, answers);
   std::ranges::reverse(queries_);
-  of_small.closest_points(queries_, turned);
-  std::ranges::reverse(turned);
+  of_small.closest_points(queries_, reversed);
+  std::ranges::reverse(reversed);
   for (std::size_t i = 0; i < answers.size(); ++i)
-    ASSERT_EQ(bits_of(turned[i]), bits_of(answers[i])) << i;
+    ASSERT_EQ(bits_of(reversed[i]), bits_of(answers[i])) << i;
 }
 
-TEST_F(Batch, MayBeOfAnySize) {
+TEST_F(Batch, AnswersAreTheSameForAnySize) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   probe.closest_points({}, {});
@@ -118,7 +118,7 @@ TEST_F(Batch, MayBeOfAnySize) {
 }
 
 // The memory of the last answers holds the order of the others, several times in turn.
-TEST_F(Batch, MayBeSoLargeThatWhatIsLeftIsLargeToo) {
+TEST_F(Batch, AnswersAreTheSameForABatchManyTimesTheBuffers) {
   const SampleModel small(octree::sphere(0));
   const Model model = small.open();
   Probe probe = make_probe(model);
@@ -130,7 +130,7 @@ TEST_F(Batch, MayBeSoLargeThatWhatIsLeftIsLargeToo) {
     ASSERT_EQ(bits_of(answers[i]), bits_of(probe.closest_point(queries[i], options))) << i;
 }
 
-TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
+TEST_F(Batch, ReadsFewerPagesThanSingleQueries) {
   const std::uint64_t budget = sample_.min_budget() + sample_.page_count() / 3 * 4096;
   const Model one = sample_.open(budget), batch = sample_.open(budget);
   ASSERT_LT(one.stats().frames, sample_.page_count());
@@ -142,7 +142,7 @@ TEST_F(Batch, TurnsFewerPagesThanOneByOne) {
 }
 
 // A batch is ordered as a whole, not in parts that fit a probe's buffers.
-TEST_F(Batch, TurnsFewerPagesTheLargerItIs) {
+TEST_F(Batch, ReadsFewerPagesAsOneBatchThanInParts) {
   const std::uint64_t budget = sample_.min_budget() + sample_.page_count() / 3 * 4096;
   const std::vector<Vec3> queries = random_queries(8 * kWindow, -1.5, 1.5);
   std::vector<ClosestPoint> answers(queries.size());

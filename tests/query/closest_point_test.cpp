@@ -46,7 +46,7 @@ TEST(ClosestPoint, IsNearestAndOnItsTriangle) {
   }
 }
 
-TEST(ClosestPoint, RefusesWhatMakesNoSense) {
+TEST(ClosestPoint, RefusesBadQueriesAndOptions) {
   const SampleModel sample(repeated(1));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -97,7 +97,7 @@ TEST(ClosestPoint, AnswersQueriesFromVeryFarAway) {
     }
 }
 
-TEST(ClosestPoint, NamesTheLeastIndexAmongTheEquallyFar) {
+TEST(ClosestPoint, ReturnsTheLowestIndexAmongEqualDistances) {
   const SampleModel sample(repeated(100), 4096, 7);
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -118,7 +118,7 @@ TEST(ClosestPoint, CountsTrianglesBeyond32Bits) {
   }
 }
 
-TEST(ClosestPoint, LooksNoFartherThanTold) {
+TEST(ClosestPoint, StopsAtMaxDistance) {
   const SampleModel sample(sphere(4));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -145,7 +145,7 @@ TEST(ClosestPoint, LooksNoFartherThanTold) {
   EXPECT_EQ(probe.closest_point({1, 0, 0}, {.max_distance = 0}).status, Status::kExact);
 }
 
-TEST(ClosestPoint, StaysWithinTheErrorAllowed) {
+TEST(ClosestPoint, StaysWithinMaxError) {
   const SampleModel sample(sphere(4));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -162,7 +162,7 @@ TEST(ClosestPoint, StaysWithinTheErrorAllowed) {
   EXPECT_GT(within, 50);
 }
 
-TEST(ClosestPoint, HoldsTheTruthWhateverTheLimits) {
+TEST(ClosestPoint, IntervalHoldsTheTruthUnderAnyLimits) {
   const SampleModel sample(scattered(1200, 0.2));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -182,7 +182,7 @@ TEST(ClosestPoint, HoldsTheTruthWhateverTheLimits) {
     EXPECT_GT(counts[static_cast<int>(status)], 10);
 }
 
-TEST(ClosestPoint, AnswersAtOnceWithoutAnyNode) {
+TEST(ClosestPoint, AnswersFromTheHeaderWithZeroWork) {
   const SampleModel sample(sphere(5));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -198,7 +198,7 @@ TEST(ClosestPoint, AnswersAtOnceWithoutAnyNode) {
   EXPECT_EQ(model.stats().degraded_answers, 1u);
 }
 
-TEST(ClosestPoint, KnowsMoreTheMoreNodesItMayVisit) {
+TEST(ClosestPoint, IntervalHoldsForEveryAmountOfWork) {
   const SampleModel sample(sphere(4));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -210,7 +210,7 @@ TEST(ClosestPoint, KnowsMoreTheMoreNodesItMayVisit) {
   }
 }
 
-TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
+TEST(ClosestPoint, DoesNotDependOnMemoryOrEarlierQueries) {
   const SampleModel sample(scattered(3000, 0.05));
   const Model large = sample.open(), small = sample.open(sample.min_budget());
   ASSERT_GT(large.stats().frames, 4 * small.stats().frames);
@@ -225,7 +225,7 @@ TEST(ClosestPoint, DoesNotDependOnMemoryOrOnWhatWasAskedBefore) {
 
 // Near the centre of a sphere very many triangles are almost equally near: more candidates are
 // found than can be kept.
-TEST(ClosestPoint, DoesNotDependOnMemoryWhereErrorsAndWorkAreAllowed) {
+TEST(ClosestPoint, DoesNotDependOnMemoryUnderErrorAndWorkLimits) {
   const SampleModel sample(octree::sphere(6));
   const Model large = sample.open(), small = sample.open(sample.min_budget());
   Probe of_large = make_probe(large), of_small = make_probe(small);

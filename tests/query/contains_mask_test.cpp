@@ -99,7 +99,7 @@ std::vector<Soup> nasty_soups() {
           box({0, 0, 0}, {0.9, 0.8, 0.7}, 30)};
 }
 
-TEST(ContainsMask, SaysTheSidesThatAreSaidWithoutIt) {
+TEST(ContainsMask, GivesTheSidesFoundWithoutAMask) {
   for (const Soup& soup : nasty_soups()) {
     const SampleModel with = SampleModel::masked(soup), without(soup);
     CountedSides masked(with), bare(without);
@@ -187,7 +187,7 @@ TEST_F(DamagedMask, IsNotReadForDistances) {
 }
 
 // A small work limit leaves sides unknown, never wrong.
-TEST(ContainsMask, EndsItsWorkWhereItIsTold) {
+TEST(ContainsMask, WorkLimitLeavesSidesUnknownNeverWrong) {
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
   const Model model = sample.open();
   Probe probe = make_probe(model);
@@ -208,7 +208,7 @@ TEST(ContainsMask, EndsItsWorkWhereItIsTold) {
 }
 
 // Winding numbers here exceed the range of corner numbers.
-TEST(ContainsMask, HoldsWhereNumbersAreLarge) {
+TEST(ContainsMask, IsRightWhereWindingNumbersExceedCornerNumbers) {
   const SampleModel sample = SampleModel::masked(octree::shells(130));
   const Model model = sample.open();
   Probe probe = make_probe(model);

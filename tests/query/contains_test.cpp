@@ -27,7 +27,7 @@ class Contains : public testing::Test {
   std::vector<Vec3> queries_;
 };
 
-TEST_F(Contains, TellsTheSideOfEveryPoint) {
+TEST_F(Contains, FindsTheSideOfEveryPoint) {
   const Model model = sample_.open();
   ASSERT_TRUE(model.info().watertight());
   Probe probe = make_probe(model);
@@ -53,7 +53,7 @@ TEST_F(Contains, TellsTheSideOfEveryPoint) {
   EXPECT_GT(inside, 500);
 }
 
-TEST_F(Contains, HasInBatchesWhatItHasOneByOne) {
+TEST_F(Contains, BatchesGiveTheAnswersOfSingleQueries) {
   const Model model = sample_.open(), small = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model), of_small = make_probe(small);
   std::vector<Containment> answers(queries_.size());
@@ -65,7 +65,7 @@ TEST_F(Contains, HasInBatchesWhatItHasOneByOne) {
   }
 }
 
-TEST_F(Contains, IsTheSideOfAClosestPoint) {
+TEST_F(Contains, AgreesWithTheSideOfAClosestPoint) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   for (const Vec3& query : queries_) {
@@ -77,7 +77,7 @@ TEST_F(Contains, IsTheSideOfAClosestPoint) {
   }
 }
 
-TEST_F(Contains, NeedsPagesOnlyForWhatIsAsked) {
+TEST_F(Contains, ReadsPagesOnlyForTheRequestedParts) {
   const Vec3 outside{5, 0, 0}, inside{0.2, 0.3, 0.4};
   const auto pages_for = [&](const Vec3& query, std::uint32_t parts) {
     const Model model = sample_.open();
@@ -92,7 +92,7 @@ TEST_F(Contains, NeedsPagesOnlyForWhatIsAsked) {
   EXPECT_LT(pages_for(inside, kSide), pages_for(inside, kAllParts));
 }
 
-TEST_F(Contains, LeavesOutWhatIsNotAsked) {
+TEST_F(Contains, ComputesOnlyTheRequestedParts) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   const Vec3 query{0.2, 0.3, 0.4};
@@ -123,7 +123,7 @@ TEST_F(Contains, IsDegradedWhenTheWorkEnds) {
 }
 
 // Where one exit segment needs a lost page, another is used.
-TEST_F(Contains, GoesAroundAPageThatIsLost) {
+TEST_F(Contains, FindsSidesWithoutALostPage) {
   storage::FileImage image(storage::read_bytes(sample_.path()));
   const storage::PageEntry entry = image.entry(sample_.page_count() - 2);
   image.bytes()[entry.offset] ^= std::byte{1};
@@ -175,7 +175,7 @@ class ContainsOpen : public testing::Test {
   std::vector<Vec3> queries_;
 };
 
-TEST_F(ContainsOpen, TellsTheSideByTheWindingNumber) {
+TEST_F(ContainsOpen, FindsTheSideByTheWindingNumber) {
   const Model model = sample_.open();
   ASSERT_FALSE(model.info().watertight());
   Probe probe = make_probe(model);
@@ -195,7 +195,7 @@ TEST_F(ContainsOpen, TellsTheSideByTheWindingNumber) {
   EXPECT_GT(probe.closest_point({0, 0, 1.5}).signed_distance(), 0);
 }
 
-TEST_F(ContainsOpen, HasInBatchesAndWithHardlyAnyMemoryWhatItHasOneByOne) {
+TEST_F(ContainsOpen, BatchesWithLittleMemoryGiveTheAnswersOfSingleQueries) {
   const Model model = sample_.open(), small = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model), of_small = make_probe(small);
   std::vector<Containment> answers(queries_.size());
@@ -265,7 +265,7 @@ TEST_F(ContainsOpen, TurnsNormalsOutOfTheSolid) {
     }
 }
 
-TEST_F(ContainsOpen, IsOutsideOnBothSidesOfASheet) {
+TEST_F(ContainsOpen, IsOutsideOnBothSidesOfAHeightField) {
   const SampleModel sample(octree::height_field(10));
   const Model model = sample.open();
   Probe probe = make_probe(model);

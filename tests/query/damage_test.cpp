@@ -49,7 +49,7 @@ class DamagedWhileOpen : public testing::Test {
   std::vector<Vec3> queries_;
 };
 
-TEST_F(DamagedWhileOpen, DegradesWhatNeedsThePageAndNothingElse) {
+TEST_F(DamagedWhileOpen, DegradesOnlyAnswersThatNeedTheDamagedPage) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   damage_page(sample_.page_count() - 1);
@@ -71,7 +71,7 @@ TEST_F(DamagedWhileOpen, QuarantinesAPageForGood) {
   EXPECT_EQ(model.stats().quarantined_pages, 1u);
 }
 
-TEST_F(DamagedWhileOpen, ServesWhatIsResidentUnharmed) {
+TEST_F(DamagedWhileOpen, AnswersFromResidentPages) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   ASSERT_EQ(query_everything(probe).degraded, 0u);
@@ -79,7 +79,7 @@ TEST_F(DamagedWhileOpen, ServesWhatIsResidentUnharmed) {
   EXPECT_EQ(query_everything(probe).degraded, 0u);
 }
 
-TEST_F(DamagedWhileOpen, GoesOnThoughEveryPageButTheRootIsLost) {
+TEST_F(DamagedWhileOpen, AnswersWithEveryPageButTheRootLost) {
   const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   for (std::uint32_t page = 1; page < sample_.page_count(); ++page) damage_page(page);
@@ -88,7 +88,7 @@ TEST_F(DamagedWhileOpen, GoesOnThoughEveryPageButTheRootIsLost) {
   EXPECT_GT(model.stats().quarantined_pages, 0u);
 }
 
-TEST_F(DamagedWhileOpen, SurvivesAFileCutShort) {
+TEST_F(DamagedWhileOpen, SurvivesATruncatedFile) {
   const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   std::filesystem::resize_file(sample_.path(), std::filesystem::file_size(sample_.path()) / 2);

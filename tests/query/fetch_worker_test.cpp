@@ -26,7 +26,7 @@ double simulated_seconds = 0;
 FetchWorker::Seconds simulated_time() { return FetchWorker::Seconds(simulated_seconds += 0.001); }
 
 /// A disk whose reads fail at random.
-class ChancyDisk final : public storage::FileCalls {
+class UnreliableDisk final : public storage::FileCalls {
  public:
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
     if (opened && random() % 200 == 0) {
@@ -48,9 +48,9 @@ class ColdDisk final : public storage::FileCalls {
   }
 };
 
-class Simulation : public testing::Test {
+class FetchWorkerSimulation : public testing::Test {
  protected:
-  Simulation() : sample_(SampleModel::masked(octree::sphere(5))) {}
+  FetchWorkerSimulation() : sample_(SampleModel::masked(octree::sphere(5))) {}
 
   Model open(storage::FileCalls& calls, std::uint64_t more_bytes) {
     OpenOptions options;
@@ -71,7 +71,7 @@ class Simulation : public testing::Test {
   // Everything observable of a run: answers, and counts of the work done.
   std::vector<std::uint64_t> run(unsigned seed) {
     simulated_seconds = 0;
-    ChancyDisk disk;
+    UnreliableDisk disk;
     disk.random.seed(seed);
     const Model model = open(disk, 6 * 4096);
     disk.opened = true;
@@ -118,12 +118,12 @@ class Simulation : public testing::Test {
   const std::atomic<bool> never_{false};
 };
 
-TEST_F(Simulation, GoesTheSameWayFromTheSameSeed) {
+TEST_F(FetchWorkerSimulation, SameSeedGivesTheSameRun) {
   for (const unsigned seed : {1u, 2u, 3u}) EXPECT_EQ(run(seed), run(seed)) << seed;
   EXPECT_NE(run(1), run(2));
 }
 
-TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
+TEST_F(FetchWorkerSimulation, OneRequestFetchesAllPagesItsAnswerNeeds) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
@@ -138,7 +138,7 @@ TEST_F(Simulation, OneWishBringsAllThatItsAnswerNeeds) {
 }
 
 // A worker that kept its last answers would read no pages for a repeated query.
-TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
+TEST_F(FetchWorkerSimulation, RequestIsServedAgainAfterItsPagesWereEvicted) {
   const Model model = open(storage::FileCalls::real(), 6 * 4096);
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
@@ -164,7 +164,7 @@ TEST_F(Simulation, AWishIsServedAgainOnceItsPagesAreGone) {
   }
 }
 
-TEST_F(Simulation, ServesWishesForMoreWorkThanIsUsual) {
+TEST_F(FetchWorkerSimulation, ServesRequestsWithALargeWorkLimit) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
@@ -177,7 +177,7 @@ TEST_F(Simulation, ServesWishesForMoreWorkThanIsUsual) {
   EXPECT_EQ(probe.closest_point(far, query_options).status, Status::kExact);
 }
 
-TEST_F(Simulation, StopsBeforeTheNextPage) {
+TEST_F(FetchWorkerSimulation, StopFlagPreventsFurtherReads) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
   const std::atomic<bool> stop{true};
@@ -191,7 +191,7 @@ TEST_F(Simulation, StopsBeforeTheNextPage) {
 
 // However stale the triangle is, its normal is one of the mesh, and on a sphere those point
 // outward.
-TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
+TEST_F(FetchWorkerSimulation, NormalsOfDegradedAnswersPointOut) {
   const Model model = open(storage::FileCalls::real(), 0);
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
@@ -208,7 +208,7 @@ TEST_F(Simulation, NormalsOfDegradedAnswersPointOut) {
   EXPECT_GT(degraded, 50u);
 }
 
-TEST_F(Simulation, WishesComeBeforePlans) {
+TEST_F(FetchWorkerSimulation, RequestsComeBeforeMotionPrefetches) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
@@ -222,7 +222,7 @@ TEST_F(Simulation, WishesComeBeforePlans) {
 }
 
 // The only test here with a second thread, which only waits.
-TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
+TEST_F(FetchWorkerSimulation, RequestsAndBlockingQueriesAlternate) {
   ColdDisk disk;
   const Model model = open(disk, 64 << 20);
   const ModelState& state = ModelState::of(model);
@@ -236,7 +236,7 @@ TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
       EXPECT_NE(reader.fetch(page, {.reads_itself = false}).frame, nullptr);
       reader.leave();
     });
-    state.cache().wait_for_read(std::chrono::minutes(1), never_);
+    state.cache().wait_for_wanted_page(std::chrono::minutes(1), never_);
     const FetchWorker::Did did = worker.work();
     waiting.join();
     return did;
@@ -248,7 +248,7 @@ TEST_F(Simulation, WishesAndAsksThatWaitTakeTurns) {
   EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
 }
 
-TEST_F(Simulation, NoProbeIsKeptWaitingByAnother) {
+TEST_F(FetchWorkerSimulation, NoProbeStarvesAnother) {
   const Model model = open(storage::FileCalls::real(), 64 << 20);
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);

@@ -47,17 +47,17 @@ class StabilityHostThread : public testing::Test {
     return bits;
   }
   template <class Answer>
-  Bits in_a_batch(void (Probe::*subcommand)(std::span<const Vec3>, std::span<Answer>,
-                                            const QueryOptions&) noexcept) const {
+  Bits in_a_batch(void (Probe::*query_function)(std::span<const Vec3>, std::span<Answer>,
+                                                const QueryOptions&) noexcept) const {
     Probe probe = make_probe(model_);
     std::vector<Answer> answers(queries_.size());
-    (probe.*subcommand)(queries_, answers, {});
+    (probe.*query_function)(queries_, answers, {});
     Bits bits;
     for (const Answer& answer : answers) add(answer, bits);
     return bits;
   }
 
-  std::vector<std::function<Bits()>> subcommands() const {
+  std::vector<std::function<Bits()>> query_functions() const {
     return {[this] { return one_by_one(false); }, [this] { return one_by_one(true); },
             [this] { return in_a_batch<ClosestPoint>(&Probe::closest_points); },
             [this] { return in_a_batch<Containment>(&Probe::contains); }};
@@ -70,19 +70,19 @@ class StabilityHostThread : public testing::Test {
 
 constexpr int kRoundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
-TEST_F(StabilityHostThread, MayRoundAnotherWayAndFlushToZero) {
-  for (const auto& subcommand : subcommands()) {
-    const Bits expected = subcommand();
+TEST_F(StabilityHostThread, AnswersIgnoreRoundingModeAndFlushToZero) {
+  for (const auto& query_function : query_functions()) {
+    const Bits expected = query_function();
     for (const int rounding : kRoundings) {
       const OddArithmetic odd(rounding);
-      EXPECT_EQ(subcommand(), expected) << rounding;
+      EXPECT_EQ(query_function(), expected) << rounding;
       EXPECT_EQ(std::fegetround(), rounding);
     }
   }
 }
 
 // A model opened in another rounding mode gives the same answers.
-TEST_F(StabilityHostThread, MayOpenAModelWhileItRoundsAnotherWay) {
+TEST_F(StabilityHostThread, ModelOpenedInAnotherRoundingModeGivesTheSameAnswers) {
   for (const int rounding : kRoundings) {
     const auto open = [&] {
       const OddArithmetic odd(rounding);
@@ -98,16 +98,16 @@ TEST_F(StabilityHostThread, MayOpenAModelWhileItRoundsAnotherWay) {
 
 #if defined(__SSE2__)
 // A trap on an inexact result would end this program.
-TEST_F(StabilityHostThread, MayTrapInexactResults) {
-  for (const auto& subcommand : subcommands()) {
-    const Bits expected = subcommand();
+TEST_F(StabilityHostThread, AnswersIgnoreTrapsOnInexactResults) {
+  for (const auto& query_function : query_functions()) {
+    const Bits expected = query_function();
     const unsigned before = _mm_getcsr();
     ASSERT_EQ(before & 0x1f80, 0x1f80U);
     Bits found;
     {
       const auto trapping = [&] {
         _mm_setcsr(before & ~0x1fffU);
-        found = subcommand();
+        found = query_function();
         const unsigned after = _mm_getcsr();
         _mm_setcsr(before);
         return after;
@@ -118,12 +118,12 @@ TEST_F(StabilityHostThread, MayTrapInexactResults) {
   }
 }
 
-TEST_F(StabilityHostThread, FindsItsModeAsItWas) {
+TEST_F(StabilityHostThread, ModeIsRestored) {
   const unsigned before = _mm_getcsr();
   for (const unsigned mode : {0x9fc0U, 0x7f80U, 0x1f80U, 0x1fc0U}) {
     _mm_setcsr(mode);
-    for (const auto& subcommand : subcommands()) {
-      subcommand();
+    for (const auto& query_function : query_functions()) {
+      query_function();
       EXPECT_EQ(_mm_getcsr() & ~0x3fU, mode);
     }
   }

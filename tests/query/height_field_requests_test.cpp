@@ -45,7 +45,7 @@ class HeightFieldRequests : public octree::SmallChunks {
 
 // A fetch thread keeps no earlier answers. It may find a side without the mask where the requesting
 // probe cannot.
-TEST_F(HeightFieldRequests, BringTheMaskWhereFacesTellTheSide) {
+TEST_F(HeightFieldRequests, FetchTheMaskWhereFacesDecideTheSide) {
   const Model model = open();
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &still_time, never_);

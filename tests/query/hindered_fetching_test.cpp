@@ -69,7 +69,7 @@ class HinderedFetching : public testing::Test {
 FetchWorker::Seconds still_time() { return FetchWorker::Seconds(0); }
 
 // A page takes 100 ticks to read, so one of the fetch requests of 100 ticks is served.
-TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
+TEST_F(HinderedFetching, SlowDiskLosesRequestsButDelaysNoAnswer) {
   SlowDisk disk;
   OpenOptions options;
   options.max_probes = 2;  // one of them for the worker
@@ -107,7 +107,7 @@ TEST_F(HinderedFetching, ByADiskAHundredTimesSlowerLosesWishes) {
 }
 
 // A frame that a reader may hold is not reused, however long the reader's section lasts.
-TEST_F(HinderedFetching, ByAReaderThatStandsStillTakesNoMoreFramesThanThereAre) {
+TEST_F(HinderedFetching, ReaderThatNeverLeavesItsSectionCostsNoMemory) {
   const unsigned probes = 2;
   const Model model = sample_.open(sample_.min_budget(probes) + 8 * 4096, probes);
   Probe probe = make_probe(model);

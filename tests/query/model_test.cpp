@@ -20,7 +20,7 @@ using octree::repeated;
 using octree::scattered;
 using octree::sphere;
 
-TEST(Model, OpensWhatItCannotFindWithAnError) {
+TEST(Model, FailsToOpenMissingFilesAndDirectories) {
   const storage::TemporaryDirectory folder;
   const auto missing = Model::open(folder / "none.ptree");
   ASSERT_FALSE(missing);
@@ -53,7 +53,7 @@ TEST(Model, RefusesAFileWhoseRootIsDamaged) {
   EXPECT_EQ(model.error().page, 0u);
 }
 
-TEST(Model, NamesTheLeastBudgetThatWillDo) {
+TEST(Model, ErrorNamesTheMinimumBudget) {
   const SampleModel sample(sphere(5));
   for (const unsigned probes : {1u, 3u, 16u}) {
     const std::uint64_t least = sample.min_budget(probes);
@@ -77,7 +77,7 @@ void expect_bad_argument(const SampleModel& sample, const OpenOptions& options) 
   EXPECT_EQ(model.error().code, ErrorCode::kBadArgument);
 }
 
-TEST(Model, RefusesBatchThreadsThatMakeNoSense) {
+TEST(Model, RefusesBatchThreadsOutOfRange) {
   const SampleModel sample(repeated(1));
   for (const unsigned threads : {0u, OpenOptions::kMaxBatchThreads + 1, ~0u}) {
     OpenOptions options;
@@ -99,7 +99,7 @@ TEST(Model, CountsBatchThreadsIntoTheBudget) {
   EXPECT_EQ(refused.error().code, ErrorCode::kNoMemory);
 }
 
-TEST(Model, RefusesProbesThatMakeNoSense) {
+TEST(Model, RefusesMaxProbesOutOfRange) {
   const SampleModel sample(repeated(1));
   for (const unsigned probes : {0u, 1025u, ~0u}) {
     OpenOptions options;
@@ -108,7 +108,7 @@ TEST(Model, RefusesProbesThatMakeNoSense) {
   }
 }
 
-TEST(Model, SaysWhatTheFileHolds) {
+TEST(Model, InfoDescribesTheFile) {
   const SampleModel sample(sphere(5));
   const Model model = sample.open();
   const ModelInfo& info = model.info();
@@ -140,7 +140,7 @@ TEST(Model, GivesEqualModelsOneContentId) {
   EXPECT_NE(a.info().content_id[0], c.info().content_id[0]);
 }
 
-TEST(Model, CountsWhatItDoes) {
+TEST(Model, StatsCountReadsHitsAndMisses) {
   const SampleModel sample(sphere(5));
   const Model model = sample.open();
   EXPECT_EQ(model.stats().pages_read, 1u);  // the root
@@ -171,7 +171,7 @@ TEST(Model, StaysWithinItsBudgetAndEvicts) {
   EXPECT_LE(stats.pages_read - stats.pages_evicted, stats.frames);
 }
 
-TEST(Model, SaysThatAHeaderCopyIsDamaged) {
+TEST(Model, ReportsADamagedHeaderCopy) {
   const SampleModel sample(sphere(3));
   storage::Bytes bytes = storage::read_bytes(sample.path());
   bytes[20] ^= std::byte{4};
@@ -181,7 +181,7 @@ TEST(Model, SaysThatAHeaderCopyIsDamaged) {
   EXPECT_EQ(make_probe(model).closest_point({0, 0, 5}).status, Status::kExact);
 }
 
-TEST(Model, GivesNoMoreProbesThanAgreed) {
+TEST(Model, RefusesMoreProbesThanMaxProbes) {
   const SampleModel sample(sphere(2));
   const Model model = sample.open(std::uint64_t{1} << 20, 3);
   std::vector<Probe> probes;
@@ -193,7 +193,7 @@ TEST(Model, GivesNoMoreProbesThanAgreed) {
   EXPECT_TRUE(Probe::create(model));
 }
 
-TEST(Model, MayMoveUnderItsProbes) {
+TEST(Model, ProbesSurviveAMoveOfTheModel) {
   const SampleModel sample(sphere(4));
   Model first = sample.open(std::uint64_t{4} << 20, 2);
   std::optional<Model> second;  // declared here, because models must outlive their probes
@@ -205,7 +205,7 @@ TEST(Model, MayMoveUnderItsProbes) {
   EXPECT_EQ(bits_of(make_probe(*second).closest_point({0.3, 0.4, 0.5})), bits_of(before));
 }
 
-TEST(Model, MayBeAssignedAnother) {
+TEST(Model, MoveAssignmentReplacesTheModel) {
   const SampleModel one(sphere(2)), other(sphere(3));
   Model model = one.open();
   model = other.open();
@@ -213,7 +213,7 @@ TEST(Model, MayBeAssignedAnother) {
   EXPECT_EQ(make_probe(model).closest_point({0, 0, 3}).distance, 2);
 }
 
-TEST(Probe, MayMoveAndGivesItsPlaceBackOnce) {
+TEST(Probe, MoveReleasesItsSlotExactlyOnce) {
   const SampleModel sample(sphere(3));
   const Model model = sample.open(std::uint64_t{1} << 20, 2);
   {

@@ -60,7 +60,7 @@ class Kept {
   unsigned times_called_ = 0;
 };
 
-TEST_F(PageAccessorTest, TellsItsKeeperBeforeAnotherPageTakesAFrame) {
+TEST_F(PageAccessorTest, CallsTheReleaseHookBeforeAFrameIsReused) {
   open(sample_.min_budget());
   const std::uint64_t frames = state_->cache().stats().frame_count;
   ASSERT_LT(2 * frames, sample_.page_count()) << "each round has to take frames of others";
@@ -76,7 +76,7 @@ TEST_F(PageAccessorTest, TellsItsKeeperBeforeAnotherPageTakesAFrame) {
   EXPECT_GT(kept.times_called(), sample_.page_count());
 }
 
-TEST_F(PageAccessorTest, KeepsFramesFromCallToCallOfWhatIsResident) {
+TEST_F(PageAccessorTest, KeepsFramesOfResidentPagesAcrossCalls) {
   open(std::uint64_t{64} << 20);
   for (std::uint32_t page = 0; page < sample_.page_count(); ++page)
     ASSERT_NE(PageAccessor(*reader_, Wait::kForPages).page(page), nullptr);
@@ -93,7 +93,7 @@ TEST_F(PageAccessorTest, KeepsFramesFromCallToCallOfWhatIsResident) {
   EXPECT_LT(most, 1000u);
 }
 
-TEST_F(PageAccessorTest, SaysWhereFramesAre) {
+TEST_F(PageAccessorTest, FrameTableGivesTheFramesOfPages) {
   open(std::uint64_t{64} << 20);
   const octree::FrameTable table = frames_of(*reader_);
   const std::uint32_t last = sample_.page_count() - 1;

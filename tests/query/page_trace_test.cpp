@@ -17,13 +17,13 @@ namespace planetree::query {
 namespace {
 
 using Kind = PageAccess::Kind;
-using TouchRow = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, unsigned, Kind>;
+using AccessRow = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, unsigned, Kind>;
 
 FetchWorker::Seconds no_time() { return FetchWorker::Seconds(0); }
 
-class PageTouches : public testing::Test {
+class PageTraceTest : public testing::Test {
  protected:
-  PageTouches() : sample_(SampleModel::masked(octree::sphere(5))) {}
+  PageTraceTest() : sample_(SampleModel::masked(octree::sphere(5))) {}
 
   Model open(std::uint32_t page_trace_capacity,
              std::uint64_t budget_bytes = std::uint64_t{64} << 20) {
@@ -48,20 +48,20 @@ class PageTouches : public testing::Test {
     return all;
   }
 
-  static ClosestPoint query_once(Probe& probe, const Vec3& point) {
+  static ClosestPoint real_time_answer(Probe& probe, const Vec3& point) {
     return probe.closest_point(point, {.wait = Wait::kNever});
   }
 
   // Moves a probe and queries, while a worker fetches the pages that it misses and those along its
   // motion.
-  std::vector<TouchRow> wander(std::uint64_t more_bytes) {
+  std::vector<AccessRow> wander(std::uint64_t more_bytes) {
     const Model model = open(4096, min_budget_with(4096) + more_bytes);
     FetchWorker worker = worker_of(model);
     Probe probe = make_probe(model);
-    std::vector<TouchRow> rows;
+    std::vector<AccessRow> rows;
     for (const Vec3& point : random_queries(200, -1.2, 1.2, 3)) {
       probe.motion(point, {point.y, point.z, point.x});
-      (void)query_once(probe, point);
+      (void)real_time_answer(probe, point);
       worker.work();
       for (const PageAccess& access : take_all(model))
         rows.emplace_back(access.query, access.probe, access.page, access.level, access.kind);
@@ -78,8 +78,8 @@ class PageTouches : public testing::Test {
   const std::atomic<bool> never_{false};
 };
 
-TEST_F(PageTouches, AreTheSameOfTheSameRun) {
-  const std::vector<TouchRow> rows = wander(0);
+TEST_F(PageTraceTest, SameRunGivesTheSameTrace) {
+  const std::vector<AccessRow> rows = wander(0);
   EXPECT_GT(rows.size(), 400u);
   EXPECT_EQ(wander(0), rows);
   EXPECT_NE(wander(40 * 4096), rows);
@@ -87,7 +87,7 @@ TEST_F(PageTouches, AreTheSameOfTheSameRun) {
 
 // Nothing is evicted here, so a page that was hit is never missed later. Hits and misses agree with
 // the counts of the model's cache.
-TEST_F(PageTouches, ReplayToWhatTheCacheCounted) {
+TEST_F(PageTraceTest, HitsAndMissesAgreeWithTheCache) {
   const Model model = open(4096);
   FetchWorker worker = worker_of(model);
   Probe probe = make_probe(model);
@@ -95,7 +95,7 @@ TEST_F(PageTouches, ReplayToWhatTheCacheCounted) {
   std::uint64_t all_misses = 0, queries = 0;
   for (const Vec3& point : random_queries(100, -1.2, 1.2, 3)) {
     const Stats before = model.stats();
-    const ClosestPoint answer = query_once(probe, point);
+    const ClosestPoint answer = real_time_answer(probe, point);
     const Stats after = model.stats();
     std::uint64_t hits = 0, misses = 0;
     for (const PageAccess& access : take_all(model)) {
@@ -116,7 +116,7 @@ TEST_F(PageTouches, ReplayToWhatTheCacheCounted) {
   EXPECT_GE(model.stats().pages_read, resident.size());
 }
 
-TEST_F(PageTouches, TellPagesThatCameAheadOfTheirTime) {
+TEST_F(PageTraceTest, DistinguishesPrefetchedPages) {
   const Model model = open(4096);
   FetchWorker worker = worker_of(model);
   Probe probe = make_probe(model);
@@ -124,12 +124,12 @@ TEST_F(PageTouches, TellPagesThatCameAheadOfTheirTime) {
   while (worker.work() == FetchWorker::Did::kLookedAhead) {
   }
   std::map<Kind, int> counts[2];
-  std::set<std::uint32_t> touched;
+  std::set<std::uint32_t> seen_pages;
   for (auto& count : counts) {
-    (void)query_once(probe, {1.2, 0, 0});
+    (void)real_time_answer(probe, {1.2, 0, 0});
     for (const PageAccess& access : take_all(model)) {
       ++count[access.kind];
-      const bool again = !touched.insert(access.page).second;
+      const bool again = !seen_pages.insert(access.page).second;
       EXPECT_TRUE(access.kind == Kind::kHit || !again);
     }
   }
@@ -139,12 +139,12 @@ TEST_F(PageTouches, TellPagesThatCameAheadOfTheirTime) {
   EXPECT_GT(counts[1][Kind::kHit], 0);
 }
 
-TEST_F(PageTouches, TellTheLevelsOfPages) {
+TEST_F(PageTraceTest, RecordsTheLevelsOfPages) {
   const Model model = open(4096);
   Probe probe = make_probe(model);
   for (const Vec3& point : random_queries(50, -1.2, 1.2)) {
     (void)probe.closest_point(point);  // blocking, so not traced
-    (void)query_once(probe, point);
+    (void)real_time_answer(probe, point);
   }
   std::map<std::uint32_t, unsigned> levels;  // by page
   for (const PageAccess& access : take_all(model)) {
@@ -162,13 +162,13 @@ TEST_F(PageTouches, TellTheLevelsOfPages) {
   EXPECT_GT(last, levels.begin()->second);
 }
 
-TEST_F(PageTouches, AreDroppedAndCountedWhereNobodyTakesThem) {
+TEST_F(PageTraceTest, CountsRecordsDroppedWhenTheRingIsFull) {
   const std::vector<Vec3> points = random_queries(100, -1.2, 1.2);
   std::uint64_t all = 0;
   for (const std::uint32_t accesses : {4096u, 50u}) {
     const Model model = open(accesses);
     Probe probe = make_probe(model);
-    for (const Vec3& point : points) (void)query_once(probe, point);
+    for (const Vec3& point : points) (void)real_time_answer(probe, point);
     const std::size_t kept = take_all(model).size();
     if (accesses == 4096) all = kept;
     EXPECT_EQ(kept + model.stats().page_trace_dropped, all);
@@ -179,10 +179,10 @@ TEST_F(PageTouches, AreDroppedAndCountedWhereNobodyTakesThem) {
   EXPECT_GT(all, 64u);
 }
 
-TEST_F(PageTouches, AreTakenAsFarAsThereIsRoom) {
+TEST_F(PageTraceTest, DrainsAsManyRecordsAsFit) {
   const Model model = open(4096);
   Probe probe = make_probe(model);
-  for (const Vec3& point : random_queries(100, -1.2, 1.2)) (void)query_once(probe, point);
+  for (const Vec3& point : random_queries(100, -1.2, 1.2)) (void)real_time_answer(probe, point);
   std::vector<PageAccess> few(70);
   ASSERT_EQ(model.drain_page_trace(few), 70u);
   EXPECT_EQ(few[0].query, 0u);
@@ -191,15 +191,15 @@ TEST_F(PageTouches, AreTakenAsFarAsThereIsRoom) {
   EXPECT_GE(few[0].query, last);
 }
 
-TEST_F(PageTouches, TakeNoMemoryUnlessWanted) {
+TEST_F(PageTraceTest, UsesNoMemoryUnlessEnabled) {
   const Model off = open(0), on = open(1000);
   Probe probe = make_probe(off);
-  (void)query_once(probe, {0, 1.1, 0.3});
+  (void)real_time_answer(probe, {0, 1.1, 0.3});
   EXPECT_TRUE(take_all(off).empty());
   EXPECT_GE(on.stats().table_bytes, off.stats().table_bytes + 3 * 1024 * sizeof(TracedAccess));
 }
 
-TEST_F(PageTouches, RefuseToBeTooMany) {
+TEST_F(PageTraceTest, RefusesACapacityOutOfRange) {
   OpenOptions options;
   options.page_trace_capacity = OpenOptions::kMaxPageTraceCapacity + 1;
   const auto model = Model::open(sample_.path(), options);

@@ -38,7 +38,7 @@ class QueryArenaTest : public testing::Test {
   OpenOptions options_;
 };
 
-TEST_F(QueryArenaTest, IsLockedAsMuchAsIsSaid) {
+TEST_F(QueryArenaTest, LockedBytesAgreeWithTheKernel) {
   if (!cache::allocations_are_counted()) GTEST_SKIP() << "sanitizers lock nothing";
   options_.locking = Locking::kRequire;
   const std::uint64_t before = kernel_locked_bytes();
@@ -53,7 +53,7 @@ TEST_F(QueryArenaTest, IsLockedAsMuchAsIsSaid) {
   EXPECT_GE(stats.locked_bytes, stats.arena_bytes + QueryArena::bytes(needs));
 }
 
-TEST_F(QueryArenaTest, HoldsProbesOneAfterAnother) {
+TEST_F(QueryArenaTest, ReusesProbeStorageAcrossThreads) {
   const Vec3 point{0.3, -1.2, 0.1};
   const auto model = Model::open(sample_.path(), options_);
   ASSERT_TRUE(model);
@@ -73,7 +73,7 @@ TEST_F(QueryArenaTest, HoldsProbesOneAfterAnother) {
 }
 
 // A probe lies in the arena; its one allocation is for batches.
-TEST_F(QueryArenaTest, IsAllThatProbesAndAsksTake) {
+TEST_F(QueryArenaTest, CreatingAProbeAllocatesOnlyForBatches) {
   if (!cache::allocations_are_counted()) GTEST_SKIP() << "a sanitizer counts instead";
   const auto model = Model::open(sample_.path(), options_);
   ASSERT_TRUE(model);
@@ -82,7 +82,7 @@ TEST_F(QueryArenaTest, IsAllThatProbesAndAsksTake) {
   EXPECT_EQ(cache::allocation_count(), before + 1);
 }
 
-TEST_F(QueryArenaTest, IsOfTheBudget) {
+TEST_F(QueryArenaTest, CountsTowardsTheBudget) {
   const std::uint64_t few = sample_.min_budget(4);
   const std::uint64_t before = resident_memory_bytes();
   const Model model = sample_.open(few, 4);

@@ -45,7 +45,7 @@ class QueryPath : public testing::Test {
   std::vector<ClosestPoint> answers_;
 };
 
-TEST_F(QueryPath, IsCounted) {
+TEST_F(QueryPath, AllocationsAndLocksAreCounted) {
   const std::uint64_t allocations = allocation_count(), locks = lock_count();
   std::mutex mutex;
   {
@@ -110,7 +110,7 @@ class RealTimePath : public QueryPath {
   std::uint64_t degraded_ = 0;
 };
 
-TEST_F(RealTimePath, IsTrapped) {
+TEST_F(RealTimePath, SystemCallsAreTrapped) {
   std::thread([] {
     if (!set_call_trap()) GTEST_SKIP() << "the system does not let itself be watched";
     const std::uint64_t before = trapped_calls();

@@ -10,9 +10,9 @@
 namespace planetree::query {
 namespace {
 
-class QueryStorm : public testing::TestWithParam<std::uint32_t> {};
+class RealTimeQueryCosts : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(QueryStorm, TakesNothingButTheProcessor) {
+TEST_P(RealTimeQueryCosts, AllocateLockCallAndFaultNothing) {
   if (!cache::allocations_are_counted() || !locks_are_counted())
     GTEST_SKIP() << "a sanitizer counts instead";
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
@@ -45,7 +45,7 @@ TEST_P(QueryStorm, TakesNothingButTheProcessor) {
   EXPECT_EQ(model.stats().page_trace_dropped > 0, GetParam() > 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(TracedAccesses, QueryStorm, testing::Values(0, 128));
+INSTANTIATE_TEST_SUITE_P(TracedAccesses, RealTimeQueryCosts, testing::Values(0, 128));
 
 }  // namespace
 }  // namespace planetree::query

@@ -45,7 +45,7 @@ class RealTime : public testing::Test {
   std::vector<Vec3> queries_;
 };
 
-TEST_F(RealTime, AnswersAtOnceByAnIntervalThatHolds) {
+TEST_F(RealTime, AnswersAtOnceWithAnIntervalThatHolds) {
   const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   std::size_t degraded = 0;
@@ -68,21 +68,21 @@ TEST_F(RealTime, ReadsNothingItself) {
   EXPECT_GT(model.stats().page_misses, 0u);
 }
 
-TEST_F(RealTime, IsRefinedToTheBitsOfAnAskThatWaits) {
+TEST_F(RealTime, IsRefinedToTheBitsOfABlockingQuery) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   expect_refined(probe, queries_.size());
   EXPECT_GT(model.stats().fetch_requests_served, 0u);
 }
 
-TEST_F(RealTime, IsRefinedWhereOneQuestionsPagesFit) {
+TEST_F(RealTime, IsRefinedWhereThePagesOfOneQueryFit) {
   const Model model = sample_.open(sample_.min_budget() + 24 * 4096);
   Probe probe = make_probe(model);
   expect_refined(probe, 30);
   EXPECT_GT(model.stats().pages_evicted, 0u);
 }
 
-TEST_F(RealTime, TellsSidesAtOnceOrNotAtAll) {
+TEST_F(RealTime, GivesSidesAtOnceOrUnknown) {
   const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   std::size_t known = 0, unknown = 0;
@@ -103,7 +103,7 @@ TEST_F(RealTime, TellsSidesAtOnceOrNotAtAll) {
   EXPECT_GT(unknown, 0u);
 }
 
-TEST_F(RealTime, KeepsTheLastTriangleWhereNothingElseIsKnown) {
+TEST_F(RealTime, UsesTheLastNearestTriangleWherePagesAreMissing) {
   const Model model = sample_.open(sample_.min_budget());
   Probe probe = make_probe(model);
   const Vec3 here{1.1, 0.1, 0.2}, beside{1.0, 0.2, 0.35};
@@ -117,7 +117,7 @@ TEST_F(RealTime, KeepsTheLastTriangleWhereNothingElseIsKnown) {
   EXPECT_LT(answer.upper, 0.5);
 }
 
-TEST_F(RealTime, StopsWhereTheWorkIsSpent) {
+TEST_F(RealTime, StopsAtMaxWork) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   for (const Vec3& query : queries_) (void)probe.closest_point(query);
@@ -129,7 +129,7 @@ TEST_F(RealTime, StopsWhereTheWorkIsSpent) {
   EXPECT_EQ(model.stats().fetch_requests_served, fetch_requests);
 }
 
-TEST_F(RealTime, FetchesWhatAMotionLeadsTo) {
+TEST_F(RealTime, PrefetchesAlongAMotion) {
   const Model model = sample_.open();
   Probe probe = make_probe(model);
   // At least 5 ms ahead, the probe will be at the other end.
@@ -157,7 +157,7 @@ TEST_F(RealTime, ManyProbesAreServedByFewThreads) {
   EXPECT_EQ(agreed, 5);
 }
 
-TEST_F(RealTime, RefusesThreadsThatMakeNoSense) {
+TEST_F(RealTime, RefusesFetchThreadsOutOfRange) {
   OpenOptions options;
   for (const unsigned threads : {0u, OpenOptions::kMaxFetchThreads + 1}) {
     options.fetch_threads = threads;
@@ -167,7 +167,7 @@ TEST_F(RealTime, RefusesThreadsThatMakeNoSense) {
   }
 }
 
-TEST_F(RealTime, LocksItsMemoryOrSaysThatItDidNot) {
+TEST_F(RealTime, LocksItsMemoryOrReportsFailure) {
   OpenOptions options;
   options.locking = Locking::kNever;
   const auto loose = Model::open(sample_.path(), options);

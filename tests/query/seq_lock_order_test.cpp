@@ -63,18 +63,20 @@ class SeqLockProgram final : public Program {
   SeqLock<Twice, ExploredSeqLock> latest_;
 };
 
-Report explore_seq_lock(std::uint32_t takers, std::uint32_t stops) {
+Report explore_seq_lock(std::uint32_t takers, std::uint32_t max_preemptions) {
   std::uint64_t lasts_taken = 0;
-  Report report =
-      explore_all([&] { return std::make_unique<SeqLockProgram>(takers, lasts_taken); }, stops);
+  Report report = explore_all([&] { return std::make_unique<SeqLockProgram>(takers, lasts_taken); },
+                              max_preemptions);
   EXPECT_TRUE(lasts_taken > 0 || !report.failure.empty());
   return report;
 }
 
-TEST(SeqLockOrder, TearsNothingInAnyRun) { EXPECT_EQ(explore_seq_lock(1, kAnyStops).failure, ""); }
+TEST(SeqLockOrder, ValuesAreNeverTornInAnyRun) {
+  EXPECT_EQ(explore_seq_lock(1, kAnyPreemptions).failure, "");
+}
 
-TEST(SeqLockOrder, TearsNothingForTwoTakers) {
-  EXPECT_EQ(explore_seq_lock(2, kFewStops).failure, "");
+TEST(SeqLockOrder, ValuesAreNeverTornForTwoTakers) {
+  EXPECT_EQ(explore_seq_lock(2, kFewPreemptions).failure, "");
 }
 
 class WeakenedSeqLock : public testing::TestWithParam<SeqLockStep> {
@@ -83,7 +85,9 @@ class WeakenedSeqLock : public testing::TestWithParam<SeqLockStep> {
   void TearDown() override { ExploredSeqLock::weakened = nullptr; }
 };
 
-TEST_P(WeakenedSeqLock, IsCaught) { EXPECT_NE(explore_seq_lock(1, kFewStops).failure, ""); }
+TEST_P(WeakenedSeqLock, MakesSomeRunFail) {
+  EXPECT_NE(explore_seq_lock(1, kFewPreemptions).failure, "");
+}
 
 INSTANTIATE_TEST_SUITE_P(Steps, WeakenedSeqLock,
                          testing::Values(SeqLockStep::kGiveWord, SeqLockStep::kGiveNumber,

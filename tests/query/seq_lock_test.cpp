@@ -11,14 +11,14 @@ struct Pair {
   std::uint64_t first = 0, second = 0;
 };
 
-TEST(SeqLock, HasNothingAtFirst) {
+TEST(SeqLock, StartsEmpty) {
   const SeqLock<Pair> latest;
   std::uint64_t seen = 0;
   Pair value;
   EXPECT_FALSE(latest.take(seen, value));
 }
 
-TEST(SeqLock, IsTakenOnceByEachTaker) {
+TEST(SeqLock, EachTakerTakesAValueOnce) {
   SeqLock<Pair> latest;
   latest.give({1, 2});
   latest.give({3, 4});
@@ -32,7 +32,7 @@ TEST(SeqLock, IsTakenOnceByEachTaker) {
   }
 }
 
-TEST(SeqLock, IsNeverTornAndNeverOlder) {
+TEST(SeqLock, ValuesAreNeverTornAndNeverGoBack) {
   SeqLock<Pair> latest;
   constexpr std::uint64_t kLast = 200000;
   std::thread giver([&] {

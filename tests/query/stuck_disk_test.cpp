@@ -23,26 +23,26 @@ constexpr QueryOptions kNow{.wait = Wait::kNever};
 
 /// A disk that can be made to stall or to fail. The flags also say whether the system has its bytes
 /// in memory.
-class MoodyDisk final : public storage::FileCalls {
+class FaultyDisk final : public storage::FileCalls {
  public:
-  std::atomic<bool> stands_still{false};
+  std::atomic<bool> stalls{false};
   std::atomic<bool> fails{false};
   std::atomic<bool> is_in_memory{false};
   std::atomic<int> waiting{0};
   std::atomic<int> reads{0};
-  std::atomic<int> looks{0};  ///< non-blocking reads and read-ahead advice
-  std::atomic<bool> gives_what_is_waited_for{false};
+  std::atomic<int> nonblocking_calls{0};  ///< non-blocking reads and read-ahead advice
+  std::atomic<bool> delivers_after_wait{false};
   std::atomic<int> rings{0};
   std::atomic<int> waits{0};  ///< waits on rings
   std::atomic<std::int64_t> longest_wait_ns{0};
 
   int posix_fadvise(int, off_t, off_t, int) noexcept override {
-    ++looks;
+    ++nonblocking_calls;
     return 0;
   }
   ssize_t preadv2(int descriptor, const iovec* parts, int part_count, off_t offset,
                   int flags) noexcept override {
-    ++looks;
+    ++nonblocking_calls;
     if (is_in_memory || came_.exchange(false))
       return FileCalls::preadv2(descriptor, parts, part_count, offset, flags);
     errno = EAGAIN;
@@ -51,7 +51,7 @@ class MoodyDisk final : public storage::FileCalls {
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
     ++waiting;
     ++reads;
-    while (stands_still) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    while (stalls) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     --waiting;
     if (fails) {
       errno = EIO;
@@ -68,8 +68,8 @@ class MoodyDisk final : public storage::FileCalls {
     ++waits;
     longest_wait_ns =
         std::max<std::int64_t>(longest_wait_ns, most->tv_sec * 1'000'000'000 + most->tv_nsec);
-    if (stands_still) return -ETIME;
-    came_ = gives_what_is_waited_for.load();
+    if (stalls) return -ETIME;
+    came_ = delivers_after_wait.load();
     return FileCalls::io_uring_submit_and_wait_timeout(ring, completion, count, most);
   }
 
@@ -104,14 +104,14 @@ class StuckDisk : public testing::Test {
   }
 
   SampleModel sample_;
-  MoodyDisk disk_;
+  FaultyDisk disk_;
   std::vector<Vec3> queries_;
 };
 
-TEST_F(StuckDisk, IsNotWaitedFor) {
+TEST_F(StuckDisk, RealTimeQueriesDoNotWait) {
   const Model model = open(std::uint64_t{64} << 20);
   Probe probe = make_probe(model);
-  disk_.stands_still = true;
+  disk_.stalls = true;
   EXPECT_GT(query_all(probe), 0u);
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
   // A page is being read now, and will be until the disk continues.
@@ -119,38 +119,38 @@ TEST_F(StuckDisk, IsNotWaitedFor) {
   for (int round = 0; round < 3; ++round) EXPECT_GT(query_all(probe), 0u);
   EXPECT_EQ(model.stats().pages_read, read);
   EXPECT_EQ(disk_.waiting, 1);
-  disk_.stands_still = false;
+  disk_.stalls = false;
   EXPECT_TRUE(
       eventually([&] { return probe.closest_point(queries_[0], kNow).status == Status::kExact; }));
   // Real-time queries do not even read without blocking. They leave that to the fetch threads,
   // which may block.
-  EXPECT_EQ(disk_.looks, 0);
+  EXPECT_EQ(disk_.nonblocking_calls, 0);
 }
 
-TEST_F(StuckDisk, HoldsUpThoseThatWait) {
+TEST_F(StuckDisk, BlockingQueriesWait) {
   const Model model = open(std::uint64_t{64} << 20);
   Probe patient = make_probe(model), hasty = make_probe(model);
-  disk_.stands_still = true;
+  disk_.stalls = true;
   std::atomic<bool> answered{false};
   std::thread waiting([&] {
     EXPECT_EQ(patient.closest_point(queries_[0]).status, Status::kExact);
     answered = true;
   });
   ASSERT_TRUE(eventually([&] { return disk_.waiting > 0; }));
-  EXPECT_GT(disk_.looks, 2);
+  EXPECT_GT(disk_.nonblocking_calls, 2);
   EXPECT_GT(query_all(hasty), 0u);
   EXPECT_FALSE(answered);
-  disk_.stands_still = false;
+  disk_.stalls = false;
   waiting.join();
   EXPECT_TRUE(answered);
 }
 
 // No other thread reads pages that the disk gives in time.
-TEST_F(StuckDisk, IsWaitedForByTheAskItself) {
-  if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
+TEST_F(StuckDisk, BlockingQueryReadsItsPagesItself) {
+  if (!storage::RingCalls::are_available()) GTEST_SKIP() << "the system refuses io_uring";
   const Model model = open(std::uint64_t{64} << 20);
   Probe probe = make_probe(model);
-  disk_.gives_what_is_waited_for = true;
+  disk_.delivers_after_wait = true;
   const std::uint64_t read = model.stats().pages_read;
   const int reads = disk_.reads;
   for (const Vec3& query : queries_) EXPECT_EQ(probe.closest_point(query).status, Status::kExact);
@@ -161,8 +161,8 @@ TEST_F(StuckDisk, IsWaitedForByTheAskItself) {
 }
 
 // File descriptors belong to the whole process, so a model uses few rings.
-TEST_F(StuckDisk, IsWaitedForByFewAtATime) {
-  if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
+TEST_F(StuckDisk, NumberOfRingsIsLimited) {
+  if (!storage::RingCalls::are_available()) GTEST_SKIP() << "the system refuses io_uring";
   constexpr unsigned kProbes = 20;
   const Model model = open(sample_.min_budget(kProbes), 60'000, kProbes);
   std::vector<Probe> probes;
@@ -172,8 +172,8 @@ TEST_F(StuckDisk, IsWaitedForByFewAtATime) {
   EXPECT_EQ(disk_.rings, 16);
 }
 
-TEST_F(StuckDisk, IsWaitedForNoLongerThanTheLimit) {
-  if (!storage::RingCalls::are_to_be_had()) GTEST_SKIP() << "the system refuses io_uring";
+TEST_F(StuckDisk, EachWaitIsWithinTheLimit) {
+  if (!storage::RingCalls::are_available()) GTEST_SKIP() << "the system refuses io_uring";
   for (const unsigned limit_ms : {3u, 60'000u}) {
     const Model model = open(std::uint64_t{64} << 20, limit_ms);
     Probe probe = make_probe(model);
@@ -184,10 +184,10 @@ TEST_F(StuckDisk, IsWaitedForNoLongerThanTheLimit) {
   }
 }
 
-TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
+TEST_F(StuckDisk, BlockingQueryGivesUpAtTheLimit) {
   const Model model = open(std::uint64_t{64} << 20, 20);
   Probe probe = make_probe(model);
-  disk_.stands_still = true;
+  disk_.stalls = true;
   for (std::uint64_t queried = 1; queried <= 3; ++queried) {
     const ClosestPoint answer = probe.closest_point(queries_[0]);
     EXPECT_EQ(answer.status, Status::kDegraded);
@@ -198,7 +198,7 @@ TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
   EXPECT_EQ(model.stats().degraded_answers, 3u);
   const Vec3 near_surface{0.6, 0.8, 0.001};  // not in a cell of one colour
   EXPECT_EQ(probe.contains(near_surface).status, Status::kDegraded);
-  disk_.stands_still = false;
+  disk_.stalls = false;
   ASSERT_TRUE(eventually([&] { return disk_.waiting == 0; }));
   EXPECT_EQ(model.stats().quarantined_pages, 0u);
   EXPECT_TRUE(
@@ -206,10 +206,10 @@ TEST_F(StuckDisk, HoldsUpNobodyLongerThanTheLimit) {
 }
 
 // Queries read other pages meanwhile; at most one page is stuck.
-TEST_F(StuckDisk, DoesNotMatterToPagesThatTheSystemHas) {
+TEST_F(StuckDisk, PagesInTheSystemsMemoryAreReadMeanwhile) {
   const Model model = open(std::uint64_t{64} << 20, 20);
   Probe stuck = make_probe(model), lucky = make_probe(model);
-  disk_.stands_still = true;
+  disk_.stalls = true;
   EXPECT_EQ(stuck.closest_point(queries_[0]).status, Status::kDegraded);
   ASSERT_EQ(disk_.waiting, 1);
   disk_.is_in_memory = true;
@@ -218,13 +218,13 @@ TEST_F(StuckDisk, DoesNotMatterToPagesThatTheSystemHas) {
     exact += lucky.closest_point(query, {.parts = kDistance}).status == Status::kExact;
   EXPECT_GT(exact, 0u);
   EXPECT_EQ(disk_.waiting, 1);
-  disk_.stands_still = false;
+  disk_.stalls = false;
 }
 
-TEST_F(StuckDisk, IsAskedOnceForAPageThatManyWaitFor) {
+TEST_F(StuckDisk, PageThatSeveralQueriesWaitForIsReadOnce) {
   const Model model = open(std::uint64_t{64} << 20);
   const std::uint64_t misses = model.stats().page_misses;
-  disk_.stands_still = true;
+  disk_.stalls = true;
   std::vector<std::thread> threads;
   std::atomic<int> exact{0};
   for (int i = 0; i < 3; ++i)
@@ -233,14 +233,14 @@ TEST_F(StuckDisk, IsAskedOnceForAPageThatManyWaitFor) {
       exact += probe.closest_point(queries_[0]).status == Status::kExact;
     });
   const bool all_wait = eventually([&] { return model.stats().page_misses == misses + 3; });
-  disk_.stands_still = false;
+  disk_.stalls = false;
   for (std::thread& thread : threads) thread.join();
   EXPECT_TRUE(all_wait);
   EXPECT_EQ(exact, 3);
   EXPECT_EQ(model.stats().pages_read, static_cast<std::uint64_t>(disk_.reads));
 }
 
-TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
+TEST_F(StuckDisk, UnreadablePagesDegradeAnswersForGood) {
   const Model model = open(sample_.min_budget(4));
   Probe probe = make_probe(model);
   disk_.fails = true;
@@ -253,10 +253,10 @@ TEST_F(StuckDisk, FailingPagesWidenAnswersForGood) {
 }
 
 // The boxes of a missing page's content are known.
-TEST_F(StuckDisk, BoundsTheDistanceFromAboveToo) {
+TEST_F(StuckDisk, MissingPageBoundsTheDistanceFromAbove) {
   const Model model = open(std::uint64_t{64} << 20);
   Probe probe = make_probe(model);
-  disk_.stands_still = true;
+  disk_.stalls = true;
   // The sphere's sample vertex is on the opposite side.
   const Vec3 beside{-1.5, 0, 0};
   const ClosestPoint answer =
@@ -266,7 +266,7 @@ TEST_F(StuckDisk, BoundsTheDistanceFromAboveToo) {
   EXPECT_TRUE(sample_.interval_holds(answer, beside));
   EXPECT_LT(answer.upper, 2.2);
   EXPECT_EQ(answer.distance, answer.upper);
-  disk_.stands_still = false;
+  disk_.stalls = false;
 }
 
 }  // namespace

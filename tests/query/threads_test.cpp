@@ -17,7 +17,7 @@ constexpr unsigned kThreads = 16;
 
 // Every thread makes all queries, each starting elsewhere, with hardly any memory: the threads
 // evict each other's pages all the time.
-TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
+TEST(Threads, GetTheSameBitsAtTheMinimumBudget) {
   const SampleModel sample(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(400, -1.3, 1.3);
   std::vector<AnswerBits> expected;
@@ -48,7 +48,7 @@ TEST(Threads, GetTheSameBitsEachAtTheLeastBudget) {
   EXPECT_EQ(model.stats().degraded_answers, 0u);
 }
 
-TEST(Threads, GetThemWhicheverPageGoesFirst) {
+TEST(Threads, GetTheSameBitsUnderEitherEvictionPolicy) {
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(300, -1.3, 1.3);
   std::vector<std::vector<AnswerBits>> answers;
@@ -75,7 +75,7 @@ TEST(Threads, GetThemWhicheverPageGoesFirst) {
 }
 
 // Fetch threads read pages for the real-time queries, and the blocking queries evict some of them.
-TEST(Threads, WaitOrDoNotWaitSideBySide) {
+TEST(Threads, BlockingAndRealTimeQueriesRunConcurrently) {
   const SampleModel sample = SampleModel::masked(octree::sphere(5));
   const std::vector<Vec3> queries = random_queries(60, -1.3, 1.3);
   std::vector<ClosestPoint> exact;
@@ -114,7 +114,7 @@ TEST(Threads, WaitOrDoNotWaitSideBySide) {
   EXPECT_GT(model.stats().pages_evicted, 100u);
 }
 
-TEST(Threads, ShareBatchesToo) {
+TEST(Threads, GetTheSameBitsInConcurrentBatches) {
   const SampleModel sample(octree::scattered(2000, 0.1));
   const std::vector<Vec3> queries = random_queries(1500, -0.2, 1.2);
   const Model model = sample.open(sample.min_budget(kThreads), kThreads);

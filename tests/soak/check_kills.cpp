@@ -18,11 +18,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "check_kills: %s\n", wrong.c_str());
     return 2;
   }
-  unsigned killed = 0, whole = 0, temporary_names = 0, resumed = 0, wrong = 0;
+  unsigned killed = 0, complete = 0, temporary_names = 0, resumed = 0, wrong = 0;
   for (unsigned i = 0; i < count; ++i) {
-    const KilledBuilds::Left left = builds.strike(i, count, i / 2 % 2 == 0);
+    const KilledBuilds::Left left = builds.kill_one(i, count, i / 2 % 2 == 0);
     killed += left.killed ? 1 : 0;
-    whole += left.whole ? 1 : 0;
+    complete += left.complete ? 1 : 0;
     temporary_names += left.temporary_name ? 1 : 0;
     resumed += left.work ? 1 : 0;
     if (left.wrong.empty()) continue;
@@ -32,6 +32,6 @@ int main(int argc, char** argv) {
   std::printf(
       "%u builds: %u killed, the others done before; %u whole files, %u as before; %u killed "
       "between two names; %u gone on with by --resume; %u wrong\n",
-      count, killed, whole, count - whole, temporary_names, resumed, wrong);
+      count, killed, complete, count - complete, temporary_names, resumed, wrong);
   return wrong > 0 || killed == 0 ? 1 : 0;
 }

@@ -28,7 +28,7 @@ std::uint64_t min_budget(const std::string& file, OpenOptions options) {
   return at == std::string::npos ? 0 : std::strtoull(&text[at + 9], nullptr, 10);
 }
 
-std::vector<Vec3> places_in(const ModelInfo& info, std::size_t count) {
+std::vector<Vec3> random_points(const ModelInfo& info, std::size_t count) {
   std::mt19937_64 random(7);
   const auto any = [&](double from, double to) {
     return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
@@ -60,7 +60,7 @@ int run(const std::string& file, std::uint64_t queries) {
     return 1;
   }
   auto probe = Probe::create(*model);
-  points = places_in(model->info(), points.size());
+  points = random_points(model->info(), points.size());
   const QueryCosts costs =
       measure_queries(*model, *probe, points, points.size(), queries, resident);
   std::printf(

@@ -39,7 +39,7 @@ Stress mistaken(WriterMistake mistake) {
   return [mistake](const StressGoal& goal) { return stress_protocol(goal, mistake); };
 }
 
-const std::map<std::string, Stress>& wrong_ways() {
+const std::map<std::string, Stress>& weakened_runs() {
   static const std::map<std::string, Stress> all = {
       {"R1Release", weakened<ProtocolStep::kEnter, std::memory_order_release>()},
       {"R1Relaxed", weakened<ProtocolStep::kEnter, std::memory_order_relaxed>()},
@@ -48,9 +48,9 @@ const std::map<std::string, Stress>& wrong_ways() {
       {"R5Relaxed", weakened<ProtocolStep::kLeave, std::memory_order_relaxed>()},
       {"E2Release", weakened<ProtocolStep::kWithdraw, std::memory_order_release>()},
       {"E2Relaxed", weakened<ProtocolStep::kWithdraw, std::memory_order_relaxed>()},
-      {"E3Acquire", weakened<ProtocolStep::kSeeOpen, std::memory_order_acquire>()},
-      {"E3Relaxed", weakened<ProtocolStep::kSeeOpen, std::memory_order_relaxed>()},
-      {"E5Relaxed", weakened<ProtocolStep::kSeeOver, std::memory_order_relaxed>()},
+      {"E3Acquire", weakened<ProtocolStep::kNoteSections, std::memory_order_acquire>()},
+      {"E3Relaxed", weakened<ProtocolStep::kNoteSections, std::memory_order_relaxed>()},
+      {"E5Relaxed", weakened<ProtocolStep::kSeeSectionEnd, std::memory_order_relaxed>()},
       {"I7Relaxed", weakened<ProtocolStep::kPublish, std::memory_order_relaxed>()},
       {"ReusesAtOnce", mistaken(WriterMistake::kReusesAtOnce)},
       {"ForgetsAReader", mistaken(WriterMistake::kForgetsAReader)},
@@ -68,9 +68,9 @@ bool report(const char* what, const StressCount& count) {
   return count.wrong == 0;
 }
 
-int run_wrong_way(const std::string& name) {
-  const auto found = wrong_ways().find(name);
-  if (found == wrong_ways().end()) return 2;
+int run_weakened(const std::string& name) {
+  const auto found = weakened_runs().find(name);
+  if (found == weakened_runs().end()) return 2;
   constexpr std::uint64_t kQueries = 20'000'000, kInstalls = 2'000'000;
   const StressGoal goal{.queries = kQueries, .installs = kInstalls, .until_wrong = true};
   return report(name.c_str(), found->second(goal)) ? 0 : 1;
@@ -96,10 +96,10 @@ int main(int argc, char** argv) {
   using namespace planetree::cache;
   const std::string word = argc > 1 ? argv[1] : "";
   if (argc == 2 && word == "--list") {
-    for (const auto& [name, stress] : wrong_ways()) std::printf("%s\n", name.c_str());
+    for (const auto& [name, stress] : weakened_runs()) std::printf("%s\n", name.c_str());
     return 0;
   }
-  if (argc == 3 && word == "--weakened") return run_wrong_way(argv[2]);
+  if (argc == 3 && word == "--weakened") return run_weakened(argv[2]);
   if (argc == 1) return run(10'000'000, 1'000'000);
   if (argc == 3)
     return run(std::strtoull(argv[1], nullptr, 10), std::strtoull(argv[2], nullptr, 10));

@@ -31,7 +31,7 @@ void EdgeCheck::add(const octree::Triangle& triangle) {
 
 void EdgeCheck::count(const Point& from, const Point& to) {
   if (from == to) return;
-  for (Counted& edge : listed_) {
+  for (ListedEdge& edge : listed_) {
     edge.along += edge.from == from && edge.to == to;
     edge.against += edge.from == to && edge.to == from;
   }

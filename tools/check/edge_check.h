@@ -27,12 +27,12 @@ class EdgeCheck {
  private:
   void count(const octree::Point& from, const octree::Point& to);
 
-  struct Counted {
+  struct ListedEdge {
     octree::Point from, to;
     std::uint64_t along = 0, against = 0;
   };
   const storage::ModelRecord& model_;
-  std::array<Counted, 3> listed_;
+  std::array<ListedEdge, 3> listed_;
   octree::EdgeSum edges_;
 };
 

@@ -23,7 +23,7 @@ using octree::FloatBox;
 using octree::Node;
 
 /// What the node with a link to another page states about the subtree there.
-struct Promise {
+struct SubtreeClaim {
   std::shared_ptr<const Bounds> bounds;  // null for the root of the tree
   std::uint64_t parent = 0;              // key of that node in TreeCheck::open_nodes_
   bool is_root = false;
@@ -47,7 +47,7 @@ class TreeCheck {
   CheckReport run(const CheckProgress& progress);
 
  private:
-  using Links = SubtreeLinks<Promise>;
+  using Links = SubtreeLinks<SubtreeClaim>;
   using Chain = std::shared_ptr<const Bounds>;
 
   void check_model();
@@ -61,7 +61,7 @@ class TreeCheck {
   void check_blocks();
   void settle_height(std::uint64_t parent, std::uint8_t child_height);
   void prove_height(const OpenNode& node);
-  void compare(const char* what, std::uint64_t said, std::uint64_t found);
+  void compare(const char* what, std::uint64_t stated, std::uint64_t found);
   void check_counts();
 
   void report(IssueCode code, std::string message) {
@@ -94,7 +94,7 @@ CheckReport TreeCheck::run(const CheckProgress& progress) {
   for (const Issue& issue : parts_.issues()) report_.issues.add(issue);
   check_model();
   const std::uint32_t root = header_.model.root_link;
-  Promise whole;
+  SubtreeClaim whole;
   whole.is_root = true;
   pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, whole);
   if (parts_.first_mask_page() == 0) complete_ = false;
@@ -136,8 +136,8 @@ void TreeCheck::check_page(std::uint32_t page) {
   if (issue) {
     report_.issues.add(*std::move(issue));
     complete_ = false;
-    pending_.finish_page(page, [this](const Links::Target&, const Promise& tighten) {
-      open_nodes_.erase(tighten.parent);
+    pending_.finish_page(page, [this](const Links::Target&, const SubtreeClaim& claim) {
+      open_nodes_.erase(claim.parent);
     });
     return;
   }
@@ -166,48 +166,48 @@ void TreeCheck::check_roots() {
   }
   frame_->for_each_block([&](std::uint32_t index, std::uint32_t slot) {
     if (index >= header.root_block_count) return;
-    const auto tighten = pending_.take({page_, slot, true});
-    if (tighten) {
-      block_bounds_[slot] = tighten->bounds;
-      if (tighten->is_root && header_.model.height != 0)
+    const auto claim = pending_.take({page_, slot, true});
+    if (claim) {
+      block_bounds_[slot] = claim->bounds;
+      if (claim->is_root && header_.model.height != 0)
         report(IssueCode::kHeight, "the root is a block, but the header's height is not 0");
     } else if (complete_) {
       report(IssueCode::kSubtreeUnlinked,
              fmt::format("no link leads to the block in slot {}", slot));
     }
   });
-  pending_.finish_page(page_, [this](const Links::Target& target, const Promise& tighten) {
+  pending_.finish_page(page_, [this](const Links::Target& target, const SubtreeClaim& claim) {
     report(IssueCode::kLinkTarget,
            fmt::format("a link leads to slot {}, where no subtree's {} begins", target.slot,
                        target.leaf ? "block" : "root node"));
-    open_nodes_.erase(tighten.parent);
+    open_nodes_.erase(claim.parent);
     complete_ = false;
   });
 }
 
 void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   const std::uint32_t slot = frame_->node_slot(index);
-  const auto tighten = pending_.take({page_, slot, false});
-  if (!tighten) {
+  const auto claim = pending_.take({page_, slot, false});
+  if (!claim) {
     if (complete_)
       report(IssueCode::kSubtreeUnlinked,
              fmt::format("no link leads to the node in slot {}", slot));
     return;
   }
   const std::uint8_t height = frame_->node(index).height;
-  if (tighten->is_root) {
+  if (claim->is_root) {
     check_root_box(box);
     if (height != header_.model.height)
       report(IssueCode::kHeight, fmt::format("the root's height is {} and the header's {}", height,
                                              header_.model.height));
     return;
   }
-  node_bounds_[index] = tighten->bounds;
-  if (!tighten->bounds->box.holds(box))
+  node_bounds_[index] = claim->bounds;
+  if (!claim->bounds->box.holds(box))
     report(IssueCode::kSubtreeBox,
            fmt::format("the box of the node in slot {} is not within the one its parent states",
                        slot));
-  settle_height(tighten->parent, height);
+  settle_height(claim->parent, height);
 }
 
 /// Checks that the root's box encloses the header's box. In the file of a region with walls it need
@@ -266,13 +266,13 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
   const Node& node = frame_->node(index);
   const std::uint32_t link = node.link[child];
   const bool leaf = octree::LinkFormat::is_leaf(link);
-  Promise tighten;
-  tighten.bounds =
+  SubtreeClaim claim;
+  claim.bounds =
       std::make_shared<const Bounds>(Bounds{child_box(node, child), child_disc(node, child),
                                             frame_->moments(node, child), node_bounds_[index]});
-  tighten.parent = key_of(index);
+  claim.parent = key_of(index);
   if (!leaf) ++open.children_left;
-  if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(tighten))) {
+  if (!pending_.add({links_.page(link), links_.slot(link), leaf}, std::move(claim))) {
     if (!leaf) --open.children_left;
     report(IssueCode::kLinkTwice, fmt::format("a second link leads to page {}, slot {}",
                                               links_.page(link), links_.slot(link)));
@@ -313,10 +313,10 @@ void TreeCheck::prove_height(const OpenNode& node) {
                                   node.height, node.highest_child)});
 }
 
-void TreeCheck::compare(const char* what, std::uint64_t said, std::uint64_t found) {
-  if (said != found)
+void TreeCheck::compare(const char* what, std::uint64_t stated, std::uint64_t found) {
+  if (stated != found)
     report_whole(IssueCode::kCount,
-                 fmt::format("the header says {} {}, but the pages hold {}", said, what, found));
+                 fmt::format("the header says {} {}, but the pages hold {}", stated, what, found));
 }
 
 void TreeCheck::check_counts() {

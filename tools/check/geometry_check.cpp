@@ -37,14 +37,14 @@ bool is_inside(const octree::FloatBox& box, const Point& point) {
 /// (octree/traversal/bounds.h). The point is relative to the model's centre.
 bool is_inside(const Bounds& bounds, const Point& point) {
   const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
-  const double capacity = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
+  const double slack = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
   const Point normal = point_of(bounds.disc.normal);
   const Point from = point - point_of(bounds.box.centre());
   const double height = from.dot(normal);
   const Point across = from - height * normal;
-  return static_cast<double>(bounds.disc.slab_lower) + capacity <= height &&
-         height + capacity <= static_cast<double>(bounds.disc.slab_upper) &&
-         across.norm() + capacity <= static_cast<double>(bounds.disc.radius);
+  return static_cast<double>(bounds.disc.slab_lower) + slack <= height &&
+         height + slack <= static_cast<double>(bounds.disc.slab_upper) &&
+         across.norm() + slack <= static_cast<double>(bounds.disc.radius);
 }
 
 Point point_of(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
@@ -60,9 +60,9 @@ GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issue
       upper_(Point::Constant(-kInfinity)) {
   const query::Scale scale(model_.scale_exponent);
   const octree::Region region = query::region_of(model_);
-  cut_off_ = region.has_walls();
-  part_lower_ = region.clamped(scale.in(vec3_of(model_.box_lower)));
-  part_upper_ = region.clamped(scale.in(vec3_of(model_.box_upper)));
+  has_walls_ = region.has_walls();
+  region_lower_ = region.clamped(scale.in(vec3_of(model_.box_lower)));
+  region_upper_ = region.clamped(scale.in(vec3_of(model_.box_upper)));
 }
 
 void GeometryCheck::report(IssueCode code, std::uint32_t page, std::string message) {
@@ -85,7 +85,7 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
 
 void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
   edges_.add(triangle);
-  if (cut_off_ && !octree::may_touch(triangle, part_lower_, part_upper_))
+  if (has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
     report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
 }
 
@@ -100,12 +100,12 @@ void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) 
     min_id_ = std::min(min_id_, id);
     if (!insert(id))
       report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} is there twice", id));
-    if (id == model_.sample_triangle) look_for_sample(block, i, page);
+    if (id == model_.sample_triangle) check_sample(block, i, page);
   }
 }
 
-void GeometryCheck::look_for_sample(const octree::BlockView& block, unsigned triangle,
-                                    std::uint32_t page) {
+void GeometryCheck::check_sample(const octree::BlockView& block, unsigned triangle,
+                                 std::uint32_t page) {
   sample_seen_ = true;
   const Point sample = point_of(model_.sample);
   for (const Point& corner : block.triangle(triangle))
@@ -144,7 +144,7 @@ bool GeometryCheck::insert(std::uint64_t id) {
 
 // Whether the header's box is that of the vertices along an axis, or with walls encloses them.
 bool GeometryCheck::is_box(double lower, double upper, int axis) const {
-  if (cut_off_) return lower <= lower_[axis] && upper_[axis] <= upper;
+  if (has_walls_) return lower <= lower_[axis] && upper_[axis] <= upper;
   return lower == lower_[axis] && upper == upper_[axis];
 }
 
@@ -159,8 +159,8 @@ void GeometryCheck::finish(bool complete) {
       whole_file(IssueCode::kModelBox,
                  fmt::format("the header's box is not that of the vertices along {}", "xyz"[axis]));
   // With walls faces are missing, so that edges cannot be checked.
-  if (auto finding = cut_off_ ? std::nullopt : edges_.finding())
-    whole_file(IssueCode::kOpenEdges, *std::move(finding));
+  if (auto finding = has_walls_ ? std::nullopt : edges_.finding())
+    whole_file(IssueCode::kUnbalancedEdges, *std::move(finding));
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
                fmt::format("the header's sample triangle {} is not there", model_.sample_triangle));

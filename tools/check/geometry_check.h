@@ -43,7 +43,7 @@ class GeometryCheck {
  private:
   void add_triangle(const octree::Triangle& triangle, std::uint32_t page);
   void add_ids(const octree::BlockView& block, std::uint32_t page);
-  void look_for_sample(const octree::BlockView& block, unsigned triangle, std::uint32_t page);
+  void check_sample(const octree::BlockView& block, unsigned triangle, std::uint32_t page);
   void check_vertices(const octree::BlockView& block, std::uint32_t page, const Bounds& bounds);
   bool insert(std::uint64_t id);
   bool is_box(double lower, double upper, int axis) const;
@@ -56,9 +56,9 @@ class GeometryCheck {
   std::uint64_t min_id_ = storage::kNoTriangle;
   bool sample_seen_ = false;
   EdgeCheck edges_;
-  octree::Point lower_, upper_;            // of all vertices, model frame
-  octree::Point part_lower_, part_upper_;  // the part of the region within the model's box
-  bool cut_off_ = false;                   // whether the region has walls
+  octree::Point lower_, upper_;                // of all vertices, model frame
+  octree::Point region_lower_, region_upper_;  // the part of the region within the model's box
+  bool has_walls_ = false;                     // whether the region has walls
 };
 
 }  // namespace planetree::tools

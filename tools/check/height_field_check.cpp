@@ -27,7 +27,7 @@ class HeightFieldCheck {
       frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
         if (frame.block(slot).header().is_height_field()) check(page, slot, frame.block(slot));
       });
-      if (lost_) return;
+      if (unreadable_) return;
     }
   }
 
@@ -35,7 +35,7 @@ class HeightFieldCheck {
   void check(std::uint32_t page, std::uint32_t slot, const octree::BlockView& block) {
     if (query::region_of(parts_.header()->model).has_walls())
       return report(page, slot, "marked as a height field, but the file is of a region with walls");
-    if (!is_proven(block) && !lost_)
+    if (!is_proven(block) && !unreadable_)
       report(page, slot, "marked as a height field, which cannot be proven");
   }
 
@@ -48,15 +48,15 @@ class HeightFieldCheck {
   }
 
   bool open() {
-    if (proof_ || lost_) return !lost_;
+    if (proof_ || unreadable_) return !unreadable_;
     auto opened = ModelReader::open(parts_.path());
     if (opened) {
       proof_.emplace(*std::move(opened));
     } else {
-      lost_ = true;
+      unreadable_ = true;
       issues_.add(Issue::from(IssueCode::kPageRead, opened.error()));
     }
-    return !lost_;
+    return !unreadable_;
   }
 
   void report(std::uint32_t page, std::uint32_t slot, const char* what) {
@@ -67,7 +67,7 @@ class HeightFieldCheck {
   FileParts& parts_;
   IssueList& issues_;
   std::optional<ModelReader> proof_;
-  bool lost_ = false;
+  bool unreadable_ = false;
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ enum class IssueCode : std::uint8_t {
   kMoments,
   kModelBox,
   kSample,
-  kOpenEdges,
+  kUnbalancedEdges,
   kMaskCorner,
   kMaskColour,
   kMaskPlanes,

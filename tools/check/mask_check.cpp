@@ -13,10 +13,10 @@
 namespace planetree::tools {
 namespace {
 
-void compare(const char* what, std::uint64_t said, std::uint64_t found, IssueList& issues) {
-  if (said != found)
+void compare(const char* what, std::uint64_t stated, std::uint64_t found, IssueList& issues) {
+  if (stated != found)
     issues.add({IssueCode::kCount, Error::kNowhere, Error::kNowhere,
-                fmt::format("the header says {} {}, but the pages hold {}", said, what, found)});
+                fmt::format("the header says {} {}, but the pages hold {}", stated, what, found)});
 }
 
 std::unique_ptr<MaskProof> open_proof(const FileParts& parts, IssueList& issues) {
@@ -38,7 +38,7 @@ void check_mask(FileParts& parts, bool prove, CheckReport& report, const CheckPr
       [&](const GreyCell& grey) {
         ++report.mask_cells;
         levels = std::max(levels, grey.cell.level);
-        if (proof) proof->look_at(grey);
+        if (proof) proof->check_cell(grey);
       },
       [&](Issue issue) { report.issues.add(std::move(issue)); });
   bool complete = true;
@@ -48,7 +48,7 @@ void check_mask(FileParts& parts, bool prove, CheckReport& report, const CheckPr
     complete = complete && !issue;
     if (issue) {
       report.issues.add(*std::move(issue));
-      walk.lose(page);
+      walk.skip_page(page);
     } else {
       ++report.pages;
       walk.add(page);

@@ -51,11 +51,11 @@ octree::SpecialCell claim_of(const GreyCell& grey) {
 }
 
 // Whether `said` lists all blocks and octants of `found`. It may list more.
-bool has_all(const octree::MaskBlocks& said, const octree::MaskBlocks& found) {
+bool has_all(const octree::MaskBlocks& stated, const octree::MaskBlocks& found) {
   for (unsigned i = 0; i < found.count; ++i) {
     unsigned octants = 0;
-    for (unsigned k = 0; k < said.count; ++k)
-      if (said.links[k] == found.links[i]) octants = said.octants[k];
+    for (unsigned k = 0; k < stated.count; ++k)
+      if (stated.links[k] == found.links[i]) octants = stated.octants[k];
     if ((found.octants[i] & ~octants) != 0) return false;
   }
   return true;
@@ -76,7 +76,7 @@ MaskProof::MaskProof(ModelReader opened, IssueList& issues)
       issues_(issues),
       grid_(model_->geometry().mask.lower, model_->geometry().region) {}
 
-void MaskProof::look_at(const GreyCell& grey) {
+void MaskProof::check_cell(const GreyCell& grey) {
   if (grey.node != nullptr) check_octants(grey);
   if (grey.corners != nullptr) check_corners(grey, *grey.corners);
   if (grey.listed != nullptr) {
@@ -105,7 +105,7 @@ void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colou
              fmt::format("cell {} is {}, but not in the region", cell_name(cell), name));
     return;
   }
-  if (!touching(cell).empty())
+  if (!triangles_touching(cell).empty())
     return report(IssueCode::kMaskColour, page,
                   fmt::format("cell {} is {}, but triangles touch it", cell_name(cell), name));
   const std::optional<std::int64_t> number = winding(cell, 0);
@@ -118,12 +118,12 @@ void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colou
 void MaskProof::check_corners(const GreyCell& grey, const octree::MaskCorners& corners) {
   if (corners[0] == octree::kUncounted) return;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const int said = corners[corner];
+    const int stated = corners[corner];
     const std::optional<std::int64_t> number = winding(grey.cell, corner);
-    if (number && *number != said)
+    if (number && *number != stated)
       report(IssueCode::kMaskCorner, grey.page,
              fmt::format("the winding number at corner {} of cell {} is {}, not {}", corner,
-                         cell_name(grey.cell), *number, said));
+                         cell_name(grey.cell), *number, stated));
   }
 }
 
@@ -149,8 +149,8 @@ void MaskProof::check_list(const GreyCell& grey) {
     const octree::LinkFormat links(model_->geometry().tree.page_bytes);
     // An unreadable page is reported elsewhere.
     if (const std::byte* record = records.find(link, work))
-      outside =
-          outside || !keeps_to_slab(grey, octree::BlockView(record, model_->geometry().tree.shape));
+      outside = outside ||
+                !is_within_slab(grey, octree::BlockView(record, model_->geometry().tree.shape));
     else if (accessor.peek(links.page(link)) != nullptr)
       report(IssueCode::kMaskBlocks, grey.page,
              fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
@@ -162,12 +162,13 @@ void MaskProof::check_list(const GreyCell& grey) {
 }
 
 // Checks a block that the cell lists.
-bool MaskProof::keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const {
+bool MaskProof::is_within_slab(const GreyCell& grey, const octree::BlockView& block) const {
   const octree::CellSlab& slab = grey.blocks.slab;
   if (!slab.says_something()) return true;
   const Point lower = grid_.lower(grey.cell), upper = grid_.upper(grey.cell);
   for (unsigned i = 0; i < block.triangle_count(); ++i)
-    if (!tools::keeps_to_slab(slab, block.triangle(i), lower, upper, grey.cell.level)) return false;
+    if (!tools::is_within_slab(slab, block.triangle(i), lower, upper, grey.cell.level))
+      return false;
   return true;
 }
 
@@ -180,7 +181,7 @@ void MaskProof::check_special(const GreyCell& grey) {
     if (!number) return;
     numbers[corner] = *number;
   }
-  if (!octree::is_special_cell(claim_of(grey), touching(grey.cell), corners, numbers))
+  if (!octree::is_special_cell(claim_of(grey), triangles_touching(grey.cell), corners, numbers))
     report(
         IssueCode::kMaskPlanes, grey.page,
         fmt::format("the planes of cell {} do not say what is inside of it", cell_name(grey.cell)));
@@ -188,11 +189,11 @@ void MaskProof::check_special(const GreyCell& grey) {
 
 std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned corner) {
   const auto [position, added] = counted_.try_emplace(corner_key(cell, corner));
-  if (added) position->second = recount(grid_.corner(cell, corner));
+  if (added) position->second = count_winding(grid_.corner(cell, corner));
   return position->second;
 }
 
-std::optional<std::int64_t> MaskProof::recount(const Point& point) {
+std::optional<std::int64_t> MaskProof::count_winding(const Point& point) {
   const octree::TreeInfo& tree = model_->geometry().tree;
   if (query::outside_box(tree, point)) return 0;
   query::PageAccessor accessor(reader_, Wait::kForPages);
@@ -212,7 +213,7 @@ std::optional<std::int64_t> MaskProof::recount(const Point& point) {
   return std::nullopt;
 }
 
-std::vector<Triangle> MaskProof::touching(const GridCell& cell) {
+std::vector<Triangle> MaskProof::triangles_touching(const GridCell& cell) {
   const Point lower = grid_.lower(cell), upper = grid_.upper(cell);
   query::PageAccessor accessor(reader_, Wait::kForPages);
   octree::TraversalStats work;

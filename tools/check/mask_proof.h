@@ -39,7 +39,7 @@ class MaskProof {
                                                  IssueList& issues);
 
   /// Checks one grey cell.
-  void look_at(const GreyCell& grey);
+  void check_cell(const GreyCell& grey);
   /// Forgets the corners counted so far. Cells that share corners are mostly in one page.
   void end_page() { counted_.clear(); }
 
@@ -50,12 +50,12 @@ class MaskProof {
   void check_colour(std::uint32_t page, const octree::GridCell& cell, int colour);
   void check_corners(const GreyCell& grey, const octree::MaskCorners& corners);
   void check_list(const GreyCell& grey);
-  bool keeps_to_slab(const GreyCell& grey, const octree::BlockView& block) const;
+  bool is_within_slab(const GreyCell& grey, const octree::BlockView& block) const;
   void check_special(const GreyCell& grey);
   /// The winding number at a corner. Empty if pages cannot be read.
   std::optional<std::int64_t> winding(const octree::GridCell& cell, unsigned corner);
-  std::optional<std::int64_t> recount(const octree::Point& point);
-  std::vector<octree::Triangle> touching(const octree::GridCell& cell);
+  std::optional<std::int64_t> count_winding(const octree::Point& point);
+  std::vector<octree::Triangle> triangles_touching(const octree::GridCell& cell);
   void report(IssueCode code, std::uint32_t page, std::string message);
 
   std::unique_ptr<query::ModelState> model_;

@@ -41,7 +41,7 @@ MaskWalk::MaskWalk(FileParts& parts, Visitor visit, Reporter report)
       visit_(std::move(visit)),
       report_(std::move(report)) {}
 
-void MaskWalk::lose(std::uint32_t page) {
+void MaskWalk::skip_page(std::uint32_t page) {
   complete_ = false;
   pending_.finish_page(page - parts_.first_mask_page(), [](const auto&, const auto&) {});
 }
@@ -70,25 +70,25 @@ void MaskWalk::take_roots(Page& page) {
   const std::uint32_t within = page.number - parts_.first_mask_page();
   const std::uint32_t end = page.first_slot() + page.header().root_count;
   for (std::uint32_t slot = page.first_slot(); slot < end;) {
-    const std::optional<Owner> owner = pending_.take({within, slot, false});
-    if (!owner) {
+    const std::optional<FamilyParent> parent = pending_.take({within, slot, false});
+    if (!parent) {
       if (complete_)
         report_({IssueCode::kSubtreeUnlinked, page.number, Error::kNowhere,
                  fmt::format("no link leads to the family in slot {} of the mask", slot)});
       ++slot;
       continue;
     }
-    const auto members = static_cast<unsigned>(std::popcount(owner->node.grey));
+    const auto members = static_cast<unsigned>(std::popcount(parent->node.grey));
     if (members > end - slot)
       report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
                fmt::format("the family in slot {} of the mask ends before its node says", slot)});
     else
-      place_family(page, owner->node, owner->cell, slot);
+      assign_cells(page, parent->node, parent->cell, slot);
     slot += members;
   }
 }
 
-void MaskWalk::place_family(Page& page, const MaskNode& node, const GridCell& cell,
+void MaskWalk::assign_cells(Page& page, const MaskNode& node, const GridCell& cell,
                             std::uint32_t first_slot) {
   std::uint32_t slot = first_slot;
   for (unsigned octant = 0; octant < 8; ++octant) {
@@ -105,10 +105,10 @@ void MaskWalk::place_family(Page& page, const MaskNode& node, const GridCell& ce
 
 void MaskWalk::visit_records(Page& page) {
   for (std::uint32_t slot = page.first_slot(); slot < page.end_slot(); ++slot)
-    if (const std::optional<GridCell> cell = page.cell(slot)) follow(page, slot, *cell);
+    if (const std::optional<GridCell> cell = page.cell(slot)) visit_record(page, slot, *cell);
 }
 
-void MaskWalk::follow(Page& page, std::uint32_t slot, const GridCell& cell) {
+void MaskWalk::visit_record(Page& page, std::uint32_t slot, const GridCell& cell) {
   GreyCell grey;
   grey.page = page.number;
   grey.cell = cell;
@@ -134,7 +134,7 @@ void MaskWalk::follow(Page& page, std::uint32_t slot, const GridCell& cell) {
                     "a cell of the mask is divided below the finest level"});
   const std::uint32_t family = grey.node->family;
   if (links_.page(family) + parts_.first_mask_page() == page.number)
-    place_family(page, *grey.node, cell, links_.slot(family));
+    assign_cells(page, *grey.node, cell, links_.slot(family));
   else if (!pending_.add({links_.page(family), links_.slot(family), false}, {cell, *grey.node}))
     report_({IssueCode::kLinkTwice, page.number, Error::kNowhere,
              fmt::format("a second link leads to slot {} of mask page {}", links_.slot(family),

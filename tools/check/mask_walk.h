@@ -40,27 +40,27 @@ class MaskWalk {
   /// Visits the page that `parts` decoded last. Pages must be added in ascending order.
   void add(std::uint32_t page);
   /// Records that a page cannot be read.
-  void lose(std::uint32_t page);
+  void skip_page(std::uint32_t page);
 
  private:
   /// A node in an earlier page whose family is in a later one.
-  struct Owner {
+  struct FamilyParent {
     octree::GridCell cell;
     octree::MaskNode node;
   };
   class Page;
 
   void take_roots(Page& page);
-  void place_family(Page& page, const octree::MaskNode& node, const octree::GridCell& cell,
+  void assign_cells(Page& page, const octree::MaskNode& node, const octree::GridCell& cell,
                     std::uint32_t first_slot);
   void visit_records(Page& page);
-  void follow(Page& page, std::uint32_t slot, const octree::GridCell& cell);
+  void visit_record(Page& page, std::uint32_t slot, const octree::GridCell& cell);
 
   FileParts& parts_;
   const octree::MaskLinkFormat links_;
   const Visitor visit_;
   const Reporter report_;
-  SubtreeLinks<Owner> pending_;
+  SubtreeLinks<FamilyParent> pending_;
   bool complete_ = true;
 };
 

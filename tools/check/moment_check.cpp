@@ -33,23 +33,25 @@ Matrix first_of(const octree::Moments& moments) {
   return first * moments.first_unit();
 }
 
-/// Whether stated moments fit. The added share kCapacity is far above the rounding of doubles and
-/// of points relative to the centre.
+/// Whether stated moments fit. The added share kRelativeSlack is far above the rounding of doubles
+/// and of points relative to the centre.
 bool fits(const octree::Moments& stated, const Expected& expected) {
-  constexpr double kCapacity = 0x1p-30;
+  constexpr double kRelativeSlack = 0x1p-30;
   const double area = octree::Moments::wide(stated.area);
   const double second = octree::Moments::wide(stated.second);
   const double extent = std::sqrt(second / area);
-  const double perturbed = octree::kAbsoluteSlack * area;
-  if (area * (1 + kCapacity) < expected.area) return false;
-  if (second * (1 + kCapacity) + perturbed * (extent + octree::kAbsoluteSlack) < expected.second)
+  const double position_error = octree::kAbsoluteSlack * area;
+  if (area * (1 + kRelativeSlack) < expected.area) return false;
+  if (second * (1 + kRelativeSlack) + position_error * (extent + octree::kAbsoluteSlack) <
+      expected.second)
     return false;
-  const double vector_error = (octree::kVectorError + kCapacity) * area + expected.vector_error;
+  const double vector_error =
+      (octree::kVectorError + kRelativeSlack) * area + expected.vector_error;
   if (!((vector_of(stated) - expected.vector).norm() <= vector_error)) return false;
   const Matrix symmetric = (expected.first + expected.first.transpose()) / 2 -
                            expected.first.trace() / 3 * Matrix::Identity();
-  const double first_error = octree::kFirstError * stated.first_unit() + kCapacity * area * extent +
-                             perturbed + expected.first_error;
+  const double first_error = octree::kFirstError * stated.first_unit() +
+                             kRelativeSlack * area * extent + position_error + expected.first_error;
   return (first_of(stated) - symmetric).norm() <= first_error;
 }
 

@@ -28,8 +28,8 @@ Polygon clipped(const Polygon& polygon, unsigned axis, double at, double sign) {
 
 }  // namespace
 
-bool keeps_to_slab(const octree::CellSlab& slab, const octree::Triangle& triangle,
-                   const octree::Point& lower, const octree::Point& upper, unsigned level) {
+bool is_within_slab(const octree::CellSlab& slab, const octree::Triangle& triangle,
+                    const octree::Point& lower, const octree::Point& upper, unsigned level) {
   const double step = slab.width() / 256.0, rounding = kRounding * step;
   const double least = (slab.lower + 0.5) * step, greatest = (slab.upper + 0.5) * step;
   const auto is_within = [&](const Point& at) {

@@ -9,7 +9,7 @@ namespace planetree::tools {
 ///
 /// triangle, lower, upper  the triangle and the cell's corners, model frame
 /// level                   the cell's level
-bool keeps_to_slab(const octree::CellSlab& slab, const octree::Triangle& triangle,
-                   const octree::Point& lower, const octree::Point& upper, unsigned level);
+bool is_within_slab(const octree::CellSlab& slab, const octree::Triangle& triangle,
+                    const octree::Point& lower, const octree::Point& upper, unsigned level);
 
 }  // namespace planetree::tools

@@ -13,7 +13,7 @@
 namespace planetree::tools {
 namespace {
 
-std::string index_of(const Error& error) {
+std::string location_text(const Error& error) {
   // Some texts begin with their page.
   const bool has_page =
       error.page != Error::kNowhere && !std::string_view(error.text).starts_with("page ");
@@ -55,7 +55,8 @@ int exit_status(ErrorCode code) noexcept {
 }
 
 std::string error_line(std::string_view file, const Error& error) {
-  return in_one_line(fmt::format("planetree: {}: {}{}", file, index_of(error), error.text)) + '\n';
+  return in_one_line(fmt::format("planetree: {}: {}{}", file, location_text(error), error.text)) +
+         '\n';
 }
 
 std::string json_line(const nlohmann::ordered_json& value) {

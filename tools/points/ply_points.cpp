@@ -75,7 +75,7 @@ PlyPoints::PlyPoints(std::string name, octree::MeshFile file, PlyHeader header)
       lines_(file_, header_.body),
       window_(file_),
       offset_(header_.body.offset),
-      left_(header_.vertices().count) {}
+      vertices_left_(header_.vertices().count) {}
 
 /// Skips the elements before the vertices.
 Result<void> PlyPoints::find_vertices() {
@@ -96,20 +96,21 @@ Result<void> PlyPoints::find_vertices() {
   if (header_.encoding == PlyEncoding::kAscii) return {};
   record_bytes_ = header_.vertices().min_record_bytes();
   for (std::size_t axis = 0; axis < 3; ++axis)
-    at_[axis] = header_.vertices().offset_of(header_.coordinates[axis]);
-  return check_room();
+    coordinate_offsets_[axis] = header_.vertices().offset_of(header_.coordinates[axis]);
+  return check_length();
 }
 
-Result<void> PlyPoints::check_room() const {
-  if (left_ <= (file_.size_bytes() - offset_) / record_bytes_) return {};
+Result<void> PlyPoints::check_length() const {
+  if (vertices_left_ <= (file_.size_bytes() - offset_) / record_bytes_) return {};
   return make_error(ErrorCode::kBadInput, Error::kNowhere, file_.size_bytes(),
                     "the file ends in the middle of its %" PRIu64 " vertices; export it again",
-                    left_);
+                    vertices_left_);
 }
 
 Result<std::size_t> PlyPoints::read(std::span<Vec3> points) {
   if (failure_) return *failure_;
-  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(points.size(), left_));
+  const auto count =
+      static_cast<std::size_t>(std::min<std::uint64_t>(points.size(), vertices_left_));
   const bool is_ascii = header_.encoding == PlyEncoding::kAscii;
   for (std::size_t i = 0; i < count; ++i) {
     const auto read = is_ascii ? read_line(points[i]) : read_record(points[i]);
@@ -118,7 +119,7 @@ Result<std::size_t> PlyPoints::read(std::span<Vec3> points) {
     if (i == 0) return *failure_;
     return i;  // the error is reported after the points before it
   }
-  left_ -= count;
+  vertices_left_ -= count;
   return count;
 }
 
@@ -128,7 +129,8 @@ Result<void> PlyPoints::read_record(Vec3& point) {
   if (record == nullptr) return window_.failure();
   double* const values[] = {&point.x, &point.y, &point.z};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    *values[axis] = octree::load_real(header_.coordinate_type(axis), record + at_[axis], swap);
+    *values[axis] =
+        octree::load_real(header_.coordinate_type(axis), record + coordinate_offsets_[axis], swap);
   offset_ += record_bytes_;
   return {};
 }

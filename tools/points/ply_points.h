@@ -27,20 +27,21 @@ class PlyPoints final : public PointReader {
  private:
   PlyPoints(std::string name, octree::MeshFile file, octree::PlyHeader header);
   Result<void> find_vertices();
-  Result<void> check_room() const;
+  Result<void> check_length() const;
   Result<void> read_record(Vec3& point);
   Result<void> read_line(Vec3& point);
   Error refusal(const char* cause) const;
 
   octree::MeshFile file_;
   octree::PlyHeader header_;
-  octree::MeshLines lines_;               // ascii
-  octree::MeshWindow window_;             // binary
-  std::uint64_t offset_ = 0;              // binary
-  std::uint64_t record_bytes_ = 0;        // binary
-  std::array<std::uint64_t, 3> at_ = {};  // offsets of x, y and z in a binary record
-  std::uint64_t left_ = 0;                // vertices not yet read
-  std::optional<Error> failure_;          // reported after the points before it
+  octree::MeshLines lines_;         // ascii
+  octree::MeshWindow window_;       // binary
+  std::uint64_t offset_ = 0;        // binary
+  std::uint64_t record_bytes_ = 0;  // binary
+  std::array<std::uint64_t, 3> coordinate_offsets_ =
+      {};                            // offsets of x, y and z in a binary record
+  std::uint64_t vertices_left_ = 0;  // vertices not yet read
+  std::optional<Error> failure_;     // reported after the points before it
 };
 
 }  // namespace planetree::tools

@@ -55,7 +55,7 @@ std::string crossings_text(const Explanation& explanation) {
       vector_text(explanation.end), reason.known, reason.crossings);
 }
 
-std::string because(const Explanation& explanation) {
+std::string reason_text(const Explanation& explanation) {
   const std::string cell =
       fmt::format("cell {} of the mask", cell_text(explanation.reason.cell.octcode()));
   switch (explanation.reason.rule) {
@@ -139,7 +139,7 @@ Json explanation_json(const Explanation& explanation) {
   Json json = {{"point", vector_json(explanation.query)},
                {"side", side_word(answer.side)},
                {"rule", rule_word(reason.rule)},
-               {"because", because(explanation)},
+               {"because", reason_text(explanation)},
                {"winding", explanation.side_result.winding}};
   if (reason.in_mask)
     json["cell"] = {{"name", cell_text(reason.cell.octcode())},
@@ -170,7 +170,7 @@ Json explanation_json(const Explanation& explanation) {
 std::string explanation_text(const Explanation& explanation) {
   const ClosestPoint& answer = explanation.answer;
   std::string text = fmt::format("point       {}\n", vector_text(explanation.query));
-  text += fmt::format("side        {}: {}\n", side_word(answer.side), because(explanation));
+  text += fmt::format("side        {}: {}\n", side_word(answer.side), reason_text(explanation));
   if (explanation.reason.in_mask)
     text += fmt::format("cell        {} to {}\n", vector_text(explanation.cell_lower),
                         vector_text(explanation.cell_upper));

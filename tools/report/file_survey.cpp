@@ -27,20 +27,20 @@ class Surveyor {
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
       PageRow row{page, parts_.entries()[page], {}, {}};
-      look_at(row);
+      survey_page(row);
       if (!visit(row)) break;
     }
     return std::move(survey_);
   }
 
  private:
-  void look_at(PageRow& row) {
+  void survey_page(PageRow& row) {
     std::optional<Issue> issue = parts_.read_page(row.number);
     if (!issue) issue = parts_.decode_page();
     const bool mask = row.number >= parts_.first_mask_page();
     if (issue) {
       survey_.issues.add(*std::move(issue));
-      if (mask) return mask_.lose(row.number);
+      if (mask) return mask_.skip_page(row.number);
       return pending_.finish_page(row.number, [](const auto&, const auto&) {});
     }
     if (mask) {
@@ -110,19 +110,19 @@ class Surveyor {
       node_depths[i] = pending_.take({page, frame.node_slot(i), false});
     for (std::uint32_t i = 0; i < header.node_count; ++i)
       if (node_depths[i]) add_node(page, frame, i, *node_depths[i], node_depths, block_depths);
-    bool scaled = true;
+    bool reached = true;
     frame.for_each_block([&](std::uint32_t index, std::uint32_t slot) {
       if (index < header.root_block_count)
         if (const auto depth = pending_.take({page, slot, true})) block_depths[slot] = *depth;
       const auto depth = block_depths.find(slot);
-      scaled = scaled && depth != block_depths.end();
+      reached = reached && depth != block_depths.end();
       if (depth == block_depths.end()) return;
       LevelRow& row = level(depth->second);
       ++row.blocks;
       row.triangles += frame.block(slot).triangle_count();
     });
-    for (const auto& depth : node_depths) scaled = scaled && depth.has_value();
-    if (!scaled) ++survey_.unwritten_pages;
+    for (const auto& depth : node_depths) reached = reached && depth.has_value();
+    if (!reached) ++survey_.unreached_pages;
     pending_.finish_page(page, [](const auto&, const auto&) {});
   }
 

@@ -49,7 +49,7 @@ struct FileSurvey {
   std::uint64_t height_fields = 0;    ///< blocks marked as height fields
   std::vector<LevelRow> levels;       ///< by depth
   std::vector<MaskLevelRow> mask;     ///< by level; empty without a mask
-  std::uint64_t unwritten_pages = 0;  ///< pages below unreadable pages, not in `levels`
+  std::uint64_t unreached_pages = 0;  ///< pages below unreadable pages, not in `levels`
 };
 
 /// Called for each page in ascending order. Returns false to end the survey.

@@ -275,9 +275,9 @@ std::string levels_text(const FileSurvey& survey) {
                         share(row.triangles, row.blocks));
   }
   if (!survey.mask.empty()) text += mask_levels_text(survey);
-  if (survey.unwritten_pages > 0)
+  if (survey.unreached_pages > 0)
     text += fmt::format("{} pages hang from pages that cannot be read and are not counted\n",
-                        grouped_count(survey.unwritten_pages));
+                        grouped_count(survey.unreached_pages));
   return text;
 }
 

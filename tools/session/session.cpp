@@ -38,7 +38,7 @@ Vec3 velocity_at(std::span<const Vec3> path, std::size_t tick, nanoseconds perio
   return {(to.x - from.x) * per_second, (to.y - from.y) * per_second, (to.z - from.z) * per_second};
 }
 
-void query_all(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
+void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nanoseconds period,
                TouchRecord& record) noexcept {
   record.rights = become_real_time();
   // One query before the ticks, so that the faults of first accesses are not counted.
@@ -60,8 +60,8 @@ void query_all(Probe& probe, std::span<const Vec3> path, nanoseconds start, nano
                   after.switches_forced - before.switches_forced};
 }
 
-void wake_only(nanoseconds start, nanoseconds period,
-               std::vector<std::uint32_t>& floor_ns) noexcept {
+void run_idle_thread(nanoseconds start, nanoseconds period,
+                     std::vector<std::uint32_t>& floor_ns) noexcept {
   become_real_time();
   for (std::size_t i = 0; i < floor_ns.size(); ++i) {
     const nanoseconds due = start + period * static_cast<std::int64_t>(i);
@@ -77,8 +77,8 @@ TouchRecord run_touch_session(Probe& probe, std::span<const Vec3> path, nanoseco
   record.ticks.resize(path.size());
   record.floor_ns.resize(path.size());
   const nanoseconds start = now() + std::chrono::milliseconds(20);
-  std::thread querying([&] { query_all(probe, path, start, period, record); });
-  std::thread idle([&] { wake_only(start + period / 2, period, record.floor_ns); });
+  std::thread querying([&] { run_ticks(probe, path, start, period, record); });
+  std::thread idle([&] { run_idle_thread(start + period / 2, period, record.floor_ns); });
   querying.join();
   idle.join();
   return record;

@@ -7,7 +7,7 @@
 namespace planetree::tools {
 namespace {
 
-constexpr std::size_t kTicksAtOnePlace = 100;
+constexpr std::size_t kTicksAtOnePoint = 100;
 constexpr double kTurn = 0.05;           // maximum change of direction a tick, about in radians
 constexpr double kHeight = 1e-3;         // height of the tip, as a share of the diagonal
 constexpr std::size_t kBobTicks = 1300;  // period of the height
@@ -31,8 +31,8 @@ class Walk {
 
   // Moves to a random surface point.
   void jump() {
-    at_ = probe_.closest_point(any_place()).point;
-    heading_ = any_direction();
+    at_ = probe_.closest_point(random_point()).point;
+    heading_ = random_direction();
   }
 
   // Moves along the surface by one step.
@@ -54,26 +54,26 @@ class Walk {
  private:
   // Keeps the heading along the surface, or chooses another one if the tip is stuck.
   void turn(const Vec3& normal, bool stuck) {
-    const Vec3 other = any_direction();
+    const Vec3 other = random_direction();
     Vec3 heading = stuck ? other : sum(heading_, other, kTurn);
     heading = sum(heading, normal, -dot(heading, normal));
     const double size = length(heading);
     heading_ = size > 1e-6 ? Vec3{heading.x / size, heading.y / size, heading.z / size} : other;
   }
 
-  double any(double from, double to) {
+  double random_between(double from, double to) {
     return from + (to - from) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
-  Vec3 any_place() {
-    const double x = any(box_lower_.x, box_upper_.x);
-    const double y = any(box_lower_.y, box_upper_.y);
-    return {x, y, any(box_lower_.z, box_upper_.z)};
+  Vec3 random_point() {
+    const double x = random_between(box_lower_.x, box_upper_.x);
+    const double y = random_between(box_lower_.y, box_upper_.y);
+    return {x, y, random_between(box_lower_.z, box_upper_.z)};
   }
-  Vec3 any_direction() {
+  Vec3 random_direction() {
     for (;;) {
-      const double x = any(-1, 1);
-      const double y = any(-1, 1);
-      const Vec3 way{x, y, any(-1, 1)};
+      const double x = random_between(-1, 1);
+      const double y = random_between(-1, 1);
+      const Vec3 way{x, y, random_between(-1, 1)};
       const double size = length(way);
       if (size > 0.1 && size < 1) return {way.x / size, way.y / size, way.z / size};
     }
@@ -99,7 +99,7 @@ std::vector<Vec3> touch_path(const Model& model, Probe& probe, TouchMotion motio
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     if (motion != TouchMotion::kTeleport)
       walk.go(tick);
-    else if (tick % kTicksAtOnePlace == 0)
+    else if (tick % kTicksAtOnePoint == 0)
       walk.jump();
     path.push_back(walk.at());
   }

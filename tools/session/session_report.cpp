@@ -81,8 +81,8 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
   const std::uint64_t period_ns = 1'000'000'000 / arguments.rate_hz;
   const auto late = std::count_if(record.ticks.begin(), record.ticks.end(),
                                   [&](const Tick& tick) { return tick.latency_ns > period_ns; });
-  const auto unsided = std::count_if(record.ticks.begin(), record.ticks.end(),
-                                     [](const Tick& t) { return t.side == Side::kUnknown; });
+  const auto unknown_sides = std::count_if(record.ticks.begin(), record.ticks.end(),
+                                           [](const Tick& t) { return t.side == Side::kUnknown; });
   const Sorted<float> width(widths(record));
   const Sorted<std::uint32_t> refine(refine_ticks(record));
   return {{"file", arguments.file.string()},
@@ -91,7 +91,7 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
           {"ticks", record.ticks.size()},
           {"late", late},
           {"degraded", std::count_if(record.ticks.begin(), record.ticks.end(), is_degraded)},
-          {"unknown_sides", unsided},
+          {"unknown_sides", unknown_sides},
           {"latency_us", in_microseconds(each(record, &Tick::latency_ns))},
           {"query_us", in_microseconds(each(record, &Tick::query_ns))},
           {"floor_us", in_microseconds(record.floor_ns)},

@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 
-const char* touch_word(PageAccess::Kind kind) {
+const char* access_word(PageAccess::Kind kind) {
   switch (kind) {
     case PageAccess::Kind::kHit:
       return "hit";
@@ -28,7 +28,7 @@ const char* touch_word(PageAccess::Kind kind) {
 PageTraceDrain::PageTraceDrain(const Model& model)
     : model_(model), thread_([this] {
         while (!stopping_.load(std::memory_order_relaxed)) {
-          take();
+          drain();
           std::this_thread::sleep_for(kPause);
         }
       }) {}
@@ -39,17 +39,17 @@ const std::vector<PageAccess>& PageTraceDrain::finish() {
   if (thread_.joinable()) {
     stopping_.store(true, std::memory_order_relaxed);
     thread_.join();
-    take();
+    drain();
   }
   return page_trace_;
 }
 
-void PageTraceDrain::take() {
-  std::array<PageAccess, 1024> taken;
-  for (std::size_t got = taken.size(); got == taken.size();) {
-    got = model_.drain_page_trace(taken);
-    page_trace_.insert(page_trace_.end(), taken.begin(),
-                       taken.begin() + static_cast<std::ptrdiff_t>(got));
+void PageTraceDrain::drain() {
+  std::array<PageAccess, 1024> drained;
+  for (std::size_t got = drained.size(); got == drained.size();) {
+    got = model_.drain_page_trace(drained);
+    page_trace_.insert(page_trace_.end(), drained.begin(),
+                       drained.begin() + static_cast<std::ptrdiff_t>(got));
   }
 }
 
@@ -58,7 +58,7 @@ std::string touch_trace(std::span<const PageAccess> accesses) {
   for (const PageAccess& access : accesses)
     if (access.query > 0)
       fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", access.query - 1, access.probe,
-                     access.page, access.level, touch_word(access.kind));
+                     access.page, access.level, access_word(access.kind));
   return text;
 }
 

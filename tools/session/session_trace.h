@@ -29,7 +29,7 @@ class PageTraceDrain {
   const std::vector<PageAccess>& finish();
 
  private:
-  void take();
+  void drain();
 
   const Model& model_;
   std::vector<PageAccess> page_trace_;

@@ -25,9 +25,9 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
                       static_cast<unsigned long long>(bytes / kMiB),
                       static_cast<unsigned long long>(kMinBytes / kMiB));
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  const std::uint64_t most = (bytes - kFixedBytes) / kThreadBytes;
+  const std::uint64_t max_threads = (bytes - kFixedBytes) / kThreadBytes;
   BuildMemory memory;
-  memory.threads = static_cast<int>(std::min<std::uint64_t>(threads, most));
+  memory.threads = static_cast<int>(std::min<std::uint64_t>(threads, max_threads));
   const std::uint64_t used = kFixedBytes + kThreadBytes * static_cast<unsigned>(memory.threads);
   const std::uint64_t left = bytes - used;
   memory.batch_triangles = 1 << 19;
@@ -41,7 +41,7 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   return memory;
 }
 
-BuildMemory BuildMemory::holding_nothing_kept() const {
+BuildMemory BuildMemory::with_checkpoint() const {
   BuildMemory memory = *this;
   memory.spool_bytes += memory.runs_bytes;
   memory.runs_bytes = 0;

@@ -32,7 +32,7 @@ struct BuildMemory {
   static Result<BuildMemory> share(std::uint64_t bytes, unsigned threads);
 
   /// The shares of a build with a checkpoint: sorted triangles and pages always go to disk.
-  BuildMemory holding_nothing_kept() const;
+  BuildMemory with_checkpoint() const;
 };
 
 }  // namespace planetree::octree

@@ -11,7 +11,7 @@ enum class BuildPhase : std::uint8_t {
   kResuming,
   kReading,
   kOrdering,
-  kClosing,
+  kMatching,
   kListing,
   kBounding,
   kColouring,
@@ -27,7 +27,7 @@ constexpr const char* name_of(BuildPhase phase) {
       return "reading";
     case BuildPhase::kOrdering:
       return "ordering";
-    case BuildPhase::kClosing:
+    case BuildPhase::kMatching:
       return "matching edges";
     case BuildPhase::kListing:
       return "listing unbalanced edges";
@@ -54,7 +54,7 @@ class BuildProgress {
   /// Reports, before an error is returned, which directory the error concerns, and the path.
   virtual void failed_at(BuildDirectory, const std::filesystem::path&) {}
   /// Reports once, for a build with a checkpoint, what work it resumes, or why it resumes none.
-  virtual void takes_up(const std::string&) {}
+  virtual void resumes(const std::string&) {}
 };
 
 }  // namespace planetree::octree

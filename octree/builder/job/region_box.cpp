@@ -21,11 +21,11 @@ Result<void> RegionBox::check() const {
   return {};
 }
 
-Result<void> RegionBox::check_near(const ModelFrame& frame) const {
+Result<void> RegionBox::check_meets(const ModelFrame& frame) const {
   if ((point_of(lower).array() <= frame.input_upper.array()).all() &&
       (point_of(upper).array() >= frame.input_lower.array()).all())
     return {};
-  return nothing_touches(frame);
+  return no_triangle_touches(frame);
 }
 
 Region RegionBox::region(const ModelFrame& frame) const {
@@ -33,7 +33,7 @@ Region RegionBox::region(const ModelFrame& frame) const {
           frame.upper()};
 }
 
-Error nothing_touches(const ModelFrame& frame) {
+Error no_triangle_touches(const ModelFrame& frame) {
   const Point &lower = frame.input_lower, &upper = frame.input_upper;
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                     "no triangle touches the box; that of the whole model is "

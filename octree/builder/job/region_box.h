@@ -15,12 +15,12 @@ struct RegionBox {
   /// errors  kBadArgument: a coordinate is not finite, or `upper` is below `lower`.
   Result<void> check() const;
   /// errors  kBadArgument: the box has no point in common with the box of the mesh.
-  Result<void> check_near(const ModelFrame& frame) const;
+  Result<void> check_meets(const ModelFrame& frame) const;
   /// The region in the model frame. The box must have a point in common with that of the mesh.
   Region region(const ModelFrame& frame) const;
 };
 
 /// The error that no triangle of a mesh touches a box.
-Error nothing_touches(const ModelFrame& frame);
+Error no_triangle_touches(const ModelFrame& frame);
 
 }  // namespace planetree::octree

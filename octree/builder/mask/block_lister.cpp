@@ -56,9 +56,9 @@ class NearBlocks {
   static constexpr unsigned kCapacity = 4 * kMaxListed;
 
   void settle() {
-    const OctantOverlap::Certain certain = overlap_.take();
-    for (unsigned k = 0; k < certain.count; ++k)
-      found_[certain.indices[k]].second |= certain.octants[k];
+    const OctantOverlap::TouchedOctants touched_octants = overlap_.take();
+    for (unsigned k = 0; k < touched_octants.count; ++k)
+      found_[touched_octants.indices[k]].second |= touched_octants.octants[k];
   }
   void drop_untouched() {
     settle();

@@ -17,7 +17,7 @@ Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& ru
   };
   const auto take = [&](std::size_t at, const MaskTree& mask,
                         const SectorRoot& root) -> Result<void> {
-    auto built = put_sector_away(mask, {sectors.all()[at].cell, !alone});
+    auto built = spill_sector(mask, {sectors.all()[at].cell, !alone});
     if (!built) return built.error();
     built->root = root;
     sectors_[at].built = *std::move(built);
@@ -45,12 +45,12 @@ Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& ru
   return {};
 }
 
-Result<BuiltSector> BuiltMask::put_sector_away(const MaskTree& mask, const MaskRoot& root) {
+Result<BuiltSector> BuiltMask::spill_sector(const MaskTree& mask, const MaskRoot& root) {
   BuiltSector sector;
   const MaskPlan plan = plan_mask(mask, page_bytes_, root);
   const MaskEncoder encoder(mask, plan, 0, float64_);
   for (const PlannedMaskPage& page : plan.pages) {
-    const auto spilled = put_away(page.octcode, encoder.encode(page.number), file_);
+    const auto spilled = spill_page(page.octcode, encoder.encode(page.number), file_);
     if (!spilled) return spilled.error();
     sector.pages.push_back(*spilled);
   }
@@ -61,7 +61,7 @@ Result<BuiltSector> BuiltMask::put_sector_away(const MaskTree& mask, const MaskR
 }
 
 void BuiltMask::count_cells() {
-  for (const Region& sector : sectors_) {
+  for (const SectorPages& sector : sectors_) {
     cell_count_ += sector.built.cell_count;
     levels_ = std::max(levels_, sector.built.levels);
   }
@@ -98,7 +98,7 @@ void BuiltMask::link_sectors() {
   }
 }
 
-std::uint32_t BuiltMask::link(const Region& sector, std::uint32_t link) const {
+std::uint32_t BuiltMask::link(const SectorPages& sector, std::uint32_t link) const {
   const MaskLinkFormat links(page_bytes_);
   return links.make(sector.numbers[links.page(link)], links.slot(link));
 }
@@ -106,9 +106,9 @@ std::uint32_t BuiltMask::link(const Region& sector, std::uint32_t link) const {
 Result<FilePage> BuiltMask::encode(std::uint32_t number, std::uint32_t first_page) const {
   const Page& page = pages_[number];
   if (page.sector != kAbove) {
-    const Region& sector = sectors_[page.sector];
-    auto raw = get_back(sector.built.pages[page.index], file_, first_page + number,
-                        [&](std::uint32_t below) { return link(sector, below); });
+    const SectorPages& sector = sectors_[page.sector];
+    auto raw = read_spilled_page(sector.built.pages[page.index], file_, first_page + number,
+                                 [&](std::uint32_t below) { return link(sector, below); });
     if (!raw) return raw.error();
     return FilePage{page.octcode, 0, *std::move(raw)};
   }

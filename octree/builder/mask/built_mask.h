@@ -59,7 +59,7 @@ class BuiltMask {
 
  private:
   static constexpr std::uint32_t kAbove = ~std::uint32_t{0};
-  struct Region {
+  struct SectorPages {
     BuiltSector built;
     std::vector<std::uint32_t> numbers;  // page numbers within the mask
   };
@@ -69,17 +69,17 @@ class BuiltMask {
     std::uint32_t index = 0;  // among the pages of the sector
   };
 
-  Result<BuiltSector> put_sector_away(const MaskTree& mask, const MaskRoot& root);
+  Result<BuiltSector> spill_sector(const MaskTree& mask, const MaskRoot& root);
   void count_cells();
   void number_pages();
   void link_sectors();
-  std::uint32_t link(const Region& sector, std::uint32_t link) const;
+  std::uint32_t link(const SectorPages& sector, std::uint32_t link) const;
 
   const std::uint32_t page_bytes_;
   const bool float64_;
   storage::SpillFile& file_;
   std::map<std::uint32_t, BuiltSector> known_;
-  std::vector<Region> sectors_;
+  std::vector<SectorPages> sectors_;
   MaskTree above_;
   MaskPlan above_plan_;
   std::vector<Page> pages_;

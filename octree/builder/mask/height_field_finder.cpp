@@ -86,7 +86,7 @@ class Prism {
 
   /// Whether a triangle in the prism's frame does not meet the prism, or is between the ends with
   /// its front towards the first end and meets the limits of HeightField.
-  bool suits(const Triangle& rotated) const {
+  bool accepts(const Triangle& rotated) const {
     const auto& [a, b, c] = rotated;
     if ((a.cwiseMin(b).cwiseMin(c).array() > upper_.array()).any() ||
         (a.cwiseMax(b).cwiseMax(c).array() < lower_.array()).any())
@@ -129,9 +129,9 @@ class Prism {
 };
 
 /// Whether all triangles of a block that meet a prism suit it.
-bool all_suit(const BlockView& block, const Prism& prism, const PrismTriangles& found) {
+bool all_accepted(const BlockView& block, const Prism& prism, const PrismTriangles& found) {
   for (unsigned unsure = found.met & ~found.rising; unsure != 0; unsure &= unsure - 1)
-    if (!prism.suits(
+    if (!prism.accepts(
             prism.rotated(block.triangle(static_cast<unsigned>(std::countr_zero(unsure))))))
       return false;
   return true;
@@ -165,7 +165,7 @@ std::optional<std::int64_t> winding_at(const TreeInfo& tree, const MaskInfo& mas
 bool HeightFieldFinder::may_be_height_field(const BlockView& block) {
   const Prism prism(block);
   return prism.is_good() &&
-         all_suit(block, prism, look_at_triangles(block, prism.in_float(), prism.origin()));
+         all_accepted(block, prism, classify_triangles(block, prism.in_float(), prism.origin()));
 }
 
 bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader& pages) const {
@@ -174,19 +174,19 @@ bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader
   const Point centre = prism.box_centre(), half = prism.box_half();
   const FloatPrism in_float = prism.in_float();
   const PerturbedSegment line = prism.middle_line();
-  bool suits = true;
+  bool accepts = true;
   std::int64_t difference = 0;
   const auto look_at = [&](const BlockView& near, std::uint32_t) {
-    const PrismTriangles found = look_at_triangles(near, in_float, prism.origin());
-    suits = all_suit(near, prism, found);
+    const PrismTriangles found = classify_triangles(near, in_float, prism.origin());
+    accepts = all_accepted(near, prism, found);
     for (unsigned middle = found.met & found.middle; middle != 0; middle &= middle - 1)
       difference += crossing(line, near.triangle(static_cast<unsigned>(std::countr_zero(middle))));
   };
   TraversalStats work;
   const bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
-                            .run_while(kMaxRecords, look_at, [&] { return suits; });
+                            .run_while(kMaxRecords, look_at, [&] { return accepts; });
   // The winding number behind is one more than that in front.
-  return complete && suits && difference == -1 &&
+  return complete && accepts && difference == -1 &&
          winding_at(tree_, mask_, line.from, pages, work) == 0;
 }
 

@@ -9,8 +9,8 @@
 namespace planetree::octree {
 
 HeightFieldMarks::HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask)
-    : info_(tree.info()), desks_([&tree, &mask] {
-        return Desk{TreeFrames(tree, &mask), {}};
+    : info_(tree.info()), workspaces_([&tree, &mask] {
+        return Workspace{TreeFrames(tree, &mask), {}};
       }) {
   mask_.page_bytes = info_.page_bytes;
   mask_.first_page = tree.pages().size();
@@ -19,17 +19,17 @@ HeightFieldMarks::HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask)
 }
 
 Result<void> HeightFieldMarks::mark(std::uint32_t number, FilePage& page) {
-  Desk& desk = desks_.local();
-  const PageReader pages = desk.frames.reader();
+  Workspace& workspace = workspaces_.local();
+  const PageReader pages = workspace.frames.reader();
   const std::byte* frame = pages.page(pages.context, number);
-  if (!frame) return desk.frames.state();
+  if (!frame) return workspace.frames.state();
   const FrameHeader header = *reinterpret_cast<const FrameHeader*>(frame);
-  desk.page.resize(header.used_bytes / kSlotBytes);
-  std::memcpy(desk.page.data(), frame, header.used_bytes);
+  workspace.page.resize(header.used_bytes / kSlotBytes);
+  std::memcpy(workspace.page.data(), frame, header.used_bytes);
   std::vector<std::pair<std::size_t, BlockView>> promising;
   std::size_t slot = header.first_block_slot;
   for (std::size_t i = 0; i < header.block_count; ++i) {
-    const BlockView block(desk.page[slot].bytes, info_.shape);
+    const BlockView block(workspace.page[slot].bytes, info_.shape);
     if (HeightFieldFinder::may_be_height_field(block)) promising.emplace_back(i, block);
     slot += block.slots();
   }
@@ -40,7 +40,7 @@ Result<void> HeightFieldMarks::mark(std::uint32_t number, FilePage& page) {
   for (const auto& [i, block] : promising)
     if (finder.is_height_field(block, pages))
       page.bytes[page.blocks_at + i] |= std::byte{kHeightFieldBit};
-  return desk.frames.state();
+  return workspace.frames.state();
 }
 
 }  // namespace planetree::octree

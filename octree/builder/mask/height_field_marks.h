@@ -33,14 +33,14 @@ class HeightFieldMarks {
     alignas(kSlotBytes) std::byte bytes[kSlotBytes];
   };
   // Working memory of one thread.
-  struct Desk {
+  struct Workspace {
     TreeFrames frames;
     std::vector<Line> page;  // a copy: traversals may evict its frame
   };
 
   const TreeInfo info_;
   MaskInfo mask_;
-  tbb::enumerable_thread_specific<Desk> desks_;
+  tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
 
 }  // namespace planetree::octree

@@ -65,13 +65,13 @@ class MaskJoin {
            std::size_t entry) const {
     const MaskSectors::Region& sector = sectors_[at];
     tree.levels = std::max(tree.levels, sector.cell.level);
-    if (!sector.divided()) return place_root(roots[at], tree, entry);
+    if (!sector.divided()) return add_root(roots[at], tree, entry);
     std::array<bool, 8> grey;
     std::array<std::int64_t, 8> winding;
     for (unsigned octant = 0; octant < 8; ++octant) {
       grey[octant] = grey_[sector.first_octant + octant];
-      const bool requested = grid_.has_part_of(sector.cell.child(octant));
-      winding[octant] = requested ? min_[sector.first_octant + octant] : 0;
+      const bool in_region = grid_.has_part_of(sector.cell.child(octant));
+      winding[octant] = in_region ? min_[sector.first_octant + octant] : 0;
     }
     tree.divide(entry, grey, winding);
     std::size_t child = tree.entries[entry].first;
@@ -82,7 +82,7 @@ class MaskJoin {
     }
   }
 
-  static void place_root(const SectorRoot& root, MaskTree& tree, std::size_t entry) {
+  static void add_root(const SectorRoot& root, MaskTree& tree, std::size_t entry) {
     tree.entries[entry] = root.entry;
     if (!root.special) return;
     tree.entries[entry].first = static_cast<std::uint32_t>(tree.specials.size());

@@ -133,16 +133,16 @@ class MaskPlanner {
     std::sort(
         plan_.pages.begin(), plan_.pages.end(),
         [](const PlannedMaskPage& a, const PlannedMaskPage& b) { return a.octcode < b.octcode; });
-    std::vector<std::uint32_t> indices(mask_.entries.size());
+    std::vector<std::uint32_t> entry_links(mask_.entries.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) {
       plan_.pages[number].number = number;
       std::uint32_t slot = head_slots_;
       for (const std::uint32_t entry : plan_.pages[number].entries)
-        indices[entry] = links_.make(number, slot++);
+        entry_links[entry] = links_.make(number, slot++);
     }
     plan_.families.resize(mask_.entries.size());
     for (std::uint32_t at = 0; at < mask_.entries.size(); ++at)
-      if (has_family(at)) plan_.families[at] = indices[mask_.entries[at].first];
+      if (has_family(at)) plan_.families[at] = entry_links[mask_.entries[at].first];
   }
 
   const MaskTree& mask_;

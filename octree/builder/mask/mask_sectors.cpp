@@ -14,33 +14,34 @@ namespace {
 
 /// Division ends after more than this many steps in a row that each leave more than half of the
 /// triangles together: their centres coincide.
-constexpr unsigned kMaxWasted = 3;
+constexpr unsigned kMaxFutileSteps = 3;
 
 }  // namespace
 
-Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t most) {
-  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, most, 0);
+Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t max_triangles) {
+  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, max_triangles, 0);
 }
 
 Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                                 std::uint64_t most, unsigned wasted) {
-  if (stretch.size <= most || wasted > kMaxWasted || sectors_[at].cell.level == kLevels ||
-      !grid_.has_part_of(sectors_[at].cell))
+                                 std::uint64_t max_triangles, unsigned futile_steps) {
+  if (stretch.size <= max_triangles || futile_steps > kMaxFutileSteps ||
+      sectors_[at].cell.level == kLevels || !grid_.has_part_of(sectors_[at].cell))
     return {};
   const auto octants = octants_of(at, stretch, runs);
   if (!octants) return octants.error();
   const std::size_t first = sectors_.size();
   sectors_[at].first_octant = static_cast<std::uint32_t>(first);
-  bool all_requested = true;
+  bool all_in_region = true;
   for (unsigned octant = 0; octant < 8; ++octant) {
     sectors_.push_back({sectors_[at].cell.child(octant)});
-    all_requested = all_requested && grid_.has_part_of(sectors_.back().cell);
+    all_in_region = all_in_region && grid_.has_part_of(sectors_.back().cell);
   }
   for (unsigned octant = 0; octant < 8; ++octant) {
     const Stretch& part = (*octants)[octant];
     // At the rim of the region, all centres may be in one octant however far apart they are.
-    const bool told_apart = part.size <= stretch.size / 2 || !all_requested;
-    const auto divided = divide(first + octant, part, runs, most, told_apart ? 0 : wasted + 1);
+    const bool separated = part.size <= stretch.size / 2 || !all_in_region;
+    const auto divided =
+        divide(first + octant, part, runs, max_triangles, separated ? 0 : futile_steps + 1);
     if (!divided) return divided;
   }
   return {};
@@ -82,7 +83,7 @@ class MaskSectors::Visit {
     if (is_inside_own(boxed))
       rise_of(own_);
     else
-      touch(0, boxed);
+      add_touched(0, boxed);
   }
 
   // Everything but the visitors.
@@ -97,12 +98,12 @@ class MaskSectors::Visit {
   }
 
  private:
-  void touch(std::size_t at, const BoxedTriangle& triangle) {
+  void add_touched(std::size_t at, const BoxedTriangle& triangle) {
     const Region& sector = sectors_.sectors_[at];
     if (sector.divided()) {
       const unsigned near = octants_of_box(triangle, sectors_.grid_.middle(sector.cell));
       for (unsigned octant = 0; octant < 8; ++octant)
-        if ((near >> octant & 1) != 0) touch(sector.first_octant + octant, triangle);
+        if ((near >> octant & 1) != 0) add_touched(sector.first_octant + octant, triangle);
       return;
     }
     const Point lower = sectors_.grid_.lower(sector.cell),
@@ -183,10 +184,10 @@ Result<MaskSectors::Part> MaskSectors::add(const Triangles& triangles) {
   return part;
 }
 
-bool MaskSectors::add_extents(const Part& part) {
+bool MaskSectors::add_extent(const Part& part) {
   for (const Rise& rise : part.rises)
     if (rise.sector >= sectors_.size() || sectors_[rise.sector].divided()) return false;
-  visitors_.add_extents(part.visitors);
+  visitors_.add_extent(part.visitors);
   sum_up(part);
   return true;
 }

@@ -59,13 +59,13 @@ class MaskSectors {
         visitors_(Triangles::record_bytes(float64), held_bytes, file) {}
 
   /// Divides the root into sectors. Call it before anything else.
-  Result<void> divide(const TriangleRuns& runs, std::uint64_t most = kSectorTriangles);
+  Result<void> divide(const TriangleRuns& runs, std::uint64_t max_triangles = kSectorTriangles);
 
   /// Adds a part of the model, each triangle once. Returns what was added.
   Result<Part> add(const Triangles& triangles);
   /// Adds a part whose visitors are in the file. If the part is not one of this model, returns
   /// false and adds nothing.
-  bool add_extents(const Part& part);
+  bool add_extent(const Part& part);
 
   /// The root comes first. Octants are side by side and come after the sector that they divide.
   const std::vector<Region>& all() const { return sectors_; }
@@ -88,7 +88,7 @@ class MaskSectors {
   class Visit;
 
   Result<void> divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                      std::uint64_t most, unsigned wasted);
+                      std::uint64_t max_triangles, unsigned futile_steps);
   Result<std::array<Stretch, 8>> octants_of(std::size_t at, const Stretch& stretch,
                                             const TriangleRuns& runs) const;
   Triangles joined(const Triangles& own, const Triangles& visitors, std::size_t sector) const;

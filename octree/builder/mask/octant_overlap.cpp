@@ -33,16 +33,17 @@ constexpr float kMaxReach = 0x1p30f;
 // How far apart boxes and triangles are on separating axes; less than 0 where they overlap.
 class OverlapLanes {
  public:
-  HWY_INLINE OverlapLanes(const OctantOverlap::Seen& seen, unsigned first) : seen_(seen) {
+  HWY_INLINE OverlapLanes(const OctantOverlap::FloatTriangles& in_float, unsigned first)
+      : in_float_(in_float) {
     const TriangleTag d;
 #pragma GCC unroll 3
     for (unsigned k = 0; k < 3; ++k)
 #pragma GCC unroll 3
       for (unsigned axis = 0; axis < 3; ++axis)
-        at_[k][axis] = hn::Load(d, seen.corner[k][axis] + first);
+        at_[k][axis] = hn::Load(d, in_float.corner[k][axis] + first);
   }
 
-  HWY_INLINE void tell(unsigned first, OctantOverlap::Sure& sure) {
+  HWY_INLINE void decide(unsigned first, OctantOverlap::FloatResult& float_result) {
     look_along_edges();
     look_along_normal();
     look_along_axes();
@@ -70,8 +71,8 @@ class OverlapLanes {
       touched = hn::Or(touched, hn::IfThenElseZero(hn::RebindMask(di, touches), bit));
       unsure = hn::Or(unsure, hn::IfThenZeroElse(hn::RebindMask(di, certain), bit));
     }
-    hn::StoreU(hn::DemoteTo(bytes, touched), bytes, sure.touched + first);
-    hn::StoreU(hn::DemoteTo(bytes, unsure), bytes, sure.unsure + first);
+    hn::StoreU(hn::DemoteTo(bytes, touched), bytes, float_result.touched + first);
+    hn::StoreU(hn::DemoteTo(bytes, unsure), bytes, float_result.unsure + first);
   }
 
  private:
@@ -81,8 +82,8 @@ class OverlapLanes {
   };
   HWY_INLINE Halves halves(unsigned axis, TriangleFloats along) const {
     const TriangleTag d;
-    const TriangleFloats lower = hn::Mul(along, hn::Set(d, seen_.lower[axis]));
-    const TriangleFloats upper = hn::Mul(along, hn::Set(d, seen_.upper[axis]));
+    const TriangleFloats lower = hn::Mul(along, hn::Set(d, in_float_.lower[axis]));
+    const TriangleFloats upper = hn::Mul(along, hn::Set(d, in_float_.upper[axis]));
     const TriangleFloats zero = hn::Zero(d);
     return {{hn::Min(lower, zero), hn::Min(upper, zero)},
             {hn::Max(lower, zero), hn::Max(upper, zero)}};
@@ -156,15 +157,15 @@ class OverlapLanes {
       const TriangleFloats &a = at_[0][axis], &b = at_[1][axis], &c = at_[2][axis];
       const TriangleFloats least = hn::Min(hn::Min(a, b), c), greatest = hn::Max(hn::Max(a, b), c);
       const TriangleFloats zero = hn::Zero(d);
-      box_[axis][0] = gap(least, greatest, hn::Set(d, seen_.lower[axis]), zero);
-      box_[axis][1] = gap(least, greatest, zero, hn::Set(d, seen_.upper[axis]));
+      box_[axis][0] = gap(least, greatest, hn::Set(d, in_float_.lower[axis]), zero);
+      box_[axis][1] = gap(least, greatest, zero, hn::Set(d, in_float_.upper[axis]));
     }
   }
 
   HWY_INLINE TriangleFloats edge_gap(unsigned octant) const {
-    TriangleFloats most = edge_[0][octant >> 1];
-    most = hn::Max(most, edge_[1][octant >> 2 | (octant & 1) << 1]);
-    return hn::Max(most, edge_[2][octant & 3]);
+    TriangleFloats greatest_gap = edge_[0][octant >> 1];
+    greatest_gap = hn::Max(greatest_gap, edge_[1][octant >> 2 | (octant & 1) << 1]);
+    return hn::Max(greatest_gap, edge_[2][octant & 3]);
   }
   HWY_INLINE TriangleFloats box_gap(unsigned octant) const {
     return hn::Max(hn::Max(box_[0][octant & 1], box_[1][octant >> 1 & 1]), box_[2][octant >> 2]);
@@ -175,23 +176,25 @@ class OverlapLanes {
     float size = 0;
 #pragma GCC unroll 3
     for (unsigned axis = 0; axis < 3; ++axis)
-      size = std::max({size, -seen_.lower[axis], seen_.upper[axis]});
-    TriangleFloats most = hn::Set(TriangleTag(), size);
+      size = std::max({size, -in_float_.lower[axis], in_float_.upper[axis]});
+    TriangleFloats greatest_gap = hn::Set(TriangleTag(), size);
     for (const auto& corner : at_)
-      for (const TriangleFloats& coordinate : corner) most = hn::Max(most, hn::Abs(coordinate));
-    return most;
+      for (const TriangleFloats& coordinate : corner)
+        greatest_gap = hn::Max(greatest_gap, hn::Abs(coordinate));
+    return greatest_gap;
   }
 
-  const OctantOverlap::Seen& seen_;
+  const OctantOverlap::FloatTriangles& in_float_;
   TriangleFloats at_[3][3];    // by corner, axis
   TriangleFloats edge_[3][4];  // on axes across edges; by axis, and by halves of the two others
   TriangleFloats normal_[8];   // by octant
   TriangleFloats box_[3][2];   // by axis, half
 };
 
-void tell_octants(const OctantOverlap::Seen& seen, unsigned count, OctantOverlap::Sure& sure) {
+void decide_octants(const OctantOverlap::FloatTriangles& in_float, unsigned count,
+                    OctantOverlap::FloatResult& float_result) {
   for (unsigned i = 0; i < count; i += static_cast<unsigned>(hn::Lanes(TriangleTag())))
-    OverlapLanes(seen, i).tell(i, sure);
+    OverlapLanes(in_float, i).decide(i, float_result);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -201,7 +204,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace planetree::octree {
 
-HWY_EXPORT(tell_octants);
+HWY_EXPORT(decide_octants);
 
 namespace {
 
@@ -215,9 +218,9 @@ OctantOverlap::OctantOverlap(const Point& lower, const Point& middle, const Poin
     : sides_{lower, middle, upper} {
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double farthest = std::max(std::fabs(lower[axis]), std::fabs(upper[axis]));
-    certain_by_float_ = certain_by_float_ && upper[axis] - lower[axis] > kMinSize * farthest;
-    seen_.lower[axis] = static_cast<float>(lower[axis] - middle[axis]);
-    seen_.upper[axis] = static_cast<float>(upper[axis] - middle[axis]);
+    float_decides_ = float_decides_ && upper[axis] - lower[axis] > kMinSize * farthest;
+    in_float_.lower[axis] = static_cast<float>(lower[axis] - middle[axis]);
+    in_float_.upper[axis] = static_cast<float>(upper[axis] - middle[axis]);
   }
 }
 
@@ -225,23 +228,23 @@ void OctantOverlap::add(const Triangle& triangle, unsigned octants, std::uint32_
   assert(!full());
   for (unsigned k = 0; k < 3; ++k)
     for (unsigned axis = 0; axis < 3; ++axis)
-      seen_.corner[k][axis][count_] = static_cast<float>(triangle[k][axis] - sides_[1][axis]);
+      in_float_.corner[k][axis][count_] = static_cast<float>(triangle[k][axis] - sides_[1][axis]);
   triangles_[count_] = triangle;
   indices_[count_] = index;
   octants_[count_++] = static_cast<std::uint8_t>(octants);
 }
 
-OctantOverlap::Certain OctantOverlap::take() {
-  Certain certain;
+OctantOverlap::TouchedOctants OctantOverlap::take() {
+  TouchedOctants certain;
   if (count_ == 0) return certain;
-  Sure sure{};
-  if (certain_by_float_)
-    HWY_DYNAMIC_DISPATCH(tell_octants)(seen_, count_, sure);
+  FloatResult float_result{};
+  if (float_decides_)
+    HWY_DYNAMIC_DISPATCH(decide_octants)(in_float_, count_, float_result);
   else
-    std::fill(std::begin(sure.unsure), std::end(sure.unsure), std::uint8_t{0xff});
+    std::fill(std::begin(float_result.unsure), std::end(float_result.unsure), std::uint8_t{0xff});
   for (unsigned at = 0; at < count_; ++at) {
-    unsigned touched = octants_[at] & sure.touched[at];
-    for (unsigned left = octants_[at] & sure.unsure[at]; left != 0; left &= left - 1) {
+    unsigned touched = octants_[at] & float_result.touched[at];
+    for (unsigned left = octants_[at] & float_result.unsure[at]; left != 0; left &= left - 1) {
       const auto octant = static_cast<unsigned>(std::countr_zero(left));
       if (touches(at, octant)) touched |= 1U << octant;
     }

@@ -27,20 +27,20 @@ class OctantOverlap {
 
   /// Which of their octants the triangles may touch, for the triangles added since the last take():
   /// the first `count` elements, in the order in which they were added.
-  struct Certain {
+  struct TouchedOctants {
     unsigned count = 0;
     std::array<std::uint8_t, kAtOnce> octants;
     std::array<std::uint32_t, kAtOnce> indices;
   };
-  Certain take();
+  TouchedOctants take();
 
   /// A cell and triangles in float, relative to the middle of the cell.
-  struct Seen {
+  struct FloatTriangles {
     float lower[3], upper[3];
     alignas(64) float corner[3][3][kAtOnce];  // by corner, axis, triangle
   };
   /// What float decides: one bit for each octant.
-  struct Sure {
+  struct FloatResult {
     std::uint8_t touched[kAtOnce];
     std::uint8_t unsure[kAtOnce];
   };
@@ -49,8 +49,8 @@ class OctantOverlap {
   bool touches(unsigned at, unsigned octant) const;
 
   const std::array<Point, 3> sides_;  // lower, middle, upper
-  bool certain_by_float_ = true;
-  Seen seen_;
+  bool float_decides_ = true;
+  FloatTriangles in_float_;
   unsigned count_ = 0;
   std::array<Triangle, kAtOnce> triangles_;
   std::array<std::uint8_t, kAtOnce> octants_;

@@ -128,8 +128,8 @@ constexpr double kMinError = 0x1p-60;
 
 }  // namespace
 
-PrismTriangles look_at_triangles(const BlockView& block, const FloatPrism& prism,
-                                 const Point& origin) noexcept {
+PrismTriangles classify_triangles(const BlockView& block, const FloatPrism& prism,
+                                  const Point& origin) noexcept {
   const Point way = origin - block.vertex(0);
   const float seen_from_first[3] = {static_cast<float>(way.x()), static_cast<float>(way.y()),
                                     static_cast<float>(way.z())};

@@ -26,7 +26,7 @@ struct PrismTriangles {
 ///
 /// origin   origin of the prism's frame.
 /// threads  any; the same bits on every instruction set.
-PrismTriangles look_at_triangles(const BlockView& block, const FloatPrism& prism,
-                                 const Point& origin) noexcept;
+PrismTriangles classify_triangles(const BlockView& block, const FloatPrism& prism,
+                                  const Point& origin) noexcept;
 
 }  // namespace planetree::octree

@@ -140,8 +140,9 @@ class SectorMask {
     std::vector<std::uint8_t> touched(grey.triangles.size());
     OctantOverlap overlap(grid_.lower(grey.cell), middle, grid_.upper(grey.cell));
     const auto settle = [&] {
-      const OctantOverlap::Certain certain = overlap.take();
-      for (unsigned k = 0; k < certain.count; ++k) touched[certain.indices[k]] = certain.octants[k];
+      const OctantOverlap::TouchedOctants touched_octants = overlap.take();
+      for (unsigned k = 0; k < touched_octants.count; ++k)
+        touched[touched_octants.indices[k]] = touched_octants.octants[k];
     };
     constexpr std::uint32_t kAhead = 16;
     for (std::uint32_t i = 0; i < touched.size(); ++i) {

@@ -21,13 +21,13 @@ TreeFrames::TreeFrames(const BuiltTree& tree, const BuiltMask* mask)
 
 const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
   auto& self = *static_cast<TreeFrames*>(frames);
-  const auto found = self.indices_.find(number);
-  if (found != self.indices_.end()) {
+  const auto found = self.frame_of_.find(number);
+  if (found != self.frame_of_.end()) {
     self.frames_[found->second].last_use = ++self.uses_;
     return self.bytes_of(found->second).data();
   }
   try {
-    return self.bring(number);
+    return self.load_page(number);
   } catch (const std::bad_alloc&) {
     if (self.state_)
       self.state_ = make_error(ErrorCode::kNoMemory, number, Error::kNowhere,
@@ -38,8 +38,8 @@ const std::byte* TreeFrames::page(void* frames, std::uint32_t number) noexcept {
 
 const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
   auto& self = *static_cast<TreeFrames*>(frames);
-  const auto found = self.indices_.find(number);
-  return found == self.indices_.end() ? nullptr : self.bytes_of(found->second).data();
+  const auto found = self.frame_of_.find(number);
+  return found == self.frame_of_.end() ? nullptr : self.bytes_of(found->second).data();
 }
 
 Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame) const {
@@ -58,8 +58,8 @@ Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame
   return decode_mask_page(raw->bytes, info, frame);
 }
 
-const std::byte* TreeFrames::bring(std::uint32_t number) {
-  const std::size_t frame = free_one();
+const std::byte* TreeFrames::load_page(std::uint32_t number) {
+  const std::size_t frame = acquire_frame();
   const std::span<std::byte> bytes = bytes_of(frame);
   const Result<void> decoded = decode(number, bytes);
   if (!decoded) {
@@ -67,13 +67,13 @@ const std::byte* TreeFrames::bring(std::uint32_t number) {
     frames_[frame] = {};
     return nullptr;
   }
-  indices_.emplace(number, frame);
+  frame_of_.emplace(number, frame);
   frames_[frame] = {number, ++uses_};
   return bytes.data();
 }
 
 // A free frame, or else the one that was least recently used.
-std::size_t TreeFrames::free_one() {
+std::size_t TreeFrames::acquire_frame() {
   if (frames_.size() < max_) {
     lines_.resize(lines_.size() + page_lines_);
     frames_.emplace_back();
@@ -82,7 +82,7 @@ std::size_t TreeFrames::free_one() {
   const auto oldest =
       std::min_element(frames_.begin(), frames_.end(),
                        [](const Frame& a, const Frame& b) { return a.last_use < b.last_use; });
-  indices_.erase(oldest->page);
+  frame_of_.erase(oldest->page);
   return static_cast<std::size_t>(oldest - frames_.begin());
 }
 

@@ -43,9 +43,9 @@ class TreeFrames {
 
   static const std::byte* page(void* frames, std::uint32_t number) noexcept;
   static const std::byte* peek(void* frames, std::uint32_t number) noexcept;
-  const std::byte* bring(std::uint32_t number);
+  const std::byte* load_page(std::uint32_t number);
   Result<void> decode(std::uint32_t number, std::span<std::byte> frame) const;
-  std::size_t free_one();
+  std::size_t acquire_frame();
   std::span<std::byte> bytes_of(std::size_t frame);
 
   const BuiltTree& tree_;
@@ -54,7 +54,7 @@ class TreeFrames {
   const std::size_t max_;
   std::vector<Line> lines_;
   std::vector<Frame> frames_;
-  std::unordered_map<std::uint32_t, std::size_t> indices_;  // frame of each page
+  std::unordered_map<std::uint32_t, std::size_t> frame_of_;  // frame of each page
   std::uint64_t uses_ = 0;
   Result<void> state_;
 };

@@ -23,7 +23,7 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path) {
+Result<MeshFormat> detect_format(const MeshFile& file, const std::filesystem::path& path) {
   const auto prefix = file.prefix(kProbeBytes);
   if (!prefix) return prefix.error();
   if (is_ply(*prefix)) return MeshFormat::kPly;

@@ -13,6 +13,6 @@ enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, 
 /// Finds the format of a mesh file by its content or, where that does not tell it, by the extension
 /// of its path.
 /// errors  those of MeshFile::read().
-Result<MeshFormat> judge_format(const MeshFile& file, const std::filesystem::path& path);
+Result<MeshFormat> detect_format(const MeshFile& file, const std::filesystem::path& path);
 
 }  // namespace planetree::octree

@@ -15,7 +15,7 @@ namespace {
 
 Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path& path,
                               TriangleSink& sink, MeshScratch& scratch) {
-  const Result<MeshFormat> format = judge_format(file, path);
+  const Result<MeshFormat> format = detect_format(file, path);
   if (!format) return format.error();
   switch (*format) {
     case MeshFormat::kPly:

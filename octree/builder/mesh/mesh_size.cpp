@@ -121,8 +121,8 @@ class StlCorners {
   /// A surface repeats corners and has half as many vertices as triangles. A triangle soup does not
   /// repeat corners.
   std::uint64_t vertices_of(std::uint64_t triangles) const {
-    const bool is_heap = distinct_.size() > count_ - count_ / 50;
-    return is_heap ? 3 * triangles : triangles / 2;
+    const bool is_soup = distinct_.size() > count_ - count_ / 50;
+    return is_soup ? 3 * triangles : triangles / 2;
   }
 
  private:
@@ -175,10 +175,10 @@ Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
 
 }  // namespace
 
-Result<MeshSize> MeshSize::foresee(const std::filesystem::path& path, storage::FileCalls& calls) {
+Result<MeshSize> MeshSize::estimate(const std::filesystem::path& path, storage::FileCalls& calls) {
   const Result<MeshFile> file = MeshFile::open(path, calls);
   if (!file) return file.error();
-  const Result<MeshFormat> format = judge_format(*file, path);
+  const Result<MeshFormat> format = detect_format(*file, path);
   if (!format) return format.error();
   switch (*format) {
     case MeshFormat::kPly:

@@ -23,8 +23,8 @@ struct MeshSize {
   ///         STL does not state its vertices: half as many as triangles are assumed, as a closed
   ///         surface has, unless triangles have no corners in common.
   /// errors  those of opening the file and reading it.
-  static Result<MeshSize> foresee(const std::filesystem::path& path,
-                                  storage::FileCalls& calls = storage::FileCalls::real());
+  static Result<MeshSize> estimate(const std::filesystem::path& path,
+                                   storage::FileCalls& calls = storage::FileCalls::real());
 };
 
 }  // namespace planetree::octree

@@ -30,10 +30,10 @@ class ObjStatements {
     text_ = lines_.line();
     if (!without_backslash(text_)) return true;
     joined_.assign(text_);
-    bool goes_on = true;
-    while (goes_on && lines_.next()) {
+    bool continues = true;
+    while (continues && lines_.next()) {
       std::string_view part = lines_.line();
-      goes_on = without_backslash(part);
+      continues = without_backslash(part);
       joined_ += ' ';
       joined_ += part;
     }

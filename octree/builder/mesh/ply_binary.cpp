@@ -146,9 +146,9 @@ Result<void> PlyBinary::walk_record(const PlyElement& element, std::uint64_t rec
                                     std::size_t list_property, std::uint64_t& position,
                                     ListSpan& list) {
   const std::uint64_t begin = position;
-  unread_ = window_.record_at(begin) == nullptr;
-  if (!unread_ && walk_properties(element, list_property, position, list)) return {};
-  return unread_ ? window_.failure() : bad_record(element, record, begin);
+  read_failed_ = window_.record_at(begin) == nullptr;
+  if (!read_failed_ && walk_properties(element, list_property, position, list)) return {};
+  return read_failed_ ? window_.failure() : bad_record(element, record, begin);
 }
 
 bool PlyBinary::walk_properties(const PlyElement& element, std::size_t list_property,
@@ -163,8 +163,8 @@ bool PlyBinary::walk_properties(const PlyElement& element, std::size_t list_prop
     position += fixed_bytes;
     if (!property.is_list) continue;
     const std::byte* const at = window_.at(begin, fixed_bytes);
-    unread_ = at == nullptr;
-    if (unread_) return false;
+    read_failed_ = at == nullptr;
+    if (read_failed_) return false;
     const std::int64_t count = load_integer(property.count_type, at, swap_);
     // Counts have at most 32 bits, so the product below cannot overflow.
     if (count < 0) return false;

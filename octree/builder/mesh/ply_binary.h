@@ -58,7 +58,7 @@ class PlyBinary final : public PlyBody {
   const bool swap_;
   PlyVertices vertices_;
   MeshWindow window_;
-  bool unread_ = false;  ///< the last record could not be read, so that it may not be bad
+  bool read_failed_ = false;  ///< the last record could not be read, so that it may not be bad
 };
 
 }  // namespace planetree::octree

@@ -14,20 +14,20 @@ namespace {
 
 /// Reads the elements in the file's order. Faces in front of the vertices are read at the end.
 Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
-  const bool faces_wait = header.face_element < header.vertex_element;
+  const bool faces_come_first = header.face_element < header.vertex_element;
   TextPosition faces_begin;
   TextPosition position = header.body;
   for (std::size_t i = 0; i < header.elements.size(); ++i) {
     if (i == header.face_element) faces_begin = position;
     Result<TextPosition> end = i == header.vertex_element ? body.vertices(position)
-                               : i == header.face_element && !faces_wait
+                               : i == header.face_element && !faces_come_first
                                    ? body.faces(position)
                                    : body.skip(header.elements[i], position);
     if (!end) return end.error();
     position = *end;
   }
   if (Result<void> ended = body.expect_end(position); !ended) return ended;
-  if (!faces_wait) return {};
+  if (!faces_come_first) return {};
   const Result<TextPosition> end = body.faces(faces_begin);
   if (!end) return end.error();
   return {};

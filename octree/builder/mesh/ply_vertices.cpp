@@ -31,9 +31,9 @@ Vec3 PlyVertices::position(const std::byte* record) const {
 
 Result<void> PlyVertices::read(std::uint64_t first, std::span<std::byte> out) {
   if (plain_) return file_.read(begin_ + first * record_bytes_, out);
-  const std::uint64_t most = std::max<std::uint64_t>(kAtOnceBytes / record_bytes_, 1);
+  const std::uint64_t max_records = std::max<std::uint64_t>(kAtOnceBytes / record_bytes_, 1);
   while (!out.empty()) {
-    const std::uint64_t count = std::min<std::uint64_t>(most, out.size() / position_bytes());
+    const std::uint64_t count = std::min<std::uint64_t>(max_records, out.size() / position_bytes());
     records_.resize(static_cast<std::size_t>(count * record_bytes_));
     if (const auto read = file_.read(begin_ + first * record_bytes_, records_); !read) return read;
     for (std::uint64_t i = 0; i < count; ++i)

@@ -98,10 +98,10 @@ class ChunkCutter {
 }  // namespace
 
 Result<ChunkTree> cut_chunks(const TriangleRuns& runs, std::uint64_t most) {
-  ChunkCutter layout(runs, most);
-  const auto added = layout.add({{runs.begin(), runs.end(), runs.size()}});
+  ChunkCutter cutter(runs, most);
+  const auto added = cutter.add({{runs.begin(), runs.end(), runs.size()}});
   if (!added) return added.error();
-  return std::move(layout.tree);
+  return std::move(cutter.tree);
 }
 
 }  // namespace planetree::octree

@@ -29,8 +29,8 @@ class TriangleRuns {
   Result<void> add(Triangles triangles);
 
   /// Adds runs that are in the file already.
-  void add_extents(const std::vector<Extent>& extents) {
-    for (const Extent& extent : extents) runs_.add_extents(extent);
+  void add_extent(const std::vector<Extent>& extents) {
+    for (const Extent& extent : extents) runs_.add_extent(extent);
   }
   /// Where the runs are in the file, if none is in memory.
   std::vector<Extent> extents() const { return runs_.extents(); }

@@ -34,7 +34,7 @@ Triangles widened(const Triangles& narrow) {
 Result<void> TriangleSpool::triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) {
   if (batches_.empty() || batches_.back().held.size() == batch_triangles_) {
     if (!batches_.empty())
-      if (const auto put = put_away(batches_.back()); !put) return put;
+      if (const auto put = spill_batch(batches_.back()); !put) return put;
     batches_.push_back({Triangles(frame_.float64), 0, 0, frame_.float64});
   }
   if (!frame_.float64 && !std::all_of(corners.begin(), corners.end(), is_float)) widen_last();
@@ -68,7 +68,7 @@ void TriangleSpool::widen_last() {
   batches_.back().float64 = true;
 }
 
-Result<void> TriangleSpool::put_away(Batch& batch) {
+Result<void> TriangleSpool::spill_batch(Batch& batch) {
   const std::span<const std::byte> records = batch.held.records();
   batch.bytes = records.size();
   if (records.size() <= held_bytes_) {
@@ -111,7 +111,7 @@ Result<ModelFrame> TriangleSpool::finish() {
       std::ldexp(min_magnitude_, frame_.scale_exponent) < std::numeric_limits<float>::min())
     frame_.float64 = true;
   if (!batches_.empty())
-    if (const auto put = put_away(batches_.back()); !put) return put.error();
+    if (const auto put = spill_batch(batches_.back()); !put) return put.error();
   return frame_;
 }
 

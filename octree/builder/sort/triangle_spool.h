@@ -38,7 +38,7 @@ class TriangleSpool final : public TriangleSink {
   /// Ends the spool. Call it once, after the last triangle.
   Result<ModelFrame> finish();
 
-  std::size_t chunk_count() const { return batches_.size(); }
+  std::size_t batch_count() const { return batches_.size(); }
   /// The triangles of a batch in the order of the input, in the model frame, with their Morton
   /// codes. Releases the memory of the batch. Call it after finish().
   Result<Triangles> take_batch(std::size_t batch);
@@ -53,7 +53,7 @@ class TriangleSpool final : public TriangleSink {
 
   void note(const std::array<Vec3, 3>& corners);
   void widen_last();
-  Result<void> put_away(Batch& batch);
+  Result<void> spill_batch(Batch& batch);
   void choose_scale();
 
   const std::uint32_t batch_triangles_;

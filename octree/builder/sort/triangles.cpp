@@ -58,13 +58,13 @@ void Triangles::set(std::uint32_t position, const storage::SpillKey& key, const 
 }
 
 void Triangles::sort() {
-  struct Place {
+  struct SortKey {
     std::uint64_t code;
     std::uint32_t position;
   };
-  std::vector<Place> order(size());
+  std::vector<SortKey> order(size());
   for (std::uint32_t i = 0; i < size(); ++i) order[i] = {code(i), i};
-  const auto precedes = [this](const Place& a, const Place& b) {
+  const auto precedes = [this](const SortKey& a, const SortKey& b) {
     return a.code != b.code ? a.code < b.code : index(a.position) < index(b.position);
   };
   if (!merge_runs(order, precedes)) return;

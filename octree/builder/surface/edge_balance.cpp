@@ -112,7 +112,7 @@ class EdgeTable {
 };
 
 /// Unbalanced edges with hashes in some range, and those with the least ends among them.
-struct OpenEnds {
+struct UnbalancedEnds {
   std::uint64_t count = 0;
   std::vector<Ends> least;
 
@@ -120,7 +120,7 @@ struct OpenEnds {
     ++count;
     list(ends);
   }
-  void join(const OpenEnds& other) {
+  void join(const UnbalancedEnds& other) {
     count += other.count;
     for (const Ends& ends : other.least) list(ends);
   }
@@ -130,17 +130,17 @@ struct OpenEnds {
   }
 };
 
-OpenEnds open_ends(std::vector<LeftOver> edges) {
+UnbalancedEnds unbalanced_ends(std::vector<LeftOver> edges) {
   std::sort(edges.begin(), edges.end(),
             [](const LeftOver& a, const LeftOver& b) { return a.ends < b.ends; });
-  OpenEnds open;
+  UnbalancedEnds unbalanced;
   for (std::size_t i = 0; i < edges.size();) {
     const Ends& ends = edges[i].ends;
     std::int64_t net = 0;
     for (; i < edges.size() && edges[i].ends == ends; ++i) net += edges[i].net;
-    if (net != 0) open.note(edges[i - 1].ends);
+    if (net != 0) unbalanced.note(edges[i - 1].ends);
   }
-  return open;
+  return unbalanced;
 }
 
 /// Approximate number of left-over edges that are balanced at a time.
@@ -170,7 +170,7 @@ Result<EdgeBalance> EdgeCensus::balance() {
     return left_over_.cut({share * (~std::uint64_t{0} / shares + 1), 0});
   };
   std::mutex mutex;
-  OpenEnds open;
+  UnbalancedEnds unbalanced;
   const auto balanced = for_each_in_parallel(shares, [&](std::size_t share) -> Result<void> {
     const auto from = cut(share), to = cut(share + 1);
     if (!from) return from.error();
@@ -179,16 +179,16 @@ Result<EdgeBalance> EdgeCensus::balance() {
     if (!records) return records.error();
     std::vector<LeftOver> edges(records->size() / sizeof(LeftOver));
     if (!edges.empty()) std::memcpy(edges.data(), records->data(), records->size());
-    const OpenEnds some = open_ends(std::move(edges));
+    const UnbalancedEnds some = unbalanced_ends(std::move(edges));
     const std::lock_guard lock(mutex);
-    open.join(some);
+    unbalanced.join(some);
     return {};
   });
   if (!balanced) return balanced.error();
   EdgeBalance balance;
-  balance.unbalanced_edges = open.count;
-  for (std::size_t i = 0; i < open.least.size(); ++i) {
-    const Ends& e = open.least[i];
+  balance.unbalanced_edges = unbalanced.count;
+  for (std::size_t i = 0; i < unbalanced.least.size(); ++i) {
+    const Ends& e = unbalanced.least[i];
     balance.first[i].from = {e[0], e[1], e[2]};
     balance.first[i].to = {e[3], e[4], e[5]};
   }

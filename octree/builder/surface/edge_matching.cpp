@@ -14,7 +14,7 @@ Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chun
     const auto counted = census.add(chunk);
     return counted ? also(chunk) : counted;
   };
-  const auto added = for_each_chunk(runs, chunks, progress, BuildPhase::kClosing, is_done, add);
+  const auto added = for_each_chunk(runs, chunks, progress, BuildPhase::kMatching, is_done, add);
   if (!added) return added.error();
   auto balance = census.balance();
   if (!balance || balance->unbalanced_edges == 0) return balance;

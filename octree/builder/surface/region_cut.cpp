@@ -12,7 +12,7 @@ namespace planetree::octree {
 namespace {
 
 // A segment from `from` straight out of the model's box.
-DownwardSegment way_out(const Point& from, const Point& box_lower) {
+DownwardSegment exit_segment(const Point& from, const Point& box_lower) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Point outside = from;
   outside.x() = std::min(box_lower.x() - 1, std::nextafter(box_lower.x(), -kInfinity));
@@ -25,14 +25,14 @@ RegionCut::RegionCut(const Point& box_lower, const Point& box_upper, const Regio
                      TriangleRuns* kept)
     : lower_(region.clamped(box_lower)),
       upper_(region.clamped(box_upper)),
-      way_out_(way_out(lower_, box_lower)),
+      exit_segment_(exit_segment(lower_, box_lower)),
       kept_(kept) {}
 
 SurfaceCut RegionCut::look_at(const Triangles& triangles, Triangles& taken) const {
   SurfaceCut found;
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const Triangle triangle = triangles.corners(i);
-    found.winding += way_out_.crossing(BoxedTriangle(triangle));
+    found.winding += exit_segment_.crossing(BoxedTriangle(triangle));
     if (kept_ == nullptr || !may_touch(triangle, lower_, upper_)) continue;
     taken.add(triangles.key(i), triangle);
     if (triangles.index(i) >= found.sample_triangle) continue;

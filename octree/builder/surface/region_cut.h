@@ -42,7 +42,7 @@ class RegionCut {
   SurfaceCut look_at(const Triangles& triangles, Triangles& taken) const;
 
   const Point lower_, upper_;  // bounds of the region within the model's box
-  const DownwardSegment way_out_;
+  const DownwardSegment exit_segment_;
   TriangleRuns* const kept_;
   std::mutex mutex_;
   SurfaceCut found_;

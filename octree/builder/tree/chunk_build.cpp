@@ -58,7 +58,7 @@ Result<BuiltChunk> build_chunk(const Triangles& triangles, const Point& centre,
   chunk.root_link = tree.nodes.empty() ? plan->block_links[0] : plan->node_links[0];
   const PageEncoder encoder(triangles, vertices, keys, tree, *plan, shape);
   for (const PlannedPage& page : plan->pages) {
-    const auto spilled = put_away(page.octcode, encoder.encode(page.number), file);
+    const auto spilled = spill_page(page.octcode, encoder.encode(page.number), file);
     if (!spilled) return spilled.error();
     chunk.pages.push_back(*spilled);
   }

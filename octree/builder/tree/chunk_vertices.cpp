@@ -26,19 +26,19 @@ ChunkVertices::ChunkVertices(const Triangles& triangles) : corners_(triangles.si
   std::vector<std::uint32_t> table(std::bit_ceil(std::size_t{4} * triangles.size()), kNone);
   const std::size_t last = table.size() - 1;
   std::array<Triangle, kAtOnce> corners;
-  std::array<std::array<std::size_t, 3>, kAtOnce> indices;
+  std::array<std::array<std::size_t, 3>, kAtOnce> first_slots;
   for (std::uint32_t first = 0; first < triangles.size(); first += kAtOnce) {
     const std::uint32_t count = std::min(kAtOnce, triangles.size() - first);
     for (std::uint32_t i = 0; i < count; ++i) {
       corners[i] = triangles.corners(first + i);
       for (std::size_t k = 0; k < 3; ++k) {
-        indices[i][k] = hash_of(corners[i][k]) & last;
-        __builtin_prefetch(&table[indices[i][k]]);
+        first_slots[i][k] = hash_of(corners[i][k]) & last;
+        __builtin_prefetch(&table[first_slots[i][k]]);
       }
     }
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < 3; ++k) {
-        std::size_t at = indices[i][k];
+        std::size_t at = first_slots[i][k];
         while (table[at] != kNone && positions_[table[at]] != corners[i][k]) at = (at + 1) & last;
         if (table[at] == kNone) {
           table[at] = size();

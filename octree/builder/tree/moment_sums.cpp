@@ -28,10 +28,10 @@ SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
 
 /// Number of units nearest to a value, limited to a magnitude that only rounding exceeds.
 template <class Integer>
-Integer steps(double value, double unit, int most) {
+Integer steps(double value, double unit, int max_units) {
   const double scaled = value / unit;
   const double rounded = scaled < 0 ? scaled - 0.5 : scaled + 0.5;
-  return static_cast<Integer>(std::clamp(rounded, -1.0 * most, 1.0 * most));
+  return static_cast<Integer>(std::clamp(rounded, -1.0 * max_units, 1.0 * max_units));
 }
 
 class MomentSummer {

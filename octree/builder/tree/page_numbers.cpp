@@ -9,9 +9,9 @@ namespace {
 // Parents come before children: they have a larger cell, are in the top tree, or come earlier in
 // their chunk.
 auto rank(const NumberedPage& page) {
-  const std::uint64_t owner =
+  const std::uint64_t chunk_rank =
       page.chunk == NumberedPage::kTopTree ? 0 : page.chunk + std::uint64_t{1};
-  return std::tuple(page.octcode, owner, page.index);
+  return std::tuple(page.octcode, chunk_rank, page.index);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class PagePlanner {
   }
 
   Result<PagePlan> plan() {
-    slots_of_root();
+    set_treelet_slots();
     drafts_.emplace_back();
     const RecordRef root{tree_.nodes.empty(), 0};
     std::vector<RecordRef> below;
@@ -62,7 +62,7 @@ class PagePlanner {
     return std::max<std::uint32_t>(page_bytes / 4, 2048) / kSlotBytes;
   }
 
-  void slots_of_root() {
+  void set_treelet_slots() {
     node_slots_.resize(tree_.nodes.size());
     for (const Treelet& treelet : cut_.treelets)
       if (!treelet.root.block) node_slots_[treelet.root.index] = treelet.slots;

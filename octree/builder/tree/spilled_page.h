@@ -24,8 +24,8 @@ struct SpilledPage {
   std::uint32_t link_count = 0;  ///< number of those links
 };
 
-inline Result<SpilledPage> put_away(std::uint64_t octcode, const EncodedPage& page,
-                                    storage::SpillFile& file) {
+inline Result<SpilledPage> spill_page(std::uint64_t octcode, const EncodedPage& page,
+                                      storage::SpillFile& file) {
   const auto offset = file.append(page.bytes);
   if (!offset) return offset.error();
   return SpilledPage{octcode, *offset, static_cast<std::uint32_t>(page.bytes.size()), page.links_at,
@@ -37,8 +37,9 @@ inline Result<SpilledPage> put_away(std::uint64_t octcode, const EncodedPage& pa
 /// number  page number in the file.
 /// link    link(l) is the link in the file for the spilled link l.
 template <class Link>
-Result<std::vector<std::byte>> get_back(const SpilledPage& page, const storage::SpillFile& file,
-                                        std::uint32_t number, const Link& link) {
+Result<std::vector<std::byte>> read_spilled_page(const SpilledPage& page,
+                                                 const storage::SpillFile& file,
+                                                 std::uint32_t number, const Link& link) {
   std::vector<std::byte> raw(page.raw_bytes);
   if (const auto read = file.read(page.offset, raw); !read) return read.error();
   static_assert(offsetof(PageHead, page_number) == 0 && offsetof(MaskPageHead, page_number) == 0);

@@ -43,8 +43,8 @@ Result<FilePage> TreePages::encode(std::uint32_t number) const {
     const PageEncoder encoder(none, no_vertices, {}, top_tree_.tree, top_tree_.plan, shape_);
     return FilePage{page.octcode, page.ordinal, encoder.encode(page.index).bytes};
   }
-  auto raw = get_back(chunks_[page.chunk].pages[page.index], file_, number,
-                      [&](std::uint32_t link) { return numbers_.link(page.chunk, link); });
+  auto raw = read_spilled_page(chunks_[page.chunk].pages[page.index], file_, number,
+                               [&](std::uint32_t link) { return numbers_.link(page.chunk, link); });
   if (!raw) return raw.error();
   std::memcpy(raw->data() + offsetof(PageHead, ordinal), &page.ordinal, sizeof page.ordinal);
   const SpilledPage& spilled = chunks_[page.chunk].pages[page.index];

@@ -13,7 +13,7 @@ class TreeletCutter {
         left_(tree.nodes.size(), true) {
     cut.cut_nodes.resize(tree.nodes.size());
     cut.cut_blocks.resize(tree.blocks.size());
-    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) place_blocks(i, bottom_slots);
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) assign_blocks(i, bottom_slots);
   }
 
   bool done() const { return !left_[0]; }
@@ -42,7 +42,7 @@ class TreeletCutter {
 
  private:
   // If a node is too large together with its blocks, each of them is a treelet by itself.
-  void place_blocks(std::uint32_t at, std::uint32_t bottom_slots) {
+  void assign_blocks(std::uint32_t at, std::uint32_t bottom_slots) {
     const WideNode& node = tree_.nodes[at];
     std::uint32_t together = slots_.node;
     for (unsigned i = 0; i < node.child_count; ++i) {
@@ -81,10 +81,10 @@ TreeletCut cut_treelets(const WideTree& tree, const RecordSlots& slots, std::uin
     cut.cut_blocks.push_back(true);
     return cut;
   }
-  TreeletCutter layout(tree, slots, bottom_slots);
-  layout.round(bottom_slots);
-  while (!layout.done()) layout.round(upper_slots);
-  return std::move(layout.cut);
+  TreeletCutter cutter(tree, slots, bottom_slots);
+  cutter.round(bottom_slots);
+  while (!cutter.done()) cutter.round(upper_slots);
+  return std::move(cutter.cut);
 }
 
 }  // namespace planetree::octree

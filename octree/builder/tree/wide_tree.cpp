@@ -84,9 +84,9 @@ class OpenedChildren {
 
 // Greatest number of steps that do not pass the true side, as holds(distance) says, within a limit.
 template <class Holds>
-std::uint8_t max_steps(float distance, float step, int most, const Holds& holds) {
+std::uint8_t max_steps(float distance, float step, int max_count, const Holds& holds) {
   const float guess = step > 0 ? distance / step : 0.0f;
-  int steps = std::min(static_cast<int>(std::clamp(guess, 0.0f, 254.0f)) + 1, most);
+  int steps = std::min(static_cast<int>(std::clamp(guess, 0.0f, 254.0f)) + 1, max_count);
   while (steps > 0 && !holds(static_cast<float>(steps) * step)) --steps;
   return static_cast<std::uint8_t>(steps);
 }

@@ -61,12 +61,12 @@ class Plain {
 /// Replaces std::mutex in an explored Program.
 class Mutex {
  public:
-  void lock() { Execution::current().lock(held_, told_); }
-  void unlock() { Execution::current().unlock(held_, told_); }
+  void lock() { Execution::current().lock(held_, knowledge_); }
+  void unlock() { Execution::current().unlock(held_, knowledge_); }
 
  private:
   bool held_ = false;
-  Knowledge told_;
+  Knowledge knowledge_;
 };
 
 }  // namespace planetree::explorer

@@ -28,8 +28,8 @@ const char* name_of(std::memory_order order) noexcept {
 
 }  // namespace
 
-Execution::Execution(Choices& choices, std::uint32_t stops)
-    : choices_(choices), stops_(stops), fibers_(kMaxThreads, &fiber_body) {
+Execution::Execution(Choices& choices, std::uint32_t max_preemptions)
+    : choices_(choices), max_preemptions_(max_preemptions), fibers_(kMaxThreads, &fiber_body) {
   assert(the_current == nullptr);
   the_current = this;
 }
@@ -42,11 +42,11 @@ bool Execution::run(const MakeProgram& make) {
   memory_.clear();
   trace_.clear();
   running_ = 0;
-  stops_left_ = stops_;
+  preemptions_left_ = max_preemptions_;
   const std::unique_ptr<Program> program = make();
   program_ = program.get();
   start_threads();
-  running_ = kNobody;
+  running_ = kNoPage;
   choose_thread(false);
   threads_run_ = true;
   fibers_.switch_to(running_);
@@ -64,7 +64,7 @@ bool Execution::run(const MakeProgram& make) {
 void Execution::start_threads() {
   thread_count_ = program_->thread_count();
   assert(thread_count_ <= kMaxThreads);
-  const Knowledge knowledge = memory_.tell(0);
+  const Knowledge knowledge = memory_.publish_knowledge(0);
   for (std::uint32_t i = 0; i < thread_count_; ++i) {
     threads_[i] = {false, false, nullptr};
     memory_.learn(i, knowledge);
@@ -73,7 +73,7 @@ void Execution::start_threads() {
 
 void Execution::join_threads() {
   running_ = 0;
-  for (std::uint32_t i = 1; i < thread_count_; ++i) memory_.learn(0, memory_.tell(i));
+  for (std::uint32_t i = 1; i < thread_count_; ++i) memory_.learn(0, memory_.publish_knowledge(i));
 }
 
 // A fiber lives as long as its stack and runs one thread in each run.
@@ -99,7 +99,7 @@ bool Execution::may_go_on(std::uint32_t thread) const noexcept {
 /// Chooses the thread that runs next; false if no thread can run. The running thread is a candidate
 /// only if it may stay; switching away from it then counts as a preemption.
 bool Execution::choose_thread(bool may_stay) {
-  if (may_stay && stops_left_ == 0) return true;
+  if (may_stay && preemptions_left_ == 0) return true;
   std::array<std::uint32_t, kMaxThreads> able;
   std::uint32_t count = 0;
   if (may_stay) able[count++] = running_;
@@ -108,7 +108,7 @@ bool Execution::choose_thread(bool may_stay) {
   }
   if (count == 0) return false;
   const std::uint32_t next = able[choices_.choose(count)];
-  if (may_stay && next != running_) --stops_left_;
+  if (may_stay && next != running_) --preemptions_left_;
   running_ = next;
   return true;
 }
@@ -116,13 +116,13 @@ bool Execution::choose_thread(bool may_stay) {
 void Execution::before_step() {
   if (!threads_run_) return;
   if (memory_.time_of(running_) > kMaxSteps) fail("a thread does not end");
-  if (!std::exchange(threads_[running_].did_a_deed, false)) return;
+  if (!std::exchange(threads_[running_].did_visible_step, false)) return;
   choose_thread(true);
   fibers_.switch_to(running_);
 }
 
 void Execution::yield() {
-  threads_[running_].did_a_deed = false;
+  threads_[running_].did_visible_step = false;
   choose_thread(false);
   fibers_.switch_to(running_);
 }
@@ -137,7 +137,7 @@ std::uint64_t Execution::load(std::size_t atomic, std::memory_order order) {
 void Execution::store(std::size_t atomic, std::uint64_t value, std::memory_order order) {
   before_step();
   memory_.store(running_, atomic, value, order);
-  threads_[running_].did_a_deed = true;
+  threads_[running_].did_visible_step = true;
   trace_.add({running_, "stores atomic", atomic, value, name_of(order), 0});
 }
 
@@ -145,7 +145,7 @@ std::uint64_t Execution::exchange(std::size_t atomic, std::uint64_t value,
                                   std::memory_order order) {
   before_step();
   const std::uint64_t replaced = memory_.exchange(running_, atomic, value, order);
-  threads_[running_].did_a_deed = true;
+  threads_[running_].did_visible_step = true;
   trace_.add({running_, "exchanges atomic", atomic, value, name_of(order), 0});
   return replaced;
 }
@@ -170,15 +170,15 @@ void Execution::lock(bool& held, const Knowledge& knowledge) {
   }
   held = true;
   memory_.learn(running_, knowledge);
-  threads_[running_].did_a_deed = true;
+  threads_[running_].did_visible_step = true;
   note("locks", 0);
 }
 
 void Execution::unlock(bool& held, Knowledge& knowledge) {
   before_step();
-  knowledge = memory_.tell(running_);
+  knowledge = memory_.publish_knowledge(running_);
   held = false;
-  threads_[running_].did_a_deed = true;
+  threads_[running_].did_visible_step = true;
   note("unlocks", 0);
 }
 

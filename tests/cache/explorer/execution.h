@@ -29,7 +29,7 @@ using MakeProgram = std::function<std::unique_ptr<Program>()>;
 class Execution {
  public:
   /// The second argument limits how often, in each run, a thread that could continue is preempted.
-  Execution(Choices& choices, std::uint32_t stops);
+  Execution(Choices& choices, std::uint32_t max_preemptions);
   ~Execution();
 
   /// Executes one run. False if it failed; no other run may follow then.
@@ -69,7 +69,7 @@ class Execution {
   void note(const char* what, std::uint64_t number);
 
  private:
-  static constexpr std::uint32_t kNobody = kMaxThreads;
+  static constexpr std::uint32_t kNoPage = kMaxThreads;
 
   static void fiber_body();
   void run_thread();
@@ -82,12 +82,12 @@ class Execution {
 
   struct Thread {
     bool ended = true;
-    bool did_a_deed = false;              ///< visible step since other threads could last run
+    bool did_visible_step = false;        ///< visible step since other threads could last run
     const bool* awaited_mutex = nullptr;  ///< whether that mutex is held; nullptr: waits for none
   };
 
   Choices& choices_;
-  const std::uint32_t stops_;
+  const std::uint32_t max_preemptions_;
   Memory memory_;
   Trace trace_;
   Fibers fibers_;
@@ -97,7 +97,7 @@ class Execution {
   std::uint32_t thread_count_ = 0;
   std::uint32_t running_ = 0;
   bool threads_run_ = false;  ///< false while the program is set up or finishes
-  std::uint32_t stops_left_ = 0;
+  std::uint32_t preemptions_left_ = 0;
   const char* why_failed_ = nullptr;
 };
 

@@ -5,8 +5,8 @@
 namespace planetree::explorer {
 namespace {
 
-Report explore(const MakeProgram& make, Choices& choices, std::uint32_t stops) {
-  Execution execution(choices, stops);
+Report explore(const MakeProgram& make, Choices& choices, std::uint32_t max_preemptions) {
+  Execution execution(choices, max_preemptions);
   Report report;
   bool passed = true;
   do {
@@ -19,14 +19,14 @@ Report explore(const MakeProgram& make, Choices& choices, std::uint32_t stops) {
 
 }  // namespace
 
-Report explore_all(const MakeProgram& make, std::uint32_t stops) {
+Report explore_all(const MakeProgram& make, std::uint32_t max_preemptions) {
   EveryChoice choices;
-  return explore(make, choices, stops);
+  return explore(make, choices, max_preemptions);
 }
 
 Report explore_at_random(const MakeProgram& make, std::uint64_t runs, std::uint64_t seed) {
   RandomChoice choices(runs, seed);
-  return explore(make, choices, kAnyStops);
+  return explore(make, choices, kAnyPreemptions);
 }
 
 }  // namespace planetree::explorer

@@ -140,7 +140,7 @@ bool Memory::write_plain(std::uint32_t thread, std::size_t plain) {
   return ordered;
 }
 
-Knowledge Memory::tell(std::uint32_t thread) {
+Knowledge Memory::publish_knowledge(std::uint32_t thread) {
   next_step(thread);
   return known_[thread];
 }

@@ -51,7 +51,7 @@ class Memory {
 
   /// Returns what a thread knows, for another thread to learn(): for mutexes, and for starts and
   /// joins of threads.
-  Knowledge tell(std::uint32_t thread);
+  Knowledge publish_knowledge(std::uint32_t thread);
   void learn(std::uint32_t thread, const Knowledge& knowledge) noexcept;
 
   std::uint16_t time_of(std::uint32_t thread) const noexcept {

@@ -39,7 +39,7 @@ class SmallChunks : public testing::Test {
   }
   // Writes a binary PLY with float64 properties, vertices and faces in random order. The file's
   // extension stays .stl; readers go by the content.
-  void write_byte_split(Soup soup) {
+  void write_in_random_order(Soup soup) {
     std::mt19937 random(4);
     std::shuffle(soup.begin(), soup.end(), random);
     std::vector<Vec3> vertices;
@@ -77,7 +77,7 @@ class SmallChunks : public testing::Test {
 inline constexpr BuildMemory kLarge{2, 100000, 0, 1 << 30, 1 << 30, 1 << 30, 1 << 30, 1 << 30};
 inline constexpr BuildMemory kTight{1, 77, 65536, 0, 0, 0, 0, 0};
 // As kTight, with so little memory for the mesh that corners in random order are sorted on disk.
-inline constexpr BuildMemory kByteSplit{1, 77, 1000, 0, 0, 0, 0, 0};
+inline constexpr BuildMemory kSortedOnDisk{1, 77, 1000, 0, 0, 0, 0, 0};
 inline constexpr BuildMemory kBetween{3, 200, 65536, 30000, 20000, 7000, 5000, 5000};
 
 }  // namespace planetree::octree

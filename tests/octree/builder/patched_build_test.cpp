@@ -39,7 +39,7 @@ std::vector<BuildCase> build_cases() {
           {"in one place", repeated(700)},
           {"nested", joined({sphere(4), inside_out(scaled(sphere(3), 0.5))})},
           {"one large, many small",
-           joined({scaled(sphere(3), 0x1p-8), perturbed(scaled(sphere(3), 0x1p-9), {0.2, 0, 0}),
+           joined({scaled(sphere(3), 0x1p-8), translated(scaled(sphere(3), 0x1p-9), {0.2, 0, 0}),
                    box({-1, -1, -1}, {1, 1, 1})})}};
 }
 
@@ -62,13 +62,13 @@ class ChunkedBuild : public SmallChunks {
   std::optional<BuildDirectory> failed_at_;  // of the last build
 };
 
-TEST_F(ChunkedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
+TEST_F(ChunkedBuild, WritesTheSameBytesWithAnyMemory) {
   for (const BuildCase& c : build_cases()) {
     SCOPED_TRACE(c.name);
-    write_byte_split(c.soup);
+    write_in_random_order(c.soup);
     ASSERT_TRUE(build(kLarge));
     const storage::Bytes expected = built();
-    for (const BuildMemory& memory : {kTight, kBetween, kByteSplit}) {
+    for (const BuildMemory& memory : {kTight, kBetween, kSortedOnDisk}) {
       const auto report = build(memory);
       ASSERT_TRUE(report) << report.error().text;
       EXPECT_EQ(built(), expected);
@@ -76,7 +76,7 @@ TEST_F(ChunkedBuild, WritesTheSameBytesHoweverLittleIsHeld) {
   }
 }
 
-TEST_F(ChunkedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
+TEST_F(ChunkedBuild, WritesTheSameBytesOfARegionWithAnyMemory) {
   for (const BuildCase& c : build_cases()) {
     SCOPED_TRACE(c.name);
     write(c.soup);
@@ -102,7 +102,7 @@ TEST_F(ChunkedBuild, WritesTheSameBytesOfARegionHoweverLittleIsHeld) {
 }
 
 // After the edges are matched, only the region is built.
-TEST_F(ChunkedBuild, TakesNoMoreOfARegionThanItHas) {
+TEST_F(ChunkedBuild, WritesOnlyTheTrianglesOfARegion) {
   write(sphere(5));
   ASSERT_TRUE(build(kTight));
   const auto whole = storage::PageFile::open(output_);
@@ -118,13 +118,13 @@ TEST_F(ChunkedBuild, TakesNoMoreOfARegionThanItHas) {
   EXPECT_EQ(report->header.model.unbalanced_edge_count, 0u);
 }
 
-TEST_F(ChunkedBuild, LeavesNothingBesideTheFile) {
+TEST_F(ChunkedBuild, LeavesNoOtherFiles) {
   write(sphere(3));
   ASSERT_TRUE(build(kTight));
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"});
 }
 
-TEST_F(ChunkedBuild, SaysThatItFailedOverItsInput) {
+TEST_F(ChunkedBuild, ReportsFailuresOfTheInput) {
   write({});
   EXPECT_FALSE(build(kTight));
   EXPECT_EQ(failed_at_, BuildDirectory::kInput);
@@ -154,23 +154,23 @@ class ChunkedBuildFaults : public ChunkedBuild,
 };
 
 TEST_P(ChunkedBuildFaults, LeaveTheOldFileOrTheWholeNewOne) {
-  write_byte_split(sphere(2));
-  const auto in_memory = build(kLarge), spilled = build(kTight), sorted = build(kByteSplit);
+  write_in_random_order(sphere(2));
+  const auto in_memory = build(kLarge), spilled = build(kTight), sorted = build(kSortedOnDisk);
   ASSERT_TRUE(in_memory && spilled && sorted);
   ASSERT_GT(sorted->temporary_bytes, spilled->temporary_bytes);
   const storage::Bytes expected = built();
   const storage::Bytes old(17, std::byte{42});
-  for (const bool no_unnamed : {false, true}) {
-    if (no_unnamed && GetParam() != Fault::kError) continue;
+  for (const bool lacks_unnamed_files : {false, true}) {
+    if (lacks_unnamed_files && GetParam() != Fault::kError) continue;
     std::map<std::string, int> failed;
     for (int fault_at = 0;; ++fault_at) {
       storage::write_bytes(output_, old);
       storage::FaultyCalls calls;
-      calls.no_unnamed = no_unnamed;
+      calls.lacks_unnamed_files = lacks_unnamed_files;
       calls.fault = GetParam();
       calls.number = fault_at % 2 == 0 ? EIO : ENOSPC;
       calls.fault_at = fault_at;
-      const auto report = build(kByteSplit, calls);
+      const auto report = build(kSortedOnDisk, calls);
       ASSERT_EQ(folder_.names(), std::vector<std::string>{"model.ptree"}) << calls.failed_call();
       if (!calls.happened()) {
         EXPECT_TRUE(report);

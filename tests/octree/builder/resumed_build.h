@@ -16,10 +16,10 @@
 namespace planetree::octree {
 
 /// Records what a build reports.
-class Witness final : public BuildProgress {
+class BuildRecorder final : public BuildProgress {
  public:
   struct Count {
-    std::uint64_t taken_up = 0, done = 0, total = 0;
+    std::uint64_t resumed = 0, done = 0, total = 0;
   };
 
   void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
@@ -28,7 +28,7 @@ class Witness final : public BuildProgress {
     EXPECT_LE(done, total);
     at->second.done = done;
   }
-  void takes_up(const std::string& what) override { start = what; }
+  void resumes(const std::string& what) override { start = what; }
   void failed_at(BuildDirectory index, const std::filesystem::path& path) override {
     failed = {index, path};
   }
@@ -54,8 +54,8 @@ class ResumedBuild : public SmallChunks {
     return build(calls);
   }
   Result<BuildReport> build(storage::FileCalls& calls, const BuildMemory& memory = kTight) {
-    witness_ = {};
-    return build_tree(mesh_, output_, options_, witness_, {40, 60, memory, calls});
+    recorder_ = {};
+    return build_tree(mesh_, output_, options_, recorder_, {40, 60, memory, calls});
   }
   // The bytes that a build without interruption writes.
   storage::Bytes whole() {
@@ -79,8 +79,8 @@ class ResumedBuild : public SmallChunks {
   }
   // Stops builds, each from the start, until one has completed `parts` parts of `phase`.
   void stop_in(BuildPhase phase, std::uint64_t parts = 0) {
-    witness_ = {};
-    for (int call = 0; !witness_.did(phase) || witness_.count(phase).done < parts; call += 9) {
+    recorder_ = {};
+    for (int call = 0; !recorder_.did(phase) || recorder_.count(phase).done < parts; call += 9) {
       std::filesystem::remove_all(work_);
       ASSERT_TRUE(stop_at(call));
     }
@@ -95,7 +95,7 @@ class ResumedBuild : public SmallChunks {
   }
 
   /// Completes the stopped build and removes its output. False if it was complete before.
-  bool goes_on(const storage::Bytes& expected) {
+  bool resume_and_remove(const storage::Bytes& expected) {
     const bool complete = std::filesystem::exists(output_);
     expect_completed(expected);
     std::filesystem::remove(output_);
@@ -117,7 +117,7 @@ class ResumedBuild : public SmallChunks {
 
   BuildOptions options_ = resumable();
   std::filesystem::path work_ = folder_ / "model.ptree.work";
-  Witness witness_;
+  BuildRecorder recorder_;
 };
 
 }  // namespace planetree::octree

@@ -19,7 +19,7 @@ namespace {
 class ResumedBuildFiles : public ResumedBuild {};
 
 // Damages one byte of any record.
-TEST_F(ResumedBuildFiles, NeverBelievesADamagedJournal) {
+TEST_F(ResumedBuildFiles, IgnoresDamagedJournalRecords) {
   for (const bool open : {false, true}) {
     write(open ? holed() : sphere(2));
     const storage::Bytes expected = whole();
@@ -35,35 +35,35 @@ TEST_F(ResumedBuildFiles, NeverBelievesADamagedJournal) {
       storage::write_bytes(work_ / "spill", spill);
       expect_completed(expected);
       // The last record of the journal is that of a sector, or of a chunk if the model is open.
-      EXPECT_TRUE(witness_.did(BuildPhase::kBounding));
-      EXPECT_TRUE(at >= 100 || witness_.start.starts_with("earlier work is of no use"));
+      EXPECT_TRUE(recorder_.did(BuildPhase::kBounding));
+      EXPECT_TRUE(at >= 100 || recorder_.start.starts_with("earlier work is of no use"));
       std::filesystem::remove(output_);
     }
   }
 }
 
-TEST_F(ResumedBuildFiles, BelievesOnlyWhatATruncatedSpillFileHolds) {
+TEST_F(ResumedBuildFiles, ResumesOnlyWhatATruncatedSpillFileHolds) {
   write(sphere(2));
   const storage::Bytes expected = whole();
   stop_in(BuildPhase::kColouring, 4);
   const storage::Bytes journal = storage::read_bytes(work_ / "journal"),
                        spill = storage::read_bytes(work_ / "spill");
-  std::uint64_t taken_up = 0;
+  std::uint64_t resumed = 0;
   for (std::size_t size = 0; size < spill.size(); size += 509) {
     std::filesystem::create_directory(work_);
     std::filesystem::permissions(work_, std::filesystem::perms::owner_all);
     storage::write_bytes(work_ / "journal", journal);
     storage::write_bytes(work_ / "spill", std::span(spill).first(size));
     expect_completed(expected);
-    EXPECT_GE(witness_.count(BuildPhase::kBounding).taken_up, taken_up);
-    taken_up = witness_.count(BuildPhase::kBounding).taken_up;
-    EXPECT_FALSE(taken_up > 0 && witness_.did(BuildPhase::kClosing));
+    EXPECT_GE(recorder_.count(BuildPhase::kBounding).resumed, resumed);
+    resumed = recorder_.count(BuildPhase::kBounding).resumed;
+    EXPECT_FALSE(resumed > 0 && recorder_.did(BuildPhase::kMatching));
     std::filesystem::remove(output_);
   }
-  EXPECT_GT(taken_up, 0u);
+  EXPECT_GT(resumed, 0u);
 }
 
-TEST_F(ResumedBuildFiles, LeavesNothingOfWhatCannotBeGoneOnWith) {
+TEST_F(ResumedBuildFiles, LeavesNoCheckpointOfFailedInputs) {
   storage::write_bytes(mesh_, storage::Bytes(200, std::byte{'x'}));
   ASSERT_FALSE(build());
   EXPECT_EQ(folder_.names(), Names{});
@@ -82,23 +82,23 @@ class FailingFile final : public storage::FileCalls {
   const std::string& name() const { return name_; }
 
   int fstat(int descriptor, struct stat* status) noexcept override {
-    return strikes(descriptor) ? -1 : FileCalls::fstat(descriptor, status);
+    return fails(descriptor) ? -1 : FileCalls::fstat(descriptor, status);
   }
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
-    return strikes(descriptor) ? -1 : FileCalls::pread(descriptor, out, bytes, offset);
+    return fails(descriptor) ? -1 : FileCalls::pread(descriptor, out, bytes, offset);
   }
   ssize_t pwrite(int descriptor, const void* in, std::size_t bytes,
                  off_t offset) noexcept override {
-    return strikes(descriptor) ? -1 : FileCalls::pwrite(descriptor, in, bytes, offset);
+    return fails(descriptor) ? -1 : FileCalls::pwrite(descriptor, in, bytes, offset);
   }
   int fsync(int) noexcept override { return 0; }  // no test here simulates a power failure
-  int fdatasync(int descriptor) noexcept override { return strikes(descriptor) ? -1 : 0; }
+  int fdatasync(int descriptor) noexcept override { return fails(descriptor) ? -1 : 0; }
   int flock(int descriptor, int operation) noexcept override {
-    return strikes(descriptor) ? -1 : FileCalls::flock(descriptor, operation);
+    return fails(descriptor) ? -1 : FileCalls::flock(descriptor, operation);
   }
 
  private:
-  bool strikes(int descriptor) noexcept {
+  bool fails(int descriptor) noexcept {
     if (count_++ != fail_at_) return false;
     std::error_code ignored;
     name_ = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), ignored);
@@ -111,7 +111,7 @@ class FailingFile final : public storage::FileCalls {
   std::string name_;
 };
 
-TEST_F(ResumedBuildFiles, SaysWhereItFailed) {
+TEST_F(ResumedBuildFiles, ReportsTheDirectoryThatFailed) {
   const storage::TemporaryDirectory elsewhere;
   write(sphere(2));
   options_.temp_directory = elsewhere / ".";
@@ -135,56 +135,56 @@ TEST_F(ResumedBuildFiles, SaysWhereItFailed) {
       const auto report = build(calls);
       if (calls.name().empty()) break;
       if (report) continue;
-      EXPECT_EQ(witness_.failed, index_of(calls.name())) << calls.name();
-      ++failed[witness_.failed->second];
+      EXPECT_EQ(recorder_.failed, index_of(calls.name())) << calls.name();
+      ++failed[recorder_.failed->second];
     }
   EXPECT_EQ(failed.size(), 4u);
 }
 
 // Data that memory would hold is spilled, and space that is already taken is not required again.
-TEST_F(ResumedBuildFiles, LooksForTheSpaceThatIsStillToBeTaken) {
+TEST_F(ResumedBuildFiles, RequiresOnlyTheSpaceStillNeeded) {
   write(sphere(3));
   const storage::Bytes expected = whole();
-  const auto size = MeshSize::foresee(mesh_);
+  const auto size = MeshSize::estimate(mesh_);
   ASSERT_TRUE(size);
   BuildMemory memory = kLarge;
   memory.edge_bytes = 0;
   const auto needed = [&](std::uint64_t kept_bytes, bool matched) {
     const auto need =
-        SpaceNeed::after_reading(*size, memory.holding_nothing_kept(), kept_bytes, matched);
+        SpaceNeed::after_reading(*size, memory.with_checkpoint(), kept_bytes, matched);
     return need.temporary_bytes + need.output_bytes;
   };
   storage::FaultyCalls calls;
   const auto build_with = [&](std::uint64_t free_bytes) {
     calls.device = storage::device_with_free(free_bytes);
     const auto report = build(calls, memory);
-    EXPECT_FALSE(witness_.did(BuildPhase::kOrdering) && !report);
+    EXPECT_FALSE(recorder_.did(BuildPhase::kOrdering) && !report);
     return static_cast<bool>(report);
   };
   const std::pair shortage(BuildDirectory::kTemporary, output_.parent_path());
   EXPECT_FALSE(build_with(needed(0, false) - 1));
-  EXPECT_EQ(witness_.failed, shortage);
+  EXPECT_EQ(recorder_.failed, shortage);
   EXPECT_TRUE(build_with(needed(0, false)));
   using Stop = std::pair<BuildPhase, std::uint64_t>;
-  for (const auto& [phase, parts] : {Stop(BuildPhase::kClosing, 0), Stop(BuildPhase::kBounding, 0),
+  for (const auto& [phase, parts] : {Stop(BuildPhase::kMatching, 0), Stop(BuildPhase::kBounding, 0),
                                      Stop(BuildPhase::kBounding, 2)}) {
     std::filesystem::remove(output_);
     stop_in(phase, parts);
-    const bool matched = phase != BuildPhase::kClosing;
+    const bool matched = phase != BuildPhase::kMatching;
     // The sorted triangles, and at least a page head for each chunk.
     const std::uint64_t surely_kept_bytes =
         size->triangles * Triangles::record_bytes(false) + parts * sizeof(PageHead);
     const std::uint64_t kept_bytes = std::filesystem::file_size(work_ / "spill");
     EXPECT_FALSE(build_with(needed(kept_bytes, matched) - 1));
-    EXPECT_EQ(witness_.failed, shortage);
+    EXPECT_EQ(recorder_.failed, shortage);
     EXPECT_TRUE(build_with(needed(surely_kept_bytes, matched)));
-    EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+    EXPECT_FALSE(recorder_.did(BuildPhase::kReading));
     EXPECT_EQ(built(), expected);
   }
 }
 
 // Counts the space taken by this build and by the builds it resumes.
-TEST_F(ResumedBuildFiles, ReportsWhatItHadOnDisk) {
+TEST_F(ResumedBuildFiles, ReportsTemporaryBytes) {
   write(sphere(3));
   storage::FaultyCalls calls;
   const auto at_once = build(calls, kLarge);
@@ -195,11 +195,11 @@ TEST_F(ResumedBuildFiles, ReportsWhatItHadOnDisk) {
   stop_in(BuildPhase::kColouring, 2);
   const auto later = build(calls, kLarge);
   ASSERT_TRUE(later);
-  EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+  EXPECT_FALSE(recorder_.did(BuildPhase::kReading));
   EXPECT_GT(later->temporary_bytes, triangle_bytes);
 }
 
-TEST_F(ResumedBuildFiles, KeepsItsWorkInTheDirectoryForTemporaryFiles) {
+TEST_F(ResumedBuildFiles, KeepsTheCheckpointInTheTemporaryDirectory) {
   const storage::TemporaryDirectory elsewhere;
   write(sphere(2));
   const storage::Bytes expected = whole();

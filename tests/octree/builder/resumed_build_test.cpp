@@ -13,68 +13,68 @@
 namespace planetree::octree {
 namespace {
 
-const std::string kAfresh = "no earlier work to go on with; building from the start";
+const std::string kNoEarlierWork = "no earlier work to go on with; building from the start";
 
-TEST_F(ResumedBuild, WritesTheSameBytesAndLeavesNothingBeside) {
+TEST_F(ResumedBuild, WritesTheSameBytesAndLeavesNoOtherFiles) {
   for (const Soup& soup : {sphere(3), holed(), repeated(300)}) {
     write(soup);
     expect_completed(whole());
-    EXPECT_EQ(witness_.start, kAfresh);
+    EXPECT_EQ(recorder_.start, kNoEarlierWork);
     std::filesystem::remove(output_);
   }
 }
 
-TEST_F(ResumedBuild, GoesOnWhereverItWasStopped) {
+TEST_F(ResumedBuild, ResumesAfterAStopAtAnyCall) {
   for (const Soup& soup : {sphere(2), holed()}) {
     write(soup);
     const storage::Bytes expected = whole();
-    std::map<BuildPhase, std::uint64_t> taken_up;
+    std::map<BuildPhase, std::uint64_t> resumed;
     for (int call = 0; stop_at(call); ++call) {
       SCOPED_TRACE("stopped at call " + std::to_string(call));
-      const Witness stopped = witness_;
-      if (!goes_on(expected)) continue;
+      const BuildRecorder stopped = recorder_;
+      if (!resume_and_remove(expected)) continue;
       // Completed phases are not repeated, nor are parts that were counted.
-      EXPECT_FALSE(stopped.did(BuildPhase::kClosing) && witness_.did(BuildPhase::kReading));
-      EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && witness_.did(BuildPhase::kClosing));
+      EXPECT_FALSE(stopped.did(BuildPhase::kMatching) && recorder_.did(BuildPhase::kReading));
+      EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && recorder_.did(BuildPhase::kMatching));
       for (const BuildPhase phase : {BuildPhase::kBounding, BuildPhase::kColouring}) {
-        const std::uint64_t before = witness_.count(phase).taken_up;
-        EXPECT_GE(before, std::max(stopped.count(phase).done, taken_up[phase]));
-        taken_up[phase] = before;
+        const std::uint64_t before = recorder_.count(phase).resumed;
+        EXPECT_GE(before, std::max(stopped.count(phase).done, resumed[phase]));
+        resumed[phase] = before;
       }
     }
-    EXPECT_EQ(taken_up[BuildPhase::kBounding], witness_.count(BuildPhase::kBounding).total);
-    EXPECT_EQ(taken_up[BuildPhase::kColouring], witness_.count(BuildPhase::kColouring).total);
+    EXPECT_EQ(resumed[BuildPhase::kBounding], recorder_.count(BuildPhase::kBounding).total);
+    EXPECT_EQ(resumed[BuildPhase::kColouring], recorder_.count(BuildPhase::kColouring).total);
     std::filesystem::remove(output_);
   }
 }
 
-TEST_F(ResumedBuild, GoesOnWithARegion) {
+TEST_F(ResumedBuild, ResumesWithARegion) {
   write(sphere(2));
   options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
   const storage::Bytes expected = whole();
   int matched_before = 0;
   for (int call = 0; stop_at(call); call += 3) {
     SCOPED_TRACE("stopped at call " + std::to_string(call));
-    const Witness stopped = witness_;
-    if (!goes_on(expected)) continue;
-    EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && witness_.did(BuildPhase::kClosing));
-    matched_before += !witness_.did(BuildPhase::kClosing);
+    const BuildRecorder stopped = recorder_;
+    if (!resume_and_remove(expected)) continue;
+    EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && recorder_.did(BuildPhase::kMatching));
+    matched_before += !recorder_.did(BuildPhase::kMatching);
   }
   EXPECT_GT(matched_before, 3);
 }
 
-TEST_F(ResumedBuild, BeginsAnewWithAnotherRegion) {
+TEST_F(ResumedBuild, RestartsWithAnotherRegion) {
   write(sphere(2));
   options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
   stop_in(BuildPhase::kBounding);
   options_.box->upper.x = 0.4;
   ASSERT_TRUE(build());
-  EXPECT_EQ(witness_.start,
+  EXPECT_EQ(recorder_.start,
             "earlier work is of no use, its options were others; building from the start");
 }
 
 // One call fails, is interrupted or returns early. The process survives.
-TEST_F(ResumedBuild, WritesTheSameBytesWhateverGoesWrong) {
+TEST_F(ResumedBuild, WritesTheSameBytesAfterAnyFault) {
   write(sphere(2));
   const storage::Bytes expected = whole();
   for (const Fault fault : {Fault::kError, Fault::kInterrupt, Fault::kShort})
@@ -96,18 +96,18 @@ TEST_F(ResumedBuild, WritesTheSameBytesWhateverGoesWrong) {
 
 // The build is stopped after a number of calls that any part takes fewer of. The whole build takes
 // many more.
-TEST_F(ResumedBuild, GetsThereHoweverOftenItIsStopped) {
+TEST_F(ResumedBuild, CompletesDespiteRepeatedStops) {
   write(sphere(3));
   const storage::Bytes expected = whole();
   int stops = 0;
   for (; stop_at(1200 + 50 * stops); ++stops)
-    EXPECT_FALSE(stops > 0 && witness_.did(BuildPhase::kReading));
+    EXPECT_FALSE(stops > 0 && recorder_.did(BuildPhase::kReading));
   EXPECT_GE(stops, 3);
   EXPECT_EQ(built(), expected);
   EXPECT_EQ(folder_.names(), Names{"model.ptree"});
 }
 
-TEST_F(ResumedBuild, GoesOnAfterItWasKilled) {
+TEST_F(ResumedBuild, ResumesAfterKill) {
   write(sphere(2));
   const storage::Bytes expected = whole();
   std::map<std::string, int> starts;
@@ -125,45 +125,45 @@ TEST_F(ResumedBuild, GoesOnAfterItWasKilled) {
     if (!WIFSIGNALED(status)) break;
     expect_completed(expected);
     for (const char* phase : {"start", "ordering", "bounding", "colouring"})
-      if (witness_.start.find(phase) != std::string::npos) ++starts[phase];
+      if (recorder_.start.find(phase) != std::string::npos) ++starts[phase];
     std::filesystem::remove(output_);
   }
   EXPECT_EQ(starts.size(), 4u);
 }
 
-TEST_F(ResumedBuild, GoesOnWithOtherMemoryAndThreads) {
+TEST_F(ResumedBuild, ResumesWithOtherMemoryAndThreads) {
   write(sphere(3));
   const storage::Bytes expected = whole();
-  for (const BuildPhase phase : {BuildPhase::kClosing, BuildPhase::kColouring}) {
+  for (const BuildPhase phase : {BuildPhase::kMatching, BuildPhase::kColouring}) {
     stop_in(phase);
     ASSERT_TRUE(build(storage::FileCalls::real(), kBetween));
-    EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+    EXPECT_FALSE(recorder_.did(BuildPhase::kReading));
     EXPECT_EQ(built(), expected);
     std::filesystem::remove(output_);
   }
 }
 
-TEST_F(ResumedBuild, StartsAfreshIfTheInputChanged) {
+TEST_F(ResumedBuild, RestartsIfTheInputChanged) {
   write(sphere(2));
   stop_in(BuildPhase::kColouring, 4);
   Soup other = sphere(2);
   other[50][1].x *= 1.5;
   write(other);
   expect_completed(whole());
-  EXPECT_EQ(witness_.start,
+  EXPECT_EQ(recorder_.start,
             "earlier work is of no use, the input has changed; building from the start");
 }
 
-TEST_F(ResumedBuild, StartsAfreshIfItsOptionsChanged) {
+TEST_F(ResumedBuild, RestartsIfTheOptionsChanged) {
   write(sphere(2));
   stop_in(BuildPhase::kColouring, 4);
   options_.page_bytes = 8192;
   expect_completed(whole());
-  EXPECT_EQ(witness_.start,
+  EXPECT_EQ(recorder_.start,
             "earlier work is of no use, its options were others; building from the start");
 }
 
-TEST_F(ResumedBuild, IsOneProcessesAtATime) {
+TEST_F(ResumedBuild, AllowsOneProcessAtATime) {
   write(sphere(2));
   const storage::Bytes expected = whole();
   stop_in(BuildPhase::kBounding);
@@ -175,7 +175,7 @@ TEST_F(ResumedBuild, IsOneProcessesAtATime) {
     EXPECT_EQ(report.error().code, ErrorCode::kAlreadyExists);
   }
   expect_completed(expected);
-  EXPECT_FALSE(witness_.did(BuildPhase::kReading));
+  EXPECT_FALSE(recorder_.did(BuildPhase::kReading));
 }
 
 }  // namespace

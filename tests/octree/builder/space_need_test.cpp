@@ -19,7 +19,7 @@ constexpr std::uint64_t kMegabyte = 1 << 20;
 /// Builds of an ascii PLY with a separate temporary directory.
 class BuildSpace : public testing::Test, public BuildProgress {
  protected:
-  void progress(BuildPhase, std::uint64_t, std::uint64_t) override { begun_ = true; }
+  void progress(BuildPhase, std::uint64_t, std::uint64_t) override { reading_begun_ = true; }
   void failed_at(BuildDirectory directory, const std::filesystem::path&) override {
     index_ = directory;
   }
@@ -58,7 +58,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
                       {kChunkTriangles, kSectorTriangles, memory, calls});
   }
   SpaceNeed need(const BuildMemory& memory) const {
-    const auto size = MeshSize::foresee(mesh_);
+    const auto size = MeshSize::estimate(mesh_);
     EXPECT_TRUE(size);
     return SpaceNeed::before_reading(*size, memory);
   }
@@ -69,7 +69,7 @@ class BuildSpace : public testing::Test, public BuildProgress {
   std::filesystem::path output_ = folder_ / "torus.ptree";
   std::optional<BuildDirectory> index_;
   std::optional<RegionBox> box_;
-  bool begun_ = false;  ///< whether reading has begun
+  bool reading_begun_ = false;  ///< whether reading has begun
 };
 
 constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0};
@@ -83,7 +83,7 @@ constexpr BuildMemory kAllHeld{1,
                                kMegabyte << 5,
                                kMegabyte << 5};
 
-TEST_F(BuildSpace, IsForeseenHoweverMuchIsHeld) {
+TEST_F(BuildSpace, EstimateCoversTheBuildWithAnyMemory) {
   for (const char* real : {"float", "double"}) {
     write_torus(4, real);
     for (const BuildMemory& memory : {kNothingHeld, kPartHeld}) {
@@ -100,7 +100,7 @@ TEST_F(BuildSpace, IsForeseenHoweverMuchIsHeld) {
   }
 }
 
-TEST_F(BuildSpace, IsLookedForBeforeAnythingIsWritten) {
+TEST_F(BuildSpace, IsCheckedBeforeAnythingIsWritten) {
   write_torus(4, "float");
   const SpaceNeed foreseen = need(kNothingHeld);
   storage::FaultyCalls calls;
@@ -108,18 +108,18 @@ TEST_F(BuildSpace, IsLookedForBeforeAnythingIsWritten) {
   EXPECT_TRUE(build(kNothingHeld, calls));
   std::filesystem::remove(output_);
   calls.device = storage::device_with_free(foreseen.temporary_bytes + foreseen.output_bytes - 1);
-  begun_ = false;
+  reading_begun_ = false;
   const auto refused = build(kNothingHeld, calls);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
-  EXPECT_FALSE(begun_);
+  EXPECT_FALSE(reading_begun_);
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
 }
 
 // A small region of a mesh that would not fit as a whole.
-TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
+TEST_F(BuildSpace, OfARegionExcludesTrianglesOutside) {
   write_torus(4, "float");
-  const auto size = MeshSize::foresee(mesh_);
+  const auto size = MeshSize::estimate(mesh_);
   ASSERT_TRUE(size);
   const SpaceNeed cut = SpaceNeed::before_reading(*size, kNothingHeld, true);
   EXPECT_LT(cut.temporary_bytes, need(kNothingHeld).temporary_bytes);
@@ -138,7 +138,7 @@ TEST_F(BuildSpace, OfARegionIsThatOfReadingAndOfWhatItHas) {
 
 // An ascii PLY of polygons with many corners does not reveal the number of triangles before it is
 // read.
-TEST_F(BuildSpace, IsLookedForAgainOnceTrianglesAreCounted) {
+TEST_F(BuildSpace, IsCheckedAgainOnceTrianglesAreCounted) {
   write_torus(12, "float");
   const SpaceNeed foreseen = need(kNothingHeld);
   storage::FaultyCalls calls;
@@ -147,7 +147,7 @@ TEST_F(BuildSpace, IsLookedForAgainOnceTrianglesAreCounted) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kNoSpace);
   EXPECT_EQ(index_, BuildDirectory::kTemporary);
-  EXPECT_TRUE(begun_);
+  EXPECT_TRUE(reading_begun_);
   EXPECT_EQ(folder_.names(), std::vector<std::string>{"torus.ply"});
 }
 
@@ -175,7 +175,7 @@ struct SpaceCase {
   std::string text;  // expected error; empty if there is enough space
 };
 
-TEST(SpaceNeed, SaysWhereHowMuchIsMissing) {
+TEST(SpaceNeed, ReportsTheDirectoryAndTheShortage) {
   const SpaceNeed both{30 * kMegabyte, 10 * kMegabyte}, file{0, 10 * kMegabyte - 5};
   const std::string remedy = "free some, name a roomier --temp-dir, or give more --memory";
   const BuildDirectory temporary = BuildDirectory::kTemporary, output = BuildDirectory::kOutput;
@@ -208,7 +208,7 @@ TEST(SpaceNeed, SaysWhereHowMuchIsMissing) {
   }
 }
 
-TEST(SpaceNeed, GoesOnWhereADeviceDoesNotTell) {
+TEST(SpaceNeed, PassesWhereFreeSpaceIsUnknown) {
   storage::FaultyCalls calls;
   calls.fault = storage::FaultyCalls::Fault::kError;
   calls.every = true;

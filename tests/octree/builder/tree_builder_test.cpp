@@ -103,7 +103,7 @@ TEST_F(TreeBuilder, RefusesOtherPageSizes) {
   EXPECT_FALSE(std::filesystem::exists(output()));
 }
 
-TEST_F(TreeBuilder, SaysWhatTheModelIs) {
+TEST_F(TreeBuilder, ReportsTheModel) {
   write_obj(sphere(3), "f 1 2\nf 1 2 99999\n");
   const auto report = build();
   ASSERT_TRUE(report) << report.error().text;
@@ -120,7 +120,7 @@ TEST_F(TreeBuilder, SaysWhatTheModelIs) {
   EXPECT_NE(report->first_skipped.find("line "), std::string::npos);
 }
 
-TEST_F(TreeBuilder, IsStrictWhenAsked) {
+TEST_F(TreeBuilder, RefusesBadRecordsWhenStrict) {
   write_obj(repeated(2), "f 1 2\n");
   BuildOptions options;
   options.strict = true;
@@ -130,7 +130,7 @@ TEST_F(TreeBuilder, IsStrictWhenAsked) {
   EXPECT_FALSE(std::filesystem::exists(output()));
 }
 
-TEST_F(TreeBuilder, ReplacesAFileOnlyWhenAsked) {
+TEST_F(TreeBuilder, ReplacesAFileOnlyWithReplace) {
   write_obj(repeated(1));
   ASSERT_TRUE(build());
   const auto again = build();
@@ -145,13 +145,13 @@ TEST_F(TreeBuilder, ReportsEachPhaseInTurnToItsEnd) {
   write_obj(sphere(4));
   ASSERT_TRUE(build());
   const std::vector<BuildPhase> expected{BuildPhase::kReading,   BuildPhase::kOrdering,
-                                         BuildPhase::kClosing,   BuildPhase::kBounding,
+                                         BuildPhase::kMatching,  BuildPhase::kBounding,
                                          BuildPhase::kColouring, BuildPhase::kWriting};
   EXPECT_EQ(recorder_.phases, expected);
   EXPECT_EQ(recorder_.last_done, recorder_.last_total);
 }
 
-TEST_F(TreeBuilder, PassesOnWhatTheReaderFinds) {
+TEST_F(TreeBuilder, ReportsTheReadersError) {
   const auto report = build();
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().code, ErrorCode::kNotFound);

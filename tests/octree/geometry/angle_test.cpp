@@ -16,7 +16,7 @@ double true_angle(const Point& u, const Point& v) {
   return static_cast<double>(std::atan2(a.cross(b).norm(), a.dot(b)));
 }
 
-TEST(Angle, IsRightForDirectionsOfAllKinds) {
+TEST(Angle, IsAccurateForAllDirections) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   std::uniform_int_distribution<int> exponent(-40, 40);
@@ -32,7 +32,7 @@ TEST(Angle, IsRightForDirectionsOfAllKinds) {
   }
 }
 
-TEST(Angle, IsRightAllTheWayRound) {
+TEST(Angle, IsAccurateFromZeroToPi) {
   for (int i = 0; i <= 4000; ++i) {
     const double angle = i * (3.141592653589793 / 4000);
     const Point u(1, 0, 0), v(std::cos(angle), std::sin(angle), 0);
@@ -40,7 +40,7 @@ TEST(Angle, IsRightAllTheWayRound) {
   }
 }
 
-TEST(Angle, DoesNotMindHowLongOrShortTheyAre) {
+TEST(Angle, IsIndependentOfVectorLengths) {
   EXPECT_EQ(angle_between({0x1p-300, 0, 0}, {0, 0x1p300, 0}), 0x1.921fb54442d18p+0);
   EXPECT_EQ(angle_between({0x1p-1074, 0, 0}, {0x1p-1074, 0, 0}), 0);
   EXPECT_NEAR(angle_between({1, 0, 0}, {1, 1e-9, 0}), 1e-9, 1e-24);

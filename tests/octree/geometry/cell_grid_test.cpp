@@ -35,7 +35,7 @@ void expect_same(const Point& a, const Point& b) {
   for (unsigned axis = 0; axis < 3; ++axis) EXPECT_TRUE(same_bits(a[axis], b[axis])) << axis;
 }
 
-TEST(CellGrid, HasTheCubeOfSideTwoAsRoot) {
+TEST(CellGrid, RootIsTheCubeOfSideTwo) {
   const CellGrid grid({1, 2, 3});
   expect_same(grid.lower({}), {1, 2, 3});
   expect_same(grid.upper({}), {3, 4, 5});
@@ -76,7 +76,7 @@ TEST(CellGrid, NumbersChildrenAndCornersByBits) {
   }
 }
 
-TEST(CellGrid, GivesNeighboursTheSameSides) {
+TEST(CellGrid, NeighboursShareSidesBitForBit) {
   Noise noise(2);
   for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
@@ -95,7 +95,7 @@ TEST(CellGrid, GivesNeighboursTheSameSides) {
 }
 
 // A corner therefore has the same coordinates whichever cell it belongs to.
-TEST(CellGrid, GivesChildrenTheSidesOfTheirParent) {
+TEST(CellGrid, ChildrenShareSidesWithTheirParent) {
   Noise noise(3);
   for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
@@ -110,7 +110,7 @@ TEST(CellGrid, GivesChildrenTheSidesOfTheirParent) {
   }
 }
 
-TEST(CellGrid, NeverLetsSidesChangePlaces) {
+TEST(CellGrid, SidesNeverCross) {
   for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
     Point before = lower;
@@ -125,7 +125,7 @@ TEST(CellGrid, NeverLetsSidesChangePlaces) {
   }
 }
 
-TEST(CellGrid, HasFlatCellsWhereRoundingLeavesNoRoom) {
+TEST(CellGrid, CellsMayBeFlatFarFromTheOrigin) {
   const CellGrid grid({0x1p54, 0, 0x1p52});
   const GridCell cell{5, {3, 3, 3}};
   EXPECT_EQ(grid.lower(cell).x(), grid.upper(cell).x());
@@ -146,7 +146,7 @@ GridCell halved(const CellGrid& grid, const Point& point) {
   return cell;
 }
 
-TEST(CellGrid, FindsTheCellThatHalvingLeadsTo) {
+TEST(CellGrid, FinestCellMatchesRepeatedHalving) {
   Noise noise(7);
   for (const Point& lower : min_corners()) {
     const CellGrid grid(lower);
@@ -164,7 +164,7 @@ TEST(CellGrid, FindsTheCellThatHalvingLeadsTo) {
   }
 }
 
-TEST(CellGrid, NamesTheCellsThatACellIsIn) {
+TEST(CellGrid, AncestorsAreTheCellsAbove) {
   Noise noise(8);
   GridCell cell;
   std::vector<GridCell> above{cell};
@@ -175,7 +175,7 @@ TEST(CellGrid, NamesTheCellsThatACellIsIn) {
   }
 }
 
-TEST(CellGrid, HasTheOctcodesOfItsCells) {
+TEST(CellGrid, OctcodesMatchMortonPrefixes) {
   EXPECT_EQ(GridCell{}.octcode(), 0u);
   EXPECT_EQ(GridCell{}.child(5).octcode(), octcode_of_prefix(std::uint64_t{5} << 54, 3));
   Noise noise(4);

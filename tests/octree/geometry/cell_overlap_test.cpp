@@ -17,7 +17,7 @@ namespace planetree::octree {
 namespace {
 
 struct Outcome {
-  int touching = 0, apart = 0, told_apart = 0;
+  int touching = 0, apart = 0, separated = 0;
 };
 
 Outcome try_out(TriangleAndBox (*make)(Noise&), int count) {
@@ -29,7 +29,7 @@ Outcome try_out(TriangleAndBox (*make)(Noise&), int count) {
     const bool exact = exactly_touches(pair.triangle, pair.lower, pair.upper);
     EXPECT_TRUE(found || !exact) << "case " << i;
     ++(exact ? outcome.touching : outcome.apart);
-    outcome.told_apart += !found;
+    outcome.separated += !found;
   }
   return outcome;
 }
@@ -39,7 +39,7 @@ TEST(CellOverlap, NeverMissesATriangle) {
     const char* name;
     TriangleAndBox (*make)(Noise&);
     int count;
-    int min_told;  ///< minimum percentage of the separate pairs that the test must report
+    int min_separated;  ///< minimum percentage of the separate pairs that the test must report
   };
   // Pairs that are separate only in the last bits, or below the smallest numbers, may be missed.
   for (const Case& c :
@@ -52,12 +52,12 @@ TEST(CellOverlap, NeverMissesATriangle) {
     const Outcome outcome = try_out(c.make, c.count);
     EXPECT_GT(outcome.touching, c.count / 100);
     EXPECT_GT(outcome.apart, c.count / 100);
-    EXPECT_GE(100 * outcome.told_apart, c.min_told * outcome.apart)
-        << outcome.told_apart << " of " << outcome.apart;
+    EXPECT_GE(100 * outcome.separated, c.min_separated * outcome.apart)
+        << outcome.separated << " of " << outcome.apart;
   }
 }
 
-TEST(CellOverlap, FindsWhatSharesOnePoint) {
+TEST(CellOverlap, FindsTrianglesThatShareOnePoint) {
   const Point lower(-1, -1, -1), upper(1, 1, 1);
   const auto touches = [&](const Point& a, const Point& b, const Point& c) {
     return may_touch({a, b, c}, lower, upper) && exactly_touches({a, b, c}, lower, upper);
@@ -95,7 +95,7 @@ TEST(CellOverlap, FindsTrianglesInAFlatBox) {
   EXPECT_TRUE(may_touch({lower, lower, upper}, upper, upper));
 }
 
-TEST(CellOverlap, HoldsDifferencesAsLargeAsItSays) {
+TEST(CellOverlap, HandlesTheLargestDifferencesWithoutOverflow) {
   const double far = 0x1p499;
   const Point lower(0, 0, 0), upper(1, 1, 1);
   EXPECT_TRUE(may_touch({Point(-far, -far, -far), Point(far, far, far), Point(far, -far, 0)}, lower,
@@ -129,7 +129,7 @@ double gap_along(const Point& axis, const TriangleAndBox& pair) {
 }
 
 // Uses pairs that only one axis separates, and by a clear gap.
-TEST(CellOverlap, TellsApartAlongEachOfThirteenAxes) {
+TEST(CellOverlap, SeparatesAlongEachOfThirteenAxes) {
   std::array<int, 13> certain{};
   Noise noise(3);
   for (int i = 0; i < 40000; ++i) {

@@ -25,7 +25,7 @@ void each_direction(const Call& call) {
       }
 }
 
-TEST(CellSlab, IsItsWord) {
+TEST(CellSlab, RoundTripsThroughItsWord) {
   each_direction([](CellSlab slab, unsigned axis, int p, int q) {
     slab.lower = 17;
     slab.upper = 200;
@@ -44,7 +44,7 @@ TEST(CellSlab, IsItsWord) {
   }
 }
 
-TEST(CellSlab, HasHeightsFromItsLowestCornerToItsHighest) {
+TEST(CellSlab, HeightsRunFromLowestToHighestCorner) {
   each_direction([](const CellSlab& slab, unsigned, int, int) {
     std::vector<double> heights;
     for (unsigned corner = 0; corner < 8; ++corner)
@@ -57,7 +57,7 @@ TEST(CellSlab, HasHeightsFromItsLowestCornerToItsHighest) {
   });
 }
 
-TEST(CellSlab, TellsOnlyWhatIsBeyondAPlane) {
+TEST(CellSlab, DecidesOnlyPointsBeyondAPlane) {
   CellSlab slab;  // width 32
   EXPECT_FALSE(slab.says_something());
   for (const double height : {-1.0, 0.0, 16.0, 32.0, 33.0}) EXPECT_EQ(slab.side_of(height), 0);
@@ -88,7 +88,7 @@ std::vector<BoxedTriangle> triangles_about(const Point& middle, double size, Noi
 }
 
 // Compares exactly with small boxes in the cell: a box beyond a plane must touch no triangle.
-TEST(CellSlab, IsFittedAboutAllThatIsInACell) {
+TEST(CellSlab, EnclosesTheSurfaceInItsCell) {
   Noise noise(12);
   unsigned certain = 0, empty = 0;
   for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
@@ -125,7 +125,7 @@ TEST(CellSlab, IsFittedAboutAllThatIsInACell) {
   EXPECT_GT(empty, 20u);
 }
 
-TEST(CellSlab, IsNoneWhereNothingHasADirection) {
+TEST(CellSlab, IsEmptyWithoutAMeanNormal) {
   const Point at(0.5, 0.5, 0.5);
   const GridCell cell{.level = 1};
   const std::vector<BoxedTriangle> point{BoxedTriangle({at, at, at})};
@@ -137,7 +137,7 @@ TEST(CellSlab, IsNoneWhereNothingHasADirection) {
   EXPECT_EQ(fit_slab(cell, Point::Zero(), both, {0, 1}), CellSlab{});
 }
 
-TEST(CellSlab, IsAsThinAsTheSurfaceAndItsSteps) {
+TEST(CellSlab, IsOneStepWideAroundAPlane) {
   const Triangle face{Point(-1, -1, 0.5), Point(3, -1, 0.5), Point(-1, 3, 0.5)};
   const std::vector<BoxedTriangle> triangles{BoxedTriangle(face)};
   const CellSlab slab = fit_slab({.level = 1}, Point::Zero(), triangles, {0});

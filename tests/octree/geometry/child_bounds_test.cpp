@@ -17,7 +17,7 @@ double length(const std::array<float, 3>& v) {
   return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]);
 }
 
-TEST(PackedNormal, KeepsTheAxes) {
+TEST(PackedNormal, RoundTripsAxesExactly) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
       double direction[3] = {0, 0, 0};
@@ -27,7 +27,7 @@ TEST(PackedNormal, KeepsTheAxes) {
     }
 }
 
-TEST(PackedNormal, GivesDirectionsBackWithinAStep) {
+TEST(PackedNormal, RoundTripsDirectionsWithinOneStep) {
   Noise noise(1);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = noise.point(-1, 1);
@@ -49,7 +49,7 @@ TEST(PackedNormal, DecodesAnyBitsToLengthOne) {
     }
 }
 
-TEST(PackedNormal, DoesNotDependOnTheLengthGiven) {
+TEST(PackedNormal, IsIndependentOfVectorLength) {
   const PackedNormal one = pack_normal(0.3, -0.4, -0.5);
   const PackedNormal other = pack_normal(0.3 * 0x1p-300, -0.4 * 0x1p-300, -0.5 * 0x1p-300);
   EXPECT_EQ(one.u, other.u);
@@ -77,7 +77,7 @@ TEST(PackedChild, DecodesToBoxesInsideTheParents) {
   }
 }
 
-TEST(PackedChild, OfNoStepsIsTheParentItself) {
+TEST(PackedChild, WithoutStepsIsTheParentBox) {
   const FloatBox parent{{-0.1f, 0.3f, 1e-7f}, {0.7f, 0.9f, 3e-7f}};
   const FloatBox box = unpack_box(parent, PackedChild{});
   EXPECT_EQ(box.lower, parent.lower);
@@ -121,7 +121,7 @@ TEST(FloatRounding, EnclosesTheDouble) {
   EXPECT_EQ(float_above(0.5), 0.5f);
 }
 
-TEST(FloatRounding, GrowsABoxByWhatIsAdded) {
+TEST(FloatRounding, ExtendGrowsTheBox) {
   FloatBox box = empty_box();
   extend(box, Point(1, 2, 3));
   extend(box, Point(-1, 2, 0.1));
@@ -156,7 +156,7 @@ TEST(Bounds, PruneNothingWhereTheQueryIsTooFarForFloat) {
   EXPECT_EQ(certified(far, 1e30f), 0);
 }
 
-TEST(Bounds, CertifyNoMoreThanTheyPruneAt) {
+TEST(Bounds, CertifiedDistanceMatchesPruneThreshold) {
   const FloatQuery query = FloatQuery::from(0.3, -0.2, 0.9);
   for (const double distance : {0.0, 1e-12, 1e-3, 0.7, 1e5})
     EXPECT_LE(certified(query, prune_threshold(query, distance)), distance * (1 + 1e-6) + 1e-12);

@@ -23,9 +23,11 @@ TEST(Octcode, PutsXInTheLowestBitOfEachTriple) {
   EXPECT_EQ(morton_code(kMax, kMax, kMax), (std::uint64_t{1} << kMortonBits) - 1);
 }
 
-TEST(Octcode, OfNoBitsIsTheRoot) { EXPECT_EQ(octcode_of_prefix(morton_code(kMax, 5, 9), 0), 0u); }
+TEST(Octcode, EmptyPrefixIsTheRoot) {
+  EXPECT_EQ(octcode_of_prefix(morton_code(kMax, 5, 9), 0), 0u);
+}
 
-TEST(Octcode, GivesEveryPrefixBackAsItsCell) {
+TEST(Octcode, RoundTripsEveryPrefix) {
   const std::uint32_t x = 0x5a5a5, y = 0x12345, z = 0x7ffff;
   for (unsigned level = 0; level <= kLevels; ++level) {
     const Cell cell = cell_of_octcode(octcode_of_prefix(morton_code(x, y, z), 3 * level));

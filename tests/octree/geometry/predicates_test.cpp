@@ -64,7 +64,7 @@ TEST(Predicates, OrientationIsExactNearTheSmallestNumbers) {
   }
 }
 
-TEST(Predicates, OrientationHoldsTheWidestSpan) {
+TEST(Predicates, OrientationIsExactForTheWidestExponentRange) {
   const Point a(0, 0, 0), b(0x1p300, 0, 0), c(0, 0x1p300, 0x1p-1074);
   EXPECT_EQ(orientation(a, b, c, {-0x1p300, -0x1p300, 0}), 1);
   EXPECT_EQ(orientation(a, b, c, {-0x1p300, 0, 0}), 0);
@@ -128,7 +128,7 @@ TEST(Crossings, CountTheWindingNumberOfLatticePoints) {
   }
 }
 
-TEST(Crossings, AgreeAlongAnyWay) {
+TEST(Crossings, AgreeAlongAnyPath) {
   const Point outside(-7, -9, -8);
   const auto points = lattice();
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -140,7 +140,7 @@ TEST(Crossings, AgreeAlongAnyWay) {
     }
 }
 
-TEST(Crossings, CountDoubledAndTurnedSurfaces) {
+TEST(Crossings, CountDoubledAndInvertedSurfaces) {
   const Point centre(1, 1, 1), outside(9, 1, 1);
   auto doubled = cube();
   for (const Triangle& triangle : cube()) doubled.push_back(triangle);
@@ -151,7 +151,7 @@ TEST(Crossings, CountDoubledAndTurnedSurfaces) {
   EXPECT_EQ(winding_change(cube(), outside, centre), -1);
 }
 
-TEST(Crossings, PassByTrianglesWithoutArea) {
+TEST(Crossings, IgnoreTrianglesWithoutArea) {
   const Point p(0, 0, -1), q(0, 0, 1);
   EXPECT_EQ(crossing({p, q}, {Point(-1, 0, 0), Point(1, 0, 0), Point(0, 0, 0)}), 0);
   EXPECT_EQ(crossing({p, q}, {Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)}), 0);
@@ -177,7 +177,7 @@ TEST(Predicates, LiesOnIsExactOnALattice) {
   EXPECT_GT(on, 200);
 }
 
-TEST(Predicates, LiesOnTellsUlpsApart) {
+TEST(Predicates, LiesOnDistinguishesUlps) {
   const Triangle triangle{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};
   EXPECT_TRUE(lies_on({0.5, 0.5, 0}, triangle));
   EXPECT_FALSE(lies_on({0.5, std::nextafter(0.5, 1.0), 0}, triangle));

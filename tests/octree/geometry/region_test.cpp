@@ -14,7 +14,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 Region some_region() { return {{-1, 0.25, 0.5}, {0.5, 3, 0.75}, {0, 0, 0}, {1, 1, 1}}; }
 
-TEST(Region, HasWallsWhereItsSidesAreWithinTheModels) {
+TEST(Region, HasWallsWhereSidesAreWithinTheModelBox) {
   const Region region = some_region();
   EXPECT_EQ(region.lower(), Point(-kFar, 0.25, 0.5));
   EXPECT_EQ(region.upper(), Point(0.5, kFar, 0.75));
@@ -25,7 +25,7 @@ TEST(Region, HasWallsWhereItsSidesAreWithinTheModels) {
       Region({0, 0, 0}, {1, 1, std::nextafter(1.0, 0.0)}, {0, 0, 0}, {1, 1, 1}).has_walls());
 }
 
-TEST(Region, HoldsItsWalls) {
+TEST(Region, ContainsItsWalls) {
   const Region region = some_region();
   EXPECT_TRUE(region.holds({0.5, 0.25, 0.5}));
   EXPECT_TRUE(region.holds({-1e300, kFar, 0.6}));
@@ -38,7 +38,7 @@ TEST(Region, HoldsItsWalls) {
 }
 
 // The clearance is slightly less than the distance to the nearest wall, to cover all rounding.
-TEST(Region, IsClearUpToItsWalls) {
+TEST(Region, ClearanceEndsBeforeTheNearestWall) {
   const Region region = some_region();
   const double clear = region.clearance({0.25, 10, 0.625});
   EXPECT_LT(clear, 0.125 - 0x1p-39);

@@ -13,14 +13,14 @@ namespace {
 
 const Triangle kFace{Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)};  // back towards negative z
 
-Triangle perturbed(const Triangle& triangle, double factor, const Point& offset = Point::Zero()) {
+Triangle scaled(const Triangle& triangle, double factor, const Point& offset = Point::Zero()) {
   Triangle result;
   for (std::size_t k = 0; k < 3; ++k) result[k] = triangle[k] * factor + offset;
   return result;
 }
 
 // Six pyramids, one for each face of a cube, from its middle; each is two triangles.
-TEST(WindingShare, IsATwelfthOfACubeForHalfAFace) {
+TEST(WindingShare, HalfACubeFaceIsATwelfth) {
   const Triangle half{Point(-1, -1, 1), Point(1, -1, 1), Point(1, 1, 1)};
   const WindingShare share = winding_share(Point::Zero(), half);
   EXPECT_NEAR(share.value, 1.0 / 12, share.error);
@@ -34,7 +34,7 @@ TEST(WindingShare, IsPositiveFromBehind) {
   EXPECT_EQ(winding_share({0.2, 0.2, 1}, kFace).value, -winding_share({0.2, 0.2, -1}, kFace).value);
 }
 
-TEST(WindingShare, ComesToOneHalfBesideTheFace) {
+TEST(WindingShare, ApproachesOneHalfAtTheFace) {
   for (int exponent = -10; exponent >= -1074; exponent -= 7) {
     const double height = std::ldexp(1.0, exponent);
     for (const double side : {1.0, -1.0}) {
@@ -47,7 +47,7 @@ TEST(WindingShare, ComesToOneHalfBesideTheFace) {
 }
 
 // The quotient is 0 / 0 there.
-TEST(WindingShare, IsNoneOnTheTriangle) {
+TEST(WindingShare, IsZeroOnTheTriangle) {
   const Point on[] = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.25, 0.25, 0}, {0.5, 0.5, 0}};
   for (const Point& point : on) {
     const WindingShare share = winding_share(point, kFace);
@@ -57,7 +57,7 @@ TEST(WindingShare, IsNoneOnTheTriangle) {
   }
 }
 
-TEST(WindingShare, IsNothingInThePlaneBesideTheTriangle) {
+TEST(WindingShare, IsZeroInThePlaneOutsideTheTriangle) {
   const double ulp = std::numeric_limits<double>::denorm_min();
   for (const Point& point :
        {Point(2, 0, 0), Point(-1, 0, 0), Point(0.5, -ulp, 0), Point(1, 1, 0)}) {
@@ -70,7 +70,7 @@ TEST(WindingShare, IsNothingInThePlaneBesideTheTriangle) {
 
 // The share is half the angle between the planes through the edge: a quarter of a turn, less what
 // the far corner cuts off.
-TEST(WindingShare, IsToldBesideAnEdge) {
+TEST(WindingShare, IsAccurateNearAnEdge) {
   const double half_turn = winding_share({0.5, -0x1p-40, -0x1p-40}, kFace).value;
   for (const int exponent : {-50, -100, -300, -1000, -1074}) {
     const double step = std::ldexp(1.0, exponent);
@@ -81,7 +81,7 @@ TEST(WindingShare, IsToldBesideAnEdge) {
   }
 }
 
-TEST(WindingShare, IsToldBesideACorner) {
+TEST(WindingShare, IsAccurateNearACorner) {
   const WindingShare near = winding_share({-0x1p-30, -0x1p-31, -0x1p-30}, kFace);
   for (const int exponent : {-100, -500, -1000, -1070}) {
     const double step = std::ldexp(1.0, exponent);
@@ -91,21 +91,20 @@ TEST(WindingShare, IsToldBesideACorner) {
   }
 }
 
-TEST(WindingShare, DoesNotChangeWithTheUnit) {
+TEST(WindingShare, IsIndependentOfScale) {
   const Point point(0.3, 0.4, -0.2);
   const WindingShare unit = winding_share(point, kFace);
   for (const int exponent : {-1070, -900, -400, -200, 100, 200, 300}) {
     const double size = std::ldexp(1.0, exponent);
     // Coordinates with few bits stay exact where they are subnormal.
-    const WindingShare share =
-        winding_share(size * Point(0.25, 0.5, -0.25), perturbed(kFace, size));
+    const WindingShare share = winding_share(size * Point(0.25, 0.5, -0.25), scaled(kFace, size));
     EXPECT_NEAR(share.value, winding_share({0.25, 0.5, -0.25}, kFace).value, 0x1p-40) << exponent;
     EXPECT_LT(share.error, 0x1p-24);
   }
   EXPECT_LT(unit.error, 0x1p-44);
 }
 
-TEST(WindingShare, IsNoneWithoutArea) {
+TEST(WindingShare, IsZeroWithoutArea) {
   const Triangle segment{Point(0, 0, 0), Point(1, 1, 1), Point(3, 3, 3)};
   const Triangle point{Point(1, 2, 3), Point(1, 2, 3), Point(1, 2, 3)};
   for (const Triangle& flat : {segment, point}) {
@@ -115,7 +114,7 @@ TEST(WindingShare, IsNoneWithoutArea) {
 }
 
 // The shares of a closed surface sum to a whole number at any point.
-TEST(WindingShare, SumsToAWholeNumber) {
+TEST(WindingShare, SumsToAWholeNumberOverClosedSurfaces) {
   Noise noise(5);
   int off_surface = 0;
   for (int i = 0; i < 400; ++i) {

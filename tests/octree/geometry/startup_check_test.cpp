@@ -24,9 +24,9 @@ int rounded_normal_sign(const Point& a, const Point& b, const Point& c, unsigned
   return (area > 0) - (area < 0);
 }
 
-TEST(SelfTest, FindsThisBuildInOrder) { EXPECT_EQ(startup_check(), nullptr); }
+TEST(StartupCheck, PassesThisBuild) { EXPECT_EQ(startup_check(), nullptr); }
 
-TEST(SelfTest, FindsPredicatesThatRound) {
+TEST(StartupCheck, DetectsRoundedPredicates) {
   TestedPredicates wrong = TestedPredicates::ours();
   wrong.orientation = &rounded_orientation;
   EXPECT_NE(startup_check(wrong), nullptr);
@@ -35,7 +35,7 @@ TEST(SelfTest, FindsPredicatesThatRound) {
   EXPECT_NE(startup_check(wrong), nullptr);
 }
 
-TEST(SelfTest, FindsPredicatesThatAreWrongOnlyWhereProductsUnderflow) {
+TEST(StartupCheck, DetectsPredicatesWrongOnUnderflow) {
   TestedPredicates wrong = TestedPredicates::ours();
   wrong.orientation = [](const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
     return c.y() > 0 && c.y() < 0x1p-1000 ? 0 : orientation(a, b, c, d);
@@ -43,7 +43,7 @@ TEST(SelfTest, FindsPredicatesThatAreWrongOnlyWhereProductsUnderflow) {
   EXPECT_NE(startup_check(wrong), nullptr);
 }
 
-TEST(SelfTest, FindsContactThatIsNeverOrAlwaysSeen) {
+TEST(StartupCheck, DetectsConstantLiesOn) {
   TestedPredicates wrong = TestedPredicates::ours();
   wrong.lies_on = [](const Point&, const Triangle&) noexcept { return false; };
   EXPECT_NE(startup_check(wrong), nullptr);
@@ -52,7 +52,7 @@ TEST(SelfTest, FindsContactThatIsNeverOrAlwaysSeen) {
 }
 
 // Simulates builds with other arithmetic, as far as the floating-point mode of the thread can.
-TEST(SelfTest, FindsArithmeticOfAnotherKind) {
+TEST(StartupCheck, DetectsOtherFloatingPointModes) {
   const auto found = [](int rounding) {
     const OddArithmetic odd(rounding);
     const char* fault = startup_check();

@@ -64,7 +64,7 @@ TEST(TriangleDistance, IsZeroOnTheTriangle) {
   EXPECT_EQ(triangle_value({0, 1, 0}, kRight).squared, 0);
 }
 
-TEST(TriangleDistance, GivesWeightsThatSumToOneAndMakeThePoint) {
+TEST(TriangleDistance, BarycentricWeightsSumToOneAndGiveThePoint) {
   Noise noise(1);
   for (int i = 0; i < 5000; ++i) {
     const Triangle triangle = random_triangle(noise);
@@ -80,7 +80,7 @@ TEST(TriangleDistance, GivesWeightsThatSumToOneAndMakeThePoint) {
   }
 }
 
-TEST(TriangleDistance, AgreesWithItselfAboutValueAndPoint) {
+TEST(TriangleDistance, ValueMatchesDistanceToThePoint) {
   Noise noise(2);
   for (int i = 0; i < 5000; ++i) {
     const Triangle triangle = random_triangle(noise);
@@ -155,7 +155,7 @@ TEST(TriangleDistance, GivesSharedVerticesTheSameBits) {
   EXPECT_GT(vertices, 50);
 }
 
-TEST(TriangleDistance, TakesFlatTrianglesForTheSegmentsTheyAre) {
+TEST(TriangleDistance, TreatsFlatTrianglesAsSegments) {
   const Triangle segment{Point(0, 0, 0), Point(2, 0, 0), Point(1, 0, 0)};
   const NearestOnTriangle nearest = nearest_on_triangle({0.5, 3, 4}, segment);
   EXPECT_EQ(nearest.value.squared, 25);
@@ -163,7 +163,7 @@ TEST(TriangleDistance, TakesFlatTrianglesForTheSegmentsTheyAre) {
   EXPECT_NE(nearest.feature, Feature::kFace);
 }
 
-TEST(TriangleDistance, TakesOnePointForTheVertexItIs) {
+TEST(TriangleDistance, TreatsPointTrianglesAsVertices) {
   const Triangle dot{Point(1, 1, 1), Point(1, 1, 1), Point(1, 1, 1)};
   const NearestOnTriangle nearest = nearest_on_triangle({1, 1, 3}, dot);
   EXPECT_EQ(nearest.value.squared, 4);
@@ -171,7 +171,7 @@ TEST(TriangleDistance, TakesOnePointForTheVertexItIs) {
   EXPECT_EQ(nearest.barycentric[0] + nearest.barycentric[1] + nearest.barycentric[2], 1);
 }
 
-TEST(TriangleDistance, SeesTheFaceOfANeedle) {
+TEST(TriangleDistance, FindsTheFaceOfANeedle) {
   // 2^-26 wide: the face is too flat for double, and the edges alone would give 1 + 2^-56.
   const double width = 0x1p-26;
   const Triangle needle{Point(-1, 0, 0), Point(1, 0, 0), Point(0, width, 0)};

@@ -11,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-TEST(FixedPoint, AreCountedFromZeroBothWays) {
+TEST(FixedPoint, TruncatesTowardsZero) {
   Noise noise(3);
   for (const unsigned level : {1u, 6u, 18u})
     for (const int scale : {0, 7, -300, 900, -900}) {
@@ -28,7 +28,7 @@ TEST(FixedPoint, AreCountedFromZeroBothWays) {
     }
 }
 
-TEST(FixedPoint, AreNoneWhereThereIsNoPlace) {
+TEST(FixedPoint, RefusesValuesOutOfRange) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const FixedPoint steps(6, 0);
   for (const double value : {kInfinity, -kInfinity, std::nan(""), 1e300, -1e300})

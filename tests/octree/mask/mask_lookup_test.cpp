@@ -16,7 +16,7 @@ using Kind = MaskEntry::Kind;
 
 /// The path of a point through the mask, as the specification defines it, found in the entries
 /// themselves.
-struct Way {
+struct PathToCell {
   std::vector<std::uint32_t> entries;  ///< from the root to a leaf or the last node
   GridCell cell;
   bool colour = false;
@@ -26,21 +26,21 @@ struct Way {
   }
 };
 
-Way way_of(const MaskTree& tree, const CellGrid& grid, const Point& point) {
-  Way way;
+PathToCell path_of(const MaskTree& tree, const CellGrid& grid, const Point& point) {
+  PathToCell path;
   for (std::uint32_t at = 0;;) {
-    way.entries.push_back(at);
+    path.entries.push_back(at);
     const MaskEntry& entry = tree.entries[at];
-    if (entry.kind != Kind::kNode) return way;
-    const Point middle = grid.middle(way.cell);
+    if (entry.kind != Kind::kNode) return path;
+    const Point middle = grid.middle(path.cell);
     const unsigned octant = (point.x() >= middle.x() ? 1u : 0u) |
                             (point.y() >= middle.y() ? 2u : 0u) |
                             (point.z() >= middle.z() ? 4u : 0u);
-    way.cell = way.cell.child(octant);
+    path.cell = path.cell.child(octant);
     if ((entry.grey >> octant & 1) == 0) {
-      way.colour = true;
-      way.winding = (entry.black >> octant & 1) - (entry.inverted >> octant & 1);
-      return way;
+      path.colour = true;
+      path.winding = (entry.black >> octant & 1) - (entry.inverted >> octant & 1);
+      return path;
     }
     at = entry.first;
     for (unsigned before = 0; before < octant; ++before) at += entry.grey >> before & 1;
@@ -61,14 +61,14 @@ std::vector<Point> points_in(const Point& lower, std::size_t count) {
   return points;
 }
 
-void expect_same(const MaskLookup& found, const Way& way, const MaskTree& tree) {
+void expect_same(const MaskLookup& found, const PathToCell& path, const MaskTree& tree) {
   using Found = MaskLookup::Kind;
-  EXPECT_EQ(found.cell.level, way.cell.level);
-  EXPECT_EQ(found.cell.at, way.cell.at);
-  const MaskEntry& entry = tree.entries[way.entries.back()];
-  if (way.colour) {
+  EXPECT_EQ(found.cell.level, path.cell.level);
+  EXPECT_EQ(found.cell.at, path.cell.at);
+  const MaskEntry& entry = tree.entries[path.entries.back()];
+  if (path.colour) {
     EXPECT_EQ(found.kind, Found::kColour);
-    EXPECT_EQ(found.winding, way.winding);
+    EXPECT_EQ(found.winding, path.winding);
     EXPECT_EQ(found.blocks.count, 0u);
   } else if (entry.kind == Kind::kSpecial) {
     const SpecialCell& special = tree.specials[entry.first];
@@ -102,9 +102,9 @@ class MaskLookupTest : public testing::Test {
     return ~0u;
   }
   // Pages in the order of the path, each once.
-  std::vector<std::uint32_t> pages_of(const Way& way) const {
+  std::vector<std::uint32_t> pages_of(const PathToCell& path) const {
     std::vector<std::uint32_t> pages;
-    for (const std::uint32_t entry : way.entries)
+    for (const std::uint32_t entry : path.entries)
       if (const std::uint32_t page = page_of(entry); pages.empty() || pages.back() != page)
         pages.push_back(page);
     return pages;
@@ -120,11 +120,11 @@ class MaskLookupTest : public testing::Test {
 TEST_F(MaskLookupTest, FindsTheCellOfEveryPoint) {
   std::size_t listed = 0;
   for (const Point& point : points_in(lower_, 4000)) {
-    const Way way = way_of(tree_, grid_, point);
+    const PathToCell path = path_of(tree_, grid_, point);
     const MaskLookup found = find(point);
-    expect_same(found, way, tree_);
+    expect_same(found, path, tree_);
     listed += found.blocks.count > 0;
-    EXPECT_EQ(work_.nodes, way.nodes(tree_));
+    EXPECT_EQ(work_.nodes, path.nodes(tree_));
     EXPECT_LE(work_.nodes, tree_.levels);
     EXPECT_EQ(work_.blocks, 0u);
     ASSERT_FALSE(HasFailure()) << point.transpose();
@@ -132,12 +132,12 @@ TEST_F(MaskLookupTest, FindsTheCellOfEveryPoint) {
   EXPECT_GT(listed, 100u);
 }
 
-TEST_F(MaskLookupTest, ReadsOnlyPagesOnItsWay) {
+TEST_F(MaskLookupTest, AccessesOnlyPagesOnThePath) {
   std::size_t most = 0;
   for (const Point& point : points_in(lower_, 3000)) {
     find(point);
     const std::vector<std::uint32_t> queried = pages_.take_queried();
-    ASSERT_EQ(queried, pages_of(way_of(tree_, grid_, point))) << point.transpose();
+    ASSERT_EQ(queried, pages_of(path_of(tree_, grid_, point))) << point.transpose();
     EXPECT_TRUE(std::ranges::is_sorted(queried));
     EXPECT_EQ(work_.page_switches, queried.size());
     most = std::max(most, queried.size());
@@ -145,24 +145,24 @@ TEST_F(MaskLookupTest, ReadsOnlyPagesOnItsWay) {
   EXPECT_GT(most, 2u);
 }
 
-TEST_F(MaskLookupTest, KnowsNothingWhereAPageIsMissing) {
+TEST_F(MaskLookupTest, IsUnknownWhereAPageIsMissing) {
   const std::vector<Point> points = points_in(lower_, 150);
   std::size_t lost = 0;
   for (std::uint32_t page = 0; page < pages_.size(); page += 1 + page / 4) {
     pages_.withhold(page);
     for (const Point& point : points) {
-      const Way way = way_of(tree_, grid_, point);
-      const std::vector<std::uint32_t> on_way = pages_of(way);
-      const auto at = std::ranges::find(on_way, page);
+      const PathToCell path = path_of(tree_, grid_, point);
+      const std::vector<std::uint32_t> on_path = pages_of(path);
+      const auto at = std::ranges::find(on_path, page);
       pages_.take_queried();
       const MaskLookup found = find(point);
-      if (at == on_way.end()) {
-        expect_same(found, way, tree_);
+      if (at == on_path.end()) {
+        expect_same(found, path, tree_);
         continue;
       }
       ++lost;
       EXPECT_EQ(found.kind, MaskLookup::Kind::kNothing);
-      EXPECT_EQ(pages_.take_queried(), std::vector(on_way.begin(), at + 1));
+      EXPECT_EQ(pages_.take_queried(), std::vector(on_path.begin(), at + 1));
     }
     pages_.withhold(page, false);
     ASSERT_FALSE(HasFailure()) << page;
@@ -170,23 +170,23 @@ TEST_F(MaskLookupTest, KnowsNothingWhereAPageIsMissing) {
   EXPECT_GT(lost, 100u);
 }
 
-TEST_F(MaskLookupTest, VisitsNoMoreNodesThanItMay) {
+TEST_F(MaskLookupTest, StaysWithinMaxWork) {
   for (const Point& point : points_in(lower_, 200)) {
-    const Way way = way_of(tree_, grid_, point);
-    const std::size_t needed = way.nodes(tree_);
+    const PathToCell path = path_of(tree_, grid_, point);
+    const std::size_t needed = path.nodes(tree_);
     for (std::uint64_t most = 0; most <= needed; ++most) {
       const MaskLookup found = find(point, most);
       EXPECT_LE(work_.nodes, most);
       if (most < needed) {
         EXPECT_EQ(found.kind, MaskLookup::Kind::kNothing);
       } else {
-        expect_same(found, way, tree_);
+        expect_same(found, path, tree_);
       }
     }
   }
 }
 
-TEST_F(MaskLookupTest, KnowsNothingWithoutAMask) {
+TEST_F(MaskLookupTest, IsUnknownWithoutAMask) {
   MaskInfo none = pages_.mask(lower_);
   none.page_count = 0;
   EXPECT_EQ(look_up(none, lower_, 100, pages_.reader(), work_).kind, MaskLookup::Kind::kNothing);
@@ -194,7 +194,7 @@ TEST_F(MaskLookupTest, KnowsNothingWithoutAMask) {
 }
 
 // The octants of a finest cell have no octcode, so its list of blocks is not used.
-TEST(MaskLookupListsTest, TakesNoneOfTheFinestCells) {
+TEST(MaskLookupListsTest, RefusesListsOfFinestCells) {
   MaskTree tree;
   tree.entries.resize(1);
   for (unsigned level = 0; level < kLevels; ++level) {
@@ -217,7 +217,7 @@ TEST(MaskLookupListsTest, TakesNoneOfTheFinestCells) {
 }
 
 // The decoder cannot check what a node's link to another page leads to.
-TEST_F(MaskLookupTest, BelievesNoLinkBetweenPages) {
+TEST_F(MaskLookupTest, ChecksLinksBetweenPages) {
   const MaskLinkFormat links(4096);
   std::size_t changed = 0;
   for (std::uint32_t page = 0; page < pages_.size(); ++page) {
@@ -243,7 +243,7 @@ TEST_F(MaskLookupTest, BelievesNoLinkBetweenPages) {
 }
 
 // The side by the planes, with and without an infinitesimal step.
-TEST(MaskLookupBoxesTest, TellsTheSideOfPointsInSpecialCells) {
+TEST(MaskLookupBoxesTest, DecidesTheSideInSpecialCells) {
   const SampleMask sample(box({0, 0, 0}, {0.9, 0.8, 0.7}, 24));
   MaskPages pages(sample.tree, 4096);
   std::map<MaskLookup::Kind, int> kinds;

@@ -17,9 +17,9 @@ namespace planetree::octree {
 namespace {
 
 /// Resident pages of a mask. Records which of them were accessed.
-class PeekedPages {
+class RecordedPages {
  public:
-  explicit PeekedPages(PageReader pages) : pages_(pages) {}
+  explicit RecordedPages(PageReader pages) : pages_(pages) {}
 
   PageReader reader() {
     return {this,
@@ -28,13 +28,13 @@ class PeekedPages {
               return nullptr;
             },
             [](void* context, std::uint32_t number) noexcept {
-              auto& self = *static_cast<PeekedPages*>(context);
+              auto& self = *static_cast<RecordedPages*>(context);
               self.seen_.insert(number);
               return number == self.lost_ ? nullptr : self.pages_.peek(self.pages_.context, number);
             }};
   }
   void lose(std::uint32_t page) { lost_ = page; }
-  std::set<std::uint32_t> take_seen() { return std::exchange(seen_, {}); }
+  std::set<std::uint32_t> take_accessed() { return std::exchange(seen_, {}); }
 
  private:
   const PageReader pages_;
@@ -86,12 +86,12 @@ class MaskPrefetcherTest : public testing::Test {
   SideGrid side_grid_;
 };
 
-TEST_F(MaskPrefetcherTest, SeesThePagesOfTheSearchThatFollows) {
-  PeekedPages peeked(pages_.resident_reader());
+TEST_F(MaskPrefetcherTest, PrefetchesThePagesOfTheLookup) {
+  RecordedPages peeked(pages_.resident_reader());
   std::size_t searches = 0, several = 0;
   for (const Point& point : points(3000)) {
     const unsigned steps = go(point, peeked.reader());
-    const std::set<std::uint32_t> seen = peeked.take_seen(), queried = pages_of_search(point);
+    const std::set<std::uint32_t> seen = peeked.take_accessed(), queried = pages_of_search(point);
     EXPECT_LE(steps, kLevels + 2);
     if (queried.empty()) continue;
     ++searches;
@@ -103,8 +103,8 @@ TEST_F(MaskPrefetcherTest, SeesThePagesOfTheSearchThatFollows) {
   EXPECT_GT(several, 10u);
 }
 
-TEST_F(MaskPrefetcherTest, GoesNoFartherThanAPageThatIsNotInMemory) {
-  PeekedPages peeked(pages_.resident_reader());
+TEST_F(MaskPrefetcherTest, StopsAtPagesThatAreNotResident) {
+  RecordedPages peeked(pages_.resident_reader());
   std::size_t stopped = 0;
   for (const Point& point : points(1000)) {
     const std::set<std::uint32_t> queried = pages_of_search(point);
@@ -112,27 +112,27 @@ TEST_F(MaskPrefetcherTest, GoesNoFartherThanAPageThatIsNotInMemory) {
     // Child pages come after their parents, so the least number is accessed first.
     peeked.lose(*queried.begin());
     go(point, peeked.reader());
-    ASSERT_EQ(peeked.take_seen(), (std::set<std::uint32_t>{*queried.begin()}));
+    ASSERT_EQ(peeked.take_accessed(), (std::set<std::uint32_t>{*queried.begin()}));
     ++stopped;
   }
   EXPECT_GT(stopped, 100u);
 }
 
-TEST_F(MaskPrefetcherTest, DoesNothingWhereTheMapTellsOrKnowsNothing) {
+TEST_F(MaskPrefetcherTest, DoesNothingWithoutASideGridRecord) {
   EXPECT_FALSE(MaskPrefetcher(mask_, SideGrid(), lower_ + Point::Constant(0.3)).goes_on());
   for (const double far : {10.0, 1e9, 1e300})
     EXPECT_FALSE(MaskPrefetcher(mask_, side_grid_, lower_ + Point::Constant(far)).goes_on()) << far;
-  std::size_t certain = 0;
+  std::size_t known = 0;
   for (const Point& point : points(1000)) {
     if (side_grid_.lookup_of(point).record) continue;
-    ++certain;
+    ++known;
     EXPECT_FALSE(MaskPrefetcher(mask_, side_grid_, point).goes_on());
   }
-  EXPECT_GT(certain, 100u);
+  EXPECT_GT(known, 100u);
 }
 
 // Frames of random bits, which no decoder would produce.
-TEST_F(MaskPrefetcherTest, EndsInPagesOfAnything) {
+TEST_F(MaskPrefetcherTest, EndsOnRandomPages) {
   Noise noise(4);
   alignas(64) static std::array<std::uint64_t, 4096 / 8> frame;
   for (std::uint64_t& word : frame) word = std::uint64_t{noise.bits()} << 32 | noise.bits();

@@ -16,7 +16,7 @@ namespace planetree::octree {
 inline constexpr std::size_t kMany = 1 << 24;  // bytes
 
 /// A side grid of a random mask, with the results of the mask itself for comparison.
-class RandomMap : public testing::Test {
+class RandomSideGrid : public testing::Test {
  protected:
   static TreeInfo tree_of(const Point& lower, const Point& size) {
     TreeInfo tree;
@@ -24,14 +24,14 @@ class RandomMap : public testing::Test {
     tree.box_upper = lower + size;
     return tree;
   }
-  SideGrid map_of(MaskPages& pages, std::size_t bytes) {
-    return map_of(pages, pages.resident_reader(), bytes);
+  SideGrid grid_of(MaskPages& pages, std::size_t bytes) {
+    return grid_of(pages, pages.resident_reader(), bytes);
   }
-  SideGrid map_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
-    SideGrid map;
+  SideGrid grid_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
+    SideGrid grid;
     memory_.resize(bytes);
-    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
-    return map;
+    grid.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
+    return grid;
   }
   // Random points, half of them on the sides of cells.
   std::vector<Point> points(std::size_t count) const {
@@ -46,8 +46,8 @@ class RandomMap : public testing::Test {
     }
     return result;
   }
-  static int find_fast(const SideGrid& map, const Point& point) {
-    return map.find_fast(point.x(), point.y(), point.z());
+  static int find_fast(const SideGrid& grid, const Point& point) {
+    return grid.find_fast(point.x(), point.y(), point.z());
   }
   MaskLookup look(MaskPages& pages, const Point& point) const { return look(pages, lower_, point); }
   static MaskLookup look(MaskPages& pages, const Point& lower, const Point& point) {
@@ -56,7 +56,7 @@ class RandomMap : public testing::Test {
   }
   // The sign of the winding number where the mask alone determines it: in coloured cells, in
   // octants of leaves that no listed block touches, and beyond the slabs of leaves.
-  static std::optional<int> certain(MaskPages& pages, const Point& lower, const Point& point) {
+  static std::optional<int> sign_by_mask(MaskPages& pages, const Point& lower, const Point& point) {
     const MaskLookup found = look(pages, lower, point);
     if (found.kind == MaskLookup::Kind::kColour) return found.winding;
     if (found.kind != MaskLookup::Kind::kCorners || found.blocks.count == 0) return {};

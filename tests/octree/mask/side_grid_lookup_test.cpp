@@ -13,19 +13,19 @@
 namespace planetree::octree {
 namespace {
 
-using SideGridLookupTest = RandomMap;
+using SideGridLookupTest = RandomSideGrid;
 
 // Also with points in the input's units.
-TEST_F(SideGridLookupTest, TellsAtAGlanceWhatALookTells) {
+TEST_F(SideGridLookupTest, FastLookupAgreesWithLook) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   for (const int scale : {0, 3, -200, 900, -900}) {
-    SideGrid map;
+    SideGrid grid;
     memory_.resize(kMany);
-    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
+    grid.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
     std::size_t known = 0, certain = 0;
     for (const Point& point : points(4000)) {
       const Point input = point * std::ldexp(1.0, -scale);
-      const int winding = map.look(point).winding, found_fast = find_fast(map, input);
+      const int winding = grid.look(point).winding, found_fast = find_fast(grid, input);
       known += winding != SideGrid::kUnknown;
       certain += found_fast != SideGrid::kUnknown;
       ASSERT_TRUE(found_fast == SideGrid::kUnknown || found_fast == winding) << point.transpose();
@@ -36,7 +36,7 @@ TEST_F(SideGridLookupTest, TellsAtAGlanceWhatALookTells) {
   }
 }
 
-TEST_F(SideGridLookupTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
+TEST_F(SideGridLookupTest, FastLookupIsTheSameOnEveryInstructionSet) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   std::vector<Point> all = points(4000);
   for (const double far : {1e-300, 1e-9, 3.0, 1e9, 1e300})
@@ -50,9 +50,9 @@ TEST_F(SideGridLookupTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
     all.back()[0] = lower_[0] + std::floor((point[0] - lower_[0]) * 256) / 256 + off;
   }
   const auto fast_lookups = on_each_target([&] {
-    const SideGrid map = map_of(pages, kMany);
+    const SideGrid grid = grid_of(pages, kMany);
     std::vector<int> found;
-    for (const Point& point : all) found.push_back(find_fast(map, point));
+    for (const Point& point : all) found.push_back(find_fast(grid, point));
     return found;
   });
   for (const std::vector<int>& found : fast_lookups) {
@@ -62,21 +62,21 @@ TEST_F(SideGridLookupTest, TellsTheSameAtAGlanceOnEveryInstructionSet) {
   }
 }
 
-TEST_F(SideGridLookupTest, TellsNothingAtAGlanceOfWhatHasNoPlace) {
+TEST_F(SideGridLookupTest, FastLookupIsUnknownOutOfRange) {
   MaskPages pages(random_mask(10), 65536, kRandomMaskPage);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (const int scale : {0, 901, -901}) {
-    SideGrid map;
+    SideGrid grid;
     memory_.resize(kMany);
-    map.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
+    grid.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
     for (const double value : {infinite, -infinite, std::nan(""), 1e300, -1e300})
       for (unsigned axis = 0; axis < 3; ++axis) {
         Point point = lower_ + size_ / 2;
         point[axis] = value;
-        EXPECT_EQ(find_fast(map, point), SideGrid::kUnknown) << value;
+        EXPECT_EQ(find_fast(grid, point), SideGrid::kUnknown) << value;
       }
     for (const Point& point : points(scale == 0 ? 0 : 100))
-      EXPECT_EQ(find_fast(map, point), SideGrid::kUnknown) << scale;
+      EXPECT_EQ(find_fast(grid, point), SideGrid::kUnknown) << scale;
   }
 }
 

@@ -91,14 +91,15 @@ struct WatchedPages {
   PageReader reader() {
     return {this, [](void* context, std::uint32_t number) noexcept {
               auto& self = *static_cast<WatchedPages*>(context);
-              self.strange = self.strange || number >= self.pages.size();
+              self.requested_unknown_page =
+                  self.requested_unknown_page || number >= self.pages.size();
               return self.inner.page(self.inner.context, number);
             }};
   }
 
   SamplePages& pages;
   const PageReader inner;
-  bool strange = false;  // a page outside of the file was requested
+  bool requested_unknown_page = false;  // a page outside of the file was requested
 };
 
 TEST(CoherenceCache, ChangesNoAnswer) {
@@ -137,7 +138,7 @@ Soup far_height_field() {
   return soup;
 }
 
-TEST(CoherenceCache, ChangesNoAnswerToAPointJustTold) {
+TEST(CoherenceCache, ChangesNoAnswerAtTheLastNearestPoint) {
   Path path(far_height_field());
   Noise noise(5);
   constexpr double kGrid = 0x1p40 * 0x1p-52;
@@ -146,15 +147,15 @@ TEST(CoherenceCache, ChangesNoAnswerToAPointJustTold) {
     const double z = start.x / 2 + start.y / 4 - 40 * kGrid;
     const Point first = Point(start.x, start.y, z).array() + 0x1p40;
     const Point second = first + Point(0x1p-8, 0, 0);
-    const Point certain =
+    const Point results =
         nearest(tree_info(path.sample), second, {}, path.pages.reader(), path.work_alone).point;
-    path.expect_same_answers({first, second, certain});
+    path.expect_same_answers({first, second, results});
   }
 }
 
 // First leaps just short enough to count as steps, then steps so short that a ball of few triangles
 // is enough.
-TEST(CoherenceCache, GivesWayToASmallerBallWhenStepsGetShorter) {
+TEST(CoherenceCache, ShrinksTheBallWhenStepsGetShorter) {
   Warm warm(sphere(6));
   Point at(0.45, 0.15, 0.078);
   for (int i = 0; i < 4; ++i) warm.closest_point(at += Point(0, 0, 0.02));
@@ -166,7 +167,7 @@ TEST(CoherenceCache, GivesWayToASmallerBallWhenStepsGetShorter) {
   EXPECT_EQ(visits, 0u);
 }
 
-TEST(CoherenceCache, VisitsNoMoreThanAllowed) {
+TEST(CoherenceCache, StaysWithinMaxWork) {
   const NearestAnswer known = Warm(sphere(6)).closest_point(Point(0.35, 0.35, 0.1));
   for (const std::uint32_t most : {8u, 20u, 40u}) {
     Warm warm(sphere(6));
@@ -182,7 +183,7 @@ TEST(CoherenceCache, VisitsNoMoreThanAllowed) {
 
 // At this distance squares overflow in float and nothing is pruned. Old entries behind the end of a
 // shortened list must not be taken for subtrees.
-TEST(CoherenceCache, HoldsNoMoreThanThereIsFarAway) {
+TEST(CoherenceCache, RequestsOnlyExistingPagesFarAway) {
   const Point far(0x1p61, 0x1p60, 0);
   for (const unsigned level : {3u, 4u, 5u, 6u}) {
     Warm warm(sphere(level));
@@ -196,12 +197,12 @@ TEST(CoherenceCache, HoldsNoMoreThanThereIsFarAway) {
       if (i < 2) continue;  // the first queries fill the cache
       EXPECT_LE(work.nodes + work.blocks, alone.nodes + alone.blocks) << level;
     }
-    EXPECT_FALSE(watched.strange) << level;
+    EXPECT_FALSE(watched.requested_unknown_page) << level;
   }
 }
 
 // With an allowed error and missing pages, the traversal has no bound for a long time.
-TEST(CoherenceCache, HoldsNoMoreThanThereIsWherePagesAreLost) {
+TEST(CoherenceCache, RequestsOnlyExistingPagesWherePagesAreMissing) {
   for (const double step : {1e-3, 3e-3, 1e-2, 3e-2}) {
     Warm warm(sphere(5));
     WatchedPages watched(warm.pages);
@@ -215,19 +216,19 @@ TEST(CoherenceCache, HoldsNoMoreThanThereIsWherePagesAreLost) {
     TraversalStats work;
     nearest(tree_info(warm.sample), at + Point(0, step, 0), limits, watched.reader(), work,
             &warm.coherence_cache);
-    EXPECT_FALSE(watched.strange) << step;
+    EXPECT_FALSE(watched.requested_unknown_page) << step;
   }
 }
 
 // Limited queries report intermediate results, which must not depend on the vector width.
-TEST(CoherenceCache, IsTheSameOnEveryInstructionSet) {
+TEST(CoherenceCache, GivesTheSameBitsOnEveryInstructionSet) {
   const Soup soup = scattered(20000, 0.03);
   NearestLimits limits;
   limits.max_work = 12;
   limits.max_error = 1e-4;
   const NearestAnswer known = Warm(soup).closest_point(Point(0.35, 0.35, 0.1));
   limits.known = &known;
-  std::vector<std::vector<std::uint64_t>> certain;
+  std::vector<std::vector<std::uint64_t>> results;
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
     hwy::SetSupportedTargetsForTest(left & -left);
     Warm warm(soup);
@@ -241,10 +242,10 @@ TEST(CoherenceCache, IsTheSameOnEveryInstructionSet) {
         bits.insert(bits.end(), more.begin(), more.end());
         bits.insert(bits.end(), {work.nodes, work.blocks, work.triangles, work.page_switches});
       }
-    certain.push_back(bits);
+    results.push_back(bits);
     hwy::SetSupportedTargetsForTest(0);
   }
-  for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
+  for (const auto& bits : results) EXPECT_EQ(bits == results[0], true);
 }
 
 TEST(CoherenceCache, ChangesNoAnswerWithinLimits) {
@@ -256,21 +257,21 @@ TEST(CoherenceCache, ChangesNoAnswerWithinLimits) {
     Path(sphere(5)).expect_same_answers(wander(300, 1e-3, 100), limits);
 }
 
-TEST(CoherenceCache, ChangesNoAnswerWherePagesAreLost) {
+TEST(CoherenceCache, ChangesNoAnswerWherePagesAreMissing) {
   Path path(sphere(5));
   ASSERT_GT(path.pages.size(), 8u);
   for (std::uint32_t page = 1; page < path.pages.size(); page += 3) path.pages.withhold(page);
   path.expect_same_answers(wander(300, 1e-3, 30));
 }
 
-TEST(CoherenceCache, SparesMostNodesOfAPath) {
+TEST(CoherenceCache, HalvesNodeVisitsAlongAPath) {
   Path path(sphere(6));
   path.expect_same_answers(wander(500, 1e-4, 500));
   EXPECT_LT(path.work_along.nodes, path.work_alone.nodes / 2);
   EXPECT_LE(path.work_along.blocks, path.work_alone.blocks);
 }
 
-TEST(CoherenceCache, LooksAtNoPageWhereTrianglesAreFew) {
+TEST(CoherenceCache, AccessesNoPageWhereTrianglesAreFew) {
   Warm warm(sphere(6));
   for (int i = 0; i < 12; ++i) {
     const TraversalStats work = warm.work(Point(0.35, 0.355 + i * 1e-6, 0.1));
@@ -279,7 +280,7 @@ TEST(CoherenceCache, LooksAtNoPageWhereTrianglesAreFew) {
   }
 }
 
-TEST(CoherenceCache, LooksAtNoNodeWhereBlocksAreFew) {
+TEST(CoherenceCache, VisitsNoNodeWhereBlocksAreFew) {
   Warm warm(sphere(7));
   for (int i = 0; i < 8; ++i) {
     const TraversalStats work = warm.work(Point(0.35, 0.355 + i * 1.5e-3, 0.1));
@@ -290,7 +291,7 @@ TEST(CoherenceCache, LooksAtNoNodeWhereBlocksAreFew) {
   }
 }
 
-TEST(CoherenceCache, BeginsFarDownWhereBlocksAreMany) {
+TEST(CoherenceCache, StartsAtLowerNodesWhereBlocksAreMany) {
   Warm warm(sphere(7));
   std::uint64_t along = 0, alone = 0;
   for (int i = 0; i < 8; ++i) {
@@ -307,13 +308,13 @@ TEST(CoherenceCache, BeginsFarDownWhereBlocksAreMany) {
   EXPECT_LT(along, alone / 2);
 }
 
-TEST(CoherenceCache, CostsLittleWhereThereIsNoPath) {
+TEST(CoherenceCache, AddsLittleWorkWithoutCoherence) {
   Path path(sphere(6));
   path.expect_same_answers(wander(500, 1e-4, 1));
   EXPECT_LT(path.work_along.nodes, path.work_alone.nodes + path.work_alone.nodes / 20);
 }
 
-TEST(CoherenceCache, HoldsNothingBeforeTheFirstAnswer) {
+TEST(CoherenceCache, IsEmptyBeforeTheFirstAnswer) {
   const CoherenceCache coherence_cache{};
   EXPECT_FALSE(coherence_cache.holds(coherence_cache.reach_of(Point(0, 0, 0))));
   EXPECT_EQ(coherence_cache.wanted_radius(Point(0, 0, 0), 1, 2), 0);

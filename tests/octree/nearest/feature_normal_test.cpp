@@ -61,7 +61,7 @@ struct Path {
   int from_subtrees = 0;
 };
 
-TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootForLessWork) {
+TEST(FeatureNormalFromCache, MatchesTraversalFromTheRootWithLessWork) {
   const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(6)},
                                                 {"sheet", height_field(60)},
                                                 {"scattered triangles", scattered(20000, 0.05)}};
@@ -76,7 +76,7 @@ TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootForLessWork) {
 }
 
 // The sum of so many normals depends on the order of the tree.
-TEST(FeatureNormalNearby, HasTheBitsOfThatFromTheRootOfMoreFacesThanAreSorted) {
+TEST(FeatureNormalFromCache, MatchesTraversalFromTheRootWithManyFacesAtAVertex) {
   for (const unsigned faces : {150u, 400u}) {
     SCOPED_TRACE(std::to_string(faces) + " faces");
     Path path(cone(faces));

@@ -14,7 +14,7 @@ void add(FacingSides& sides, const Triangle& face, const Point& normal) {
   sides.add(face, normal, (face[1] - face[0]).cross(face[2] - face[0]).squaredNorm());
 }
 
-TEST(FacingSides, IsThatOfAllFaces) {
+TEST(FacingSides, IsTheCommonSideOfAllFaces) {
   const Point above(0.2, 0.2, 0.1), below(0.2, 0.2, -0.1);
   for (const auto& [query, side] : {std::pair(above, 1), std::pair(below, -1)}) {
     FacingSides sides(query);
@@ -30,7 +30,7 @@ TEST(FacingSides, IsThatOfAllFaces) {
   }
 }
 
-TEST(FacingSides, IsNotToldByWhatRoundingMayTurn) {
+TEST(FacingSides, IsUnknownWithinRounding) {
   for (const double height : {0x1p-19, -0x1p-19, 0x1p-22, -0x1p-22, 0.0}) {
     const Point query(0.5, 0.25, height);
     FacingSides sides(query);
@@ -44,7 +44,7 @@ TEST(FacingSides, IsNotToldByWhatRoundingMayTurn) {
   EXPECT_EQ(unknown.common(), 0);
 }
 
-TEST(FacingSides, IsNotToldByFacesTooSmallOrTooNearTheirEnds) {
+TEST(FacingSides, IsUnknownForSmallFacesAndNearEnds) {
   const Point query(0, 0, 1);
   for (const double size : {1.0, 0x1p-12, 0x1p-15, 0x1p-17, 0x1p-30}) {
     FacingSides sides(query);
@@ -59,7 +59,7 @@ TEST(FacingSides, IsNotToldByFacesTooSmallOrTooNearTheirEnds) {
   }
 }
 
-TEST(HeightField, TellsSidesOfExactAnswersAlone) {
+TEST(HeightField, DecidesTheSideOfExactAnswersOnly) {
   NearestAnswer nearest;
   nearest.is_height_field = true;
   nearest.status = Status::kExact;

@@ -22,8 +22,8 @@ Point random_point(Noise& noise, double low = -1.5, double high = 1.5) {
 }
 
 // A paged tree to query, with the expected results from a scan of all triangles.
-struct Recorded {
-  explicit Recorded(const Soup& soup, std::uint32_t page_bytes = 4096)
+struct SampleQueries {
+  explicit SampleQueries(const Soup& soup, std::uint32_t page_bytes = 4096)
       : sample(build_sample(soup, page_bytes)), pages(sample), info(tree_info(sample)) {}
 
   NearestAnswer closest_point(const Point& query, const NearestLimits& limits = {}) {
@@ -55,14 +55,14 @@ struct Recorded {
   TraversalStats work;
 };
 
-TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
+TEST(Nearest, ReturnsTheLeastValueThenIndex) {
   const std::pair<const char*, Soup> soups[] = {{"sphere", sphere(4)},
                                                 {"a triangle many times", repeated(500)},
                                                 {"long triangles", scattered(400, 1.0)},
                                                 {"small triangles", scattered(400, 1e-3)}};
   for (const auto& [name, soup] : soups) {
     SCOPED_TRACE(name);
-    Recorded queried(soup);
+    SampleQueries queried(soup);
     Noise noise(1);
     for (int i = 0; i < 200; ++i) {
       const Point query = random_point(noise);
@@ -76,15 +76,15 @@ TEST(Nearest, IsTheTriangleOfLeastValueThenIndex) {
   }
 }
 
-TEST(Nearest, GivesTiesToTheLeastIndex) {
-  Recorded queried(sphere(4));
+TEST(Nearest, BreaksTiesByIndex) {
+  SampleQueries queried(sphere(4));
   // The centre of the sphere, its corners, and points above its edges.
   for (const Point& query : {Point(0, 0, 0), Point(1, 0, 0), Point(0, -3, 0), Point(0.5, 0.5, 0)})
     EXPECT_EQ(queried.closest_point(query).triangle, queried.least(query).second);
 }
 
-TEST(Nearest, AnswersTheSameFromAnyPageSize) {
-  Recorded small(scattered(2000, 0.1), 4096), large(scattered(2000, 0.1), 262144);
+TEST(Nearest, GivesTheSameBitsForAnyPageSize) {
+  SampleQueries small(scattered(2000, 0.1), 4096), large(scattered(2000, 0.1), 262144);
   ASSERT_GT(small.pages.size(), large.pages.size());
   Noise noise(2);
   for (int i = 0; i < 200; ++i) {
@@ -98,15 +98,15 @@ TEST(Nearest, AnswersTheSameFromAnyPageSize) {
   }
 }
 
-TEST(Nearest, LooksAtFewOfManyTriangles) {
-  Recorded queried(sphere(6), 16384);
+TEST(Nearest, EvaluatesFewTriangles) {
+  SampleQueries queried(sphere(6), 16384);
   queried.closest_point(Point(0.9, 0.5, 0.1));
   EXPECT_LT(queried.work.triangles, 64u);
   EXPECT_LT(queried.work.nodes + queried.work.blocks, 64u);
 }
 
-TEST(Nearest, IsExactHoweverFarTheQueryIs) {
-  Recorded queried(sphere(3));
+TEST(Nearest, IsExactAtAnyDistance) {
+  SampleQueries queried(sphere(3));
   for (const double far : {1e6, 0x1p59, 0x1p61, 1e30, 0x1p200, kFarthestQuery}) {
     const NearestAnswer answer = queried.closest_point(Point(far, far / 3, -far / 7));
     EXPECT_EQ(answer.status, Status::kExact) << far;
@@ -114,8 +114,8 @@ TEST(Nearest, IsExactHoweverFarTheQueryIs) {
   }
 }
 
-TEST(Nearest, StopsAtTheDistanceItIsTold) {
-  Recorded queried(sphere(4));
+TEST(Nearest, StopsAtMaxDistance) {
+  SampleQueries queried(sphere(4));
   const double scale = queried.sample.mesh.upper().x();
   const Point query(3 * scale, 0, 0);
   NearestLimits limits;
@@ -131,8 +131,8 @@ TEST(Nearest, StopsAtTheDistanceItIsTold) {
   EXPECT_EQ(answer.distance, 2 * scale);
 }
 
-TEST(Nearest, StaysWithinTheErrorItIsAllowed) {
-  Recorded queried(sphere(5));
+TEST(Nearest, StaysWithinMaxError) {
+  SampleQueries queried(sphere(5));
   Noise noise(3);
   int within = 0;
   for (int i = 0; i < 400; ++i) {
@@ -148,8 +148,8 @@ TEST(Nearest, StaysWithinTheErrorItIsAllowed) {
   EXPECT_GT(within, 100);
 }
 
-TEST(Nearest, SavesWorkWhereErrorIsAllowed) {
-  Recorded queried(sphere(5));
+TEST(Nearest, SavesWorkWithMaxError) {
+  SampleQueries queried(sphere(5));
   const Point query(0.01, 0.02, 0);  // near the centre, where all triangles are about equally far
   queried.closest_point(query);
   const std::uint64_t exact = queried.work.blocks;
@@ -160,8 +160,8 @@ TEST(Nearest, SavesWorkWhereErrorIsAllowed) {
 }
 
 // A triangle within max_distance may not be skipped by max_error: it is the only answer.
-TEST(Nearest, FindsWhatLiesBetweenErrorAndDistance) {
-  Recorded queried(sphere(4));
+TEST(Nearest, AnswersWithinMaxDistanceDespiteMaxError) {
+  SampleQueries queried(sphere(4));
   Noise noise(4);
   for (int i = 0; i < 300; ++i) {
     const Point query = random_point(noise, -2.5, 2.5);
@@ -175,8 +175,8 @@ TEST(Nearest, FindsWhatLiesBetweenErrorAndDistance) {
   }
 }
 
-TEST(Nearest, HoldsTheTruthAfterAnyNumberOfNodes) {
-  Recorded queried(scattered(1500, 0.2));
+TEST(Nearest, IntervalHoldsAtAnyMaxWork) {
+  SampleQueries queried(scattered(1500, 0.2));
   Noise noise(5);
   for (int i = 0; i < 40; ++i) {
     const Point query = random_point(noise);
@@ -197,8 +197,8 @@ TEST(Nearest, HoldsTheTruthAfterAnyNumberOfNodes) {
   }
 }
 
-TEST(Nearest, AnswersFromTheSampleWhereNothingIsRead) {
-  Recorded queried(sphere(4));
+TEST(Nearest, AnswersFromTheSampleWithoutPages) {
+  SampleQueries queried(sphere(4));
   queried.pages.withhold(0);
   const Point query(0.3, 0.2, 5);
   const NearestAnswer answer = queried.closest_point(query);
@@ -209,11 +209,11 @@ TEST(Nearest, AnswersFromTheSampleWhereNothingIsRead) {
   queried.expect_interval_holds(answer, query);
 }
 
-TEST(Nearest, GoesOnWithoutPagesItCannotHave) {
+TEST(Nearest, IntervalHoldsWithMissingPages) {
   Noise noise(6);
   std::size_t exact = 0, degraded = 0;
   for (int round = 0; round < 8; ++round) {
-    Recorded queried(sphere(4));
+    SampleQueries queried(sphere(4));
     for (std::uint32_t page = 1; page < queried.pages.size(); ++page)
       if (noise.bits() % 3 == 0) queried.pages.withhold(page);
     for (int i = 0; i < 50; ++i) {
@@ -232,7 +232,7 @@ TEST(Nearest, GoesOnWithoutPagesItCannotHave) {
 
 // The decoder cannot check links to other pages. If a wrong one were followed, the sanitizers would
 // report it.
-TEST(Nearest, FollowsNoLinkThatMissesARecord) {
+TEST(Nearest, RefusesLinksThatMissARecord) {
   const SampleTree sample = build_sample(sphere(4), 4096);
   const SamplePages honest(sample);
   const LinkFormat links(4096);
@@ -262,7 +262,7 @@ TEST(Nearest, FollowsNoLinkThatMissesARecord) {
     }
 }
 
-TEST(Nearest, EndsHoweverLongAForgedTreeIs) {
+TEST(Nearest, EndsOnForgedRecordCounts) {
   const SampleTree sample = build_sample(sphere(5), 4096);
   SamplePages pages(sample);
   TreeInfo info = tree_info(sample);

@@ -15,9 +15,9 @@ namespace {
 
 /// Blocks of one triangle each with a random number of vertices, none shared between blocks. The
 /// decoder writes the records of the first blocks over the input vertices of all blocks.
-class LonelyBlocks {
+class BlocksWithoutSharedVertices {
  public:
-  explicit LonelyBlocks(std::uint64_t seed) {
+  explicit BlocksWithoutSharedVertices(std::uint64_t seed) {
     Noise noise(seed);
     const std::size_t blocks = 1 + noise.bits() % 30;
     for (std::size_t i = 0; i < blocks; ++i) {
@@ -69,10 +69,10 @@ class LonelyBlocks {
 };
 
 // About half of the records overlap their own input vertices, half do not.
-TEST(BlockDecoder, LosesNoVertexToTheRecordsThatTakeTheirPlace) {
+TEST(BlockDecoder, DecodesInPlaceWithoutOverwritingUnreadVertices) {
   constexpr BlockShape kShape;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
-    const LonelyBlocks blocks(seed);
+    const BlocksWithoutSharedVertices blocks(seed);
     const RawStreams streams = blocks.streams();
     std::vector<std::size_t> slot{0};
     for (std::size_t i = 0; i < blocks.size(); ++i)

@@ -16,9 +16,9 @@ namespace {
 
 /// A byte-split array in a buffer of exactly its size, so that a sanitizer reports any read beyond.
 template <class T>
-class Stored {
+class ByteSplitArray {
  public:
-  explicit Stored(const std::vector<T>& values) : bytes_(sizeof(T) * values.size()) {
+  explicit ByteSplitArray(const std::vector<T>& values) : bytes_(sizeof(T) * values.size()) {
     for (std::size_t i = 0; i < values.size(); ++i)
       for (std::size_t k = 0; k < sizeof(T); ++k)
         bytes_[k * values.size() + i] = static_cast<std::byte>(values[i] >> 8 * k);
@@ -40,13 +40,13 @@ using VertexIndices = Unpacked<std::uint16_t>;
 
 VertexIndices unpack(const std::vector<std::uint16_t>& refs, const BlockVertices& block,
                      unsigned stride) {
-  const Stored<std::uint16_t> stored(refs);
+  const ByteSplitArray<std::uint16_t> stored(refs);
   VertexIndices indices{std::vector<std::uint16_t>(stride), false};
   indices.good = unpack_indices(stored.array(), block, stride, indices.numbers.data());
   return indices;
 }
 
-class PlacesTest : public testing::Test {
+class VertexIndicesTest : public testing::Test {
  protected:
   // Places the refs of a block after up to 2 refs of other blocks and before `behind` refs of other
   // blocks.
@@ -74,7 +74,7 @@ class PlacesTest : public testing::Test {
   BlockVertices block_{};
 };
 
-TEST_F(PlacesTest, AreThoseReferredToThenNewOnesThenTheFirstAgain) {
+TEST_F(VertexIndicesTest, ListRefsThenNewVerticesThenRepeatTheFirst) {
   for (const unsigned stride : {16U, 24U, 32U, 48U})
     for (unsigned refs = 0; refs <= stride; ++refs)
       for (const std::size_t behind : {0, 60}) {
@@ -96,7 +96,7 @@ TEST_F(PlacesTest, AreThoseReferredToThenNewOnesThenTheFirstAgain) {
       }
 }
 
-TEST_F(PlacesTest, AreRefusedWhereOneIsNamedTwiceOrIsNotThereYet) {
+TEST_F(VertexIndicesTest, RefuseRepeatedAndForwardRefs) {
   for (const unsigned stride : {16U, 48U})
     for (unsigned refs = 1; refs <= stride; ++refs)
       for (const std::size_t behind : {0, 60}) {
@@ -120,7 +120,7 @@ TEST_F(PlacesTest, AreRefusedWhereOneIsNamedTwiceOrIsNotThereYet) {
       }
 }
 
-TEST_F(PlacesTest, MayBeginWithTheFirstVertexAndEndWithTheLast) {
+TEST_F(VertexIndicesTest, AcceptFirstAndLastVertexOfThePage) {
   put_refs(2, 0);
   ref(0) = 0, ref(1) = 0xfffe;
   block_.first_new = block_.vertex_count = 2;
@@ -130,7 +130,7 @@ TEST_F(PlacesTest, MayBeginWithTheFirstVertexAndEndWithTheLast) {
 }
 
 template <class Id>
-class IdsTest : public testing::Test {
+class UnpackIdsTest : public testing::Test {
  protected:
   using Ids = Unpacked<Id>;
 
@@ -145,7 +145,7 @@ class IdsTest : public testing::Test {
 
   std::vector<Ids> unpack(Id first) const {
     return on_each_target([&] {
-      const Stored<Id> stored(steps_);
+      const ByteSplitArray<Id> stored(steps_);
       Ids ids{std::vector<Id>(kMaxBlockTriangles), false};
       ids.good = unpack_ids(first, stored.array(), first_step_, count_, ids.numbers.data());
       return ids;
@@ -159,9 +159,9 @@ class IdsTest : public testing::Test {
 };
 
 using IdTypes = testing::Types<std::uint32_t, std::uint64_t>;
-TYPED_TEST_SUITE(IdsTest, IdTypes);
+TYPED_TEST_SUITE(UnpackIdsTest, IdTypes);
 
-TYPED_TEST(IdsTest, AreSumsAndTheLastAgain) {
+TYPED_TEST(UnpackIdsTest, SumsStepsAndRepeatsTheLastId) {
   for (unsigned count = 1; count <= kMaxBlockTriangles; ++count)
     for (const std::size_t before : {0, 1, 9})
       for (const std::size_t behind : {0, 1, 15, 40}) {
@@ -176,7 +176,7 @@ TYPED_TEST(IdsTest, AreSumsAndTheLastAgain) {
       }
 }
 
-TYPED_TEST(IdsTest, AreRefusedWhereTheyDoNotAscend) {
+TYPED_TEST(UnpackIdsTest, RefusesIdsThatDoNotAscend) {
   constexpr auto kMax = std::numeric_limits<TypeParam>::max();
   for (unsigned count = 2; count <= kMaxBlockTriangles; ++count)
     for (unsigned i = 0; i + 1 < count; ++i)

@@ -56,7 +56,7 @@ class CornersTest : public testing::TestWithParam<unsigned> {
 };
 
 // Tested with nothing and with other bytes after the packed corners.
-TEST_P(CornersTest, ComeBackAndThoseOfTheLastTriangleOnAndOn) {
+TEST_P(CornersTest, UnpackAndRepeatTheLastTriangle) {
   for (unsigned triangles = 1; triangles <= kMaxBlockTriangles; ++triangles)
     for (const std::size_t behind : {0, 7, 60}) {
       const Corners corners = random_corners();
@@ -79,7 +79,7 @@ TEST_P(CornersTest, ComeBackAndThoseOfTheLastTriangleOnAndOn) {
 // With 16 or 32 vertices every value that fits the packed bits is a valid corner.
 class WrongCornersTest : public CornersTest {};
 
-TEST_P(WrongCornersTest, AreRefusedWhereverTheyStand) {
+TEST_P(WrongCornersTest, AreRefusedInEveryTriangle) {
   for (unsigned triangle = 0; triangle < kMaxBlockTriangles; ++triangle)
     for (unsigned k = 0; k < 3; ++k) {
       Corners corners = random_corners();
@@ -98,9 +98,9 @@ TEST_P(WrongCornersTest, AreRefusedWhereverTheyStand) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfSoManyVertices, CornersTest,
+INSTANTIATE_TEST_SUITE_P(VertexCounts, CornersTest,
                          testing::Values(1, 3, 15, 16, 17, 31, 32, 33, 47, 48));
-INSTANTIATE_TEST_SUITE_P(OfSoManyVertices, WrongCornersTest,
+INSTANTIATE_TEST_SUITE_P(VertexCounts, WrongCornersTest,
                          testing::Values(1, 3, 15, 17, 31, 33, 47, 48));
 
 std::vector<std::byte> byte_split(const std::vector<float>& values) {
@@ -128,7 +128,7 @@ UnpackedVertices unpack(const std::vector<float>& values) {
   return unpacked;
 }
 
-TEST(UnpackVertices, BringsTheCoordinatesOfEachTogether) {
+TEST(UnpackVertices, InterleavesCoordinates) {
   std::mt19937_64 random(2);
   for (std::size_t count = 0; count <= 70; ++count) {
     std::vector<float> values(3 * count);
@@ -143,7 +143,7 @@ TEST(UnpackVertices, BringsTheCoordinatesOfEachTogether) {
   }
 }
 
-TEST(UnpackVertices, RefusesThoseThatAreTooFarOrNoNumbersWhereverTheyStand) {
+TEST(UnpackVertices, RefusesNonFiniteAndHugeCoordinates) {
   using Limits = std::numeric_limits<float>;
   const float most = 0x1p60f;
   for (const std::size_t count : {16, 21})
@@ -162,7 +162,7 @@ TEST(UnpackVertices, RefusesThoseThatAreTooFarOrNoNumbersWhereverTheyStand) {
     }
 }
 
-TEST(UnpackRows, LaysVerticesOutAndTellsHowFarTheyGo) {
+TEST(UnpackRows, GathersRowsAndReturnsLargestSquaredDistance) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<float> coordinate(-1, 1);
   std::vector<float> vertices(3 * 100 + 1);

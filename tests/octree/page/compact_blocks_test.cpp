@@ -48,7 +48,7 @@ Forms forms_of(const Soup& soup) {
 }
 
 // Triangles that are neighbours in the first mesh have close indices; in the second, distant ones.
-TEST(CompactBlocks, AreThoseOfFewVerticesAndNearIndices) {
+TEST(CompactBlocks, HaveFewVerticesAndCloseIndices) {
   const Soup near = sphere(7);
   ASSERT_GT(near.size(), 100000u);
   const Forms of_near = forms_of(near);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kPageSizes[] = {4096, 8192, 16384, 32768, 65536, 131072, 262144};
 
-TEST(LinkFormat, GivesBackWhatItWasMadeOf) {
+TEST(LinkFormat, RoundTripsKindPageAndSlot) {
   for (const std::uint32_t page_bytes : kPageSizes) {
     const LinkFormat links(page_bytes);
     const auto last_slot = static_cast<std::uint32_t>(page_bytes / kSlotBytes - 1);
@@ -24,7 +24,7 @@ TEST(LinkFormat, GivesBackWhatItWasMadeOf) {
   }
 }
 
-TEST(LinkFormat, ReachesFewerPagesTheLargerTheyAre) {
+TEST(LinkFormat, LimitsPageCountByPageSize) {
   EXPECT_EQ(LinkFormat(4096).max_pages(), 1u << 25);
   EXPECT_EQ(LinkFormat(65536).max_pages(), 1u << 21);
   EXPECT_EQ(LinkFormat(262144).max_pages(), 1u << 19);
@@ -39,7 +39,7 @@ TEST(FrameHead, HasABitForEverySlot) {
   EXPECT_EQ(frame_head_slots(262144), 9u);
 }
 
-TEST(BlockShape, TakesTheSlotsTheFormatStates) {
+TEST(BlockShape, SlotCountsMatchTheSpecification) {
   struct Row {
     unsigned vertices, narrow, wide;
   };
@@ -58,7 +58,7 @@ TEST(BlockShape, TakesTheSlotsTheFormatStates) {
   EXPECT_FALSE((BlockShape{false, true}.may_be_compact(16)));
 }
 
-TEST(BlockShape, KeepsItsArraysApart) {
+TEST(BlockShape, ArraysDoNotOverlap) {
   for (const unsigned stride : {16u, 24u, 32u, 48u})
     for (const bool float64 : {false, true}) {
       const BlockShape shape{float64, false};
@@ -69,7 +69,7 @@ TEST(BlockShape, KeepsItsArraysApart) {
     }
 }
 
-TEST(Corners, TakeWholeBytesABlock) {
+TEST(Corners, FillWholeBytesPerBlock) {
   EXPECT_EQ(corner_bits(16), 4u);
   EXPECT_EQ(corner_bits(17), 5u);
   EXPECT_EQ(corner_bits(33), 6u);

@@ -34,7 +34,7 @@ class MaskDamage : public testing::TestWithParam<bool> {
 
 INSTANTIATE_TEST_SUITE_P(Planes, MaskDamage, testing::Bool());
 
-TEST_P(MaskDamage, TakesNoPageThatIsCutShort) {
+TEST_P(MaskDamage, RefusesTruncatedPages) {
   const std::uint32_t page = 1;
   const std::vector<std::byte>& raw = pages_.raw(page);
   SampleFrame frame(4096);
@@ -46,7 +46,7 @@ TEST_P(MaskDamage, TakesNoPageThatIsCutShort) {
   }
 }
 
-TEST_P(MaskDamage, TakesNoPageOfNoise) {
+TEST_P(MaskDamage, RefusesRandomBytes) {
   const std::uint32_t page = 1;
   Noise noise(6);
   SampleFrame frame(4096);
@@ -63,7 +63,7 @@ TEST_P(MaskDamage, TakesNoPageOfNoise) {
 }
 
 // Compares up to the end of the page's records. Nothing behind that is written.
-TEST_P(MaskDamage, DoesNotCareWhatTheFrameHeldBefore) {
+TEST_P(MaskDamage, IgnoresOldFrameContents) {
   for (std::uint32_t page = 0; page < pages_.size(); ++page) {
     SampleFrame zeros(4096), ones(4096);
     std::ranges::fill(zeros.bytes(), std::byte{0});
@@ -80,7 +80,7 @@ TEST_P(MaskDamage, DoesNotCareWhatTheFrameHeldBefore) {
 }
 
 // Flips random bits: the page is refused, or lookups in it stay within their bounds.
-TEST_P(MaskDamage, SurvivesAnyBit) {
+TEST_P(MaskDamage, SurvivesFlippedBits) {
   Noise noise(7);
   int refused = 0, taken = 0;
   for (int i = 0; i < 1500; ++i) {

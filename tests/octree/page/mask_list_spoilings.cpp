@@ -9,7 +9,7 @@ namespace planetree::octree {
 namespace {
 
 // Index of the first entry of a list that has more than one block.
-std::size_t of_several(const RawMaskPage& page) {
+std::size_t first_list_of_several(const RawMaskPage& page) {
   std::size_t at = 0;
   for (const std::uint8_t count : page.block_counts) {
     if (count > 1) return at;
@@ -77,12 +77,12 @@ std::vector<MaskCorruption> mask_list_corruptions() {
       {"a list leads to what is no block", [](P& p, F&) { p.block_links.back() = 0xffffffff; }},
       {"the blocks of a list are not in order",
        [](P& p, F&) {
-         const std::size_t at = of_several(p);
+         const std::size_t at = first_list_of_several(p);
          std::swap(p.block_links[at], p.block_links[at + 1]);
        }},
       {"the blocks of a list are not in order",
        [](P& p, F&) {
-         const std::size_t at = of_several(p);
+         const std::size_t at = first_list_of_several(p);
          p.block_links[at + 1] = p.block_links[at];
        }},
   };

@@ -21,8 +21,8 @@ namespace {
 using Kind = MaskEntry::Kind;
 
 /// A watertight model with its tree and a mask that lists the tree's blocks.
-struct ListingMask {
-  explicit ListingMask(const Soup& soup, std::uint64_t sector_triangles = 1000)
+struct MaskWithLists {
+  explicit MaskWithLists(const Soup& soup, std::uint64_t sector_triangles = 1000)
       : tree(soup, 150),
         mask(mask_of(tree.mesh, sector_triangles, tree.tree.get())),
         surface(tree.mesh),
@@ -42,13 +42,13 @@ struct ListingMask {
 
 std::vector<Soup> listing_soups() {
   return {sphere(5), joined({sphere(4), inside_out(scaled(sphere(4), 0.8))}),
-          perturbed(grains(400, 0.1), {7, 1.0 / 3, -1e3})};
+          translated(grains(400, 0.1), {7, 1.0 / 3, -1e3})};
 }
 
-TEST(MaskLists, LeaveOctantsWithoutABlockTheirCornersNumber) {
+TEST(MaskLists, EmptyOctantsHaveTheirCornersWindingNumber) {
   std::size_t empty = 0, listed = 0;
   for (const Soup& soup : listing_soups()) {
-    const ListingMask sample(soup);
+    const MaskWithLists sample(soup);
     Noise noise(3);
     each_entry(sample.mask, [&](const GridCell& cell, std::uint32_t at) {
       const MaskEntry& entry = sample.mask.entries[at];
@@ -73,8 +73,8 @@ TEST(MaskLists, LeaveOctantsWithoutABlockTheirCornersNumber) {
 
 // A leaf has a list exactly if one bit a corner tells its numbers and the tree has few enough
 // blocks there.
-TEST(MaskLists, AreWhatTheTreeHasThere) {
-  const ListingMask sample(sphere(5), 1 << 20);
+TEST(MaskLists, MatchTheBlocksOfTheTree) {
+  const MaskWithLists sample(sphere(5), 1 << 20);
   const TreeInfo info = sample.tree.tree->info();
   TreeFrames frames(*sample.tree.tree);
   const BlockLister lister(info, sample.grid);
@@ -96,8 +96,8 @@ TEST(MaskLists, AreWhatTheTreeHasThere) {
   EXPECT_GT(kinds[Kind::kListed], 100u);
 }
 
-TEST(MaskLists, AreNoneWhereNumbersAreMoreThanTwo) {
-  const ListingMask sample(joined({copies(sphere(3), 2), scaled(sphere(4), 0.5)}));
+TEST(MaskLists, AreAbsentWhereCornersHaveMoreThanTwoWindingNumbers) {
+  const MaskWithLists sample(joined({copies(sphere(3), 2), scaled(sphere(4), 0.5)}));
   std::map<Kind, std::size_t> kinds;
   each_entry(sample.mask, [&](const GridCell&, std::uint32_t at) {
     const MaskEntry& entry = sample.mask.entries[at];
@@ -112,16 +112,16 @@ TEST(MaskLists, AreNoneWhereNumbersAreMoreThanTwo) {
 
 // Each sector holds one or two blocks. The cells above the sectors store no list for a sector's
 // root.
-TEST(MaskLists, AreNotOfARegionsRoot) {
+TEST(MaskLists, AreAbsentAtSectorRoots) {
   const ChunkedTree tree(grains(60, 0.05), 150);
   RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
-  MaskSectors regions(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
-  ASSERT_TRUE(regions.divide(*tree.runs, 20) && regions.add(tree.mesh));
+  MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
+  ASSERT_TRUE(sectors.divide(*tree.runs, 20) && sectors.add(tree.mesh));
   std::mutex mutex;
   std::size_t roots = 0;
   const auto above = build_mask(
-      regions, *tree.runs, tree.tree.get(), [](std::size_t) { return nullptr; },
+      sectors, *tree.runs, tree.tree.get(), [](std::size_t) { return nullptr; },
       [&](std::size_t, const MaskTree& mask, const SectorRoot& root) -> Result<void> {
         const std::lock_guard lock(mutex);
         if (mask.entries[0].kind != Kind::kListed) return {};
@@ -137,14 +137,14 @@ TEST(MaskLists, AreNotOfARegionsRoot) {
 }
 
 // The mask consists of its root alone, in a page of its own.
-TEST(MaskLists, AreInTheRootOfAMaskOfOneCell) {
+TEST(MaskLists, ArePresentInAMaskOfOneCell) {
   const ChunkedTree tree(box({0, 0, 0}, {1.75, 1.5, 1.25}));
   RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
-  MaskSectors regions(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
-  ASSERT_TRUE(regions.divide(*tree.runs) && regions.add(tree.mesh));
+  MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
+  ASSERT_TRUE(sectors.divide(*tree.runs) && sectors.add(tree.mesh));
   BuiltMask mask(4096, false, spill_file());
-  ASSERT_TRUE(mask.build(regions, *tree.runs, tree.tree.get(),
+  ASSERT_TRUE(mask.build(sectors, *tree.runs, tree.tree.get(),
                          [](std::uint32_t, const BuiltSector&) { return Result<void>(); }));
   const auto page = mask.encode(0, tree.tree->pages().size());
   ASSERT_TRUE(page);
@@ -157,7 +157,7 @@ TEST(MaskLists, AreInTheRootOfAMaskOfOneCell) {
 }
 
 TEST(MaskLists, DoNotDependOnThreads) {
-  const ChunkedTree tree(joined({sphere(5), perturbed(sphere(4), {0.7, 0.3, -0.2})}), 150);
+  const ChunkedTree tree(joined({sphere(5), translated(sphere(4), {0.7, 0.3, -0.2})}), 150);
   const auto build = [&](int threads) {
     tbb::task_arena arena(threads);
     return arena.execute([&] { return mask_of(tree.mesh, 500, tree.tree.get()); });
@@ -170,7 +170,7 @@ TEST(MaskLists, DoNotDependOnThreads) {
 
 // A triangle so close to a cell's corner that the rounded test takes it to touch the cell, but none
 // of its octants. An empty list cannot be stored.
-TEST(MaskLists, HaveABlock) {
+TEST(MaskLists, AreNeverEmpty) {
   const CellGrid grid(Point::Zero());
   const GridCell cell = GridCell{}.child(0);
   const auto face = [](double beside) -> Triangle {
@@ -188,7 +188,7 @@ TEST(MaskLists, HaveABlock) {
     ++found;
     const auto vec = [](const Point& p) { return Vec3{p.x(), p.y(), p.z()}; };
     const Vec3 a = vec(near[0]), b = vec(near[1]), c = vec(near[2]), d{1.95, 1.95, 1.95};
-    const ListingMask sample(joined(
+    const MaskWithLists sample(joined(
         {Soup{{a, c, b}, {a, b, d}, {b, c, d}, {c, a, d}}, box({0, 1.5, 1.5}, {0.1, 1.6, 1.6}, 2),
          box({1.5, 0, 1.5}, {1.6, 0.1, 1.6}, 2), box({1.5, 1.5, 0}, {1.6, 1.6, 0.1}, 2)}));
     ASSERT_EQ(sample.tree.mesh.lower(), Point::Zero());

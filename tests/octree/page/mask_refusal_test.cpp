@@ -48,7 +48,7 @@ class MaskRefusal : public testing::TestWithParam<bool> {
 
 INSTANTIATE_TEST_SUITE_P(Planes, MaskRefusal, testing::Bool());
 
-TEST_P(MaskRefusal, NamesWhatIsWrongAndThePage) {
+TEST_P(MaskRefusal, ReportsFaultAndPage) {
   const std::uint32_t page = sample();
   for (const MaskCorruption& corruption : all_mask_corruptions()) {
     SCOPED_TRACE(corruption.sentence);
@@ -68,7 +68,7 @@ TEST_P(MaskRefusal, NamesWhatIsWrongAndThePage) {
   }
 }
 
-TEST(MaskRefusalTexts, AreAllReached) {
+TEST(MaskRefusalTexts, CoverEveryMessageOfTheDecoder) {
   std::set<std::string> reached;
   for (const MaskCorruption& corruption : all_mask_corruptions())
     reached.insert(corruption.sentence);

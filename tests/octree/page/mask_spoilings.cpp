@@ -52,7 +52,7 @@ std::size_t last_with_family(const RawMaskPage& page) {
 }
 
 // Index of the first corner of a record whose corner numbers are stored.
-std::size_t counted(const RawMaskPage& page) {
+std::size_t first_stored_corner(const RawMaskPage& page) {
   std::size_t at = 0;
   while (at < page.corners.size() && page.corners[at] == kUncounted) at += 8;
   EXPECT_LT(at, page.corners.size()) << "no record of the sample suits";
@@ -205,13 +205,13 @@ std::vector<MaskCorruption> leaf_corruptions() {
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<MaskCorruption> all = {
       {"a corner's winding number is out of range",
-       [](P& p, F&) { p.corners[counted(p)] = kListedTag; }},
+       [](P& p, F&) { p.corners[first_stored_corner(p)] = kListedTag; }},
       {"a corner's winding number is out of range",
-       [](P& p, F&) { p.corners[counted(p) + 7] = kListedTag; }},
+       [](P& p, F&) { p.corners[first_stored_corner(p) + 7] = kListedTag; }},
       {"a corner of a cell is not counted",
-       [](P& p, F&) { p.corners[counted(p) + 3] = kUncounted; }},
+       [](P& p, F&) { p.corners[first_stored_corner(p) + 3] = kUncounted; }},
       {"a corner of a cell is not counted",
-       [](P& p, F&) { std::fill_n(&p.corners[counted(p)], 7, kUncounted); }},
+       [](P& p, F&) { std::fill_n(&p.corners[first_stored_corner(p)], 7, kUncounted); }},
       {"a special cell's planes are out of range", [](P& p, F&) { p.plane_counts[0] = 0; }},
       {"a special cell's planes are out of range", [](P& p, F&) { p.plane_counts.back() = 5; }},
       {"a special cell's planes are out of range", [](P& p, F&) { p.plane_counts[0] = 0xff; }},

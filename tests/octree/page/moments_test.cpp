@@ -16,7 +16,7 @@
 namespace planetree::octree {
 namespace {
 
-TEST(ShortFloat, IsTheLeastThatIsNotBelow) {
+TEST(ShortFloat, RoundsUp) {
   for (const double value : {0.0, 1e-300, 0x1p-126, 1.0, 1.0000001, 0.999999, 3.14, 1e30}) {
     const ShortFloat packed = pack_short_above(value);
     EXPECT_GE(static_cast<double>(unpack_short(packed)), value);
@@ -31,7 +31,7 @@ TEST(ShortFloat, IsTheLeastThatIsNotBelow) {
   EXPECT_EQ(pack_short_above(1e39), kGreatestShortFloat);
 }
 
-TEST(CertainSum, KnowsWhatItLost) {
+TEST(CertainSum, ErrorBoundCoversCancellation) {
   CertainSum sum;
   Noise noise(1);
   // Terms of widely different size that cancel: 2^-20 remains.
@@ -46,7 +46,7 @@ TEST(CertainSum, KnowsWhatItLost) {
 }
 
 // Ten million tiny terms: a naive sum is wrong by about 2^-35, this one by its last bit.
-TEST(CertainSum, OfTenMillionTerms) {
+TEST(CertainSum, StaysAccurateOverTenMillionTerms) {
   const double term = 1.0 / 3 * 0x1p-23;
   CertainSum sum;
   double naive = 0;
@@ -72,7 +72,7 @@ std::vector<std::pair<const char*, Soup>> open_soups() {
 }
 
 // The error of every child's share is within its stated bound, near and far.
-TEST(Multipoles, HoldTheTruth) {
+TEST(Multipoles, ErrorBoundsHold) {
   for (const auto& [name, soup] : open_soups()) {
     const SampleTree sample = build_sample(soup, 65536, 0, true);
     SamplePages pages(sample);
@@ -109,7 +109,7 @@ TEST(Multipoles, HoldTheTruth) {
   }
 }
 
-TEST(Multipoles, TellNothingFromWithinTheBox) {
+TEST(Multipoles, AreUnknownInsideTheBox) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
   const Node& root =
@@ -121,7 +121,7 @@ TEST(Multipoles, TellNothingFromWithinTheBox) {
 }
 
 // Moments come back as encoded, independent of the page they are in.
-TEST(Moments, SurviveTheirPage) {
+TEST(Moments, RoundTripThroughAPage) {
   const SampleTree sample = build_sample(scattered(900, 0.1), 4096, 0, true);
   SamplePages pages(sample);
   ASSERT_GT(pages.size(), 4u);

@@ -78,7 +78,7 @@ class UnpackDiscs : public testing::Test {
 };
 
 // Compares bit for bit with children unpacked one by one, on every instruction set.
-TEST_F(UnpackDiscs, HasTheBitsOfEachUnpackedByItself) {
+TEST_F(UnpackDiscs, MatchesUnpackingOneByOneBitForBit) {
   for (int round = 0; round < 2000; ++round) {
     const unsigned count = 1 + static_cast<unsigned>(random_() % kFanOut);
     const FloatBox parent = box();
@@ -112,7 +112,7 @@ TEST_F(UnpackDiscs, HasTheBitsOfEachUnpackedByItself) {
   }
 }
 
-TEST_F(UnpackDiscs, TellsOfSidesThatAreCrossedWhateverTheChild) {
+TEST_F(UnpackDiscs, ReportsCrossedBoundsOfAnyChild) {
   for (unsigned crossed = 0; crossed < kFanOut; ++crossed)
     for (int what = 0; what < 4; ++what) {
       Node packed_node = node_of(box());

@@ -150,7 +150,7 @@ std::size_t links_out_of(const SampleTree& sample, std::uint32_t page) {
   return count;
 }
 
-TEST(PageDecoder, SaysInTheHeaderWhatIsInTheFrame) {
+TEST(PageDecoder, WritesFrameContentsToTheHeader) {
   const SampleTree sample = build_sample(sphere(4), 4096);
   const SamplePages pages(sample);
   EXPECT_GT(pages.frame(0).header().page_link_count, 0);
@@ -168,7 +168,7 @@ TEST(PageDecoder, SaysInTheHeaderWhatIsInTheFrame) {
   }
 }
 
-TEST(PageDecoder, MarksWhereBlocksStartAndNothingElse) {
+TEST(PageDecoder, MarksBlockStartsOnly) {
   const SampleTree sample = build_sample(sphere(4), 4096);
   const SamplePages pages(sample);
   const LinkFormat links(sample.plan.page_bytes);
@@ -182,7 +182,7 @@ TEST(PageDecoder, MarksWhereBlocksStartAndNothingElse) {
   }
 }
 
-TEST(PageDecoder, DoesNotCareWhatTheFrameHeldBefore) {
+TEST(PageDecoder, IgnoresOldFrameContents) {
   const SampleTree sample = build_sample(sphere(3), 262144);
   SamplePages pages(sample);
   SampleFrame other(sample.plan.page_bytes);

@@ -278,7 +278,7 @@ Soup holed_sphere(unsigned levels) {
   return soup;
 }
 
-TEST(PageRefusal, NamesWhatIsWrongAndThePage) {
+TEST(PageRefusal, ReportsFaultAndPage) {
   const SampleTree whole = build_sample(holed_sphere(3), 262144, 0, true);
   const SampleTree upper = build_sample(holed_sphere(4), 4096, 0, true);
   const SamplePages whole_pages(whole), upper_pages(upper);
@@ -302,7 +302,7 @@ TEST(PageRefusal, NamesWhatIsWrongAndThePage) {
   }
 }
 
-TEST(PageRefusal, IsTestedForEverySentenceOfTheDecoder) {
+TEST(PageRefusal, CoversEveryMessageOfTheDecoder) {
   std::set<std::string> reached;
   for (const Corruption& corruption : all_corruptions()) reached.insert(corruption.sentence);
   const std::regex sentence("(return|[:?=]) \"([^\"]+)\";");

@@ -47,7 +47,7 @@ class RawStreamsTest : public testing::Test {
   std::vector<std::byte> raw_;
 };
 
-TEST_F(RawStreamsTest, CutAPageIntoItsStreams) {
+TEST_F(RawStreamsTest, SplitAPageIntoItsStreams) {
   RawStreams streams;
   ASSERT_EQ(streams.cut(raw_, BlockShape{}), nullptr);
   EXPECT_EQ(streams.head.triangle_count, 512);
@@ -57,7 +57,7 @@ TEST_F(RawStreamsTest, CutAPageIntoItsStreams) {
   EXPECT_EQ(RawPage::of(raw_).bytes(), raw_);
 }
 
-TEST_F(RawStreamsTest, TellBlocksInSheetsFromTheirCounts) {
+TEST_F(RawStreamsTest, ReadHeightFieldBitFromTriangleCounts) {
   RawPage page = RawPage::of(raw_);
   const std::vector<std::uint8_t> counts = page.triangle_counts;
   const std::size_t marked = counts.size() / 2;
@@ -100,7 +100,7 @@ TEST_F(RawStreamsTest, RefuseAPageOfAnotherShape) {
   }
 }
 
-TEST_F(RawStreamsTest, NeverReadBeyondWhateverCountsSay) {
+TEST_F(RawStreamsTest, NeverReadBeyondThePage) {
   // Under the address sanitizer a read past the vector's end fails the test.
   for (std::size_t at = 16; at < sizeof(PageHead); ++at)
     for (const unsigned value : {0u, 1u, 127u, 255u}) {

@@ -71,7 +71,7 @@ Soup inside_out(Soup soup) {
   return soup;
 }
 
-Soup perturbed(Soup soup, const Vec3& by) {
+Soup translated(Soup soup, const Vec3& by) {
   for (auto& triangle : soup)
     for (Vec3& p : triangle) p = {p.x + by.x, p.y + by.y, p.z + by.z};
   return soup;

@@ -20,7 +20,7 @@ Soup box(const Vec3& lower, const Vec3& upper, unsigned side = 1);
 /// Tetrahedra in the unit cube with edges up to `edge`, of either orientation.
 Soup grains(std::size_t count, double edge, std::uint64_t seed = 1);
 Soup inside_out(Soup soup);
-Soup perturbed(Soup soup, const Vec3& by);
+Soup translated(Soup soup, const Vec3& by);
 Soup scaled(Soup soup, double factor);
 Soup joined(std::initializer_list<Soup> soups);
 Soup copies(const Soup& soup, std::size_t count);

@@ -99,11 +99,11 @@ std::unique_ptr<TriangleRuns> runs_of(const SampleMesh& mesh, std::uint32_t run_
 
 // Replaces the entry at `index` by the root of `part` and appends the other entries of `part`.
 void put_in(MaskTree& whole, std::size_t index, MaskTree part) {
-  const auto perturbed = static_cast<std::uint32_t>(whole.entries.size() - 1);
+  const auto first_new = static_cast<std::uint32_t>(whole.entries.size() - 1);
   const auto specials = static_cast<std::uint32_t>(whole.specials.size());
   const auto lists = static_cast<std::uint32_t>(whole.lists.size());
   for (MaskEntry& entry : part.entries) {
-    if (entry.kind == MaskEntry::Kind::kNode) entry.first += perturbed;
+    if (entry.kind == MaskEntry::Kind::kNode) entry.first += first_new;
     if (entry.kind == MaskEntry::Kind::kSpecial) entry.first += specials;
     if (entry.kind == MaskEntry::Kind::kListed) entry.first += lists;
   }
@@ -117,13 +117,13 @@ MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most, const BuiltTree* tr
   const auto runs = runs_of(mesh);
   RegionCut cut(mesh.frame.lower(), mesh.frame.upper(), {}, nullptr);
   if (!cut.add(mesh)) std::abort();
-  MaskSectors regions(mesh.frame.lower(), {}, cut.found().winding, mesh.float64(), 1000,
+  MaskSectors sectors(mesh.frame.lower(), {}, cut.found().winding, mesh.float64(), 1000,
                       spill_file());
-  if (!regions.divide(*runs, most) || !regions.add(mesh)) std::abort();
+  if (!sectors.divide(*runs, most) || !sectors.add(mesh)) std::abort();
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;
   MaskTree whole = *build_mask(
-      regions, *runs, tree, [](std::size_t) { return nullptr; },
+      sectors, *runs, tree, [](std::size_t) { return nullptr; },
       [&](std::size_t at, const MaskTree& part, const SectorRoot&) -> Result<void> {
         const std::lock_guard lock(mutex);
         parts[at] = part;

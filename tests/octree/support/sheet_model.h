@@ -23,10 +23,10 @@ struct HeightFieldModel {
         surface(tree.mesh) {
     RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
     if (!cut.add(tree.mesh)) std::abort();
-    MaskSectors regions(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
+    MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
                         spill_file());
-    if (!regions.divide(*tree.runs, 2000) || !regions.add(tree.mesh) ||
-        !mask.build(regions, *tree.runs, tree.tree.get(),
+    if (!sectors.divide(*tree.runs, 2000) || !sectors.add(tree.mesh) ||
+        !mask.build(sectors, *tree.runs, tree.tree.get(),
                     [](std::uint32_t, const BuiltSector&) { return Result<void>(); }))
       std::abort();
     mask_info = {4096, tree.tree->pages().size(), mask.size(), tree.mesh.lower()};

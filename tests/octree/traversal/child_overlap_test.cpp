@@ -34,7 +34,7 @@ void expect_child(const NearbySubtrees& list, std::size_t at, const Node& node, 
   EXPECT_EQ(list.link(at), node.link[child]);
 }
 
-class ChildTests : public testing::Test {
+class ChildOverlapTest : public testing::Test {
  protected:
   float coordinate() { return static_cast<float>(static_cast<int>(random_() % 2001) - 1000) / 700; }
 
@@ -69,7 +69,7 @@ bool meet(const FloatBox& a, const FloatBox& b) {
 float next(float value, float towards) { return std::nextafter(value, towards); }
 
 // Compared with boxes that begin exactly at a child's end, or one ulp beyond.
-TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
+TEST_F(ChildOverlapTest, ChildrenMeetingMatchesScalarTest) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (int round = 0; round < 500; ++round) {
     const Node at = node();
@@ -99,7 +99,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachChilds) {
 }
 
 // Lists of random length, compared with boxes as above.
-TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
+TEST_F(ChildOverlapTest, SubtreesMeetingMatchesScalarTest) {
   for (int round = 0; round < 300; ++round) {
     NearbySubtrees list;
     const std::size_t most = 1 + random_() % NearbySubtrees::kMax;
@@ -127,7 +127,7 @@ TEST_F(ChildTests, HoldAnotherBoxAgainstTheBitsOfEachSubtrees) {
 }
 
 // Thresholds equal to a child's squared distance, or one ulp below.
-TEST_F(ChildTests, ListThoseThatAreNearByTheBitsOfEachChilds) {
+TEST_F(ChildOverlapTest, AddChildrenWithinMatchesScalarTest) {
   for (int round = 0; round < 500; ++round) {
     const Node at = node();
     FloatQuery query;

@@ -28,7 +28,7 @@ std::vector<float> drain(Frontier& frontier, Order order, float threshold, float
   return bounds;
 }
 
-TEST(FrontierTest, NearestFirstOverAllGroups) {
+TEST(FrontierTest, PopsNearestFirstOverAllGroups) {
   Frontier frontier;
   push(frontier, 0, {1, 5, 9});
   push(frontier, 1, {2, 3});
@@ -39,7 +39,7 @@ TEST(FrontierTest, NearestFirstOverAllGroups) {
   EXPECT_EQ(dropped, kInfinity);
 }
 
-TEST(FrontierTest, OfEqualsTheLastPushedComesFirst) {
+TEST(FrontierTest, PopsEqualBoundsLastPushedFirst) {
   Frontier frontier;
   for (std::uint32_t group = 0; group < 3; ++group) push(frontier, group, {0});
   FrontierEntry entry;
@@ -51,7 +51,7 @@ TEST(FrontierTest, OfEqualsTheLastPushedComesFirst) {
   }
 }
 
-TEST(FrontierTest, LastGroupFirst) {
+TEST(FrontierTest, PopsLastGroupFirst) {
   Frontier frontier;
   push(frontier, 0, {1, 5});
   push(frontier, 1, {2, 3});
@@ -59,7 +59,7 @@ TEST(FrontierTest, LastGroupFirst) {
   EXPECT_EQ(drain(frontier, Order::kLast, 100, dropped), (std::vector<float>{2, 3, 1, 5}));
 }
 
-TEST(FrontierTest, LeavesOutWhatIsVisitedAlready) {
+TEST(FrontierTest, SkipsEntriesBeforeFirst) {
   for (const Order order : {Order::kNearest, Order::kLast}) {
     Frontier frontier;
     push(frontier, 0, {1, 4, 5}, 1);
@@ -69,7 +69,7 @@ TEST(FrontierTest, LeavesOutWhatIsVisitedAlready) {
   }
 }
 
-TEST(FrontierTest, TellsTheLeastOfWhatItDrops) {
+TEST(FrontierTest, ReportsTheLeastDroppedBound) {
   for (const Order order : {Order::kNearest, Order::kLast}) {
     Frontier frontier;
     push(frontier, 0, {1, 7, 8});
@@ -83,7 +83,7 @@ TEST(FrontierTest, TellsTheLeastOfWhatItDrops) {
 }
 
 // Two full-height paths of groups fit, and no entry is lost.
-TEST(FrontierTest, ManyGroupsAreTakenFromTheLast) {
+TEST(FrontierTest, PopsDepthFirstWithManyGroups) {
   Frontier frontier;
   std::size_t pushed = 0, taken = 0;
   FrontierEntry entry;

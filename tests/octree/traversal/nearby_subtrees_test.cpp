@@ -34,7 +34,7 @@ TEST(NearbySubtrees, KeepsBoxesAndLinks) {
   }
 }
 
-TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
+TEST(NearbySubtrees, PadsToAWholeVectorWithoutNaN) {
   // Memory with other contents before: NaN in every float.
   alignas(NearbySubtrees) unsigned char memory[sizeof(NearbySubtrees)];
   std::memset(memory, 0xff, sizeof memory);
@@ -47,14 +47,14 @@ TEST(NearbySubtrees, EndsWithNumbersUpToAWholeVector) {
     }
 }
 
-TEST(NearbySubtrees, HasRoomForANodesChildrenWhileItSaysSo) {
+TEST(NearbySubtrees, HasCapacityForANodesChildren) {
   NearbySubtrees list;
   while (list.has_capacity()) add(list, 0, kToBlock);
   EXPECT_LT(NearbySubtrees::kMax - kFanOut, list.size());
   EXPECT_LE(list.size(), NearbySubtrees::kMax);
 }
 
-TEST(NearbySubtrees, PutsTheLastInThePlaceOfOneThatGoes) {
+TEST(NearbySubtrees, RemoveMovesTheLastEntry) {
   NearbySubtrees list;
   for (std::uint32_t i = 0; i < 3; ++i) add(list, static_cast<float>(10 * i), kToBlock + i);
   list.remove(0);
@@ -67,7 +67,7 @@ TEST(NearbySubtrees, PutsTheLastInThePlaceOfOneThatGoes) {
   EXPECT_EQ(list.link(0), kToBlock + 2);
 }
 
-TEST(NearbySubtrees, KnowsWhetherAllAreBlocks) {
+TEST(NearbySubtrees, ReportsWhetherAllAreBlocks) {
   NearbySubtrees list;
   add(list, 0, kToBlock);
   EXPECT_TRUE(list.are_blocks());
@@ -77,7 +77,7 @@ TEST(NearbySubtrees, KnowsWhetherAllAreBlocks) {
   EXPECT_EQ(list.size(), 0u);
 }
 
-TEST(NearbySubtrees, IsNowhereFartherThanSaid) {
+TEST(NearbySubtrees, FarthestIsAnUpperBound) {
   NearbySubtrees list;
   add(list, 1, kToBlock);
   const double farthest = list.farthest(0, Point(0, 0, 2));

@@ -31,13 +31,13 @@ TEST(NearbyTriangles, KeepsCornersExactly) {
   EXPECT_EQ(list.id(0), 7u);
 }
 
-TEST(NearbyTriangles, ReachesAsFarAsItsFarthestCorner) {
+TEST(NearbyTriangles, ExtentCoversTheFarthestCorner) {
   const auto list = listed({found_at(2, 0)}, Point(0, 0, 4));
   EXPECT_GE(list.extent(), 5);
   EXPECT_LE(list.extent(), 5.0001);
 }
 
-TEST(NearbyTriangles, RepeatsTheLastUpToAWholeVector) {
+TEST(NearbyTriangles, RepeatsTheLastTriangleUpToAWholeVector) {
   const auto list = listed({found_at(1, 0), found_at(2, 1)}, Point(0.5, 0, 0));
   EXPECT_EQ(list.row(0, 0)[0], 0.5f);
   EXPECT_EQ(list.row(1, 0)[1], 2.5f);
@@ -47,7 +47,7 @@ TEST(NearbyTriangles, RepeatsTheLastUpToAWholeVector) {
   }
 }
 
-TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
+TEST(NearbyTriangles, CountWithinCoversAllNearTriangles) {
   std::vector<NearbyTriangle> found;
   for (unsigned i = 0; i < NearbyTriangles::kMax; ++i)
     found.push_back(found_at(i, i, (i * 37 % 64) / 64.0));
@@ -65,7 +65,7 @@ TEST(NearbyTriangles, CountsNoTriangleThatIsFartherFromTheCentre) {
 }
 
 // A grid of triangles, whose corners share coordinates.
-TEST(NearbyTriangles, AreFoundByACornerAmongFewOthers) {
+TEST(NearbyTriangles, FindsTrianglesByCorner) {
   for (const unsigned count : {1u, 15u, 16u, 63u, 64u, 65u, 130u, 192u}) {
     std::vector<NearbyTriangle> found;
     for (unsigned i = 0; i < count; ++i) {
@@ -88,13 +88,13 @@ TEST(NearbyTriangles, AreFoundByACornerAmongFewOthers) {
   }
 }
 
-TEST(NearbyTriangles, KnowsWhereAllAreAsNearAsTheBallReaches) {
+TEST(NearbyTriangles, HandlesTrianglesAtTheBallsRadius) {
   NearbyTriangles list;
   list.fill(std::vector<NearbyTriangle>{found_at(1, 5, 1)}, Point::Zero(), 1, 1);
   EXPECT_EQ(list.count_within(1), 1u);
 }
 
-TEST(NearbyTriangles, IsNoListBeforeItIsFilledNorOfNothing) {
+TEST(NearbyTriangles, IsCompleteOnlyWhenFilled) {
   NearbyTriangles list;
   EXPECT_FALSE(list.complete());
   list.fill({}, Point::Zero(), 0, 1);
@@ -105,7 +105,7 @@ TEST(NearbyTriangles, IsNoListBeforeItIsFilledNorOfNothing) {
   EXPECT_FALSE(list.complete());
 }
 
-TEST(NearbyTriangles, RefusesWhatIsTooSmallForFloat) {
+TEST(NearbyTriangles, RefusesExtentsTooSmallForFloat) {
   const Point corner(1 + 0x1p-50, 0, 0);
   EXPECT_FALSE(listed({{{corner, corner, corner}, 0, 0}}, Point(1, 0, 0)).complete());
 }

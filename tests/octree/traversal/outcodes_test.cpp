@@ -19,7 +19,7 @@ void each_block_of(const Soup& soup, const Check& check) {
 }
 
 // The box is a single vertex of the block.
-TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
+TEST(Outcodes, FindTrianglesWithAVertex) {
   for (const Soup& soup : {sphere(4), scattered(500, 0.05)})
     each_block_of(soup, [&](const BlockView& block) {
       const Point vertex = block.vertex(block.header().corners(0)[1]);
@@ -34,7 +34,7 @@ TEST(Outcodes, TellWhichTrianglesHaveAVertex) {
 }
 
 // Coordinates are rounded away from the box, never into it.
-TEST(Outcodes, LeaveNothingOutThatIsInTheBox) {
+TEST(Outcodes, MissNoVertexInTheBox) {
   each_block_of(sphere(4), [&](const BlockView& block) {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       const Point vertex = block.triangle(i)[0];

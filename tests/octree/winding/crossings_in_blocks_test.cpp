@@ -108,9 +108,9 @@ std::size_t expect_as_in_the_tree(const Soup& soup) {
   return crossed;
 }
 
-TEST(CrossingsInBlocks, AreThoseOfTheTreeWithinAnOctant) {
+TEST(CrossingsInBlocks, MatchTheTreeWithinAnOctant) {
   EXPECT_GT(expect_as_in_the_tree(sphere(5)), 50u);
-  EXPECT_GT(expect_as_in_the_tree(perturbed(sphere(4), {1e3, 1.0 / 3, -7})), 50u);
+  EXPECT_GT(expect_as_in_the_tree(translated(sphere(4), {1e3, 1.0 / 3, -7})), 50u);
   EXPECT_GT(expect_as_in_the_tree(grains(300, 0.1)), 10u);
 }
 
@@ -153,8 +153,8 @@ TEST(CrossingsInBlocks, AreIncompleteWhereALinkLeadsToNoBlock) {
 }
 
 TEST(CrossingsInBlocks, AreTheSameOnEveryInstructionSet) {
-  ListedOctants listed(perturbed(sphere(5), {0.1f, 3.7f, -0.3f}));
-  const auto certain = on_each_target([&] {
+  ListedOctants listed(translated(sphere(5), {0.1f, 3.7f, -0.3f}));
+  const auto results = on_each_target([&] {
     std::vector<std::int64_t> numbers;
     Noise noise(9);
     for (const ListedOctants::Octant& octant : listed.octants)
@@ -162,8 +162,8 @@ TEST(CrossingsInBlocks, AreTheSameOnEveryInstructionSet) {
         numbers.push_back(listed.count(segment, octant.blocks).difference);
     return numbers;
   });
-  ASSERT_FALSE(certain.empty());
-  for (const auto& numbers : certain) EXPECT_EQ(numbers == certain[0], true);
+  ASSERT_FALSE(results.empty());
+  for (const auto& numbers : results) EXPECT_EQ(numbers == results[0], true);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(CountCrossings, IsTheSumOverAllTriangles) {
 // At these offsets the spacing of floats is as large as that of vertices.
 TEST(CountCrossings, IsTheSumOverAllTrianglesFarFromTheOrigin) {
   for (const double offset : {1e3, 1e5, 1e7}) {
-    expect_as_one_by_one(perturbed(sphere(4), {offset, -offset, 0}), 6);
+    expect_as_one_by_one(translated(sphere(4), {offset, -offset, 0}), 6);
   }
 }
 
@@ -75,12 +75,12 @@ void expect_little_work(const PerturbedSegment& segment, std::uint64_t too_many)
   EXPECT_LT(work.triangles, 8u);
 }
 
-TEST(CountCrossings, LooksOnlyAtWhatTheSegmentMeets) {
+TEST(CountCrossings, VisitsOnlyRecordsOnTheSegment) {
   expect_little_work({{0.1, 0.2, 0}, {0.1, 0.2, 3}}, 40);
 }
 
 // The bounding box of the segment would hold an eighth of the model.
-TEST(CountCrossings, LooksOnlyAtWhatADiagonalSegmentMeets) {
+TEST(CountCrossings, VisitsOnlyRecordsOnADiagonalSegment) {
   expect_little_work({{0.01, 0.02, 0}, {2, 2.1, 2.2}}, 20);
 }
 

@@ -61,7 +61,7 @@ void expect_true(const WindingNumber& found, double truth) {
   }
 }
 
-TEST(WindingNumber, IsCertain) {
+TEST(WindingNumber, MatchesTheSumOverAllTriangles) {
   Noise noise(1);
   const Soup soups[] = {bowl(4, 0.5), height_field(20), scattered(800, 0.3), repeated(100),
                         sphere(3)};
@@ -79,7 +79,7 @@ TEST(WindingNumber, IsCertain) {
 
 // At every work limit the interval holds the true number. The sum completes once the comparison
 // with 1/2 is certain or all records are visited.
-TEST(WindingNumber, HoldsTheTruthAtAnyWork) {
+TEST(WindingNumber, ErrorBoundHoldsAtAnyWork) {
   Winding winding(bowl(3, 0.0));
   // On the axis of a bowl whose rim is a great circle the number is one half near the middle, so
   // nearly all records must be visited.
@@ -98,7 +98,7 @@ TEST(WindingNumber, HoldsTheTruthAtAnyWork) {
 }
 
 // Where every triangle must be evaluated, the error is that of the triangles alone.
-TEST(WindingNumber, IsExactInTheEnd) {
+TEST(WindingNumber, IsAccurateWhenAllTrianglesAreEvaluated) {
   // A face of the octahedron is an eighth of the sphere about the origin: 20 faces one way and 16
   // the other sum to one half.
   const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
@@ -113,7 +113,7 @@ TEST(WindingNumber, IsExactInTheEnd) {
   EXPECT_EQ(winding.work.nodes + winding.work.blocks, winding.records());
 }
 
-TEST(WindingNumber, FindsTheSurface) {
+TEST(WindingNumber, DetectsPointsOnTheSurface) {
   Winding winding(bowl(3, 0.7));
   for (std::uint32_t i = 0; i < winding.sample().mesh.size(); i += 7) {
     const WindingNumber found = winding.winding(winding.sample().mesh.corners(i)[0]);
@@ -124,7 +124,7 @@ TEST(WindingNumber, FindsTheSurface) {
 }
 
 // Visits few records where the point is far, and a small share of them elsewhere.
-TEST(WindingNumber, OpensWhatMatters) {
+TEST(WindingNumber, VisitsFewRecords) {
   Winding winding(sphere(5), 65536);
   Noise noise(2);
   winding.winding({3, 2, 1});
@@ -137,12 +137,12 @@ TEST(WindingNumber, OpensWhatMatters) {
   EXPECT_LT(sum / 50, winding.records() / 10);
 }
 
-TEST(WindingNumber, GoesOnWithoutAPage) {
+TEST(WindingNumber, ErrorBoundHoldsWithAMissingPage) {
   Winding winding(bowl(5, 0.8));
   const auto page = static_cast<std::uint32_t>(winding.pages().size() - 1);
   winding.pages().withhold(page);
   Noise noise(4);
-  int complete = 0, not_told = 0;
+  int complete = 0, incomplete = 0;
   for (int i = 0; i < 200; ++i) {
     // Every other point is close to the missing page.
     const WideBlock& block =
@@ -156,14 +156,14 @@ TEST(WindingNumber, GoesOnWithoutAPage) {
     expect_true(found, winding.truth(point));
     EXPECT_EQ(found.complete, found.above_half() || found.below_half());
     complete += found.complete;
-    not_told += !found.complete;
+    incomplete += !found.complete;
   }
   EXPECT_GT(complete, 80);
-  EXPECT_GT(not_told, 0);
+  EXPECT_GT(incomplete, 0);
 }
 
 // More children are open at once than the list holds: the rest is opened depth first.
-TEST(WindingNumber, DoesWithItsRoom) {
+TEST(WindingNumber, ErrorBoundHoldsWhenTheOpenListIsFull) {
   Winding winding(scattered(30000, 0.02), 65536);
   ASSERT_GT(winding.records(), 2000u);
   const Point point = winding.sample().mesh.corners(5)[0];
@@ -178,7 +178,7 @@ TEST(WindingNumber, DoesWithItsRoom) {
   EXPECT_LE(std::fabs(found.value - truth), found.error + 1e-12);
 }
 
-TEST(WindingNumber, OfABlockAlone) {
+TEST(WindingNumber, HandlesASingleBlock) {
   Winding winding(height_field(2));
   EXPECT_EQ(winding.records(), 1u);
   const Point point(0.3, 0.4, 0.7);

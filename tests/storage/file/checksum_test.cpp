@@ -47,7 +47,7 @@ TEST(Checksum, Hash128GivesKnownAnswers) {
   EXPECT_EQ(hash128(sanity_bytes(2048)), (Hash128{0xdd59e2c3a5f038e0, 0xf736557fd47073a5}));
 }
 
-TEST(Checksum, Hasher128DoesNotSeeHowBytesAreParted) {
+TEST(Checksum, Hasher128IsIndependentOfPieceSizes) {
   const std::vector<std::byte> bytes = sanity_bytes(2367);
   for (const std::size_t step : {1u, 8u, 255u, 256u, 1000u, 2367u}) {
     Hasher128 hasher;

@@ -15,7 +15,7 @@ ErrorCode code_of(const Result<void>& result) {
   return result ? ErrorCode{} : result.error().code;
 }
 
-TEST(PageCodec, RestoresWhatItStored) {
+TEST(PageCodec, DecodesWhatItEncoded) {
   for (const std::size_t length : {1u, 2u, 12u, 13u, 64u, 4096u, 65536u, 200'000u}) {
     for (const std::uint32_t page : {0u, 1u}) {
       const Bytes raw = sample_page(page, length);
@@ -28,7 +28,7 @@ TEST(PageCodec, RestoresWhatItStored) {
   }
 }
 
-TEST(PageCodec, CompressesOnlyWhatShrinks) {
+TEST(PageCodec, CompressesOnlyPagesThatShrink) {
   EXPECT_EQ(encode_page(sample_page(0, 4096)).codec, Codec::kLz4);
   EXPECT_LT(encode_page(sample_page(0, 4096)).bytes.size(), 3000u);
   const Bytes noise = sample_page(1, 4096);
@@ -36,7 +36,7 @@ TEST(PageCodec, CompressesOnlyWhatShrinks) {
   EXPECT_EQ(encode_page(noise).bytes, noise);
 }
 
-TEST(PageCodec, StoresTheMostCompressiblePage) {
+TEST(PageCodec, EncodesTheMostCompressiblePageWithinTheLengthLimit) {
   const Bytes raw(kMaxRawBytes);
   const StoredPage stored = encode_page(raw);
   EXPECT_LE(raw.size(), stored.bytes.size() * 255);
@@ -45,7 +45,7 @@ TEST(PageCodec, StoresTheMostCompressiblePage) {
   EXPECT_EQ(restored, raw);
 }
 
-TEST(PageCodec, StoresTheSameInAnyThread) {
+TEST(PageCodec, EncodesTheSameBytesInAnyThread) {
   const Bytes raw = sample_page(0, 65536);
   const StoredPage here = encode_page(raw);
   Bytes other[2];
@@ -57,7 +57,7 @@ TEST(PageCodec, StoresTheSameInAnyThread) {
   EXPECT_EQ(other[1], here.bytes);
 }
 
-TEST(PageCodec, RefusesAnyOtherRawLength) {
+TEST(PageCodec, RefusesAWrongRawLength) {
   const Bytes raw = sample_page(0, 500);
   for (const Codec codec : {Codec::kStored, Codec::kLz4}) {
     const Bytes stored = codec == Codec::kLz4 ? encode_page(raw).bytes : raw;
@@ -86,7 +86,7 @@ TEST(PageCodec, RefusesAnUnknownCodec) {
   EXPECT_EQ(code_of(decode_page(Codec{2}, Bytes(4), out)), ErrorCode::kDamaged);
 }
 
-TEST(PageCodec, SurvivesEveryBrokenBlock) {
+TEST(PageCodec, DecodesDamagedLz4BlocksWithinBounds) {
   const Bytes raw = sample_page(0, 200);
   const Bytes stored = encode_page(raw).bytes;
   std::size_t refused = 0;

@@ -42,7 +42,7 @@ class PageFileDamage : public testing::Test {
   Bytes good_;
 };
 
-TEST_F(PageFileDamage, EveryBitIsGuarded) {
+TEST_F(PageFileDamage, DetectsEveryFlippedBit) {
   const std::size_t pages_start = table_end(sample_.page_count);
   const std::size_t pages_end = good_.size() - kHeaderBytes;
   for (std::size_t bit = 0; bit < good_.size() * 8; ++bit) {
@@ -74,7 +74,7 @@ TEST_F(PageFileDamage, EveryBitIsGuarded) {
   EXPECT_TRUE(serves_all());
 }
 
-TEST_F(PageFileDamage, EveryOtherLengthIsRefused) {
+TEST_F(PageFileDamage, RefusesEveryOtherLength) {
   for (std::size_t length = good_.size(); length-- > 0;) {
     std::filesystem::resize_file(path_, length);
     const Result<PageFile> file = PageFile::open(path_);
@@ -93,7 +93,7 @@ TEST_F(PageFileDamage, EveryOtherLengthIsRefused) {
   }
 }
 
-TEST_F(PageFileDamage, EitherHeaderSuffices) {
+TEST_F(PageFileDamage, OpensWithEitherHeader) {
   for (const std::size_t start : {std::size_t{0}, good_.size() - kHeaderBytes}) {
     Bytes bytes = good_;
     std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(start), kHeaderBytes, std::byte{0});
@@ -171,7 +171,7 @@ TEST(PageFileMixUp, PagesOfAnotherFileFail) {
   EXPECT_FALSE(PageFile::open(directory / "c.ptree"));
 }
 
-TEST(PageFileMixUp, HostileBlocksWithRightHashesAreRefused) {
+TEST(PageFileMixUp, RefusesBadLz4BlocksWithRightHashes) {
   const TemporaryDirectory directory;
   ASSERT_TRUE((SampleFile{1, 4000}.write(directory / "a.ptree")));
   FileImage image(read_bytes(directory / "a.ptree"));

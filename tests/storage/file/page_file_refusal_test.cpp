@@ -64,14 +64,14 @@ class PageFileRefusal : public testing::Test {
   Bytes good_;
 };
 
-TEST_F(PageFileRefusal, LeavesTheSealedFileAlone) {
+TEST_F(PageFileRefusal, AcceptsTheSampleSealedAgain) {
   FileImage image = good();
   image.seal();
   EXPECT_EQ(image.bytes(), good_);
   EXPECT_EQ(refusal_of(image).text[0], 0);
 }
 
-TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
+TEST_F(PageFileRefusal, RefusesOtherVersionsAndUnknownFeatures) {
   expect_header_refused([](FileHeader& h) { h.version = 1; }, ErrorCode::kUnsupported, "version 1");
   expect_header_refused([](FileHeader& h) { h.version = 0; }, ErrorCode::kUnsupported, "version 0");
   expect_header_refused([](FileHeader& h) { h.incompatible_features = 0x20; },
@@ -83,14 +83,14 @@ TEST_F(PageFileRefusal, OtherVersionsAndFeatures) {
   expect_refused(image, ErrorCode::kUnsupported, "version 10");
 }
 
-TEST_F(PageFileRefusal, NotUnknownCompatibleFeatures) {
+TEST_F(PageFileRefusal, AcceptsUnknownCompatibleFeatures) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.compatible_features = ~std::uint64_t{0}; });
   image.seal_header();
   EXPECT_EQ(refusal_of(image).text[0], 0);
 }
 
-TEST_F(PageFileRefusal, WrongLengths) {
+TEST_F(PageFileRefusal, RefusesWrongFileLengths) {
   const std::uint64_t length = good_.size();
   const auto said = [](std::uint64_t expected, std::uint64_t found) {
     return "should have " + std::to_string(expected) + " bytes and has " + std::to_string(found);
@@ -105,7 +105,7 @@ TEST_F(PageFileRefusal, WrongLengths) {
                         ErrorCode::kTruncated, said(~std::uint64_t{0}, length).c_str());
 }
 
-TEST_F(PageFileRefusal, HeaderFields) {
+TEST_F(PageFileRefusal, RefusesBadHeaderFields) {
   const auto expect_damaged = [&](const std::function<void(FileHeader&)>& change,
                                   const char* said) {
     expect_header_refused(change, ErrorCode::kDamaged, said);
@@ -130,8 +130,8 @@ TEST_F(PageFileRefusal, HeaderFields) {
   expect_damaged([](FileHeader& h) { ++h.max_raw_bytes; }, "no page is as large");
 }
 
-TEST_F(PageFileRefusal, Regions) {
-  const auto make_sector = [](ModelRecord& m) {
+TEST_F(PageFileRefusal, RefusesBadRegions) {
+  const auto make_region = [](ModelRecord& m) {
     m.input_triangles = m.triangle_count;
     for (int axis = 0; axis < 3; ++axis) {
       m.region_lower[axis] = m.box_lower[axis];
@@ -143,13 +143,13 @@ TEST_F(PageFileRefusal, Regions) {
                                          const char* said) {
     expect_model_refused(
         [&](ModelRecord& m) {
-          make_sector(m);
+          make_region(m);
           change(m);
         },
         said);
   };
   FileImage region = good();
-  region.change_header([&](FileHeader& h) { make_sector(h.model); });
+  region.change_header([&](FileHeader& h) { make_region(h.model); });
   region.seal_header();
   EXPECT_EQ(refusal_of(region).text[0], 0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -185,7 +185,7 @@ TEST_F(PageFileRefusal, Regions) {
   expect_model_refused([](ModelRecord& m) { m.region_winding = 1; }, "region");
 }
 
-TEST_F(PageFileRefusal, ModelFields) {
+TEST_F(PageFileRefusal, RefusesBadModelFields) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double value : {kNan, kInfinity, -kInfinity}) {
       expect_model_refused([&](ModelRecord& m) { m.box_lower[axis] = value; }, "box is not finite");
@@ -228,7 +228,7 @@ TEST_F(PageFileRefusal, ModelFields) {
   }
 }
 
-TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
+TEST_F(PageFileRefusal, RefusesUnbalancedEdgesThatDisagreeWithTheirCount) {
   const UnbalancedEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
   for (const std::uint64_t count : {0u, 2u, 3u})
     expect_model_refused(
@@ -254,7 +254,7 @@ TEST_F(PageFileRefusal, OpenEdgesThatAreNotAsListed) {
         "is not unbalanced");
 }
 
-TEST_F(PageFileRefusal, NotModelsAtTheLimits) {
+TEST_F(PageFileRefusal, AcceptsModelsAtTheLimits) {
   FileImage image = good();
   image.change_header([](FileHeader& h) {
     h.page_bytes = kMaxPageBytes;
@@ -268,7 +268,7 @@ TEST_F(PageFileRefusal, NotModelsAtTheLimits) {
   EXPECT_EQ(refusal_of(image).text[0], 0);
 }
 
-TEST_F(PageFileRefusal, TableHashes) {
+TEST_F(PageFileRefusal, RefusesWrongTableHashAndContentId) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.table_hash ^= 1; });
   image.seal_header();
@@ -284,7 +284,7 @@ TEST_F(PageFileRefusal, TableHashes) {
   }
 }
 
-TEST_F(PageFileRefusal, EntryFields) {
+TEST_F(PageFileRefusal, RefusesBadPageEntries) {
   expect_entry_refused(
       0, [](PageEntry& e) { ++e.offset; }, "does not start where");
   expect_entry_refused(
@@ -311,7 +311,7 @@ TEST_F(PageFileRefusal, EntryFields) {
       1, [](PageEntry& e) { e.codec = Codec::kLz4; }, "cannot give");
 }
 
-TEST_F(PageFileRefusal, KeysOutOfOrder) {
+TEST_F(PageFileRefusal, RefusesPageKeysOutOfOrder) {
   expect_entry_refused(
       1, [](PageEntry& e) { e.ordinal = 0; }, "key does not follow");
   expect_entry_refused(
@@ -322,7 +322,7 @@ TEST_F(PageFileRefusal, KeysOutOfOrder) {
 }
 
 // A small page that claims to decode to a mebibyte.
-TEST_F(PageFileRefusal, Bombs) {
+TEST_F(PageFileRefusal, RefusesDecompressionBombs) {
   FileImage image = good();
   image.change_entry(0, [](PageEntry& e) { e.raw_bytes = kMaxRawBytes; });
   image.change_header([](FileHeader& h) { h.max_raw_bytes = kMaxRawBytes; });
@@ -330,7 +330,7 @@ TEST_F(PageFileRefusal, Bombs) {
   expect_refused(image, ErrorCode::kDamaged, "cannot give");
 }
 
-TEST_F(PageFileRefusal, DamagedStartsOfOurOwn) {
+TEST_F(PageFileRefusal, RecognisesADamagedPlanetreeFile) {
   // The first bytes after a transfer in text mode.
   FileImage image = good();
   image.bytes().erase(image.bytes().begin() + 6);

@@ -80,7 +80,7 @@ TEST(PageFile, ReadsWithoutAllocating) {
   if (allocation_count != before + 1) GTEST_SKIP() << "a sanitizer keeps allocations to itself";
 }
 
-TEST(PageFile, ServesThreadsAtOnce) {
+TEST(PageFile, ReadsFromSeveralThreadsAtOnce) {
   const TemporaryDirectory directory;
   const SampleFile sample{16, 5000};
   ASSERT_TRUE(sample.write(directory / "a.ptree"));
@@ -100,7 +100,7 @@ TEST(PageFile, ServesThreadsAtOnce) {
   EXPECT_EQ(right, 128);
 }
 
-TEST(PageFile, ServesTheFileItOpenedAfterAnotherTookItsName) {
+TEST(PageFile, KeepsReadingTheOpenedFileAfterItIsReplaced) {
   const TemporaryDirectory directory;
   const SampleFile old{3, 120, 1};
   ASSERT_TRUE(old.write(directory / "a.ptree"));
@@ -135,14 +135,14 @@ TEST(PageFile, RefusesWrongArguments) {
   EXPECT_TRUE(refused(0, scratch_bytes, 121));
 }
 
-TEST(PageFile, OpensThroughALink) {
+TEST(PageFile, OpensThroughASymbolicLink) {
   const TemporaryDirectory directory;
   ASSERT_TRUE(SampleFile().write(directory / "a.ptree"));
   std::filesystem::create_symlink("a.ptree", directory / "link");
   EXPECT_TRUE(PageFile::open(directory / "link"));
 }
 
-TEST(PageFile, SaysWhatIsThereInstead) {
+TEST(PageFile, ErrorNamesWhatIsFoundInstead) {
   const TemporaryDirectory directory;
   const auto open = [&](const char* name) {
     const Result<PageFile> file = PageFile::open(directory / name);

@@ -29,7 +29,7 @@ TEST(PageWriter, WritesTheSameBytesTwice) {
   EXPECT_GT(std::filesystem::file_size(directory / "a"), 1u << 20);
 }
 
-TEST(PageWriter, ContentIdDependsOnThePagesAlone) {
+TEST(PageWriter, ContentIdsOfDifferentPagesDiffer) {
   const TemporaryDirectory directory;
   const Result<FileHeader> a = SampleFile{3, 100, 1}.write(directory / "a");
   const Result<FileHeader> b = SampleFile{3, 100, 2}.write(directory / "b");
@@ -73,7 +73,7 @@ TEST(PageWriter, NeverFollowsALinkAtTheDestination) {
   EXPECT_EQ(directory.names(), (Names{"dangling", "link", "precious"}));
 }
 
-TEST(PageWriter, NeverFollowsALinkPlantedMeanwhile) {
+TEST(PageWriter, NeverFollowsALinkCreatedDuringTheBuild) {
   const TemporaryDirectory directory;
   Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
   ASSERT_TRUE(writer);
@@ -118,7 +118,7 @@ TEST(PageWriter, RefusesPagesOutOfOrder) {
   EXPECT_EQ(code_of(second(4, 9)), ErrorCode::kBadArgument);
 }
 
-TEST(PageWriter, AnErrorIsFinal) {
+TEST(PageWriter, FailsForGoodAfterAnError) {
   const TemporaryDirectory directory;
   const StoredPage page = encode_page(sample_page(0, 64));
   Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
@@ -144,7 +144,7 @@ TEST(PageWriter, RefusesAWrongNumberOfPages) {
   EXPECT_EQ(directory.names(), Names{});
 }
 
-TEST(PageWriter, RefusesWhatAReaderWould) {
+TEST(PageWriter, RefusesModelsThatAReaderWouldRefuse) {
   const TemporaryDirectory directory;
   const auto finish = [&](const ModelRecord& model, std::uint32_t page_bytes) {
     Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
@@ -160,7 +160,7 @@ TEST(PageWriter, RefusesWhatAReaderWould) {
   EXPECT_EQ(directory.names(), Names{});
 }
 
-TEST(PageWriter, IsSpentOnceFinished) {
+TEST(PageWriter, RefusesCallsAfterFinish) {
   const TemporaryDirectory directory;
   Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
   const StoredPage page = encode_page(sample_page(0, 64));
@@ -171,7 +171,7 @@ TEST(PageWriter, IsSpentOnceFinished) {
   EXPECT_TRUE(read_all(directory / "a"));
 }
 
-TEST(PageWriter, TellsTheLaterOfTwoWriters) {
+TEST(PageWriter, LaterOfTwoWritersFailsWithAlreadyExists) {
   const TemporaryDirectory directory;
   Result<PageWriter> first = PageWriter::create(directory / "a", 1, false);
   Result<PageWriter> second = PageWriter::create(directory / "a", 1, false);
@@ -184,22 +184,22 @@ TEST(PageWriter, TellsTheLaterOfTwoWriters) {
   EXPECT_EQ(directory.names(), Names{"a"});
 }
 
-TEST(PageWriter, LetsOneOfManyThreadsWin) {
+TEST(PageWriter, OnlyOneOfManyWritersSucceedsUnlessReplacing) {
   for (const bool replace : {false, true}) {
     const TemporaryDirectory directory;
     std::atomic<int> won{0};
-    std::atomic<int> certain{0};
+    std::atomic<int> refused{0};
     std::vector<std::thread> threads;
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
       threads.emplace_back([&, seed] {
         const Result<FileHeader> header = SampleFile{3, 120, seed}.write(directory / "a", replace);
         won += header ? 1 : 0;
-        certain += !header && header.error().code == ErrorCode::kAlreadyExists ? 1 : 0;
+        refused += !header && header.error().code == ErrorCode::kAlreadyExists ? 1 : 0;
       });
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(won, replace ? 4 : 1);
-    EXPECT_EQ(certain, replace ? 0 : 3);
+    EXPECT_EQ(refused, replace ? 0 : 3);
     EXPECT_TRUE(read_all(directory / "a"));
     EXPECT_EQ(directory.names(), Names{"a"});
   }

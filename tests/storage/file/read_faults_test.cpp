@@ -113,16 +113,16 @@ TEST_F(ReadFaults, AFileCutShortAfterOpeningIsTruncated) {
   EXPECT_EQ(raw.error().offset, last.offset);
 }
 
-TEST_F(ReadFaults, AMapCoversAnyRange) {
+TEST_F(ReadFaults, MappingCoversAnyRange) {
   const Bytes whole = read_bytes(path_);
   const FileHandle file = FileHandle::open(FileCalls::real(), AT_FDCWD, path_.c_str(), O_RDONLY);
   ASSERT_TRUE(file.is_open());
   for (const std::size_t offset : {std::size_t{0}, std::size_t{1}, whole.size() - 1}) {
     Result<Mapping> made = Mapping::create(file, offset, whole.size() - offset);
     ASSERT_TRUE(made);
-    Mapping perturbed = *std::move(made);
-    ASSERT_EQ(perturbed.bytes().size(), whole.size() - offset);
-    EXPECT_TRUE(std::equal(perturbed.bytes().begin(), perturbed.bytes().end(),
+    Mapping moved_mapping = *std::move(made);
+    ASSERT_EQ(moved_mapping.bytes().size(), whole.size() - offset);
+    EXPECT_TRUE(std::equal(moved_mapping.bytes().begin(), moved_mapping.bytes().end(),
                            whole.begin() + static_cast<std::ptrdiff_t>(offset)));
     EXPECT_TRUE(made->bytes().empty());
   }

@@ -52,7 +52,7 @@ class JournalTest : public testing::Test {
   const Notes three_{{1, "one"}, {7, ""}, {2, std::string(250, 'x')}};
 };
 
-TEST_F(JournalTest, HandsOutWhatWasAppended) {
+TEST_F(JournalTest, ReplaysWhatWasAppended) {
   EXPECT_EQ(notes(), Notes{});
   append(three_);
   EXPECT_EQ(notes(), three_);
@@ -62,7 +62,7 @@ TEST_F(JournalTest, HandsOutWhatWasAppended) {
   EXPECT_EQ(notes(), four);
 }
 
-TEST_F(JournalTest, EndsBeforeATornRecord) {
+TEST_F(JournalTest, ReplayStopsBeforeATornRecord) {
   append(three_);
   const Bytes whole = read_bytes(path_);
   for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -78,7 +78,7 @@ TEST_F(JournalTest, EndsBeforeATornRecord) {
   }
 }
 
-TEST_F(JournalTest, EndsBeforeADamagedByte) {
+TEST_F(JournalTest, ReplayStopsBeforeADamagedRecord) {
   append(three_);
   const Bytes whole = read_bytes(path_);
   for (std::size_t at = 0; at < whole.size(); ++at) {
@@ -93,14 +93,14 @@ TEST_F(JournalTest, EndsBeforeADamagedByte) {
 
 // Otherwise records of the same length could end up after others than those they were written
 // after.
-TEST_F(JournalTest, ForgetsWhatComesBehindARefusedRecord) {
+TEST_F(JournalTest, DropsAllRecordsAfterARefusedOne) {
   append(three_);
   EXPECT_EQ(notes(1), Notes{three_[0]});
   append({three_[1]});
   EXPECT_EQ(notes(), (Notes{three_[0], three_[1]}));
 }
 
-TEST_F(JournalTest, BelievesNoRecordInAnothersPlace) {
+TEST_F(JournalTest, RefusesRecordsThatWereSwapped) {
   append({{1, "first"}, {1, "other"}});
   Bytes bytes = read_bytes(path_);
   const std::size_t half = bytes.size() / 2;

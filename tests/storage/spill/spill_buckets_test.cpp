@@ -39,7 +39,7 @@ std::vector<std::uint64_t> numbers_in(SpillBuckets& buckets, std::uint32_t bucke
   return numbers;
 }
 
-TEST(SpillBuckets, GiveBackEachItsOwn) {
+TEST(SpillBuckets, ReturnTheRecordsOfEachBucket) {
   const TemporaryDirectory directory;
   for (const std::uint64_t buffer_bytes : {0, 3000, 1 << 20}) {
     SpillFile file(directory / ".", 0);
@@ -65,7 +65,7 @@ TEST(SpillBuckets, GiveBackEachItsOwn) {
   }
 }
 
-TEST(SpillBuckets, SayWhatFails) {
+TEST(SpillBuckets, ReportFailuresOfTheFile) {
   const TemporaryDirectory directory;
   FaultyCalls calls;
   SpillFile file(directory / ".", 0, calls);

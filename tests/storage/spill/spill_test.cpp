@@ -21,7 +21,7 @@ std::vector<std::byte> bytes_of(std::size_t count, unsigned seed) {
   return bytes;
 }
 
-TEST(SpillFile, GivesBackWhatWasPutAway) {
+TEST(SpillFile, ReadsBackWhatWasAppended) {
   const TemporaryDirectory directory;
   for (const std::uint64_t held : {0, 5000, 1 << 20}) {
     SpillFile file(directory / ".", held);
@@ -48,11 +48,11 @@ TEST(SpillFile, GivesBackWhatWasPutAway) {
   }
 }
 
-TEST(SpillFile, HasNoName) {
+TEST(SpillFile, LeavesNoNameInTheDirectory) {
   const TemporaryDirectory directory;
-  for (const bool no_unnamed : {false, true}) {
+  for (const bool lacks_unnamed_files : {false, true}) {
     FaultyCalls calls;
-    calls.no_unnamed = no_unnamed;
+    calls.lacks_unnamed_files = lacks_unnamed_files;
     SpillFile file(directory / ".", 0, calls);
     ASSERT_TRUE(file.append(bytes_of(100, 1)));
     EXPECT_TRUE(directory.names().empty());
@@ -61,7 +61,7 @@ TEST(SpillFile, HasNoName) {
 
 // Where the file has a name for a moment, the name can be guessed. A link planted there is neither
 // followed nor replaced.
-TEST(SpillFile, PassesOverAPlantedLink) {
+TEST(SpillFile, SkipsAPlantedLink) {
   const TemporaryDirectory directory;
   const std::vector<std::byte> precious = bytes_of(10, 7);
   write_bytes(directory / "precious", precious);
@@ -72,7 +72,7 @@ TEST(SpillFile, PassesOverAPlantedLink) {
     std::filesystem::create_symlink("precious", directory / planted.back().c_str());
   }
   FaultyCalls calls;
-  calls.no_unnamed = true;
+  calls.lacks_unnamed_files = true;
   SpillFile file(directory / ".", 0, calls);
   ASSERT_TRUE(file.append(bytes_of(100, 1)));
   EXPECT_EQ(read_bytes(directory / "precious"), precious);
@@ -81,7 +81,7 @@ TEST(SpillFile, PassesOverAPlantedLink) {
   EXPECT_EQ(directory.names().size(), planted.size() + 1);
 }
 
-TEST(SpillFile, KnowsWhatIsOnDiskAndWhetherItFailed) {
+TEST(SpillFile, ReportsBytesOnDiskAndFailure) {
   const TemporaryDirectory directory;
   FaultyCalls calls;
   SpillFile file(directory / ".", 1000, calls);
@@ -101,7 +101,7 @@ TEST(SpillFile, KnowsWhatIsOnDiskAndWhetherItFailed) {
   EXPECT_TRUE(file.failed());
 }
 
-TEST(SpillFile, TakesNoDiskForWhatIsHeld) {
+TEST(SpillFile, UsesNoDiskWithinItsMemoryLimit) {
   SpillFile file("/no/such/directory", 1000);
   EXPECT_TRUE(file.append(bytes_of(1000, 1)));
   const auto refused = file.append(bytes_of(1, 1));
@@ -110,7 +110,7 @@ TEST(SpillFile, TakesNoDiskForWhatIsHeld) {
   EXPECT_FALSE(file.append(bytes_of(1, 1)));
 }
 
-TEST(SpillFile, GoesOnInAFileWithAName) {
+TEST(SpillFile, ResumesInANamedFile) {
   const TemporaryDirectory directory;
   const auto open = [&directory] {
     return FileHandle::open(FileCalls::real(), AT_FDCWD, (directory / "spill").c_str(),
@@ -133,7 +133,7 @@ TEST(SpillFile, GoesOnInAFileWithAName) {
 }
 
 // The system reports a lost write only once, to one of the callers.
-TEST(SpillFile, IsNotDurableAfterASyncThatFailed) {
+TEST(SpillFile, SyncFailsForGoodAfterAFailure) {
   const TemporaryDirectory directory;
   FaultyCalls calls;
   SpillFile file(
@@ -228,7 +228,7 @@ TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
   for (std::uint64_t i = 0; i < records.size(); ++i) records[i].key = {i, i};
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(runs.add(run_of(records)));
   SpillRuns again(sizeof(Record), 0, file);
-  for (SpillRuns::Extent& extent : runs.extents()) again.add_extents(std::move(extent));
+  for (SpillRuns::Extent& extent : runs.extents()) again.add_extent(std::move(extent));
   for (const std::uint64_t at : {0u, 1u, 255u, 256u, 257u, 70001u, 99999u, 200000u})
     for (const SpillRuns* each : {&runs, &again}) {
       calls.count = 0;
@@ -239,7 +239,7 @@ TEST(SpillRuns, FindAKeyByOneReadOfEachRun) {
     }
 }
 
-TEST(SpillRuns, AreFoundAgainByTheirPlaces) {
+TEST(SpillRuns, AreRestoredFromTheirExtents) {
   const TemporaryDirectory directory;
   SpillFile file(directory / ".", 0);
   SpillRuns runs(sizeof(Record), 0, file), again(sizeof(Record), 0, file);
@@ -249,12 +249,12 @@ TEST(SpillRuns, AreFoundAgainByTheirPlaces) {
     EXPECT_EQ(extent->size, 2u);
     EXPECT_EQ(extent->offset, 2 * i * sizeof(Record));
   }
-  for (const SpillRuns::Extent& extent : runs.extents()) again.add_extents(extent);
+  for (const SpillRuns::Extent& extent : runs.extents()) again.add_extent(extent);
   EXPECT_EQ(again.size(), 6u);
   EXPECT_EQ(*again.read(again.begin(), again.end()), *runs.read(runs.begin(), runs.end()));
 }
 
-TEST(SpillRuns, HoldsNoMoreThanAllowed) {
+TEST(SpillRuns, HoldInMemoryNoMoreThanAllowed) {
   const TemporaryDirectory directory;
   SpillFile file(directory / ".", 0);
   SpillRuns runs(sizeof(Record), 3 * 100 * sizeof(Record), file);

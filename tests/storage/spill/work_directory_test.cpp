@@ -53,7 +53,7 @@ TEST_F(WorkDirectoryTest, KeepsFilesUntilItIsRemoved) {
   EXPECT_EQ(folder_.names(), Names{});
 }
 
-TEST_F(WorkDirectoryTest, IsOneProcessesAtATime) {
+TEST_F(WorkDirectoryTest, IsExclusiveToOneOpener) {
   {
     const auto first = WorkDirectory::open(path_);
     ASSERT_TRUE(first);
@@ -70,7 +70,7 @@ TEST_F(WorkDirectoryTest, IsOneProcessesAtATime) {
 class DyingCalls final : public FileCalls {
  public:
   int flock(int descriptor, int operation) noexcept override {
-    if (++queried_ < 3) {
+    if (++attempts_ < 3) {
       errno = EWOULDBLOCK;
       return -1;
     }
@@ -78,7 +78,7 @@ class DyingCalls final : public FileCalls {
   }
 
  private:
-  int queried_ = 0;
+  int attempts_ = 0;
 };
 
 TEST_F(WorkDirectoryTest, WaitsForAProcessThatIsAboutToEnd) {
@@ -100,7 +100,7 @@ class RemovingCalls final : public FileCalls {
   bool armed_ = true;
 };
 
-TEST_F(WorkDirectoryTest, IsMadeAnewIfItWasRemovedBeforeItWasLocked) {
+TEST_F(WorkDirectoryTest, IsRecreatedIfRemovedBeforeItIsLocked) {
   RemovingCalls calls(path_);
   auto work = WorkDirectory::open(path_, calls);
   ASSERT_TRUE(work) << work.error().text;
@@ -129,7 +129,7 @@ TEST_F(WorkDirectoryTest, FollowsNoLinks) {
   }
 }
 
-TEST_F(WorkDirectoryTest, RefusesWhatIsNoDirectoryAndNoFile) {
+TEST_F(WorkDirectoryTest, RefusesOtherKindsOfFiles) {
   write_bytes(path_, Bytes(5, std::byte{42}));
   EXPECT_EQ(refusal(), ErrorCode::kAlreadyExists);
   EXPECT_EQ(std::filesystem::file_size(path_), 5u);
@@ -146,7 +146,7 @@ TEST_F(WorkDirectoryTest, RefusesWhatIsNoDirectoryAndNoFile) {
   }
 }
 
-TEST_F(WorkDirectoryTest, RefusesWhatOthersMayWriteTo) {
+TEST_F(WorkDirectoryTest, RefusesDirectoriesAndFilesWritableByOthers) {
   plant_directory();
   ASSERT_EQ(::chmod(path_.c_str(), 0777), 0);
   EXPECT_EQ(refusal(), ErrorCode::kPermission);
@@ -156,7 +156,7 @@ TEST_F(WorkDirectoryTest, RefusesWhatOthersMayWriteTo) {
   EXPECT_EQ(refusal(), ErrorCode::kPermission);
 }
 
-TEST_F(WorkDirectoryTest, LeavesWhatItDoesNotKnow) {
+TEST_F(WorkDirectoryTest, LeavesFilesItDidNotOpen) {
   auto work = WorkDirectory::open(path_);
   ASSERT_TRUE(work && work->open_file("file"));
   write_bytes(path_ / "precious", Bytes(5, std::byte{42}));

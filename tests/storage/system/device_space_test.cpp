@@ -8,7 +8,7 @@
 namespace planetree::storage {
 namespace {
 
-TEST(DeviceSpace, IsWhatOthersThanRootMayFill) {
+TEST(DeviceSpace, CountsBlocksAvailableToUnprivilegedUsers) {
   const TemporaryDirectory directory;
   FaultyCalls calls;
   calls.device = device_with_free(50, 4096);
@@ -19,7 +19,7 @@ TEST(DeviceSpace, IsWhatOthersThanRootMayFill) {
   EXPECT_EQ(DeviceSpace::of(directory / ".", calls).free_bytes, 0u);
 }
 
-TEST(DeviceSpace, IsThatOfTheSystem) {
+TEST(DeviceSpace, AgreesWithStatvfs) {
   struct statvfs device = {};
   const TemporaryDirectory directory;
   ASSERT_EQ(::statvfs((directory / ".").c_str(), &device), 0);
@@ -30,7 +30,7 @@ TEST(DeviceSpace, IsThatOfTheSystem) {
   EXPECT_TRUE(DeviceSpace::of({}).free_bytes) << "of the working directory";
 }
 
-TEST(DeviceSpace, IsNotKnownWhereTheSystemDoesNotTell) {
+TEST(DeviceSpace, IsUnknownWhereStatvfsReportsNone) {
   const TemporaryDirectory directory;
   EXPECT_FALSE(DeviceSpace::of(directory / "none").free_bytes);
   FaultyCalls calls;
@@ -39,7 +39,7 @@ TEST(DeviceSpace, IsNotKnownWhereTheSystemDoesNotTell) {
   EXPECT_FALSE(DeviceSpace::of(directory / ".", calls).free_bytes);
 }
 
-TEST(DeviceSpace, KnowsADeviceAgain) {
+TEST(DeviceSpace, RecognisesTheSameDevice) {
   const TemporaryDirectory one, other;
   const auto here = DeviceSpace::of(one / ".");
   EXPECT_TRUE(here.is_same_device(DeviceSpace::of(other / ".")));

@@ -41,7 +41,7 @@ class FaultyCalls final : public FileCalls {
   int number = EIO;                      ///< errno of kError
   int fault_at = 0;                      ///< index of the faulty call, from 0
   bool every = false;                    ///< all calls from there on, rather than one
-  bool no_unnamed = false;               ///< a file system without O_TMPFILE
+  bool lacks_unnamed_files = false;      ///< a file system without O_TMPFILE
   bool no_proc = false;                  ///< a system without /proc
   bool no_noreplace = false;             ///< a file system that renames only with replacement
   std::optional<struct statvfs> device;  ///< status reported for every device, if set
@@ -51,74 +51,74 @@ class FaultyCalls final : public FileCalls {
   int fsync_count() const { return fsync_count_; }
 
   int openat(int directory, const char* path, int flags, mode_t mode) noexcept override {
-    if (no_unnamed && (flags & O_TMPFILE) == O_TMPFILE) return failed(EOPNOTSUPP);
-    if (strikes("openat", true)) return failed(number_);
+    if (lacks_unnamed_files && (flags & O_TMPFILE) == O_TMPFILE) return failed(EOPNOTSUPP);
+    if (fails("openat", true)) return failed(number_);
     return FileCalls::openat(directory, path, flags, mode);
   }
   int close(int descriptor) noexcept override {
     const int outcome = FileCalls::close(descriptor);
-    return strikes("close", false) ? failed(number_) : outcome;
+    return fails("close", false) ? failed(number_) : outcome;
   }
   int fstat(int descriptor, struct stat* status) noexcept override {
-    return strikes("fstat", false) ? failed(number_) : FileCalls::fstat(descriptor, status);
+    return fails("fstat", false) ? failed(number_) : FileCalls::fstat(descriptor, status);
   }
   int fstatat(int directory, const char* path, struct stat* status, int flags) noexcept override {
     if (no_proc && std::strncmp(path, "/proc/", 6) == 0) return failed(ENOENT);
-    if (strikes("fstatat", false)) return failed(number_);
+    if (fails("fstatat", false)) return failed(number_);
     return FileCalls::fstatat(directory, path, status, flags);
   }
   int statvfs(const char* path, struct statvfs* found) noexcept override {
-    if (strikes("statvfs", false)) return failed(number_);
+    if (fails("statvfs", false)) return failed(number_);
     if (!device) return FileCalls::statvfs(path, found);
     *found = *device;
     return 0;
   }
   ssize_t pread(int descriptor, void* out, std::size_t bytes, off_t offset) noexcept override {
-    if (strikes("pread", true)) return failed(number_);
+    if (fails("pread", true)) return failed(number_);
     return FileCalls::pread(descriptor, out, shortened(bytes), offset);
   }
   ssize_t pwrite(int descriptor, const void* in, std::size_t bytes,
                  off_t offset) noexcept override {
-    if (strikes("pwrite", true)) return failed(number_);
+    if (fails("pwrite", true)) return failed(number_);
     return FileCalls::pwrite(descriptor, in, shortened(bytes), offset);
   }
   int fsync(int descriptor) noexcept override {
     ++fsync_count_;
     (void)descriptor;  // no test here cuts the power, and syncing a disk is slow
-    return strikes("fsync", false) ? failed(number_) : 0;
+    return fails("fsync", false) ? failed(number_) : 0;
   }
   int fdatasync(int descriptor) noexcept override {
     (void)descriptor;
-    return strikes("fdatasync", false) ? failed(number_) : 0;
+    return fails("fdatasync", false) ? failed(number_) : 0;
   }
   int ftruncate(int descriptor, off_t bytes) noexcept override {
-    return strikes("ftruncate", true) ? failed(number_) : FileCalls::ftruncate(descriptor, bytes);
+    return fails("ftruncate", true) ? failed(number_) : FileCalls::ftruncate(descriptor, bytes);
   }
   int flock(int descriptor, int operation) noexcept override {
-    return strikes("flock", true) ? failed(number_) : FileCalls::flock(descriptor, operation);
+    return fails("flock", true) ? failed(number_) : FileCalls::flock(descriptor, operation);
   }
   int mkdirat(int directory, const char* path, mode_t mode) noexcept override {
-    return strikes("mkdirat", false) ? failed(number_) : FileCalls::mkdirat(directory, path, mode);
+    return fails("mkdirat", false) ? failed(number_) : FileCalls::mkdirat(directory, path, mode);
   }
   int linkat(int old_directory, const char* old_path, int new_directory, const char* new_path,
              int flags) noexcept override {
-    if (strikes("linkat", false)) return failed(number_);
+    if (fails("linkat", false)) return failed(number_);
     return FileCalls::linkat(old_directory, old_path, new_directory, new_path, flags);
   }
   int renameat2(int old_directory, const char* old_path, int new_directory, const char* new_path,
                 unsigned flags) noexcept override {
     if (no_noreplace && (flags & RENAME_NOREPLACE) != 0) return failed(EINVAL);
-    if (strikes("renameat2", false)) return failed(number_);
+    if (fails("renameat2", false)) return failed(number_);
     return FileCalls::renameat2(old_directory, old_path, new_directory, new_path, flags);
   }
   int unlinkat(int directory, const char* path, int flags) noexcept override {
     // A full disk still permits removing names.
-    if (!every && strikes("unlinkat", false)) return failed(number_);
+    if (!every && fails("unlinkat", false)) return failed(number_);
     return FileCalls::unlinkat(directory, path, flags);
   }
   void* mmap(std::size_t bytes, int protection, int flags, int descriptor,
              off_t offset) noexcept override {
-    if (strikes("mmap", false)) {
+    if (fails("mmap", false)) {
       errno = number_;
       return MAP_FAILED;
     }
@@ -126,16 +126,16 @@ class FaultyCalls final : public FileCalls {
   }
   int munmap(void* address, std::size_t bytes) noexcept override {
     const int outcome = FileCalls::munmap(address, bytes);
-    return strikes("munmap", false) ? failed(number_) : outcome;
+    return fails("munmap", false) ? failed(number_) : outcome;
   }
   int madvise(void* address, std::size_t bytes, int advice) noexcept override {
-    if (strikes("madvise", true)) return failed(number_);
+    if (fails("madvise", true)) return failed(number_);
     return FileCalls::madvise(address, bytes, advice);
   }
 
  private:
   // Counts the calls that the fault can affect; true if this one fails.
-  bool strikes(const char* call, bool interruptible) noexcept {
+  bool fails(const char* call, bool interruptible) noexcept {
     if (fault == Fault::kNone || fault == Fault::kShort) return false;
     if (fault == Fault::kInterrupt && !interruptible) return false;
     const int at = count_++;

@@ -8,7 +8,7 @@
 namespace planetree::storage {
 namespace {
 
-TEST(FileError, SaysWhatKindOfFailureItIs) {
+TEST(FileError, MapsErrnoToErrorCode) {
   struct Known {
     int number;
     ErrorCode code;
@@ -27,7 +27,7 @@ TEST(FileError, SaysWhatKindOfFailureItIs) {
   EXPECT_EQ(file_error(EIO, FileAction::kWrite, "try").code, ErrorCode::kWriteFailed);
 }
 
-TEST(FileError, NamesCauseRemedyAndPlace) {
+TEST(FileError, NamesCauseRemedyPageAndOffset) {
   const Error error = file_error(ENOSPC, FileAction::kWrite, "write the file", 7, 4096);
   EXPECT_STREQ(error.text,
                "cannot write the file: No space left on device; free some space or choose another "
@@ -36,7 +36,7 @@ TEST(FileError, NamesCauseRemedyAndPlace) {
   EXPECT_EQ(error.offset, 4096u);
 }
 
-TEST(FileError, EndsItsTextForEveryNumber) {
+TEST(FileError, TextFitsForEveryErrno) {
   for (int number = -1; number < 200; ++number) {
     const std::string text = file_error(number, FileAction::kRead, "open the file").text;
     EXPECT_TRUE(text.starts_with("cannot open the file: ")) << number;

@@ -16,14 +16,14 @@ using Fault = FaultyCalls::Fault;
 using Names = std::vector<std::string>;
 
 /// Features of the file system, and whether there is an old file to replace.
-struct Surroundings {
+struct FileSystem {
   bool replace;
-  bool no_unnamed;
+  bool lacks_unnamed_files;
   bool no_proc;
   bool no_noreplace;
 };
 
-class WriteFaults : public testing::TestWithParam<Surroundings> {
+class WriteFaults : public testing::TestWithParam<FileSystem> {
  protected:
   void SetUp() override {
     ASSERT_TRUE(sample_.write(directory_ / "complete"));
@@ -33,7 +33,7 @@ class WriteFaults : public testing::TestWithParam<Surroundings> {
 
   FaultyCalls calls(Fault fault, int number, int fault_at, bool every = false) const {
     FaultyCalls made;
-    made.no_unnamed = GetParam().no_unnamed;
+    made.lacks_unnamed_files = GetParam().lacks_unnamed_files;
     made.no_proc = GetParam().no_proc;
     made.no_noreplace = GetParam().no_noreplace;
     made.fault = fault;
@@ -148,7 +148,7 @@ TEST_P(WriteFaults, AFailedSyncIsNotRetried) {
   EXPECT_GE(call_count, 10);
 }
 
-TEST_P(WriteFaults, ANameTakenMeanwhileIsLeftAlone) {
+TEST_P(WriteFaults, DestinationCreatedMeanwhileIsKept) {
   if (GetParam().replace) GTEST_SKIP() << "replacing was asked for";
   FaultyCalls made = calls(Fault::kNone, 0, 0);
   Result<PageWriter> writer = PageWriter::create(path_, 1, false, made);
@@ -164,7 +164,7 @@ TEST_P(WriteFaults, ANameTakenMeanwhileIsLeftAlone) {
 
 // The process is killed before its n-th call.
 TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
-  const bool named = GetParam().no_unnamed || GetParam().no_proc;
+  const bool named = GetParam().lacks_unnamed_files || GetParam().no_proc;
   for (int fault_at = 0;; ++fault_at) {
     reset_destination();
     const pid_t child = ::fork();
@@ -193,12 +193,12 @@ TEST_P(WriteFaults, AKilledBuildLeavesOldOrComplete) {
 }
 
 // Temporary names can be guessed. A link planted there is neither followed nor replaced.
-TEST(TemporaryNames, APlantedLinkIsPassedOver) {
+TEST(TemporaryNames, PlantedLinkIsSkipped) {
   const TemporaryDirectory directory;
   const Bytes precious(10, std::byte{7});
   write_bytes(directory / "precious", precious);
   FaultyCalls made;
-  made.no_unnamed = true;
+  made.lacks_unnamed_files = true;
   std::string name;
   {
     const Result<NewFile> first = NewFile::create(directory / "a", false, made);
@@ -215,22 +215,20 @@ TEST(TemporaryNames, APlantedLinkIsPassedOver) {
   EXPECT_TRUE(std::filesystem::is_symlink(directory / planted.c_str()));
 }
 
-std::string name_of(const testing::TestParamInfo<Surroundings>& surroundings) {
-  std::string name = surroundings.param.replace ? "Replace" : "Create";
-  if (surroundings.param.no_unnamed) name += "WithoutUnnamedFiles";
-  if (surroundings.param.no_proc) name += "WithoutProc";
-  if (surroundings.param.no_noreplace) name += "WithoutNoReplace";
+std::string name_of(const testing::TestParamInfo<FileSystem>& file_system) {
+  std::string name = file_system.param.replace ? "Replace" : "Create";
+  if (file_system.param.lacks_unnamed_files) name += "WithoutUnnamedFiles";
+  if (file_system.param.no_proc) name += "WithoutProc";
+  if (file_system.param.no_noreplace) name += "WithoutNoReplace";
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Storage, WriteFaults,
-                         testing::Values(Surroundings{false, false, false, false},
-                                         Surroundings{true, false, false, false},
-                                         Surroundings{false, true, false, false},
-                                         Surroundings{true, true, false, false},
-                                         Surroundings{false, false, true, false},
-                                         Surroundings{false, true, false, true}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Storage, WriteFaults,
+    testing::Values(FileSystem{false, false, false, false}, FileSystem{true, false, false, false},
+                    FileSystem{false, true, false, false}, FileSystem{true, true, false, false},
+                    FileSystem{false, false, true, false}, FileSystem{false, true, false, true}),
+    name_of);
 
 }  // namespace
 }  // namespace planetree::storage

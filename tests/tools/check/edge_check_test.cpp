@@ -21,7 +21,7 @@ bool finds_fault(const storage::ModelRecord& model, const std::vector<octree::Tr
   return check.finding().has_value();
 }
 
-TEST(EdgeCheck, BelievesAHeaderThatIsRight) {
+TEST(EdgeCheck, AcceptsARightHeader) {
   EXPECT_FALSE(finds_fault({}, closed_faces()));
   std::vector<octree::Triangle> twice = closed_faces();
   for (const octree::Triangle& face : closed_faces()) twice.push_back(face);
@@ -29,7 +29,7 @@ TEST(EdgeCheck, BelievesAHeaderThatIsRight) {
 }
 
 // The edge that the header lists is as stated, and yet no edge is unbalanced.
-TEST(EdgeCheck, FindsAClosedSurfaceThatIsSaidToBeOpen) {
+TEST(EdgeCheck, FindsAWatertightSurfaceDeclaredOpen) {
   storage::ModelRecord model{};
   model.unbalanced_edge_count = 1;
   model.unbalanced_edge[0].to[1] = 1;
@@ -38,7 +38,7 @@ TEST(EdgeCheck, FindsAClosedSurfaceThatIsSaidToBeOpen) {
 }
 
 // A hole, a face with its orientation reversed, a face too many.
-TEST(EdgeCheck, FindsAnOpenSurfaceThatIsSaidToBeClosed) {
+TEST(EdgeCheck, FindsAnOpenSurfaceDeclaredWatertight) {
   std::vector<octree::Triangle> faces = closed_faces();
   faces.pop_back();
   EXPECT_TRUE(finds_fault({}, faces));

@@ -47,7 +47,7 @@ class FileCheckOfHeightFields : public FileCheckOfMasks {
   }
 };
 
-TEST_F(FileCheckOfHeightFields, FindsEveryBlockThatIsInNone) {
+TEST_F(FileCheckOfHeightFields, FindsEveryBlockWronglyMarked) {
   const std::size_t unmarked = count_unmarked(boxes());
   ASSERT_GT(unmarked, 2u);
   for (std::size_t i = 0; i < unmarked; ++i) {
@@ -58,7 +58,7 @@ TEST_F(FileCheckOfHeightFields, FindsEveryBlockThatIsInNone) {
   }
 }
 
-TEST_F(FileCheckOfHeightFields, AllowsBlocksThatAreNotSaidToBe) {
+TEST_F(FileCheckOfHeightFields, AllowsUnmarkedHeightFields) {
   const auto clear = [](std::uint8_t count) {
     return static_cast<std::uint8_t>(count & ~octree::kHeightFieldBit);
   };
@@ -67,7 +67,7 @@ TEST_F(FileCheckOfHeightFields, AllowsBlocksThatAreNotSaidToBe) {
 }
 
 // Even blocks that are height fields of the whole mesh are found in the file of a region.
-TEST_F(FileCheckOfHeightFields, FindsThemInFilesOfRegions) {
+TEST_F(FileCheckOfHeightFields, FindsWronglyMarkedBlocksInFilesOfRegions) {
   const std::filesystem::path region = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/region.ptree";
   const std::size_t unmarked = count_unmarked(region);
   ASSERT_GT(unmarked, 2u);
@@ -77,7 +77,7 @@ TEST_F(FileCheckOfHeightFields, FindsThemInFilesOfRegions) {
 }
 
 // The bits are proven by the mask.
-TEST_F(FileCheckOfHeightFields, AreNotLookedAtWhereTheMaskIsWrong) {
+TEST_F(FileCheckOfHeightFields, AreNotCheckedWhereTheMaskIsWrong) {
   Forgery forgery = forgery_of(marking(0));
   forgery.mask = [done = false](std::uint32_t, RawMaskPage& page) mutable {
     if (done || page.head.corners_count == 0) return;

@@ -34,7 +34,7 @@ TEST_F(FileCheckOfLists, FindsBlocksThatAreNotListed) {
   });
 }
 
-TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
+TEST_F(FileCheckOfLists, FindsLinksInListsThatLeadToNoBlock) {
   // The slot after the first slot of a block is not the first slot of any block.
   expect_found("MASK_BLOCKS", has_lists, [](RawMaskPage& page) {
     ++page.block_counts[page.block_counts.size() - 1];
@@ -44,7 +44,7 @@ TEST_F(FileCheckOfLists, FindsListsOfWhatIsNoBlock) {
   });
 }
 
-TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
+TEST_F(FileCheckOfLists, FindsSlabsThatDoNotContainTheSurface) {
   // Indices of slabs thicker than one step for which has(page, i) holds.
   const auto slabs = [](const RawMaskPage& page, const auto& has) {
     std::vector<std::size_t> found;
@@ -74,7 +74,7 @@ TEST_F(FileCheckOfLists, FindsSlabsThatLeaveSurfaceOut) {
   });
 }
 
-TEST_F(FileCheckOfLists, AllowsSlabsThatSayLess) {
+TEST_F(FileCheckOfLists, AllowsWiderSlabs) {
   const auto widen = [](RawMaskPage& page) {
     for (std::uint8_t& lower : page.slab_lowers) lower = static_cast<std::uint8_t>(lower / 2);
     for (std::uint8_t& upper : page.slab_uppers) upper = octree::CellSlab::kNoUpper;

@@ -13,7 +13,7 @@
 namespace planetree::tools {
 namespace {
 
-TEST_F(FileCheckOfMasks, FindsNothingWhereAllIsWell) {
+TEST_F(FileCheckOfMasks, AcceptsIntactMasks) {
   for (const auto& tree : {boxes(), sphere()})
     for (const bool full : {true, false}) {
       const CheckReport report = check_path(tree, full);
@@ -29,7 +29,7 @@ TEST_F(FileCheckOfMasks, FindsNothingWhereAllIsWell) {
 bool has_corners(const RawMaskPage& page) { return page.head.corners_count > 0; }
 bool has_special(const RawMaskPage& page) { return page.head.special_count > 0; }
 
-TEST_F(FileCheckOfMasks, FindsCornersThatAreNot) {
+TEST_F(FileCheckOfMasks, FindsWrongCornerNumbers) {
   for (const std::size_t corner : {0u, 3u, 7u})
     expect_found("MASK_CORNER", has_corners, [&](RawMaskPage& page) {
       page.corners[corner] = static_cast<std::int8_t>(page.corners[corner] + 1);
@@ -44,7 +44,7 @@ TEST_F(FileCheckOfMasks, FindsCornersThatAreNot) {
 }
 
 // A corner number that is not stored is not wrong.
-TEST_F(FileCheckOfMasks, AllowsCornersThatAreNotStated) {
+TEST_F(FileCheckOfMasks, AllowsUncountedCorners) {
   const auto unsay = [](RawMaskPage& page) {
     std::fill_n(page.corners.begin(), 8, octree::kUncounted);
   };
@@ -66,7 +66,7 @@ Node node_with(const RawMaskPage& page, const std::function<unsigned(std::size_t
 
 std::uint8_t lowest(unsigned bits) { return static_cast<std::uint8_t>(bits & -bits); }
 
-TEST_F(FileCheckOfMasks, FindsColoursThatAreNot) {
+TEST_F(FileCheckOfMasks, FindsWrongColours) {
   const auto black = [](const RawMaskPage& page) {
     return node_with(page, [&](std::size_t i) { return page.black[i]; });
   };
@@ -107,7 +107,7 @@ TEST_F(FileCheckOfMasks, FindsTrianglesInCellsOfOneColour) {
   const auto fits = [&](const RawMaskPage& page) {
     return node_with(page, [&](std::size_t i) { return movable(page, i); });
   };
-  bool certain = false;
+  bool reported = false;
   Forgery forgery;
   forgery.mask = [&, done = false](std::uint32_t, RawMaskPage& page) mutable {
     if (done || !fits(page)) return;
@@ -119,12 +119,12 @@ TEST_F(FileCheckOfMasks, FindsTrianglesInCellsOfOneColour) {
   };
   const CheckReport report = check_forgery(boxes(), forgery, true);
   for (const Issue& issue : report.issues.kept())
-    certain = certain || (issue.code == IssueCode::kMaskColour &&
-                          issue.message.find("triangles touch it") != std::string::npos);
-  EXPECT_TRUE(certain);
+    reported = reported || (issue.code == IssueCode::kMaskColour &&
+                            issue.message.find("triangles touch it") != std::string::npos);
+  EXPECT_TRUE(reported);
 }
 
-TEST_F(FileCheckOfMasks, FindsPlanesThatAreNot) {
+TEST_F(FileCheckOfMasks, FindsWrongPlanes) {
   expect_found("MASK_PLANES", has_special,
                [](RawMaskPage& page) { std::swap(page.behind[0], page.beyond[0]); });
   expect_found("MASK_PLANES", has_special, [](RawMaskPage& page) { page.behind[0] = 5; });
@@ -139,14 +139,14 @@ TEST_F(FileCheckOfMasks, FindsPlanesThatAreNot) {
     const octree::Point a(at[0], at[1], at[2]), b(at[3], at[4], at[5]), c(at[6], at[7], at[8]);
     for (unsigned axis = 0; axis < 3; ++axis) {
       if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
-      const float perturbed = std::nextafter(static_cast<float>(a[axis]), 9.0f);
+      const float shifted = std::nextafter(static_cast<float>(a[axis]), 9.0f);
       for (std::size_t corner = 0; corner < 3; ++corner)
-        page.planes[3 * corner + axis] = static_cast<double>(perturbed);
+        page.planes[3 * corner + axis] = static_cast<double>(shifted);
     }
   });
 }
 
-TEST_F(FileCheckOfMasks, FindsHeadersThatCountOtherwise) {
+TEST_F(FileCheckOfMasks, FindsWrongCountsInTheHeader) {
   const auto codes_with = [&](const std::function<void(storage::ModelRecord&)>& change) {
     Forgery forgery;
     forgery.model = change;
@@ -250,7 +250,7 @@ TEST_F(FileCheckOfMasks, FindsCellsBelowTheFinestLevel) {
 }
 
 // A lost page is reported once, without the pages that only it links to.
-TEST_F(FileCheckOfMasks, TellsOfALostPageAlone) {
+TEST_F(FileCheckOfMasks, ReportsOnlyALostPage) {
   const Bytes bytes = storage::read_bytes(sphere());
   const storage::FileHeader header = storage::FileImage(bytes).header();
   for (std::uint32_t page = header.first_mask_page(); page < header.page_count; ++page) {
@@ -263,7 +263,7 @@ TEST_F(FileCheckOfMasks, TellsOfALostPageAlone) {
   }
 }
 
-TEST_F(FileCheckOfMasks, FindsMaskPagesThatBreakTheirRules) {
+TEST_F(FileCheckOfMasks, FindsMaskPagesWithBadStructure) {
   const auto any = [](const RawMaskPage&) { return true; };
   EXPECT_TRUE(codes_of_change(boxes(), any, [](RawMaskPage& page) {
                 page.kinds[0] = 9;

@@ -7,7 +7,7 @@
 namespace planetree::tools {
 namespace {
 
-TEST_F(FileCheck, FindsPagesThatDoNotUnpack) {
+TEST_F(FileCheck, FindsPagesThatDoNotDecompress) {
   Forgery forgery;
   forgery.stored = [](std::uint32_t page, storage::StoredPage& stored) {
     if (page != 1) return;
@@ -17,7 +17,7 @@ TEST_F(FileCheck, FindsPagesThatDoNotUnpack) {
   EXPECT_EQ(codes_of_forgery(forgery), Codes{"PAGE_CODEC"});
 }
 
-TEST_F(FileCheck, FindsPagesThatBreakTheirRules) {
+TEST_F(FileCheck, FindsPagesWithBadStructure) {
   Forgery forgery;
   forgery.page = [](std::uint32_t page, RawPage& raw) {
     if (page == 0) raw.set<std::uint8_t>("child_counts", 0, 0);
@@ -53,7 +53,7 @@ TEST_F(FileCheck, FindsTwoLinksToOneSubtree) {
   EXPECT_TRUE(codes.contains("LINK_TWICE") && codes.contains("SUBTREE_UNLINKED"));
 }
 
-TEST_F(FileCheck, FindsARootThatIsNotThere) {
+TEST_F(FileCheck, FindsAMissingRoot) {
   EXPECT_TRUE(codes_of_model([](auto& model) { model.root_link += 1; }).contains("LINK_TARGET"));
   EXPECT_TRUE(codes_of_model([](auto& model) {
                 model.root_link = ~std::uint32_t{0};
@@ -69,13 +69,13 @@ TEST_F(FileCheck, FindsBoxesThatDoNotAgreeAcrossPages) {
   EXPECT_EQ(codes_of_forgery(forgery, false), Codes{"SUBTREE_BOX"});
 }
 
-TEST_F(FileCheck, FindsAHeaderWhoseBoxIsNotTheModels) {
+TEST_F(FileCheck, FindsAWrongBoxInTheHeader) {
   EXPECT_EQ(codes_of_model([](auto& model) { model.box_upper[1] += 1; }),
             (Codes{"ROOT_BOX", "MODEL_BOX"}));
   EXPECT_EQ(codes_of_model([](auto& model) { model.box_upper[1] -= 1; }), Codes{"MODEL_BOX"});
 }
 
-TEST_F(FileCheck, FindsHeightsThatAreNot) {
+TEST_F(FileCheck, FindsWrongHeights) {
   EXPECT_EQ(codes_of_model([](auto& model) { ++model.height; }), Codes{"HEIGHT"});
   // Raises the root's height alone; its highest child is then two lower.
   Forgery forgery;
@@ -117,17 +117,17 @@ TEST_F(FileCheck, FindsHeadersThatContradictThemselves) {
 }
 
 TEST_F(FileCheck, FindsVerticesOutsideTheirBounds) {
-  Forgery perturbed;
-  perturbed.page = [](std::uint32_t, RawPage& raw) {
+  Forgery moved_vertex;
+  moved_vertex.page = [](std::uint32_t, RawPage& raw) {
     if (raw.elements("vertices") == 0) return;
     raw.set("vertices", 0, raw.get<float>("vertices", 0) + 0.5f);
   };
-  const Codes codes = codes_of_forgery(perturbed);
+  const Codes codes = codes_of_forgery(moved_vertex);
   EXPECT_TRUE(codes.contains("VERTEX_OUTSIDE_BOX") && codes.contains("VERTEX_OUTSIDE_PLANES"));
-  EXPECT_EQ(codes_of_forgery(perturbed, false), Codes{});
+  EXPECT_EQ(codes_of_forgery(moved_vertex, false), Codes{});
 }
 
-TEST_F(FileCheck, FindsPlanesThatDoNotEnclose) {
+TEST_F(FileCheck, FindsDiscsThatDoNotEncloseTheirVertices) {
   const auto narrowed = [](std::string_view stream, auto value, std::uint32_t only_page) {
     Forgery forgery;
     forgery.page = [=](std::uint32_t page, RawPage& raw) {
@@ -142,12 +142,12 @@ TEST_F(FileCheck, FindsPlanesThatDoNotEnclose) {
   EXPECT_EQ(codes_of_forgery(narrowed("child_radii", std::uint16_t{0}, 0)), expected);
 }
 
-TEST_F(FileCheck, FindsASampleThatIsNone) {
+TEST_F(FileCheck, FindsAWrongSample) {
   EXPECT_EQ(codes_of_model([](auto& model) { model.sample[2] += 1; }), Codes{"SAMPLE"});
   EXPECT_EQ(codes_of_model([](auto& model) { model.sample_triangle = 5; }), Codes{"SAMPLE"});
 }
 
-TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
+TEST_F(FileCheck, FindsWrongUnbalancedEdges) {
   // The nodes of a watertight model have no moments.
   EXPECT_EQ(codes_of_model([](auto& model) {
               model.unbalanced_edge_count = 0;
@@ -162,7 +162,7 @@ TEST_F(FileCheck, FindsOpenEdgesThatAreNot) {
             Codes{"OPEN_EDGES"});
 }
 
-TEST_F(FileCheck, FindsMomentsThatAreNot) {
+TEST_F(FileCheck, FindsWrongMoments) {
   const auto changed = [](std::string_view stream, auto by, std::uint32_t only_page) {
     Forgery forgery;
     forgery.page = [=](std::uint32_t page, RawPage& raw) {
@@ -185,14 +185,14 @@ TEST_F(FileCheck, FindsMomentsThatAreNot) {
   }
 }
 
-TEST_F(FileCheck, CountsWhatItDoesNotKeep) {
+TEST_F(FileCheck, CountsIssuesBeyondThoseKept) {
   IssueList list;
   for (int i = 0; i < 1500; ++i) list.add({IssueCode::kTable, Error::kNowhere, 0, "x"});
   EXPECT_EQ(list.count(), 1500u);
   EXPECT_EQ(list.kept().size(), IssueList::kMaxKept);
 }
 
-TEST(FileCheckOfShapes, AcceptsABlockThatIsTheWholeTree) {
+TEST(FileCheckOfShapes, AcceptsATreeOfOneBlock) {
   storage::TemporaryDirectory folder;
   write_mesh(folder / "mesh.obj", 1);
   build_sample(folder / "mesh.obj", folder / "tree.ptree");
@@ -215,7 +215,7 @@ TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
   EXPECT_EQ(codes_of(check(storage::read_bytes(folder / "forged.ptree"))), Codes{"OPEN_EDGES"});
 }
 
-TEST(FileCheckOfShapes, AcceptsDoublesAndSetAsideRecords) {
+TEST(FileCheckOfShapes, AcceptsDoublesAndSkippedRecords) {
   storage::TemporaryDirectory folder;
   write_mesh(folder / "mesh.obj", 12, "v 0.1 0.2 0.3\nf 1 2 170\nf 1 2 999\nf 1 5 170\n");
   build_sample(folder / "mesh.obj", folder / "tree.ptree");

@@ -36,7 +36,7 @@ std::string closed_box(int side) {
   return obj.str();
 }
 
-TEST_F(FileCheck, FindsNothingInAFileThatIsWell) {
+TEST_F(FileCheck, AcceptsAnIntactFile) {
   const CheckReport report = check(bytes_);
   EXPECT_EQ(codes_of(report), Codes{});
   EXPECT_EQ(report.triangles, 2u * kSide * kSide);
@@ -45,7 +45,7 @@ TEST_F(FileCheck, FindsNothingInAFileThatIsWell) {
 }
 
 // Every single flipped bit must be found, and neither check nor survey may fail because of it.
-TEST(FileCheckOfDamage, FindsEverySingleBit) {
+TEST(FileCheckOfDamage, FindsEveryFlippedBit) {
   storage::TemporaryDirectory folder;
   write_mesh(folder / "mesh.obj", 12);
   build_sample(folder / "mesh.obj", folder / "tree.ptree");
@@ -68,7 +68,7 @@ TEST(FileCheckOfDamage, FindsEverySingleBit) {
 }
 
 // Built as large models are: in several chunks, with a mask of many sectors.
-TEST(FileCheckOfChunks, FindsNothing) {
+TEST(FileCheckOfChunks, AcceptsFilesBuiltInChunks) {
   storage::TemporaryDirectory folder;
   std::ofstream(folder / "closed.obj") << closed_box(12);
   write_mesh(folder / "open.obj", 25);
@@ -103,7 +103,7 @@ TEST(FileCheckOfDamage, FindsEveryTruncation) {
   EXPECT_TRUE(codes_of(check(longer)).contains("FILE_LENGTH"));
 }
 
-TEST_F(FileCheck, TellsWhatKindOfFileItIs) {
+TEST_F(FileCheck, RecognisesForeignAndUnsupportedFiles) {
   EXPECT_EQ(codes_of(check(std::as_bytes(std::span("ply\nformat ascii 1.0\n")))),
             Codes{"NOT_PLANETREE"});
   EXPECT_EQ(codes_of(check(Bytes{})), Codes{"NOT_PLANETREE"});
@@ -118,7 +118,7 @@ TEST_F(FileCheck, TellsWhatKindOfFileItIs) {
   EXPECT_EQ(codes_of(check(featured.bytes())), Codes{"FORMAT_UNSUPPORTED"});
 }
 
-TEST_F(FileCheck, TellsOneDamagedHeaderFromTwo) {
+TEST_F(FileCheck, DistinguishesOneDamagedHeaderFromTwo) {
   auto damaged = image();
   damaged.bytes()[100] ^= std::byte{1};
   const CheckReport one = check(damaged.bytes());
@@ -128,7 +128,7 @@ TEST_F(FileCheck, TellsOneDamagedHeaderFromTwo) {
   EXPECT_EQ(codes_of(check(damaged.bytes())), Codes{"HEADER_LOST"});
 }
 
-TEST_F(FileCheck, JudgesPagesOneByOneWhereTheTableIsDamaged) {
+TEST_F(FileCheck, ChecksEachPageWhereTheTableIsDamaged) {
   auto damaged = image();
   damaged.change_entry(1, [](storage::PageEntry& entry) { entry.check ^= 1; });
   const CheckReport report = check(damaged.bytes());
@@ -136,7 +136,7 @@ TEST_F(FileCheck, JudgesPagesOneByOneWhereTheTableIsDamaged) {
   EXPECT_EQ(report.pages, damaged.header().page_count - 1);
 }
 
-TEST_F(FileCheck, RefusesEntriesThatCannotBe) {
+TEST_F(FileCheck, RefusesImpossibleEntries) {
   const auto codes_with = [this](const std::function<void(storage::PageEntry&)>& change) {
     auto damaged = image();
     damaged.change_entry(1, change);
@@ -151,7 +151,7 @@ TEST_F(FileCheck, RefusesEntriesThatCannotBe) {
   EXPECT_EQ(codes_with([](auto& entry) { entry.codec = storage::Codec{7}; }), expected);
 }
 
-TEST_F(FileCheck, GoesOnWhereThePageCannotBeRead) {
+TEST_F(FileCheck, ContinuesAfterAPageThatCannotBeRead) {
   const auto intact = storage::PageFile::open(tree_);
   ASSERT_TRUE(intact);
   const std::uint64_t offset = intact->entries()[2].offset;

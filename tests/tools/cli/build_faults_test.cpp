@@ -77,7 +77,7 @@ class BuildOnSmallDisk : public BuildFaults {
   }
 };
 
-TEST_F(BuildOnSmallDisk, DoesNotBeginWhatCannotEnd) {
+TEST_F(BuildOnSmallDisk, RefusesABuildThatNeedsMoreSpaceThanThereIs) {
   ASSERT_EQ(run({"generate", "model.ply", "--triangles", "100K", "--quiet"}).status, 0);
   const Outcome refused = shell(on_small_disk(
       "8M", build("model.ply -o out/new.ptree --memory 160M --temp-dir small") + "; echo $?"));
@@ -129,7 +129,7 @@ TEST_F(BuildOnSmallDisk, LeavesTheOldFileWhenTheNewOneFillsIt) {
   EXPECT_EQ(Names(lines.begin() + 1, lines.end()), (Names{"3", "new.ptree", "old"}));
 }
 
-TEST_F(BuildOnSmallDisk, SaysWhichDirectoryCannotBeWritten) {
+TEST_F(BuildOnSmallDisk, ErrorNamesTheReadOnlyDirectory) {
   const Outcome output = shell(on_small_disk(
       "1M", "mount -o remount,ro small; " + build("mesh.obj -o small/new.ptree") + "; echo $?"));
   EXPECT_EQ(output.output,
@@ -143,7 +143,7 @@ TEST_F(BuildOnSmallDisk, SaysWhichDirectoryCannotBeWritten) {
             "directory that can be written\n3\n");
 }
 
-TEST_F(BuildFaults, ALimitOfFileSizesIsAnErrorOfTheFileThatMeetsIt) {
+TEST_F(BuildFaults, FileSizeLimitIsReportedForTheFileThatReachesIt) {
   ASSERT_EQ(run({"generate", "model.ply", "--triangles", "20K", "--quiet"}).status, 0);
   fs::create_directory("out");
   fs::create_directory("temporary");
@@ -162,7 +162,7 @@ TEST_F(BuildFaults, ALimitOfFileSizesIsAnErrorOfTheFileThatMeetsIt) {
   }
 }
 
-TEST_F(BuildFaults, WorkThatCannotBeKeptIsAnErrorOfItsDirectory) {
+TEST_F(BuildFaults, CheckpointThatCannotBeWrittenIsReported) {
   ASSERT_EQ(run({"generate", "model.ply", "--triangles", "20K", "--quiet"}).status, 0);
   fs::create_directory("out");
   const Outcome limited =
@@ -174,7 +174,7 @@ TEST_F(BuildFaults, WorkThatCannotBeKeptIsAnErrorOfItsDirectory) {
 }
 
 // The page size identifies the build that wrote the file.
-TEST_F(BuildFaults, OfTwoBuildsOfOneFileOneWins) {
+TEST_F(BuildFaults, OneOfTwoConcurrentBuildsWins) {
   ASSERT_EQ(run({"generate", "model.ply", "--triangles", "50K", "--quiet"}).status, 0);
   std::vector<storage::Bytes> expected;
   for (const char* page_bytes : {"4K", "64K"}) {

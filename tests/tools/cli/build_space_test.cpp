@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kMin = "160M";
 
 octree::SpaceNeed foreseen_of(const fs::path& mesh) {
-  const auto size = octree::MeshSize::foresee(mesh);
+  const auto size = octree::MeshSize::estimate(mesh);
   const auto memory = octree::BuildMemory::share(octree::BuildMemory::kMinBytes, 1);
   EXPECT_TRUE(size && memory);
   return octree::SpaceNeed::before_reading(*size, *memory);
@@ -45,7 +45,7 @@ void widen(const fs::path& from, const fs::path& to) {
       << header << wide << text.substr(body + 3 * count * sizeof(float));
 }
 
-class FilesOnDisk : public Command {
+class BuildSpace : public Command {
  protected:
   void expect_foreseen(const fs::path& mesh, const std::string& page_bytes = "64K",
                        bool resume = false) {
@@ -75,7 +75,7 @@ constexpr const char* kTriangleCount = "60K";
 constexpr const char* kTriangleCount = "30K";
 #endif
 
-TEST_F(FilesOnDisk, AreForeseenAndLittleMore) {
+TEST_F(BuildSpace, PredictedSpaceIsEnoughAndLittleMore) {
   for (const char* shape : {"statue", "cylinder", "terrain", "soup"}) {
     ASSERT_EQ(
         run({"generate", "shape.ply", "--shape", shape, "--triangles", kTriangleCount, "--force"})
@@ -91,14 +91,14 @@ TEST_F(FilesOnDisk, AreForeseenAndLittleMore) {
   expect_foreseen("wide.ply", "256K");
 }
 
-TEST_F(FilesOnDisk, OfRealMeshesAreForeseenAndLittleMore) {
+TEST_F(BuildSpace, PredictedSpaceOfRealMeshesIsEnoughAndLittleMore) {
   const char* folder = std::getenv("PLANETREE_DATA");
   if (folder == nullptr) GTEST_SKIP() << "PLANETREE_DATA names no folder of meshes";
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".ply") expect_foreseen(entry.path());
 }
 
-TEST_F(FilesOnDisk, AreReported) {
+TEST_F(BuildSpace, TemporaryBytesAreReported) {
   const auto temporary_bytes = [](const std::vector<std::string>& how) {
     std::vector<std::string> arguments = {"build",   "mesh.obj", "-o",      "new.ptree",
                                           "--force", "--json",   "--quiet", "--memory"};

@@ -29,7 +29,7 @@ class CommandBox : public Command {
   }
 };
 
-TEST_F(CommandBox, RefusesWhatIsNoBox) {
+TEST_F(CommandBox, RefusesMalformedBoxes) {
   for (const char* text : {"", "1", "0,0,0,1,1,1,1", "0,0,0,1,1,", "0,0,0,1,1,nan", "0,0,0,1,1,inf",
                            "0,0,0,1,1,1e999", "1,0,0,0,1,1", "0,0,1,1,1,0", "0 0 0 1 1 1",
                            "0,0,0,1,1,x", "0,0,0,1,1,1 ", " 0,0,0,1,1,1", "0,,0,1,1,1"}) {
@@ -40,7 +40,7 @@ TEST_F(CommandBox, RefusesWhatIsNoBox) {
   }
 }
 
-TEST_F(CommandBox, BuildsWhatTouchesIt) {
+TEST_F(CommandBox, BuildsTheTrianglesThatTouchTheBox) {
   const Json built = build(kSolids, "-1,-1,-1,4,4,4");
   EXPECT_EQ(built["input_triangles"], 1296);
   EXPECT_LT(built["triangles"], 200);
@@ -58,7 +58,7 @@ TEST_F(CommandBox, BuildsWhatTouchesIt) {
   EXPECT_EQ(model->info().region_upper.y, 4);
 }
 
-TEST_F(CommandBox, SaysNothingOfARegionWhereThereIsNone) {
+TEST_F(CommandBox, ReportsNoRegionWithoutABox) {
   ASSERT_EQ(run({"build", kSolids, "-o", "part.ptree", "--quiet"}).status, 0);
   EXPECT_TRUE(inspect()["region"].is_null());
   EXPECT_EQ(run({"inspect", "part.ptree"}).output.find("region"), std::string::npos);
@@ -68,7 +68,7 @@ TEST_F(CommandBox, SaysNothingOfARegionWhereThereIsNone) {
   EXPECT_EQ(model->info().input_triangles, model->info().triangles);
 }
 
-TEST_F(CommandBox, VerifiesWhatItBuilt) {
+TEST_F(CommandBox, FilesOfRegionsVerify) {
   struct Part {
     std::string mesh;
     const char* box;
@@ -85,7 +85,7 @@ TEST_F(CommandBox, VerifiesWhatItBuilt) {
   }
 }
 
-TEST_F(CommandBox, SaysWhySidesAreNotTold) {
+TEST_F(CommandBox, ExplainsUnknownSides) {
   build(kSolids, "-1,-1,-1,4,4,4");
   EXPECT_EQ(inspect({"--why", "5,1,1"})["rule"], "region");
   EXPECT_EQ(inspect({"--why", "5,1,1"})["side"], "unknown");
@@ -99,7 +99,7 @@ TEST_F(CommandBox, SaysWhySidesAreNotTold) {
   EXPECT_NE(run({"inspect", "part.ptree"}).output.find("sides unknown"), std::string::npos);
 }
 
-TEST_F(CommandBox, IsExplained) {
+TEST_F(CommandBox, HelpNamesTheFlag) {
   EXPECT_NE(run({"build", "--help"}).output.find("--box"), std::string::npos);
 }
 

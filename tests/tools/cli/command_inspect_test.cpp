@@ -12,7 +12,7 @@
 namespace planetree::tools {
 namespace {
 
-TEST_F(Command, InspectSaysWhatIsThere) {
+TEST_F(Command, InspectReportsSizesThatAddUp) {
   const Outcome result = run({"inspect", "tree.ptree", "--json", "--levels", "--pages"});
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json report = Json::parse(result.output);
@@ -42,7 +42,7 @@ TEST_F(Command, InspectSaysWhatIsThere) {
   EXPECT_EQ(report["by_page"].size(), report["pages"]);
 }
 
-TEST_F(Command, InspectSaysWhatStreamsMaskPagesHave) {
+TEST_F(Command, InspectListsTheStreamsOfMaskPages) {
   const std::string boxes = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.ptree";
   const Json report = Json::parse(run({"inspect", boxes, "--json", "--pages"}).output);
   std::uint64_t raw = 0, streams = 0;
@@ -63,7 +63,7 @@ TEST_F(Command, InspectSaysWhatStreamsMaskPagesHave) {
   EXPECT_GT(report["lists_of_blocks"], 0);
 }
 
-TEST_F(Command, InspectSaysHowManyBlocksAreInSheets) {
+TEST_F(Command, InspectCountsHeightFields) {
   const std::string samples = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/";
   const auto report = [&](const std::string& file) {
     return Json::parse(run({"inspect", file, "--json"}).output);
@@ -80,7 +80,7 @@ TEST_F(Command, InspectSaysHowManyBlocksAreInSheets) {
       << text;
 }
 
-TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
+TEST_F(Command, InspectReportsWatertightness) {
   const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
   EXPECT_EQ(open["watertight"], false);
   EXPECT_EQ(open["sign_rule"], "winding");
@@ -100,7 +100,7 @@ TEST_F(Command, InspectSaysWhetherTheSurfaceIsWatertight) {
   EXPECT_EQ(closed["first_open_edges"], Json::array());
 }
 
-TEST_F(Command, InspectGoesOnInADamagedFile) {
+TEST_F(Command, InspectContinuesInADamagedFile) {
   flip("tree.ptree", entries_[2].offset);
   const Outcome plain = run({"inspect", "tree.ptree", "--pages"});
   EXPECT_EQ(plain.status, 1);
@@ -115,7 +115,7 @@ TEST_F(Command, InspectGoesOnInADamagedFile) {
   EXPECT_EQ(Json::parse(json.output)["issues"][0]["code"], "PAGE_CHECKSUM");
 }
 
-TEST_F(Command, InspectShowsAPageByItsNames) {
+TEST_F(Command, InspectShowsOnePage) {
   const Outcome result = run({"inspect", "tree.ptree", "--page", "0", "--json"});
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json page = Json::parse(result.output);

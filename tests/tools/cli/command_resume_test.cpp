@@ -23,7 +23,7 @@ class CommandResume : public Command {
     class Watch final : public octree::BuildProgress {
      public:
       void progress(octree::BuildPhase phase, std::uint64_t, std::uint64_t) override {
-        ordered = ordered || phase == octree::BuildPhase::kClosing;
+        ordered = ordered || phase == octree::BuildPhase::kMatching;
       }
       bool ordered = false;
     } watch;
@@ -43,13 +43,13 @@ class CommandResume : public Command {
   }
 };
 
-TEST_F(CommandResume, IsExplained) {
+TEST_F(CommandResume, HelpNamesTheFlag) {
   const std::string help = run({"build", "--help"}).output;
   EXPECT_NE(help.find("--resume"), std::string::npos);
   EXPECT_NE(help.find("OUT.ptree.work"), std::string::npos);
 }
 
-TEST_F(CommandResume, SaysThatThereIsNothingToGoOnWith) {
+TEST_F(CommandResume, ReportsThatThereIsNoCheckpoint) {
   const Outcome result = resume();
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.errors,
@@ -58,7 +58,7 @@ TEST_F(CommandResume, SaysThatThereIsNothingToGoOnWith) {
   EXPECT_FALSE(fs::exists("new.ptree.work"));
 }
 
-TEST_F(CommandResume, GoesOnWithWhatWasLeft) {
+TEST_F(CommandResume, ResumesFromTheCheckpoint) {
   interrupt();
   const Outcome result = resume({"--json"});
   EXPECT_EQ(result.status, 0);
@@ -70,7 +70,7 @@ TEST_F(CommandResume, GoesOnWithWhatWasLeft) {
   EXPECT_FALSE(fs::exists("new.ptree.work"));
 }
 
-TEST_F(CommandResume, SaysWhyItDoesNotGoOn) {
+TEST_F(CommandResume, ReportsWhyTheCheckpointIsUnusable) {
   interrupt();
   write_mesh("mesh.obj", kSide, "\n");
   const Outcome result = resume();
@@ -84,7 +84,7 @@ TEST_F(CommandResume, SaysWhyItDoesNotGoOn) {
   EXPECT_EQ(quiet.errors, "");
 }
 
-TEST_F(CommandResume, IsOneProcessesAtATime) {
+TEST_F(CommandResume, RefusesASecondProcess) {
   const auto other = storage::WorkDirectory::open("new.ptree.work");
   ASSERT_TRUE(other);
   const Outcome result = resume();
@@ -106,7 +106,7 @@ TEST_F(CommandResume, FollowsNoLinks) {
   EXPECT_TRUE(fs::is_empty("precious"));
 }
 
-TEST_F(CommandResume, BlamesTheInputForWhatIsWrongWithIt) {
+TEST_F(CommandResume, ReportsErrorsOfTheInputAsSuch) {
   const Outcome result = run({"build", "none.obj", "-o", "new.ptree", "--resume"});
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.errors,

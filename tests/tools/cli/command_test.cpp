@@ -21,7 +21,7 @@ struct Refused {
 
 // People and scripts see these lines: each names the file, the position in it, the cause and the
 // remedy.
-TEST_F(Command, RefusesInOneLine) {
+TEST_F(Command, EveryErrorIsOneLine) {
   write("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 7\n");
   write("short.csv", "x,y,z\n1,2,3\n1,2\n");
   write("word.csv", "1,2,3\n1,two,3\n");
@@ -127,7 +127,7 @@ TEST_F(Command, RefusesInOneLine) {
   EXPECT_FALSE(fs::exists("new.ptree"));
 }
 
-TEST_F(Command, ExplainsItself) {
+TEST_F(Command, HelpListsSubcommandsAndFlags) {
   const Outcome all = run({"--help"});
   EXPECT_EQ(all.status, 0);
   for (const char* subcommand : {"generate", "build", "query", "inspect", "verify"}) {
@@ -173,7 +173,7 @@ TEST_F(Command, BuildsTheSameFileWithLittleMemory) {
   EXPECT_TRUE(fs::is_empty("spilled"));
 }
 
-TEST_F(Command, BuildSaysHowLongItsPhasesTook) {
+TEST_F(Command, BuildReportsSecondsByPhase) {
   const Outcome result = run({"build", "mesh.obj", "-o", "new.ptree", "--json"});
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json report = Json::parse(result.output);
@@ -185,7 +185,7 @@ TEST_F(Command, BuildSaysHowLongItsPhasesTook) {
   EXPECT_LE(sum, report["seconds"].get<double>());
 }
 
-TEST_F(Command, BuildNamesTheFirstRecordSetAside) {
+TEST_F(Command, BuildNamesTheFirstSkippedRecord) {
   write_mesh("holes.obj", 3, "f 1 2 99\nf 1 2 3 98\n");
   const Outcome result = run({"build", "holes.obj", "-o", "holes.ptree", "--json"});
   EXPECT_EQ(result.status, 0);
@@ -212,7 +212,7 @@ TEST_F(Command, QueryAnswersInTheOrderOfTheInput) {
   EXPECT_TRUE(lines[4].ends_with(",exact"));
 }
 
-TEST_F(Command, QueryAnswersWhatComesBeforeABadLine) {
+TEST_F(Command, QueryAnswersThePointsBeforeABadLine) {
   const Outcome result = run({"query", "tree.ptree"}, "x,y,z\n1,1,1\n2,2,2\n3;3;3\n4,4,4\n");
   EXPECT_EQ(result.status, 1);
   EXPECT_EQ(lines_of(result.output).size(), 3u);
@@ -229,7 +229,7 @@ TEST_F(Command, QueryObeysItsLimits) {
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
 }
 
-TEST_F(Command, QueryTellsTheSideAlone) {
+TEST_F(Command, QueryContainsGivesSidesOnly) {
   write("solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   build_sample("solid.obj", "solid.ptree");
   const Outcome result = run({"query", "solid.ptree", "--contains", "--json"},
@@ -245,7 +245,7 @@ TEST_F(Command, QueryTellsTheSideAlone) {
                   .output.ends_with("1,1,1,outside,exact\n"));
 }
 
-TEST_F(Command, QuerySumsUpOnStandardError) {
+TEST_F(Command, QueryReportsOnStandardError) {
   const Outcome result =
       run({"query", "tree.ptree", "--json", "--format", "jsonl", "--wait-limit", "60000"},
           "1,1,1\ninf,1,1\n");
@@ -261,7 +261,7 @@ TEST_F(Command, QuerySumsUpOnStandardError) {
   EXPECT_EQ(Json::parse(lines[1])["x"], nullptr);
 }
 
-TEST_F(Command, QueryGivesTheSameWhateverTheInputFormat) {
+TEST_F(Command, QueryGivesTheSameForEveryInputFormat) {
   write("points.csv", "id,z,y,x\n7,3,2,1\n8,6,5,4.5\n");
   write("points.ply",
         "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\nproperty "
@@ -274,7 +274,7 @@ TEST_F(Command, QueryGivesTheSameWhateverTheInputFormat) {
     EXPECT_EQ(run({"query", "tree.ptree", name}).output, expected) << name;
 }
 
-TEST_F(Command, QueryTellsOfPagesItCannotRead) {
+TEST_F(Command, QueryReportsUnreadablePages) {
   flip("tree.ptree", entries_[1].offset);
   std::string points;
   for (int i = 0; i <= 14; ++i) points += std::to_string(i) + "," + std::to_string(i) + ",0.5\n";
@@ -309,24 +309,24 @@ TEST_F(Command, ReportsAFullDevice) {
 
 #ifdef PLANETREE_COMMAND
 // The second point comes later than progress stays silent.
-TEST_F(Command, TellsProgramsOfItsProgressUnlessQuiet) {
+TEST_F(Command, WritesProgressAsJsonUnlessQuiet) {
   const std::string query = std::string("{ echo 1,1,1; sleep 5.2; echo 2,2,2; } | ") +
                             PLANETREE_COMMAND + " query tree.ptree --json ";
   const std::string line =
       query + "--quiet 2>quiet.txt >quiet.csv & " + query + "2>told.txt >told.csv; wait";
   ASSERT_EQ(std::system(line.c_str()), 0);
-  const auto certain = lines_of(text_of("told.txt")), quiet = lines_of(text_of("quiet.txt"));
-  ASSERT_EQ(certain.size(), 2u);
-  const Json event = Json::parse(certain[0]);
+  const auto loud = lines_of(text_of("told.txt")), quiet = lines_of(text_of("quiet.txt"));
+  ASSERT_EQ(loud.size(), 2u);
+  const Json event = Json::parse(loud[0]);
   EXPECT_EQ(event["phase"], "answering");
   EXPECT_EQ(event["done"], 2);
   EXPECT_EQ(event["total"], nullptr);
-  EXPECT_EQ(Json::parse(certain[1])["points"], 2);
+  EXPECT_EQ(Json::parse(loud[1])["points"], 2);
   ASSERT_EQ(quiet.size(), 1u);
   EXPECT_EQ(Json::parse(quiet[0])["points"], 2);
 }
 
-TEST_F(Command, EndsQuietlyWhenItsReaderHasSeenEnough) {
+TEST_F(Command, EndsQuietlyWhenItsOutputIsClosed) {
   std::string points;
   for (int i = 0; i < 5000; ++i) points += "1,1,1\n";
   write("points.csv", points);

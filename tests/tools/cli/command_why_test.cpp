@@ -20,7 +20,7 @@ Json why(const std::string& file, const std::string& point) {
   return Json::parse(result.output);
 }
 
-TEST(Why, NamesTheRuleThatToldTheSide) {
+TEST(Why, NamesTheRuleThatDecidedTheSide) {
   struct Case {
     const char* point;
     const char* side;
@@ -36,7 +36,7 @@ TEST(Why, NamesTheRuleThatToldTheSide) {
   }
 }
 
-TEST(Why, SaysWhatAnyAnswerRestsOn) {
+TEST(Why, AgreesWithTheAnswersOfAProbe) {
   const auto model = Model::open(kBoxes);
   ASSERT_TRUE(model);
   auto probe = Probe::create(*model);
@@ -58,21 +58,21 @@ TEST(Why, SaysWhatAnyAnswerRestsOn) {
   EXPECT_GT(corners, 10u);
 }
 
-TEST(Why, SaysOfAnOpenSurfaceItsWindingNumber) {
+TEST(Why, ReportsTheWindingNumberOfAnOpenSurface) {
   const Json answer = why(kHeightField, "0.5,0.5,0.1");
   EXPECT_EQ(answer["rule"], "winding_number");
   EXPECT_LT(answer["winding_number"]["error"], 0.5);
   EXPECT_FALSE(answer.contains("cell"));
 }
 
-TEST(Why, TellsPeopleTheSame) {
+TEST(Why, PrintsTheRuleAsText) {
   const Outcome result = run({"inspect", kBoxes, "--why", "13,-5,6"});
   EXPECT_EQ(result.status, 0);
   EXPECT_NE(result.output.find("inside: cell"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("of the mask is inverted"), std::string::npos) << result.output;
 }
 
-TEST(Why, RefusesWhatIsNoPoint) {
+TEST(Why, RefusesMalformedPoints) {
   for (const char* text : {"1,2", "1,2,3,4", "1;2;3", "nan,0,0", "1,2,inf", "", "1,2,x"}) {
     EXPECT_FALSE(parse_point(text)) << text;
     EXPECT_EQ(run({"inspect", kBoxes, "--why", text}).status, 2) << text;

@@ -12,7 +12,7 @@ constexpr const char* kTriangles = "200K";
 constexpr const char* kTriangles = "20K";  // builds are slow here
 #endif
 
-TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElseButWorkToResume) {
+TEST(KilledBuild, LeavesTheOldOrTheCompleteFileAndAtMostACheckpoint) {
   KilledBuilds builds(PLANETREE_COMMAND, 1);
   if (!builds.has_unnamed_files()) GTEST_SKIP() << "this file system has no files without names";
   ASSERT_EQ(builds.prepare(kTriangles), "");
@@ -20,7 +20,7 @@ TEST(KilledBuild, LeavesTheOldFileOrTheWholeNewOneAndNothingElseButWorkToResume)
   unsigned killed = 0, resumable = 0;
   for (unsigned i = 0; i < kCount; ++i) {
     const bool resume = i % 4 == i / 4 % 2;  // both with and without a file to replace
-    const KilledBuilds::Left left = builds.strike(i, kCount, resume);
+    const KilledBuilds::Left left = builds.kill_one(i, kCount, resume);
     EXPECT_EQ(left.wrong, "");
     killed += left.killed ? 1 : 0;
     resumable += left.work ? 1 : 0;

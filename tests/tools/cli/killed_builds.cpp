@@ -47,8 +47,8 @@ std::string KilledBuilds::prepare(const std::string& triangles) {
     if (status_of(start(false, resume)) != 0) return "the model cannot be built";
     build_times_[resume ? 1 : 0] = std::chrono::steady_clock::now() - started;
     const storage::Bytes built = storage::read_bytes(output_);
-    if (resume && built != whole_) return "--resume builds another file";
-    whole_ = built;
+    if (resume && built != complete_) return "--resume builds another file";
+    complete_ = built;
     fs::remove(output_);
   }
   return {};
@@ -74,7 +74,7 @@ int KilledBuilds::start(bool replace, bool resume) const {
   return spawn(command_, arguments);
 }
 
-KilledBuilds::Left KilledBuilds::strike(unsigned which, unsigned parts, bool resume) {
+KilledBuilds::Left KilledBuilds::kill_one(unsigned which, unsigned parts, bool resume) {
   const bool replace = which % 2 == 0;
   fs::remove(output_);
   if (replace) storage::write_bytes(output_, old_);
@@ -88,7 +88,7 @@ KilledBuilds::Left KilledBuilds::strike(unsigned which, unsigned parts, bool res
   left.killed = killed;
   if (resume && killed) left.wrong += go_on();
   if (!left.killed && status != 0) left.wrong += "; the build failed";
-  if (!left.killed && !left.whole) left.wrong += "; the build was done, but not the file";
+  if (!left.killed && !left.complete) left.wrong += "; the build was done, but not the file";
   if (!left.wrong.empty())
     left.wrong = "killed after " + std::to_string(moment) + " of its time" + left.wrong;
   return left;
@@ -98,13 +98,13 @@ KilledBuilds::Left KilledBuilds::look(bool replace, bool resume) const {
   Left left;
   const bool there = fs::exists(fs::symlink_status(output_));
   const storage::Bytes found = there ? storage::read_bytes(output_) : storage::Bytes();
-  left.whole = there && found == whole_;
-  if (!left.whole && (there != replace || (there && found != old_)))
+  left.complete = there && found == complete_;
+  if (!left.complete && (there != replace || (there && found != old_)))
     left.wrong += "; the destination is neither as before nor whole";
   for (const std::string& name : output_folder_.names()) {
     if (name == output_.filename()) continue;
     const fs::path path = output_folder_ / name.c_str();
-    left.temporary_name = replace && !left.whole && storage::read_bytes(path) == whole_;
+    left.temporary_name = replace && !left.complete && storage::read_bytes(path) == complete_;
     if (!left.temporary_name) left.wrong += "; " + name + " is left beside the destination";
     fs::remove(path);
   }
@@ -122,7 +122,7 @@ std::string KilledBuilds::go_on() const {
   std::string wrong;
   if (status_of(start(fs::exists(output_), true)) != 0)
     wrong += "; it cannot be gone on with";
-  else if (storage::read_bytes(output_) != whole_)
+  else if (storage::read_bytes(output_) != complete_)
     wrong += "; gone on with it is another file";
   if (output_folder_.names().size() > 1) wrong += "; more than the file is left then";
   for (const std::string& name : spill_folder_.names()) {

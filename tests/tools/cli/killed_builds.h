@@ -28,8 +28,8 @@ class KilledBuilds {
 
   /// Files and processes left by a killed build.
   struct Left {
-    bool killed = false;  ///< killed before it was done
-    bool whole = false;   ///< the destination is the complete new file
+    bool killed = false;    ///< killed before it was done
+    bool complete = false;  ///< the destination is the complete new file
     /// A complete file has a temporary name of its own between the two calls that replace an old
     /// one.
     bool temporary_name = false;
@@ -40,7 +40,7 @@ class KilledBuilds {
   /// build replaces an old file.
   /// resume  keep a checkpoint; after the kill, the build is resumed and must give the same file
   /// and leave nothing beside it
-  Left strike(unsigned which, unsigned parts, bool resume);
+  Left kill_one(unsigned which, unsigned parts, bool resume);
 
  private:
   int start(bool replace, bool resume) const;
@@ -54,7 +54,7 @@ class KilledBuilds {
   storage::TemporaryDirectory spill_folder_;
   const std::filesystem::path output_ = output_folder_ / "model.ptree";
   const storage::Bytes old_ = storage::Bytes(17, std::byte{42});
-  storage::Bytes whole_;
+  storage::Bytes complete_;
   std::array<std::chrono::duration<double>, 2> build_times_{};  // without and with --resume
 };
 

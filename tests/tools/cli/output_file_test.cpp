@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A directory for each test, removed afterwards.
-class GenerateFile : public testing::Test {
+class OutputFileTest : public testing::Test {
  protected:
   void SetUp() override {
     std::string pattern = testing::TempDir() + "planetree-XXXXXX";
@@ -45,7 +45,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text));
 }
 
-TEST_F(GenerateFile, AppearsOnlyWhenCommitted) {
+TEST_F(OutputFileTest, AppearsOnlyWhenCommitted) {
   auto file = OutputFile::create(path(), false);
   ASSERT_TRUE(file);
   ASSERT_TRUE(file->write(bytes_of("one ")));
@@ -57,7 +57,7 @@ TEST_F(GenerateFile, AppearsOnlyWhenCommitted) {
   EXPECT_EQ(file_count(), 1U);
 }
 
-TEST_F(GenerateFile, VanishesWhenAbandoned) {
+TEST_F(OutputFileTest, VanishesWhenAbandoned) {
   put(path("old"), "old");
   for (const char* name : {"new", "old"}) {
     auto file = OutputFile::create(path(name), true);
@@ -69,7 +69,7 @@ TEST_F(GenerateFile, VanishesWhenAbandoned) {
   EXPECT_EQ(content(path("old")), "old");
 }
 
-TEST_F(GenerateFile, RefusesToReplaceUnlessTold) {
+TEST_F(OutputFileTest, RefusesToReplaceUnlessAllowed) {
   put(path(), "old");
   const auto refused = OutputFile::create(path(), false);
   ASSERT_FALSE(refused);
@@ -82,7 +82,7 @@ TEST_F(GenerateFile, RefusesToReplaceUnlessTold) {
   EXPECT_EQ(file_count(), 1U);
 }
 
-TEST_F(GenerateFile, RefusesToReplaceWhatAppearedMeanwhile) {
+TEST_F(OutputFileTest, RefusesToReplaceWhatAppearedMeanwhile) {
   auto file = OutputFile::create(path(), false);
   ASSERT_TRUE(file);
   put(path(), "other");
@@ -92,7 +92,7 @@ TEST_F(GenerateFile, RefusesToReplaceWhatAppearedMeanwhile) {
   EXPECT_EQ(content(path()), "other");
 }
 
-TEST_F(GenerateFile, KeepsALinkAndReplacesItsTarget) {
+TEST_F(OutputFileTest, KeepsALinkAndReplacesItsTarget) {
   put(path("target"), "old");
   fs::create_symlink("target", path("link"));
   auto file = OutputFile::create(path("link"), true);
@@ -103,7 +103,7 @@ TEST_F(GenerateFile, KeepsALinkAndReplacesItsTarget) {
   EXPECT_EQ(content(path("target")), "new");
 }
 
-TEST_F(GenerateFile, TakesTheLongestNameAndTheUsualRights) {
+TEST_F(OutputFileTest, AcceptsTheLongestNameAndUsesTheDefaultMode) {
   const std::string name(255, 'n');
   const mode_t mask = umask(022);
   auto file = OutputFile::create(path(name.c_str()), false);
@@ -115,7 +115,7 @@ TEST_F(GenerateFile, TakesTheLongestNameAndTheUsualRights) {
   EXPECT_EQ(status.st_mode & 0777U, 0644U);
 }
 
-TEST_F(GenerateFile, KeepsTwoAtOnceApart) {
+TEST_F(OutputFileTest, TwoFilesDoNotInterfere) {
   auto one = OutputFile::create(path("one"), false);
   auto two = OutputFile::create(path("two"), false);
   ASSERT_TRUE(one && two);
@@ -124,7 +124,7 @@ TEST_F(GenerateFile, KeepsTwoAtOnceApart) {
   EXPECT_EQ(content(path("one")) + content(path("two")), "12");
 }
 
-TEST_F(GenerateFile, TellsWhoHasToAct) {
+TEST_F(OutputFileTest, ErrorCodesNameTheCause) {
   const auto no_folder = OutputFile::create(path("absent/model.ply"), false);
   ASSERT_FALSE(no_folder);
   EXPECT_EQ(no_folder.error().code, ErrorCode::kNotFound);
@@ -136,7 +136,7 @@ TEST_F(GenerateFile, TellsWhoHasToAct) {
   EXPECT_EQ(long_name.error().code, ErrorCode::kBadArgument);
 }
 
-TEST_F(GenerateFile, ReportsAFullDevice) {
+TEST_F(OutputFileTest, ReportsAFullDevice) {
   auto file = OutputFile::create("/dev/full", false);
   ASSERT_TRUE(file);
   ASSERT_TRUE(file->reserve(1000));
@@ -166,7 +166,7 @@ class FileSizeLimit {
   void (*handler_)(int);
 };
 
-TEST_F(GenerateFile, StopsWhereThereIsNoRoomAndLeavesNothing) {
+TEST_F(OutputFileTest, FailsWhereSpaceRunsOutAndLeavesNothing) {
   const std::vector<std::byte> kilobyte(1000);
   std::optional<Error> error;
   {
@@ -183,7 +183,7 @@ TEST_F(GenerateFile, StopsWhereThereIsNoRoomAndLeavesNothing) {
   EXPECT_EQ(file_count(), 0U);
 }
 
-TEST_F(GenerateFile, NoticesBeforehandThatThereIsNoRoom) {
+TEST_F(OutputFileTest, ReserveFailsWhereSpaceIsMissing) {
   auto file = OutputFile::create(path(), false);
   ASSERT_TRUE(file);
   EXPECT_TRUE(file->reserve(0));
@@ -193,7 +193,7 @@ TEST_F(GenerateFile, NoticesBeforehandThatThereIsNoRoom) {
   EXPECT_NE(std::string(space.error().text).find("4611686018427387904"), std::string::npos);
 }
 
-TEST_F(GenerateFile, ReservesWithoutGrowingTheFile) {
+TEST_F(OutputFileTest, ReservesWithoutGrowingTheFile) {
   auto file = OutputFile::create(path(), false);
   ASSERT_TRUE(file);
   ASSERT_TRUE(file->reserve(100'000));

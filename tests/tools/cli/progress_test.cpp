@@ -70,7 +70,7 @@ TEST(Progress, WritesALineEveryFiveSeconds) {
             "sorting   50%  100 cells/s  0:10 left\n");
 }
 
-TEST(Progress, LeavesNoLineOfShortPhases) {
+TEST(Progress, WritesNoLineForShortPhases) {
   Recorder recorder(Progress::Style::kLines);
   for (const char* phase : {"reading", "sorting", "writing"}) {
     recorder.progress().start(phase, 10, "cells");
@@ -92,7 +92,7 @@ TEST(Progress, RedrawsTheBarFiveTimesASecond) {
   EXPECT_EQ(recorder.count('\n'), 0);
 }
 
-TEST(Progress, FillsTheBarWithinTheTerminal) {
+TEST(Progress, BarFitsTheTerminal) {
   Recorder recorder(Progress::Style::kBar);
   recorder.progress().start("sorting", 1000, "cells");
   recorder.pass(seconds(1));
@@ -103,7 +103,7 @@ TEST(Progress, FillsTheBarWithinTheTerminal) {
   EXPECT_EQ(line.size(), 79U) << "where the width is unknown it is taken for 80";
 }
 
-TEST(Progress, WipesTheBarOnceAtTheEnd) {
+TEST(Progress, ClearsTheBarOnceAtTheEnd) {
   Recorder recorder(Progress::Style::kBar);
   recorder.progress().start("sorting", 1000, "cells");
   recorder.progress().add(500);
@@ -114,7 +114,7 @@ TEST(Progress, WipesTheBarOnceAtTheEnd) {
   EXPECT_EQ(recorder.text().size(), size);
 }
 
-TEST(Progress, CutsTooLongALine) {
+TEST(Progress, TruncatesLongLines) {
   Recorder recorder(Progress::Style::kBar);
   recorder.progress().start(std::string(200, 'p'), 1000, "cells");
   recorder.progress().add(500);
@@ -137,7 +137,7 @@ TEST(Progress, SurvivesMoreStepsThanItsTotal) {
   EXPECT_EQ(recorder.text(), "reading  100%  2.0 faces/s  0:00 left\n");
 }
 
-TEST(Progress, ShowsHoursAndAStandstill) {
+TEST(Progress, ShowsHoursAndAStall) {
   Recorder recorder(Progress::Style::kLines);
   recorder.progress().start("sorting", 100'000, "cells");
   recorder.pass(seconds(10));
@@ -148,7 +148,7 @@ TEST(Progress, ShowsHoursAndAStandstill) {
   EXPECT_TRUE(recorder.text().ends_with("    1%  10 cells/s  2:45:00 left\n"));
 }
 
-TEST(Progress, TellsProgramsEveryFiveSecondsInJson) {
+TEST(Progress, WritesJsonEveryFiveSeconds) {
   Recorder recorder(Progress::Style::kJson);
   recorder.progress().start("matching \"edges\"", 2000, "parts");
   for (int i = 0; i < 120; ++i) {
@@ -163,7 +163,7 @@ TEST(Progress, TellsProgramsEveryFiveSecondsInJson) {
             "\"rate_per_second\":100.0,\"remaining_seconds\":10.0}\n");
 }
 
-TEST(Progress, TellsProgramsWhatIsNotKnownAsNull) {
+TEST(Progress, WritesUnknownNumbersAsNull) {
   Recorder recorder(Progress::Style::kJson);
   recorder.progress().start("reading", 0, "faces");
   recorder.pass(seconds(10));
@@ -178,7 +178,7 @@ TEST(Progress, TellsProgramsWhatIsNotKnownAsNull) {
             "\"rate_per_second\":0.0,\"remaining_seconds\":null}\n");
 }
 
-TEST(Progress, LosesNoStepOfManyThreads) {
+TEST(Progress, CountsStepsOfManyThreads) {
   Recorder recorder(Progress::Style::kLines);
   recorder.progress().start("sorting", 0, "cells");
   std::vector<std::thread> threads;

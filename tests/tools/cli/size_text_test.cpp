@@ -44,7 +44,7 @@ TEST(SizeText, ReadsBinaryBytes) {
   EXPECT_EQ(bytes_of("2T"), 2'199'023'255'552U);
 }
 
-TEST(SizeText, RefusesWhatIsNoWholeNumber) {
+TEST(SizeText, RefusesMalformedNumbers) {
   for (const char* text :
        {"",   "K",   ".5M", "1.",  "1.K",  "1.5",   "1.0001K", "-1",    "+1",  " 1",
         "1 ", "1 K", "1KB", "1e6", "0x10", "1,000", "1P",      "1..5M", "nan", "1K2"}) {
@@ -57,7 +57,7 @@ TEST(SizeText, RefusesWhatIsNoWholeNumber) {
   EXPECT_FALSE(parse_count(std::string_view("1\0", 2)));
 }
 
-TEST(SizeText, RefusesWhatOverflows) {
+TEST(SizeText, RefusesOverflow) {
   EXPECT_FALSE(parse_count("18446744073709551616"));
   EXPECT_FALSE(parse_count("99999999999999999999999999"));
   EXPECT_FALSE(parse_count("18446745T"));
@@ -67,7 +67,7 @@ TEST(SizeText, RefusesWhatOverflows) {
   EXPECT_EQ(bytes_of("16777215T"), 16'777'215ULL << 40);
 }
 
-TEST(SizeText, QuotesTheTextAndTheRemedy) {
+TEST(SizeText, ErrorQuotesTheTextAndTheRemedy) {
   const auto count = parse_count("many");
   ASSERT_FALSE(count);
   const std::string text = count.error().text;
@@ -78,7 +78,7 @@ TEST(SizeText, QuotesTheTextAndTheRemedy) {
   EXPECT_NE(std::string(endless.error().text).find("1.5M"), std::string::npos);
 }
 
-TEST(SizeText, WritesWhatPeopleRead) {
+TEST(SizeText, FormatsCountsAndBytes) {
   EXPECT_EQ(grouped_count(0), "0");
   EXPECT_EQ(grouped_count(999), "999");
   EXPECT_EQ(grouped_count(1000), "1,000");

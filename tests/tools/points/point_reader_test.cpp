@@ -64,7 +64,7 @@ void expect_points(const Reading& reading, const std::vector<std::vector<double>
   }
 }
 
-TEST_F(Points, ReadCsvHoweverItIsWritten) {
+TEST_F(Points, ReadCsvInAllItsForms) {
   const std::vector<std::vector<double>> expected = {{1, 2, 3}, {-4, 5.5, 6e3}, {7, 8, 9}};
   expect_points(read("a.csv", "1,2,3\n-4,5.5,6e3\n7,8,9\n"), expected);
   expect_points(read("b.csv",
@@ -78,14 +78,14 @@ TEST_F(Points, ReadCsvHoweverItIsWritten) {
   expect_points(read("g.csv", "x,y,z"), {});
 }
 
-TEST_F(Points, PassOnWhatIsNotFinite) {
+TEST_F(Points, PassOnNonFiniteNumbers) {
   const Reading reading = read("a.csv", "nan,NaN,inf\n-inf,1e999,0\n");
   ASSERT_EQ(reading.points.size(), 2u);
   EXPECT_TRUE(std::isnan(reading.points[0].x));
   EXPECT_EQ(reading.points[1].y, HUGE_VAL);
 }
 
-TEST_F(Points, NameTheLineThatIsWrong) {
+TEST_F(Points, ErrorsNameTheLine) {
   EXPECT_EQ(read("a.csv", "1,2,3\n\n1,2,\n").error,
             "line 3: '' is not a number; give x,y,z, one point a line");
   EXPECT_EQ(read("b.csv", "1,2,x\n").error,
@@ -99,7 +99,7 @@ TEST_F(Points, NameTheLineThatIsWrong) {
             "line 2 is longer than 65536 bytes; give one point a line");
 }
 
-TEST_F(Points, DeliverWhatComesBeforeAnError) {
+TEST_F(Points, DeliverThePointsBeforeAnError) {
   for (const std::size_t piece : {1u, 2u, 3u, 4u, 100u}) {
     const Reading reading = read("a.csv", "1,2,3\n4,5,6\n7,8,9\nx,0,0\n1,1,1\n", piece);
     EXPECT_EQ(reading.points.size(), 3u);
@@ -169,7 +169,7 @@ TEST_F(Points, RefuseDamagedPly) {
   EXPECT_NE(read("e.ply", binary + "123").error.find("middle of its"), std::string::npos);
 }
 
-TEST_F(Points, RefuseWhatIsNoFile) {
+TEST_F(Points, RefuseMissingFilesAndDirectories) {
   EXPECT_FALSE(open_points((folder_ / "none").string(), stdin));
   const auto folder = open_points((folder_ / ".").string(), stdin);
   Vec3 point;

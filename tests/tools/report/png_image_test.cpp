@@ -73,7 +73,7 @@ TEST_F(PngImageTest, StartsInOneColour) {
   EXPECT_EQ(image.at(0, 0).blue, 30);
 }
 
-TEST_F(PngImageTest, HoldsThePictureThatCompressesWorst) {
+TEST_F(PngImageTest, WritesAnIncompressibleImage) {
   PngImage image(500, 400);
   std::uint32_t state = 1;
   for (std::uint32_t row = 0; row < 400; ++row) {
@@ -92,7 +92,7 @@ TEST_F(PngImageTest, HoldsThePictureThatCompressesWorst) {
   EXPECT_TRUE(bytes.ends_with(std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12)));
 }
 
-TEST_F(PngImageTest, FailsWithoutATrace) {
+TEST_F(PngImageTest, FailsWithoutLeavingAFile) {
   const PngImage image = pattern(8, 8);
   const auto no_folder = image.write(folder_ / "absent/image.png", true);
   ASSERT_FALSE(no_folder);

@@ -87,7 +87,7 @@ TEST(AnswerWriter, WritesRawNumbers) {
   EXPECT_EQ(numbers[13], 12345678901234.0);
 }
 
-TEST(AnswerWriter, HasAWordForEverything) {
+TEST(AnswerWriter, HasAWordForEveryEnumerator) {
   std::set<std::string_view> words;
   for (std::size_t i = 0; i < kStatusCount; ++i) words.insert(status_word(static_cast<Status>(i)));
   EXPECT_EQ(words, (std::set<std::string_view>{"exact", "within_error", "degraded",
@@ -99,7 +99,7 @@ TEST(AnswerWriter, HasAWordForEverything) {
   EXPECT_EQ(feature_word(Feature::kVertex), "vertex");
 }
 
-TEST(Octcode, IsReadAsItIsShown) {
+TEST(Octcode, ParsesTheTextItIsShownAs) {
   for (const unsigned bits : {0u, 1u, 5u, 23u, 56u, 57u}) {
     const std::uint64_t octcode =
         octree::octcode_of_prefix(octree::morton_code(0x5a5a5, 0x12345, 0x7ffff), bits);
@@ -113,7 +113,7 @@ TEST(Octcode, IsReadAsItIsShown) {
   EXPECT_TRUE(OctcodeQuery::parse("0x1040000000000001")->matches(0x1040000000000001));
 }
 
-TEST(Octcode, RefusesWhatIsNone) {
+TEST(Octcode, RefusesMalformedOctcodes) {
   for (const char* text : {"", "0x", "0xg", "0x11111111111111111", "1:2:3", "1:2:3:", "1:2:3:4:5",
                            "20:0:0:0", "-1:0:0:0", "1:2:3:4+3", "1:2:3:4+", "a:b:c:d", "1;2;3;4"})
     EXPECT_FALSE(OctcodeQuery::parse(text)) << text;
@@ -152,7 +152,7 @@ TEST(SliceImage, ShowsTheSurface) {
   EXPECT_LT(slice->least, slice->pixel_length);
 }
 
-TEST(FileDigest, IsThePublishedFunction) {
+TEST(FileDigest, IsSha256) {
   storage::TemporaryDirectory folder;
   std::ofstream(folder / "abc") << "abc";
   const auto digest = sha256_of_file(folder / "abc");
@@ -169,7 +169,7 @@ TEST(Issue, HasANameForEveryCode) {
 }
 
 // Every code is documented.
-TEST(Issue, IsDocumented) {
+TEST(Issue, EveryCodeIsDocumented) {
   std::ifstream stream(std::string(PLANETREE_SOURCE_DIR) + "/format-spec/ISSUES.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   for (std::size_t i = 0; i < kIssueCodeCount; ++i) {
@@ -186,7 +186,7 @@ TEST(ErrorLine, IsOneLineWhateverTheName) {
   EXPECT_EQ(error_line("a", error), "planetree: a: at byte 4096: it is wrong; mend it\n");
 }
 
-TEST(PagesLost, NamesWhatWasLostFirst) {
+TEST(PagesLost, ReportsUnreadablePagesBeforeTimeouts) {
   Stats stats;
   EXPECT_EQ(pages_lost(stats), std::nullopt);
   stats.waits_given_up = 3;
@@ -202,7 +202,7 @@ TEST(PagesLost, NamesWhatWasLostFirst) {
   EXPECT_TRUE(std::string(unreadable->text).starts_with("1 of its pages cannot be read, so 5 "));
 }
 
-TEST(ExitStatus, TellsWhoHasToAct) {
+TEST(ExitStatus, SeparatesDataCommandLineAndMachine) {
   EXPECT_EQ(exit_status(ErrorCode::kBadArgument), 2);
   EXPECT_EQ(exit_status(ErrorCode::kNotFound), 2);
   EXPECT_EQ(exit_status(ErrorCode::kAlreadyExists), 2);

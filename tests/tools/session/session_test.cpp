@@ -19,7 +19,7 @@ double distance_between(const Vec3& a, const Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-class TracedAccess : public Command {
+class SessionTest : public Command {
  protected:
   std::vector<Vec3> path(TouchMotion motion, std::size_t ticks = 3000) {
     const auto model = Model::open("tree.ptree");
@@ -45,14 +45,14 @@ class TracedAccess : public Command {
   double diagonal_ = 0;
 };
 
-TEST_F(TracedAccess, GlidesAndScratchesByStepsOfAsMuchAsItSays) {
+TEST_F(SessionTest, StepsOfGlideAndScratchHaveTheStatedLength) {
   const double gliding = longest_step(path(TouchMotion::kGlide));
   EXPECT_NEAR(gliding, 2e-4 * diagonal_, 1e-9 * diagonal_);
   const double scratching = longest_step(path(TouchMotion::kScratch));
   EXPECT_NEAR(scratching, 1e-3 * diagonal_, 1e-9 * diagonal_);
 }
 
-TEST_F(TracedAccess, KeepsToTheSurface) {
+TEST_F(SessionTest, ScratchStaysOnTheSurface) {
   const std::vector<Vec3> tips = path(TouchMotion::kScratch);
   const auto model = Model::open("tree.ptree");
   auto probe = Probe::create(*model);
@@ -60,7 +60,7 @@ TEST_F(TracedAccess, KeepsToTheSurface) {
   EXPECT_GT(distance_between(tips.front(), tips.back()), 0.01 * diagonal_);
 }
 
-TEST_F(TracedAccess, TeleportsEveryHundredTicks) {
+TEST_F(SessionTest, TeleportsEveryHundredTicks) {
   const std::vector<Vec3> tips = path(TouchMotion::kTeleport);
   std::size_t jumps = 0;
   for (std::size_t i = 1; i < tips.size(); ++i) {
@@ -71,14 +71,14 @@ TEST_F(TracedAccess, TeleportsEveryHundredTicks) {
   EXPECT_GT(jumps, 20u);
 }
 
-TEST_F(TracedAccess, GoesTheSamePathAgain) {
+TEST_F(SessionTest, PathIsRepeatable) {
   const std::vector<Vec3> once = path(TouchMotion::kGlide), again = path(TouchMotion::kGlide);
   ASSERT_EQ(once.size(), again.size());
   for (std::size_t i = 0; i < once.size(); ++i)
     ASSERT_EQ(distance_between(once[i], again[i]), 0) << i;
 }
 
-TEST_F(TracedAccess, ReportsASession) {
+TEST_F(SessionTest, ReportsASession) {
   for (const std::string motion : {"glide", "scratch", "teleport"}) {
     const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "500", "--path",
                                  motion, "--cold", "--json"});
@@ -97,7 +97,7 @@ TEST_F(TracedAccess, ReportsASession) {
   }
 }
 
-TEST_F(TracedAccess, SaysTheSameInWords) {
+TEST_F(SessionTest, ReportsASessionAsText) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "100"});
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
   const std::vector<std::string> lines = lines_of(outcome.output);
@@ -106,7 +106,7 @@ TEST_F(TracedAccess, SaysTheSameInWords) {
   EXPECT_EQ(lines[3].find("answer, from due"), 0u);
 }
 
-TEST_F(TracedAccess, WritesEveryTickWhereAsked) {
+TEST_F(SessionTest, WritesEveryTickOnRequest) {
   const std::vector<std::string> session = {"touch",  "tree.ptree", "--seconds", "1",
                                             "--rate", "200",        "--ticks",   "ticks.csv"};
   ASSERT_EQ(run(session).status, kDone);
@@ -120,7 +120,7 @@ TEST_F(TracedAccess, WritesEveryTickWhereAsked) {
   EXPECT_EQ(again.output, "");
 }
 
-TEST_F(TracedAccess, TracesEveryPageWhereAsked) {
+TEST_F(SessionTest, TracesEveryPageAccessOnRequest) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "1", "--rate", "200", "--trace",
                                "pages.csv", "--ticks", "ticks.csv", "--json"});
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
@@ -131,19 +131,19 @@ TEST_F(TracedAccess, TracesEveryPageWhereAsked) {
   unsigned last = 0, missed = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     unsigned tick = 0, probe = 0, page = 0, level = 0;
-    char touch[16] = {};
-    ASSERT_EQ(std::sscanf(rows[i].c_str(), "%u,%u,%u,%u,%15s", &tick, &probe, &page, &level, touch),
-              5);
+    char access[16] = {};
+    ASSERT_EQ(
+        std::sscanf(rows[i].c_str(), "%u,%u,%u,%u,%15s", &tick, &probe, &page, &level, access), 5);
     EXPECT_GE(tick, last);
     EXPECT_LT(tick, 200u);
     EXPECT_LT(page, entries_.size());
-    missed += std::string(touch) == "missed";
+    missed += std::string(access) == "missed";
     last = tick;
   }
   EXPECT_LT(missed, rows.size() - 1);
 }
 
-TEST_F(TracedAccess, RefusesASessionWithoutTicks) {
+TEST_F(SessionTest, RefusesASessionWithoutTicks) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "0"});
   EXPECT_EQ(outcome.status, kCommandLineAtFault);
   EXPECT_EQ(outcome.errors,
@@ -151,7 +151,7 @@ TEST_F(TracedAccess, RefusesASessionWithoutTicks) {
             "see planetree touch --help\n");
 }
 
-TEST_F(TracedAccess, ReportsPagesThatCannotBeRead) {
+TEST_F(SessionTest, ReportsPagesThatCannotBeRead) {
   flip("tree.ptree", entries_.back().offset);
   const Outcome outcome =
       run({"touch", "tree.ptree", "--seconds", "1", "--rate", "500", "--path", "teleport"});

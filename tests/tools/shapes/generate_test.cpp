@@ -116,13 +116,13 @@ class Counts final : public Shape {
   std::uint64_t vertices_, triangles_;
 };
 
-TEST_F(Generate, NamesTheIndexTypeThatHoldsEveryIndex) {
+TEST_F(Generate, ChoosesAnIndexTypeThatHoldsEveryIndex) {
   const std::uint64_t half = std::uint64_t{1} << 31;
   // "int" and "uint" differ by one byte in the header.
   EXPECT_EQ(ply_bytes(Counts(half + 1, 0), "c") - ply_bytes(Counts(half, 0), "c"), 12U + 1U);
 }
 
-TEST_F(Generate, ForetellsTheSizeOfTheFile) {
+TEST_F(Generate, PredictsTheSizeOfTheFile) {
   for (const ShapeKind kind : kAllShapeKinds) {
     const auto shape = make_shape(kind, 40'000, 1);
     ASSERT_TRUE(shape);
@@ -148,7 +148,7 @@ TEST_F(Generate, ReportsAsOneJsonObject) {
   EXPECT_EQ(complained_, "");
 }
 
-TEST_F(Generate, WritesTheModelToStandardOutputAndTheReportBeside) {
+TEST_F(Generate, WritesTheModelToStandardOutputAndTheReportToStandardError) {
   ASSERT_EQ(run({output_, "--triangles", "500"}), 0);
   ASSERT_EQ(run({"-", "--triangles", "500", "--json"}), 0);
   EXPECT_EQ(said_, content(output_));
@@ -167,7 +167,7 @@ TEST_F(Generate, RefusesToReplaceUnlessForced) {
   EXPECT_GT(content(output_).size(), before.size());
 }
 
-TEST_F(Generate, RefusesCommandLinesThatMakeNoSense) {
+TEST_F(Generate, RefusesBadArguments) {
   EXPECT_EQ(run({output_}), 2);
   EXPECT_EQ(run({"--triangles", "100"}), 2);
   EXPECT_EQ(run({output_, "--triangles", "many"}), 2);
@@ -182,7 +182,7 @@ TEST_F(Generate, RefusesCommandLinesThatMakeNoSense) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(Generate, BlamesTheMachineForAFullDevice) {
+TEST_F(Generate, ReportsAFullDeviceAsTheMachinesFault) {
   EXPECT_EQ(run({"/dev/full", "--triangles", "100"}), 3);
   EXPECT_EQ(complained_.find("planetree: /dev/full: at byte 0: cannot write: "), 0U);
 }

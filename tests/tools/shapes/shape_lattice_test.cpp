@@ -25,7 +25,7 @@ TEST(CubeLattice, CountsEveryPointOfTheSurfaceOnce) {
   }
 }
 
-TEST(PillowLattice, HasOneRimAndTwoInsides) {
+TEST(PillowLattice, HasOneRimAndTwoInteriors) {
   for (const std::uint64_t n : {2U, 4U, 10U}) {
     const PillowLattice lattice(n);
     std::uint64_t raised = 0, rim = 0;

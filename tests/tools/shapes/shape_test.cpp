@@ -113,16 +113,16 @@ TEST(Shape, UsesEveryVertexAndNoIndexBeyond) {
   }
 }
 
-TEST(Shape, KeepsVerticesApartAndTrianglesOpen) {
+TEST(Shape, VerticesAreDistinctAndTrianglesNondegenerate) {
   for (const ShapeKind kind : kAllShapeKinds) {
     SCOPED_TRACE(shape_name(kind));
     const auto shape = shape_of(kind, 3000);
-    std::set<std::array<double, 3>> indices;
+    std::set<std::array<double, 3>> positions;
     for (std::uint64_t v = 0; v < shape->vertex_count(); ++v) {
       const Vec3 p = rounded_vertex(*shape, v);
-      indices.insert({p.x, p.y, p.z});
+      positions.insert({p.x, p.y, p.z});
     }
-    EXPECT_EQ(indices.size(), shape->vertex_count());
+    EXPECT_EQ(positions.size(), shape->vertex_count());
     for (std::uint64_t t = 0; t < shape->triangle_count(); ++t) {
       const auto p = rounded_corners(*shape, t);
       EXPECT_GT(length(cross(minus(p[1], p[0]), minus(p[2], p[0]))), 0) << t;
@@ -198,7 +198,7 @@ TEST(Shape, ScattersTheSoupInTheUnitCube) {
   }
 }
 
-TEST(Shape, HasAboutAsManyTrianglesAsAsked) {
+TEST(Shape, HasAboutTheRequestedNumberOfTriangles) {
   for (const ShapeKind kind : kAllShapeKinds) {
     // From one lattice size to the next the count grows by about twice this.
     const double per_square = kind == ShapeKind::kTerrain ? 2 : kind == ShapeKind::kCone ? 16 : 12;
@@ -207,10 +207,10 @@ TEST(Shape, HasAboutAsManyTrianglesAsAsked) {
       SCOPED_TRACE(label(kind, triangles));
       const auto shape = shape_of(kind, triangles);
       ASSERT_NE(shape, nullptr);
-      const double queried = static_cast<double>(triangles);
+      const double requested = static_cast<double>(triangles);
       const double slack =
-          kind == ShapeKind::kSoup ? 0 : std::sqrt(per_square * queried) + per_square;
-      EXPECT_NEAR(static_cast<double>(shape->triangle_count()), queried, slack);
+          kind == ShapeKind::kSoup ? 0 : std::sqrt(per_square * requested) + per_square;
+      EXPECT_NEAR(static_cast<double>(shape->triangle_count()), requested, slack);
     }
   }
 }
@@ -238,7 +238,7 @@ TEST(Shape, StaysLocalAtBillionsOfTriangles) {
   }
 }
 
-TEST(Shape, RefusesNoneAndTooMany) {
+TEST(Shape, RefusesZeroAndTooManyTriangles) {
   for (const ShapeKind kind : kAllShapeKinds) {
     SCOPED_TRACE(shape_name(kind));
     for (const std::uint64_t triangles :
@@ -258,17 +258,17 @@ TEST(Shape, DependsOnTheSeedWhereItShould) {
     SCOPED_TRACE(shape_name(kind));
     const auto one = shape_of(kind, 1000, 1);
     const auto two = shape_of(kind, 1000, 2);
-    std::uint64_t perturbed = 0;
+    std::uint64_t changed = 0;
     for (std::uint64_t v = 0; v < one->vertex_count(); ++v) {
-      perturbed += length(minus(one->vertex(v), two->vertex(v))) > 0 ? 1 : 0;
+      changed += length(minus(one->vertex(v), two->vertex(v))) > 0 ? 1 : 0;
     }
     const bool random =
         kind == ShapeKind::kStatue || kind == ShapeKind::kTerrain || kind == ShapeKind::kSoup;
-    EXPECT_EQ(perturbed, random ? one->vertex_count() : 0);
+    EXPECT_EQ(changed, random ? one->vertex_count() : 0);
   }
 }
 
-TEST(Shape, KnowsItsNames) {
+TEST(Shape, NamesRoundTrip) {
   for (const ShapeKind kind : kAllShapeKinds) EXPECT_EQ(shape_named(shape_name(kind)), kind);
   EXPECT_EQ(shape_name(ShapeKind::kSoup), "soup");
   EXPECT_FALSE(shape_named("Statue"));

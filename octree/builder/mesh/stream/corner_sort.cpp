@@ -34,8 +34,9 @@ CornerSort::CornerSort(MeshVertices& vertices, MeshScratch& scratch, std::uint64
       position_bytes_(vertices.position_bytes()),
       buffer_bytes_(memory_bytes / 4) {
   constexpr std::uint64_t kMax = std::uint64_t{1} << 32;
-  const std::uint64_t most = std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMax);
-  part_shift_ = static_cast<int>(std::bit_width(most)) - 1;
+  const std::uint64_t max_items =
+      std::clamp<std::uint64_t>(memory_bytes / 2 / position_bytes_, 1, kMax);
+  part_shift_ = static_cast<int>(std::bit_width(max_items)) - 1;
   by_vertex_file_.emplace(scratch);
   by_vertex_.emplace(kByVertexBytes, parts_of(vertices.count()), buffer_bytes_,
                      by_vertex_file_->spill());
@@ -79,7 +80,7 @@ Result<void> CornerSort::match_part(std::size_t part) {
   if (const auto read = vertices_.read(first, positions_); !read) return read;
   return by_vertex_->each_block(part, [this](std::span<const std::byte> records) -> Result<void> {
     for (; !records.empty(); records = records.subspan(kByVertexBytes))
-      if (const auto scaled = position(records.data()); !scaled) return scaled;
+      if (const auto positioned = position(records.data()); !positioned) return positioned;
     return {};
   });
 }
@@ -105,7 +106,7 @@ bool CornerSort::load(std::uint64_t part) {
   positions_.assign(static_cast<std::size_t>(count) * position_bytes_, std::byte{0});
   loaded_ = ~std::uint64_t{0};
   const std::size_t record_bytes = by_corner_bytes(position_bytes_);
-  const auto scaled = by_corner_->each_block(
+  const auto positioned = by_corner_->each_block(
       static_cast<std::size_t>(part), [&](std::span<const std::byte> records) -> Result<void> {
         for (; !records.empty(); records = records.subspan(record_bytes)) {
           std::uint32_t position = 0;
@@ -116,11 +117,11 @@ bool CornerSort::load(std::uint64_t part) {
         }
         return {};
       });
-  if (scaled) {
+  if (positioned) {
     loaded_ = part;
     return true;
   }
-  failure_ = scaled.error();
+  failure_ = positioned.error();
   return false;
 }
 

@@ -18,8 +18,9 @@ void FaceVertexJoin::begin_face(std::uint64_t corners) {
   const std::uint64_t read_bytes = cache_->read_bytes();
   credit_bytes_ -= std::min(credit_bytes_, read_bytes - seen_bytes_);
   seen_bytes_ = read_bytes;
-  const std::uint64_t most = max_credit_bytes();
-  credit_bytes_ = std::min(credit_bytes_ + kCreditBytes * std::min(corners, most), most);
+  const std::uint64_t max_credit = max_credit_bytes();
+  credit_bytes_ =
+      std::min(credit_bytes_ + kCreditBytes * std::min(corners, max_credit), max_credit);
   limit_bytes_ = read_bytes + credit_bytes_;
 }
 

@@ -59,7 +59,7 @@ class FaceVertexJoin {
     credit_bytes_ = max_credit_bytes();
     const Result<FacePosition> end =
         each_face(begin, [this](const auto& face) { return this->take_near(face); });
-    if (!end || !goes_over_) return end;
+    if (!end || !over_limit_) return end;
     cache_.reset();
     return deliver_sorted(*end, file_bytes - end->position.offset, each_face);
   }
@@ -108,7 +108,7 @@ class FaceVertexJoin {
   std::uint64_t credit_bytes_ = 0;  ///< may still be read; grows with each corner
   std::uint64_t seen_bytes_ = 0;    ///< read_bytes() when the credit was updated
   std::uint64_t limit_bytes_ = 0;   ///< maximum of read_bytes() in this face
-  bool goes_over_ = false;
+  bool over_limit_ = false;
   std::optional<Error> failure_;
 };
 
@@ -121,7 +121,7 @@ class FaceVertexJoin::NearCorners {
   bool first(std::uint64_t k, MeshCorner& corner) {
     if (!look_up(k, corner)) return false;
     if (join_.cache_->read_bytes() > join_.limit_bytes_) {
-      join_.goes_over_ = true;
+      join_.over_limit_ = true;
       return false;
     }
     if (k >= 3 && join_.held_.size() < kHeldCorners) join_.held_.push_back(corner.position);
@@ -181,7 +181,7 @@ Result<bool> FaceVertexJoin::take_near(const Face& face) {
   begin_face(face.size());
   NearCorners<Face> corners(*this, face);
   Result<bool> taken = emitter_.polygon_of(face.record(), face.size(), corners);
-  if (taken && !*taken && !goes_over_) return *failure_;
+  if (taken && !*taken && !over_limit_) return *failure_;
   return taken;
 }
 
@@ -215,7 +215,7 @@ template <class EachFace>
 Result<FacePosition> FaceVertexJoin::deliver_sorted(const FacePosition& begin,
                                                     std::uint64_t rest_bytes,
                                                     const EachFace& each_face) {
-  if (const auto may = scratch_.query_to_sort(); !may) return may.error();
+  if (const auto may = scratch_.begin_sorting(); !may) return may.error();
   CornerSort sort(vertices_, scratch_, memory_bytes_);
   const std::uint64_t bytes_before = emitter_.bytes_total();
   emitter_.expect_more(2 * rest_bytes);

@@ -43,10 +43,8 @@ class MeshScratch {
 
   /// Sets what is called once corners have to be sorted on disk, before any of them is written. Its
   /// error ends the reading.
-  void before_sorting(std::function<Result<void>()> options) {
-    before_sorting_ = std::move(options);
-  }
-  Result<void> query_to_sort() const {
+  void before_sorting(std::function<Result<void>()> hook) { before_sorting_ = std::move(hook); }
+  Result<void> begin_sorting() const {
     return before_sorting_ ? before_sorting_() : Result<void>();
   }
 

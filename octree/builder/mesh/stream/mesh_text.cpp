@@ -25,9 +25,10 @@ bool is_large(std::string_view number) noexcept {
     std::string_view rest = number.substr(exponent_at + 1);
     take_integer(rest, exponent);
   }
-  const auto indices = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
+  const auto digits_before_point =
+      static_cast<std::int64_t>(point) - static_cast<std::int64_t>(leading);
   // Compared without adding, so that a saturated exponent does not overflow.
-  return exponent > -indices;
+  return exponent > -digits_before_point;
 }
 
 template <class T>

@@ -107,13 +107,13 @@ std::size_t expect_as_one_by_one(Lister& lister, double rounding) {
 }
 
 // The sides of these cells are floats.
-TEST(BlockLister, ListsWhatMayTouchAnOctant) {
+TEST(BlockLister, ListsBlocksThatMayTouchAnOctant) {
   Lister lister(sphere(5));
   EXPECT_GT(expect_as_one_by_one(lister, 0), 40u);
 }
 
-TEST(BlockLister, LeavesNothingOutWhereSidesAreNoFloats) {
-  Lister lister(perturbed(sphere(5), {0x1.234567p-3, 0x1.abcdefp3, -0x1.3579bdp-5}));
+TEST(BlockLister, MissesNoBlockWhereSidesAreNotFloats) {
+  Lister lister(translated(sphere(5), {0x1.234567p-3, 0x1.abcdefp3, -0x1.3579bdp-5}));
   EXPECT_GT(expect_as_one_by_one(lister, 0x1p-18), 40u);
 }
 
@@ -129,7 +129,7 @@ TEST(BlockLister, ListsWithinTheWallsOfARegion) {
 }
 
 // Clips the root to boxes that grow about a vertex.
-TEST(BlockLister, ListsNoMoreThanFitAList) {
+TEST(BlockLister, ListsNoMoreThanMaxListed) {
   Lister lister(sphere(5));
   std::set<std::size_t> listed, too_many;
   Noise noise(8);
@@ -154,7 +154,7 @@ TEST(BlockLister, ListsNoMoreThanFitAList) {
   EXPECT_GT(*too_many.begin(), kMaxListed);
 }
 
-TEST(BlockLister, IsLostWithAPage) {
+TEST(BlockLister, IsLostWhereAPageIsMissing) {
   Lister lister(sphere(5));
   ASSERT_GT(lister.pages.size(), 4u);
   MaskBlocks blocks;
@@ -179,10 +179,10 @@ TEST(BlockLister, IsLostWithAPage) {
 
 // The file's bytes depend on the lists.
 TEST(BlockLister, ListsTheSameOnEveryInstructionSet) {
-  for (const Soup& soup : {perturbed(sphere(5), {0.1f, 3.7f, -0.3f}), scattered(2000, 0.05)}) {
+  for (const Soup& soup : {translated(sphere(5), {0.1f, 3.7f, -0.3f}), scattered(2000, 0.05)}) {
     Lister lister(soup);
     const std::vector<GridCell> cells = lister.cells(120);
-    const auto certain = on_each_target([&] {
+    const auto results = on_each_target([&] {
       std::vector<std::uint32_t> bits;
       for (const GridCell& cell : cells) {
         MaskBlocks blocks;
@@ -193,8 +193,8 @@ TEST(BlockLister, ListsTheSameOnEveryInstructionSet) {
       }
       return bits;
     });
-    ASSERT_FALSE(certain.empty());
-    for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
+    ASSERT_FALSE(results.empty());
+    for (const auto& bits : results) EXPECT_EQ(bits == results[0], true);
   }
 }
 

@@ -71,19 +71,19 @@ TEST(HeightFieldFinder, FindsMostOfASphere) {
   EXPECT_GT(marks.share(), 0.95);
 }
 
-TEST(HeightFieldFinder, FindsThemInDoublesToo) {
-  const HeightFieldModel model(perturbed(sphere(5), {0.1, 0.7, -0.3}));
+TEST(HeightFieldFinder, FindsMostOfASphereInDoubles) {
+  const HeightFieldModel model(translated(sphere(5), {0.1, 0.7, -0.3}));
   ASSERT_TRUE(model.info.shape.float64);
   EXPECT_GT(expect_true_marks(model).share(), 0.95);
 }
 
-TEST(HeightFieldFinder, FindsNoneWhereTheInsideIsInFront) {
+TEST(HeightFieldFinder, FindsNoneOnInvertedSurfaces) {
   EXPECT_EQ(expect_true_marks(inside_out(sphere(4))).marked, 0u);
 }
 
 // Where one sphere is inside the other, the winding number is 2 behind its surface and 1 in front.
 TEST(HeightFieldFinder, FindsNoneWithinAnotherSolid) {
-  const HeightFieldModel model(joined({sphere(5), perturbed(sphere(5), {0.9, 0, 0})}));
+  const HeightFieldModel model(joined({sphere(5), translated(sphere(5), {0.9, 0, 0})}));
   const Marks marks = expect_true_marks(model);
   EXPECT_GT(marks.share(), 0.4);
   EXPECT_LT(marks.share(), 0.7);
@@ -148,7 +148,7 @@ TEST(HeightFieldFinder, FindsNoneWithNeedlesOrTrianglesOfNoArea) {
 
 // Another solid touches the surface with a vertex. It is as small as the prism, or reaches beyond
 // it.
-TEST(HeightFieldFinder, FindsNoneThatIsTouched) {
+TEST(HeightFieldFinder, FindsNoneTouchedByAnotherSolid) {
   const Vec3 tip{1, 0.40625, 0.453125};
   const Soup solid = box({0, 0, 0}, {1, 1, 1}, 16);
   const Point at(tip.x, tip.y, tip.z);
@@ -171,10 +171,10 @@ TEST(HeightFieldFinder, FindsNoneThatIsTouched) {
   }
 }
 
-TEST(HeightFieldFinder, FindsNoneThatIsTooFarFromTheOrigin) {
-  EXPECT_GT(expect_true_marks(perturbed(sphere(4), {0x1p10, 0, 0})).share(), 0.9);
+TEST(HeightFieldFinder, FindsNoneTooFarFromTheOrigin) {
+  EXPECT_GT(expect_true_marks(translated(sphere(4), {0x1p10, 0, 0})).share(), 0.9);
   for (const Vec3& by : {Vec3{0x1p20, 0, 0}, Vec3{0, 0, -0x1p20}})
-    EXPECT_EQ(expect_true_marks(perturbed(sphere(4), by)).marked, 0u);
+    EXPECT_EQ(expect_true_marks(translated(sphere(4), by)).marked, 0u);
 }
 
 TEST(HeightFieldFinder, FindsNoneWhereAPageIsMissing) {
@@ -208,16 +208,16 @@ TEST(HeightFieldFinder, FindsNoneWhereAPageIsMissing) {
 
 // The file's bytes depend on the marks.
 TEST(HeightFieldFinder, FindsTheSameOnEveryInstructionSet) {
-  for (const Soup& soup : {joined({sphere(4), perturbed(sphere(4), {0.9f, 0.1f, 0.2f})}),
+  for (const Soup& soup : {joined({sphere(4), translated(sphere(4), {0.9f, 0.1f, 0.2f})}),
                            box({0, 0, 0}, {1, 1, 0.1}, 20), grains(200, 0.05)}) {
     const HeightFieldModel model(soup);
-    const auto certain = on_each_target([&] {
+    const auto results = on_each_target([&] {
       std::vector<bool> marks;
       each_mark(model, [&](const BlockView&, bool marked) { marks.push_back(marked); });
       return marks;
     });
-    ASSERT_FALSE(certain.empty());
-    for (const std::vector<bool>& marks : certain) EXPECT_EQ(marks, certain[0]);
+    ASSERT_FALSE(results.empty());
+    for (const std::vector<bool>& marks : results) EXPECT_EQ(marks, results[0]);
   }
 }
 

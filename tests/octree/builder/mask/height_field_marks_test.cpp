@@ -38,8 +38,8 @@ FilePage unmarked(FilePage page, std::size_t blocks) {
   return page;
 }
 
-TEST(HeightFieldMarks, AreOfTheBlocksThatAreFound) {
-  const HeightFieldModel model(joined({sphere(4), perturbed(sphere(4), {0.9, 0, 0})}));
+TEST(HeightFieldMarks, MatchTheBlocksFound) {
+  const HeightFieldModel model(joined({sphere(4), translated(sphere(4), {0.9, 0, 0})}));
   std::vector<std::vector<bool>> found(model.tree.tree->pages().size());
   TreeFrames frames(*model.tree.tree, &model.mask);
   const HeightFieldFinder finder(model.info, model.mask_info);
@@ -75,7 +75,7 @@ TEST(HeightFieldMarks, DoNotDependOnThreads) {
 
 // A missing mark would change the file, so any failing read is an error: of the page itself or
 // during the walk around a block.
-TEST(HeightFieldMarks, FailWithTheDisk) {
+TEST(HeightFieldMarks, FailOnReadErrors) {
   storage::FaultyCalls calls;
   storage::SpillFile file(std::filesystem::temp_directory_path(), 0, calls);
   const HeightFieldModel model(sphere(5), file);

@@ -179,7 +179,7 @@ TEST(MaskPagesTest, HoldEveryEntryAtEveryPageSize) {
   }
 }
 
-TEST(MaskPagesTest, AreFilled) {
+TEST(MaskPagesTest, FillMostOfEachPage) {
   const MaskTree tree = random_mask(10);
   for (const std::uint32_t page_bytes : {4096u, 65536u}) {
     const MaskPages pages(tree, page_bytes, kRandomMaskPage);
@@ -196,7 +196,7 @@ TEST(MaskPagesTest, AreFilled) {
   }
 }
 
-TEST(MaskPagesTest, AreOneWhereAllFits) {
+TEST(MaskPagesTest, UseOnePageWhereAllFits) {
   for (const Soup& soup : {box({0, 0, 0}, {1, 1, 1}), sphere(3)}) {
     const SampleMask sample(soup);
     const MaskPages pages(sample.tree, 65536);

@@ -39,9 +39,9 @@ std::vector<Case> cases() {
       {"sphere", sphere(3)},
       {"nested", joined({sphere(3), inside_out(scaled(sphere(2), 0.5)), scaled(sphere(2), 0.25)})},
       {"doubled", copies(sphere(2), 2)},
-      {"overlapping", joined({sphere(3), perturbed(sphere(2), {0.7, 0.3, -0.2})})},
+      {"overlapping", joined({sphere(3), translated(sphere(2), {0.7, 0.3, -0.2})})},
       {"inside out", inside_out(sphere(3))},
-      {"both ways round", joined({sphere(3), inside_out(perturbed(sphere(3), {1.5, 0, 0}))})},
+      {"both ways round", joined({sphere(3), inside_out(translated(sphere(3), {1.5, 0, 0}))})},
       {"on cell corners", on_cell_corners()},
       {"box", box(low, high, 8)},
       {"boxes in boxes",
@@ -52,8 +52,8 @@ std::vector<Case> cases() {
       {"zero thickness", doubled_height_field(12)},
       {"pair of triangles", joined({repeated(1), inside_out(repeated(1))})},
       {"grains", grains(150, 0.3)},
-      {"far away", perturbed(scaled(sphere(3), 0x1p-10), {0x1p20, -0x1p20, 3})},
-      {"farther away", perturbed(box({0, 0, 0}, {8, 8, 8}, 8), {0x1p50, 0x1p52, -0x1p51})},
+      {"far away", translated(scaled(sphere(3), 0x1p-10), {0x1p20, -0x1p20, 3})},
+      {"farther away", translated(box({0, 0, 0}, {8, 8, 8}, 8), {0x1p50, 0x1p52, -0x1p51})},
   };
 }
 
@@ -85,7 +85,7 @@ std::vector<Triangle> touching(const SampleMask& sample, const GridCell& cell) {
 }
 
 struct Found {
-  std::size_t side_grid = 0, corners = 0, specials = 0;
+  std::size_t coloured_cells = 0, corners = 0, specials = 0;
 };
 
 // Compares everything the mask states with all triangles.
@@ -114,7 +114,7 @@ Found expect_truth(const SampleMask& sample) {
       const std::int64_t first = corners.at(child, 0);
       EXPECT_EQ((first > 0) - (first < 0), colour);
       for (unsigned i = 1; i < 8; ++i) EXPECT_EQ(corners.at(child, i), first);
-      ++found.side_grid;
+      ++found.coloured_cells;
     }
   });
   return found;
@@ -152,19 +152,19 @@ void expect_form(const MaskTree& tree) {
   EXPECT_EQ(levels, tree.levels);
 }
 
-TEST(MaskTree, SaysOfEveryModelWhatIsTrue) {
+TEST(MaskTree, MatchesAllTrianglesOfEveryModel) {
   Found all;
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const SampleMask sample(c.soup);
     expect_form(sample.tree);
     const Found found = expect_truth(sample);
-    all.side_grid += found.side_grid;
+    all.coloured_cells += found.coloured_cells;
     all.corners += found.corners;
     all.specials += found.specials;
     if (HasFailure()) break;
   }
-  EXPECT_GT(all.side_grid, 500u);
+  EXPECT_GT(all.coloured_cells, 500u);
   EXPECT_GT(all.corners, 2000u);
   EXPECT_GT(all.specials, 10u);
 }
@@ -257,12 +257,12 @@ TEST(MaskTree, LeavesCornersUncountedWhereNumbersAreLarge) {
 // One finest cell holds more triangles than a leaf at other levels may.
 TEST(MaskTree, EndsAtTheFinestLevel) {
   const Soup seed =
-      perturbed(scaled(grains(60, 1), 0x1p-24), {0.3 + 0x1p-20, 0.3 + 0x1p-20, 0.3 + 0x1p-20});
+      translated(scaled(grains(60, 1), 0x1p-24), {0.3 + 0x1p-20, 0.3 + 0x1p-20, 0.3 + 0x1p-20});
   const SampleMask sample(joined({box({0, 0, 0}, {1, 1, 1}), seed}));
   EXPECT_EQ(sample.tree.levels, kLevels);
   expect_form(sample.tree);
   const Found found = expect_truth(sample);
-  EXPECT_GT(found.side_grid, 100u);
+  EXPECT_GT(found.coloured_cells, 100u);
 }
 
 // There are few triangles, but most of the root is decided by the two corners where they are.
@@ -279,7 +279,7 @@ TEST(MaskTree, DividesCellsThatTheSurfaceOnlyGrazes) {
   expect_truth(sample);
 }
 
-TEST(MaskTree, IsOneLeafWhereThereIsLittle) {
+TEST(MaskTree, IsOneLeafForAFewTriangles) {
   const SampleMask sample(box({0, 0, 0}, {1.75, 1.5, 1.25}));
   ASSERT_EQ(sample.tree.entries.size(), 1u);
   EXPECT_EQ(sample.tree.entries[0].kind, Kind::kCorners);

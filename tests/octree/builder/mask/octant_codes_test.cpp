@@ -102,13 +102,13 @@ void expect_between(const Soup& soup, bool floats, double over) {
 
 TEST(OctantCodes, AreExactWhereSidesAreFloats) {
   expect_between(sphere(4), true, 0);
-  expect_between(perturbed(sphere(3), {3.3f, -7.7f, 0.1f}), true, 0);
+  expect_between(translated(sphere(3), {3.3f, -7.7f, 0.1f}), true, 0);
 }
 
 // Middles at a vertex or between floats, sides between floats.
-TEST(OctantCodes, LeaveNothingOutWhereSidesAreNoFloats) {
+TEST(OctantCodes, MissNoOctantWhereSidesAreNotFloats) {
   expect_between(sphere(4), false, 0x1p-22);
-  expect_between(perturbed(sphere(3), {3.3f, -7.7f, 0.1f}), false, 0x1p-19);
+  expect_between(translated(sphere(3), {3.3f, -7.7f, 0.1f}), false, 0x1p-19);
 }
 
 TEST(OctantCodes, AreExactWhereVerticesAreDoubles) {
@@ -118,9 +118,9 @@ TEST(OctantCodes, AreExactWhereVerticesAreDoubles) {
 }
 
 TEST(OctantCodes, AreTheSameOnEveryInstructionSet) {
-  const SampleTree sample = build_sample(perturbed(sphere(4), {0.1f, 0.2f, 0.3f}));
+  const SampleTree sample = build_sample(translated(sphere(4), {0.1f, 0.2f, 0.3f}));
   const SamplePages pages(sample);
-  const auto certain = on_each_target([&] {
+  const auto results = on_each_target([&] {
     std::vector<unsigned> bits;
     for (const Halved& box : boxes(sample.mesh, false)) {
       const OctantCodes codes(box.lower, box.middle, box.upper);
@@ -132,8 +132,8 @@ TEST(OctantCodes, AreTheSameOnEveryInstructionSet) {
     }
     return bits;
   });
-  ASSERT_FALSE(certain.empty());
-  for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
+  ASSERT_FALSE(results.empty());
+  for (const auto& bits : results) EXPECT_EQ(bits == results[0], true);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ void expect_as_one_by_one(MakePair make, int cells) {
       indices.push_back(7 * count);
     }
     EXPECT_EQ(overlap.full(), touched.size() == OctantOverlap::kAtOnce);
-    const OctantOverlap::Certain certain = overlap.take();
+    const OctantOverlap::TouchedOctants certain = overlap.take();
     ASSERT_EQ(certain.count, touched.size());
     for (unsigned k = 0; k < certain.count; ++k) {
       EXPECT_EQ(certain.octants[k], touched[k]);
@@ -83,7 +83,7 @@ void expect_as_one_by_one(MakePair make, int cells) {
   EXPECT_GT(some, 50u);
 }
 
-TEST(OctantOverlap, IsThatOfEachByItself) {
+TEST(OctantOverlap, MatchesTestingEachTriangleByItself) {
   struct Case {
     const char* name;
     MakePair make;
@@ -104,7 +104,7 @@ TEST(OctantOverlap, IsThatOfEachByItself) {
 }
 
 // Triangles of all sizes, so close to the box that float and double may disagree.
-TEST(OctantOverlap, IsThatOfEachWhereFloatCannotTell) {
+TEST(OctantOverlap, MatchesDoubleWhereFloatIsUndecided) {
   Noise noise(8);
   unsigned touching = 0, apart = 0;
   for (int i = 0; i < 60000 && !testing::Test::HasFailure(); ++i) {

@@ -107,7 +107,7 @@ struct DoubleTest {
   }
 };
 
-struct Certain {
+struct FilterCounts {
   std::size_t triangles = 0, met = 0, rising = 0, middle = 0;  // counted by the filter
   std::size_t truly_met = 0, truly_rising = 0, truly_middle = 0;
 };
@@ -119,18 +119,18 @@ double reach_of(const BlockView& block) {
   return reach;
 }
 
-Certain expect_no_lies(const Soup& soup) {
+FilterCounts expect_conservative(const Soup& soup) {
   const SampleTree sample = build_sample(soup);
   const SamplePages pages(sample);
   Noise noise(5);
-  Certain certain;
+  FilterCounts counts;
   each_block(sample, pages, [&](const BlockView& block, std::uint32_t) {
     for (int k = 0; k < 20 && !testing::Test::HasFailure(); ++k) {
       const double size = reach_of(block) * std::ldexp(1, 2 - static_cast<int>(noise.bits() % 8));
       const Triangle near = block.triangle(noise.bits() % block.triangle_count());
       TestPrism prism = random_prism(noise, near, size);
       bring_to(block.vertex(noise.bits() % block.header().vertex_count()), noise, prism);
-      const PrismTriangles found = look_at_triangles(block, prism.in_float(), prism.origin);
+      const PrismTriangles found = classify_triangles(block, prism.in_float(), prism.origin);
       EXPECT_EQ((found.met | found.rising | found.middle) >> block.triangle_count(), 0u);
       for (unsigned i = 0; i < block.triangle_count(); ++i) {
         const DoubleTest truth(prism, block.triangle(i));
@@ -139,17 +139,17 @@ Certain expect_no_lies(const Soup& soup) {
         EXPECT_TRUE(met || !truth.met);
         EXPECT_TRUE(middle || !truth.middle);
         EXPECT_TRUE(!rising || truth.may_rise);
-        ++certain.triangles;
-        certain.met += met;
-        certain.rising += rising;
-        certain.middle += middle;
-        certain.truly_met += truth.met;
-        certain.truly_rising += truth.may_rise;
-        certain.truly_middle += truth.middle;
+        ++counts.triangles;
+        counts.met += met;
+        counts.rising += rising;
+        counts.middle += middle;
+        counts.truly_met += truth.met;
+        counts.truly_rising += truth.may_rise;
+        counts.truly_middle += truth.middle;
       }
     }
   });
-  return certain;
+  return counts;
 }
 
 Soup thinned(Soup soup, double factor) {
@@ -159,45 +159,46 @@ Soup thinned(Soup soup, double factor) {
 }
 
 // The filter agrees with double on nearly all triangles, so that few are tested twice.
-TEST(PrismFilter, TellsWhatDoublesTell) {
+TEST(PrismFilter, AgreesWithDouble) {
   for (const Soup& soup :
-       {sphere(4), perturbed(sphere(4), {0.1, 0.7, -0.3}), scattered(1000, 0.1)}) {
-    const Certain certain = expect_no_lies(soup);
-    EXPECT_GT(certain.triangles, 10000u);
-    EXPECT_LE(certain.met, certain.truly_met + certain.triangles / 100);
-    EXPECT_LE(certain.middle, certain.truly_middle + certain.triangles / 100);
-    EXPECT_LT(certain.truly_met, certain.triangles * 9 / 10);
-    EXPECT_GT(certain.truly_rising, certain.triangles / 20);
-    EXPECT_GT(certain.rising, certain.truly_rising * 9 / 10);
+       {sphere(4), translated(sphere(4), {0.1, 0.7, -0.3}), scattered(1000, 0.1)}) {
+    const FilterCounts counts = expect_conservative(soup);
+    EXPECT_GT(counts.triangles, 10000u);
+    EXPECT_LE(counts.met, counts.truly_met + counts.triangles / 100);
+    EXPECT_LE(counts.middle, counts.truly_middle + counts.triangles / 100);
+    EXPECT_LT(counts.truly_met, counts.triangles * 9 / 10);
+    EXPECT_GT(counts.truly_rising, counts.triangles / 20);
+    EXPECT_GT(counts.rising, counts.truly_rising * 9 / 10);
   }
 }
 
-TEST(PrismFilter, MissesNothingOfNeedles) {
+TEST(PrismFilter, IsConservativeForNeedles) {
   for (const double factor : {0x1p-8, 0x1p-11, 0x1p-12, 0x1p-13, 0x1p-24, 0x1p-45})
     for (const Soup& soup : {scattered(300, 0.5), sphere(3)})
-      EXPECT_GT(expect_no_lies(thinned(soup, factor)).truly_met, 0u);
+      EXPECT_GT(expect_conservative(thinned(soup, factor)).truly_met, 0u);
 }
 
 // Triangles so small beside their block that float hardly resolves their normals.
-TEST(PrismFilter, MissesNothingOfSpecks) {
+TEST(PrismFilter, IsConservativeForTinyTriangles) {
   for (const double size : {0x1p-10, 0x1p-14, 0x1p-17, 0x1p-19, 0x1p-21, 0x1p-23})
-    EXPECT_GT(expect_no_lies(scattered(700, size)).truly_rising, 0u);
+    EXPECT_GT(expect_conservative(scattered(700, size)).truly_rising, 0u);
 }
 
 // Blocks small beside their coordinates, and blocks small in themselves.
-TEST(PrismFilter, MissesNothingOfTinyAndFarBlocks) {
+TEST(PrismFilter, IsConservativeForTinyAndFarBlocks) {
   const Soup whole = sphere(1);
   for (const double size : {0x1p-12, 0x1p-25, 0x1p-45, 0x1p-90}) {
     const Soup tiny = scaled(scattered(300, 0.2), size);
-    EXPECT_GT(expect_no_lies(joined({tiny, whole})).truly_met, 0u);
-    EXPECT_GT(expect_no_lies(joined({perturbed(tiny, {0.7, 0.1, 0.3}), whole})).truly_met, 0u);
+    EXPECT_GT(expect_conservative(joined({tiny, whole})).truly_met, 0u);
+    EXPECT_GT(expect_conservative(joined({translated(tiny, {0.7, 0.1, 0.3}), whole})).truly_met,
+              0u);
   }
   for (const double by : {0x1p6, 0x1p15})
-    EXPECT_GT(expect_no_lies(perturbed(sphere(4), {by, -by, 0})).truly_rising, 0u);
+    EXPECT_GT(expect_conservative(translated(sphere(4), {by, -by, 0})).truly_rising, 0u);
 }
 
 // Prisms far from the block.
-TEST(PrismFilter, MissesNothingOfOtherBlocks) {
+TEST(PrismFilter, IsConservativeForOtherBlocks) {
   const SampleTree sample = build_sample(scattered(1000, 0.3));
   const SamplePages pages(sample);
   std::vector<BlockView> blocks;
@@ -210,7 +211,7 @@ TEST(PrismFilter, MissesNothingOfOtherBlocks) {
       const BlockView& other = blocks[noise.bits() % blocks.size()];
       const TestPrism prism = random_prism(noise, other.triangle(0),
                                            std::ldexp(1, -static_cast<int>(noise.bits() % 6)));
-      const PrismTriangles found = look_at_triangles(block, prism.in_float(), prism.origin);
+      const PrismTriangles found = classify_triangles(block, prism.in_float(), prism.origin);
       for (unsigned i = 0; i < block.triangle_count(); ++i) {
         const DoubleTest truth(prism, block.triangle(i));
         EXPECT_TRUE((found.met >> i & 1) != 0 || !truth.met);
@@ -222,22 +223,22 @@ TEST(PrismFilter, MissesNothingOfOtherBlocks) {
   EXPECT_GT(met, 1000u);
 }
 
-TEST(PrismFilter, TellsTheSameOnEveryInstructionSet) {
+TEST(PrismFilter, GivesTheSameResultOnEveryInstructionSet) {
   for (const Soup& soup : {sphere(4), scattered(900, 0.1), thinned(scattered(300, 0.5), 0x1p-12)}) {
     const SampleTree sample = build_sample(soup);
     const SamplePages pages(sample);
-    const auto certain = on_each_target([&] {
+    const auto counts = on_each_target([&] {
       Noise noise(7);
       std::vector<std::tuple<unsigned, unsigned, unsigned>> bits;
       each_block(sample, pages, [&](const BlockView& block, std::uint32_t) {
         const TestPrism prism = random_prism(noise, block.triangle(0), reach_of(block) / 2);
-        const PrismTriangles found = look_at_triangles(block, prism.in_float(), prism.origin);
+        const PrismTriangles found = classify_triangles(block, prism.in_float(), prism.origin);
         bits.emplace_back(found.met, found.rising, found.middle);
       });
       return bits;
     });
-    ASSERT_GT(certain.size(), 1u);
-    for (const auto& bits : certain) EXPECT_EQ(bits == certain[0], true);
+    ASSERT_GT(counts.size(), 1u);
+    for (const auto& bits : counts) EXPECT_EQ(bits == counts[0], true);
   }
 }
 

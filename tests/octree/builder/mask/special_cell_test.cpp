@@ -88,12 +88,12 @@ std::vector<Case> special_models() {
 }
 
 // What a special cell states about a point: its winding number, or that it is on the surface.
-struct Said {
+struct StatedSide {
   bool on_surface = false;
   int winding = 0;
 };
 
-Said say(const SpecialCell& claim, const Point& point) {
+StatedSide stated_side(const SpecialCell& claim, const Point& point) {
   int farthest = -1;
   for (unsigned i = 0; i < claim.plane_count; ++i) {
     const auto& [a, b, c] = claim.planes[i];
@@ -109,7 +109,7 @@ void expect_truth(const InCell& in_cell, const SpecialCell& claim) {
         const Point point = Point(x, y, z) / 8;
         const bool on_surface = std::ranges::any_of(
             in_cell.triangles, [&](const Triangle& triangle) { return lies_on(point, triangle); });
-        const Said said = say(claim, point);
+        const StatedSide said = stated_side(claim, point);
         ASSERT_EQ(said.on_surface, on_surface) << point.transpose();
         if (!on_surface) {
           ASSERT_EQ(said.winding, in_cell.model.winding(point)) << point.transpose();
@@ -117,7 +117,7 @@ void expect_truth(const InCell& in_cell, const SpecialCell& claim) {
       }
 }
 
-TEST(SpecialCells, SayTheSideOfEveryPoint) {
+TEST(SpecialCells, DecideTheSideOfEveryPoint) {
   for (const Case& c : special_models())
     for (const bool turned : {false, true}) {
       SCOPED_TRACE(std::string(c.name) + (turned ? ", inside out" : ""));
@@ -132,7 +132,7 @@ TEST(SpecialCells, SayTheSideOfEveryPoint) {
 }
 
 // In a cavity the solid is beyond the planes.
-TEST(SpecialCells, AreConcaveAsWell) {
+TEST(SpecialCells, MayBeConcave) {
   for (const Case& c : special_models()) {
     SCOPED_TRACE(c.name);
     const InCell hollow(joined({box({-20, -20, -20}, {20, 20, 20}), inside_out(c.soup)}));
@@ -148,7 +148,7 @@ TEST(SpecialCells, AreConcaveAsWell) {
 }
 
 // Corners on a plane may have either number, so they are not compared.
-TEST(SpecialCells, TakeNoWordFromCornersOnAPlane) {
+TEST(SpecialCells, IgnoreCornersOnAPlane) {
   // The solid behind the plane is at y > x. The step from a corner on the plane leads out of it.
   const auto shear = [](Soup soup) {
     for (auto& triangle : soup)
@@ -212,7 +212,7 @@ TEST(SpecialCells, HaveACornerBeyondEveryPlane) {
   EXPECT_TRUE(InCell(box({-9, -9, -9}, {9, 0.75, 0.5})).special());
 }
 
-TEST(SpecialCells, HaveCornersThatAgree) {
+TEST(SpecialCells, RequireConsistentCorners) {
   const InCell edge(box({-9, -9, -9}, {9, 0.75, 0.5}));
   for (unsigned corner = 0; corner < 8; ++corner) {
     InCell changed = edge;
@@ -226,7 +226,7 @@ TEST(SpecialCells, HaveCornersThatAgree) {
   EXPECT_FALSE(same.special());
 }
 
-TEST(SpecialCells, HaveNumbersOfOneByte) {
+TEST(SpecialCells, StoreWindingNumbersInOneByte) {
   const InCell plane(box({-9, -9, -9}, {9, 9, 0.5}));
   const auto with = [&](std::int64_t behind, std::int64_t beyond) {
     InCell changed = plane;
@@ -245,9 +245,10 @@ TEST(SpecialCells, HaveNumbersOfOneByte) {
   EXPECT_FALSE(with(std::int64_t{1} << 32 | 1, 0));
 }
 
-class Claims : public testing::Test {
+class SpecialCellClaims : public testing::Test {
  protected:
-  Claims() : in_cell_(box({-9, -9, -9}, {0.5, 0.75, 0.25})), claim_(*in_cell_.special()) {
+  SpecialCellClaims()
+      : in_cell_(box({-9, -9, -9}, {0.5, 0.75, 0.25})), claim_(*in_cell_.special()) {
     EXPECT_EQ(claim_.plane_count, 3u);
     EXPECT_TRUE(in_cell_.is(claim_));
   }
@@ -255,7 +256,7 @@ class Claims : public testing::Test {
   SpecialCell claim_;
 };
 
-TEST_F(Claims, AreRefusedWithOtherNumbers) {
+TEST_F(SpecialCellClaims, AreRefusedWithOtherNumbers) {
   SpecialCell swapped = claim_;
   std::swap(swapped.behind, swapped.beyond);
   EXPECT_FALSE(in_cell_.is(swapped));
@@ -266,24 +267,24 @@ TEST_F(Claims, AreRefusedWithOtherNumbers) {
   EXPECT_FALSE(in_cell_.is(beyond));
 }
 
-TEST_F(Claims, AreRefusedWithAPlaneMovedByAnUlp) {
+TEST_F(SpecialCellClaims, AreRefusedWithAPlaneShiftedByAnUlp) {
   for (unsigned plane = 0; plane < claim_.plane_count; ++plane)
     for (unsigned axis = 0; axis < 3; ++axis)
       for (const double towards : {-9.0, 9.0}) {
-        SpecialCell perturbed = claim_;
-        for (Point& corner : perturbed.planes[plane])
+        SpecialCell shifted = claim_;
+        for (Point& corner : shifted.planes[plane])
           corner[axis] = std::nextafter(corner[axis], towards);
         // A plane may move along itself, but not across, along any axis that its normal has a part
         // of.
         const auto& [a, b, c] = claim_.planes[plane];
-        EXPECT_EQ(in_cell_.is(perturbed), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
+        EXPECT_EQ(in_cell_.is(shifted), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
         SpecialCell tilted = claim_;
         tilted.planes[plane][1][axis] = std::nextafter(tilted.planes[plane][1][axis], towards);
         EXPECT_EQ(in_cell_.is(tilted), normal_sign(a, b, c, axis) == 0) << plane << ' ' << axis;
       }
 }
 
-TEST_F(Claims, AreRefusedWithAPlaneTurnedOrMissing) {
+TEST_F(SpecialCellClaims, AreRefusedWithAPlaneTurnedOrMissing) {
   for (unsigned plane = 0; plane < claim_.plane_count; ++plane) {
     SpecialCell turned = claim_;
     std::swap(turned.planes[plane][1], turned.planes[plane][2]);
@@ -297,7 +298,7 @@ TEST_F(Claims, AreRefusedWithAPlaneTurnedOrMissing) {
   EXPECT_FALSE(in_cell_.is(none));
 }
 
-TEST_F(Claims, AreRefusedWithAPlaneThatIsNoFace) {
+TEST_F(SpecialCellClaims, AreRefusedWithAPlaneThatIsNoFace) {
   ASSERT_LT(claim_.plane_count, kMaxPlanes);
   SpecialCell more = claim_;
   // A plane that cuts off the least corner of the cell.
@@ -309,7 +310,7 @@ TEST_F(Claims, AreRefusedWithAPlaneThatIsNoFace) {
 }
 
 // A triangle behind all planes, on none of them.
-TEST_F(Claims, AreRefusedWhereThereIsMore) {
+TEST_F(SpecialCellClaims, AreRefusedWithATriangleOffThePlanes) {
   InCell more = in_cell_;
   more.triangles.push_back({Point(0, 0, 0.125), Point(0.25, 0, 0.125), Point(0, 0.25, 0.125)});
   EXPECT_FALSE(more.is(claim_));

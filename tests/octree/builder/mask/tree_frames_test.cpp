@@ -43,7 +43,7 @@ void expect_page(const ChunkedTree& sample, TreeFrames& frames, std::uint32_t pa
   EXPECT_EQ(std::memcmp(frame, expected.data(), expected.header().used_bytes), 0) << page;
 }
 
-TEST(TreeFrames, AreThoseOfThePages) {
+TEST(TreeFrames, MatchDecodedPages) {
   for (const std::uint32_t page_bytes : {4096u, kLargePages}) {
     const ChunkedTree sample(sphere(4), 40, page_bytes);
     TreeFrames frames(*sample.tree);
@@ -57,7 +57,7 @@ TEST(TreeFrames, AreThoseOfThePages) {
   }
 }
 
-TEST(TreeFrames, HoldTheLastThatWereAskedFor) {
+TEST(TreeFrames, KeepTheMostRecentlyUsed) {
   const ChunkedTree sample = many_pages();
   TreeFrames frames(*sample.tree);
   const std::uint32_t count = sample.tree->pages().size();
@@ -75,7 +75,7 @@ TEST(TreeFrames, HoldTheLastThatWereAskedFor) {
   EXPECT_FALSE(holds(frames, 1));
 }
 
-TEST(TreeFrames, HoldNoMoreThanTheirMemory) {
+TEST(TreeFrames, KeepNoMorePagesThanFit) {
   const ChunkedTree sample = many_pages();
   TreeFrames frames(*sample.tree);
   const std::uint32_t count = sample.tree->pages().size();
@@ -88,7 +88,7 @@ TEST(TreeFrames, HoldNoMoreThanTheirMemory) {
   EXPECT_EQ(held, kHeld);
 }
 
-TEST(TreeFrames, AreThoseOfTheMaskToo) {
+TEST(TreeFrames, MatchDecodedMaskPages) {
   const HeightFieldModel model(sphere(5));
   const std::uint32_t first = model.mask_info.first_page;
   ASSERT_GT(model.mask.size(), 2u);
@@ -114,7 +114,7 @@ TEST(TreeFrames, AreThoseOfTheMaskToo) {
   EXPECT_TRUE(frames.state());
 }
 
-class LostFrames : public testing::Test {
+class FramesAfterReadErrors : public testing::Test {
  protected:
   // All reads fail from now on.
   void lose_disk() {
@@ -128,7 +128,7 @@ class LostFrames : public testing::Test {
   storage::SpillFile file_{std::filesystem::temp_directory_path(), 0, calls_};
 };
 
-TEST_F(LostFrames, AreAnErrorThatStays) {
+TEST_F(FramesAfterReadErrors, KeepTheError) {
   const ChunkedTree sample = many_pages(file_);
   TreeFrames frames(*sample.tree);
   const std::uint32_t last = sample.tree->pages().size() - 1;
@@ -147,18 +147,18 @@ TEST_F(LostFrames, AreAnErrorThatStays) {
 }
 
 // A missing list would change the file.
-TEST_F(LostFrames, FailTheMask) {
+TEST_F(FramesAfterReadErrors, FailTheMaskBuild) {
   const ChunkedTree sample(sphere(4), 40, 4096, file_);
   RegionCut cut(sample.mesh.lower(), sample.mesh.upper(), {}, nullptr);
   ASSERT_TRUE(cut.add(sample.mesh));
-  MaskSectors regions(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
-  ASSERT_TRUE(regions.divide(*sample.runs, 300) && regions.add(sample.mesh));
+  MaskSectors sectors(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
+  ASSERT_TRUE(sectors.divide(*sample.runs, 300) && sectors.add(sample.mesh));
   std::mutex mutex;
   std::size_t taken = 0;
   const auto build = [&] {
     taken = 0;
     return build_mask(
-        regions, *sample.runs, sample.tree.get(), [](std::size_t) { return nullptr; },
+        sectors, *sample.runs, sample.tree.get(), [](std::size_t) { return nullptr; },
         [&](std::size_t, const MaskTree&, const SectorRoot&) -> Result<void> {
           const std::lock_guard lock(mutex);
           ++taken;
@@ -166,12 +166,12 @@ TEST_F(LostFrames, FailTheMask) {
         });
   };
   ASSERT_TRUE(build());
-  EXPECT_EQ(taken, regions.touched_count());
+  EXPECT_EQ(taken, sectors.touched_count());
   lose_disk();
   const auto failed = build();
   ASSERT_FALSE(failed);
   EXPECT_EQ(failed.error().code, ErrorCode::kReadFailed);
-  EXPECT_LT(taken, regions.touched_count());
+  EXPECT_LT(taken, sectors.touched_count());
 }
 
 }  // namespace

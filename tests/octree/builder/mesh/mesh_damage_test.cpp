@@ -28,7 +28,7 @@ Reading read_as(const MeshFormat& format, const PlainMesh& mesh) {
   return read_bytes(format.write(mesh, {}), format.extension);
 }
 
-class Unheard final : public BuildProgress {
+class SilentProgress final : public BuildProgress {
  public:
   void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
 };
@@ -40,7 +40,7 @@ Result<BuildReport> build_bytes(const MeshFormat& format, std::string_view bytes
   std::ofstream(folder / mesh.c_str(), std::ios::binary) << bytes;
   BuildOptions options;
   options.threads = 1;
-  Unheard progress;
+  SilentProgress progress;
   auto report = build_tree(folder / mesh.c_str(), folder / "mesh.ptree", options, progress);
   if (!report) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{mesh});
@@ -82,7 +82,7 @@ constexpr std::size_t kCutStep = 1;
 constexpr std::size_t kCutStep = 11;
 #endif
 
-TEST_P(MeshWithAnEnd, IsRefusedWhereverItIsCutOff) {
+TEST_P(MeshWithAnEnd, IsRefusedAtEveryTruncation) {
   const std::string whole = GetParam().write(small_mesh(GetParam()), {});
   const auto report = build_bytes(GetParam(), whole);
   ASSERT_TRUE(report) << report.error().text;
@@ -93,7 +93,7 @@ TEST_P(MeshWithAnEnd, IsRefusedWhereverItIsCutOff) {
     expect_refused(GetParam(), whole.substr(0, size), std::to_string(size) + " bytes");
 }
 
-TEST(MeshWithoutAnEnd, GivesWhatItHoldsWhereverItIsCutOff) {
+TEST(MeshWithoutAnEnd, DeliversWhatATruncatedFileHolds) {
   const MeshFormat obj =
       formats_that([](const MeshFormat& format) { return format.name == std::string("Obj"); })[0];
   const std::string whole = obj.write(small_mesh(obj), {});
@@ -117,13 +117,13 @@ INSTANTIATE_TEST_SUITE_P(All, MeshWithCounts,
                          })),
                          name_of);
 
-TEST_P(MeshWithCounts, IsRefusedWhereTheyLie) {
+TEST_P(MeshWithCounts, IsRefusedWhenCountsAreWrong) {
   constexpr std::int64_t kMany = std::numeric_limits<std::int32_t>::max() - 10;
-  std::vector<CountLie> lies{{0, 1}, {0, -1}, {0, -3}, {0, kMany}};
+  std::vector<CountError> lies{{0, 1}, {0, -1}, {0, -3}, {0, kMany}};
   if (GetParam().is_indexed)
     lies.insert(lies.end(),
                 {{1, 0}, {-1, 0}, {-4, 0}, {kMany, 0}, {1, -1}, {-1, 1}, {kMany, kMany}});
-  for (const CountLie& lie : lies)
+  for (const CountError& lie : lies)
     expect_refused(GetParam(), GetParam().write(small_mesh(GetParam()), lie),
                    std::to_string(lie.vertices) + " vertices and " + std::to_string(lie.faces) +
                        " faces more");
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(All, MeshWithIndices,
                          })),
                          name_of);
 
-TEST_P(MeshWithIndices, SetsAsideWhatNamesNoVertex) {
+TEST_P(MeshWithIndices, SkipsFacesWithIndicesOutOfRange) {
   std::vector<std::int64_t> indices{-1,         4,           2147483647,
                                     2147483648, 4294967295U, -2147483647 - std::int64_t{1}};
   if (GetParam().is_text) indices.push_back(std::int64_t{1} << 62);
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(All, MeshWithPolygons,
                          })),
                          name_of);
 
-TEST_P(MeshWithPolygons, SetsAsideThoseOfFewerThanThreeCorners) {
+TEST_P(MeshWithPolygons, SkipsFacesWithFewerThanThreeCorners) {
   PlainMesh mesh = small_mesh(GetParam());
   mesh.faces = {{}, {0, 1, 2}, {3}, {0, 3}, {2, 1, 0}};
   expect_lines(read_as(GetParam(), mesh), {{"0+1 aside: ", " has 0 corners, fewer than 3"},
@@ -174,15 +174,15 @@ class Tally final : public TriangleSink {
     return {};
   }
   void skipped(std::uint64_t, std::uint64_t count, const SkippedRecord&) override {
-    ++records_aside;
-    indices_aside += count;
+    ++records_skipped;
+    indices_skipped += count;
   }
   void progress(std::uint64_t, std::uint64_t) override {}
 
-  std::uint64_t triangles = 0, records_aside = 0, indices_aside = 0;
+  std::uint64_t triangles = 0, records_skipped = 0, indices_skipped = 0;
 };
 
-TEST_P(MeshWithPolygons, TakesAMillionCornersWholeOrNotAtAll) {
+TEST_P(MeshWithPolygons, SplitsOrSkipsAFaceOfAMillionCorners) {
   constexpr std::uint64_t kCorners = 1000000;
   PlainMesh mesh = small_mesh(GetParam());
   mesh.vertices.push_back({std::numeric_limits<float>::quiet_NaN(), 0, 0});
@@ -197,8 +197,8 @@ TEST_P(MeshWithPolygons, TakesAMillionCornersWholeOrNotAtAll) {
     ASSERT_TRUE(summary) << summary.error().text;
     EXPECT_EQ(summary->triangle_indices, kCorners);
     EXPECT_EQ(tally.triangles, sound ? kCorners : 2);
-    EXPECT_EQ(tally.records_aside, sound ? 0U : 1U);
-    EXPECT_EQ(tally.indices_aside, sound ? 0 : kCorners - 2);
+    EXPECT_EQ(tally.records_skipped, sound ? 0U : 1U);
+    EXPECT_EQ(tally.indices_skipped, sound ? 0 : kCorners - 2);
   }
 }
 
@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(All, MeshOfEveryFormat,
                          testing::ValuesIn(formats_that([](const MeshFormat&) { return true; })),
                          name_of);
 
-TEST_P(MeshOfEveryFormat, SetsAsideFacesOfVerticesThatAreNotFinite) {
+TEST_P(MeshOfEveryFormat, SkipsFacesWithNonFiniteVertices) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -222,7 +222,7 @@ TEST_P(MeshOfEveryFormat, SetsAsideFacesOfVerticesThatAreNotFinite) {
   }
 }
 
-TEST_P(MeshOfEveryFormat, IsRefusedWithoutASoundFace) {
+TEST_P(MeshOfEveryFormat, IsRefusedWithoutAValidFace) {
   PlainMesh mesh = small_mesh(GetParam());
   mesh.faces = {};
   expect_refused(GetParam(), GetParam().write(mesh, {}), "no face");

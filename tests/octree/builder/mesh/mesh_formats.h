@@ -19,7 +19,7 @@ struct PlainMesh {
 };
 
 /// The errors of the counts in a header.
-struct CountLie {
+struct CountError {
   std::int64_t vertices = 0, faces = 0;
 };
 
@@ -30,7 +30,7 @@ struct MeshFormat {
   bool is_indexed;    ///< faces refer to vertices by index instead of repeating them
   bool has_polygons;  ///< faces may have any number of corners
   bool is_text;
-  std::string (*write)(const PlainMesh& mesh, const CountLie& lie);
+  std::string (*write)(const PlainMesh& mesh, const CountError& lie);
 };
 
 inline void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.name; }
@@ -62,17 +62,17 @@ inline std::string text_body(const PlainMesh& mesh) {
 }
 
 /// Writes vertices and faces. Each face is followed by the bytes of its colour.
-inline void put_body(Bytes& bytes, const PlainMesh& mesh, std::string_view side_grid) {
+inline void put_body(Bytes& bytes, const PlainMesh& mesh, std::string_view face_colours) {
   for (const auto& [x, y, z] : mesh.vertices) bytes.put(x, y, z);
   for (const auto& face : mesh.faces) {
     bytes.put(static_cast<std::uint32_t>(face.size()));
     for (const std::int64_t index : face) bytes.put(static_cast<std::uint32_t>(index));
-    bytes.text(side_grid);
+    bytes.text(face_colours);
   }
 }
 
 inline std::string ply_head(const std::string& encoding, const std::string& index_type,
-                            const PlainMesh& mesh, const CountLie& lie) {
+                            const PlainMesh& mesh, const CountError& lie) {
   return "ply\nformat " + encoding + " 1.0\nelement vertex " +
          std::to_string(certain(mesh.vertices.size(), lie.vertices)) +
          "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
@@ -80,28 +80,28 @@ inline std::string ply_head(const std::string& encoding, const std::string& inde
          index_type + " vertex_indices\nend_header\n";
 }
 
-inline std::string ply_ascii(const PlainMesh& mesh, const CountLie& lie) {
+inline std::string ply_ascii(const PlainMesh& mesh, const CountError& lie) {
   return ply_head("ascii", "int", mesh, lie) + text_body(mesh);
 }
 
-inline std::string ply_little(const PlainMesh& mesh, const CountLie& lie) {
+inline std::string ply_little(const PlainMesh& mesh, const CountError& lie) {
   Bytes bytes;
   put_body(bytes.text(ply_head("binary_little_endian", "int", mesh, lie)), mesh, "");
   return bytes.str();
 }
 
-inline std::string ply_big(const PlainMesh& mesh, const CountLie& lie) {
+inline std::string ply_big(const PlainMesh& mesh, const CountError& lie) {
   Bytes bytes(std::endian::big);
   put_body(bytes.text(ply_head("binary_big_endian", "uint", mesh, lie)), mesh, "");
   return bytes.str();
 }
 
-inline std::string off_ascii(const PlainMesh& mesh, const CountLie& lie) {
+inline std::string off_ascii(const PlainMesh& mesh, const CountError& lie) {
   return "OFF\n" + std::to_string(certain(mesh.vertices.size(), lie.vertices)) + " " +
          std::to_string(certain(mesh.faces.size(), lie.faces)) + " 0\n" + text_body(mesh);
 }
 
-inline std::string off_binary(const PlainMesh& mesh, const CountLie& lie) {
+inline std::string off_binary(const PlainMesh& mesh, const CountError& lie) {
   Bytes bytes(std::endian::big);
   bytes.text("OFF BINARY\n");
   bytes.put(static_cast<std::int32_t>(certain(mesh.vertices.size(), lie.vertices)),
@@ -110,7 +110,7 @@ inline std::string off_binary(const PlainMesh& mesh, const CountLie& lie) {
   return bytes.str();
 }
 
-inline std::string obj(const PlainMesh& mesh, const CountLie&) {
+inline std::string obj(const PlainMesh& mesh, const CountError&) {
   std::string text;
   for (const auto& vertex : mesh.vertices) text += "v " + numbers(vertex);
   for (const auto& face : mesh.faces) {
@@ -121,7 +121,7 @@ inline std::string obj(const PlainMesh& mesh, const CountLie&) {
   return text;
 }
 
-inline std::string stl_ascii(const PlainMesh& mesh, const CountLie&) {
+inline std::string stl_ascii(const PlainMesh& mesh, const CountError&) {
   std::vector<std::string> vertices;
   for (const auto& vertex : mesh.vertices) vertices.push_back("vertex " + numbers(vertex));
   std::string text = "solid\n";
@@ -133,7 +133,7 @@ inline std::string stl_ascii(const PlainMesh& mesh, const CountLie&) {
   return text + "endsolid\n";
 }
 
-inline std::string stl_binary(const PlainMesh& mesh, const CountLie& lie) {
+inline std::string stl_binary(const PlainMesh& mesh, const CountError& lie) {
   Bytes bytes;
   bytes.text(std::string(80, '\0'));
   bytes.put(static_cast<std::uint32_t>(certain(mesh.faces.size(), lie.faces)));

@@ -62,7 +62,7 @@ TEST(Obj, JoinsContinuedLines) {
             "2+1 aside: line 14: has 2 corners, fewer than 3\n");
 }
 
-TEST(Obj, ReadsBehindAByteOrderMark) {
+TEST(Obj, SkipsAByteOrderMark) {
   EXPECT_EQ(read_obj_text("\xEF\xBB\xBF" + kVertices + "f 1 2 3 # a comment").log,
             "0: 0 0 0, 1 0 0, 0 1 0\n");
 }
@@ -72,7 +72,7 @@ TEST(Obj, ReadsEveryKindOfLineEndInOneFile) {
             "0: 0 0 0, 1 0 0, 0 1 0\n1: 0 0 0, 1 0 0, 0 1 0\n");
 }
 
-TEST(Obj, SetsBadRecordsAsideWhole) {
+TEST(Obj, SkipsBadRecordsAsAWhole) {
   const Reading reading = read_obj_text(
       kVertices + "v nan 0 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 5\nf 0 1 2\nf -5 1 2\n" +
       "f 1 2\nf\nf 1 2 99999999999999999999 3 1\nf -9223372036854775808 1 2\n" + "f 3 2 1\n");

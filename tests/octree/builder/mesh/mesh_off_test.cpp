@@ -29,7 +29,7 @@ TEST(OffAscii, ReadsVerticesInDoublePrecision) {
   EXPECT_FALSE(reading.summary->float32);
 }
 
-TEST(OffAscii, FindsTheCountsWhereverWritersPutThem) {
+TEST(OffAscii, ReadsCountsInAnyHeaderLayout) {
   for (const std::string head :
        {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1 0\n", "  OFF\t\n\n 3 1 0 \n", "OFF\n3 1\n",
         "OFF 3 1\n", "OFF\n3 1 -7\n"})
@@ -43,7 +43,7 @@ TEST(OffAscii, NeedsAKeywordOrTheExtension) {
   EXPECT_EQ(read_bytes("OFFER\n3 1 0\n" + kBody).code, ErrorCode::kBadInput);
 }
 
-TEST(OffAscii, PassesOverWhatElseAVertexHas) {
+TEST(OffAscii, SkipsOtherVertexProperties) {
   for (const std::string keyword : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCNOFF", "NCSTOFF"})
     for (const std::string more : {"", " 255 0 0", " 0 0 1 255 0 0 255 0.5 0.5 # all"}) {
       std::string mesh = keyword + "\n3 1 0";
@@ -52,14 +52,14 @@ TEST(OffAscii, PassesOverWhatElseAVertexHas) {
     }
 }
 
-TEST(OffAscii, PassesOverColoursOfFaces) {
+TEST(OffAscii, SkipsFaceColours) {
   EXPECT_EQ(read_bytes("OFF\n3 4 0\n" + kVertices +
                        "3 0 1 2 7\n3 0 1 2 255 0 0\n3 0 1 2 0.1 0.2 0.3 1\n3 0 1 2\n")
                 .log,
             kTriangle + "1: 0 0 0, 1 0 0, 0 1 0\n2: 0 0 0, 1 0 0, 0 1 0\n3: 0 0 0, 1 0 0, 0 1 0\n");
 }
 
-TEST(OffAscii, PassesOverCommentsAndEmptyLines) {
+TEST(OffAscii, SkipsCommentsAndEmptyLines) {
   const Reading reading = read_bytes(
       "\xEF\xBB\xBF# made by hand: OBJ\n\nOFF # a keyword\n# counts\n3 1 0# of edges\n\n"
       "0 0 0#0 1\n \t\n# 9 9 9\n1 0 0\n0 1 0 # the last\n3 0 1 2# 255\n# end\n\n");
@@ -88,7 +88,7 @@ TEST(OffAscii, SplitsPolygonsIntoFans) {
             "3: 0 1 0, 1 0 0, 0 0 0\n");
 }
 
-TEST(OffAscii, SetsBadRecordsAsideWhole) {
+TEST(OffAscii, SkipsBadRecordsAsAWhole) {
   const Reading reading = read_bytes("OFF\n5 9 0\n" + kVertices + "nan 0 0\n0 0 -1.#IND\n" +
                                      "3 0 1 2\n4 0 1 2 3\n3 4 0 1\n5 0 1 2 5 1\n3 -1 0 1\n2 0 1\n" +
                                      "0\n3 0 1 99999999999999999999\n3 2 1 0\n");
@@ -148,7 +148,7 @@ TEST(OffAscii, RefusesFacesThatAreCountedAsVertices) {
       "may be wrong");
 }
 
-TEST(OffAscii, CountsThatLieCostNothing) {
+TEST(OffAscii, WrongCountsCostNoMemory) {
   expect_refused("OFF\n18446744073709551615 1 0\n0 0 0\n",
                  "line 4: the file ends at record 1 of 9223372036854775807 'vertex'");
   expect_refused("OFF\n3 9223372036854775807 0\n" + kBody,
@@ -198,7 +198,7 @@ TEST(OffBinary, ReadsEveryKeyword) {
   }
 }
 
-TEST(OffBinary, SetsBadRecordsAside) {
+TEST(OffBinary, SkipsBadRecords) {
   Bytes bytes = binary_off("OFF BINARY\n", 4);
   bytes.put(Int32{3}, Int32{0}, Int32{1}, Int32{3}, Int32{0});
   bytes.put(Int32{3}, Int32{0}, Int32{1}, std::numeric_limits<Int32>::min(), Int32{0});
@@ -231,9 +231,10 @@ TEST(OffBinary, RefusesStructuralDamage) {
   Bytes negative = binary_off("OFF BINARY\n", 1);
   negative.put(Int32{-3}, Int32{0}, Int32{1}, Int32{2}, Int32{0});
   expect_refused(negative.str(), "record 0 of 1 'face' has a bad list length");
-  Bytes side_grid = binary_off("OFF BINARY\n", 1);
-  side_grid.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{2147483647});
-  expect_refused(side_grid.str(), "record 0 of 1 'face' has a bad list length or is cut off");
+  Bytes with_colour_count = binary_off("OFF BINARY\n", 1);
+  with_colour_count.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{2147483647});
+  expect_refused(with_colour_count.str(),
+                 "record 0 of 1 'face' has a bad list length or is cut off");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(PlyAscii, SplitsPolygonsIntoFans) {
   EXPECT_EQ(reading.summary->face_records, 3U);
 }
 
-TEST(PlyAscii, SetsBadRecordsAsideWhole) {
+TEST(PlyAscii, SkipsBadRecordsAsAWhole) {
   const Reading reading = read_bytes(ascii_ply(5, 8,
                                                "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n0 0 1e39\n"
                                                "3 0 1 2\n"
@@ -178,7 +178,7 @@ TEST(PlyAscii, RefusesBodiesThatDoNotMatchTheHeader) {
                  "line 15: text follows the last record");
 }
 
-TEST(PlyAscii, CountsThatLieCostNothing) {
+TEST(PlyAscii, WrongCountsCostNoMemory) {
   std::string text = ascii_ply(3, 1, "0 0 0\n");
   text.replace(text.find("vertex 3"), 8, "vertex 18446744073709551615");
   expect_refused(text, "line 11: the file ends at record 1 of 9223372036854775807 'vertex'");

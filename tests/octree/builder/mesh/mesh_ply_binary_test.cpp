@@ -72,7 +72,7 @@ void expect_types(const std::string& coordinate, const std::string& count,
   }
 }
 
-TEST(PlyBinary, ReadsEveryTypeInEveryPlace) {
+TEST(PlyBinary, ReadsEveryTypeForEveryProperty) {
   expect_types<std::int8_t, std::int8_t, std::int8_t>("char", "char", "char");
   expect_types<std::uint8_t, std::uint8_t, std::uint8_t>("uchar", "uchar", "uchar");
   expect_types<std::int16_t, std::int16_t, std::int16_t>("short", "short", "short");
@@ -147,7 +147,7 @@ TEST(PlyBinary, ReadsFacesInFrontOfVertices) {
   }
 }
 
-TEST(PlyBinary, SetsBadRecordsAsideWhole) {
+TEST(PlyBinary, SkipsBadRecordsAsAWhole) {
   Bytes bytes;
   bytes.text(header(std::endian::little, float_vertices(5) + faces(7, "uint", "int")));
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -182,7 +182,7 @@ TEST(PlyBinary, RefusesEveryTruncation) {
   }
 }
 
-TEST(PlyBinary, SaysWhereItIsTruncated) {
+TEST(PlyBinary, ReportsWhereItIsTruncated) {
   const std::string elements = float_vertices(3) + faces(2);
   const std::string head = header(std::endian::little, elements);
   Bytes bytes;
@@ -201,7 +201,7 @@ TEST(PlyBinary, SaysWhereItIsTruncated) {
                 "copy or export it again");
 }
 
-TEST(PlyBinary, RefusesCountsThatLie) {
+TEST(PlyBinary, RefusesWrongCounts) {
   std::string text = triangle_file().str();
   text.replace(text.find("vertex 3"), 8, "vertex 9223372036854775807");
   expect_refused(text, "9223372036854775807 records 'vertex' of 12 bytes or more do not fit");
@@ -218,7 +218,7 @@ TEST(PlyBinary, RefusesCountsThatLie) {
   expect_refused(text, "4611686018427387904 records 'gap' of 4 bytes or more do not fit");
 }
 
-TEST(PlyBinary, RefusesListLengthsThatLie) {
+TEST(PlyBinary, RefusesWrongListLengths) {
   Bytes negative;
   negative.text(header(std::endian::little, float_vertices(3) + faces(1, "int", "int")));
   negative.put_all<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});

@@ -19,7 +19,7 @@ void expect_refused(const std::string& text, const std::string& message) {
       << "said: " << header.error().text;
 }
 
-TEST(PlyHeader, FindsWhatAMeshNeeds) {
+TEST(PlyHeader, FindsVerticesAndFaces) {
   const std::string text =
       "ply\r\nformat binary_big_endian 1.0\r\ncomment by hand\r\nelement face 7\r\n"
       "property uchar tag\r\nproperty list uint8 uint32 vertex_index\r\nelement vertex 9\r\n"
@@ -44,7 +44,7 @@ TEST(PlyHeader, FindsWhatAMeshNeeds) {
   EXPECT_EQ(header->faces().min_record_bytes(), 2U);
 }
 
-TEST(PlyHeader, BeginsTheBodyRightAfterALoneCarriageReturn) {
+TEST(PlyHeader, BodyStartsAfterALoneCarriageReturn) {
   std::string text = "ply\nformat binary_little_endian 1.0\n" + kVertex + kFace + "end_header\n";
   for (char& c : text) c = c == '\n' ? '\r' : c;
   const Result<PlyHeader> header = parse_ply_header(text + "\nbody");
@@ -52,7 +52,7 @@ TEST(PlyHeader, BeginsTheBodyRightAfterALoneCarriageReturn) {
   EXPECT_EQ(header->body.offset, text.size());
 }
 
-TEST(PlyHeader, KnowsEveryTypeByBothNames) {
+TEST(PlyHeader, AcceptsBothNamesOfEveryType) {
   const std::pair<const char*, PlyType> types[] = {
       {"char", PlyType::kInt8},      {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
       {"uint8", PlyType::kUint8},    {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},

@@ -13,7 +13,7 @@ namespace {
 const std::string kTriangleLog = "0: 0 0 0, 1 0 0, 0 1 0\n";
 const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-TEST(MeshReader, JudgesContentBeforeExtension) {
+TEST(MeshReader, PrefersContentOverExtension) {
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -31,7 +31,7 @@ TEST(MeshReader, JudgesContentBeforeExtension) {
   EXPECT_EQ(read_bytes(kObj, ".OBJ").log, kTriangleLog);
 }
 
-TEST(MeshReader, RefusesWhatItDoesNotKnow) {
+TEST(MeshReader, RefusesUnknownFormats) {
   for (const std::string extension : {"", ".ply", ".txt"}) {
     const Reading reading = read_bytes(kObj, extension);
     EXPECT_EQ(reading.code, ErrorCode::kBadInput);
@@ -57,9 +57,9 @@ TEST(MeshReader, RefusesPathsItCannotRead) {
   EXPECT_EQ(read_path(taken.path()).code, ErrorCode::kBadInput);
 }
 
-TEST(MeshReader, PassesTheSinksErrorOnAtOnce) {
+TEST(MeshReader, ReturnsTheSinksErrorAtOnce) {
   const TemporaryFile file(kObj + "v 1 1 0\nf 1 2 3 4\nf 3 2 1\n", ".obj");
-  Recorder recorder;
+  RecordingSink recorder;
   recorder.refuse_index = 1;
   const Result<MeshSummary> summary = read_mesh(file.path(), recorder);
   ASSERT_FALSE(summary);
@@ -82,7 +82,7 @@ TEST(MeshReader, ReportsProgressAboutEveryFourMebibytes) {
   constexpr std::uint32_t kCount = 200000;
   constexpr std::uint64_t kBytes = 84 + 50 * std::uint64_t{kCount};
   const TemporaryFile file(large_stl(kCount), ".stl");
-  Recorder recorder;
+  RecordingSink recorder;
   ASSERT_TRUE(read_mesh(file.path(), recorder));
   ASSERT_EQ(recorder.reports.size(), 3U);
   std::uint64_t last = 0;
@@ -110,7 +110,7 @@ class Summer : public TriangleSink {
   std::uint64_t count = 0;
 };
 
-TEST(MeshReader, ReadsTheSameHoweverLittleMemoryThereIs) {
+TEST(MeshReader, ReadsTheSameWithAnyMemory) {
   constexpr std::uint32_t kCount = 20000;
   const TemporaryFile file(large_stl(kCount), ".stl");
   for (const std::uint64_t memory_bytes : {0, 1, 1 << 17}) {

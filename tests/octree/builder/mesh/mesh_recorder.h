@@ -47,7 +47,7 @@ class TemporaryFile {
 /// Records every call as one line, with all digits:
 ///   0: 0 0 0, 1 0 0, 0 1 0
 ///   1+2 aside: face 1: vertex 9 is not finite
-class Recorder : public TriangleSink {
+class RecordingSink : public TriangleSink {
  public:
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
     char line[256];
@@ -84,7 +84,7 @@ struct Reading {
 };
 
 inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch) {
-  Recorder recorder;
+  RecordingSink recorder;
   const Result<MeshSummary> summary = read_mesh(path, recorder, scratch);
   Reading reading;
   reading.log = recorder.log;

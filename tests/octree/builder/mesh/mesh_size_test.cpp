@@ -23,9 +23,9 @@ std::string ply(const Declared& declared, const std::string& body) {
          "\nproperty list uchar int vertex_indices\nproperty uchar red\nend_header\n" + body;
 }
 
-MeshSize foresee(const std::string& bytes, const std::string& extension) {
+MeshSize estimate(const std::string& bytes, const std::string& extension) {
   const TemporaryFile file(bytes, extension);
-  const auto size = MeshSize::foresee(file.path());
+  const auto size = MeshSize::estimate(file.path());
   EXPECT_TRUE(size);
   return *size;
 }
@@ -39,40 +39,41 @@ void expect_size(const MeshSize& size, std::uint64_t triangles, std::uint64_t ve
 
 TEST(MeshSize, CountsTheCornersOfABinaryPly) {
   const std::string three(1 + 3 * 4 + 1, '\3'), five(1 + 5 * 4 + 1, '\5');
-  expect_size(foresee(ply({4, 2}, std::string(4 * 12, '\0') + three + three), ".ply"), 2, 4, false);
+  expect_size(estimate(ply({4, 2}, std::string(4 * 12, '\0') + three + three), ".ply"), 2, 4,
+              false);
   expect_size(
-      foresee(ply({4, 2, "binary_big_endian", "double"}, std::string(4 * 24, '\0') + three + five),
-              ".ply"),
+      estimate(ply({4, 2, "binary_big_endian", "double"}, std::string(4 * 24, '\0') + three + five),
+               ".ply"),
       4, 4, true);
 }
 
-TEST(MeshSize, TakesAnAsciiPlyForASurface) {
+TEST(MeshSize, AssumesASurfaceForAsciiPly) {
   const std::string rows(400, '0');
-  expect_size(foresee(ply({7, 10, "ascii"}, rows), ".ply"), 14, 7, false);
-  expect_size(foresee(ply({5, 10, "ascii"}, rows), ".ply"), 10, 5, false);
-  expect_size(foresee(ply({30, 10, "ascii", "double"}, rows), ".ply"), 20, 30, true);
+  expect_size(estimate(ply({7, 10, "ascii"}, rows), ".ply"), 14, 7, false);
+  expect_size(estimate(ply({5, 10, "ascii"}, rows), ".ply"), 10, 5, false);
+  expect_size(estimate(ply({30, 10, "ascii", "double"}, rows), ".ply"), 20, 30, true);
 }
 
-TEST(MeshSize, LeavesALyingHeaderToItsReader) {
+TEST(MeshSize, EstimatesNothingFromAWrongHeader) {
   for (const char* format : {"ascii", "binary_little_endian"})
     for (const std::uint64_t lie : {std::uint64_t{1000}, ~std::uint64_t{0}}) {
-      expect_size(foresee(ply({lie, 2, format}, std::string(100, '0')), ".ply"), 0, 0, false);
-      expect_size(foresee(ply({2, lie, format}, std::string(100, '0')), ".ply"), 0, 0, false);
+      expect_size(estimate(ply({lie, 2, format}, std::string(100, '0')), ".ply"), 0, 0, false);
+      expect_size(estimate(ply({2, lie, format}, std::string(100, '0')), ".ply"), 0, 0, false);
     }
-  expect_size(foresee("ply\nformat nonsense\n", ".ply"), 0, 0, false);
-  expect_size(foresee("nothing", ".txt"), 0, 0, false);
-  expect_size(foresee("", ".ply"), 0, 0, false);
+  expect_size(estimate("ply\nformat nonsense\n", ".ply"), 0, 0, false);
+  expect_size(estimate("nothing", ".txt"), 0, 0, false);
+  expect_size(estimate("", ".ply"), 0, 0, false);
 }
 
 TEST(MeshSize, CountsTheFacetsOfAnStl) {
-  expect_size(foresee("cut off", ".stl"), 0, 0, false);
+  expect_size(estimate("cut off", ".stl"), 0, 0, false);
   std::string binary(84 + 3 * 50, '\0');
   binary[80] = 3;
-  expect_size(foresee(binary, ".stl"), 3, 1, false);
+  expect_size(estimate(binary, ".stl"), 3, 1, false);
 }
 
 // Triangles are sampled for any number of them.
-TEST(MeshSize, TellsAHeapOfTrianglesFromASurface) {
+TEST(MeshSize, DistinguishesTriangleSoupFromSurfaces) {
   const std::uint32_t count = 60000;
   std::string text = "solid s\n", surface(80, ' '), heap(80, ' ');
   const auto put = [](std::string& to, const auto& value) {
@@ -92,9 +93,9 @@ TEST(MeshSize, TellsAHeapOfTrianglesFromASurface) {
     for (std::string* stl : {&surface, &heap}) stl->append(2, '\0');
     text += "endloop\nendfacet\n";
   }
-  expect_size(foresee(surface, ".stl"), count, count / 2, false);
-  expect_size(foresee(heap, ".stl"), count, 3 * count, false);
-  const MeshSize of_text = foresee(text, ".stl");
+  expect_size(estimate(surface, ".stl"), count, count / 2, false);
+  expect_size(estimate(heap, ".stl"), count, 3 * count, false);
+  const MeshSize of_text = estimate(text, ".stl");
   EXPECT_EQ(of_text.vertices, 3 * of_text.triangles);
 }
 
@@ -116,15 +117,15 @@ TEST(MeshSize, SamplesLongTexts) {
   for (std::uint64_t i = 0; i < count / 4; ++i)
     stl += "  Facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 " + std::to_string(i) +
            " 0\n  vertex 0 1 0\n endloop\n endfacet\n";
-  const MeshSize of_obj = foresee(obj, ".obj"), of_stl = foresee(stl, ".stl");
+  const MeshSize of_obj = estimate(obj, ".obj"), of_stl = estimate(stl, ".stl");
   expect_a_little_more(of_obj.triangles, count + count / 3);
   expect_a_little_more(of_obj.vertices, count);
   expect_a_little_more(of_stl.triangles, count / 4);
   EXPECT_TRUE(of_obj.float64 && of_stl.float64);
 }
 
-TEST(MeshSize, RefusesWhatIsNotThere) {
-  const auto size = MeshSize::foresee("/no/such/mesh.ply");
+TEST(MeshSize, RefusesMissingFiles) {
+  const auto size = MeshSize::estimate("/no/such/mesh.ply");
   ASSERT_FALSE(size);
   EXPECT_EQ(size.error().code, ErrorCode::kNotFound);
 }

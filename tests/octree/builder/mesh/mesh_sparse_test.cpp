@@ -74,7 +74,7 @@ TEST(SparseMesh, ReachesPlyIndicesPast31BitsAndOffsetsPast32) {
 }
 
 // The face takes 2^32 - 3 triangle indices, and the next face continues after them.
-TEST(SparseMesh, SetsAsideAPlyFaceOfFourBillionCorners) {
+TEST(SparseMesh, SkipsAPlyFaceOfFourBillionCorners) {
   constexpr std::uint32_t kCorners = 4294967295U;
   const std::string head =
       "ply\nformat binary_big_endian 1.0\nelement vertex 3\n"
@@ -126,12 +126,12 @@ TEST(SparseMesh, ReachesTheLastVerticesOfABinaryOff) {
   }
 }
 
-TEST(SparseMesh, KnowsAnStlPast32BitsByItsSize) {
+TEST(SparseMesh, DetectsAnStlPast32BitsByItsSize) {
   constexpr std::uint32_t kFacets = 4294967295U;
   SparseFile file(84 + 50 * std::uint64_t{kFacets});
   file.write(80, Bytes().put(kFacets, 0.0F, 0.0F, 1.0F, 1.0F, 2.0F, 3.0F).str());
   if (!file.ok()) GTEST_SKIP() << kNoSpace;
-  Recorder recorder;
+  RecordingSink recorder;
   recorder.refuse_index = 1;  // the others would take minutes
   const auto summary = read_mesh(file.path(), recorder);
   ASSERT_FALSE(summary);
@@ -139,12 +139,12 @@ TEST(SparseMesh, KnowsAnStlPast32BitsByItsSize) {
   EXPECT_EQ(recorder.log, "0: 1 2 3, 0 0 0, 0 0 0\n1: 0 0 0, 0 0 0, 0 0 0\n");
 }
 
-TEST(SparseMesh, RefusesStlCountsThatLiePast32Bits) {
+TEST(SparseMesh, RefusesWrongStlCountsPast32Bits) {
   // Truncated to 32 bits these counts are 0 and 3.
   for (const std::uint64_t facets : {std::uint64_t{1} << 32, (std::uint64_t{1} << 32) + 3}) {
-    const auto certain = static_cast<std::uint32_t>(facets);
+    const auto count_in_32_bits = static_cast<std::uint32_t>(facets);
     SparseFile file(84 + 50 * facets);
-    file.write(80, Bytes().put(certain).str());
+    file.write(80, Bytes().put(count_in_32_bits).str());
     if (!file.ok()) GTEST_SKIP() << kNoSpace;
     const Reading reading = read_path(file.path());
     EXPECT_EQ(reading.code, ErrorCode::kBadInput);

@@ -32,7 +32,7 @@ void expect_refused(const std::string& bytes, const std::string& message,
   EXPECT_NE(reading.error.find(message), std::string::npos) << "said: " << reading.error;
 }
 
-TEST(StlBinary, ReadsFacetsAndNotNormals) {
+TEST(StlBinary, IgnoresNormals) {
   Bytes bytes = binary_stl("made by hand", 2);
   put_facet(bytes, kCorners);
   put_facet(bytes, {0.1F, 0, 0, 0, 2, 0, 0, 0, 3});
@@ -45,7 +45,7 @@ TEST(StlBinary, ReadsFacetsAndNotNormals) {
   EXPECT_TRUE(reading.summary->float32);
 }
 
-TEST(StlBinary, IsKnownByItsSizeEvenIfItBeginsWithSolid) {
+TEST(StlBinary, IsDetectedByItsSizeDespiteTheWordSolid) {
   Bytes bytes = binary_stl("solid but binary" + std::string(64, ' '), 0x01010101);
   // A count without a zero byte would need gigabytes of facets, so only a wrong size is tested.
   EXPECT_FALSE(read_bytes(bytes.str()).summary);
@@ -56,7 +56,7 @@ TEST(StlBinary, IsKnownByItsSizeEvenIfItBeginsWithSolid) {
   expect_refused(bytes.str() + std::string(50, 'x'), "the count says 1 facets");
 }
 
-TEST(StlBinary, SetsBadFacetsAside) {
+TEST(StlBinary, SkipsBadFacets) {
   Bytes bytes = binary_stl("", 3);
   put_facet(bytes, kCorners);
   put_facet(bytes, {0, 0, 0, 1, std::numeric_limits<float>::infinity(), 0, 0, 1, 0});
@@ -67,7 +67,7 @@ TEST(StlBinary, SetsBadFacetsAside) {
             "2: 0 0 0, 1 0 0, 0 1 0\n");
 }
 
-TEST(StlBinary, PassesOverATrailerTooShortForAFacet) {
+TEST(StlBinary, SkipsATrailerTooShortForAFacet) {
   Bytes bytes = binary_stl("trailer", 1);
   put_facet(bytes, kCorners);
   const Reading reading = read_bytes(bytes.str() + std::string(49, 'x'), ".STL");
@@ -75,7 +75,7 @@ TEST(StlBinary, PassesOverATrailerTooShortForAFacet) {
   EXPECT_EQ(reading.log, "0: 0 0 0, 1 0 0, 0 1 0\n");
 }
 
-TEST(StlBinary, RefusesCountsThatLie) {
+TEST(StlBinary, RefusesWrongCounts) {
   Bytes bytes = binary_stl("", 2);
   put_facet(bytes, kCorners);
   expect_refused(bytes.str(),
@@ -120,7 +120,7 @@ TEST(StlAscii, ReadsSeveralSolidsAndEveryKindOfLineEnd) {
   }
 }
 
-TEST(StlAscii, SetsBadFacetsAsideAndSplitsPolygons) {
+TEST(StlAscii, SkipsBadFacetsAndSplitsPolygons) {
   const Reading reading = read_bytes(
       "solid s\n"
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n"

@@ -90,31 +90,31 @@ TEST(Chunks, DoNotDependOnTheRuns) {
 }
 
 // Compares the triangles read for each sector with a geometric test that shares no code with it.
-TEST(MaskSectors, AreReadWithAllThatTouchesThem) {
+TEST(MaskSectors, ReadAllTrianglesThatTouchThem) {
   for (const Soup& soup : {grains(200, 0.3), sphere(4), box({0, 0, 0}, {1, 1, 1}, 9)}) {
     const SampleMesh mesh = store(soup);
     const Surface surface(mesh);
     const auto runs = runs_of(mesh, 200);
-    MaskSectors regions(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
-    ASSERT_TRUE(regions.divide(*runs, 40));
-    ASSERT_TRUE(regions.add(mesh));
+    MaskSectors sectors(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
+    ASSERT_TRUE(sectors.divide(*runs, 40));
+    ASSERT_TRUE(sectors.add(mesh));
     std::size_t undivided = 0;
-    for (std::size_t at = 0; at < regions.all().size(); ++at) {
-      const MaskSectors::Region& region = regions.all()[at];
+    for (std::size_t at = 0; at < sectors.all().size(); ++at) {
+      const MaskSectors::Region& region = sectors.all()[at];
       if (region.divided()) continue;
       ++undivided;
-      const auto read = regions.read(at, *runs);
+      const auto read = sectors.read(at, *runs);
       ASSERT_TRUE(read);
       EXPECT_EQ(region.touched, read->size() > 0);
-      const Point lower = regions.grid().lower(region.cell);
+      const Point lower = sectors.grid().lower(region.cell);
       const std::size_t touching =
-          surface.touching(lower, regions.grid().upper(region.cell)).size();
+          surface.touching(lower, sectors.grid().upper(region.cell)).size();
       EXPECT_GE(read->size(), touching);
       EXPECT_LE(read->size(), touching + touching / 8 + 2) << "a test that tells little apart";
       for (std::uint32_t i = 1; i < read->size(); ++i) EXPECT_LT(read->key(i - 1), read->key(i));
       // The change of winding numbers between corners matches the surface.
       for (unsigned corner = 1; corner < 8; ++corner)
-        EXPECT_EQ(region.rise[corner], surface.winding(regions.grid().corner(region.cell, corner)) -
+        EXPECT_EQ(region.rise[corner], surface.winding(sectors.grid().corner(region.cell, corner)) -
                                            surface.winding(lower));
     }
     EXPECT_GT(undivided, 20u);

@@ -16,7 +16,7 @@ double longest_edge(const SampleMesh& mesh) {
   return (mesh.frame.upper() - mesh.frame.lower()).maxCoeff();
 }
 
-TEST(TriangleSpool, KeepsFloatsAsFloatsAndGivesThemBack) {
+TEST(TriangleSpool, RoundTripsFloatsAsFloats) {
   const SampleMesh mesh = store({{Vec3{0.5, 1, 2}, Vec3{-3, 0.125, 0}, Vec3{1e-3f, 7, 0}}});
   EXPECT_FALSE(mesh.float64());
   const double scale = std::ldexp(1.0, mesh.frame.scale_exponent);
@@ -24,7 +24,7 @@ TEST(TriangleSpool, KeepsFloatsAsFloatsAndGivesThemBack) {
   EXPECT_EQ(mesh.corners(0)[2].x(), 1e-3f * scale);
 }
 
-TEST(TriangleSpool, TurnsToDoublesAtTheFirstThatFloatsDoNotHold) {
+TEST(TriangleSpool, StoresDoublesFromTheFirstInexactFloatOn) {
   const std::array<Vec3, 3> narrow{Vec3{0.5, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
   const std::array<Vec3, 3> wide{Vec3{0.5, 0, 0}, Vec3{1, 0.1, 0}, Vec3{0, 1, 0}};
   EXPECT_FALSE(store({narrow}).float64());
@@ -52,20 +52,20 @@ TEST(TriangleSpool, ScalesBoxesWhoseSizeOverflows) {
   EXPECT_LE(longest_edge(mesh), 2);
 }
 
-TEST(TriangleSpool, ScalesOnePointByItsPlace) {
+TEST(TriangleSpool, ScalesASinglePointByItsCoordinates) {
   const SampleMesh mesh = store({{Vec3{1000, 0, 0}, Vec3{1000, 0, 0}, Vec3{1000, 0, 0}}});
   EXPECT_LT(std::fabs(mesh.corners(0)[0].x()), 2);
   EXPECT_EQ(store({{Vec3{}, Vec3{}, Vec3{}}}).frame.scale_exponent, 0);
 }
 
-TEST(TriangleSpool, KeepsSmallFloatsBesideLargeOnes) {
+TEST(TriangleSpool, StoresDoublesWhereScaledFloatsUnderflow) {
   // 1e-38 beside 1e38 would underflow in float32 once scaled to the model frame.
   const SampleMesh mesh = store({{Vec3{1e-38f, 0, 0}, Vec3{1e38f, 0, 0}, Vec3{0, 1e38f, 0}}});
   EXPECT_EQ(mesh.corners(0)[0].x(), std::ldexp(double{1e-38f}, mesh.frame.scale_exponent));
   EXPECT_TRUE(mesh.float64());
 }
 
-TEST(TriangleSpool, CountsWhatIsSetAside) {
+TEST(TriangleSpool, CountsSkippedRecords) {
   const std::array<Vec3, 3> corners{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
   TriangleSpool spool(100, 0, spill_file());
   SkippedRecord why;
@@ -89,7 +89,7 @@ TEST(TriangleSpool, CountsWhatIsSetAside) {
 }
 
 // The last of ten parts is the first with doubles. Parts in memory and spilled parts are the same.
-TEST(TriangleSpool, GivesTheSameTrianglesHoweverTheyAreKept) {
+TEST(TriangleSpool, GivesTheSameTrianglesFromMemoryAndDisk) {
   Soup soup = sphere(4);
   soup.back()[1].y += 0.1;
   const SampleMesh whole = store(soup);
@@ -98,7 +98,7 @@ TEST(TriangleSpool, GivesTheSameTrianglesHoweverTheyAreKept) {
     TriangleSpool spool(211, held, spill_file());
     for (std::size_t i = 0; i < soup.size(); ++i) ASSERT_TRUE(spool.triangle(i, soup[i]));
     ASSERT_TRUE(spool.finish());
-    ASSERT_EQ(spool.chunk_count(), 10u);
+    ASSERT_EQ(spool.batch_count(), 10u);
     std::uint32_t at = 0;
     for (std::size_t batch = 0; batch < 10; ++batch) {
       const auto some = spool.take_batch(batch);

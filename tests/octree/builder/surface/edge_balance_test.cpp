@@ -26,14 +26,14 @@ Soup both(Soup left, const Soup& right) {
   return left;
 }
 
-TEST(EdgeBalance, OfClosedSurfacesIsEven) {
+TEST(EdgeBalance, ClosedSurfacesHaveNoUnbalancedEdges) {
   EXPECT_EQ(balance(tetrahedron()).unbalanced_edges, 0u);
   EXPECT_EQ(balance(sphere(5)).unbalanced_edges, 0u);
   EXPECT_EQ(balance(both(tetrahedron(), tetrahedron())).unbalanced_edges, 0u);
   EXPECT_EQ(balance(both(tetrahedron(), sphere(2))).unbalanced_edges, 0u);
 }
 
-TEST(EdgeBalance, DoesNotMindFacesWithoutArea) {
+TEST(EdgeBalance, IgnoresFacesWithoutArea) {
   Soup soup = tetrahedron();
   const Vec3 p{0.25, 0.5, 0};
   soup.push_back({p, p, p});
@@ -58,7 +58,7 @@ TEST(EdgeBalance, FindsTheEdgesOfAHole) {
   EXPECT_EQ(found.first[0].to, Point(0, 0, 0));
 }
 
-TEST(EdgeBalance, FindsAFaceTheOtherWayRound) {
+TEST(EdgeBalance, FindsAFlippedFace) {
   Soup soup = sphere(3);
   std::swap(soup[17][0], soup[17][1]);
   const EdgeBalance found = balance(soup);
@@ -77,7 +77,7 @@ TEST(EdgeBalance, ListsTheFirstEdgesInTheInputsOrder) {
 }
 
 // Counted in many parts.
-TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
+TEST(EdgeBalance, CountsAnEdgeOnceForAnyNumberOfFaces) {
   Soup soup = repeated(60000);
   const EdgeBalance found = balance(soup);
   EXPECT_EQ(found.unbalanced_edges, 3u);
@@ -91,7 +91,7 @@ TEST(EdgeBalance, CountsAnEdgeOnceHoweverManyFacesItHas) {
 }
 
 // Two models; the coordinates of one hardly differ in the scale of the other.
-TEST(EdgeBalance, TellsSmallEdgesApart) {
+TEST(EdgeBalance, DistinguishesSmallEdges) {
   Soup soup = sphere(6);
   for (auto& triangle : soup)
     for (Vec3& corner : triangle)
@@ -104,7 +104,7 @@ TEST(EdgeBalance, TellsSmallEdgesApart) {
   for (const UnbalancedEdge& edge : found.first) EXPECT_NE(edge.along, edge.against);
 }
 
-TEST(EdgeBalance, DependsNeitherOnThreadsNorOnParts) {
+TEST(EdgeBalance, DoesNotDependOnThreadsOrParts) {
   const SampleMesh mesh = store(scattered(3000, 0.2));
   const EdgeBalance many = balance_of(mesh, 100);
   EXPECT_EQ(many.unbalanced_edges, 9000u);

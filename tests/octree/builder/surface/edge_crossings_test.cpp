@@ -65,7 +65,7 @@ void expect_exact(TriangleAndBox (*make)(Noise&), unsigned min_crossings) {
   EXPECT_GE(crossings, min_crossings);
 }
 
-TEST(EdgeCrossings, AreThoseOfExactPredicates) {
+TEST(EdgeCrossings, MatchExactPredicates) {
   expect_exact(random_pair, 100);
   expect_exact(about_an_edge, 300);
   expect_exact(needle, 0);
@@ -77,7 +77,7 @@ TEST(EdgeCrossings, AreThoseOfExactPredicates) {
 }
 
 // Differences whose products underflow.
-TEST(EdgeCrossings, AreExactWhereDoublesAreLost) {
+TEST(EdgeCrossings, AreExactWhereDoublesUnderflow) {
   expect_exact(tiny, 10);
   expect_exact(about_a_tiny_edge, 300);
   expect_exact(tiny_at_a_corner, 10);

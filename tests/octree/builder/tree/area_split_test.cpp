@@ -40,7 +40,7 @@ std::vector<std::uint32_t> positions(const std::vector<SplitItem>& items) {
   return all;
 }
 
-TEST(AreaSplit, PartsTwoHeapsWhicheverAxisTheyLieAlong) {
+TEST(AreaSplit, SeparatesTwoClustersAlongAnyAxis) {
   for (int axis = 0; axis < 3; ++axis) {
     Noise noise(static_cast<std::uint64_t>(axis));
     std::vector<Vec3> centres;
@@ -86,7 +86,7 @@ TEST(AreaSplit, HalvesCoincidentBoxesInWholeBlocks) {
   }
 }
 
-TEST(AreaSplit, HalvesWhatHasNoBestCost) {
+TEST(AreaSplit, HalvesBoxesOfInfiniteCost) {
   for (const std::size_t count : {17u, 33u, 100u, 128u}) {
     std::vector<SplitItem> items = boxes_around(std::vector<Vec3>(count));
     for (SplitItem& item : items) item.box.upper.fill(std::numeric_limits<float>::infinity());

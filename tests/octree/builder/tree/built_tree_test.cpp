@@ -29,7 +29,7 @@ std::vector<BuiltTreeCase> built_cases() {
 }
 
 // Each triangle is found once, and the number of records is as reported.
-TEST(BuiltTree, IsTheTreeOfAllPatches) {
+TEST(BuiltTree, HoldsTheTrianglesOfAllChunks) {
   for (const BuiltTreeCase& c : built_cases()) {
     SCOPED_TRACE(c.name);
     const ChunkedTree sample(c.soup, c.chunk_triangles);
@@ -57,7 +57,7 @@ TEST(BuiltTree, IsTheTreeOfAllPatches) {
   }
 }
 
-TEST(BuiltTree, IsAsHighAsItsRoot) {
+TEST(BuiltTree, HeightIsThatOfTheRoot) {
   for (const BuiltTreeCase& c : built_cases()) {
     SCOPED_TRACE(c.name);
     const ChunkedTree sample(c.soup, c.chunk_triangles);
@@ -72,7 +72,7 @@ TEST(BuiltTree, IsAsHighAsItsRoot) {
   }
 }
 
-TEST(BuiltTree, TellsTheModelsBox) {
+TEST(BuiltTree, ReportsTheModelsBox) {
   const ChunkedTree sample(sphere(3), 40);
   const TreeInfo tree = sample.tree->info();
   EXPECT_EQ(tree.box_lower, sample.mesh.lower());

@@ -86,7 +86,7 @@ TEST(Treelets, HoldEveryRecordOnceAndKeepTheirLimits) {
   }
 }
 
-TEST(Treelets, AreOneWhereAllFits) {
+TEST(Treelets, FormOneTreeletWhereAllFits) {
   const SampleTree sample = build_sample(sphere(3));
   const TreeletCut cut =
       cut_treelets(sample.tree, {kNodeSlots, sample.block_slots}, 100000, 100000);
@@ -126,7 +126,7 @@ class PlanCheck {
   PlanCheck(const SampleTree& sample)
       : sample_(sample), plan_(sample.plan), links_(sample.plan.page_bytes) {}
 
-  void expect_each_record_in_its_place() const {
+  void expect_each_record_at_its_slot() const {
     std::vector<unsigned> nodes(sample_.tree.nodes.size()), blocks(sample_.tree.blocks.size());
     for (std::uint32_t number = 0; number < plan_.pages.size(); ++number) {
       const PlannedPage& page = plan_.pages[number];
@@ -190,13 +190,13 @@ class PlanCheck {
   LinkFormat links_;
 };
 
-TEST(PagePlan, KeepsItsPromisesForEveryMeshAndPageSize) {
+TEST(PagePlan, IsConsistentForEveryMeshAndPageSize) {
   for (const Case& c : cases())
     for (std::uint32_t page_bytes = 4096; page_bytes <= 262144; page_bytes *= 2) {
       SCOPED_TRACE(std::string(c.name) + ", pages of " + std::to_string(page_bytes));
       const SampleTree sample = build_sample(c.soup, page_bytes);
       const PlanCheck check(sample);
-      check.expect_each_record_in_its_place();
+      check.expect_each_record_at_its_slot();
       check.expect_one_parent_page_each();
       check.expect_ascending_keys();
     }
@@ -208,7 +208,7 @@ TEST(PagePlan, GivesTheRootPageZero) {
   EXPECT_EQ(sample.plan.pages[0].nodes[0], 0u);
 }
 
-TEST(PagePlan, IsOnePageWhereAllFitsAQuarter) {
+TEST(PagePlan, UsesOnePageForSmallTrees) {
   EXPECT_EQ(build_sample(sphere(3), 262144).plan.pages.size(), 1u);
   EXPECT_EQ(build_sample(repeated(1), 4096).plan.pages.size(), 1u);
 }

@@ -53,7 +53,7 @@ void expect_permutation(const std::vector<MortonKey>& keys) {
   EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0);
 }
 
-TEST(BinaryTree, PartsTrianglesInTwoUntilTheyFitABlock) {
+TEST(BinaryTree, SplitsTrianglesUntilTheyFitABlock) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const SampleTree sample = build_sample(c.soup);
@@ -75,7 +75,7 @@ TEST(BinaryTree, PartsTrianglesInTwoUntilTheyFitABlock) {
   }
 }
 
-TEST(BinaryTree, BoxesAreTheLeastOfWhatIsInThem) {
+TEST(BinaryTree, BoxesAreTight) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const SampleTree sample = build_sample(c.soup);
@@ -98,7 +98,7 @@ TEST(BinaryTree, SplitsLargeRangesByCode) {
   }
 }
 
-TEST(WideTree, IsOneBlockForOneBlocksWorth) {
+TEST(WideTree, IsASingleBlockForSixteenTriangles) {
   const SampleTree sample = build_sample(repeated(16));
   EXPECT_TRUE(sample.tree.nodes.empty());
   ASSERT_EQ(sample.tree.blocks.size(), 1u);
@@ -149,7 +149,7 @@ TEST(WideTree, NamesEveryRecordOnceInPreorder) {
   }
 }
 
-TEST(WideTree, KnowsItsHeights) {
+TEST(WideTree, StatesItsHeights) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const WideTree tree = build_sample(c.soup).tree;
@@ -184,7 +184,7 @@ TEST(WideTree, DecodesToBoxesThatNestAndEnclose) {
   }
 }
 
-TEST(WideTree, WastesAtMostAStepOfTheParentsBox) {
+TEST(WideTree, ChildBoxesAreTightWithinOneStep) {
   const SampleTree sample = build_sample(sphere(4));
   for (const WideNode& node : sample.tree.nodes)
     for (unsigned i = 0; i < node.child_count; ++i) {

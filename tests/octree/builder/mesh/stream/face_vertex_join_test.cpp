@@ -40,7 +40,7 @@ PlainMesh height_field(unsigned side) {
 }
 
 /// The same faces and vertices, both in random order.
-PlainMesh byte_split(const PlainMesh& mesh) {
+PlainMesh in_random_order(const PlainMesh& mesh) {
   std::mt19937 random(5);
   std::vector<std::size_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -86,10 +86,10 @@ INSTANTIATE_TEST_SUITE_P(All, FaceVertexJoinOf,
                          })),
                          join_name_of);
 
-TEST_P(FaceVertexJoinOf, DeliversTheSameHoweverLittleMemoryThereIs) {
+TEST_P(FaceVertexJoinOf, DeliversTheSameWithAnyMemory) {
   for (const PlainMesh& mesh :
-       {height_field(40), byte_split(height_field(40)), damaged(height_field(40), 9000),
-        damaged(byte_split(height_field(40)), 9000)}) {
+       {height_field(40), in_random_order(height_field(40)), damaged(height_field(40), 9000),
+        damaged(in_random_order(height_field(40)), 9000)}) {
     const TemporaryFile file(bytes_of(mesh), GetParam().extension);
     MeshScratch enough;
     const Reading expected = read_path(file.path(), enough);
@@ -106,14 +106,14 @@ TEST_P(FaceVertexJoinOf, DeliversTheSameHoweverLittleMemoryThereIs) {
   }
 }
 
-TEST_P(FaceVertexJoinOf, SortsOnDiskWhatIsInNoOrderOnly) {
+TEST_P(FaceVertexJoinOf, SortsOnDiskOnlyWhenInRandomOrder) {
   constexpr std::uint64_t kMemoryBytes = 20000;
   const auto sorted_bytes = [](const PlainMesh& mesh) {
     const TemporaryFile file(bytes_of(mesh), GetParam().extension);
     MeshScratch scratch(kMemoryBytes);
-    int queried = 0;
+    int sorts = 0;
     scratch.before_sorting([&] {
-      ++queried;
+      ++sorts;
       return Result<void>();
     });
     const Reading reading = read_path(file.path(), scratch);
@@ -121,17 +121,17 @@ TEST_P(FaceVertexJoinOf, SortsOnDiskWhatIsInNoOrderOnly) {
     const std::uint64_t position_bytes = GetParam().is_text ? 24 : 12;
     const std::uint64_t text_bytes =
         GetParam().is_text ? mesh.vertices.size() * position_bytes - kMemoryBytes / 2 : 0;
-    EXPECT_EQ(queried == 0, scratch.disk_bytes() <= text_bytes);
-    return queried;
+    EXPECT_EQ(sorts == 0, scratch.disk_bytes() <= text_bytes);
+    return sorts;
   };
   EXPECT_EQ(sorted_bytes(height_field(90)), 0);
-  EXPECT_EQ(sorted_bytes(byte_split(height_field(90))), 1);
+  EXPECT_EQ(sorted_bytes(in_random_order(height_field(90))), 1);
 }
 
 TEST_P(FaceVertexJoinOf, ReportsProgressThatNeverDecreases) {
-  const TemporaryFile file(bytes_of(byte_split(height_field(400))), GetParam().extension);
+  const TemporaryFile file(bytes_of(in_random_order(height_field(400))), GetParam().extension);
   MeshScratch scratch(50000);
-  Recorder recorder;
+  RecordingSink recorder;
   ASSERT_TRUE(read_mesh(file.path(), recorder, scratch));
   ASSERT_GT(recorder.reports.size(), 2u);
   std::pair<std::uint64_t, std::uint64_t> last;
@@ -182,7 +182,7 @@ TEST(FaceVertexJoin, ReadsVerticesAboutOnce) {
   for (const unsigned side : {150u, 300u}) {
     const std::uint64_t vertex_bytes = std::uint64_t{side} * side * 12;
     for (const bool in_order : {true, false}) {
-      const PlainMesh mesh = in_order ? height_field(side) : byte_split(height_field(side));
+      const PlainMesh mesh = in_order ? height_field(side) : in_random_order(height_field(side));
       const std::string bytes = mesh_formats::ply_little(mesh, {});
       const TemporaryFile file(bytes, ".ply");
       WatchedFile calls(file.path());
@@ -190,7 +190,7 @@ TEST(FaceVertexJoin, ReadsVerticesAboutOnce) {
       calls.to = calls.from + vertex_bytes;
       constexpr std::uint64_t kMemoryBytes = 40000;
       MeshScratch scratch(kMemoryBytes, std::filesystem::temp_directory_path(), calls);
-      Recorder recorder;
+      RecordingSink recorder;
       ASSERT_TRUE(read_mesh(file.path(), recorder, scratch));
       EXPECT_GE(calls.read_bytes(), vertex_bytes);
       // The header is parsed from a prefix of 64 KiB, and the window reaches back a little.
@@ -209,18 +209,18 @@ TEST(FaceVertexJoin, ReadsFacesOnce) {
   WatchedFile calls(file.path());
   calls.from = bytes.find("end_header\n") + 11 + mesh.vertices.size() * 12;
   MeshScratch scratch(100000, std::filesystem::temp_directory_path(), calls);
-  Recorder recorder;
+  RecordingSink recorder;
   ASSERT_TRUE(read_mesh(file.path(), recorder, scratch));
   EXPECT_EQ(calls.read_bytes(), bytes.size() - calls.from);
 }
 
-class MeshCutMeanwhile : public testing::TestWithParam<MeshFormat> {};
-INSTANTIATE_TEST_SUITE_P(All, MeshCutMeanwhile,
+class MeshTruncatedWhileRead : public testing::TestWithParam<MeshFormat> {};
+INSTANTIATE_TEST_SUITE_P(All, MeshTruncatedWhileRead,
                          testing::ValuesIn(formats_that([](const MeshFormat&) { return true; })),
                          join_name_of);
 
-TEST_P(MeshCutMeanwhile, IsAnErrorWhereverItIsMissed) {
-  PlainMesh mesh = byte_split(height_field(60));
+TEST_P(MeshTruncatedWhileRead, IsAnErrorAtAnyRead) {
+  PlainMesh mesh = in_random_order(height_field(60));
   if (!GetParam().has_polygons)
     for (Indices& face : mesh.faces) face.resize(3);
   const std::string bytes = GetParam().write(mesh, {});
@@ -230,7 +230,7 @@ TEST_P(MeshCutMeanwhile, IsAnErrorWhereverItIsMissed) {
     WatchedFile calls(file.path());
     calls.cut_after = cut_after;
     MeshScratch scratch(16000, std::filesystem::temp_directory_path(), calls);
-    Recorder recorder;
+    RecordingSink recorder;
     const auto summary = read_mesh(file.path(), recorder, scratch);
     if (calls.reads() <= cut_after) break;
     ASSERT_FALSE(summary);
@@ -244,8 +244,8 @@ TEST_P(MeshCutMeanwhile, IsAnErrorWhereverItIsMissed) {
   EXPECT_GE(refused, 2u);
 }
 
-TEST(FaceVertexJoin, PassesOnWhyCornersMayNotBeSorted) {
-  const TemporaryFile file(mesh_formats::ply_big(byte_split(height_field(90)), {}), ".ply");
+TEST(FaceVertexJoin, ReportsTheErrorOfBeforeSorting) {
+  const TemporaryFile file(mesh_formats::ply_big(in_random_order(height_field(90)), {}), ".ply");
   MeshScratch scratch(20000);
   scratch.before_sorting([]() -> Result<void> {
     return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere, "no room");

@@ -11,7 +11,7 @@ namespace planetree::octree {
 namespace {
 
 // Windows end in every line sooner or later, and within "\r\n".
-TEST(MeshLines, AreThoseOfTheText) {
+TEST(MeshLines, MatchTheLinesOfTheText) {
   std::mt19937 random(2);
   for (const std::string ends : {"n", "r", "rn", "nrb"}) {
     std::string text;
@@ -43,7 +43,7 @@ TEST(MeshLines, AreThoseOfTheText) {
   }
 }
 
-TEST(MeshLines, OfThirtyTwoMebibytesAreTheLongest) {
+TEST(MeshLines, MayBeThirtyTwoMebibytesLong) {
   const std::string text = "ab\n" + std::string(MeshLines::kMaxLineBytes - 1, 'c') + "\n";
   for (const bool longer : {false, true}) {
     const TemporaryFile path(longer ? text.substr(0, text.size() - 1) + "cc\n" : text, ".txt");

@@ -43,7 +43,7 @@ TEST(MeshText, RoundsFloatsOnceAndNotThroughDouble) {
   EXPECT_EQ(narrow("1.00000005960464477539062500001"), std::nextafter(1.0F, 2.0F));
 }
 
-TEST(MeshText, TellsTooLargeFromTooSmall) {
+TEST(MeshText, OverflowsAndUnderflowsCorrectly) {
   EXPECT_EQ(real("1e400"), std::numeric_limits<double>::infinity());
   EXPECT_EQ(real("1e99999999999999999999"), std::numeric_limits<double>::infinity());
   EXPECT_EQ(real("0.0001e400"), std::numeric_limits<double>::infinity());
@@ -58,7 +58,7 @@ TEST(MeshText, TellsTooLargeFromTooSmall) {
   EXPECT_EQ(real("0." + std::string(400, '0') + "1"), 0.0);
 }
 
-TEST(MeshText, KnowsWhatPrintersCallNotANumber) {
+TEST(MeshText, ReadsEverySpellingOfNan) {
   EXPECT_TRUE(std::isnan(real("nan")));
   EXPECT_TRUE(std::isnan(real("-NaN")));
   EXPECT_TRUE(std::isnan(real("-1.#IND")));
@@ -73,7 +73,7 @@ TEST(MeshText, RefusesWhatIsNoNumber) {
   }
 }
 
-TEST(MeshText, TakesIntegersAndLeavesTheRest) {
+TEST(MeshText, ReadsIntegersAndKeepsTheRest) {
   std::string_view word = "-12/7";
   std::int64_t value = 0;
   EXPECT_TRUE(take_integer(word, value));
@@ -113,7 +113,7 @@ TEST(MeshText, CountsLinesAndBytes) {
   EXPECT_FALSE(lines.next());
 }
 
-TEST(MeshText, CutsCommentsOnlyAsTold) {
+TEST(MeshText, RemovesCommentsOnlyWhereRequested) {
   const std::string_view text = " # a\nb # c\nd#e\n1.#IND -1.#INF#f\n";
   LineScanner lines(text, {}, LineEnd::kAny, LineComment::kHash);
   for (const char* line : {"b ", "d", "1.#IND -1.#INF"}) {
@@ -127,7 +127,7 @@ TEST(MeshText, CutsCommentsOnlyAsTold) {
   EXPECT_EQ(kept.line(), " # a");
 }
 
-TEST(MeshText, EndsALineInFrontOfBinaryDataOnlyAsTold) {
+TEST(MeshText, EndsLinesByTheRequestedLineEnd) {
   LineScanner newline("a\rb\n\n", {}, LineEnd::kNewline);
   ASSERT_TRUE(newline.next());
   EXPECT_EQ(newline.line(), "a\rb");
