@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kHalfPi = 0x1.921fb54442d18p+0;
 
-/// Arctangents of k / 8.
+/// kArctangents[k] is the arctangent of k / 8.
 constexpr std::array<double, 9> kArctangents = {
     0x0.0p+0,
     0x1.fd5ba9aac2f6ep-4,
@@ -25,9 +25,9 @@ constexpr std::array<double, 9> kArctangents = {
     0x1.921fb54442d18p-1,
 };
 
-/// The arctangent of 0 <= t <= 1: that of the nearest eighth, and a series for
-/// what is left, (t - c) / (1 + t c), below 1/16. The first term left out is
-/// below 2^-68 / 17.
+/// Returns the arctangent of t, 0 <= t <= 1. It is the arctangent of the nearest eighth c plus a
+/// series for x = (t - c) / (1 + t c), which is at most 1/16. The first omitted term is below 2^-68
+/// / 17.
 double arctangent(double t) {
   const std::size_t eighth = (static_cast<std::size_t>(t * 16) + 1) / 2;
   const double c = static_cast<double>(eighth) / 8;
@@ -48,7 +48,7 @@ double angle_of(double along, double across) noexcept {
 }
 
 double angle_between(const Point& u, const Point& v) noexcept {
-  // Of about length 1, so that no product overflows or underflows.
+  // Scaled to a length of about 1, so that no product overflows or underflows.
   const Point a = u / u.cwiseAbs().maxCoeff(), b = v / v.cwiseAbs().maxCoeff();
   return angle_of(a.dot(b), a.cross(b).norm());
 }

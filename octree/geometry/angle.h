@@ -4,16 +4,20 @@
 
 namespace planetree::octree {
 
-/// The angle of the vector (along, across), across >= 0, from the first axis: 0
-/// to pi, right to 2^-50. Not both may be zero; both finite.
+/// Returns the angle between the first axis and the vector (along, across).
 ///
-/// Uses no function of the mathematics library but sqrt: those differ from one
-/// processor to the next, and angles reach answers.
+/// along   finite
+/// across  finite, >= 0; not both may be zero
+/// return  0 to pi, right to 2^-50
+///
+/// Calls no function of the mathematics library but sqrt: the others differ between processors, and
+/// angles reach answers.
 double angle_of(double along, double across) noexcept;
 
-/// The angle between two directions, 0 to pi, right to some 4 roundings of pi:
-/// 2^-50. Neither may be zero; their lengths do not matter. Exchanging the two
-/// changes no bit.
+/// Returns the angle between two directions.
+///
+/// u, v    finite, of any length but zero
+/// return  0 to pi, right to about 4 roundings of pi, 2^-50; angle_between(v, u) has the same bits
 double angle_between(const Point& u, const Point& v) noexcept;
 
 }  // namespace planetree::octree

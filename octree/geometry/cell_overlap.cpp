@@ -8,14 +8,14 @@
 namespace planetree::octree {
 namespace {
 
-/// Each side of a comparison is a sum of at most 6 products of at most 3
-/// factors, each rounded: below 2^-49 of the sum of the products' magnitudes.
+/// Each side of a comparison is a sum of at most 6 products of at most 3 rounded factors. It errs
+/// by less than 2^-49 of the sum of the products' magnitudes.
 constexpr double kMargin = 0x1p-48;
 /// Products below this may have underflowed.
 constexpr double kUnderflow = 0x1p-1000;
 
-/// The triangle about the box's centre, and the box's half sides: a little more,
-/// so that where the centre lies does not matter.
+/// The triangle relative to the box's centre, and the half sides of the box. The half sides are
+/// slightly enlarged, so that the rounding of the centre does not matter.
 struct Centred {
   Triangle corners;
   Point half;
@@ -29,8 +29,8 @@ Centred centred(const Triangle& triangle, const Point& lower, const Point& upper
   return result;
 }
 
-/// Whether the projections on an axis are apart; the axis has components `p` and
-/// `q` in the directions `i` and `j` and none in the third.
+/// Returns whether the projections on an axis are apart. The axis has component `p` in direction
+/// `i`, `q` in direction `j` and none in the third.
 inline bool apart(const Centred& centred, unsigned i, unsigned j, double p, double q) {
   double least = 0, greatest = 0, magnitude = 0;
 #pragma GCC unroll 3
@@ -81,7 +81,7 @@ bool may_touch(const Triangle& triangle, const Point& lower, const Point& upper)
   if ((a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any() ||
       (a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any())
     return false;
-  // Most triangles that touch a cell have a corner in it.
+  // Fast path: most triangles that touch a cell have a corner in it.
   for (const Point& corner : triangle)
     if ((corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all())
       return true;

@@ -4,14 +4,16 @@
 
 namespace planetree::octree {
 
-/// A running sum of doubles that knows what its rounding may have cost: the
-/// sum of a great many terms, and terms taken away again, leave no trace
-/// (Neumaier 1974; the bound of what is left is ours).
+/// Running sum of doubles with a bound on its rounding error. It keeps what each addition loses, so
+/// that the error stays small over a great many terms, also when terms are subtracted again.
+///
+/// source  Neumaier 1974; the error bound is our own
 class CertainSum {
  public:
   void add(double term) {
     const double next = high_ + term;
-    // What `next` has lost, without error; to nearest even or not.
+    // Rounding error of `next`. It is exact when the thread rounds to nearest; in a directed mode
+    // it errs by at most 2^-104 |next|.
     const double lost =
         std::fabs(high_) >= std::fabs(term) ? (high_ - next) + term : (term - next) + high_;
     high_ = next;
@@ -20,7 +22,7 @@ class CertainSum {
   }
 
   double value() const { return high_ + low_; }
-  /// The true sum is within this of value().
+  /// |value() - true sum| is at most this.
   double error() const { return 1.01 * slack_ + 0x1p-52 * std::fabs(high_); }
 
  private:

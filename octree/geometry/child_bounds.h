@@ -6,27 +6,28 @@
 #include "octree/geometry/float_box.h"
 #include "octree/geometry/plane.h"
 
-/// What a node knows of one child, as stored: a box in 255ths of the node's
-/// own decoded box, and the bounding planes relative to the child's decoded
-/// box. Decoding is the one truth that builder, reader and verifier share.
+/// Bounds of one child as a node stores them: a box in 255ths of the node's own decoded box, and
+/// the disc relative to the child's decoded box. Builder, reader and verifier all decode with the
+/// functions below, so that they see the same bounds.
 namespace planetree::octree {
 
 struct PackedChild {
-  std::array<std::uint8_t, 3> lower{};  ///< steps from the node's lower sides
-  std::array<std::uint8_t, 3> upper{};  ///< from its upper ones, back
+  std::array<std::uint8_t, 3> lower{};  ///< steps up from the node's lower sides
+  std::array<std::uint8_t, 3> upper{};  ///< steps down from the node's upper sides
   PackedNormal normal;
   std::int16_t slab_lower = 0;
   std::int16_t slab_upper = 0;
   std::uint16_t radius = 0;
 };
 
-/// Steps from one side of a box to the other; a child's two counts have no more together.
+/// Steps from one side of a box to the other. A child's lower and upper counts add up to at most
+/// this on each axis.
 inline constexpr int kBoxSteps = 255;
 
-/// What the sides of a box's children are counted in, along one axis.
+/// Returns the length of one step of the children's sides along one axis.
 inline float box_step(float lower, float upper) { return (upper - lower) * (1.0f / kBoxSteps); }
 
-/// The box of a child whose sides are so many steps within its parent's.
+/// Returns the box of a child from the steps of its sides within its parent's box.
 inline FloatBox unpack_box(const FloatBox& parent, const std::array<std::uint8_t, 3>& lower,
                            const std::array<std::uint8_t, 3>& upper) {
   FloatBox box;
@@ -41,7 +42,8 @@ inline FloatBox unpack_box(const FloatBox& parent, const PackedChild& child) {
   return unpack_box(parent, child.lower, child.upper);
 }
 
-/// A decoded slab with its tangential extent, about the centre of its box.
+/// A decoded disc, relative to the centre of its box: a slab and the radius of the cylinder that
+/// cuts it off.
 struct Disc {
   std::array<float, 3> normal{0, 0, 1};
   float slab_lower = 0;

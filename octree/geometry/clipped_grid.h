@@ -5,8 +5,8 @@
 
 namespace planetree::octree {
 
-/// The octree's cells as far as they are in a region: boxes too, and side by side as the cells
-/// are. One that is beyond a wall is flat, within it.
+/// Cells of the octree clipped to a region. Clipped cells are boxes too, and neighbours still share
+/// sides. A cell beyond a wall is flat and lies within the wall.
 class ClippedGrid {
  public:
   explicit ClippedGrid(const Point& lower, const Region& region = {})
@@ -18,7 +18,7 @@ class ClippedGrid {
     return region_.clamped(grid_.corner(cell, which));
   }
   Point middle(const GridCell& cell) const { return region_.clamped(grid_.middle(cell)); }
-  /// As CellGrid::octant(), of a point in the region.
+  /// Returns the octant that a point of the region lies in; see CellGrid::octant().
   unsigned octant(const GridCell& cell, const Point& point) const {
     const Point middle = this->middle(cell);
     unsigned octant = 0;
@@ -27,7 +27,7 @@ class ClippedGrid {
     return octant;
   }
 
-  /// Whether some point of the region is in the cell: of others nobody asks.
+  /// Returns whether the cell contains a point of the region. Callers use only such cells.
   bool has_part_of(const GridCell& cell) const {
     return region_.meets(grid_.lower(cell), grid_.upper(cell));
   }

@@ -6,8 +6,8 @@
 
 namespace planetree::octree {
 
-/// A finite double is mantissa * 2^(exponent - 1074). Taken from its bits: a
-/// thread may have been told to take subnormal numbers for zero.
+/// A finite double as mantissa * 2^(exponent - 1074). The parts are read from its bits because the
+/// thread's mode may treat subnormal numbers as zero.
 struct DoubleParts {
   std::int64_t mantissa;
   int exponent;

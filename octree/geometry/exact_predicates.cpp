@@ -12,22 +12,21 @@ namespace {
 
 namespace mp = boost::multiprecision;
 
-/// The room is on the stack.
+/// Integer of fixed size, stored without allocation.
 template <unsigned kBits>
 using Whole =
     mp::number<mp::cpp_int_backend<kBits, kBits, mp::signed_magnitude, mp::unchecked, void>,
                mp::et_off>;
 
-/// Coordinates are whole multiples of 2^-1074 below 2^302, differences of two
-/// below 2^1377, and a determinant is a sum of six products of three: below
-/// 2^4134.
+/// Coordinates are multiples of 2^-1074 and below 2^302; differences of two are below 2^1377 units.
+/// A determinant is a sum of six products of three differences: below 2^4134.
 using LargeWhole = Whole<4160>;
-/// Mostly they are of about one size. What is below 2^126 has differences below 2^127 and
+/// Most coordinates are of similar size. Coordinates below 2^126 have differences below 2^127 and
 /// determinants below 2^384.
 using SmallWhole = Whole<384>;
 constexpr int kSmallBits = 126;
 
-/// Numbers that are multiples of one power of two, as small as it can be chosen.
+/// The unit of some points: the largest power of two that divides all their coordinates.
 class CommonUnit {
  public:
   template <std::size_t kCount>
@@ -40,7 +39,7 @@ class CommonUnit {
         }
   }
 
-  /// Whether all numbers are below 2^kSmallBits units.
+  /// Returns whether all coordinates are below 2^kSmallBits units.
   bool small() const { return max_ - exponent_ <= kSmallBits - 53; }
 
   template <class Number>

@@ -2,9 +2,10 @@
 
 #include "octree/geometry/triangle_distance.h"
 
-/// What octree/geometry/predicates.h asks where double cannot tell: the same signs, in
-/// whole numbers. No allocation, no rounding, no care for the floating-point
-/// mode of the thread; a microsecond rather than nanoseconds.
+/// Exact versions of the predicates of octree/geometry/predicates.h, for arguments that its filter
+/// in double cannot decide. They return the same signs and compute in integers: no allocation, no
+/// rounding, no dependence on the thread's floating-point mode. A call takes about a microsecond,
+/// the filter nanoseconds.
 namespace planetree::octree {
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;

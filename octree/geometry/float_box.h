@@ -7,7 +7,7 @@
 
 namespace planetree::octree {
 
-/// An axis-aligned box relative to the model's centre.
+/// An axis-aligned box in float, relative to the model's centre.
 struct FloatBox {
   std::array<float, 3> lower{};
   std::array<float, 3> upper{};

@@ -4,16 +4,17 @@
 #include <bit>
 #include <cstdint>
 
-/// Octcodes: 64-bit names of octree cells ("Out-of-core real-time haptic
-/// interaction on very large models", section 3.1: 57 bits of Morton code and
-/// 5 bits of level). The last 2 bits, ours, name the one-bit splits within a
-/// level, so that every prefix of a Morton code has an octcode.
+/// Octcodes: 64-bit names of octree cells.
 ///
-///   63     59 58                                     2 1      0
-///   [ level ][ Morton code, left-aligned, 57 bits     ][ within ]
+///     63     59 58                                     2 1      0
+///     [ level ][ Morton code, left-aligned, 57 bits     ][ within ]
 ///
-/// Ordered as integers, coarse cells come first and cells of one level in
-/// Morton order; a cell precedes every cell inside it.
+/// In the order of their integers, coarse cells come first, cells of one level are in Morton order,
+/// and a cell precedes every cell inside it.
+///
+/// source  "Out-of-core real-time haptic interaction on very large models", section 3.1: 57 bits of
+///         Morton code and 5 bits of level. The last 2 bits are our own: they count the one-bit
+///         splits within a level, so that every prefix of a Morton code has an octcode.
 namespace planetree::octree {
 
 inline constexpr unsigned kLevels = 19;
@@ -39,26 +40,27 @@ constexpr std::uint32_t gather_bits(std::uint64_t code) {
   return static_cast<std::uint32_t>((code | code >> 32) & 0x7ffff);
 }
 
-/// The Morton code of a finest cell; each coordinate is below 2^19. Bit 0 of
-/// every triple is x, bit 1 y, bit 2 z.
+/// Returns the Morton code of a finest cell. Each coordinate is below 2^19. Bit 0 of every triple
+/// of bits is x, bit 1 y, bit 2 z.
 constexpr std::uint64_t morton_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
 }
 
-/// The octcode of the first `prefix_bits` (0 to 57) bits of a Morton code.
+/// Returns the octcode of the first `prefix_bits` (0 to 57) bits of a Morton code.
 constexpr std::uint64_t octcode_of_prefix(std::uint64_t morton, unsigned prefix_bits) {
   const unsigned dropped = kMortonBits - prefix_bits;
   const std::uint64_t code = dropped == kMortonBits ? 0 : morton >> dropped << dropped;
   return std::uint64_t{prefix_bits / 3} << 59 | code << 2 | prefix_bits % 3;
 }
 
-/// The octcode of the smallest cell that holds two Morton codes, and so all between them.
+/// Returns the octcode of the smallest cell that contains two Morton codes and therefore all
+/// between them.
 constexpr std::uint64_t octcode_of_range(std::uint64_t least, std::uint64_t greatest) {
   const auto same = static_cast<unsigned>(std::countl_zero(least ^ greatest)) - (64 - kMortonBits);
   return octcode_of_prefix(least, std::min(same, kMortonBits));
 }
 
-/// A cell read back from an octcode: `x`, `y`, `z` in cells of its level.
+/// A cell decoded from an octcode. `x`, `y` and `z` count cells of its level.
 struct Cell {
   unsigned level = 0;
   unsigned within = 0;  ///< one-bit splits below `level`, 0 to 2

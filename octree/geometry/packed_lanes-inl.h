@@ -1,5 +1,5 @@
-// Some lanes of registers put one behind the other, compiled once for each instruction set that
-// Highway knows at hand.
+// Compaction: moves selected lanes of a register to its front. Compiled once for each instruction
+// set that Highway targets.
 
 #if defined(PLANETREE_OCTREE_PACKED_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_PACKED_LANES_INL_H_
@@ -21,7 +21,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_AVX2
-// For each mask of eight lanes, which they are, a byte each: the first in the lowest.
+// For each mask of eight lanes the numbers of the selected lanes, one a byte, the first in the
+// lowest byte.
 inline constexpr std::array<std::uint64_t, 256> kLanesOfMask = [] {
   std::array<std::uint64_t, 256> lanes{};
   for (unsigned mask = 0; mask < lanes.size(); ++mask)
@@ -31,7 +32,7 @@ inline constexpr std::array<std::uint64_t, 256> kLanesOfMask = [] {
 }();
 #endif
 
-// The lanes of a mask, of registers of 32-bit numbers. `Tag` is one of these.
+// The selected lanes of registers of 32-bit numbers. `Tag` is one of these.
 template <class Tag>
 class PackedLanes {
  public:
@@ -46,12 +47,12 @@ class PackedLanes {
 
   std::size_t count() const { return count_; }
 
-  // Writes as much as a register holds: count() numbers and, behind them, others of it or 0.
+  // Writes a whole register: the count() selected numbers, then unspecified ones.
   template <class Lanes, class T>
   HWY_INLINE void store(Lanes values, T* to) const {
     const hn::DFromV<Lanes> d;
 #if HWY_TARGET == HWY_AVX2
-    // Highway 1.0.3 has a table in the function for this, which gcc 12 copies to the stack.
+    // Highway 1.0.3 has a function-local table for this, which gcc 12 copies to the stack.
     const auto packed = hn::TableLookupLanes(values, hn::IndicesFromVec(d, lanes_));
 #else
     const auto packed = hn::Compress(values, hn::RebindMask(d, mask_));

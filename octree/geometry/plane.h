@@ -5,20 +5,22 @@
 #include <cmath>
 #include <cstdint>
 
-/// Bounding planes as they are stored: a unit normal in 32 bits and offsets in
-/// 16, relative to the box they belong to. What is decoded here is the truth:
-/// builders widen offsets until the decoded planes enclose the surface.
+/// Storage of bounding planes: a unit normal in 32 bits and offsets in 16 bits, relative to the box
+/// they belong to. The decoded planes are what counts: the builder widens offsets until the decoded
+/// planes enclose the surface.
 namespace planetree::octree {
 
-/// A direction on the octahedron, 16 bits an axis ("A Survey of Efficient
-/// Representations for Independent Unit Vectors", Cigolle et al. 2014, "oct").
+/// A direction on the octahedron, 16 bits for each of its two coordinates.
+///
+/// source  Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
+///         Vectors", method "oct"
 struct PackedNormal {
   std::int16_t u = 0, v = 0;
 };
 
 inline constexpr float kNormalSteps = 32767.0f;
 
-/// The decoded direction, of length 1 within 4 units of 2^-24.
+/// Returns the decoded direction; its length is 1 within 4 units of 2^-24.
 inline std::array<float, 3> unpack_normal(PackedNormal packed) {
   float x = std::max(static_cast<float>(packed.u) / kNormalSteps, -1.0f);
   float y = std::max(static_cast<float>(packed.v) / kNormalSteps, -1.0f);
@@ -33,7 +35,7 @@ inline std::array<float, 3> unpack_normal(PackedNormal packed) {
   return {x / length, y / length, z / length};
 }
 
-/// The packed direction next to (x, y, z), which is finite and not zero.
+/// Returns the packed direction nearest to (x, y, z), which is finite and not zero.
 inline PackedNormal pack_normal(double x, double y, double z) {
   const double sum = std::fabs(x) + std::fabs(y) + std::fabs(z);
   double u = x / sum;
@@ -52,9 +54,9 @@ inline PackedNormal pack_normal(double x, double y, double z) {
   return {step(u), step(v)};
 }
 
-/// Length of one step of a plane offset or radius for a child whose box has
-/// edges of these lengths: 16 bits reach a whole diagonal, because the centre of
-/// a box of few ulps is rounded to as much as one of its sides.
+/// Returns the length of one step of a plane offset or a radius, for a child whose box has edges of
+/// these lengths. 16 bits cover a whole diagonal, because the centre of a box only a few ulps large
+/// may be rounded to one of its sides.
 inline float plane_step(float dx, float dy, float dz) {
   return std::sqrt(dx * dx + dy * dy + dz * dz) * (1.0f / 32000.0f);
 }

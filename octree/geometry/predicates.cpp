@@ -10,23 +10,23 @@
 namespace planetree::octree {
 namespace {
 
-/// Four times Shewchuk's (7 + 56u)u: every rounding may err by a whole ulp.
+/// Four times Shewchuk's (7 + 56u)u, so that it holds where each rounding errs by a whole ulp.
 constexpr double kOrientationFilter = 32 * 0x1p-53;
 constexpr double kNormalFilter = 16 * 0x1p-53;
 
-/// What flushing subnormal differences and products to zero may cost, where no
-/// difference exceeds `largest`.
+/// Bound on what flushing subnormal differences and products to zero may change, if no difference
+/// exceeds `largest`.
 double flushed(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest); }
 
 int sign_of(double value) { return value > 0 ? 1 : -1; }
 
-/// Not by ==, for which a thread may have been told to take subnormals for zero.
+/// Compares bits because == may treat subnormal numbers as zero, depending on the thread's mode.
 bool same_bits(const Point& a, const Point& b) {
   return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
 }
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Whether the points lie in one plane across an axis, as faces of boxes do.
+/// Returns whether the points lie in one plane perpendicular to an axis, as on faces of boxes.
 bool in_axis_plane(const Point& a, const Point& b, const Point& c, const Point& d) {
   for (unsigned axis = 0; axis < 3; ++axis)
     if (same_bits(a[axis], b[axis]) && same_bits(a[axis], c[axis]) && same_bits(a[axis], d[axis]))
@@ -48,7 +48,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
   const double largest =
       std::max({u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff(), w.cwiseAbs().maxCoeff()});
   if (std::fabs(volume) > kOrientationFilter * permanent + flushed(largest)) return sign_of(volume);
-  // By far the most frequent of the rest: a vertex of the triangle itself.
+  // The most frequent remaining case: d is a corner of the triangle.
   if (same_bits(d, a) || same_bits(d, b) || same_bits(d, c)) return 0;
   if (in_axis_plane(a, b, c, d)) return 0;
   return exact_orientation(a, b, c, d);
@@ -68,7 +68,7 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   return exact_normal_sign(a, b, c, axis);
 }
 
-// The step is (s1, s2, s3), s1 >> s2 >> s3 > 0.
+// The point's step is (s1, s2, s3) with s1 >> s2 >> s3 > 0.
 int perturbed_side(const Triangle& triangle, const Point& point) noexcept {
   const auto& [a, b, c] = triangle;
   int side = orientation(a, b, c, point);
@@ -82,9 +82,8 @@ bool lies_on(const Point& point, const Triangle& triangle) noexcept {
       (point.array() > a.cwiseMax(b).cwiseMax(c).array()).any())
     return false;
   if (orientation(a, b, c, point) != 0) return false;
-  // In its plane the point is on the triangle where, seen along any axis, it is
-  // not on different sides of two edges. A triangle without area is the part of
-  // its line that its box holds.
+  // A point in the triangle's plane lies on the triangle if, seen along each axis, it is not on
+  // different sides of two edges. A triangle without area is the part of its line within its box.
   for (unsigned axis = 0; axis < 3; ++axis) {
     const int sides[] = {normal_sign(a, b, point, axis), normal_sign(b, c, point, axis),
                          normal_sign(c, a, point, axis)};
@@ -98,11 +97,14 @@ namespace {
 
 int compare(double left, double right) { return left < right ? -1 : left > right ? 1 : 0; }
 
-/// The sign of det[p - b, q - b, a - b] for the moved ends p, q of the segment:
-/// on which side the line through a and b passes. Its terms from the greatest
-/// on; with e = a - b they are
-///     the determinant itself,  e-steps:  (q - b) x e,  d-steps:  e x (p - b),
-///     and products of both,  d . (e x steps of p).
+/// Returns the sign of det[p - b, q - b, a - b] for the perturbed ends p and q of the segment: the
+/// side on which it passes the line through a and b. The first term that is not zero decides. In
+/// order of decreasing magnitude, with e = a - b, the terms are
+///
+///     the determinant itself,
+///     steps of p:  (q - b) x e,
+///     steps of q:  e x (p - b),
+///     products:    (step of q) . (e x step of p).
 int passing_side(const PerturbedSegment& segment, const Point& a, const Point& b) {
   int side = orientation(b, segment.from, segment.to, a);
   for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(b, segment.to, a, axis);

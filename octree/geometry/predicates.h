@@ -2,48 +2,50 @@
 
 #include "octree/geometry/triangle_distance.h"
 
-/// Signs of determinants, exact for all finite points: a filter in double, and
-/// whole numbers where it cannot tell (Shewchuk 1997, "Adaptive precision
-/// floating-point arithmetic and fast robust geometric predicates", gives the
-/// filter's bound; ours is wider, so that a host thread that rounds another way
-/// or flushes subnormals gets the same signs).
+/// Signs of determinants, exact for all finite points. A filter in double decides most calls,
+/// integers the others.
 ///
-/// All functions return -1, 0 or 1 and may be called from any thread. Coordinates
-/// are in the model frame: finite, of magnitude at most 2^301.
+/// All functions return -1, 0 or 1 and may be called from any thread. Coordinates are in the model
+/// frame: finite, of magnitude at most 2^301.
+///
+/// source  the filter's bound is from Shewchuk 1997, "Adaptive precision floating-point arithmetic
+///         and fast robust geometric predicates". Ours is wider, so that a thread that rounds in
+///         another direction or flushes subnormal numbers gets the same signs.
 namespace planetree::octree {
 
-/// Side of the plane through a, b, c that d is on: 1 where the normal
-/// (b - a) x (c - a) points to, 0 on the plane or where a, b, c are collinear.
+/// Returns the side of the plane through a, b, c that d is on: 1 on the side of the normal (b - a)
+/// x (c - a), 0 on the plane or if a, b, c are collinear.
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;
 
-/// The sign of one component, 0 to 2, of (b - a) x (c - a).
+/// Returns the sign of component `axis`, 0 to 2, of (b - a) x (c - a).
 int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
 
-/// Side of a triangle's plane that `point` is on once moved by an infinitesimal
-/// step (see PerturbedSegment): 0 only where the triangle has no area.
+/// Returns the side of a triangle's plane that `point` is on after its infinitesimal step (see
+/// PerturbedSegment). The result is 0 only if the triangle has no area.
 int perturbed_side(const Triangle& triangle, const Point& point) noexcept;
 
-/// Whether `point` is on the closed triangle, which may be a segment or a point.
+/// Returns whether `point` lies on the closed triangle, which may be a segment or a point.
 bool lies_on(const Point& point, const Triangle& triangle) noexcept;
 
-/// The segment between two points moved by infinitesimal steps, so that no
-/// vertex, edge or face is ever met edge-on: from + (e1, e2, e3) and
-/// to + (d1, d2, d3), e1 >> e2 >> e3 >> d1 >> d2 >> d3 > 0, each beyond every
-/// power of the next (simulation of simplicity, Edelsbrunner & Muecke 1990).
-/// A point has one step whatever the segment is, up to its length; so winding
-/// numbers counted along different segments agree.
+/// A segment whose ends are moved by infinitesimal steps, so that it never meets a vertex, edge or
+/// face edge-on. The perturbed ends are from + (e1, e2, e3) and to + (d1, d2, d3) with e1 >> e2 >>
+/// e3 >> d1 >> d2 >> d3 > 0; each step is smaller than every power of the one before. A point takes
+/// the same step on every segment, except for the step's length, so that winding numbers counted
+/// along different segments agree.
+///
+/// source  simulation of simplicity, Edelsbrunner & Muecke 1990
 struct PerturbedSegment {
   Point from, to;
 };
 
-/// How the winding number changes on the way along `segment` because of one
-/// triangle: from `to` back to `from`, so that
+/// Returns the change of the winding number that one triangle causes along `segment`, from `to`
+/// back to `from`:
 ///
-///     winding(from) = winding(to) + sum of crossing() over all triangles.
+///     winding(from) = winding(to) + sum of crossing() over all triangles
 ///
-/// 1 or -1 where the segment passes through the triangle: 1 if `from` is behind
-/// it, as seen along its normal (b - a) x (c - a). A triangle without area is
-/// never crossed.
+/// The result is 1 or -1 if the segment passes through the triangle, 1 if `from` is behind it as
+/// seen along its normal (b - a) x (c - a), and 0 otherwise. A triangle without area is never
+/// crossed.
 int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept;
 
 }  // namespace planetree::octree

@@ -7,16 +7,18 @@
 
 namespace planetree::octree {
 
-/// Where all of a surface is known: of a file that holds what touches a box, that box; without
-/// its sides that are not within the model's, for beyond those there is nothing to be known. A
-/// side that is left is a wall: what was left out is strictly beyond one. All of space if there
-/// is none. Model frame.
+/// The box within which the whole surface is known, in the model frame.
+///
+/// A file may hold only the triangles that touch a given box. A side of that box within the model's
+/// box is a wall. The other sides are dropped, since no triangle lies beyond the model's box: the
+/// region is unbounded there. Every triangle that the file lacks lies strictly beyond a wall. The
+/// region of a complete file is all of space.
 class Region {
  public:
   /// All of space.
   Region() = default;
-  /// lower, upper          the box, which may be flat,
-  /// box_lower, box_upper  and the model's, which has a point in common with it.
+  /// lower, upper          the given box, which may be flat
+  /// box_lower, box_upper  the model's box; has a point in common with the given box
   Region(const Point& lower, const Point& upper, const Point& box_lower, const Point& box_upper) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (lower[axis] > box_lower[axis]) lower_[axis] = lower[axis];
@@ -25,30 +27,31 @@ class Region {
     has_walls_ = lower_.maxCoeff() > -kNone || upper_.minCoeff() < kNone;
   }
 
-  /// Infinite where there is no wall.
+  /// Lower walls; -infinity on an axis without one. upper() is infinity there.
   const Point& lower() const { return lower_; }
   const Point& upper() const { return upper_; }
 
   bool has_walls() const { return has_walls_; }
-  /// Whether a point is in it, or on a wall.
+  /// Returns whether a point is in the region or on a wall.
   bool holds(const Point& point) const {
     return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all();
   }
-  /// Whether it has a point in common with a closed box.
+  /// Returns whether the region has a point in common with a closed box.
   bool meets(const Point& lower, const Point& upper) const {
     return (upper.array() >= lower_.array()).all() && (lower.array() <= upper_.array()).all();
   }
-  /// The nearest point of it.
+  /// Returns the nearest point of the region.
   Point clamped(const Point& point) const { return point.cwiseMax(lower_).cwiseMin(upper_); }
 
-  /// The distance from a point in it to the nearest wall, rounded; infinite if there is none.
+  /// Returns the distance from a point of the region to the nearest wall, rounded; infinity if
+  /// there is no wall.
   double gap(const Point& point) const {
     return std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff());
   }
-  /// From the point to what was left out it is farther than this, and so it would be found to
-  /// be: values of triangles err by some 2^-42 of the distance to a corner (see
-  /// BestTriangle), which is no more than theirs and the model's diagonal, below 4. Negative
-  /// outside of it and close to a wall.
+  /// Returns a distance that all missing triangles exceed, also as evaluated. A triangle's value
+  /// errs by about 2^-42 of the distance to its farthest corner (see BestTriangle). That distance
+  /// is at most the triangle's own distance plus the model's diagonal, which is below 4. The result
+  /// is negative outside of the region and close to a wall, and infinity without walls.
   double clearance(const Point& point) const {
     if (!holds(point)) return -1;
     const double gap_to_wall = gap(point);
@@ -60,7 +63,7 @@ class Region {
 
   Point lower_ = Point::Constant(-kNone);
   Point upper_ = Point::Constant(kNone);
-  bool has_walls_ = false;  // of these; kept, for every ask wants to know
+  bool has_walls_ = false;  // derived from the above; cached because every query reads it
 };
 
 }  // namespace planetree::octree

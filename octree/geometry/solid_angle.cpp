@@ -15,32 +15,32 @@ namespace {
 
 constexpr double kOverTwoPi = 0x1.45f306dc9c883p-3;  ///< 1 / (2 pi)
 
-/// With a, b, c the ways to the corners, tan(omega / 2) = height / width:
+/// Vector whose angle is half of the solid angle omega: tan(omega / 2) = height / width. With a, b,
+/// c the vectors from the point to the corners,
 ///
 ///     height = a . (b x c),   width = |a||b||c| + a . b |c| + b . c |a| + c . a |b|.
 ///
-/// Half the solid angle is the angle of that vector, so that its end being off
-/// by `error` turns it by no more than asin(error / true length).
+/// If the vector's end is off by `error`, the angle is off by at most asin(error / true length).
 struct HalfAngle {
   double width = 0;
   double height = 0;
-  double error = 0;   ///< the true vector ends at most so far from (width, height)
-  double length = 0;  ///< of (width, height)
+  double error = 0;   ///< bound on the distance from (width, height) to the true end
+  double length = 0;  ///< length of (width, height)
 
   bool tells_angle() const { return error < 0x1p-24 * length; }
 };
 
 constexpr HalfAngle kUncertain{0, 0, 1, 0};
 
-/// In units of |a||b||c|. A way's components are right to one rounding, its
-/// length to four; each of the four terms of width loses at most 12 with its
-/// factors and its sum, and height, whose six terms have magnitudes that sum to
-/// at most 1.16, loses 9: their end 50. 256 covers that also where every
-/// rounding is of a whole ulp.
+/// Error of the end in double, in units of |a||b||c|. A vector to a corner has components right to
+/// one rounding and a length right to four. Each of the four terms of the width loses at most 12
+/// roundings by its factors and its sum. The height loses 9: its six terms have magnitudes that sum
+/// to at most 1.16. Together the end is off by at most 50 roundings. The factor 256 also covers
+/// modes in which each rounding errs by a whole ulp.
 constexpr double kDoubleError = 256 * 0x1p-53;
 
-/// Ways of other lengths, squared, may have lost bits to underflow, or their
-/// products may overflow.
+/// Range of squared lengths. Smaller ones may have lost bits to underflow; products of larger ones
+/// may overflow.
 constexpr double kShortest2 = 0x1p-320;
 constexpr double kLongest2 = 0x1p320;
 
@@ -58,7 +58,7 @@ HalfAngle in_double(const Point& point, const Triangle& triangle) {
   return half;
 }
 
-/// Of length 1.
+/// Returns the unit vector from one point to another.
 template <class Scalar>
 Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
   Vector3<Scalar> way;
@@ -69,9 +69,9 @@ Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
   return way;
 }
 
-/// The same in wider numbers, of directions: a product of three such components
-/// is right to 24 roundings. No corner is where the point is. What is returned is
-/// scaled to a length of about 1.
+/// Computes the same in wider numbers, from unit vectors. A product of three of their components is
+/// right to 24 roundings. `point` differs from every corner. The result is scaled to a length of
+/// about 1.
 template <class Scalar>
 HalfAngle in_wide(const Point& point, const Triangle& triangle) {
   const auto a = wide_direction<Scalar>(point, triangle[0]);
@@ -90,10 +90,10 @@ HalfAngle in_wide(const Point& point, const Triangle& triangle) {
   return half;
 }
 
-/// The angle found, knowing on which side of the plane the point is.
+/// Converts the vector to a share, given the side of the plane that the point is on.
 WindingShare share_of(const HalfAngle& half, int side) {
   WindingShare share;
-  // Seen from behind, where `side` is -1, height is positive.
+  // From behind, where `side` is -1, the height is positive.
   const double height = std::max(0.0, -side * half.height);
   if (!(half.length > 2 * half.error)) {
     share.value = -side * 0.25;
@@ -101,7 +101,7 @@ WindingShare share_of(const HalfAngle& half, int side) {
     return share;
   }
   share.value = -side * angle_of(half.width, height) * kOverTwoPi;
-  // asin(e / l) is below (pi / 2) e / l, over 2 pi; 2^-50 is the angle's own.
+  // asin(e / l) is below (pi / 2) e / l, and is divided by 2 pi; 2^-50 is the error of angle_of().
   share.error = std::min(0.5, half.error / (half.length - half.error) * 0.25 + 0x1p-50);
   return share;
 }
@@ -115,7 +115,7 @@ WindingShare winding_share(const Point& point, const Triangle& triangle) noexcep
   if (!side_told) {
     if (lies_on(point, triangle)) return {0, 0, true};
     side = orientation(triangle[0], triangle[1], triangle[2], point);
-    // In the plane, but not on the triangle; or there is no plane.
+    // The point is in the plane but not on the triangle, or the triangle has no area.
     if (side == 0) return {};
   }
   if (!half.tells_angle()) half = in_wide<Quad>(point, triangle);

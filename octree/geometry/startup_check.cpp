@@ -9,15 +9,14 @@
 namespace planetree::octree {
 namespace {
 
-/// A number that the compiler knows nothing of, so that it cannot work a result
-/// out in advance.
+/// Returns `value` in a way that the compiler cannot evaluate at compile time.
 template <class T>
 T unknown(T value) {
   const volatile T hidden = value;
   return hidden;
 }
 
-/// Each operation rounds once, to nearest, ties to even, to its own type.
+/// Checks that each operation rounds once, to nearest, ties to even, to its own type.
 template <class T>
 const char* rounding_fault() {
   constexpr T kUlp = std::numeric_limits<T>::epsilon();
@@ -48,9 +47,11 @@ const char* range_fault() {
   return nullptr;
 }
 
-/// Points beside the line x = y, from so far away that differences in double
-/// lose their places (Kettner et al. 2008, "Classroom examples of robustness
-/// problems in geometric computations"); raised, they are beside a plane.
+/// Tests points beside the line x = y, which is given by points so far away that differences in
+/// double lose bits. A third point above turns the line into a plane.
+///
+/// source  Kettner et al. 2008, "Classroom examples of robustness problems in geometric
+///         computations"
 const char* orientation_fault(const TestedPredicates& tested) {
   const Point a(12, 12, 0), b(24, 24, 0), above(12, 12, 1);
   for (int x = 0; x < 3; ++x)

@@ -4,8 +4,8 @@
 
 namespace planetree::octree {
 
-/// The predicates that a self test asks: those of octree/geometry/predicates.h, or others
-/// to see that it finds them wrong.
+/// The predicates that startup_check() tests: those of octree/geometry/predicates.h, or faulty ones
+/// from a test of startup_check() itself.
 struct TestedPredicates {
   int (*orientation)(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;
   int (*normal_sign)(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
@@ -14,13 +14,13 @@ struct TestedPredicates {
   static TestedPredicates ours() noexcept;
 };
 
-/// Queries the arithmetic of this build, processor and thread, and the predicates,
-/// what the answers rest on: single roundings to nearest, no fused operations,
-/// no extra digits, subnormal numbers; signs that a filter cannot tell.
+/// Checks that the arithmetic of this build, processor and thread, and the predicates, meet what
+/// the answers rest on: single roundings to nearest, no fused operations, no extra digits,
+/// subnormal numbers, and exact signs where the filter in double cannot decide.
 ///
-/// return   null if all is well, else what is wrong, in words.
-/// cost     some 20 microseconds; no allocation, no lock.
-/// threads  any.
+/// return   null if all is well, else a description of the fault
+/// cost     about 20 microseconds; no allocation, no lock
+/// threads  any
 const char* startup_check(const TestedPredicates& predicates = TestedPredicates::ours()) noexcept;
 
 }  // namespace planetree::octree

@@ -4,11 +4,10 @@
 
 /// Included by every file whose arithmetic reaches an answer or a .ptree file.
 ///
-/// Bounds are proven from the rounding of each single IEEE operation, and the
-/// same question must get the same bits everywhere. A compiler told that it may
-/// reorder sums, assume finite values or keep extra digits breaks both, without
-/// a word; so such a build stops here instead. Contraction to fused
-/// multiply-add leaves no mark a file could test: the build turns it off.
+/// Error bounds are proven from the rounding of each single IEEE operation, and the same query must
+/// get the same bits everywhere. A compiler that may reorder sums, assume finite values or keep
+/// extra digits silently breaks both, so that such a build fails here. Contraction to fused
+/// multiply-add leaves no macro to test; the build system turns it off.
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     defined(__NO_SIGNED_ZEROS__) || __FINITE_MATH_ONLY__

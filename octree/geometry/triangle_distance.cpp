@@ -32,12 +32,13 @@ namespace {
 
 HWY_EXPORT(evaluate_on_target);
 
-// Below this squared sine the face is its edges, to 2^-50 of their length.
+// A face below this squared sine counts as its edges, which is right to 2^-50 of their length.
 constexpr double kDegenerateSine2 = 0x1p-100;
-// A point inside a face has a share of every corner, though it may round to 0.
+// Minimum barycentric coordinate of a point inside a face. The true one is positive but may round
+// to 0.
 constexpr double kMinShare = 0x1p-54;
 
-// The other two corners, in order.
+// The other two corners of corner k, in order.
 constexpr std::size_t kFirst[3] = {1, 0, 0};
 constexpr std::size_t kSecond[3] = {2, 2, 1};
 
@@ -48,8 +49,8 @@ unsigned before(const Point& a, const Point& b) {
   return x_less | (x_same & (y_less | (y_same & z_less)));
 }
 
-// order[k] is the corner that comes k-th; equal corners keep their order. Without branches:
-// which comes first is a coin toss to the processor.
+// order[k] is the corner that comes k-th in lexicographic order; equal corners keep their order.
+// Computed without branches because the processor cannot predict the outcome.
 std::array<std::size_t, 3> lexicographic_order(const Triangle& triangle) {
   const unsigned swapped01 = before(triangle[1], triangle[0]);
   const unsigned swapped02 = before(triangle[2], triangle[0]);
@@ -61,7 +62,7 @@ std::array<std::size_t, 3> lexicographic_order(const Triangle& triangle) {
   return order;
 }
 
-// The corner opposite to the longest side, the first of equals.
+// Returns the corner opposite to the longest side, the first of equal ones.
 std::size_t apex_of(const std::array<Point, 3>& corner) {
   std::size_t apex = 0;
   double longest2 = -1;
@@ -73,7 +74,7 @@ std::size_t apex_of(const std::array<Point, 3>& corner) {
   return apex;
 }
 
-// Looks again, with 113 bits, at the face of a triangle that double found too flat.
+// Evaluates the face of a triangle again with 113 bits, after double found it too flat.
 void refine_face(const Point& query, const Triangle& triangle, TriangleFindings& findings,
                  std::size_t lane) {
   const auto order = lexicographic_order(triangle);

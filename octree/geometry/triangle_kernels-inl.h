@@ -1,7 +1,7 @@
-// Distances from a point to several triangles at once, in double, compiled once for each
-// instruction set that Highway knows at hand. The method is told in
-// octree/geometry/triangle_distance.h. Multiplications and additions are never fused and lanes
-// never mixed, so that every set computes the same bits.
+// Distances from a point to several triangles at once, in double, by the method of
+// octree/geometry/triangle_distance.h. Compiled once for each instruction set that Highway targets.
+// Multiplications and additions are never fused and lanes are never mixed, so that all instruction
+// sets compute the same bits.
 
 #if defined(PLANETREE_OCTREE_TRIANGLE_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_TRIANGLE_KERNELS_INL_H_
@@ -27,7 +27,7 @@ using DoubleTag = hn::CappedTag<double, kTrianglesAtOnce>;
 using Doubles = hn::Vec<DoubleTag>;
 using DoubleMask = hn::Mask<DoubleTag>;
 
-// A point or a vector of each triangle.
+// A point or a vector of each triangle, one a lane.
 struct Doubles3 {
   Doubles x, y, z;
 };
@@ -51,7 +51,7 @@ HWY_INLINE Doubles3 choose(DoubleMask mask, const Doubles3& yes, const Doubles3&
           hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-// Puts the two corners of each triangle into lexicographic order.
+// Puts the two corners in each lane into lexicographic order.
 HWY_INLINE void order_corners(Doubles3& a, Doubles3& b) {
   const auto z = hn::Lt(b.z, a.z);
   const auto yz = hn::Or(hn::Lt(b.y, a.y), hn::And(hn::Eq(b.y, a.y), z));
@@ -61,20 +61,20 @@ HWY_INLINE void order_corners(Doubles3& a, Doubles3& b) {
   a = first;
 }
 
-// The nearest point of each segment from u to v: at u + t (v - u).
+// The nearest point of the segment from u to v in each lane, at u + t (v - u).
 struct OnSegments {
   Doubles squared;
   Doubles t;
 };
 
-// t = 0 leaves the bits of u's distance as they are, t = 1 takes v's: a vertex is equally far
-// whichever edge it is seen from.
+// t = 0 keeps the bits of u's distance and t = 1 takes those of v's, so that a vertex has the same
+// distance from all of its edges.
 HWY_INLINE OnSegments on_segments(const Doubles3& to_u, Doubles to_v2, const Doubles3& edge,
                                   Doubles edge2) {
   const DoubleTag d;
   const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0);
   const Doubles along = hn::Neg(inner(to_u, edge));
-  // By choice: an edge of no length divides by zero.
+  // Selects after dividing because an edge of length zero divides by zero.
   const Doubles share = hn::IfThenElseZero(hn::Gt(along, zero), hn::Div(along, edge2));
   const auto within = hn::Lt(share, one);
   const Doubles t = hn::IfThenElse(within, share, one);
@@ -83,8 +83,9 @@ HWY_INLINE OnSegments on_segments(const Doubles3& to_u, Doubles to_v2, const Dou
   return {hn::IfThenElse(within, inner(to, to), to_v2), t};
 }
 
-// Evaluates the triangles whose coordinates stand in `rows`, `stride` doubles apart, by
-// corner and axis; as many as a vector holds. A bit for each whose face is too flat for double.
+// Evaluates as many triangles as a vector holds. Their coordinates are in `rows`, ordered by corner
+// and axis, `stride` doubles apart. Returns a bit for each triangle whose face is too flat for
+// double.
 HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t stride,
                                     const Doubles3& query, TriangleFindings& findings,
                                     std::size_t lane) {
@@ -104,7 +105,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
   const Doubles3 e01 = c1 - c0, e02 = c2 - c0, e12 = c2 - c1;
   const Doubles long01 = inner(e01, e01), long02 = inner(e02, e02), long12 = inner(e12, e12);
 
-  // Each side has the number of the corner that it does not touch.
+  // Each side has the number of the corner opposite to it.
   OnSegments nearest = on_segments(to1, far2, e12, long12);
   Doubles side = zero;
   const auto offer = [&](const OnSegments& other, double number) {
@@ -116,7 +117,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
   offer(on_segments(to0, far2, e02, long02), 1);
   offer(on_segments(to0, far1, e01, long01), 2);
 
-  // The apex is opposite to the longest side; its sides lead to the others in their order.
+  // The apex is opposite to the longest side. e1 and e2 lead from it to the other corners in order.
   const auto apex1 = hn::Gt(long02, long12);
   const Doubles longest = hn::IfThenElse(apex1, long02, long12);
   const auto apex2 = hn::Gt(long01, longest);
@@ -138,7 +139,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
                              hn::Ge(normal2, hn::Set(d, kTinySquare)));
   const Doubles v = inner(outer(from_apex, e2), normal), w = inner(outer(e1, from_apex), normal);
   const Doubles height = inner(from_apex, normal);
-  // Not height * height: above a face of short edges that underflows.
+  // height * height would underflow above a face with short edges.
   const Doubles face = hn::Mul(hn::Div(height, normal2), height);
   const auto above = hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)),
                              hn::And(hn::Lt(hn::Add(v, w), normal2), round));
@@ -158,8 +159,9 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
   return mask_bits(d, hn::Not(round));
 }
 
-// Evaluates kTrianglesAtOnce triangles of TriangleRows, from the one that `rows` points to.
-// A bit for each whose face is too flat for double: refine_flat() looks at it again.
+// Evaluates kTrianglesAtOnce triangles of TriangleRows, beginning with the one that `rows` points
+// to. Returns a bit for each triangle whose face is too flat for double; refine_flat() evaluates
+// those again.
 HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::size_t stride,
                                        const Point& query, TriangleFindings& findings) {
   const DoubleTag d;
@@ -170,7 +172,7 @@ HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::siz
   return flat;
 }
 
-// Evaluates kTrianglesAtOnce triangles, of which those have a meaning that `some` has a bit for.
+// Evaluates kTrianglesAtOnce triangles. Only findings with a bit in `some` are meaningful.
 HWY_INLINE void evaluate_some(const TriangleView& triangles, unsigned some, const Point& query,
                               TriangleFindings& findings) {
   const unsigned flat = evaluate_triangles(triangles.at, triangles.stride, query, findings) & some;

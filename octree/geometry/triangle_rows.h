@@ -8,7 +8,8 @@
 
 namespace planetree::octree {
 
-/// kTrianglesAtOnce triangles of some rows: coordinates are `stride` apart, by corner and axis.
+/// kTrianglesAtOnce triangles of TriangleRows. Coordinates are ordered by corner and axis, `stride`
+/// doubles apart.
 struct TriangleView {
   const double* at;
   std::size_t stride;
@@ -25,8 +26,8 @@ struct TriangleView {
   }
 };
 
-/// Triangles side by side, for kernels that look at several at once. Plain memory; entries
-/// that were never set hold anything.
+/// Triangles as a structure of arrays, for kernels that process several at once. Entries that were
+/// never set are uninitialised.
 template <std::size_t kMax>
 struct TriangleRows {
   static_assert(kMax % kTrianglesAtOnce == 0);
@@ -34,7 +35,7 @@ struct TriangleRows {
   alignas(kTrianglesAtOnce * sizeof(double)) double at[3][3][kMax];  ///< corner, axis, triangle
 
   Triangle triangle(std::size_t i) const { return view(0).triangle(i); }
-  /// Those from `first` on, a multiple of kTrianglesAtOnce.
+  /// Returns the triangles from `first` on, a multiple of kTrianglesAtOnce.
   TriangleView view(std::size_t first) const { return {at[0][0] + first, kMax}; }
 
   void set(std::size_t i, const Triangle& corners) {
@@ -42,7 +43,8 @@ struct TriangleRows {
       for (Eigen::Index axis = 0; axis < 3; ++axis) at[k][axis][i] = corners[k][axis];
   }
 
-  /// Sets `i` and all others that are evaluated with it; `i` is the first of these.
+  /// Sets the kTrianglesAtOnce entries from `i` on, a multiple of kTrianglesAtOnce, to one
+  /// triangle.
   void fill(std::size_t i, const Triangle& corners) {
     for (std::size_t k = 0; k < 3; ++k)
       for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -56,7 +58,7 @@ struct TriangleRows {
   }
 };
 
-/// Looks again, with 113 bits, at those that `flat` has a bit for: evaluate_triangles() found
+/// Evaluates the triangles with a bit in `flat` again with 113 bits. evaluate_triangles() found
 /// their faces too flat for double.
 void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
                  TriangleFindings& findings) noexcept;

@@ -6,11 +6,11 @@
 
 #include "octree/geometry/triangle_distance.h"
 
-/// Three numbers of any kind: double, or wider where double loses too much.
-/// Eigen's vectors are for double alone here.
+/// Vectors of three numbers of any type: double, or wider where double loses too many bits. Eigen's
+/// vectors hold only doubles in this project.
 namespace planetree::octree {
 
-/// 113 bits.
+/// Floating-point number with a mantissa of 113 bits.
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 template <class Scalar>

@@ -8,11 +8,11 @@
 #include "octree/geometry/double_parts.h"
 #include "octree/geometry/vector3.h"
 
-/// Numbers wider than Quad, and doubles made wide bit by bit.
+/// Numbers wider than Quad, and the conversion of doubles to them.
 namespace planetree::octree {
 
-/// 4096 bits, on the stack: enough for directions to tell a point from a line
-/// that misses it by the least of doubles.
+/// Floating-point number with a mantissa of 4096 bits, stored without allocation. Unit vectors of
+/// this precision tell a point from a line that it misses by the least positive double.
 using Widest = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<4096, boost::multiprecision::digit_base_2, void,
                                          std::int32_t>,
@@ -21,7 +21,7 @@ using Widest = boost::multiprecision::number<
 template <class Scalar>
 inline constexpr int kBits = std::numeric_limits<Scalar>::digits;
 
-/// `value`, which is finite, without any error.
+/// Converts `value`, which is finite, without error.
 template <class Scalar>
 Scalar wide(double value) {
   const DoubleParts parts(value);

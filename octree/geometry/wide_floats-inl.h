@@ -1,6 +1,6 @@
-// Floats side by side, points of them, and the bits of masks, compiled once for each instruction
-// set that Highway knows at hand. Multiplications and additions are never fused and lanes never
-// mixed, so that every set computes the same bits.
+// Vectors of floats, points made of them, and bits of masks. Compiled once for each instruction set
+// that Highway targets. Multiplications and additions are never fused and lanes are never mixed, so
+// that all instruction sets compute the same bits.
 
 #if defined(PLANETREE_OCTREE_WIDE_FLOATS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_WIDE_FLOATS_INL_H_
@@ -20,7 +20,7 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Whether one register holds eight floats, and has operations across all of them.
+// Whether one register holds eight floats and has operations across all of them.
 #undef PLANETREE_EIGHT_LANES
 #define PLANETREE_EIGHT_LANES (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2)
 
@@ -29,11 +29,11 @@ using IntTag = hn::RebindToSigned<FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 
-// As many as a block has triangles, or a part of them: for whatever stands in longer lists.
+// Lanes for lists longer than a node's children: a block's triangles, or a part of them.
 using TriangleTag = hn::CappedTag<float, kMaxBlockTriangles>;
 using TriangleFloats = hn::Vec<TriangleTag>;
 
-// A vector, of three coordinates, in each lane.
+// A vector of three coordinates in each lane.
 template <class Lanes>
 struct Vectors {
   Lanes x, y, z;
@@ -57,7 +57,7 @@ HWY_INLINE Lanes outside(Lanes lower, Lanes upper, Lanes at) {
   return hn::Max(hn::Max(hn::Sub(lower, at), hn::Sub(at, upper)), zero);
 }
 
-// A bit for each lane, of 16 at most.
+// Returns a bit for each lane, at most 16.
 template <class Tag, class Mask>
 HWY_INLINE unsigned mask_bits(Tag d, Mask mask) {
   std::uint8_t bytes[8] = {};
@@ -65,7 +65,7 @@ HWY_INLINE unsigned mask_bits(Tag d, Mask mask) {
   return bytes[0] | unsigned{bytes[1]} << 8;
 }
 
-// A bit for each lane that is not above the limit, or not a number.
+// Returns a bit for each lane that is not above the limit, NaN included.
 template <class Lanes>
 HWY_INLINE unsigned bits_not_above(Lanes values, float limit) {
   const hn::DFromV<Lanes> d;

@@ -13,7 +13,7 @@
 namespace planetree::octree {
 namespace {
 
-// At least a distance whose square is so much, by float.
+// Returns an upper bound on the distance whose square is `square`, in float.
 float extent_of(float square) {
   return std::sqrt(square) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
 }
@@ -42,8 +42,8 @@ const char* BlockDecoder::start(std::byte* records) noexcept {
 
 const char* BlockDecoder::decode_last(std::byte* record) noexcept {
   --block_;
-  // The lines of a record that is unpacked in a moment, if there are so many before this one. Not
-  // by a function, which would be one of no effect to the compiler, and left out.
+  // Prefetches the lines of a record that will be written soon, if enough records precede this one.
+  // Written out here, because the compiler drops calls to a function without visible effect.
   constexpr unsigned kAhead = 14, kLines = 7;
   if (record - vertices_ >= std::ptrdiff_t{(kAhead + kLines) * kSlotBytes})
     for (unsigned line = 1; line <= kLines; ++line)
@@ -94,13 +94,13 @@ const char* BlockDecoder::store_corners(BlockHeader& header) {
   return nullptr;
 }
 
-// A record that begins among its vertices takes their rows when all are there.
+// A record that overlaps the vertices it is made from receives its rows only after all are read.
 void BlockDecoder::store_vertices(BlockHeader& header, const VertexIndices& indices,
                                   std::byte* record) const {
   const auto* all = reinterpret_cast<const float*>(vertices_);
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
   const std::size_t length = 3 * std::size_t{header.stride()};
-  // One float more is read.
+  // unpack_rows() reads one float more.
   const float* end_read = all + 3 * (new_vertices_ + streams_.new_counts[block_]) + 1;
   if (end_read <= rows) {
     header.extent = extent_of(unpack_rows(all, indices.data(), header.stride(), rows));

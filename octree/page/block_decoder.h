@@ -10,28 +10,29 @@
 namespace planetree::octree {
 
 /// Unpacks the triangle blocks of one page into records of the serving layout. The counts in
-/// `streams` have been checked; everything else is checked here. Each fault is one sentence's
-/// end, or null.
+/// `streams` have been checked; everything else is checked here. Functions return null, or a fault:
+/// the end of a sentence for an error message.
 ///
-/// From the last block to the first: the coordinates of all vertices stand, vertex by vertex, where
-/// the records will be. A record is longer than the vertices that its block brings, so it ends up
-/// behind those of the blocks before, which are all that these need.
+/// Blocks are decoded in place, from the last to the first. start() writes the coordinates of the
+/// page's vertices, vertex by vertex, to the memory of the records. A record is longer than the
+/// vertices that its block adds to the page. Each record therefore lies behind the vertices of all
+/// earlier blocks, which need no others.
 class BlockDecoder {
  public:
   BlockDecoder(const RawStreams& streams, const BlockShape& shape)
       : streams_(streams), shape_(shape) {}
 
-  /// Before any block.
+  /// Prepares for decode_last(). Call it once, before any block.
   ///
-  /// records  of all blocks, one behind the other: room for them; must stay.
+  /// records  memory for the records of all blocks, one after the other; must outlive this object
   const char* start(std::byte* records) noexcept;
 
-  /// Unpacks the last block that has not been unpacked to `record`, its place in `records`.
+  /// Unpacks the last block that is not yet unpacked into `record`, its position in `records`.
   const char* decode_last(std::byte* record) noexcept;
 
  private:
-  // Where a block's vertices are among those of the page: some that blocks before have, ascending,
-  // then new ones, then the first again up to the block's stride.
+  // Indices of a block's vertices among those of the page: first those that earlier blocks have,
+  // ascending, then the new ones, then the first again up to the block's stride.
   using VertexIndices = std::array<std::uint16_t, kMaxBlockVertices>;
 
   const char* find_vertices(const BlockHeader& header, VertexIndices& indices);
@@ -44,7 +45,7 @@ class BlockDecoder {
   const RawStreams& streams_;
   const BlockShape& shape_;
   const std::byte* vertices_ = nullptr;
-  // What the blocks that are left have: all of it is behind these.
+  // Counts of what the blocks not yet decoded hold. Each is also the end of their part of a stream.
   std::size_t block_ = 0;
   std::size_t refs_ = 0;
   std::size_t new_vertices_ = 0;

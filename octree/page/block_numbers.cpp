@@ -37,7 +37,7 @@ bool ids_one_by_one(Id first, const ByteSplit<Id>& steps, std::size_t first_step
   for (unsigned i = 1; i < count; ++i) {
     const Id last = id;
     id = static_cast<Id>(id + steps[first_step + i - 1]);
-    ascend &= id > last;  // nor does a sum that overflows
+    ascend &= id > last;  // false also for a sum that overflows
     ids[i] = id;
   }
   std::fill(ids + count, ids + kMaxBlockTriangles, id);
@@ -46,18 +46,18 @@ bool ids_one_by_one(Id first, const ByteSplit<Id>& steps, std::size_t first_step
 
 #if HWY_TARGET != HWY_SCALAR
 
-// How many of the first lanes there are, of `count` from lane `first` on.
+// Returns how many of the lanes from `first` on are among the first `count`.
 HWY_INLINE std::size_t left_of(std::size_t count, std::size_t first) {
   return count > first ? count - first : 0;
 }
 
-// How many of some sums are above the one before, which is a step less: none that wraps around.
+// Returns how many sums are above the one before, sum - step. A sum that wraps around is not.
 template <class Lanes>
 HWY_INLINE std::size_t count_rising(Lanes sums, Lanes steps) {
   return hn::CountTrue(hn::DFromV<Lanes>(), hn::Gt(sums, hn::Sub(sums, steps)));
 }
 
-// Needs `stride` refs from the first on.
+// Requires `stride` refs from block.first_ref on.
 bool indices_by_lanes(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
                       unsigned stride, std::uint16_t* indices) {
   const PairTag pairs;
@@ -80,7 +80,7 @@ bool indices_by_lanes(const ByteSplit<std::uint16_t>& refs, const BlockVertices&
     const Pairs all = hn::IfThenElse(referred, sums, others);
     if (i == 0) {
       first = hn::Broadcast<0>(all);
-      // The first is no step above another.
+      // The first step is a starting value, not a difference.
       rising -= block.ref_count > 0 && hn::GetLane(steps) > 0 ? 1 : 0;
     }
     const auto known = hn::FirstN(pairs, left_of(block.vertex_count, i));
@@ -90,7 +90,7 @@ bool indices_by_lanes(const ByteSplit<std::uint16_t>& refs, const BlockVertices&
          (rising == block.ref_count - 1 && indices[block.ref_count - 1] < block.first_new);
 }
 
-// Needs a step before the first one, and kMaxBlockTriangles - 1 from there on.
+// Requires a step before `first_step` and kMaxBlockTriangles - 1 steps from it on.
 bool ids_by_lanes(std::uint32_t first, const ByteSplit<std::uint32_t>& steps,
                   std::size_t first_step, unsigned count, std::uint32_t* ids) {
   const ByteTag bytes;
@@ -115,7 +115,7 @@ bool ids_by_lanes(std::uint32_t first, const ByteSplit<std::uint32_t>& steps,
 
 #endif
 
-// Lanes read whole registers, and all that they read must be the array's.
+// Vector code reads whole registers and therefore needs an array that contains them.
 bool indices_on_target(const ByteSplit<std::uint16_t>& refs, const BlockVertices& block,
                        unsigned stride, std::uint16_t* indices) {
 #if HWY_TARGET != HWY_SCALAR

@@ -1,4 +1,5 @@
-// A block's triangles, seen from a query: vertices in registers, looked up by corners.
+// Corners of a block's triangles relative to a query. The vertices are kept in registers and looked
+// up by corner.
 
 #if defined(PLANETREE_OCTREE_BLOCK_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_BLOCK_TRIANGLES_INL_H_
@@ -18,11 +19,11 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A block's vertices, seen from the query; `kStride` of each coordinate.
+// A block's vertices relative to a query, `kStride` of each coordinate.
 template <unsigned kStride, bool kCompact>
 class BlockTriangles {
  public:
-  // `query` is relative to vertex 0.
+  // query  position of the query relative to vertex 0
   HWY_INLINE BlockTriangles(const BlockHeader& block, const float (&query)[3]) : block_(block) {
     const RowTag d;
     const float* HWY_RESTRICT local = reinterpret_cast<const float*>(&block + 1);
@@ -36,7 +37,7 @@ class BlockTriangles {
     }
   }
 
-  // Corner `k` of the triangles from `first` on.
+  // Returns corner `k` of the triangles from `first` on.
   HWY_INLINE TriangleVectors corner(std::size_t k, std::size_t first) const {
     const auto index = vertices(k, first);
     return {look_up(0, index), look_up(1, index), look_up(2, index)};
@@ -54,7 +55,7 @@ class BlockTriangles {
       return hn::Set(di,
                      static_cast<std::int32_t>(block_.corners(static_cast<unsigned>(first))[k]));
 #else
-      // The bits of each are shifted to where they are wanted.
+      // The corner of each lane is shifted down from its corner_bit().
       const hn::RebindToUnsigned<decltype(di)> du;
       const hn::Repartition<std::uint64_t, decltype(di)> words;
       const auto packed = hn::BitCast(du, hn::Set(words, block_.packed_corners[k] >> 2 * first));
@@ -65,8 +66,8 @@ class BlockTriangles {
     }
   }
 
-  // Whole vectors: of what is behind the vertices nothing is used. There is more of the block
-  // behind its last row, so that this may be read beyond its end.
+  // Whole vectors of a row. The last one may read beyond the row, since the block goes on behind
+  // its last row; the extra values are not used.
   using RowTag = TriangleTag;
   static constexpr unsigned kLanes = static_cast<unsigned>(hn::MaxLanes(RowTag()));
   static constexpr unsigned kVectors = (kStride + kLanes - 1) / kLanes;
@@ -76,8 +77,8 @@ class BlockTriangles {
 
   HWY_INLINE void keep(unsigned axis, unsigned i, TriangleFloats row) { row_[axis][i] = row; }
 
-  // A gather costs more than looking each vector of a row up in registers, which minds the
-  // last bits alone.
+  // Looks the index up in each vector of the row; a lookup uses only the lowest bits of the index.
+  // A gather would take longer.
   template <class Index>
   HWY_INLINE TriangleFloats look_up(unsigned axis, Index index) const {
     const TriangleTag d;
@@ -108,7 +109,7 @@ class BlockTriangles {
   const BlockHeader& block_;
 };
 
-// Calls look<stride, compact>() with how a block's vertices and corners lie.
+// Calls look<stride, compact>() with the layout of the block's vertices and corners.
 template <class Look>
 HWY_INLINE auto by_layout(const BlockHeader& block, const Look& look) {
   if (block.compact()) return look.template operator()<BlockHeader::kMaxCompactVertices, true>();

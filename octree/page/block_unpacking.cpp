@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 using FourTag = hn::Repartition<float, ByteTag>;
 using Four = hn::Vec<FourTag>;
 
-// Of whole sixteens of the vertices; how many those are.
+// Unpacks whole groups of sixteen vertices. Returns the number of vertices in them.
 std::size_t vertices_on_target(const std::byte* byte_split, std::size_t vertex_count,
                                float* vertices, bool& good) {
   const FourTag four;
@@ -43,7 +43,7 @@ std::size_t vertices_on_target(const std::byte* byte_split, std::size_t vertex_c
     for (std::size_t i = 0; i < 4; ++i) {
       hn::StoreInterleaved3(hn::BitCast(four, x[i]), hn::BitCast(four, y[i]),
                             hn::BitCast(four, z[i]), four, vertices + 3 * (first + 4 * i));
-      // The bits of what is no number are greater than those of any.
+      // Without the sign, the bits of NaN exceed those of any number.
       for (const Quads& row : {x[i], y[i], z[i]})
         greatest = hn::Max(greatest, hn::AndNot(sign, row));
     }
@@ -61,8 +61,8 @@ std::size_t vertices_on_target(const std::byte*, std::size_t, float*, bool&) { r
 
 #if HWY_TARGET != HWY_SCALAR
 
-// How to take one corner of eight triangles out of as many bytes as these have: a pair of bytes for
-// each corner, and what moves it up to the pair's end.
+// Extraction of one corner of eight triangles from the bytes that hold their corners: for each
+// triangle the pair of bytes with the corner, and a factor that shifts it to the pair's end.
 struct Extraction {
   alignas(16) std::uint8_t byte[16];
   alignas(16) std::uint16_t factor[8];
@@ -80,7 +80,8 @@ constexpr Extraction extraction(unsigned corner) {
   return taken;
 }
 
-// One corner of each of sixteen triangles. Sixteen bytes hold those of eight.
+// Returns one corner of each of sixteen triangles. `lower` holds the corners of the first eight,
+// `upper` those of the others.
 template <unsigned kBits, unsigned kCorner>
 HWY_INLINE Bytes take_corner(Bytes lower, Bytes upper) {
   static_assert((3 * 7 + kCorner + 1) * kBits <= 128);
@@ -105,7 +106,7 @@ HWY_INLINE void take_corners(const std::uint8_t* packed, Bytes (&corners)[3]) {
   corners[2] = take_corner<kBits, 2>(lower, upper);
 }
 
-// Fields of six bits: eight from each word of as many bytes.
+// Extracts fields of six bits: eight fields from six bytes of a word.
 HWY_INLINE void take_long_corners(const std::uint8_t* packed, Bytes (&corners)[3]) {
   alignas(16) std::uint8_t fields[3 * kMaxBlockTriangles];
   for (unsigned first = 0; first < 3 * kMaxBlockTriangles; first += 8) {
@@ -117,12 +118,13 @@ HWY_INLINE void take_long_corners(const std::uint8_t* packed, Bytes (&corners)[3
   hn::LoadInterleaved3(ByteTag(), fields, corners[0], corners[1], corners[2]);
 }
 
-// Four bits of each: those of triangles 0, 2, ... to 14, then of the others.
+// Packs four bits of each corner: those of triangles 0, 2, ..., 14, then 1, 3, ..., 15.
 HWY_INLINE std::uint64_t pack_corners(Bytes row) {
   const ByteTag bytes;
   const QuadTag quads;
   const hn::Repartition<std::uint64_t, ByteTag> words;
-  // Of four triangles the first and third share a byte then, the second and fourth the next.
+  // Of four triangles, the first and third share a byte afterwards, and the second and fourth the
+  // next.
   const Quads four = hn::BitCast(quads, row);
   const Bytes joined = hn::BitCast(bytes, hn::Or(four, hn::ShiftRight<12>(four)));
   alignas(16) static constexpr std::uint8_t kByte[] = {0, 4, 8, 12, 1, 5, 9, 13,
@@ -157,7 +159,7 @@ bool corners_on_target(const std::uint8_t* stored, unsigned triangle_count, unsi
   return hn::AllTrue(bytes, hn::Eq(greatest, most));
 }
 
-// Four vertices at a time: a row of each coordinate.
+// Transposes four vertices at a time into rows of coordinates.
 float rows_on_target(const float* vertices, const std::uint16_t* indices, unsigned stride,
                      float* rows) {
   const FourTag four;
@@ -261,7 +263,7 @@ bool unpack_vertices(const ByteSplit<double>& byte_split, double* vertices) noex
 
 bool unpack_corners(std::span<const std::byte> stored, unsigned triangle_count,
                     unsigned vertex_count, BlockCorners& corners) noexcept {
-  // Whole words and registers are read, whatever follows.
+  // Kernels read whole words and registers, beyond the block's last corner.
   std::array<std::byte, corner_bytes(kMaxBlockTriangles, kMaxBlockVertices) + 8> padded;
   const std::byte* bytes = stored.data();
   if (stored.size() < padded.size()) {

@@ -8,16 +8,16 @@
 
 namespace planetree::octree {
 
-/// A triangle block in its frame, read back exactly.
+/// Read access to a triangle block in its frame. Vertices and indices are exact.
 class BlockView {
  public:
   BlockView(const std::byte* record, const BlockShape& shape)
       : BlockView(*reinterpret_cast<const BlockHeader*>(record), shape) {}
-  /// The rest of the block is behind its header.
+  /// The rest of the block follows `header` in memory.
   BlockView(const BlockHeader& header, const BlockShape& shape) : header_(header), shape_(shape) {}
 
   const BlockHeader& header() const { return header_; }
-  /// That the record takes.
+  /// Returns the number of slots that the record takes.
   unsigned slots() const { return shape_.slots(header_.vertex_count(), header_.compact()); }
   unsigned triangle_count() const { return header_.triangle_count; }
 
@@ -26,7 +26,7 @@ class BlockView {
                           : vertex_of(at<float>(kSlotBytes), index);
   }
 
-  /// The exact vertices, header().stride() of each coordinate; null where they are no floats.
+  /// Returns the exact vertices, header().stride() of each coordinate; null in float64 models.
   const float* float_vertices() const { return shape_.float64 ? nullptr : at<float>(kSlotBytes); }
 
   Triangle triangle(unsigned index) const {

@@ -1,4 +1,4 @@
-// The sides of the boxes of a node's children: as child_box() has them, to the last bit.
+// Sides of the boxes of a node's children, with the same bits as child_box().
 
 #if defined(PLANETREE_OCTREE_CHILD_SIDES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_CHILD_SIDES_INL_H_
@@ -18,13 +18,13 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// As many bytes as a register has lanes.
+// Loads and widens as many bytes as a register has lanes.
 HWY_INLINE Ints widened_bytes(const std::uint8_t* bytes) {
   const hn::Rebind<std::uint8_t, IntTag> narrow;
   return hn::PromoteTo(IntTag(), hn::LoadU(narrow, bytes));
 }
 
-// Along one axis, of the children from `i` on.
+// Returns the sides along one axis of the children from `i` on.
 HWY_INLINE Floats lower_sides(const Node& node, std::size_t axis, std::size_t i) {
   const FloatTag d;
   const Floats steps = hn::ConvertTo(d, widened_bytes(node.lower[axis] + i));

@@ -1,13 +1,13 @@
-// What a block's triangles have of their corners' codes: bytes of a bit for each thing that
-// may be true of a vertex.
+// Combines the codes of vertices into codes of a block's triangles. A code is a byte with one bit
+// for each property of a vertex.
 
 #ifndef PLANETREE_OCTREE_CORNER_CODES_
 #define PLANETREE_OCTREE_CORNER_CODES_  // once for all targets
 namespace planetree::octree {
 
 struct CornerCodes {
-  unsigned shared;  // a bit for each that has a bit in all three
-  unsigned none;    // a bit for each that has a corner without any
+  unsigned shared;  // a bit for each triangle whose corners have a bit in common
+  unsigned none;    // a bit for each triangle with a corner of code 0
 };
 
 }  // namespace planetree::octree
@@ -34,11 +34,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if PLANETREE_EIGHT_LANES
 using CodeTag = hn::FixedTag<std::uint8_t, kMaxBlockTriangles>;
 
-// The vertices of one corner of each triangle.
+// Returns the vertex of corner `corner` of each triangle.
 HWY_INLINE hn::Vec<CodeTag> corner_lanes(const BlockHeader& block, unsigned corner) {
   const CodeTag d;
   if (!block.compact()) return hn::LoadU(d, block.corner_row(corner));
-  // Two triangles of one parity share a byte.
+  // Two triangles of the same parity share a byte.
   static constexpr std::uint8_t kByte[] = {0, 4, 0, 4, 1, 5, 1, 5, 2, 6, 2, 6, 3, 7, 3, 7};
   static constexpr std::uint8_t kUpper[] = {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1};
   const hn::Repartition<std::uint64_t, CodeTag> words;
@@ -49,13 +49,13 @@ HWY_INLINE hn::Vec<CodeTag> corner_lanes(const BlockHeader& block, unsigned corn
   return hn::And(hn::IfThenElse(lower, found, shifted), hn::Set(d, 15));
 }
 
-// The codes of one corner of each triangle.
+// Returns the code of corner `corner` of each triangle.
 HWY_INLINE hn::Vec<CodeTag> codes_of(const BlockHeader& block, unsigned corner,
                                      const std::uint8_t* HWY_RESTRICT codes) {
   const CodeTag d;
   const auto index = corner_lanes(block, corner);
   auto found = hn::Zero(d);
-  // Bytes from 128 on look nothing up.
+  // Indices outside of these 16 vertices become 128 or more; the lookup returns 0 for them.
   for (unsigned i = 0; i < block.stride(); i += kMaxBlockTriangles) {
     const auto here = hn::SaturatedAdd(hn::Sub(index, hn::Set(d, static_cast<std::uint8_t>(i))),
                                        hn::Set(d, 0x80 - kMaxBlockTriangles));
@@ -78,7 +78,7 @@ HWY_INLINE CornerCodes corner_codes(const BlockHeader& block,
   return {mask_bits(d, hn::Not(hn::Eq(shared, zero))), mask_bits(d, some_clear)};
 }
 
-// The bits that all corners of a triangle share, of each.
+// Writes for each triangle the bits that all of its corners have.
 HWY_INLINE void shared_codes(const BlockHeader& block, const std::uint8_t* HWY_RESTRICT codes,
                              std::uint8_t* HWY_RESTRICT shared) {
   hn::StoreU(hn::And(codes_of(block, 0, codes),

@@ -8,17 +8,17 @@
 #include "octree/geometry/float_box.h"
 #include "octree/geometry/tree_limits.h"
 
-/// The serving layout: what a decoded page looks like in its frame. Nothing
-/// here is ever stored; format-spec/v1/spec.md, "Distance page", states what is.
+/// The serving layout: a decoded distance page in its frame. It is never stored;
+/// format-spec/v1/spec.md, "Distance page", specifies the stored form.
 ///
-///   slot 0            FrameHeader
-///   slot 1 ...        block starts, one bit a slot
-///   first node slot   nodes, 5 slots each, subtree roots first, then breadth first; 7 where
-///                     each is followed by its moments (octree/page/moments.h)
-///   ...               blocks, in the order their parents name them
+///     slot 0            FrameHeader
+///     slot 1 ...        block starts, one bit a slot
+///     first node slot   nodes, 5 slots each, subtree roots first, then breadth first; 7 slots if
+///                       each node is followed by its moments (octree/page/moments.h)
+///     ...               blocks, in the order in which their parents link to them
 ///
-/// A slot is 64 bytes, so that a link addresses a record in few bits and every
-/// record begins on a cache line.
+/// A slot is 64 bytes, so that a link addresses a record in few bits and every record begins on a
+/// cache line.
 namespace planetree::octree {
 
 inline constexpr std::size_t kSlotBytes = 64;
@@ -34,78 +34,82 @@ struct FrameHeader {
   std::uint16_t root_block_count;
   std::uint16_t first_node_slot;
   std::uint16_t first_block_slot;
-  std::uint16_t page_link_count;  ///< to other pages
+  std::uint16_t page_link_count;  ///< links to other pages
   std::uint8_t reserved[30];
 };
 static_assert(sizeof(FrameHeader) == kSlotBytes);
 
-/// Up to eight children, field by field, so that one vector holds one field of
-/// all of them. Boxes and planes are relative to the model's centre. The first
-/// two lines answer near queries; the last three, the discs, are read only
-/// where they can pay (see octree/traversal/bounds.h).
+/// Up to eight children, field by field, so that one vector holds one field of all of them. Boxes
+/// and planes are relative to the model's centre. The first two cache lines suffice for queries
+/// nearby. The last three hold the discs and are read only where discs can pay (see
+/// octree/traversal/bounds.h).
 struct alignas(kSlotBytes) Node {
-  FloatBox box;              ///< its own, of which its children's are parts
-  float step[3];             ///< that their sides are counted in: box_step()
-  float gate;                ///< discs pay where this node's own bound^2 is larger
+  FloatBox box;              ///< the node's own box, which contains those of its children
+  float step[3];             ///< unit of the children's sides, see box_step()
+  float gate;                ///< discs are evaluated where this node's own squared bound is larger
   std::uint8_t child_count;  ///< 1 to 8
-  std::uint8_t height;       ///< nodes below and including this one on the longest path
+  std::uint8_t height;       ///< maximum count of nodes on a path down to a block, this included
   std::uint8_t reserved[6];
-  std::uint8_t lower[3][kFanOut];  ///< as in PackedChild; of unused children 0
+  std::uint8_t lower[3][kFanOut];  ///< steps as in PackedChild; 0 for unused children
   std::uint8_t upper[3][kFanOut];
   std::uint32_t link[kFanOut];
-  float normal[3][kFanOut];   ///< of the slab; unit to a few ulps
-  float slab_lower[kFanOut];  ///< normal . (x - box centre) of all surface points x
+  float normal[3][kFanOut];   ///< slab normal, unit length to a few ulps
+  float slab_lower[kFanOut];  ///< minimum of normal . (x - box centre) over the surface points x
   float slab_upper[kFanOut];
-  float radius[kFanOut];  ///< greatest distance of a surface point from the slab's axis
+  float radius[kFanOut];  ///< maximum distance of a surface point from the slab's axis
 };
 static_assert(sizeof(Node) == 5 * kSlotBytes);
 static_assert(offsetof(Node, normal) == 2 * kSlotBytes);
 inline constexpr unsigned kNodeSlots = sizeof(Node) / kSlotBytes;
-inline constexpr unsigned kNearNodeSlots = offsetof(Node, normal) / kSlotBytes;  ///< no discs
+inline constexpr unsigned kNearNodeSlots = offsetof(Node, normal) / kSlotBytes;  ///< without discs
 inline constexpr unsigned kMomentSlots = 2;
 
-/// Head of a triangle block. Behind it, each array on a slot of its own:
-///   float  local[3][stride]     float32 models: the exact vertices
-///                               float64 models: vertices minus `origin`, rounded
-///   double exact[3][stride]     float64 models only
-///   uint32 or uint64 ids[16]    triangle indices, ascending; not of compact blocks
-/// A compact block has its ids in its head, and four bits a corner: of most float32 models nine
-/// blocks in ten are.
+/// Head of a triangle block. These arrays follow it, each on a slot of its own:
+///
+///     float  local[3][stride]     float32 models: the exact vertices
+///                                 float64 models: vertices minus vertex 0, rounded
+///     double exact[3][stride]     float64 models only
+///     uint32 or uint64 ids[16]    triangle indices, ascending; not in compact blocks
+///
+/// The head of a compact block contains its ids, and its corners in four bits each. In most float32
+/// models nine blocks in ten are compact.
 struct alignas(kSlotBytes) BlockHeader {
   static constexpr unsigned kMaxCompactVertices = 16;
-  static constexpr std::uint32_t kMaxCompactSpan = 0xffff;  ///< last index less the first
+  static constexpr std::uint32_t kMaxCompactSpan = 0xffff;  ///< maximum of last index - first index
 
-  float extent;                 ///< at least the distance of any vertex from vertex 0
+  float extent;                 ///< no vertex is farther from vertex 0
   std::uint8_t triangle_count;  ///< 1 to 16
-  std::uint8_t form;            ///< vertices, 1 to 48; kHeightField, kCompact
-  // Of compact blocks; others have corner_row() here.
-  std::uint16_t id_step[kMaxBlockTriangles - 1];  ///< index less the first, from the second on
+  std::uint8_t form;            ///< vertex count, 1 to 48; kHeightField, kCompact
+  // Compact blocks only; others have corner_row() here.
+  std::uint16_t id_step[kMaxBlockTriangles - 1];  ///< index - first_id, from the second triangle on
   std::uint32_t first_id;
-  std::uint64_t packed_corners[3];  ///< vertex of each corner, by corner: bits at corner_bit()
+  std::uint64_t packed_corners[3];  ///< by corner: vertex of each triangle's corner, 4 bits from
+                                    ///< corner_bit() on
 
-  static constexpr std::uint8_t kHeightField =
-      0x40;  ///< known to be in one (octree/nearest/height_field.h)
+  static constexpr std::uint8_t kHeightField = 0x40;  ///< see octree/nearest/height_field.h
   static constexpr std::uint8_t kCompact = 0x80;
 
   unsigned vertex_count() const { return form & 0x3fU; }
   bool is_height_field() const { return (form & kHeightField) != 0; }
   bool compact() const { return (form & kCompact) != 0; }
-  /// From one coordinate of the vertices to the next: 16, 24, 32 or 48.
+  /// Returns the length of a coordinate's row: 16, 24, 32 or 48.
   unsigned stride() const;
 
-  /// Where a triangle's corner begins among the bits of packed_corners: so that a register with
-  /// these in each pair of lanes needs but shift them.
+  /// Returns the lowest bit of a triangle's corner in packed_corners. In this order, a register
+  /// with packed_corners in each pair of lanes yields the corners of successive triangles by
+  /// shifts.
   static constexpr unsigned corner_bit(unsigned triangle) {
     return 32 * (triangle % 2) + 4 * (triangle / 2);
   }
-  /// The vertex of each triangle's corner, of a block that is not compact: the head's last bytes.
+  /// Returns the vertex of corner `corner` of each triangle: the last bytes of the head. Not in
+  /// compact blocks.
   const std::uint8_t* corner_row(std::size_t corner) const {
     return reinterpret_cast<const std::uint8_t*>(this + 1) - kMaxBlockTriangles * (3 - corner);
   }
   std::uint8_t* corner_row(std::size_t corner) {
     return reinterpret_cast<std::uint8_t*>(this + 1) - kMaxBlockTriangles * (3 - corner);
   }
-  /// Of one triangle.
+  /// Returns the vertices of one triangle.
   std::array<unsigned, 3> corners(unsigned triangle) const {
     if (!compact())
       return {corner_row(0)[triangle], corner_row(1)[triangle], corner_row(2)[triangle]};
@@ -118,11 +122,11 @@ struct alignas(kSlotBytes) BlockHeader {
 static_assert(sizeof(BlockHeader) == kSlotBytes);
 static_assert(offsetof(BlockHeader, packed_corners) == 40);
 
-/// How records of one file are laid out; a function of three header fields.
+/// Layout of the records of one file, which follows from three fields of the file's header.
 struct BlockShape {
   bool float64 = false;
   bool wide_ids = false;
-  bool moments = false;  ///< nodes are followed by theirs: the surface is not watertight
+  bool moments = false;  ///< moments follow each node: the surface is not watertight
 
   constexpr unsigned node_slots() const { return kNodeSlots + (moments ? kMomentSlots : 0); }
 
@@ -135,11 +139,11 @@ struct BlockShape {
   constexpr std::size_t id_offset(unsigned stride) const {
     return exact_offset(stride) + (float64 ? align(3 * stride * sizeof(double)) : 0);
   }
-  /// Whether a block is compact, of which the last index is so much above the first.
+  /// Returns whether a block is compact. `span` is its last index less the first.
   constexpr bool is_compact(unsigned vertex_count, std::uint64_t span) const {
     return may_be_compact(vertex_count) && span <= BlockHeader::kMaxCompactSpan;
   }
-  /// Whether it is if its indices are near enough to each other.
+  /// Returns whether a block is compact if its indices are close enough.
   constexpr bool may_be_compact(unsigned vertex_count) const {
     return !float64 && !wide_ids && vertex_count <= BlockHeader::kMaxCompactVertices;
   }
@@ -156,7 +160,7 @@ struct BlockShape {
 
 inline unsigned BlockHeader::stride() const { return BlockShape::stride(vertex_count()); }
 
-/// A child's address in 32 bits: [leaf 1][page 31 - s][slot s], where s is
+/// Layout of a link, the 32-bit address of a child: [leaf 1][page 31 - s][slot s], where s is
 /// log2(page bytes / 64).
 class LinkFormat {
  public:
@@ -179,7 +183,7 @@ class LinkFormat {
   unsigned slot_bits_;
 };
 
-/// Slots taken by the frame header and the bits that say where blocks start.
+/// Returns the slots of the frame header and of the bits that mark where blocks start.
 constexpr unsigned frame_head_slots(std::uint32_t page_bytes) {
   const std::size_t bit_bytes = page_bytes / kSlotBytes / 8;
   return static_cast<unsigned>(1 + (bit_bytes + kSlotBytes - 1) / kSlotBytes);

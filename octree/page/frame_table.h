@@ -4,24 +4,27 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What holders of frames tell those that look at them: where they are, and when they may go.
+/// Interface between the cache, which holds frames, and readers that keep or prefetch pointers to
+/// them.
 namespace planetree::octree {
 
-/// Where frames are, for whoever asks for lines of theirs ahead: nothing is read there, so that it
-/// does not matter if a page goes meanwhile.
+/// Addresses of frames for prefetching. Nothing is read through these addresses, so that a page may
+/// be evicted meanwhile.
 struct FrameTable {
-  const std::atomic<std::uint32_t>* cells = nullptr;  ///< a page's frame + 1; 0: not resident
+  const std::atomic<std::uint32_t>* cells = nullptr;  ///< frame + 1; 0: not resident
   const std::byte* frames = nullptr;
-  std::uint64_t stride_bytes = 0;  ///< from frame to frame
+  std::uint64_t stride_bytes = 0;  ///< distance from frame to frame
 
-  /// By no branch; of a page that is not resident another's.
+  /// Returns the frame of a page, or some other page's frame if the page is not resident. Has no
+  /// branch.
   const std::byte* frame_of(std::uint32_t page) const {
     const std::uint32_t cell = cells[page].load(std::memory_order_relaxed);
     return frames + stride_bytes * (cell - static_cast<std::uint32_t>(cell != 0));
   }
 };
 
-/// Whoever keeps pointers to frames from call to call: told before these may go.
+/// Callback of a reader that keeps pointers to frames between calls. It is called before those
+/// frames may be reused.
 struct FrameReleaseHook {
   void* who = nullptr;
   void (*on_release)(void* who) noexcept = nullptr;

@@ -15,7 +15,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Coordinates in the model frame are below 2^55.
+/// Limit of plane coordinates. Coordinates in the model frame are below 2^55.
 constexpr double kFarthestPlane = 0x1p60;
 
 class MaskDecoder {
@@ -94,7 +94,7 @@ const char* MaskDecoder::write_header() {
   return nullptr;
 }
 
-// Adds their slots.
+// Checks the lists' counts and adds the slots of all lists to `slots`.
 const char* MaskDecoder::count_lists(std::size_t& slots) const {
   std::size_t blocks = 0;
   for (std::size_t i = 0; i < head().listed_count; ++i) {
@@ -226,7 +226,7 @@ const char* MaskDecoder::decode_listed(MaskListed& listed) {
   std::byte* const octants = frame_ + next_list_slot_ * kMaskSlotBytes;
   next_list_slot_ += list_slots(listed.block_count);
   std::byte* const slab = octants + list_octant_slots(listed.block_count) * kMaskSlotBytes;
-  // Whatever is not written stands in the last slots.
+  // Clears the last slot of the octants and of the list, which may be written in part.
   std::memset(slab - kMaskSlotBytes, 0, kMaskSlotBytes);
   std::memset(frame_ + (next_list_slot_ - 1) * kMaskSlotBytes, 0, kMaskSlotBytes);
   if (const char* fault = decode_slab(at, slab)) return fault;
@@ -245,7 +245,7 @@ const char* MaskDecoder::decode_slab(std::size_t at, std::byte* slab) const {
   return nullptr;
 }
 
-// By copies that no byte written can change, as far as the compiler knows.
+// Works on copies of members, because the compiler assumes that writing a byte may change members.
 const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsigned count) {
   const ByteSplit<std::uint8_t> all_octants = streams_.block_octants;
   const ByteSplit<std::uint32_t> all_links = streams_.block_links;

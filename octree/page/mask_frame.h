@@ -8,23 +8,23 @@
 
 #include "octree/geometry/cell_slab.h"
 
-/// The mask says which side the cells of the octree are on: white cells are
-/// outside of the solid, black ones inside, and the surface passes through grey
-/// ones ("Out-of-core real-time haptic interaction on very large models",
-/// section 3.1). Only watertight models have one: elsewhere winding numbers are
-/// not constant off the surface.
+/// The mask tells which side the cells of the octree are on. White cells are outside of the solid,
+/// black and inverted ones inside, and the surface may pass through grey ones. Only watertight
+/// models have a mask: the winding numbers of other models are not constant off the surface.
 ///
-/// This is the layout of a decoded mask page; format-spec/v1/spec.md, "Mask
-/// page", states what is stored.
+/// This is the layout of a decoded mask page; format-spec/v1/spec.md, "Mask page", specifies the
+/// stored form.
 ///
-///   slot 0                 MaskHeader
-///   slot 8 ...             which records are nodes, one bit a slot
-///   first record slot ...  records, a slot each: roots first, then breadth first
-///   ...                    planes of special cells
-///   ...                    lists of blocks
+///     slot 0                 MaskHeader
+///     slot 8 ...             which records are nodes, one bit a slot
+///     first record slot ...  records, a slot each: roots first, then breadth first
+///     ...                    planes of special cells
+///     ...                    lists of blocks
 ///
-/// A slot is 8 bytes. The grey children of a node lie side by side, in the order
-/// of their octants, and are linked to as one family.
+/// A slot is 8 bytes. The grey children of a node lie side by side, in the order of their octants.
+/// One link leads to all of them, as a family.
+///
+/// source  "Out-of-core real-time haptic interaction on very large models", section 3.1
 namespace planetree::octree {
 
 inline constexpr std::size_t kMaskSlotBytes = 8;
@@ -37,35 +37,35 @@ struct MaskHeader {
   std::uint16_t root_count;
   std::uint16_t first_record_slot;
   std::uint16_t first_plane_slot;
-  std::uint16_t page_link_count;  ///< to other pages
+  std::uint16_t page_link_count;  ///< links to other pages
   std::uint8_t reserved[38];
 };
 static_assert(sizeof(MaskHeader) == 64);
 
-/// Whether the record in a slot of a frame is a node.
+/// Returns whether the record in a slot of a frame is a node.
 inline bool is_mask_node(const std::byte* frame, std::uint32_t slot) {
   const auto* nodes = reinterpret_cast<const std::uint64_t*>(frame + sizeof(MaskHeader));
   return (nodes[slot / 64] >> slot % 64 & 1) != 0;
 }
 
-/// An octant of which all four bits are 0 is white.
+/// A divided grey cell. An octant without a bit in the four masks is white.
 struct MaskNode {
   std::uint32_t family;   ///< link to the first grey child; 0 if there is none
-  std::uint8_t grey;      ///< octants the surface may pass through
-  std::uint8_t leaf;      ///< of those, the ones that are not divided further
-  std::uint8_t black;     ///< octants inside, of positive winding number
-  std::uint8_t inverted;  ///< octants inside, of negative winding number
+  std::uint8_t grey;      ///< mask of octants that the surface may pass through
+  std::uint8_t leaf;      ///< mask of grey octants that are not divided further
+  std::uint8_t black;     ///< mask of octants inside, of positive winding number
+  std::uint8_t inverted;  ///< mask of octants inside, of negative winding number
 };
 static_assert(sizeof(MaskNode) == kMaskSlotBytes);
 
-/// Winding numbers do not fit in a byte, or some corner is not known.
+/// Replaces the winding numbers of a cell if they do not fit a byte or one is unknown.
 inline constexpr std::int8_t kUncounted = -128;
 
-/// What tells a MaskListed from winding numbers.
+/// First byte of a MaskListed; no number in MaskCorners has this value.
 inline constexpr std::int8_t kListedTag = -127;
 
-/// How many octants a set has. The processors we build for may lack an instruction for it,
-/// and a lookup asks at every node.
+/// Number of octants in a set. A table, because a lookup counts at every node and the processors
+/// that the library is built for may lack an instruction for it.
 inline constexpr auto kOctantCounts = [] {
   std::array<std::uint8_t, 256> counts{};
   for (unsigned set = 1; set < 256; ++set)
@@ -74,24 +74,24 @@ inline constexpr auto kOctantCounts = [] {
 }();
 constexpr unsigned count_octants(unsigned set) { return kOctantCounts[set]; }
 
-/// A grey cell that is not divided: the winding numbers at its corners, each
-/// moved by the infinitesimal step of predicates.h. All are kUncounted or none, and
-/// none is kListedTag.
+/// A grey leaf: the winding numbers at its corners, each of them perturbed (see
+/// octree/geometry/predicates.h). Either all are kUncounted or none is, and none is kListedTag.
 using MaskCorners = std::array<std::int8_t, 8>;
 static_assert(sizeof(MaskCorners) == kMaskSlotBytes);
 
 inline constexpr unsigned kMaxPlanes = 4;
 
-/// A special cell: within it the surface is the boundary of what is behind a
-/// few planes, each given by a triangle in it (section 3.2: convex and concave
-/// configurations; that any of them may be the solid's outside is how the two
-/// become one).
+/// A special cell. The surface within it is the boundary of the space behind up to four planes.
+/// Each plane is given by a triangle that lies in it.
+///
+/// source  section 3.2 of the same paper, convex and concave configurations; one record covers
+///         both, since either side may be the outside of the solid
 struct MaskSpecial {
-  std::int8_t tag;           ///< kUncounted, which a second corner's byte would repeat
+  std::int8_t tag;           ///< kUncounted; in MaskCorners the next byte would be kUncounted too
   std::uint8_t plane_count;  ///< 1 to kMaxPlanes
-  std::int8_t behind;        ///< winding number behind or on all planes
-  std::int8_t beyond;        ///< winding number elsewhere; another one
-  std::uint32_t plane_slot;  ///< in this page: planes, 9 doubles each
+  std::int8_t behind;        ///< winding number of points behind or on all planes
+  std::int8_t beyond;        ///< winding number of other points, not `behind`
+  std::uint32_t plane_slot;  ///< slot in this page of the planes, 9 doubles each
 };
 static_assert(sizeof(MaskSpecial) == kMaskSlotBytes);
 
@@ -99,39 +99,40 @@ inline constexpr unsigned kPlaneSlots = 9;
 
 inline constexpr unsigned kMaxListed = 16;
 
-/// A cell whose corners have one of two winding numbers, and of which it is known what blocks of
-/// the tree have triangles in it.
+/// A listed cell: its corners have one of two winding numbers, and the blocks with triangles in it
+/// are known.
 struct MaskListed {
   std::int8_t tag;           ///< kListedTag
   std::uint8_t block_count;  ///< 1 to kMaxListed
-  std::int8_t least;         ///< winding number of the corners that are not `higher`
-  std::uint8_t higher;       ///< corners whose winding number is `least` + 1
-  std::uint32_t list_slot;   ///< in this page: for each block a u8, the octants of the cell that
-                             ///< its triangles touch; from the next whole slot on the cell's slab,
-                             ///< a u32, and for each block its link, a u32
+  std::int8_t least;         ///< winding number of the corners not in `higher`
+  std::uint8_t higher;       ///< mask of corners whose winding number is `least` + 1
+  std::uint32_t list_slot;   ///< slot in this page of the list: for each block a u8, the octants
+                             ///< that its triangles touch; then, from the next whole slot on, the
+                             ///< cell's slab, a u32, and the link of each block, a u32
 };
 static_assert(sizeof(MaskListed) == kMaskSlotBytes);
 
-/// The winding number at one of its corners.
+/// Returns the winding number at a corner.
 constexpr int corner_of(const MaskListed& listed, unsigned corner) {
   return listed.least + (listed.higher >> corner & 1);
 }
 
-/// Slots of the octants of a list, and of all of it.
+/// Number of slots of a list's octants, and of the whole list.
 constexpr unsigned list_octant_slots(unsigned block_count) { return (block_count + 7) / 8; }
 constexpr unsigned list_slots(unsigned block_count) {
   return list_octant_slots(block_count) + (block_count + 2) / 2;
 }
 
-/// A list of blocks by itself, and the slab of its cell.
+/// A copy of a cell's list of blocks and of its slab.
 struct MaskBlocks {
   std::uint8_t count = 0;
   alignas(kMaskSlotBytes)
-      std::array<std::uint8_t, kMaxListed> octants;  ///< the first `count`, as the links
+      std::array<std::uint8_t, kMaxListed> octants;  ///< the first `count` are set, as in `links`
   std::array<std::uint32_t, kMaxListed> links;
   CellSlab slab;
 
-  /// Puts together the links of those that touch an octant. Returns how many.
+  /// Writes the links of the blocks that touch an octant to the front of `found`. Returns their
+  /// number.
   unsigned in_octant(unsigned octant, std::array<std::uint32_t, kMaxListed>& found) const {
     unsigned size = 0;
     for (unsigned i = 0; i < count; ++i) {
@@ -142,11 +143,11 @@ struct MaskBlocks {
   }
 };
 
-/// The list of a record that a frame holds.
+/// Copies the list of a record from its frame.
 inline void copy_list(const std::byte* frame, const MaskListed& listed, MaskBlocks& blocks) {
   const std::byte* list = frame + std::size_t{listed.list_slot} * kMaskSlotBytes;
   blocks.count = listed.block_count;
-  // By slots, of which the octants have whole ones.
+  // Copies whole slots; both arrays of octants end on one.
   auto* octants = reinterpret_cast<std::byte*>(blocks.octants.data());
   for (unsigned slots = list_octant_slots(blocks.count); slots > 0; --slots) {
     std::memcpy(octants, list, kMaskSlotBytes);
@@ -167,8 +168,7 @@ constexpr bool is_special(const MaskCorners& record) {
 }
 constexpr bool is_listed(const MaskCorners& record) { return record[0] == kListedTag; }
 
-/// A family's address: [page within the mask 32 - s][slot s], where s is
-/// log2(page bytes / 8).
+/// Layout of a link to a family: [page within the mask 32 - s][slot s]; s is log2(page bytes / 8).
 class MaskLinkFormat {
  public:
   explicit constexpr MaskLinkFormat(std::uint32_t page_bytes)
@@ -182,14 +182,14 @@ class MaskLinkFormat {
     return page << slot_bits_ | slot;
   }
   constexpr std::uint64_t max_pages() const { return std::uint64_t{1} << (32 - slot_bits_); }
-  /// Of a page.
+  /// Returns the number of slots of a page.
   constexpr std::uint32_t slots() const { return std::uint32_t{1} << slot_bits_; }
 
  private:
   unsigned slot_bits_;
 };
 
-/// Slots of the header and of the bits behind it.
+/// Returns the slots of the header and of the bits that mark nodes.
 constexpr unsigned mask_head_slots(std::uint32_t page_bytes) {
   return static_cast<unsigned>(sizeof(MaskHeader) / kMaskSlotBytes +
                                page_bytes / kMaskSlotBytes / 64);

@@ -6,38 +6,38 @@
 
 #include "octree/page/raw_streams.h"
 
-/// The raw bytes of a mask page, as format-spec/v1/spec.md states them in "Mask
-/// page": a head, then without padding
+/// The raw bytes of a mask page, specified in format-spec/v1/spec.md, "Mask page": a head, then
+/// these streams without padding:
 ///
-///   record kinds     u8 a record (MaskKind)
-///   grey masks       u8 a node
-///   leaf masks       u8 a node
-///   black masks      u8 a node
-///   inverted masks   u8 a node
-///   page links       u32 a node of kind kNodeAbove
-///   corner bits      u8 a record of kind kPlainCorners
-///   corners          i8 x 8 a record of kind kCorners
-///   plane counts     u8 a special cell
-///   behind           i8 a special cell
-///   beyond           i8 a special cell
-///   planes           float32 or float64 x 9 a plane
-///   least            i8 a listed cell
-///   higher           u8 a listed cell
-///   block counts     u8 a listed cell
-///   slab directions  u16 a listed cell
-///   slab lowers      u8 a listed cell
-///   slab uppers      u8 a listed cell
-///   block octants    u8 a block of a list
-///   block links      u32 a block of a list
+///     record kinds     u8 a record (MaskKind)
+///     grey masks       u8 a node
+///     leaf masks       u8 a node
+///     black masks      u8 a node
+///     inverted masks   u8 a node
+///     page links       u32 a node of kind kNodeAbove
+///     corner bits      u8 a record of kind kPlainCorners
+///     corners          i8 x 8 a record of kind kCorners
+///     plane counts     u8 a special cell
+///     behind           i8 a special cell
+///     beyond           i8 a special cell
+///     planes           float32 or float64 x 9 a plane
+///     least            i8 a listed cell
+///     higher           u8 a listed cell
+///     block counts     u8 a listed cell
+///     slab directions  u16 a listed cell
+///     slab lowers      u8 a listed cell
+///     slab uppers      u8 a listed cell
+///     block octants    u8 a block of a list
+///     block links      u32 a block of a list
 ///
-/// "Page links", "planes", "slab directions" and "block links" are byte-shuffled, as in
+/// Page links, planes, slab directions and block links are byte-stream split, as in
 /// octree/page/page_streams.h.
 namespace planetree::octree {
 
 enum class MaskKind : std::uint8_t {
-  kNode = 0,          ///< its family, if it has one, is the next of this page
-  kNodeAbove = 1,     ///< its family is in another page, by a link of its own
-  kPlainCorners = 2,  ///< winding numbers 0 and 1 alone
+  kNode = 0,          ///< a node whose family, if it has one, is the next of this page
+  kNodeAbove = 1,     ///< a node whose family is in another page, given by a link
+  kPlainCorners = 2,  ///< a leaf whose winding numbers are 0 or 1
   kCorners = 3,
   kSpecial = 4,
   kListed = 5,
@@ -48,20 +48,20 @@ struct MaskPageHead {
   std::uint32_t ordinal;  ///< 0
   std::uint64_t octcode;
   std::uint16_t record_count;
-  std::uint16_t root_count;  ///< the first records: families linked to from other pages
-  std::uint16_t node_count;  ///< of both kinds
+  std::uint16_t root_count;  ///< records at the front: families that other pages link to
+  std::uint16_t node_count;  ///< nodes of both kinds
   std::uint16_t page_link_count;
   std::uint16_t plain_count;
   std::uint16_t corners_count;
   std::uint16_t special_count;
   std::uint16_t plane_count;
   std::uint16_t listed_count;
-  std::uint16_t block_link_count;  ///< of all lists
+  std::uint16_t block_link_count;  ///< blocks of all lists
   std::uint32_t reserved;          ///< 0
 };
 static_assert(sizeof(MaskPageHead) == 40);
 
-/// The streams of a mask page, cut and length-checked but not yet believed.
+/// The streams of a mask page. Their lengths have been checked, their contents have not.
 struct MaskStreams {
   MaskPageHead head{};
   ByteSplit<std::uint8_t> kinds;
@@ -79,7 +79,7 @@ struct MaskStreams {
   ByteSplit<std::uint8_t> slab_lowers, slab_uppers, block_octants;
   ByteSplit<std::uint32_t> block_links;
 
-  /// Cuts `raw`. Returns null, or what is wrong.
+  /// Locates the streams in `raw`, which must outlive this object. Returns null, or a fault.
   const char* cut(std::span<const std::byte> raw, bool float64) noexcept;
 
   double plane_coordinate(std::size_t index) const {

@@ -11,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// Words whose high bytes are of type High.
+// Joins the bytes of words; High is the type of the high byte.
 template <class High>
 HWY_INLINE Ints widened(const PackedDiscs::Words& words, unsigned first) {
   const hn::Rebind<High, IntTag> narrow;
@@ -20,12 +20,12 @@ HWY_INLINE Ints widened(const PackedDiscs::Words& words, unsigned first) {
                 widened_bytes(words.low.data() + first));
 }
 
-// std::max() to the last bit: of equal values the first.
+// Returns std::max(value, least) to the last bit: the first of equal values.
 HWY_INLINE Floats at_least(Floats value, Floats least) {
   return hn::IfThenElse(hn::Lt(value, least), least, value);
 }
 
-// unpack_normal()
+// Same as unpack_normal().
 HWY_INLINE Wide3 unpack_normals(Ints u, Ints v) {
   const FloatTag lanes;
   const Floats steps = hn::Set(lanes, kNormalSteps), one = hn::Set(lanes, 1.0f);
@@ -68,7 +68,7 @@ class DiscLanes {
   }
 
  private:
-  // FloatBox::plane_step()
+  // Same as FloatBox::plane_step().
   Floats plane_steps(const Node& node) const {
     Floats squares[3];
     for (unsigned axis = 0; axis < 3; ++axis) {

@@ -6,30 +6,30 @@
 #include "octree/geometry/child_bounds.h"
 #include "octree/page/frame.h"
 
-/// The discs of a node's children, unpacked all at once where the processor can. The same bits on
-/// every instruction set, and as unpack_disc() has them.
+/// Unpacks the discs of all children of a node at once, with vectors where the processor has them.
+/// All instruction sets compute the same bits as unpack_disc().
 namespace planetree::octree {
 
-/// As stored, of the children of one node side by side, 0 past the last.
+/// The discs of one node's children as stored, side by side; 0 behind the last child.
 struct PackedDiscs {
   using Bytes = std::array<std::uint8_t, kFanOut>;
   struct Words {
     Bytes low{}, high{};
   };
 
-  Words u, v;                    ///< of normals; i16
+  Words u, v;                    ///< normal; i16
   Words slab_lower, slab_upper;  ///< i16
   Words radius;                  ///< u16
 };
 
-/// What was found of a node's children.
+/// Faults found in a node's children.
 struct ChildFaults {
-  bool no_box = false;   ///< one's box has its upper side below the lower
-  bool crossed = false;  ///< one's planes have
+  bool no_box = false;   ///< a child's box has an upper side below the lower one
+  bool crossed = false;  ///< a child's slab_upper is below its slab_lower
 };
 
-/// Writes the discs of `node`, which has its box, the step, and what is counted in it of the
-/// children's boxes.
+/// Writes the discs of the `count` children of `node`. Its box, its step and the steps of the
+/// children's boxes (`lower`, `upper`) must be set.
 ChildFaults unpack_discs(const PackedDiscs& packed, unsigned count, Node& node) noexcept;
 
 }  // namespace planetree::octree

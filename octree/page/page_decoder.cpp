@@ -15,7 +15,7 @@
 namespace planetree::octree {
 namespace {
 
-// Where the page's records lie in the frame; known before any is unpacked.
+// Layout of the page's records in the frame, computed before any is unpacked.
 struct FramePlan {
   std::uint16_t first_node_slot = 0;
   std::uint16_t first_block_slot = 0;
@@ -163,7 +163,7 @@ const char* PageDecoder::decode_node(std::size_t index) {
   return nullptr;
 }
 
-// The bytes of a plane that are of the next children.
+// Copies the bytes of the next `count` children from a plane and clears the rest.
 template <class Bytes>
 void PageDecoder::copy_children(const std::byte* plane, std::size_t count, Bytes& bytes) const {
   static_assert(sizeof bytes == kFanOut);
@@ -182,7 +182,7 @@ const char* PageDecoder::decode_bounds(Node& parent, std::size_t count) const {
     copy_children(streams_.child_boxes.bytes() + (3 + axis) * all, count, parent.upper[axis]);
   }
   PackedDiscs packed;
-  // All words of the first plane, then of the others; low bytes, then high ones.
+  // A stream holds the low bytes of all planes, one plane after the other, then the high bytes.
   const auto copy_words = [&](const auto& stream, std::size_t plane, PackedDiscs::Words& words) {
     const std::byte* bytes = stream.bytes() + plane * all;
     copy_children(bytes, count, words.low);

@@ -39,7 +39,7 @@ void take_nodes(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   layout.take(s.page_links, head.page_link_count);
 }
 
-// The corner stream's length follows from the counts just taken.
+// The length of the corner stream follows from the counts just read.
 const char* take_corners(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   std::size_t bytes = 0, triangles = 0;
   for (std::size_t i = 0; i < s.head.block_count; ++i) {

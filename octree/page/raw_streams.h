@@ -11,7 +11,7 @@
 
 namespace planetree::octree {
 
-/// A byte-shuffled array: byte k of element i is at [k * count + i].
+/// View of a byte-stream split array: byte k of element i is at [k * count + i].
 template <class T>
 class ByteSplit {
  public:
@@ -40,8 +40,7 @@ class ByteSplit {
   std::size_t count_ = 0;
 };
 
-/// The streams of one page's raw bytes, cut and length-checked but not yet
-/// believed: only their sizes are known to be right.
+/// The streams of a distance page. Their lengths have been checked, their contents have not.
 struct RawStreams {
   PageHead head{};
   ByteSplit<float> root_boxes;
@@ -71,7 +70,7 @@ struct RawStreams {
   }
   bool compact(std::size_t block) const { return (triangle_counts[block] & kCompactBit) != 0; }
 
-  /// Cuts `raw`. Returns null, or what is wrong.
+  /// Locates the streams in `raw`, which must outlive this object. Returns null, or a fault.
   const char* cut(std::span<const std::byte> raw, const BlockShape& shape) noexcept;
 };
 

@@ -1,6 +1,6 @@
-// Elements of byte-shuffled arrays (ByteSplit, octree/page/raw_streams.h) put together in registers
-// of 16 bytes, compiled once for each instruction set that Highway knows at hand, but for the one
-// that has no such registers.
+// Loads elements of byte-stream split arrays (ByteSplit, octree/page/raw_streams.h) into registers
+// of 16 bytes. Compiled once for each instruction set that Highway targets, except the scalar one,
+// which has no such registers.
 
 #if defined(PLANETREE_OCTREE_SPLIT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_SPLIT_LANES_INL_H_
@@ -28,7 +28,7 @@ using Bytes = hn::Vec<ByteTag>;
 using Pairs = hn::Vec<PairTag>;
 using Quads = hn::Vec<QuadTag>;
 
-// Eight of an array of `count` two-byte elements, from an index on.
+// Returns eight elements from `first` on of an array of `count` two-byte elements.
 HWY_INLINE Pairs load_eight(const std::byte* byte_split, std::size_t count, std::size_t first) {
   const PairTag pairs;
   const hn::Rebind<std::uint8_t, PairTag> bytes;
@@ -37,15 +37,15 @@ HWY_INLINE Pairs load_eight(const std::byte* byte_split, std::size_t count, std:
                 hn::ShiftLeft<8>(hn::PromoteTo(pairs, hn::LoadU(bytes, low + count))));
 }
 
-// The bytes of sixteen of an array of `count` four-byte elements, from an index on: all first
-// bytes, all second bytes and so on.
+// Loads sixteen elements from `first` on of an array of `count` four-byte elements, as four planes:
+// all first bytes, all second bytes and so on.
 HWY_INLINE void load_sixteen(const std::byte* byte_split, std::size_t count, std::size_t first,
                              Bytes (&planes)[4]) {
   const auto* at = reinterpret_cast<const std::uint8_t*>(byte_split) + first;
   for (std::size_t k = 0; k < 4; ++k) planes[k] = hn::LoadU(ByteTag(), at + k * count);
 }
 
-// The sixteen elements themselves.
+// Joins the planes of load_sixteen() to elements.
 HWY_INLINE void join_planes(const Bytes (&planes)[4], Quads (&elements)[4]) {
   const ByteTag bytes;
   const PairTag pairs;

@@ -7,7 +7,8 @@
 
 namespace planetree::octree {
 
-/// Takes arrays off the front of some bytes, until they do not suffice.
+/// Takes arrays off the front of a span of bytes. Once the bytes do not suffice, all further arrays
+/// are empty.
 class StreamReader {
  public:
   explicit StreamReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -22,7 +23,7 @@ class StreamReader {
     const std::byte* start = skip(bytes);
     return start ? std::span(start, bytes) : std::span<const std::byte>();
   }
-  /// Whether there were bytes for every array so far.
+  /// Returns whether the bytes have sufficed for every array.
   bool whole() const { return ok_; }
   bool empty() const { return rest_.empty(); }
 

@@ -13,27 +13,28 @@
 
 namespace planetree::octree {
 
-/// Visits every block whose box meets a box; see TreeWalk.
+/// Visits every block whose box meets a given box; see TreeWalk.
 class BoxWalk {
  public:
-  /// lower, upper  model frame.
+  /// lower, upper  of the given box, model frame
   BoxWalk(const TreeInfo& tree, const Point& lower, const Point& upper, const PageReader& pages,
           TraversalStats& work)
       : box_(rounded_outward(lower, upper, tree.centre)), walk_(tree, pages, work) {}
 
-  /// Begins with those of some subtrees that meet the box, where one does, and not with the root.
+  /// Starts with those of `subtrees` that meet the box, instead of the root. Starts with the root
+  /// if none does.
   void begin_with(const NearbySubtrees& subtrees) {
     std::uint64_t meeting = subtrees_meeting(subtrees, box_);
     for (; meeting != 0; meeting &= meeting - 1)
       walk_.begin_with(subtrees.link(static_cast<std::size_t>(std::countr_zero(meeting))));
   }
 
-  /// Calls visit(BlockView, link). False as TreeWalk's.
+  /// Calls visit(BlockView, link) for each block. Returns false as TreeWalk::run() does.
   template <class Visit>
   bool run(std::uint64_t max_work, const Visit& visit) {
     return run_while(max_work, visit, [] { return true; });
   }
-  /// See TreeWalk.
+  /// See TreeWalk::run_while().
   template <class Visit, class GoingOn>
   bool run_while(std::uint64_t max_work, const Visit& visit, const GoingOn& going_on) {
     return walk_.run_while(
@@ -42,7 +43,7 @@ class BoxWalk {
   }
 
  private:
-  /// A box as child boxes are stored: in float, relative to the centre.
+  /// Converts a box to the form of child boxes: float, relative to the centre, rounded outward.
   static FloatBox rounded_outward(const Point& lower, const Point& upper, const Point& centre) {
     FloatBox box;
     for (std::size_t axis = 0; axis < 3; ++axis) {

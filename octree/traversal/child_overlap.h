@@ -7,15 +7,16 @@
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/nearby_subtrees.h"
 
-/// Which of a node's children, or of the subtrees of a list, are where.
+/// Tests of a node's children, or of a list of subtrees, against a box or a query.
 namespace planetree::octree {
 
-/// A bit for each whose box meets a box.
+/// Returns a bit for each child, or subtree, whose box meets `box`.
 unsigned children_meeting(const Node& node, const FloatBox& box) noexcept;
 std::uint64_t subtrees_meeting(const NearbySubtrees& list, const FloatBox& box) noexcept;
 
-/// Adds those of a node's children to a list that has room whose boxes are not farther from the
-/// query than a threshold, see prune_threshold().
+/// Adds to `list` the children of `node` whose boxes are not farther from the query than
+/// `threshold` (see prune_threshold()). `list` must have capacity, see
+/// NearbySubtrees::has_capacity().
 void add_children_within(const Node& node, const FloatQuery& query, float threshold,
                          NearbySubtrees& list) noexcept;
 

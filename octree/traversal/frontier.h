@@ -10,16 +10,15 @@
 
 namespace planetree::octree {
 
-/// A child to visit: a squared lower bound on its distance, its link, and the page of the
-/// node that has it.
+/// A child to visit: the squared lower bound on its distance, its link, and the page of its parent.
 struct FrontierEntry {
   float bound;
   std::uint32_t link;
   std::uint32_t from;
 };
 
-/// The children of one node that are worth a visit, nearest first; one cache line.
-/// Squared bounds are not negative, so their bits order as they do.
+/// The children of one node that are to be visited, nearest first; one cache line. Squared bounds
+/// are not negative, so that their bits are ordered as they are.
 struct alignas(kSlotBytes) FrontierGroup {
   std::int32_t bound_bits[kFanOut];
   std::uint32_t link[kFanOut];
@@ -27,22 +26,24 @@ struct alignas(kSlotBytes) FrontierGroup {
   float bound(unsigned at) const { return std::bit_cast<float>(bound_bits[at]); }
 };
 
-/// Children still to visit: a group for each visited node that has some. Taken nearest
-/// first, as few are visited as can be; taken from the last group, they lie close together.
+/// Children still to visit, in one group for each visited node that has some. Taking the nearest
+/// child first keeps the number of visits low. Taking from the last group visits children that lie
+/// close together.
 class Frontier {
  public:
   enum class Order { kNearest, kLast };
-  /// From more groups only the last is taken, so that depth bounds how many are added. Few asks
-  /// have as many at once.
+  /// With more groups than this, pop() takes from the last one only, so that the tree's height
+  /// bounds how many are added. Few queries have so many groups at once.
   static constexpr std::size_t kMaxToOrder = 48;
 
   bool has_capacity() const { return size_ < kMaxGroups; }
-  /// Whether the nearest of all is taken, where that is asked for.
+  /// Returns whether pop() with Order::kNearest takes the nearest of all children.
   bool is_ordered() const { return size_ <= kMaxToOrder; }
 
-  /// Where the next group is to be written; push() then counts it in.
+  /// Returns the memory of the next group. push() adds that group.
   FrontierGroup& next() { return groups_[size_]; }
-  /// The group's entries from `first` to `end` are to be visited; of a node in page `from`.
+  /// Adds the next group with its entries from `first` to before `end`. `from` is the page of their
+  /// parent.
   void push(unsigned first, unsigned end, std::uint32_t from) {
     if (first >= end) return;
     cursors_[size_] = {from, static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(end)};
@@ -50,10 +51,10 @@ class Frontier {
     ++size_;
   }
 
-  /// Takes a child within `threshold`. `dropped` becomes the least bound of those that are
-  /// not, if less. False when nothing is left.
+  /// Takes a child whose bound is not above `threshold` out of the frontier. Children above it are
+  /// dropped, and `dropped` is lowered to their least bound. Returns false if no child is left.
   bool pop(Order order, float threshold, FrontierEntry& entry, float& dropped) {
-    // In a register: from memory each that is dropped would wait for the one before.
+    // A local copy stays in a register. In memory, each update would wait for the one before.
     float min_dropped = dropped;
     const bool found = pop_near(order, threshold, entry, min_dropped);
     dropped = min_dropped;
@@ -83,12 +84,14 @@ class Frontier {
 
   struct Cursor {
     std::uint32_t from;
-    std::uint8_t next, end;  // of the group's entries
+    std::uint8_t next, end;  // range of the group's entries still to visit
   };
-  // Two are taken at a time as long as groups are ordered; the way down from each adds one a level.
+  // While groups are ordered, a traversal takes two children at a time; the path down from each
+  // adds one group a level.
   static constexpr std::size_t kMaxGroups = kMaxToOrder + std::size_t{2} * (kMaxHeight + 1);
 
-  // A group's least bound, and its place, so that the last of equals comes first.
+  // Sets a group's key: its least bound and its index, reversed so that the last of equal groups
+  // comes first.
   void set_key(std::size_t at, std::int32_t bound_bits) {
     keys_[at] = std::uint64_t{static_cast<std::uint32_t>(bound_bits)} << 32 | (kMaxGroups - at);
   }

@@ -8,19 +8,19 @@
 
 namespace planetree::octree {
 
-/// Link to record, by way of its page. Looks a page up only where the page
-/// changes.
+/// Finds the record that a link leads to. Looks a page up only when it differs from the last one.
 class LinkResolver {
  public:
   LinkResolver(const TreeInfo& tree, const PageReader& pages)
       : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
 
-  /// No page has this number.
+  /// A number that no page has.
   static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
 
-  /// The node or block that `link` leads to, good until the next call; null
-  /// where its page cannot be had or holds no such record. `from` is the page of the node
-  /// that has the link, as page() said then.
+  /// Returns the node or block that `link` leads to, valid until the next call; null if its page is
+  /// not available or has no such record.
+  ///
+  /// from  page of the node with the link, as page() returned it; kNoPage if not known
   const std::byte* find(std::uint32_t link, TraversalStats& work, std::uint32_t from = kNoPage) {
     const std::uint32_t page = links_.page(link);
     const std::uint32_t slot = links_.slot(link);
@@ -29,22 +29,23 @@ class LinkResolver {
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
     }
-    // Links within a page were checked when it was decoded; links between pages could not
-    // be before both were here.
+    // Links within a page were checked when it was decoded. Links between pages can be checked only
+    // when both pages are decoded.
     if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
     return frame_ + slot * kSlotBytes;
   }
-  /// Whether the record is on the page that was found last.
+  /// Returns whether the record is in the page that was found last.
   bool is_at_hand(std::uint32_t link) const { return links_.page(link) == page_number_ && frame_; }
-  /// The page of the last record.
+  /// Returns the page of the last record.
   std::uint32_t page() const { return page_number_; }
 
-  /// A child of a node, by its place there.
+  /// A child, given by its node and its index there.
   struct Child {
     const Node* node = nullptr;
     unsigned index = 0;
   };
-  /// Looks through the nodes of a page, as far as it is in memory, for the one that has `link`.
+  /// Searches the nodes of a page for the child with `link`. Returns no node if the page is not
+  /// resident or has no such child.
   Child find_parent(std::uint32_t link, std::uint32_t page) const {
     const std::byte* frame =
         pages_.peek && page != kNoPage ? pages_.peek(pages_.context, page) : nullptr;
@@ -59,10 +60,10 @@ class LinkResolver {
     return {};
   }
 
-  /// Queries for the record's first cache lines, as far as it is in memory: of a node those that
-  /// near queries look at, unless other numbers are asked for. No answer depends on it.
+  /// Prefetches the first cache lines of a record if its page is resident. No answer depends on it.
+  /// No branch depends on the link, because it would be mispredicted.
   ///
-  /// By no branch that depends on the link: those would be mispredicted.
+  /// kNodeLines  lines of a node to prefetch; by default those that queries nearby read
   template <std::size_t kNodeLines = kNearNodeSlots>
   [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
     if (!pages_.frames.cells) return;
@@ -72,7 +73,7 @@ class LinkResolver {
     const std::byte* record = frame + slot * kSlotBytes;
 #pragma GCC unroll 8
     for (std::size_t i = 0; i < kNodeLines; ++i) __builtin_prefetch(record + i * kSlotBytes);
-    // Of a node its last line again.
+    // For a node, the remaining prefetches repeat its last line.
     const std::byte* last = record + (kNodeLines - 1) * kSlotBytes;
 #pragma GCC unroll 8
     for (std::size_t i = kNodeLines; i < kBlockLines; ++i)
@@ -80,7 +81,7 @@ class LinkResolver {
   }
 
  private:
-  static constexpr std::size_t kBlockLines = 4;  // all of most
+  static constexpr std::size_t kBlockLines = 4;  // covers all of most blocks
 
   bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
     const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
@@ -90,7 +91,7 @@ class LinkResolver {
     }
     if (slot < header.first_node_slot) return false;
     const std::uint32_t offset = slot - header.first_node_slot;
-    // By constants: a division would take as long as the node's bounds.
+    // Constant divisors: a division by node_slots_ would take as long as the node's bounds.
     const bool aligned = node_slots_ == kNodeSlots ? offset % kNodeSlots == 0
                                                    : offset % (kNodeSlots + kMomentSlots) == 0;
     return aligned && offset < header.node_count * node_slots_;

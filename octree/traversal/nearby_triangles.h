@@ -16,25 +16,28 @@ namespace planetree::octree {
 struct NearbyTriangle {
   Triangle corners;
   std::uint64_t id;
-  double nearest;                ///< it is no nearer to the centre than this
-  bool is_height_field = false;  ///< its block is
+  double nearest;                ///< lower bound on its distance from the centre
+  bool is_height_field = false;  ///< its block is in a height field
 };
 
-/// All triangles that reach into a ball, where they are few: queries within it look at no
-/// node, block or page at all. Those near the centre come first, so that queries near it look
-/// at few.
+/// All triangles that reach into a ball, if they are few. Queries within the ball then read no
+/// nodes, blocks or pages. Triangles near the centre come first, so that queries near the centre
+/// test few.
 class NearbyTriangles {
  public:
   static constexpr std::size_t kMax = 192;
 
-  /// Forgets what was there.
+  /// Removes all triangles.
   void clear() {
     size_ = 0;
     complete_ = false;
   }
 
-  /// Takes all that reach into the ball, kMax at most; `nearest` is the distance of the
-  /// nearest from the centre.
+  /// Replaces the list.
+  ///
+  /// found    all triangles that reach into the ball, at most kMax
+  /// nearest  distance of the nearest triangle from `centre`
+  /// radius   radius of the ball
   void fill(std::span<const NearbyTriangle> found, const Point& centre, double nearest,
             double radius) {
     centre_ = centre;
@@ -58,18 +61,20 @@ class NearbyTriangles {
     complete_ = size_ > 0 && extent_ >= kMinFilterExtent;
   }
 
-  /// Whether there is a list, and of all.
+  /// Returns whether the list holds all triangles of the ball and its extent suffices for float.
   bool complete() const { return complete_; }
   std::size_t size() const { return size_; }
-  /// Those from here on are farther from the centre than `distance`.
+  /// Returns how many triangles at the front to test: the others are farther from the centre than
+  /// `distance`.
   std::size_t count_within(double distance) const { return end_[ring_at(distance)]; }
   const Point& centre() const { return centre_; }
-  /// At least the distance of any corner from the centre; 2^-40 or more.
+  /// Returns an upper bound on the distance of any corner from the centre; 2^-40 or more if
+  /// complete().
   float extent() const { return extent_; }
-  /// A coordinate of a corner of each, relative to the centre and rounded; the last is
-  /// repeated up to the next multiple of sixteen.
+  /// Returns a coordinate of one corner of each triangle, relative to the centre and rounded to
+  /// float. The last triangle is repeated up to the next multiple of sixteen.
   const float* row(std::size_t corner, std::size_t axis) const { return row_[corner][axis]; }
-  /// The exact corners, repeated in the same way.
+  /// Returns the exact corners. The last triangle is repeated in the same way.
   const TriangleRows<kMax>& exact() const { return exact_; }
 
   Triangle triangle(std::size_t i) const { return exact_.triangle(i); }
@@ -77,11 +82,11 @@ class NearbyTriangles {
   bool is_height_field(std::size_t i) const { return is_height_field_[i]; }
 
  private:
-  static constexpr std::size_t kLanes = kMaxBlockTriangles;  // that kernels take at once, at most
+  static constexpr std::size_t kLanes = kMaxBlockTriangles;  // maximum number of lanes in a kernel
   static_assert(kMax % kLanes == 0 && kMax <= 255);
   static constexpr std::size_t kRings = 16;
 
-  // Greater distances have no smaller rings, however they are rounded.
+  // Never decreases with the distance, however it is rounded.
   std::size_t ring_at(double distance) const {
     const double ring = (distance - nearest_) * rings_per_length_;
     return ring > 0 ? static_cast<std::size_t>(std::min(ring, kRings - 1.0)) : 0;
@@ -114,7 +119,7 @@ class NearbyTriangles {
   std::size_t size_ = 0;
   float extent_ = 0;
   bool complete_ = false;
-  std::array<std::uint8_t, kRings> end_;  // of each ring's triangles
+  std::array<std::uint8_t, kRings> end_;  // end of each ring's triangles
   alignas(kLanes * sizeof(float)) float row_[3][3][kMax];
   TriangleRows<kMax> exact_;
   std::uint64_t id_[kMax];

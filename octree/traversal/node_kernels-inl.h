@@ -1,4 +1,4 @@
-// A node's children seen from a query: how far they are at least, and in which order.
+// Lower bounds on the distances from a query to a node's children, and the children's order.
 
 #if defined(PLANETREE_OCTREE_NODE_KERNELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_NODE_KERNELS_INL_H_
@@ -23,7 +23,7 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Squared lower bounds of a node's children from `i` on, see octree/traversal/bounds.h.
+// Returns squared lower bounds of a node's children from `i` on; see octree/traversal/bounds.h.
 HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std::size_t i) {
   const FloatTag d;
   const Wide3 lower{lower_sides(node, 0, i), lower_sides(node, 1, i), lower_sides(node, 2, i)};
@@ -49,7 +49,7 @@ HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std
   return hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
 }
 
-// A bit for each of a node's children whose box meets a box.
+// Returns a bit for each of a node's children whose box meets `box`.
 HWY_INLINE unsigned meeting_children(const Node& node, const FloatBox& box) {
   const FloatTag d;
   unsigned found = 0;
@@ -65,9 +65,9 @@ HWY_INLINE unsigned meeting_children(const Node& node, const FloatBox& box) {
   return found & ((1U << node.child_count) - 1);
 }
 
-// Squared bounds with numbers in place of their last bits, in an order that all targets agree on:
-// the bounds are not negative, so that their bits order as they do. Numbers count up from
-// `first`, which has none of its lanes' bits.
+// Replaces the low bits of squared bounds, `number_bits`, by numbers that count up from `first`.
+// The keys have the same order on all targets: bounds are not negative, so that their bits are
+// ordered as they are. `first` is a multiple of the number of lanes.
 template <class Lanes>
 HWY_INLINE auto bound_keys(Lanes bounds, std::int32_t number_bits, std::size_t first) {
   const hn::RebindToSigned<hn::DFromV<Lanes>> d;
@@ -76,16 +76,16 @@ HWY_INLINE auto bound_keys(Lanes bounds, std::int32_t number_bits, std::size_t f
 }
 inline constexpr std::int32_t kNoKey = std::numeric_limits<std::int32_t>::max();
 
-// Bits of a bound that name the child instead.
+// Bits of a bound that are replaced by the child's number.
 inline constexpr std::int32_t kChildBits = kFanOut - 1;
 
-// A child's bound and its number.
+// Returns keys of children from `i` on: a bound and the child's number.
 HWY_INLINE Ints child_keys(const Node& node, const Wide3& p, bool discs, std::size_t i) {
   return bound_keys(child_bounds(node, p, discs, i), kChildBits, i);
 }
 
 #if PLANETREE_EIGHT_LANES
-// Sorts eight integers within a register, by a bitonic network.
+// Sorts eight integers within a register by a bitonic network.
 HWY_INLINE Ints sort_lanes(Ints v) {
   const IntTag d;
   const hn::Repartition<std::int64_t, IntTag> pairs;
@@ -106,18 +106,18 @@ HWY_INLINE Ints sort_lanes(Ints v) {
 }
 #endif
 
-// A node's children that are worth a visit, if any are.
+// How many children of a node are within a threshold, and the nearest child.
 struct NearChildren {
   unsigned count;
   std::int32_t nearest;  // child_keys() of the nearest child
 
-  // Of the nearest, where there are some.
+  // Bound and number of the nearest child; only if count > 0.
   float bound() const { return std::bit_cast<float>(nearest & ~kChildBits); }
   unsigned child() const { return static_cast<unsigned>(nearest & kChildBits); }
 };
 
-// Writes a node's children, nearest first. Those are near whose bounds are not above the
-// threshold. Bounds lose their kChildBits.
+// Writes all children of a node to `group`, nearest first, and counts those whose bounds are not
+// above `threshold`. The low bits kChildBits of bounds are cleared.
 HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& query, bool discs,
                                         float threshold, FrontierGroup& group) {
   const FloatTag d;
@@ -128,7 +128,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
   const hn::RebindToUnsigned<IntTag> du;
   const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
   const Ints unsorted = hn::IfThenElse(used, child_keys(node, p, discs, 0), hn::Set(di, kNoKey));
-  // By itself: where the descent goes next need not wait for the order of the others.
+  // Computed separately, so that the traversal can go on without waiting for the sorted order.
   const std::int32_t nearest = hn::GetLane(hn::MinOfLanes(di, unsorted));
   const Ints keys = sort_lanes(unsorted);
   const auto child = hn::IndicesFromVec(du, hn::And(keys, hn::Set(di, kChildBits)));
@@ -140,7 +140,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
   HWY_ALIGN std::int32_t keys[kFanOut];
   for (std::size_t i = 0; i < kFanOut; i += hn::Lanes(d))
     hn::Store(child_keys(node, p, discs, i), di, keys + i);
-  // The compiler cannot know that there are no more.
+  // Tells the compiler that there are at most kFanOut children.
   std::sort(keys, keys + std::min<std::size_t>(node.child_count, kFanOut));
   unsigned count = 0;
   for (unsigned i = 0; i < node.child_count; ++i) {

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-// Of vertices that float holds exactly, whole vectors of them.
+// Writes the outcodes of vertices that are exact in float, whole vectors of them.
 void float_codes(const float* HWY_RESTRICT vertices, unsigned stride, const float (&lower)[3],
                  const float (&upper)[3], std::uint8_t* HWY_RESTRICT codes) {
   const FloatTag d;
@@ -66,7 +66,8 @@ HWY_EXPORT(float_octants);
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A float that is not beyond the value, and none but its neighbour is nearer.
+// Returns the greatest float that is not above the value; not_below() returns the least that is not
+// below it.
 float not_above(double value) {
   const auto rounded = static_cast<float>(value);
   return rounded > value ? std::nextafter(rounded, -kInfinity) : rounded;
@@ -78,7 +79,7 @@ float not_below(double value) {
 
 unsigned all_of(const BlockView& block) { return (1U << block.triangle_count()) - 1; }
 
-// Of a triangle whose vertices are doubles.
+// Tests a triangle whose vertices are doubles. Returns 0 or 1.
 unsigned has_corner_within(const Triangle& triangle, const Point& lower, const Point& upper) {
   for (const Point& corner : triangle)
     if ((corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all())
@@ -135,7 +136,8 @@ OctantCodes::Met OctantCodes::met_by(const BlockView& block) const noexcept {
   return met;
 }
 
-// Below the middle where the greatest is, above where the least is.
+// A triangle is below the middle if its greatest coordinate is, and above it if its least
+// coordinate is.
 unsigned OctantCodes::code(const Point& greatest, const Point& least) const {
   unsigned code = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {

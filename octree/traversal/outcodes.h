@@ -8,36 +8,37 @@
 
 namespace planetree::octree {
 
-/// Tells the triangles of blocks apart from a box by the sides of it that their vertices are
-/// beyond, one bit a side, as in Cohen-Sutherland clipping. A vertex nearer to a side than
-/// float can tell may be taken for one that is not beyond it.
+/// Tests the triangles of blocks against a box by outcodes, which have one bit for each side of the
+/// box that a vertex is beyond, as in Cohen-Sutherland clipping. A vertex closer to a side than
+/// float resolves may count as not beyond it.
 class Outcodes {
  public:
-  /// lower, upper  of the box, model frame.
+  /// lower, upper  of the box, model frame
   Outcodes(const Point& lower, const Point& upper) noexcept;
 
-  /// The triangles with a corner in the box, a bit each.
+  /// Returns a bit for each triangle with a corner in the box.
   unsigned with_corner_within(const BlockView& block) const noexcept;
 
  private:
   const Point lower_, upper_;
-  float float_lower_[3], float_upper_[3];  // outward
+  float float_lower_[3], float_upper_[3];  // rounded outward
 };
 
-/// Tells which octants of a box the triangles of blocks are near. A vertex nearer to a side, or to
-/// the middle, than float can tell may be taken for one on either side.
+/// Finds the octants of a box that the triangles of blocks are near. A vertex closer to a side or
+/// to the middle than float resolves may count for both sides of it.
 class OctantCodes {
  public:
-  /// middle  the octants' common corner.
+  /// middle  common corner of the octants; model frame, as all points
   OctantCodes(const Point& lower, const Point& middle, const Point& upper) noexcept;
 
   struct Met {
-    unsigned with_vertex = 0;                 ///< the octants that vertices are in
-    std::uint8_t by_box[kMaxBlockTriangles];  ///< of each triangle: those that its box meets
+    unsigned with_vertex = 0;                 ///< octants that contain vertices
+    std::uint8_t by_box[kMaxBlockTriangles];  ///< for each triangle the octants that its box meets
   };
   Met met_by(const BlockView& block) const noexcept;
 
-  /// Octants by outcodes about the middle: two bits an axis, below it and above it.
+  /// Octants for each outcode about the middle. The code has two bits an axis: below the middle,
+  /// above it.
   static constexpr auto kOctants = [] {
     constexpr std::array<unsigned, 3> kUpper = {0xaa, 0xcc, 0xf0};
     std::array<std::uint8_t, 64> octants{};
@@ -56,8 +57,8 @@ class OctantCodes {
   unsigned code(const Point& greatest, const Point& least) const;
 
   const Point box_[2], middle_;
-  float float_box_[2][3];     // outward
-  float float_middle_[2][3];  // about it
+  float float_box_[2][3];     // rounded outward
+  float float_middle_[2][3];  // rounded down and up
 };
 
 }  // namespace planetree::octree

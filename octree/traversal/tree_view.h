@@ -7,32 +7,34 @@
 #include "octree/page/frame.h"
 #include "octree/page/frame_table.h"
 
-/// A tree as its readers see it: facts of the whole, and its pages.
+/// A tree as traversals see it: the data of its header, and access to its pages.
 namespace planetree::octree {
 
 struct PageReader;
 
-/// Work that goes on a step with every few pages that are read, such as asking memory for cache
+/// Work that goes on a step with every few pages that are read, such as prefetching the cache
 /// lines of a later lookup. `step` returns false after the last one. No answer depends on it.
 struct PrefetchHook {
   void* who = nullptr;
   bool (*step)(void* who, const PageReader& pages) noexcept = nullptr;
 };
 
-/// Page number to frame. `page` returns the decoded frame, or null where the
-/// page cannot be had; the pointer is good until the next call, or until a keeper is told.
-/// Handed on by reference: whoever keeps one must not outlive it.
+/// Access to decoded pages. `page` returns the frame of page `number`, or null if the page is not
+/// available. The pointer is valid until the next call, or, if a reader sets the release hook,
+/// until the hook is called. A PageReader is passed by reference; objects that keep the reference
+/// must not outlive it.
 struct PageReader {
   void* context = nullptr;
   const std::byte* (*page)(void* context, std::uint32_t number) noexcept = nullptr;
-  /// Where `page` would find it, or null; says nothing, brings nothing. May be absent.
+  /// Returns the frame of a page if it is resident, else null. Reads and reports nothing. May be
+  /// absent.
   const std::byte* (*peek)(void* context, std::uint32_t number) noexcept = nullptr;
-  FrameTable frames{};                       ///< without cells: nothing is asked for ahead
-  PrefetchHook* prefetch_hook = nullptr;     ///< one at a time; null: nothing goes on beside
-  FrameReleaseHook* release_hook = nullptr;  ///< one at a time; null: frames may go with each call
+  FrameTable frames{};                       ///< empty: nothing is prefetched
+  PrefetchHook* prefetch_hook = nullptr;     ///< for one reader at a time; null: it has none
+  FrameReleaseHook* release_hook = nullptr;  ///< for one reader at a time; null: see `page`
 };
 
-/// What a descent must know of a tree; lengths are in the model frame.
+/// What a traversal needs of a tree. Lengths and points are in the model frame.
 struct TreeInfo {
   std::uint32_t page_bytes = 0;
   std::uint32_t root_link = 0;
@@ -45,7 +47,7 @@ struct TreeInfo {
   std::uint64_t sample_triangle = 0;
 };
 
-/// What reading a tree took; for tests and benchmarks.
+/// Work done in a tree; for tests and benchmarks.
 struct TraversalStats {
   std::uint64_t nodes = 0;
   std::uint64_t blocks = 0;

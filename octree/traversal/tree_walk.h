@@ -11,30 +11,29 @@
 
 namespace planetree::octree {
 
-/// Visits every block that a test of nodes' children lets through, in an order that depends on
-/// the tree and the test alone. No allocation, no lock.
+/// Visits every block that a test of nodes' children selects. The order of visits depends only on
+/// the tree and the test. No allocation, no lock.
 class TreeWalk {
  public:
   TreeWalk(const TreeInfo& tree, const PageReader& pages, TraversalStats& work)
       : tree_(tree), work_(work), records_(tree, pages) {}
 
-  /// Begins with this record, and others so named, in place of the root; a list of
-  /// NearbySubtrees at most.
+  /// Starts with this record instead of the root. May be called for each link of a NearbySubtrees.
   void begin_with(std::uint32_t link) { links_[size_++] = {link, LinkResolver::kNoPage}; }
 
-  /// Calls meeting(Node) for a bit for each child to go to, and visit(BlockView, link). False where
-  /// pages are missing or there was more than `max_work` nodes and blocks to visit: some
-  /// blocks were not.
+  /// Calls visit(BlockView, link) for each block. meeting(Node) returns a bit for each child to
+  /// visit. Returns false if some blocks were not visited, because pages were not available or more
+  /// than `max_work` nodes and blocks would have been visited.
   template <class Visit, class Meeting>
   bool run(std::uint64_t max_work, const Visit& visit, const Meeting& meeting) {
     return run_while(max_work, visit, meeting, [] { return true; });
   }
 
-  /// The same for as long as going_on() says so: then false, too.
+  /// Same as run(), but also returns false as soon as going_on() does.
   template <class Visit, class Meeting, class GoingOn>
   bool run_while(std::uint64_t max_work, const Visit& visit, const Meeting& meeting,
                  const GoingOn& going_on) {
-    // An honest tree cannot be visited longer than it is; a forged one could.
+    // A valid tree takes at most record_count visits; a corrupt one may take more.
     std::uint64_t left = std::min(max_work, tree_.record_count);
     bool complete = true;
     if (size_ == 0) begin_with(tree_.root_link);
@@ -51,7 +50,7 @@ class TreeWalk {
       } else {
         ++work_.nodes;
         const Node& node = *reinterpret_cast<const Node*>(record);
-        // A tree deeper than its header may say is forged.
+        // Only a corrupt tree is deeper than the format allows.
         const bool fits = size_ + kFanOut <= links_.size();
         complete = fits && complete;
         children = fits ? meeting(node) : 0;
@@ -66,10 +65,10 @@ class TreeWalk {
  private:
   struct Link {
     std::uint32_t to;
-    std::uint32_t from;  // a page
+    std::uint32_t from;  // page of the parent
   };
 
-  // Keeps all but the last for later, and asks for them ahead.
+  // Returns the last child; pushes the others and prefetches them.
   Link last_of(const Node& node, unsigned children) {
     const std::uint32_t page = records_.page();
     for (; (children & (children - 1)) != 0; children &= children - 1) {

@@ -1,5 +1,5 @@
-// Which triangles may be nearer than a limit, as float sees them: see octree/traversal/bounds.h for
-// how far to trust it.
+// Finds the triangles that may be nearer than a limit, in float. octree/traversal/bounds.h derives
+// the errors.
 
 #if defined(PLANETREE_OCTREE_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef PLANETREE_OCTREE_TRIANGLE_FILTER_INL_H_
@@ -22,9 +22,14 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Squared distance to the segment from a point `p2` away, squared, from the query, along
-// an edge; `along` is the edge times the vector to the query. The products of a triangle's
-// sides do for all of it: what cancels is paid for by kEdgeError.
+// Returns the squared distance from the query to a segment.
+//
+// p2     squared distance of the segment's start
+// along  dot product of the edge and the vector from the start to the query
+// edge2  squared length of the edge
+//
+// All arguments are products of the triangle's sides, which its three segments share. kEdgeError
+// covers their cancellation.
 HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats along,
                                           TriangleFloats edge2) {
   const TriangleTag d;
@@ -35,14 +40,20 @@ HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats alon
   return hn::Sub(p2, hn::Mul(t, hn::Sub(hn::Add(along, along), hn::Mul(t, edge2))));
 }
 
-// Squared distances of triangles as float sees them: on either side of the true one, but
-// for the rounding of the corners, which is kFilterSlack's.
+// Bounds on the squared distances of triangles. They hold but for the rounding of the corners,
+// which kFilterSlack covers.
 struct TriangleBounds {
-  TriangleFloats lower;  // 0 where float cannot tell
+  TriangleFloats lower;  // 0 where float cannot bound it
   TriangleFloats upper;
 };
 
-// Of a face too flat for float: it lies within its own height of its edges.
+// Returns the lower bound for a face too flat for float. The face lies within its height of its
+// edges.
+//
+// edges     lower bound of the squared distances of its edges
+// whole     |ab x ac|^2
+// sides     |ab|^2 |ac|^2
+// longest2  squared length of the longest side
 HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole,
                                      TriangleFloats sides, TriangleFloats longest2) {
   const TriangleTag d;
@@ -55,7 +66,7 @@ HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole,
   return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
 }
 
-// Of triangles given by vectors from the query to corners.
+// Returns bounds for triangles given by the vectors from the query to their corners.
 HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const TriangleVectors& b,
                                           const TriangleVectors& c) {
   const TriangleTag d;
@@ -63,7 +74,7 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
   const TriangleVectors ab = sub(b, a), ac = sub(c, a);
   const TriangleFloats a2 = dot(a, a), ab2 = dot(ab, ab), ac2 = dot(ac, ac), ab_ac = dot(ab, ac);
   const TriangleFloats to_b = hn::Neg(dot(a, ab)), to_c = hn::Neg(dot(a, ac));
-  // The third side and its start, from the products of the others.
+  // The third side and its start, from the products of the other sides.
   const TriangleFloats b2 = hn::Sub(hn::Add(a2, ab2), hn::Add(to_b, to_b));
   const TriangleFloats bc2 = hn::Sub(hn::Add(ab2, ac2), hn::Add(ab_ac, ab_ac));
   const TriangleFloats b_to_c = hn::Sub(hn::Add(to_c, ab2), hn::Add(to_b, ab_ac));
@@ -79,7 +90,7 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
   const auto inside =
       hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)), hn::Lt(hn::Add(v, w), whole));
   const TriangleFloats inverse = hn::Div(hn::Set(d, 1.0f), whole);
-  // Shares of b and c first: products of three short sides underflow.
+  // Divides first, because products of three short sides underflow.
   const TriangleFloats face =
       hn::Sub(a2, hn::Add(hn::Mul(hn::Mul(v, inverse), to_b), hn::Mul(hn::Mul(w, inverse), to_c)));
   const TriangleFloats face_error =
@@ -98,8 +109,9 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
           hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
 }
 
-// Squared distances to the boxes of triangles given in the same way: no greater than those of the
-// triangles but for rounding, which is kFilterSlack's, at a fifth of the cost.
+// Returns squared distances to the boxes of triangles given in the same way, at a fifth of the
+// cost. They are no greater than those of the triangles but for rounding, which kFilterSlack
+// covers.
 HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVectors& b,
                                      const TriangleVectors& c) {
   const TriangleFloats zero = hn::Zero(TriangleTag());
@@ -111,7 +123,7 @@ HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVec
   return dot(gaps, gaps);
 }
 
-// The way from a point to the query.
+// The vector from a point to the query, rounded to float.
 struct FloatOffset {
   FloatOffset(const Point& query, const Point& from)
       : at{static_cast<float>(query.x() - from.x()), static_cast<float>(query.y() - from.y()),
@@ -119,7 +131,7 @@ struct FloatOffset {
   const float at[3];
 };
 
-// Triangles that stand side by side.
+// The triangles of a list, relative to a query.
 class ListedTriangles {
  public:
   HWY_INLINE ListedTriangles(const NearbyTriangles& list, const float (&query)[3])
@@ -139,14 +151,14 @@ class ListedTriangles {
   const TriangleVectors query_;
 };
 
-// What float says of a block's triangles.
+// Result of filtering up to kMaxBlockTriangles triangles.
 struct FilteredTriangles {
   HWY_ALIGN float squared[kMaxBlockTriangles];  // lower bounds
-  unsigned near;                                // a bit for each whose bound is not above the limit
-  float min_upper;                              // of TriangleBounds::upper
+  unsigned near;    // a bit for each triangle whose bound is not above the limit
+  float min_upper;  // minimum of TriangleBounds::upper over `near`
 };
 
-// Lanes past the last triangle must repeat one.
+// Filters `count` triangles. Lanes behind the last triangle must repeat one.
 template <class Triangles>
 HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, float limit,
                                  FilteredTriangles& filtered) {
@@ -157,12 +169,12 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const TriangleVectors a = triangles.corner(0, i), b = triangles.corner(1, i),
                           c = triangles.corner(2, i);
-    // Most of what a block holds is too far away for more to be asked of it.
+    // Fast path: most triangles of a block are too far away for more than the box test.
     const auto beyond = hn::Gt(box_bounds(a, b, c), hn::Set(d, limit));
     if (hn::AllTrue(d, beyond)) continue;
     const TriangleBounds bounds = triangle_bounds(a, b, c);
     hn::Store(bounds.lower, d, filtered.squared + i);
-    // Whatever others there are in the register: how many it holds must not matter.
+    // Excludes all far lanes, so that the result does not depend on the width of a register.
     const auto far = hn::Or(beyond, hn::Gt(bounds.lower, hn::Set(d, limit)));
     least = hn::Min(least, hn::IfThenElse(far, none, bounds.upper));
     near |= mask_bits(d, hn::Not(far)) << i;
@@ -171,7 +183,8 @@ HWY_INLINE void filter_triangles(const Triangles& triangles, std::size_t count, 
   filtered.min_upper = hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-// A block's, of so many vertices; called, so that these are in registers and nowhere else.
+// Filters a block of this layout. Not forced inline, so that the block's vertices stay in
+// registers.
 template <unsigned kStride, bool kCompact>
 void filter_block_of(const BlockHeader& block, const float (&query)[3], float limit,
                      FilteredTriangles& filtered) {
@@ -179,7 +192,7 @@ void filter_block_of(const BlockHeader& block, const float (&query)[3], float li
                    filtered);
 }
 
-// A block's. `query` is relative to vertex 0.
+// Filters a block. `query` is relative to vertex 0.
 HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], float limit,
                              FilteredTriangles& filtered) {
   by_layout(block, [&]<unsigned kStride, bool kCompact>() {
@@ -187,8 +200,8 @@ HWY_INLINE void filter_block(const BlockHeader& block, const float (&query)[3], 
   });
 }
 
-// Those of the first `count` that a lower limit leaves; of lanes that `near` leaves out,
-// anything.
+// Returns those of the first `count` triangles that are within a lower limit than the filter's.
+// Lanes not in filtered.near may hold anything.
 HWY_INLINE unsigned near_triangles(const FilteredTriangles& filtered, std::size_t count,
                                    float limit) {
   const TriangleTag d;

@@ -54,7 +54,7 @@ HWY_EXPORT(corners_on_target);
 
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
                           double distance, double (&nearest)[kMaxBlockTriangles]) noexcept {
-  // Too small for float, or too far away.
+  // The block is too small for float, or the query too far away.
   if (!filter_tells(wide, block.header().extent)) {
     std::fill_n(nearest, block.triangle_count(), 0.0);
     return (1U << block.triangle_count()) - 1;
@@ -64,7 +64,7 @@ unsigned triangles_within(const BlockView& block, const Point& point, const Floa
 }
 
 ListedBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept {
-  // As the list has rounded it.
+  // Rounded as in the list.
   const auto x = static_cast<float>(corner.x() - list.centre().x());
   return HWY_DYNAMIC_DISPATCH(corners_on_target)(list, x);
 }

@@ -9,18 +9,18 @@
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/nearby_triangles.h"
 
-/// Which triangles of a block, or of a list, are where: a bit for each.
+/// Tests of the triangles of a block, or of a list. Results have a bit for each triangle.
 namespace planetree::octree {
 
-/// Those that may be as near to a point as `distance`; the others are farther. Fills in how near
-/// each of the former is at least.
+/// Returns the triangles that may be within `distance` of a point; the others are farther. For each
+/// triangle returned, `nearest` receives a lower bound on its distance.
 ///
-/// wide  the point as float has it, see FloatQuery::from().
+/// wide  the point rounded to float, see FloatQuery::from()
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
                           double distance, double (&nearest)[kMaxBlockTriangles]) noexcept;
 
-/// Those that may have this corner, by one coordinate in float; the others do not. Sixty-four a
-/// word.
+/// Returns the triangles that may have this corner, as found by one coordinate in float; the others
+/// do not have it. A word holds the bits of 64 triangles.
 using ListedBits = std::array<std::uint64_t, NearbyTriangles::kMax / 64>;
 ListedBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept;
 
