@@ -113,7 +113,7 @@ int Inspection::show_page(std::uint32_t page) {
   PageRow row{page, parts_.entries()[page], {}, {}};
   std::optional<Issue> issue = parts_.read_page(page);
   const bool mask = page >= parts_.first_mask_page();
-  if (octree::RawStreams streams; !issue && !mask && parts_.cut(streams)) row.head = streams.head;
+  if (octree::RawStreams streams; !issue && !mask && parts_.read(streams)) row.head = streams.head;
   if (!issue) row.mask = parts_.mask_head();
   if (!issue) issue = parts_.decode_page();
   Json details = page_details(parts_, row, !issue);

@@ -37,7 +37,7 @@ struct CellSlab {
   constexpr int p() const { return static_cast<int>(direction >> 2 & 127) - kSteps; }
   constexpr int q() const { return static_cast<int>(direction >> 9) - kSteps; }
   constexpr bool direction_is_valid() const { return axis() < 3 && p() <= kSteps && q() <= kSteps; }
-  constexpr bool says_something() const { return lower != kNoLower || upper != kNoUpper; }
+  constexpr bool has_plane() const { return lower != kNoLower || upper != kNoUpper; }
   constexpr bool operator==(const CellSlab&) const = default;
 
   /// Returns the position of a point in a cell of level `level` whose least corner is `lower`. It

@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_AVX2
 // For each mask of eight lanes the numbers of the selected lanes, one a byte, the first in the
 // lowest byte.
-inline constexpr std::array<std::uint64_t, 256> kLanesOfMask = [] {
+inline constexpr std::array<std::uint64_t, 256> kLanesByMask = [] {
   std::array<std::uint64_t, 256> lanes{};
   for (unsigned mask = 0; mask < lanes.size(); ++mask)
     for (unsigned lane = 0, at = 0; lane < 8; ++lane)
@@ -40,7 +40,7 @@ class PackedLanes {
 #if HWY_TARGET == HWY_AVX2
     const hn::RebindToUnsigned<Tag> du;
     const hn::Rebind<std::uint8_t, decltype(du)> bytes;
-    const auto* at = reinterpret_cast<const std::uint8_t*>(&kLanesOfMask[mask_bits(d, mask)]);
+    const auto* at = reinterpret_cast<const std::uint8_t*>(&kLanesByMask[mask_bits(d, mask)]);
     lanes_ = hn::PromoteTo(du, hn::LoadU(bytes, at));
 #endif
   }

@@ -16,7 +16,7 @@ constexpr double kNormalFilter = 16 * 0x1p-53;
 
 /// Bound on what flushing subnormal differences and products to zero may change, if no difference
 /// exceeds `largest`.
-double flushed(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest); }
+double flush_loss(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest); }
 
 int sign_of(double value) { return value > 0 ? 1 : -1; }
 
@@ -47,7 +47,8 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
                            std::fabs(u.z()) * (std::fabs(xy) + std::fabs(yx));
   const double largest =
       std::max({u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff(), w.cwiseAbs().maxCoeff()});
-  if (std::fabs(volume) > kOrientationFilter * permanent + flushed(largest)) return sign_of(volume);
+  if (std::fabs(volume) > kOrientationFilter * permanent + flush_loss(largest))
+    return sign_of(volume);
   // The most frequent remaining case: d is a corner of the triangle.
   if (same_bits(d, a) || same_bits(d, b) || same_bits(d, c)) return 0;
   if (in_axis_plane(a, b, c, d)) return 0;
@@ -60,7 +61,7 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   const double right = (b[j] - a[j]) * (c[i] - a[i]);
   const double area = left - right;
   const double largest = std::max((b - a).cwiseAbs().maxCoeff(), (c - a).cwiseAbs().maxCoeff());
-  if (std::fabs(area) > kNormalFilter * (std::fabs(left) + std::fabs(right)) + flushed(largest))
+  if (std::fabs(area) > kNormalFilter * (std::fabs(left) + std::fabs(right)) + flush_loss(largest))
     return sign_of(area);
   if ((same_bits(b[i], a[i]) || same_bits(c[j], a[j])) &&
       (same_bits(b[j], a[j]) || same_bits(c[i], a[i])))

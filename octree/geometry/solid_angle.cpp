@@ -27,7 +27,7 @@ struct HalfAngle {
   double error = 0;   ///< bound on the distance from (width, height) to the true end
   double length = 0;  ///< length of (width, height)
 
-  bool tells_angle() const { return error < 0x1p-24 * length; }
+  bool is_precise() const { return error < 0x1p-24 * length; }
 };
 
 constexpr HalfAngle kUncertain{0, 0, 1, 0};
@@ -44,7 +44,7 @@ constexpr double kDoubleError = 256 * 0x1p-53;
 constexpr double kShortest2 = 0x1p-320;
 constexpr double kLongest2 = 0x1p320;
 
-HalfAngle in_double(const Point& point, const Triangle& triangle) {
+HalfAngle half_angle_in_double(const Point& point, const Triangle& triangle) {
   const Point a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
   const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
   if (!(std::min({a2, b2, c2}) > kShortest2 && std::max({a2, b2, c2}) < kLongest2))
@@ -73,7 +73,7 @@ Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
 /// right to 24 roundings. `point` differs from every corner. The result is scaled to a length of
 /// about 1.
 template <class Scalar>
-HalfAngle in_wide(const Point& point, const Triangle& triangle) {
+HalfAngle half_angle_in_wide(const Point& point, const Triangle& triangle) {
   const auto a = wide_direction<Scalar>(point, triangle[0]);
   const auto b = wide_direction<Scalar>(point, triangle[1]);
   const auto c = wide_direction<Scalar>(point, triangle[2]);
@@ -109,17 +109,17 @@ WindingShare share_of(const HalfAngle& half, int side) {
 }  // namespace
 
 WindingShare winding_share(const Point& point, const Triangle& triangle) noexcept {
-  HalfAngle half = in_double(point, triangle);
-  const bool side_told = std::fabs(half.height) > half.error;
+  HalfAngle half = half_angle_in_double(point, triangle);
+  const bool side_is_certain = std::fabs(half.height) > half.error;
   int side = half.height > 0 ? -1 : 1;
-  if (!side_told) {
+  if (!side_is_certain) {
     if (lies_on(point, triangle)) return {0, 0, true};
     side = orientation(triangle[0], triangle[1], triangle[2], point);
     // The point is in the plane but not on the triangle, or the triangle has no area.
     if (side == 0) return {};
   }
-  if (!half.tells_angle()) half = in_wide<Quad>(point, triangle);
-  if (!half.tells_angle()) half = in_wide<Widest>(point, triangle);
+  if (!half.is_precise()) half = half_angle_in_wide<Quad>(point, triangle);
+  if (!half.is_precise()) half = half_angle_in_wide<Widest>(point, triangle);
   return share_of(half, side);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Returns `value` in a way that the compiler cannot evaluate at compile time.
 template <class T>
-T unknown(T value) {
+T hide_from_compiler(T value) {
   const volatile T hidden = value;
   return hidden;
 }
@@ -20,27 +20,29 @@ T unknown(T value) {
 template <class T>
 const char* rounding_fault() {
   constexpr T kUlp = std::numeric_limits<T>::epsilon();
-  const T one = unknown(T(1)), half = unknown(kUlp / 2);
+  const T one = hide_from_compiler(T(1)), half = hide_from_compiler(kUlp / 2);
   if (one + half != 1 || -one - half != -1 || one + half * 3 != 1 + 2 * kUlp ||
-      one + (half + half * unknown(kUlp)) != 1 + kUlp)
+      one + (half + half * hide_from_compiler(kUlp)) != 1 + kUlp)
     return "results are not rounded to nearest, once";
-  const T near_one = one + unknown(kUlp) * 4;
-  if (near_one * near_one - (one + unknown(kUlp) * 8) != 0)
+  const T near_one = one + hide_from_compiler(kUlp) * 4;
+  if (near_one * near_one - (one + hide_from_compiler(kUlp) * 8) != 0)
     return "a product and a sum are fused into one operation";
-  const T large = unknown(2 / kUlp);
+  const T large = hide_from_compiler(2 / kUlp);
   if ((large + one) - large != 0 || (one + large) - large != 0)
     return "sums are reordered as if they were exact";
-  if (std::sqrt(unknown(T(1) + 2 * kUlp)) != 1 + kUlp) return "square roots are not right";
+  if (std::sqrt(hide_from_compiler(T(1) + 2 * kUlp)) != 1 + kUlp)
+    return "square roots are not right";
   return nullptr;
 }
 
 template <class T>
 const char* range_fault() {
-  const T least = unknown(std::numeric_limits<T>::min());
-  const T subnormal = unknown(std::numeric_limits<T>::denorm_min());
-  if (!(least / 2 > 0) || !(subnormal > 0) || least - least * unknown(T(0.75)) != least / 4)
+  const T least = hide_from_compiler(std::numeric_limits<T>::min());
+  const T subnormal = hide_from_compiler(std::numeric_limits<T>::denorm_min());
+  if (!(least / 2 > 0) || !(subnormal > 0) ||
+      least - least * hide_from_compiler(T(0.75)) != least / 4)
     return "subnormal numbers are taken for zero";
-  const T infinity = unknown(std::numeric_limits<T>::infinity());
+  const T infinity = hide_from_compiler(std::numeric_limits<T>::infinity());
   const T nothing = infinity - infinity;
   if (nothing == nothing || !(infinity > std::numeric_limits<T>::max()))
     return "infinities and NaN are not recognised";
@@ -82,7 +84,7 @@ const char* contact_fault(const TestedPredicates& tested) {
 
 }  // namespace
 
-TestedPredicates TestedPredicates::ours() noexcept {
+TestedPredicates TestedPredicates::library() noexcept {
   return {&octree::orientation, &octree::normal_sign, &octree::lies_on};
 }
 

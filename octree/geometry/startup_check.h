@@ -11,7 +11,7 @@ struct TestedPredicates {
   int (*normal_sign)(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
   bool (*lies_on)(const Point& point, const Triangle& triangle) noexcept;
 
-  static TestedPredicates ours() noexcept;
+  static TestedPredicates library() noexcept;
 };
 
 /// Checks that the arithmetic of this build, processor and thread, and the predicates, meet what
@@ -21,6 +21,7 @@ struct TestedPredicates {
 /// return   null if all is well, else a description of the fault
 /// cost     about 20 microseconds; no allocation, no lock
 /// threads  any
-const char* startup_check(const TestedPredicates& predicates = TestedPredicates::ours()) noexcept;
+const char* startup_check(
+    const TestedPredicates& predicates = TestedPredicates::library()) noexcept;
 
 }  // namespace planetree::octree

@@ -18,8 +18,8 @@ namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
 void evaluate_on_target(const Point& query, const TriangleView& triangles,
-                        TriangleFindings& findings) {
-  evaluate_some(triangles, 1, query, findings);
+                        TriangleResults& results) {
+  evaluate_selected(triangles, 1, query, results);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -75,7 +75,7 @@ std::size_t apex_of(const std::array<Point, 3>& corner) {
 }
 
 // Evaluates the face of a triangle again with 113 bits, after double found it too flat.
-void refine_face(const Point& query, const Triangle& triangle, TriangleFindings& findings,
+void refine_face(const Point& query, const Triangle& triangle, TriangleResults& results,
                  std::size_t lane) {
   const auto order = lexicographic_order(triangle);
   const std::array<Point, 3> corner{triangle[order[0]], triangle[order[1]], triangle[order[2]]};
@@ -91,34 +91,34 @@ void refine_face(const Point& query, const Triangle& triangle, TriangleFindings&
   if (!(v > 0 && w > 0 && v + w < normal2)) return;
   const Quad height = dot(from_apex, normal);
   const auto squared = static_cast<double>(height / normal2 * height);
-  if (!(squared <= findings.squared[lane])) return;
-  findings.squared[lane] = squared;
-  findings.number[lane] = static_cast<double>(apex);
-  findings.first[lane] = static_cast<double>(v / normal2);
-  findings.second[lane] = static_cast<double>(w / normal2);
+  if (!(squared <= results.squared[lane])) return;
+  results.squared[lane] = squared;
+  results.number[lane] = static_cast<double>(apex);
+  results.first[lane] = static_cast<double>(v / normal2);
+  results.second[lane] = static_cast<double>(w / normal2);
 }
 
 }  // namespace
 
 void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
-                 TriangleFindings& findings) noexcept {
+                 TriangleResults& results) noexcept {
   for (; flat != 0; flat &= flat - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(flat));
-    refine_face(query, triangles.triangle(lane), findings, lane);
+    refine_face(query, triangles.triangle(lane), results, lane);
   }
 }
 
-void locate(const Triangle& triangle, const TriangleFinding& finding,
+void locate(const Triangle& triangle, const TriangleResult& result,
             NearestOnTriangle& nearest) noexcept {
-  nearest.value = finding.value;
+  nearest.value = result.value;
   nearest.barycentric = {};
   const auto order = lexicographic_order(triangle);
-  const auto number = static_cast<std::size_t>(finding.number);
+  const auto number = static_cast<std::size_t>(result.number);
   const std::size_t first = order[kFirst[number]], second = order[kSecond[number]];
   const Point& u = triangle[first];
   const Point& v = triangle[second];
-  const double a = finding.first, b = finding.second;
-  if (b == TriangleFinding::kOnSide) {
+  const double a = result.first, b = result.second;
+  if (b == TriangleResult::kOnSide) {
     nearest.feature = a == 0 || a == 1 ? Feature::kVertex : Feature::kEdge;
     nearest.point = a == 0 ? u : a == 1 ? v : Point(u + a * (v - u));
     nearest.barycentric[first] = 1 - a;
@@ -136,10 +136,10 @@ void locate(const Triangle& triangle, const TriangleFinding& finding,
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {
   TriangleRows<kTrianglesAtOnce> rows;
   rows.fill(0, triangle);
-  TriangleFindings findings;
-  HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), findings);
+  TriangleResults results;
+  HWY_DYNAMIC_DISPATCH(evaluate_on_target)(query, rows.view(0), results);
   NearestOnTriangle nearest;
-  locate(triangle, findings.of(0), nearest);
+  locate(triangle, results.of(0), nearest);
   return nearest;
 }
 

@@ -50,7 +50,7 @@ inline constexpr double kValueErrorFactor = 64 * 0x1p-53;
 inline constexpr double kAbsoluteValueError = 0x1p-500;
 /// Result of evaluating one triangle, before its nearest point is computed. Corners are numbered in
 /// lexicographic order; side k is opposite to corner k.
-struct TriangleFinding {
+struct TriangleResult {
   TriangleValue value;
   double number = 0;  ///< number of the apex, or of the nearest side
   /// On a face, the nearest point is apex + first * (u - apex) + second * (v - apex), with u and v
@@ -63,21 +63,21 @@ struct TriangleFinding {
 };
 
 /// Results of triangles that were evaluated together, one a lane.
-struct TriangleFindings {
+struct TriangleResults {
   alignas(32) double squared[kTrianglesAtOnce];
   alignas(32) double error[kTrianglesAtOnce];
   alignas(32) double number[kTrianglesAtOnce];
   alignas(32) double first[kTrianglesAtOnce];
   alignas(32) double second[kTrianglesAtOnce];
 
-  TriangleFinding of(std::size_t lane) const {
+  TriangleResult of(std::size_t lane) const {
     return {{squared[lane], error[lane]}, number[lane], first[lane], second[lane]};
   }
 };
 
 /// Computes the nearest point that `finding` describes. Writes to a parameter because copying the
 /// result would take longer.
-void locate(const Triangle& triangle, const TriangleFinding& finding,
+void locate(const Triangle& triangle, const TriangleResult& result,
             NearestOnTriangle& nearest) noexcept;
 
 /// Returns the nearest point of `triangle` to `query`, both in the model frame.

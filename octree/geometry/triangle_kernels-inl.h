@@ -38,10 +38,10 @@ HWY_INLINE Doubles3 operator-(const Doubles3& a, const Doubles3& b) {
 HWY_INLINE Doubles3 operator-(const Doubles3& a) {
   return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
 }
-HWY_INLINE Doubles inner(const Doubles3& a, const Doubles3& b) {
+HWY_INLINE Doubles dot(const Doubles3& a, const Doubles3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
-HWY_INLINE Doubles3 outer(const Doubles3& a, const Doubles3& b) {
+HWY_INLINE Doubles3 cross(const Doubles3& a, const Doubles3& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
           hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
@@ -62,32 +62,32 @@ HWY_INLINE void order_corners(Doubles3& a, Doubles3& b) {
 }
 
 // The nearest point of the segment from u to v in each lane, at u + t (v - u).
-struct OnSegments {
+struct NearestOnSegments {
   Doubles squared;
   Doubles t;
 };
 
 // t = 0 keeps the bits of u's distance and t = 1 takes those of v's, so that a vertex has the same
 // distance from all of its edges.
-HWY_INLINE OnSegments on_segments(const Doubles3& to_u, Doubles to_v2, const Doubles3& edge,
-                                  Doubles edge2) {
+HWY_INLINE NearestOnSegments nearest_on_segments(const Doubles3& to_u, Doubles to_v2,
+                                                 const Doubles3& edge, Doubles edge2) {
   const DoubleTag d;
   const Doubles zero = hn::Zero(d), one = hn::Set(d, 1.0);
-  const Doubles along = hn::Neg(inner(to_u, edge));
+  const Doubles along = hn::Neg(dot(to_u, edge));
   // Selects after dividing because an edge of length zero divides by zero.
   const Doubles share = hn::IfThenElseZero(hn::Gt(along, zero), hn::Div(along, edge2));
   const auto within = hn::Lt(share, one);
   const Doubles t = hn::IfThenElse(within, share, one);
   const Doubles3 to{hn::Add(to_u.x, hn::Mul(t, edge.x)), hn::Add(to_u.y, hn::Mul(t, edge.y)),
                     hn::Add(to_u.z, hn::Mul(t, edge.z))};
-  return {hn::IfThenElse(within, inner(to, to), to_v2), t};
+  return {hn::IfThenElse(within, dot(to, to), to_v2), t};
 }
 
 // Evaluates as many triangles as a vector holds. Their coordinates are in `rows`, ordered by corner
 // and axis, `stride` doubles apart. Returns a bit for each triangle whose face is too flat for
 // double.
 HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t stride,
-                                    const Doubles3& query, TriangleFindings& findings,
+                                    const Doubles3& query, TriangleResults& results,
                                     std::size_t lane) {
   const DoubleTag d;
   const Doubles zero = hn::Zero(d);
@@ -101,21 +101,21 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
   order_corners(c0, c1);
 
   const Doubles3 to0 = c0 - query, to1 = c1 - query, to2 = c2 - query;
-  const Doubles far0 = inner(to0, to0), far1 = inner(to1, to1), far2 = inner(to2, to2);
+  const Doubles far0 = dot(to0, to0), far1 = dot(to1, to1), far2 = dot(to2, to2);
   const Doubles3 e01 = c1 - c0, e02 = c2 - c0, e12 = c2 - c1;
-  const Doubles long01 = inner(e01, e01), long02 = inner(e02, e02), long12 = inner(e12, e12);
+  const Doubles long01 = dot(e01, e01), long02 = dot(e02, e02), long12 = dot(e12, e12);
 
   // Each side has the number of the corner opposite to it.
-  OnSegments nearest = on_segments(to1, far2, e12, long12);
+  NearestOnSegments nearest = nearest_on_segments(to1, far2, e12, long12);
   Doubles side = zero;
-  const auto offer = [&](const OnSegments& other, double number) {
+  const auto offer = [&](const NearestOnSegments& other, double number) {
     const auto nearer = hn::Lt(other.squared, nearest.squared);
     nearest.squared = hn::IfThenElse(nearer, other.squared, nearest.squared);
     nearest.t = hn::IfThenElse(nearer, other.t, nearest.t);
     side = hn::IfThenElse(nearer, hn::Set(d, number), side);
   };
-  offer(on_segments(to0, far2, e02, long02), 1);
-  offer(on_segments(to0, far1, e01, long01), 2);
+  offer(nearest_on_segments(to0, far2, e02, long02), 1);
+  offer(nearest_on_segments(to0, far1, e01, long01), 2);
 
   // The apex is opposite to the longest side. e1 and e2 lead from it to the other corners in order.
   const auto apex1 = hn::Gt(long02, long12);
@@ -133,50 +133,52 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
       hn::IfThenElse(apex2, hn::Set(d, 2.0), hn::IfThenElseZero(apex1, hn::Set(d, 1.0)));
 
   const Doubles3 from_apex = -to_apex;
-  const Doubles3 normal = outer(e1, e2);
-  const Doubles normal2 = inner(normal, normal), sides2 = hn::Mul(long1, long2);
-  const auto round = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, kFlatFaceSine2), sides2)),
-                             hn::Ge(normal2, hn::Set(d, kTinySquare)));
-  const Doubles v = inner(outer(from_apex, e2), normal), w = inner(outer(e1, from_apex), normal);
-  const Doubles height = inner(from_apex, normal);
+  const Doubles3 normal = cross(e1, e2);
+  const Doubles normal2 = dot(normal, normal), sides2 = hn::Mul(long1, long2);
+  const auto is_regular = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, kFlatFaceSine2), sides2)),
+                                  hn::Ge(normal2, hn::Set(d, kTinySquare)));
+  const Doubles v = dot(cross(from_apex, e2), normal), w = dot(cross(e1, from_apex), normal);
+  const Doubles height = dot(from_apex, normal);
   // height * height would underflow above a face with short edges.
   const Doubles face = hn::Mul(hn::Div(height, normal2), height);
   const auto above = hn::And(hn::And(hn::Gt(v, zero), hn::Gt(w, zero)),
-                             hn::And(hn::Lt(hn::Add(v, w), normal2), round));
+                             hn::And(hn::Lt(hn::Add(v, w), normal2), is_regular));
   const auto on_face = hn::And(above, hn::Le(face, nearest.squared));
 
   const Doubles farthest = hn::Max(hn::Max(far0, far1), far2);
-  const Doubles inverse_sine2 = hn::IfThenElse(round, hn::Div(sides2, normal2), hn::Set(d, 1.0));
+  const Doubles inverse_sine2 =
+      hn::IfThenElse(is_regular, hn::Div(sides2, normal2), hn::Set(d, 1.0));
   const Doubles error =
       hn::Add(hn::Mul(hn::Set(d, kValueErrorFactor), hn::Sqrt(hn::Mul(farthest, inverse_sine2))),
               hn::Set(d, kAbsoluteValueError));
-  hn::Store(hn::IfThenElse(on_face, face, nearest.squared), d, findings.squared + lane);
-  hn::Store(error, d, findings.error + lane);
-  hn::Store(hn::IfThenElse(on_face, apex, side), d, findings.number + lane);
-  hn::Store(hn::IfThenElse(on_face, hn::Div(v, normal2), nearest.t), d, findings.first + lane);
-  hn::Store(hn::IfThenElse(on_face, hn::Div(w, normal2), hn::Set(d, TriangleFinding::kOnSide)), d,
-            findings.second + lane);
-  return mask_bits(d, hn::Not(round));
+  hn::Store(hn::IfThenElse(on_face, face, nearest.squared), d, results.squared + lane);
+  hn::Store(error, d, results.error + lane);
+  hn::Store(hn::IfThenElse(on_face, apex, side), d, results.number + lane);
+  hn::Store(hn::IfThenElse(on_face, hn::Div(v, normal2), nearest.t), d, results.first + lane);
+  hn::Store(hn::IfThenElse(on_face, hn::Div(w, normal2), hn::Set(d, TriangleResult::kOnSide)), d,
+            results.second + lane);
+  return mask_bits(d, hn::Not(is_regular));
 }
 
 // Evaluates kTrianglesAtOnce triangles of TriangleRows, beginning with the one that `rows` points
 // to. Returns a bit for each triangle whose face is too flat for double; refine_flat() evaluates
 // those again.
 HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::size_t stride,
-                                       const Point& query, TriangleFindings& findings) {
+                                       const Point& query, TriangleResults& results) {
   const DoubleTag d;
   const Doubles3 q{hn::Set(d, query.x()), hn::Set(d, query.y()), hn::Set(d, query.z())};
   unsigned flat = 0;
   for (std::size_t lane = 0; lane < kTrianglesAtOnce; lane += hn::Lanes(d))
-    flat |= evaluate_vector(rows + lane, stride, q, findings, lane) << lane;
+    flat |= evaluate_vector(rows + lane, stride, q, results, lane) << lane;
   return flat;
 }
 
 // Evaluates kTrianglesAtOnce triangles. Only findings with a bit in `some` are meaningful.
-HWY_INLINE void evaluate_some(const TriangleView& triangles, unsigned some, const Point& query,
-                              TriangleFindings& findings) {
-  const unsigned flat = evaluate_triangles(triangles.at, triangles.stride, query, findings) & some;
-  if (flat != 0) refine_flat(query, triangles, flat, findings);
+HWY_INLINE void evaluate_selected(const TriangleView& triangles, unsigned selected,
+                                  const Point& query, TriangleResults& results) {
+  const unsigned flat =
+      evaluate_triangles(triangles.at, triangles.stride, query, results) & selected;
+  if (flat != 0) refine_flat(query, triangles, flat, results);
 }
 
 }  // namespace HWY_NAMESPACE

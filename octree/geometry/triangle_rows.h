@@ -61,6 +61,6 @@ struct TriangleRows {
 /// Evaluates the triangles with a bit in `flat` again with 113 bits. evaluate_triangles() found
 /// their faces too flat for double.
 void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
-                 TriangleFindings& findings) noexcept;
+                 TriangleResults& results) noexcept;
 
 }  // namespace planetree::octree

@@ -127,7 +127,7 @@ class SideGrid {
         CellSlab::of_word(lookup.record->slab)
             .corner_beyond(CellSlab::position_in(point, lower, lookup.cell.level));
     if (corner == CellSlab::kNoCorner) return lookup;
-    return {corner_of(lookup.record->listed(0), corner), {}, nullptr};
+    return {corner_number(lookup.record->listed(0), corner), {}, nullptr};
   }
   // Coordinate of a face, as CellGrid rounds it. `at` counts octants of octants.
   double side(unsigned axis, std::int64_t at) const {

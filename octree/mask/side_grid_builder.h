@@ -158,7 +158,7 @@ class SideGrid::SideGridBuilder {
       for (unsigned octant = 0; octant < 8; ++octant) {
         const unsigned of_leaf = cell.child(octant).octant_of(leaf.cell.level + 1);
         if ((leaf.touched >> of_leaf & 1) == 0)
-          fill(at, octant, corner_of(leaf.head, of_leaf));
+          fill(at, octant, corner_number(leaf.head, of_leaf));
         else
           note(at, octant, leaf.record(above));
       }

@@ -73,7 +73,8 @@ struct alignas(16) SideGridRecord {
   }
   /// The sign of the winding number in an octant of this cell; kUnknown where it is grey.
   constexpr int winding(unsigned octant) const {
-    if (is_listed()) return (touched >> octant & 1) != 0 ? kUnknown : corner_of(listed(0), octant);
+    if (is_listed())
+      return (touched >> octant & 1) != 0 ? kUnknown : corner_number(listed(0), octant);
     const bool certain = grey != 0 ? (grey >> octant & 1) == 0 : leaf == kOneColour;
     return certain ? (black >> octant & 1) - (inverted >> octant & 1) : kUnknown;
   }

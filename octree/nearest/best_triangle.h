@@ -50,7 +50,7 @@ class BestTriangle {
   /// is_height_field  flag of the triangle's block
   /// corners          corners(to) writes the triangle's corners
   template <class Corners>
-  void offer(const TriangleFinding& finding, std::uint64_t index, bool is_height_field,
+  void offer(const TriangleResult& finding, std::uint64_t index, bool is_height_field,
              Corners corners) {
     const double squared = finding.value.squared;
     const double distance = std::sqrt(squared);
@@ -91,7 +91,7 @@ class BestTriangle {
   std::uint64_t triangle_ = kNoTriangle;
   bool is_height_field_ = false;
   Triangle corners_{Point::Zero(), Point::Zero(), Point::Zero()};
-  TriangleFinding finding_;
+  TriangleResult finding_;
   double reach_ = max_reach_;
   bool bounded_ = false;  // reach_ is the distance of a triangle
   float threshold_ = 0;

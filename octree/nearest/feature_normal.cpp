@@ -131,7 +131,7 @@ void normal_of_face(const Point& query, const NearestAnswer& nearest, FeatureNor
 }
 
 void add_faces(const Point& vertex, const NearbyTriangles& triangles, Fan& fan) {
-  const ListedBits around = triangles_with_corner(triangles, vertex);
+  const NearbyTriangleBits around = triangles_with_corner(triangles, vertex);
   for (std::size_t word = 0; word < around.size(); ++word)
     for (std::uint64_t bits = around[word]; bits != 0; bits &= bits - 1) {
       const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
@@ -145,7 +145,7 @@ bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, cons
              std::uint64_t max_work, const PageReader& pages, TraversalStats& work) {
   const Outcodes outcodes(vertex, vertex);
   BoxWalk walk(tree, vertex, vertex, pages, work);
-  if (subtrees) walk.begin_with(*subtrees);
+  if (subtrees) walk.start_from(*subtrees);
   return walk.run(max_work, [&](const BlockView& block, std::uint32_t) {
     for (unsigned around = outcodes.with_corner_within(block); around != 0; around &= around - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(around));

@@ -84,11 +84,11 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
 // Evaluates four triangles of a list, from `first` on, and offers those that have a bit in `near`.
 HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsigned near,
                            const Point& query, BestTriangle& best) {
-  TriangleFindings findings;
-  evaluate_some(list.exact().view(first), near, query, findings);
+  TriangleResults results;
+  evaluate_selected(list.exact().view(first), near, query, results);
   for (; near != 0; near &= near - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(near));
-    best.offer(findings.of(lane), list.id(first + lane), list.is_height_field(first + lane),
+    best.offer(results.of(lane), list.id(first + lane), list.is_height_field(first + lane),
                [&](Triangle& to) { list.exact().view(0).copy_triangle(first + lane, to); });
   }
 }
@@ -101,7 +101,7 @@ HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Po
   const TriangleTag d;
   const std::size_t count = list.count_within(reach);
   const FloatOffset from(query, list.centre());
-  const ListedTriangles triangles(list, from.at);
+  const NearbyTriangleLanes triangles(list, from.at);
   HWY_ALIGN float squared[NearbyTriangles::kMax];  // lower bounds
   const TriangleFloats none = hn::Set(d, std::numeric_limits<float>::infinity());
   TriangleFloats least = none;

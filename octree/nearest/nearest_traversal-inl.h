@@ -126,7 +126,7 @@ class NearestTraversal {
     }
     --visits_left_;
     // Without a release hook, the frame of these blocks may be gone after the next lookup.
-    if (!release_hook_ && !blocks_.empty() && !records_.is_at_hand(entry.link))
+    if (!release_hook_ && !blocks_.empty() && !records_.is_in_current_page(entry.link))
       add_candidates_of_blocks();
     const std::byte* record = records_.find(entry.link, work_, entry.from);
     if (!record) {
@@ -206,7 +206,7 @@ class NearestTraversal {
   HWY_INLINE void visit_block(const BlockView& block) {
     const BlockHeader& header = block.header();
     // The block is too small for float, or the query too far away.
-    if (!filter_tells(float_query_, header.extent)) {
+    if (!can_filter(float_query_, header.extent)) {
       for (unsigned i = 0; i < header.triangle_count; ++i) add_candidate(block, i, 0);
       return;
     }
@@ -268,11 +268,11 @@ class NearestTraversal {
     if (candidates_.size() > kTrianglesAtOnce) keep_possible();
     const auto& rows = candidates_.rows();
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
-      TriangleFindings findings;
+      TriangleResults results;
       const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
-      evaluate_some(rows.view(i), (1U << count) - 1, query_, findings);
+      evaluate_selected(rows.view(i), (1U << count) - 1, query_, results);
       for (std::size_t lane = 0; lane < count; ++lane)
-        best_.offer(findings.of(lane), candidates_.id(i + lane),
+        best_.offer(results.of(lane), candidates_.id(i + lane),
                     candidates_.is_height_field(i + lane),
                     [&](Triangle& to) { rows.view(0).copy_triangle(i + lane, to); });
     }

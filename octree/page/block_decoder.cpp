@@ -123,10 +123,10 @@ void BlockDecoder::store_float64_vertices(BlockHeader& header, const VertexIndic
       exact[axis * stride + i] = value;
       local[3 * i + axis] = static_cast<float>(value - exact[axis * stride]);
     }
-  VertexIndices in_turn;
-  std::iota(in_turn.begin(), in_turn.end(), std::uint16_t{0});
+  VertexIndices consecutive;
+  std::iota(consecutive.begin(), consecutive.end(), std::uint16_t{0});
   auto* rows = reinterpret_cast<float*>(record + kSlotBytes);
-  header.extent = extent_of(unpack_rows(local.data(), in_turn.data(), stride, rows));
+  header.extent = extent_of(unpack_rows(local.data(), consecutive.data(), stride, rows));
   std::memcpy(record + shape_.exact_offset(stride), exact.data(), 3 * stride * sizeof(double));
 }
 

@@ -47,7 +47,7 @@ bool ids_one_by_one(Id first, const ByteSplit<Id>& steps, std::size_t first_step
 #if HWY_TARGET != HWY_SCALAR
 
 // Returns how many of the lanes from `first` on are among the first `count`.
-HWY_INLINE std::size_t left_of(std::size_t count, std::size_t first) {
+HWY_INLINE std::size_t lanes_left(std::size_t count, std::size_t first) {
   return count > first ? count - first : 0;
 }
 
@@ -67,7 +67,7 @@ bool indices_by_lanes(const ByteSplit<std::uint16_t>& refs, const BlockVertices&
   Pairs last = hn::Zero(pairs), first = last;
   std::size_t rising = 0;
   for (unsigned i = 0; i < stride; i += 8) {
-    const auto referred = hn::FirstN(pairs, left_of(block.ref_count, i));
+    const auto referred = hn::FirstN(pairs, lanes_left(block.ref_count, i));
     const Pairs steps =
         hn::IfThenElseZero(referred, load_eight(refs.bytes(), refs.size(), block.first_ref + i));
     Pairs sums = hn::Add(steps, hn::ShiftLeftLanes<1>(pairs, steps));
@@ -83,7 +83,7 @@ bool indices_by_lanes(const ByteSplit<std::uint16_t>& refs, const BlockVertices&
       // The first step is a starting value, not a difference.
       rising -= block.ref_count > 0 && hn::GetLane(steps) > 0 ? 1 : 0;
     }
-    const auto known = hn::FirstN(pairs, left_of(block.vertex_count, i));
+    const auto known = hn::FirstN(pairs, lanes_left(block.vertex_count, i));
     hn::StoreU(hn::IfThenElse(known, all, first), pairs, indices + i);
   }
   return block.ref_count == 0 ||

@@ -33,7 +33,7 @@ class BlockTriangles {
       const auto q = hn::Set(d, query[axis]);
 #pragma GCC unroll 12
       for (unsigned i = 0; i < kVectors; ++i)
-        keep(axis, i, hn::Sub(hn::Sub(hn::LoadU(d, local + i * kLanes), first), q));
+        set_row(axis, i, hn::Sub(hn::Sub(hn::LoadU(d, local + i * kLanes), first), q));
     }
   }
 
@@ -75,7 +75,7 @@ class BlockTriangles {
 #if PLANETREE_EIGHT_LANES
   static constexpr std::int32_t kLaneBits = std::int32_t{kLanes} - 1;
 
-  HWY_INLINE void keep(unsigned axis, unsigned i, TriangleFloats row) { row_[axis][i] = row; }
+  HWY_INLINE void set_row(unsigned axis, unsigned i, TriangleFloats row) { row_[axis][i] = row; }
 
   // Looks the index up in each vector of the row; a lookup uses only the lowest bits of the index.
   // A gather would take longer.
@@ -96,7 +96,7 @@ class BlockTriangles {
 
   TriangleFloats row_[3][kVectors];
 #else
-  HWY_INLINE void keep(unsigned axis, unsigned i, TriangleFloats row) {
+  HWY_INLINE void set_row(unsigned axis, unsigned i, TriangleFloats row) {
     hn::Store(row, RowTag(), row_[axis] + i * kLanes);
   }
   template <class Index>

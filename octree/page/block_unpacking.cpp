@@ -48,8 +48,8 @@ std::size_t vertices_on_target(const std::byte* byte_split, std::size_t vertex_c
         greatest = hn::Max(greatest, hn::AndNot(sign, row));
     }
   }
-  const auto most = hn::BitCast(QuadTag(), hn::Set(four, static_cast<float>(kFarthestVertex)));
-  good = hn::AllTrue(QuadTag(), hn::Eq(hn::Max(greatest, most), most));
+  const auto limit = hn::BitCast(QuadTag(), hn::Set(four, static_cast<float>(kFarthestVertex)));
+  good = hn::AllTrue(QuadTag(), hn::Eq(hn::Max(greatest, limit), limit));
   return whole;
 }
 
@@ -148,15 +148,15 @@ bool corners_on_target(const std::uint8_t* stored, unsigned triangle_count, unsi
   }
   const Bytes last = hn::Set(bytes, static_cast<std::uint8_t>(triangle_count - 1));
   const Bytes lanes = hn::Min(hn::Iota(bytes, 0), last);
-  const Bytes most = hn::Set(bytes, static_cast<std::uint8_t>(vertex_count - 1));
-  Bytes greatest = most;
+  const Bytes limit = hn::Set(bytes, static_cast<std::uint8_t>(vertex_count - 1));
+  Bytes greatest = limit;
   for (std::size_t k = 0; k < 3; ++k) {
     const Bytes of_used = hn::TableLookupBytes(of_all[k], lanes);
     greatest = hn::Max(greatest, of_used);
     hn::StoreU(of_used, bytes, corners.row[k]);
     corners.packed[k] = pack_corners(of_used);
   }
-  return hn::AllTrue(bytes, hn::Eq(greatest, most));
+  return hn::AllTrue(bytes, hn::Eq(greatest, limit));
 }
 
 // Transposes four vertices at a time into rows of coordinates.

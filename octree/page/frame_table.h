@@ -26,8 +26,8 @@ struct FrameTable {
 /// Callback of a reader that keeps pointers to frames between calls. It is called before those
 /// frames may be reused.
 struct FrameReleaseHook {
-  void* who = nullptr;
-  void (*on_release)(void* who) noexcept = nullptr;
+  void* context = nullptr;
+  void (*on_release)(void* context) noexcept = nullptr;
 };
 
 }  // namespace planetree::octree

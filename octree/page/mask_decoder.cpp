@@ -24,7 +24,7 @@ class MaskDecoder {
       : info_(info), links_(info.page_bytes), block_links_(info.page_bytes), frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
-    if (const char* fault = streams_.cut(raw, info_.shape.float64)) return fault;
+    if (const char* fault = streams_.read(raw, info_.shape.float64)) return fault;
     if (head().page_number != info_.page_number) return "it is another page's bytes";
     if (head().octcode != info_.octcode || head().ordinal != info_.ordinal)
       return "its key is not the page table's";
@@ -40,9 +40,9 @@ class MaskDecoder {
   const char* write_header();
   const char* count_lists(std::size_t& slots) const;
   const char* decode_record(std::size_t index);
-  const char* decode_node(MaskNode& node, bool above);
+  const char* decode_node(MaskNode& node, bool has_link);
   const char* link_family(MaskNode& node);
-  const char* link_above(MaskNode& node);
+  const char* link_other_page(MaskNode& node);
   const char* decode_plain(MaskCorners& corners);
   const char* decode_corners(MaskCorners& corners);
   const char* decode_special(MaskSpecial& special);
@@ -52,7 +52,9 @@ class MaskDecoder {
   const char* decode_list(std::byte* octants, std::byte* links, unsigned count);
   const char* check_sums() const;
 
-  static bool is_leaf(std::uint8_t kind) { return kind > static_cast<int>(MaskKind::kNodeAbove); }
+  static bool is_leaf(std::uint8_t kind) {
+    return kind > static_cast<int>(MaskKind::kNodeWithLink);
+  }
 
   const PageInfo& info_;
   MaskLinkFormat links_;
@@ -113,10 +115,10 @@ const char* MaskDecoder::decode_record(std::size_t index) {
   const auto kind = static_cast<MaskKind>(streams_.kinds[index]);
   switch (kind) {
     case MaskKind::kNode:
-    case MaskKind::kNodeAbove: {
+    case MaskKind::kNodeWithLink: {
       auto* nodes = reinterpret_cast<std::uint64_t*>(frame_ + sizeof(MaskHeader));
       nodes[slot / 64] |= std::uint64_t{1} << slot % 64;
-      return decode_node(*reinterpret_cast<MaskNode*>(record), kind == MaskKind::kNodeAbove);
+      return decode_node(*reinterpret_cast<MaskNode*>(record), kind == MaskKind::kNodeWithLink);
     }
     case MaskKind::kPlainCorners:
       return decode_plain(*reinterpret_cast<MaskCorners*>(record));
@@ -130,14 +132,14 @@ const char* MaskDecoder::decode_record(std::size_t index) {
   return "a record is of unknown kind";
 }
 
-const char* MaskDecoder::decode_node(MaskNode& node, bool above) {
+const char* MaskDecoder::decode_node(MaskNode& node, bool has_link) {
   if (next_node_ == head().node_count) return "the counts of records do not add up";
   const std::size_t at = next_node_++;
   node = {0, streams_.grey[at], streams_.leaf[at], streams_.black[at], streams_.inverted[at]};
   if ((node.leaf & ~node.grey) != 0 || (node.grey & node.black) != 0 ||
       (node.grey & node.inverted) != 0 || (node.black & node.inverted) != 0)
     return "an octant has two colours";
-  if (above) return link_above(node);
+  if (has_link) return link_other_page(node);
   return node.grey == 0 ? nullptr : link_family(node);
 }
 
@@ -156,7 +158,7 @@ const char* MaskDecoder::link_family(MaskNode& node) {
   return nullptr;
 }
 
-const char* MaskDecoder::link_above(MaskNode& node) {
+const char* MaskDecoder::link_other_page(MaskNode& node) {
   if (node.grey == 0 || next_link_ == head().page_link_count) return "its page links do not add up";
   node.family = streams_.page_links[next_link_++];
   const std::uint64_t page = links_.page(node.family);

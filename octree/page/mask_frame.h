@@ -113,7 +113,7 @@ struct MaskListed {
 static_assert(sizeof(MaskListed) == kMaskSlotBytes);
 
 /// Returns the winding number at a corner.
-constexpr int corner_of(const MaskListed& listed, unsigned corner) {
+constexpr int corner_number(const MaskListed& listed, unsigned corner) {
   return listed.least + (listed.higher >> corner & 1);
 }
 

@@ -21,7 +21,7 @@ const char* check_head(const MaskPageHead& head) {
 
 }  // namespace
 
-const char* MaskStreams::cut(std::span<const std::byte> raw, bool float64) noexcept {
+const char* MaskStreams::read(std::span<const std::byte> raw, bool float64) noexcept {
   constexpr const char* kShort = "the page is shorter than its counts say";
   if (raw.size() < sizeof head) return kShort;
   std::memcpy(&head, raw.data(), sizeof head);
@@ -48,7 +48,7 @@ const char* MaskStreams::cut(std::span<const std::byte> raw, bool float64) noexc
   layout.take(slab_uppers, head.listed_count);
   layout.take(block_octants, head.block_link_count);
   layout.take(block_links, head.block_link_count);
-  if (!layout.whole()) return kShort;
+  if (!layout.has_sufficed()) return kShort;
   return layout.empty() ? nullptr : "the page is longer than its counts say";
 }
 

@@ -14,7 +14,7 @@
 ///     leaf masks       u8 a node
 ///     black masks      u8 a node
 ///     inverted masks   u8 a node
-///     page links       u32 a node of kind kNodeAbove
+///     page links       u32 a node of kind kNodeWithLink
 ///     corner bits      u8 a record of kind kPlainCorners
 ///     corners          i8 x 8 a record of kind kCorners
 ///     plane counts     u8 a special cell
@@ -36,7 +36,7 @@ namespace planetree::octree {
 
 enum class MaskKind : std::uint8_t {
   kNode = 0,          ///< a node whose family, if it has one, is the next of this page
-  kNodeAbove = 1,     ///< a node whose family is in another page, given by a link
+  kNodeWithLink = 1,  ///< a node whose family is in another page, given by a link
   kPlainCorners = 2,  ///< a leaf whose winding numbers are 0 or 1
   kCorners = 3,
   kSpecial = 4,
@@ -80,7 +80,7 @@ struct MaskStreams {
   ByteSplit<std::uint32_t> block_links;
 
   /// Locates the streams in `raw`, which must outlive this object. Returns null, or a fault.
-  const char* cut(std::span<const std::byte> raw, bool float64) noexcept;
+  const char* read(std::span<const std::byte> raw, bool float64) noexcept;
 
   double plane_coordinate(std::size_t index) const {
     return planes64.size() > 0 ? planes64[index] : static_cast<double>(planes32[index]);

@@ -19,8 +19,8 @@ namespace planetree::octree {
 
 /// A positive float without its lower 16 bits: 8 bits of precision.
 using ShortFloat = std::uint16_t;
-inline constexpr ShortFloat kMinShortFloat = 0x0080;       ///< 2^-126
-inline constexpr ShortFloat kGreatestShortFloat = 0x7f7f;  ///< below 2^128
+inline constexpr ShortFloat kMinShortFloat = 0x0080;  ///< 2^-126
+inline constexpr ShortFloat kMaxShortFloat = 0x7f7f;  ///< below 2^128
 
 constexpr float unpack_short(ShortFloat packed) {
   return std::bit_cast<float>(std::uint32_t{packed} << 16);
@@ -28,8 +28,8 @@ constexpr float unpack_short(ShortFloat packed) {
 
 /// Returns the least short float that is not below `value`, which is at least 0.
 constexpr ShortFloat pack_short_above(double value) {
-  constexpr auto kGreatest = static_cast<double>(unpack_short(kGreatestShortFloat));
-  if (!(value < kGreatest)) return kGreatestShortFloat;
+  constexpr auto kMaxValue = static_cast<double>(unpack_short(kMaxShortFloat));
+  if (!(value < kMaxValue)) return kMaxShortFloat;
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   auto packed = static_cast<ShortFloat>(bits >> 16);
   if (packed < kMinShortFloat) packed = kMinShortFloat;
@@ -49,20 +49,22 @@ inline Point centre_of(const FloatBox& box) {
 /// decoded box. Below, x is relative to that centre, n is the unit normal, and integrals are over
 /// the triangles.
 struct Moments {
-  std::array<std::int16_t, 3> vector{};  ///< dipole: integral of n, in vector_unit()
+  std::array<std::int16_t, 3> vector{};  ///< dipole: integral of n, in dipole_unit()
   std::array<std::int8_t, 5> first{};    ///< quadrupole: integral of x n^T, symmetric part without
-                                         ///< trace: xx, yy, xy, yz, zx in first_unit()
+                                         ///< trace: xx, yy, xy, yz, zx in quadrupole_unit()
   ShortFloat area = 0;                   ///< area, rounded up
   ShortFloat second = 0;                 ///< second moment, the integral of |x|^2, rounded up
 
   /// Units of the stored integers. A dipole is at most as long as the area. A quadrupole is, by
   /// Cauchy and Schwarz, at most the root of area times second moment.
-  double vector_unit() const { return wide(area) * (1.0 / kVectorSteps); }
-  double first_unit() const { return std::sqrt(wide(area) * wide(second)) * (1.0 / kFirstSteps); }
+  double dipole_unit() const { return wide(area) * (1.0 / kDipoleSteps); }
+  double quadrupole_unit() const {
+    return std::sqrt(wide(area) * wide(second)) * (1.0 / kQuadrupoleSteps);
+  }
   static double wide(ShortFloat packed) { return static_cast<double>(unpack_short(packed)); }
 
-  static constexpr int kVectorSteps = 32767;
-  static constexpr int kFirstSteps = 127;
+  static constexpr int kDipoleSteps = 32767;
+  static constexpr int kQuadrupoleSteps = 127;
 };
 
 /// Maximum error of a stored dipole, as a share of the area: half a step on each axis, and some

@@ -80,11 +80,11 @@ class DiscLanes {
     return hn::Mul(hn::Sqrt(square), hn::Set(lanes_, 1.0f / 32000.0f));
   }
   bool any_without_box(const Node& node) const {
-    Ints most = hn::Zero(IntTag());
+    Ints max_steps = hn::Zero(IntTag());
     for (unsigned axis = 0; axis < 3; ++axis)
-      most = hn::Max(most, hn::Add(widened_bytes(node.lower[axis] + first_),
-                                   widened_bytes(node.upper[axis] + first_)));
-    return any_above(most, hn::Set(IntTag(), kBoxSteps));
+      max_steps = hn::Max(max_steps, hn::Add(widened_bytes(node.lower[axis] + first_),
+                                             widened_bytes(node.upper[axis] + first_)));
+    return any_above(max_steps, hn::Set(IntTag(), kBoxSteps));
   }
   template <class High>
   Ints words(const PackedDiscs::Words& of_all) const {
@@ -108,8 +108,8 @@ ChildFaults discs_on_target(const PackedDiscs& packed, unsigned count, Node& nod
   ChildFaults faults;
   for (unsigned first = 0; first < kFanOut; first += static_cast<unsigned>(hn::Lanes(FloatTag()))) {
     const ChildFaults found = DiscLanes(packed, count, first).store(node);
-    faults.no_box |= found.no_box;
-    faults.crossed |= found.crossed;
+    faults.inverted_box |= found.inverted_box;
+    faults.inverted_slab |= found.inverted_slab;
   }
   return faults;
 }

@@ -24,8 +24,8 @@ struct PackedDiscs {
 
 /// Faults found in a node's children.
 struct ChildFaults {
-  bool no_box = false;   ///< a child's box has an upper side below the lower one
-  bool crossed = false;  ///< a child's slab_upper is below its slab_lower
+  bool inverted_box = false;   ///< a child's box has an upper side below the lower one
+  bool inverted_slab = false;  ///< a child's slab_upper is below its slab_lower
 };
 
 /// Writes the discs of the `count` children of `node`. Its box, its step and the steps of the

@@ -28,7 +28,7 @@ class PageDecoder {
       : info_(info), links_(info.page_bytes), frame_(frame.data()) {}
 
   const char* decode(std::span<const std::byte> raw) {
-    if (const char* fault = streams_.cut(raw, info_.shape)) return fault;
+    if (const char* fault = streams_.read(raw, info_.shape)) return fault;
     const PageHead& head = streams_.head;
     if (head.page_number != info_.page_number) return "it is another page's bytes";
     if (head.octcode != info_.octcode || head.ordinal != info_.ordinal)
@@ -194,8 +194,8 @@ const char* PageDecoder::decode_bounds(Node& parent, std::size_t count) const {
   copy_words(streams_.child_slabs, 1, packed.slab_upper);
   copy_words(streams_.child_radii, 0, packed.radius);
   const ChildFaults faults = unpack_discs(packed, static_cast<unsigned>(count), parent);
-  if (faults.no_box) return "a child's box is not a box";
-  if (faults.crossed) return "a child's planes are crossed";
+  if (faults.inverted_box) return "a child's box is not a box";
+  if (faults.inverted_slab) return "a child's planes are crossed";
   return nullptr;
 }
 
@@ -219,16 +219,16 @@ const char* PageDecoder::decode_moments(Node& parent, std::size_t child) {
   Moments moments;
   for (std::size_t i = 0; i < 3; ++i) {
     moments.vector[i] = streams_.child_dipoles[i * count + next_child_];
-    if (moments.vector[i] < -Moments::kVectorSteps) return kOutOfRange;
+    if (moments.vector[i] < -Moments::kDipoleSteps) return kOutOfRange;
   }
   for (std::size_t i = 0; i < 5; ++i) {
     moments.first[i] = streams_.child_quadrupoles[i * count + next_child_];
-    if (moments.first[i] < -Moments::kFirstSteps) return kOutOfRange;
+    if (moments.first[i] < -Moments::kQuadrupoleSteps) return kOutOfRange;
   }
   moments.area = streams_.child_areas[next_child_];
   moments.second = streams_.child_second_moments[next_child_];
   for (const ShortFloat value : {moments.area, moments.second})
-    if (value < kMinShortFloat || value > kGreatestShortFloat) return kOutOfRange;
+    if (value < kMinShortFloat || value > kMaxShortFloat) return kOutOfRange;
   reinterpret_cast<NodeMoments*>(&parent + 1)->set(child, moments);
   return nullptr;
 }

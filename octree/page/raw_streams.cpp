@@ -77,7 +77,7 @@ void take_blocks(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
 
 }  // namespace
 
-const char* RawStreams::cut(std::span<const std::byte> raw, const BlockShape& shape) noexcept {
+const char* RawStreams::read(std::span<const std::byte> raw, const BlockShape& shape) noexcept {
   constexpr const char* kShort = "the page is shorter than its counts say";
   if (raw.size() < sizeof(PageHead)) return kShort;
   std::memcpy(&head, raw.data(), sizeof head);
@@ -88,10 +88,10 @@ const char* RawStreams::cut(std::span<const std::byte> raw, const BlockShape& sh
   layout.take(vertex_counts, head.block_count);
   layout.take(new_counts, head.block_count);
   layout.take(vertex_refs, head.vertex_ref_count);
-  if (!layout.whole()) return kShort;
+  if (!layout.has_sufficed()) return kShort;
   if (const char* fault = take_corners(layout, *this, shape)) return fault;
   take_blocks(layout, *this, shape);
-  if (!layout.whole()) return kShort;
+  if (!layout.has_sufficed()) return kShort;
   return layout.empty() ? nullptr : "the page is longer than its counts say";
 }
 

@@ -71,7 +71,7 @@ struct RawStreams {
   bool compact(std::size_t block) const { return (triangle_counts[block] & kCompactBit) != 0; }
 
   /// Locates the streams in `raw`, which must outlive this object. Returns null, or a fault.
-  const char* cut(std::span<const std::byte> raw, const BlockShape& shape) noexcept;
+  const char* read(std::span<const std::byte> raw, const BlockShape& shape) noexcept;
 };
 
 }  // namespace planetree::octree

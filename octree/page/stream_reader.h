@@ -24,7 +24,7 @@ class StreamReader {
     return start ? std::span(start, bytes) : std::span<const std::byte>();
   }
   /// Returns whether the bytes have sufficed for every array.
-  bool whole() const { return ok_; }
+  bool has_sufficed() const { return ok_; }
   bool empty() const { return rest_.empty(); }
 
  private:

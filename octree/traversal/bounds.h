@@ -123,7 +123,7 @@ inline constexpr double kFilterSlack = 0x1p-19;
 inline constexpr float kMinFilterExtent = 0x1p-40f;
 
 /// Returns whether float suffices to filter a block's triangles for a query.
-inline bool filter_tells(const FloatQuery& query, float block_extent) {
+inline bool can_filter(const FloatQuery& query, float block_extent) {
   return query.usable && block_extent >= kMinFilterExtent;
 }
 
@@ -142,7 +142,7 @@ inline double filter_lower(float squared, float block_extent) {
 
 /// Returns a threshold: a triangle whose filter value exceeds it is farther than `distance`.
 inline float filter_threshold(const FloatQuery& query, double distance, float block_extent) {
-  if (!filter_tells(query, block_extent)) return std::numeric_limits<float>::infinity();
+  if (!can_filter(query, block_extent)) return std::numeric_limits<float>::infinity();
   const double reach = distance + kFilterSlack * (distance + static_cast<double>(block_extent));
   return round_up(reach * reach);
 }

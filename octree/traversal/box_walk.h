@@ -23,10 +23,10 @@ class BoxWalk {
 
   /// Starts with those of `subtrees` that meet the box, instead of the root. Starts with the root
   /// if none does.
-  void begin_with(const NearbySubtrees& subtrees) {
+  void start_from(const NearbySubtrees& subtrees) {
     std::uint64_t meeting = subtrees_meeting(subtrees, box_);
     for (; meeting != 0; meeting &= meeting - 1)
-      walk_.begin_with(subtrees.link(static_cast<std::size_t>(std::countr_zero(meeting))));
+      walk_.start_from(subtrees.link(static_cast<std::size_t>(std::countr_zero(meeting))));
   }
 
   /// Calls visit(BlockView, link) for each block. Returns false as TreeWalk::run() does.
@@ -35,11 +35,12 @@ class BoxWalk {
     return run_while(max_work, visit, [] { return true; });
   }
   /// See TreeWalk::run_while().
-  template <class Visit, class GoingOn>
-  bool run_while(std::uint64_t max_work, const Visit& visit, const GoingOn& going_on) {
+  template <class Visit, class ShouldContinue>
+  bool run_while(std::uint64_t max_work, const Visit& visit,
+                 const ShouldContinue& should_continue) {
     return walk_.run_while(
         max_work, visit, [this](const Node& node) { return children_meeting(node, box_); },
-        going_on);
+        should_continue);
   }
 
  private:

@@ -24,7 +24,7 @@ class LinkResolver {
   const std::byte* find(std::uint32_t link, TraversalStats& work, std::uint32_t from = kNoPage) {
     const std::uint32_t page = links_.page(link);
     const std::uint32_t slot = links_.slot(link);
-    if (!is_at_hand(link)) {
+    if (!is_in_current_page(link)) {
       ++work.page_switches;
       page_number_ = page;
       frame_ = pages_.page(pages_.context, page);
@@ -35,7 +35,9 @@ class LinkResolver {
     return frame_ + slot * kSlotBytes;
   }
   /// Returns whether the record is in the page that was found last.
-  bool is_at_hand(std::uint32_t link) const { return links_.page(link) == page_number_ && frame_; }
+  bool is_in_current_page(std::uint32_t link) const {
+    return links_.page(link) == page_number_ && frame_;
+  }
   /// Returns the page of the last record.
   std::uint32_t page() const { return page_number_; }
 

@@ -41,12 +41,12 @@ HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std
                      hn::Load(d, node.normal[2] + i)};
   const Wide3 from = sub(p, centre);
   const Floats height = dot(normal, from);
-  const Floats off =
+  const Floats slab_gap =
       outside(hn::Load(d, node.slab_lower + i), hn::Load(d, node.slab_upper + i), height);
   const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
-  const Floats aside = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
-  const Floats beyond = hn::Max(hn::Sub(aside, hn::Load(d, node.radius + i)), zero);
-  return hn::Max(bound, hn::Add(hn::Mul(off, off), hn::Mul(beyond, beyond)));
+  const Floats axis_distance = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
+  const Floats radius_gap = hn::Max(hn::Sub(axis_distance, hn::Load(d, node.radius + i)), zero);
+  return hn::Max(bound, hn::Add(hn::Mul(slab_gap, slab_gap), hn::Mul(radius_gap, radius_gap)));
 }
 
 // Returns a bit for each of a node's children whose box meets `box`.
@@ -123,7 +123,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
   const FloatTag d;
   const IntTag di;
   const Wide3 p{hn::Set(d, query.x), hn::Set(d, query.y), hn::Set(d, query.z)};
-  const std::int32_t most = std::bit_cast<std::int32_t>(threshold) | kChildBits;
+  const std::int32_t max_key = std::bit_cast<std::int32_t>(threshold) | kChildBits;
 #if PLANETREE_EIGHT_LANES
   const hn::RebindToUnsigned<IntTag> du;
   const auto used = hn::Lt(hn::Iota(di, 0), hn::Set(di, node.child_count));
@@ -134,7 +134,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
   const auto child = hn::IndicesFromVec(du, hn::And(keys, hn::Set(di, kChildBits)));
   hn::Store(hn::AndNot(hn::Set(di, kChildBits), keys), di, group.bound_bits);
   hn::Store(hn::TableLookupLanes(hn::Load(du, node.link), child), du, group.link);
-  const auto near = hn::Not(hn::Gt(unsorted, hn::Set(di, most)));
+  const auto near = hn::Not(hn::Gt(unsorted, hn::Set(di, max_key)));
   return {static_cast<unsigned>(hn::CountTrue(di, near)), nearest};
 #else
   HWY_ALIGN std::int32_t keys[kFanOut];
@@ -146,7 +146,7 @@ HWY_INLINE NearChildren sorted_children(const Node& node, const FloatQuery& quer
   for (unsigned i = 0; i < node.child_count; ++i) {
     group.bound_bits[i] = keys[i] & ~kChildBits;
     group.link[i] = node.link[keys[i] & kChildBits];
-    count += keys[i] <= most ? 1 : 0;
+    count += keys[i] <= max_key ? 1 : 0;
   }
   return {count, node.child_count > 0 ? keys[0] : kNoKey};
 #endif

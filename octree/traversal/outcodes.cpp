@@ -41,16 +41,16 @@ CornerCodes float_corner_codes(const BlockHeader& block, const float* vertices,
 }
 
 void float_octants(const BlockHeader& block, const float* vertices, const float (&box)[2][3],
-                   const float (&middle)[2][3], OctantCodes::Met& met) {
+                   const float (&middle)[2][3], OctantCodes::NearOctants& hits) {
   HWY_ALIGN std::uint8_t outcodes[kMaxBlockVertices], codes[kMaxBlockVertices];
   float_codes(vertices, block.stride(), box[0], box[1], outcodes);
   float_codes(vertices, block.stride(), middle[0], middle[1], codes);
   for (unsigned i = 0; i < block.stride(); ++i)
-    met.with_vertex |= outcodes[i] == 0 ? OctantCodes::kOctants[codes[i]] : 0U;
-  shared_codes(block, codes, met.by_box);
+    hits.with_vertex |= outcodes[i] == 0 ? OctantCodes::kOctants[codes[i]] : 0U;
+  shared_codes(block, codes, hits.by_box);
   const unsigned apart = corner_codes(block, outcodes).shared;
   for (unsigned i = 0; i < block.triangle_count; ++i)
-    met.by_box[i] = (apart >> i & 1) != 0 ? 0 : OctantCodes::kOctants[met.by_box[i]];
+    hits.by_box[i] = (apart >> i & 1) != 0 ? 0 : OctantCodes::kOctants[hits.by_box[i]];
 }
 
 }  // namespace HWY_NAMESPACE
@@ -117,23 +117,23 @@ OctantCodes::OctantCodes(const Point& lower, const Point& middle, const Point& u
   }
 }
 
-OctantCodes::Met OctantCodes::met_by(const BlockView& block) const noexcept {
-  Met met;
+OctantCodes::NearOctants OctantCodes::near_octants(const BlockView& block) const noexcept {
+  NearOctants hits;
   if (const float* vertices = block.float_vertices()) {
-    HWY_DYNAMIC_DISPATCH(float_octants)(block.header(), vertices, float_box_, float_middle_, met);
-    return met;
+    HWY_DYNAMIC_DISPATCH(float_octants)(block.header(), vertices, float_box_, float_middle_, hits);
+    return hits;
   }
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
     const auto [a, b, c] = block.triangle(i);
     const Point least = a.cwiseMin(b).cwiseMin(c), greatest = a.cwiseMax(b).cwiseMax(c);
     const bool apart =
         (greatest.array() < box_[0].array()).any() || (least.array() > box_[1].array()).any();
-    met.by_box[i] = apart ? 0 : kOctants[code(greatest, least)];
+    hits.by_box[i] = apart ? 0 : kOctants[code(greatest, least)];
     for (const Point& corner : {a, b, c})
       if (((corner.array() >= box_[0].array()) && (corner.array() <= box_[1].array())).all())
-        met.with_vertex |= kOctants[code(corner, corner)];
+        hits.with_vertex |= kOctants[code(corner, corner)];
   }
-  return met;
+  return hits;
 }
 
 // A triangle is below the middle if its greatest coordinate is, and above it if its least

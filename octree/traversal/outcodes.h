@@ -31,11 +31,11 @@ class OctantCodes {
   /// middle  common corner of the octants; model frame, as all points
   OctantCodes(const Point& lower, const Point& middle, const Point& upper) noexcept;
 
-  struct Met {
+  struct NearOctants {
     unsigned with_vertex = 0;                 ///< octants that contain vertices
     std::uint8_t by_box[kMaxBlockTriangles];  ///< for each triangle the octants that its box meets
   };
-  Met met_by(const BlockView& block) const noexcept;
+  NearOctants near_octants(const BlockView& block) const noexcept;
 
   /// Octants for each outcode about the middle. The code has two bits an axis: below the middle,
   /// above it.

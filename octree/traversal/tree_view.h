@@ -15,8 +15,8 @@ struct PageReader;
 /// Work that goes on a step with every few pages that are read, such as prefetching the cache
 /// lines of a later lookup. `step` returns false after the last one. No answer depends on it.
 struct PrefetchHook {
-  void* who = nullptr;
-  bool (*step)(void* who, const PageReader& pages) noexcept = nullptr;
+  void* context = nullptr;
+  bool (*step)(void* context, const PageReader& pages) noexcept = nullptr;
 };
 
 /// Access to decoded pages. `page` returns the frame of page `number`, or null if the page is not

@@ -19,7 +19,7 @@ class TreeWalk {
       : tree_(tree), work_(work), records_(tree, pages) {}
 
   /// Starts with this record instead of the root. May be called for each link of a NearbySubtrees.
-  void begin_with(std::uint32_t link) { links_[size_++] = {link, LinkResolver::kNoPage}; }
+  void start_from(std::uint32_t link) { links_[size_++] = {link, LinkResolver::kNoPage}; }
 
   /// Calls visit(BlockView, link) for each block. meeting(Node) returns a bit for each child to
   /// visit. Returns false if some blocks were not visited, because pages were not available or more
@@ -29,17 +29,17 @@ class TreeWalk {
     return run_while(max_work, visit, meeting, [] { return true; });
   }
 
-  /// Same as run(), but also returns false as soon as going_on() does.
-  template <class Visit, class Meeting, class GoingOn>
+  /// Same as run(), but also returns false as soon as should_continue() does.
+  template <class Visit, class Meeting, class ShouldContinue>
   bool run_while(std::uint64_t max_work, const Visit& visit, const Meeting& meeting,
-                 const GoingOn& going_on) {
+                 const ShouldContinue& should_continue) {
     // A valid tree takes at most record_count visits; a corrupt one may take more.
     std::uint64_t left = std::min(max_work, tree_.record_count);
     bool complete = true;
-    if (size_ == 0) begin_with(tree_.root_link);
+    if (size_ == 0) start_from(tree_.root_link);
     Link next = links_[--size_];
     for (bool more = true; more; --left) {
-      if (left == 0 || !going_on()) return false;
+      if (left == 0 || !should_continue()) return false;
       const std::byte* record = records_.find(next.to, work_, next.from);
       unsigned children = 0;
       if (!record) {

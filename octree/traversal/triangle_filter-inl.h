@@ -100,13 +100,13 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
   const TriangleFloats error = hn::IfThenElse(inside, face_error, edge_error);
   const TriangleFloats lower = hn::Max(hn::Sub(squared, error), zero);
   const TriangleFloats upper = hn::Add(squared, error);
-  const auto round = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFlatSine2), sides)),
-                             hn::Ge(whole, hn::Set(d, 0x1p-100f)));
-  if (hn::AllTrue(d, round)) return {lower, upper};
+  const auto is_regular = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFlatSine2), sides)),
+                                  hn::Ge(whole, hn::Set(d, 0x1p-100f)));
+  if (hn::AllTrue(d, is_regular)) return {lower, upper};
   const TriangleFloats least = hn::Max(hn::Sub(edges, edge_error), zero);
   const TriangleFloats flat = flat_lower(least, whole, sides, hn::Max(hn::Max(ab2, ac2), bc2));
-  return {hn::IfThenElse(round, lower, flat),
-          hn::IfThenElse(round, upper, hn::Add(edges, edge_error))};
+  return {hn::IfThenElse(is_regular, lower, flat),
+          hn::IfThenElse(is_regular, upper, hn::Add(edges, edge_error))};
 }
 
 // Returns squared distances to the boxes of triangles given in the same way, at a fifth of the
@@ -132,9 +132,9 @@ struct FloatOffset {
 };
 
 // The triangles of a list, relative to a query.
-class ListedTriangles {
+class NearbyTriangleLanes {
  public:
-  HWY_INLINE ListedTriangles(const NearbyTriangles& list, const float (&query)[3])
+  HWY_INLINE NearbyTriangleLanes(const NearbyTriangles& list, const float (&query)[3])
       : list_(list),
         query_{hn::Set(TriangleTag(), query[0]), hn::Set(TriangleTag(), query[1]),
                hn::Set(TriangleTag(), query[2])} {}

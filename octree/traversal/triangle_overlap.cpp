@@ -27,10 +27,10 @@ unsigned triangles_on_target(const BlockView& block, const Point& point, float l
   return filtered.near;
 }
 
-ListedBits corners_on_target(const NearbyTriangles& list, float x) {
+NearbyTriangleBits corners_on_target(const NearbyTriangles& list, float x) {
   const TriangleTag d;
   const auto at = hn::Set(d, x);
-  ListedBits found{};
+  NearbyTriangleBits found{};
   for (std::size_t i = 0; i < list.size(); i += hn::Lanes(d)) {
     auto same = hn::Eq(hn::Load(d, list.row(0, 0) + i), at);
     for (std::size_t corner = 1; corner < 3; ++corner)
@@ -55,7 +55,7 @@ HWY_EXPORT(corners_on_target);
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
                           double distance, double (&nearest)[kMaxBlockTriangles]) noexcept {
   // The block is too small for float, or the query too far away.
-  if (!filter_tells(wide, block.header().extent)) {
+  if (!can_filter(wide, block.header().extent)) {
     std::fill_n(nearest, block.triangle_count(), 0.0);
     return (1U << block.triangle_count()) - 1;
   }
@@ -63,7 +63,8 @@ unsigned triangles_within(const BlockView& block, const Point& point, const Floa
   return HWY_DYNAMIC_DISPATCH(triangles_on_target)(block, point, limit, nearest);
 }
 
-ListedBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept {
+NearbyTriangleBits triangles_with_corner(const NearbyTriangles& list,
+                                         const Point& corner) noexcept {
   // Rounded as in the list.
   const auto x = static_cast<float>(corner.x() - list.centre().x());
   return HWY_DYNAMIC_DISPATCH(corners_on_target)(list, x);

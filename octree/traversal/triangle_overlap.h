@@ -21,7 +21,7 @@ unsigned triangles_within(const BlockView& block, const Point& point, const Floa
 
 /// Returns the triangles that may have this corner, as found by one coordinate in float; the others
 /// do not have it. A word holds the bits of 64 triangles.
-using ListedBits = std::array<std::uint64_t, NearbyTriangles::kMax / 64>;
-ListedBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept;
+using NearbyTriangleBits = std::array<std::uint64_t, NearbyTriangles::kMax / 64>;
+NearbyTriangleBits triangles_with_corner(const NearbyTriangles& list, const Point& corner) noexcept;
 
 }  // namespace planetree::octree

@@ -60,15 +60,15 @@ HWY_INLINE CrossedTriangles cross_vector(const TriangleRows<kTrianglesAtOnce>& r
   const Doubles3 p = corner(0), q = corner(1), r = corner(2);
   const Doubles3 a = p - from, b = q - from, c = r - from, way = to - from;
   const Doubles3 e1 = q - p, e2 = r - p;
-  const Doubles3 normal = outer(e1, e2), beyond = p - to;
+  const Doubles3 normal = cross(e1, e2), beyond = p - to;
   const Doubles size_a = largest(a), size_b = largest(b), size_c = largest(c);
   const Doubles faces = hn::Mul(largest(e1), largest(e2)), length = largest(way);
 
   // Positive where the end of the segment is behind the triangle's plane.
-  const CertainSign start = certain_sign(inner(a, normal), hn::Mul(faces, size_a));
-  const CertainSign end = certain_sign(inner(beyond, normal), hn::Mul(faces, largest(beyond)));
+  const CertainSign start = certain_sign(dot(a, normal), hn::Mul(faces, size_a));
+  const CertainSign end = certain_sign(dot(beyond, normal), hn::Mul(faces, largest(beyond)));
   const auto edge = [&](const Doubles3& u, const Doubles3& v, Doubles sizes) {
-    return certain_sign(inner(way, outer(v, u)), hn::Mul(length, sizes));
+    return certain_sign(dot(way, cross(v, u)), hn::Mul(length, sizes));
   };
   const CertainSign ab = edge(a, b, hn::Mul(size_a, size_b));
   const CertainSign bc = edge(b, c, hn::Mul(size_b, size_c));

@@ -92,7 +92,7 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
   const double rho = std::sqrt(gap2) * (1 - 0x1p-48) - delta_;
   if (!(rho > 0x1p-60)) return {0, kUnknown};
   const double area = Moments::wide(moments.area), second = Moments::wide(moments.second);
-  const double vector_unit = moments.vector_unit(), first_unit = moments.first_unit();
+  const double dipole_unit = moments.dipole_unit(), quadrupole_unit = moments.quadrupole_unit();
   const double over_way = 1 / way.norm(), over_rho = 1 / rho;
   const double over_rho2 = over_rho * over_rho;
   const double share = std::sqrt(extent2) * over_way;
@@ -102,7 +102,7 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
                               over_way * over_way);
   const double max_share = area * over_rho2;
   const double error = kVectorError * area * over_way * over_way +
-                       3 * kFirstError * first_unit * over_way * over_way * over_way +
+                       3 * kFirstError * quadrupole_unit * over_way * over_way * over_way +
                        second * tail + 2 * delta_ * area * over_rho2 * over_rho;
   constexpr double kUp = kOverFourPi * (1 + 0x1p-40);
   if (max_share < error) return {0, kUp * max_share};
@@ -114,7 +114,7 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
                                  u.z() * u.z() * (xx + yy) +
                                  2 * (u.x() * u.y() * xy + u.y() * u.z() * yz + u.z() * u.x() * zx);
   return {kOverFourPi * over_way * over_way *
-              (vector_unit * dipole_term - 3 * first_unit * over_way * quadrupole_term),
+              (dipole_unit * dipole_term - 3 * quadrupole_unit * over_way * quadrupole_term),
           kUp * error};
 }
 

@@ -58,14 +58,14 @@ bool SideSearch::go_from(const octree::MaskLookup& found) {
 // What is beyond the planes of a cell has the winding number of its corner there.
 bool SideSearch::query_slab(const octree::MaskLookup& found) {
   const octree::CellSlab& slab = found.blocks.slab;
-  if (!slab.says_something()) return false;
+  if (!slab.has_plane()) return false;
   const Point lower = octree::CellGrid(model_.mask.lower).lower(found.cell);
   const unsigned corner =
       slab.corner_beyond(octree::CellSlab::position_in(point_, lower, found.cell.level));
   if (corner == octree::CellSlab::kNoCorner) return false;
   if (reason_) reason_->rule = SideReason::Rule::kSlab;
   counted_ = true;
-  settle(octree::corner_of(found.listed, corner), false);
+  settle(octree::corner_number(found.listed, corner), false);
   return true;
 }
 
@@ -77,7 +77,7 @@ bool SideSearch::go_within_octant(const octree::MaskLookup& found, const Grid& g
   std::array<std::uint32_t, octree::kMaxListed> links;
   const unsigned count = found.blocks.in_octant(octant, links);
   const Point corner = grid.corner(found.cell, octant);
-  const int winding = octree::corner_of(found.listed, octant);
+  const int winding = octree::corner_number(found.listed, octant);
   if (count == 0) return finalize(corner, winding, {}, SideReason::Rule::kCorner);
   const octree::Crossings crossings = octree::count_crossings(
       model_.tree, {point_, corner}, std::span(links).first(count), work_left(), pages_, work_);

@@ -55,7 +55,7 @@ class PageAccessor {
       reader_.leave();
     }
     begin();
-    if (prefetch_hook_.who && lookups_ % kLookupsPerStep == 0) step_prefetcher();
+    if (prefetch_hook_.context && lookups_ % kLookupsPerStep == 0) step_prefetcher();
     if (const std::byte* frame = reader_.find(number)) {
       if (log_) log_->found(number);
       return frame;
@@ -83,10 +83,10 @@ class PageAccessor {
   }
   // Before a section ends of which there are pointers.
   void release_frames() noexcept {
-    if (release_hook_.on_release) release_hook_.on_release(release_hook_.who);
+    if (release_hook_.on_release) release_hook_.on_release(release_hook_.context);
   }
   void step_prefetcher() noexcept {
-    if (!prefetch_hook_.step(prefetch_hook_.who, pages_)) prefetch_hook_ = {};
+    if (!prefetch_hook_.step(prefetch_hook_.context, pages_)) prefetch_hook_ = {};
   }
   const std::byte* fetch(std::uint32_t number) noexcept;
 

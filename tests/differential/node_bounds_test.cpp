@@ -199,7 +199,7 @@ void expect_list_passes(const octree::BlockView& block, const FloatQuery& wide, 
   if (!list.complete()) return;
   expect_filter_passes(triangles, wide, query, centre, list.extent(),
                        [&](const auto& local, float limit, auto& filtered) {
-                         on_target::filter_triangles(on_target::ListedTriangles(list, local),
+                         on_target::filter_triangles(on_target::NearbyTriangleLanes(list, local),
                                                      list.size(), limit, filtered);
                        });
 }

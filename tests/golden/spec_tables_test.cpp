@@ -72,7 +72,7 @@ std::string read_source(const std::string& path) {
 // The list of streams in a header, in order. Its lines are "///   name   element".
 std::vector<std::string> coded_streams(const std::string& header) {
   const std::string source = read_source(header);
-  const std::regex line(R"(\n///   (\w+(?: \w+)*)  +\S)");
+  const std::regex line(R"(\n///     (\w+(?: \w+)*)  +\S)");
   std::vector<std::string> names;
   for (std::sregex_iterator match(source.begin(), source.end(), line), end; match != end; ++match)
     names.push_back((*match)[1]);

@@ -154,7 +154,7 @@ void TreeCheck::check_page(std::uint32_t page) {
 
 void TreeCheck::check_roots() {
   octree::RawStreams streams;
-  parts_.cut(streams);
+  parts_.read(streams);
   const octree::FrameHeader& header = frame_->header();
   for (std::uint32_t i = 0; i < header.root_node_count; ++i) {
     FloatBox box;

@@ -153,17 +153,17 @@ std::optional<Issue> FileParts::read_page(std::uint32_t page) {
   return {};
 }
 
-bool FileParts::cut(octree::RawStreams& streams) const {
-  return streams.cut(raw_, shape()) == nullptr;
+bool FileParts::read(octree::RawStreams& streams) const {
+  return streams.read(raw_, shape()) == nullptr;
 }
 
-bool FileParts::cut(octree::MaskStreams& streams) const {
-  return page_ >= first_mask_page() && streams.cut(raw_, shape().float64) == nullptr;
+bool FileParts::read(octree::MaskStreams& streams) const {
+  return page_ >= first_mask_page() && streams.read(raw_, shape().float64) == nullptr;
 }
 
 std::optional<octree::MaskPageHead> FileParts::mask_head() const {
   octree::MaskStreams streams;
-  if (!cut(streams)) return {};
+  if (!read(streams)) return {};
   return streams.head;
 }
 

@@ -58,10 +58,10 @@ class FileParts {
   /// Raw bytes of the page read last. Valid until the next read.
   std::span<const std::byte> raw() const { return raw_; }
   /// Splits the raw bytes of a distance page into streams. False if they do not fit the page head.
-  bool cut(octree::RawStreams& streams) const;
+  bool read(octree::RawStreams& streams) const;
   /// Splits the raw bytes of a mask page into streams. False if they do not fit the page head or
   /// the page is not a mask page.
-  bool cut(octree::MaskStreams& streams) const;
+  bool read(octree::MaskStreams& streams) const;
   /// Head of the page read last, if that is a mask page.
   std::optional<octree::MaskPageHead> mask_head() const;
   /// The page decoded last, which must be a distance page. Valid until the next decode_page().

@@ -82,7 +82,7 @@ void MaskProof::check_cell(const GreyCell& grey) {
   if (grey.listed != nullptr) {
     octree::MaskCorners corners;
     for (unsigned corner = 0; corner < 8; ++corner)
-      corners[corner] = static_cast<std::int8_t>(octree::corner_of(*grey.listed, corner));
+      corners[corner] = static_cast<std::int8_t>(octree::corner_number(*grey.listed, corner));
     check_corners(grey, corners);
     check_list(grey);
   }
@@ -140,7 +140,7 @@ void MaskProof::check_list(const GreyCell& grey) {
            fmt::format("cell {} does not list all blocks that touch it", cell_name(grey.cell)));
   octree::LinkResolver records(model_->geometry().tree, accessor.pages());
   octree::TraversalStats work;
-  if (model_->geometry().region.has_walls() && grey.blocks.slab.says_something())
+  if (model_->geometry().region.has_walls() && grey.blocks.slab.has_plane())
     report(IssueCode::kMaskSlab, grey.page,
            fmt::format("cell {} has a slab, but the region has walls", cell_name(grey.cell)));
   bool outside = false;
@@ -164,7 +164,7 @@ void MaskProof::check_list(const GreyCell& grey) {
 // Checks a block that the cell lists.
 bool MaskProof::is_within_slab(const GreyCell& grey, const octree::BlockView& block) const {
   const octree::CellSlab& slab = grey.blocks.slab;
-  if (!slab.says_something()) return true;
+  if (!slab.has_plane()) return true;
   const Point lower = grid_.lower(grey.cell), upper = grid_.upper(grey.cell);
   for (unsigned i = 0; i < block.triangle_count(); ++i)
     if (!tools::is_within_slab(slab, block.triangle(i), lower, upper, grey.cell.level))

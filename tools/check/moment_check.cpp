@@ -23,14 +23,14 @@ struct Expected {
 };
 
 Point vector_of(const octree::Moments& moments) {
-  return Point(moments.vector[0], moments.vector[1], moments.vector[2]) * moments.vector_unit();
+  return Point(moments.vector[0], moments.vector[1], moments.vector[2]) * moments.dipole_unit();
 }
 
 Matrix first_of(const octree::Moments& moments) {
   const auto& [xx, yy, xy, yz, zx] = moments.first;
   Matrix first;
   first << xx, xy, zx, xy, yy, yz, zx, yz, -xx - yy;
-  return first * moments.first_unit();
+  return first * moments.quadrupole_unit();
 }
 
 /// Whether stated moments fit. The added share kRelativeSlack is far above the rounding of doubles
@@ -50,7 +50,7 @@ bool fits(const octree::Moments& stated, const Expected& expected) {
   if (!((vector_of(stated) - expected.vector).norm() <= vector_error)) return false;
   const Matrix symmetric = (expected.first + expected.first.transpose()) / 2 -
                            expected.first.trace() / 3 * Matrix::Identity();
-  const double first_error = octree::kFirstError * stated.first_unit() +
+  const double first_error = octree::kFirstError * stated.quadrupole_unit() +
                              kRelativeSlack * area * extent + position_error + expected.first_error;
   return (first_of(stated) - symmetric).norm() <= first_error;
 }
@@ -96,7 +96,7 @@ bool moments_fit(const Bounds& stated, const octree::Node& node) {
     expected.vector_error += octree::kVectorError * area;
     expected.first += first_of(moments) + by * vector.transpose();
     expected.first_error +=
-        octree::kFirstError * moments.first_unit() + by.norm() * octree::kVectorError * area;
+        octree::kFirstError * moments.quadrupole_unit() + by.norm() * octree::kVectorError * area;
     expected.area += kept;
     // Minkowski's inequality: about `middle`, the second moment of a child is at least
     // max(0, |by| sqrt(area) - sqrt(second))^2.

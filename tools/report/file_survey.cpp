@@ -80,7 +80,7 @@ class Surveyor {
   template <class Streams>
   decltype(Streams::head) add_streams(std::vector<StreamRow>& sums) const {
     Streams streams;
-    const bool whole = parts_.cut(streams);
+    const bool whole = parts_.read(streams);
     assert(whole);
     static_cast<void>(whole);
     const std::vector<StreamRow> rows = stream_rows(streams, parts_.shape());

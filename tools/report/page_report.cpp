@@ -68,7 +68,7 @@ template <class Streams>
 Json streams_json(const FileParts& parts) {
   Json rows = Json::array();
   Streams streams;
-  if (!parts.cut(streams)) return rows;
+  if (!parts.read(streams)) return rows;
   std::uint64_t offset = 0;
   for (const StreamRow& row : stream_rows(streams, parts.shape())) {
     rows.push_back({{"stream", row.name},
@@ -186,7 +186,7 @@ std::string page_details_text(const Json& details) {
 Json nodes_json(const FileParts& parts, bool roots_only) {
   const FrameView frame = parts.frame();
   octree::RawStreams streams;
-  const bool whole = parts.cut(streams);
+  const bool whole = parts.read(streams);
   Json nodes = Json::array();
   const std::uint32_t count = roots_only ? frame.header().root_node_count : frame.node_count();
   for (std::uint32_t i = 0; i < count; ++i) {

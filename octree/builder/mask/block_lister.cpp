@@ -28,10 +28,10 @@ class NearBlocks {
   void look_at(const BlockView& block, std::uint32_t link) {
     if (count_ == kCapacity) drop_untouched();
     if (count_ == kCapacity) return;  // too many already
-    const OctantCodes::Met met = codes_.met_by(block);
-    found_[count_] = {link, static_cast<std::uint8_t>(met.with_vertex)};
+    const OctantCodes::NearOctants hits = codes_.near_octants(block);
+    found_[count_] = {link, static_cast<std::uint8_t>(hits.with_vertex)};
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
-      const unsigned near = met.by_box[i] & ~met.with_vertex;
+      const unsigned near = hits.by_box[i] & ~hits.with_vertex;
       if (near == 0) continue;
       if (overlap_.full()) settle();
       overlap_.add(block.triangle(i), near, count_);

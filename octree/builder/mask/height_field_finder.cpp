@@ -157,7 +157,7 @@ std::optional<std::int64_t> winding_at(const TreeInfo& tree, const MaskInfo& mas
       count_crossings(tree, {point, grid.corner(found.cell, octant)}, std::span(links).first(count),
                       kMaxRecords, pages, work);
   if (!crossings.complete) return std::nullopt;
-  return corner_of(found.listed, octant) + crossings.difference;
+  return corner_number(found.listed, octant) + crossings.difference;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class Streams {
 
   void add_node(const MaskEntry& node, std::uint32_t family) {
     const bool above = node.grey != 0 && links_.page(family) != page_;
-    add_kind(above ? MaskKind::kNodeAbove : MaskKind::kNode);
+    add_kind(above ? MaskKind::kNodeWithLink : MaskKind::kNode);
     grey_.push_back(node.grey);
     leaf_.push_back(node.leaf);
     black_.push_back(node.black);

@@ -50,7 +50,7 @@ CellSlab fit_slab(const GridCell& cell, const Point& lower,
   };
   slab.lower = in_byte(std::floor(least * steps - 0.5 - kSlack));
   slab.upper = in_byte(std::ceil(greatest * steps - 0.5 + kSlack));
-  if (!slab.says_something()) return {};
+  if (!slab.has_plane()) return {};
   return slab;
 }
 

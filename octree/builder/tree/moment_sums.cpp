@@ -119,13 +119,14 @@ Moments packed(const SurfaceSums& sums, const FloatBox& box) {
   moments.second = pack_short_above(second);
   for (std::size_t axis = 0; axis < 3; ++axis)
     moments.vector[axis] = steps<std::int16_t>(sums.vector[static_cast<Eigen::Index>(axis)],
-                                               moments.vector_unit(), Moments::kVectorSteps);
+                                               moments.dipole_unit(), Moments::kDipoleSteps);
   const Eigen::Matrix3d& f = sums.first;
   const double third = f.trace() / 3;
   const double parts[] = {f(0, 0) - third, f(1, 1) - third, (f(0, 1) + f(1, 0)) * 0.5,
                           (f(1, 2) + f(2, 1)) * 0.5, (f(2, 0) + f(0, 2)) * 0.5};
   for (std::size_t i = 0; i < 5; ++i)
-    moments.first[i] = steps<std::int8_t>(parts[i], moments.first_unit(), Moments::kFirstSteps);
+    moments.first[i] =
+        steps<std::int8_t>(parts[i], moments.quadrupole_unit(), Moments::kQuadrupoleSteps);
   return moments;
 }
 

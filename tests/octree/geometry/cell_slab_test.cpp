@@ -59,11 +59,11 @@ TEST(CellSlab, HeightsRunFromLowestToHighestCorner) {
 
 TEST(CellSlab, DecidesOnlyPointsBeyondAPlane) {
   CellSlab slab;  // width 32
-  EXPECT_FALSE(slab.says_something());
+  EXPECT_FALSE(slab.has_plane());
   for (const double height : {-1.0, 0.0, 16.0, 32.0, 33.0}) EXPECT_EQ(slab.side_of(height), 0);
   slab.lower = 64;
   slab.upper = 127;
-  EXPECT_TRUE(slab.says_something());
+  EXPECT_TRUE(slab.has_plane());
   EXPECT_EQ(slab.side_of(8), -1);
   EXPECT_EQ(slab.side_of(8.001), 0);
   EXPECT_EQ(slab.side_of(15.999), 0);
@@ -102,7 +102,7 @@ TEST(CellSlab, EnclosesTheSurfaceInItsCell) {
     const CellSlab slab = fit_slab(cell, lower, triangles, positions);
     EXPECT_TRUE(slab.direction_is_valid());
     EXPECT_LE(slab.lower, slab.upper);
-    empty += !slab.says_something();
+    empty += !slab.has_plane();
     for (int k = 0; k < 20; ++k) {
       // A small box; skipped unless all its corners are beyond the same plane.
       const Point u = any_point(noise, 0, 0.99), from = lower + size.cwiseProduct(u);

@@ -27,16 +27,16 @@ int rounded_normal_sign(const Point& a, const Point& b, const Point& c, unsigned
 TEST(StartupCheck, PassesThisBuild) { EXPECT_EQ(startup_check(), nullptr); }
 
 TEST(StartupCheck, DetectsRoundedPredicates) {
-  TestedPredicates wrong = TestedPredicates::ours();
+  TestedPredicates wrong = TestedPredicates::library();
   wrong.orientation = &rounded_orientation;
   EXPECT_NE(startup_check(wrong), nullptr);
-  wrong = TestedPredicates::ours();
+  wrong = TestedPredicates::library();
   wrong.normal_sign = &rounded_normal_sign;
   EXPECT_NE(startup_check(wrong), nullptr);
 }
 
 TEST(StartupCheck, DetectsPredicatesWrongOnUnderflow) {
-  TestedPredicates wrong = TestedPredicates::ours();
+  TestedPredicates wrong = TestedPredicates::library();
   wrong.orientation = [](const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
     return c.y() > 0 && c.y() < 0x1p-1000 ? 0 : orientation(a, b, c, d);
   };
@@ -44,7 +44,7 @@ TEST(StartupCheck, DetectsPredicatesWrongOnUnderflow) {
 }
 
 TEST(StartupCheck, DetectsConstantLiesOn) {
-  TestedPredicates wrong = TestedPredicates::ours();
+  TestedPredicates wrong = TestedPredicates::library();
   wrong.lies_on = [](const Point&, const Triangle&) noexcept { return false; };
   EXPECT_NE(startup_check(wrong), nullptr);
   wrong.lies_on = [](const Point&, const Triangle&) noexcept { return true; };

@@ -80,7 +80,7 @@ void expect_same(const MaskLookup& found, const PathToCell& path, const MaskTree
     EXPECT_EQ(found.kind, Found::kCorners);
     const bool listed = entry.kind == Kind::kListed;
     for (unsigned corner = 0; corner < 8; ++corner)
-      EXPECT_EQ(listed ? corner_of(found.listed, corner) : found.corners[corner],
+      EXPECT_EQ(listed ? corner_number(found.listed, corner) : found.corners[corner],
                 entry.corners[corner]);
     EXPECT_TRUE(same(found.blocks, listed ? tree.lists[entry.first] : MaskBlocks{}));
   }

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/octree/mask/random_map.h"
+#include "tests/octree/mask/random_side_grid.h"
 #include "tests/octree/support/each_target.h"
 
 namespace planetree::octree {

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/octree/mask/random_map.h"
+#include "tests/octree/mask/random_side_grid.h"
 
 namespace planetree::octree {
 namespace {
@@ -202,7 +202,7 @@ TEST_F(SideGridTest, FindsTheSameCellWithFewerPages) {
         ASSERT_EQ(found.on_surface, expected.on_surface);
         ASSERT_EQ(found.corners, expected.corners);
         for (unsigned corner = 0; found.blocks.count > 0 && corner < 8; ++corner)
-          ASSERT_EQ(corner_of(found.listed, corner), corner_of(expected.listed, corner));
+          ASSERT_EQ(corner_number(found.listed, corner), corner_number(expected.listed, corner));
         ASSERT_TRUE(same(found.blocks, expected.blocks));
         ASSERT_EQ(found.cell.level, expected.cell.level);
         ASSERT_EQ(found.cell.at, expected.cell.at);

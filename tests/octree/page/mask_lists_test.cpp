@@ -10,7 +10,7 @@
 #include "octree/builder/mask/tree_frames.h"
 #include "octree/builder/surface/region_cut.h"
 #include "octree/geometry/cell_overlap.h"
-#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/builder/chunked_tree.h"
 #include "tests/octree/page/raw_mask_page.h"
 #include "tests/octree/support/sample_mask.h"
 

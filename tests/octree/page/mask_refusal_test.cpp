@@ -9,7 +9,7 @@
 
 #include "octree/page/mask_decoder.h"
 #include "tests/octree/mask/random_mask.h"
-#include "tests/octree/page/mask_spoilings.h"
+#include "tests/octree/page/mask_corruptions.h"
 #include "tests/octree/support/sample_mask.h"
 
 // Reaches every message with which a mask page is refused, by one change to a valid page each.
@@ -29,7 +29,7 @@ class MaskRefusal : public testing::TestWithParam<bool> {
       };
       if (raw.head.page_link_count > 1 && has(MaskKind::kPlainCorners) && has(MaskKind::kCorners) &&
           has(MaskKind::kSpecial) && has(MaskKind::kListed) && has_long_lists(raw) &&
-          raw.kinds.back() > static_cast<std::uint8_t>(MaskKind::kNodeAbove))
+          raw.kinds.back() > static_cast<std::uint8_t>(MaskKind::kNodeWithLink))
         return page;
     }
     ADD_FAILURE() << "no page of the sample suits";

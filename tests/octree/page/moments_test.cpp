@@ -28,7 +28,7 @@ TEST(ShortFloat, RoundsUp) {
   EXPECT_EQ(pack_short_above(1), 0x3f80);
   EXPECT_EQ(pack_short_above(1 + 0x1p-60), 0x3f80 + 0);
   EXPECT_EQ(pack_short_above(1 + 0x1p-20), 0x3f81);
-  EXPECT_EQ(pack_short_above(1e39), kGreatestShortFloat);
+  EXPECT_EQ(pack_short_above(1e39), kMaxShortFloat);
 }
 
 TEST(CertainSum, ErrorBoundCoversCancellation) {

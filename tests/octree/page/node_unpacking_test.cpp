@@ -105,7 +105,7 @@ TEST_F(UnpackDiscs, MatchesUnpackingOneByOneBitForBit) {
     for (const Node& node : on_each_target([&] {
            Node unpacked = packed_node;
            const ChildFaults faults = unpack_discs(discs, count, unpacked);
-           EXPECT_FALSE(faults.no_box || faults.crossed);
+           EXPECT_FALSE(faults.inverted_box || faults.inverted_slab);
            return unpacked;
          }))
       ASSERT_EQ(std::memcmp(&node, &expected, sizeof node), 0) << round;
@@ -113,13 +113,13 @@ TEST_F(UnpackDiscs, MatchesUnpackingOneByOneBitForBit) {
 }
 
 TEST_F(UnpackDiscs, ReportsCrossedBoundsOfAnyChild) {
-  for (unsigned crossed = 0; crossed < kFanOut; ++crossed)
+  for (unsigned inverted_slab = 0; inverted_slab < kFanOut; ++inverted_slab)
     for (int what = 0; what < 4; ++what) {
       Node packed_node = node_of(box());
       PackedDiscs discs;
       for (unsigned i = 0; i < kFanOut; ++i) {
         PackedChild packed = child();
-        const bool this_one = i == crossed;
+        const bool this_one = i == inverted_slab;
         if (what < 3 && this_one) packed.lower[what] = 8, packed.upper[what] = kBoxSteps - 7;
         if (what == 3 && this_one) packed.slab_lower = -3, packed.slab_upper = -4;
         put(packed_node, discs, i, packed);
@@ -128,8 +128,8 @@ TEST_F(UnpackDiscs, ReportsCrossedBoundsOfAnyChild) {
              Node node = packed_node;
              return unpack_discs(discs, kFanOut, node);
            })) {
-        ASSERT_EQ(faults.no_box, what < 3);
-        ASSERT_EQ(faults.crossed, what == 3);
+        ASSERT_EQ(faults.inverted_box, what < 3);
+        ASSERT_EQ(faults.inverted_slab, what == 3);
       }
     }
 }

@@ -326,7 +326,7 @@ TEST(PageRefusal, HoldsForWideIdsAndFloat64) {
   const PageInfo info = page_info(sample, 0);
   SampleFrame frame(info.page_bytes);
   RawStreams streams;
-  ASSERT_EQ(streams.cut(pages.raw(0), sample.shape), nullptr);
+  ASSERT_EQ(streams.read(pages.raw(0), sample.shape), nullptr);
   // The stream of id steps ends the page; the stream of first ids is before it.
   std::vector<std::byte> raw = pages.raw(0);
   const std::size_t steps = streams.id_steps64.size();

@@ -32,7 +32,7 @@ struct RawMaskPage {
   /// Returns the streams of `raw`, whose counts must match its length.
   static RawMaskPage of(std::span<const std::byte> raw, bool float64) {
     MaskStreams s;
-    if (s.cut(raw, float64) != nullptr) return {};
+    if (s.read(raw, float64) != nullptr) return {};
     RawMaskPage page{s.head,
                      list(s.kinds),
                      list(s.grey),

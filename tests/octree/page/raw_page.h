@@ -35,7 +35,7 @@ struct RawPage {
   /// Returns the streams of `raw`, whose counts must match its length.
   static RawPage of(std::span<const std::byte> raw, const BlockShape& shape = {}) {
     RawStreams s;
-    if (s.cut(raw, shape) != nullptr) return {};
+    if (s.read(raw, shape) != nullptr) return {};
     return {s.head,
             list(s.root_boxes),
             list(s.child_counts),

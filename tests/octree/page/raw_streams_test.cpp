@@ -49,7 +49,7 @@ class RawStreamsTest : public testing::Test {
 
 TEST_F(RawStreamsTest, SplitAPageIntoItsStreams) {
   RawStreams streams;
-  ASSERT_EQ(streams.cut(raw_, BlockShape{}), nullptr);
+  ASSERT_EQ(streams.read(raw_, BlockShape{}), nullptr);
   EXPECT_EQ(streams.head.triangle_count, 512);
   EXPECT_EQ(streams.child_counts.size(), streams.head.node_count);
   EXPECT_EQ(streams.vertices32.size(), 3u * streams.head.vertex_count);
@@ -64,7 +64,7 @@ TEST_F(RawStreamsTest, ReadHeightFieldBitFromTriangleCounts) {
   page.triangle_counts[marked] |= kHeightFieldBit;
   const std::vector<std::byte> raw = page.bytes();
   RawStreams streams;
-  ASSERT_EQ(streams.cut(raw, BlockShape{}), nullptr);
+  ASSERT_EQ(streams.read(raw, BlockShape{}), nullptr);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     EXPECT_EQ(streams.triangle_count(i), counts[i] & kCountBits);
     EXPECT_EQ(streams.compact(i), (counts[i] & kCompactBit) != 0);
@@ -72,7 +72,7 @@ TEST_F(RawStreamsTest, ReadHeightFieldBitFromTriangleCounts) {
   }
   for (const unsigned count : {0u, 17u, 63u}) {
     page.triangle_counts[marked] = static_cast<std::uint8_t>(kHeightFieldBit | count);
-    EXPECT_STREQ(streams.cut(page.bytes(), BlockShape{}), "a block's counts are out of range");
+    EXPECT_STREQ(streams.read(page.bytes(), BlockShape{}), "a block's counts are out of range");
   }
 }
 
@@ -81,7 +81,7 @@ TEST_F(RawStreamsTest, RefuseEveryShorterPage) {
     const std::vector<std::byte> part(raw_.begin(),
                                       raw_.begin() + static_cast<std::ptrdiff_t>(size));
     RawStreams streams;
-    const char* fault = streams.cut(part, BlockShape{});
+    const char* fault = streams.read(part, BlockShape{});
     ASSERT_NE(fault, nullptr) << size;
     EXPECT_STREQ(fault, "the page is shorter than its counts say") << size;
   }
@@ -90,13 +90,13 @@ TEST_F(RawStreamsTest, RefuseEveryShorterPage) {
 TEST_F(RawStreamsTest, RefuseALongerPage) {
   raw_.push_back(std::byte{0});
   RawStreams streams;
-  EXPECT_STREQ(streams.cut(raw_, BlockShape{}), "the page is longer than its counts say");
+  EXPECT_STREQ(streams.read(raw_, BlockShape{}), "the page is longer than its counts say");
 }
 
 TEST_F(RawStreamsTest, RefuseAPageOfAnotherShape) {
   for (const BlockShape shape : {BlockShape{true, false}, BlockShape{false, true}}) {
     RawStreams streams;
-    EXPECT_STREQ(streams.cut(raw_, shape), "the page is shorter than its counts say");
+    EXPECT_STREQ(streams.read(raw_, shape), "the page is shorter than its counts say");
   }
 }
 
@@ -107,7 +107,7 @@ TEST_F(RawStreamsTest, NeverReadBeyondThePage) {
       std::vector<std::byte> changed = raw_;
       changed[at] = static_cast<std::byte>(value);
       RawStreams streams;
-      const bool accepted = streams.cut(changed, BlockShape{}) == nullptr;
+      const bool accepted = streams.read(changed, BlockShape{}) == nullptr;
       EXPECT_TRUE(!accepted || changed[at] == raw_[at] || at >= 20) << at;
     }
 }

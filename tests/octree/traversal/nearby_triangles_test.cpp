@@ -77,11 +77,11 @@ TEST(NearbyTriangles, FindsTrianglesByCorner) {
     const auto list = listed(found, Point(0.3, 0, 0));
     for (const NearbyTriangle& one : found)
       for (const Point& corner : one.corners) {
-        ListedBits expected{};
+        NearbyTriangleBits expected{};
         for (std::size_t i = 0; i < count; ++i)
           for (const Point& other : list.triangle(i))
             if (other.x() == corner.x()) expected[i / 64] |= std::uint64_t{1} << i % 64;
-        for (const ListedBits& bits :
+        for (const NearbyTriangleBits& bits :
              on_each_target([&] { return triangles_with_corner(list, corner); }))
           ASSERT_EQ(bits, expected) << count;
       }

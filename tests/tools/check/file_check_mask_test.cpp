@@ -184,7 +184,7 @@ TEST_F(FileCheckOfMasks, FindsTwoLinksToOneFamily) {
 Node node_above(const RawMaskPage& page) {
   std::size_t node = 0;
   for (const std::uint8_t kind : page.kinds) {
-    const bool above = kind == static_cast<std::uint8_t>(MaskKind::kNodeAbove);
+    const bool above = kind == static_cast<std::uint8_t>(MaskKind::kNodeWithLink);
     if (above && std::popcount(page.grey[node]) > 1) return node;
     node += above || kind == static_cast<std::uint8_t>(MaskKind::kNode) ? 1 : 0;
   }

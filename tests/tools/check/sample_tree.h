@@ -58,7 +58,7 @@ class RawPage {
   RawPage(std::vector<std::byte> bytes, const octree::BlockShape& shape)
       : bytes_(std::move(bytes)) {
     octree::RawStreams streams;
-    EXPECT_EQ(streams.cut(bytes_, shape), nullptr);
+    EXPECT_EQ(streams.read(bytes_, shape), nullptr);
     rows_ = stream_rows(streams, shape);
   }
 

@@ -7,7 +7,7 @@
 
 #include "tests/octree/support/each_target.h"
 #include "tests/octree/support/exact_overlap.h"
-#include "tests/octree/support/sheet_model.h"
+#include "tests/octree/support/height_field_model.h"
 
 namespace planetree::octree {
 namespace {

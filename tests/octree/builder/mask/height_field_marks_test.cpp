@@ -9,7 +9,7 @@
 
 #include "octree/page/page_streams.h"
 #include "octree/page/raw_streams.h"
-#include "tests/octree/support/sheet_model.h"
+#include "tests/octree/support/height_field_model.h"
 #include "tests/storage/system/faulty_calls.h"
 
 namespace planetree::octree {
@@ -18,7 +18,7 @@ namespace {
 std::vector<bool> marks_in(const HeightFieldModel& model, const FilePage& page) {
   RawStreams streams;
   std::vector<bool> marks;
-  EXPECT_EQ(streams.cut(page.bytes, model.info.shape), nullptr);
+  EXPECT_EQ(streams.read(page.bytes, model.info.shape), nullptr);
   for (std::size_t i = 0; i < streams.head.block_count; ++i)
     marks.push_back(streams.is_height_field(i));
   return marks;

@@ -81,7 +81,7 @@ void expect_between(const Soup& soup, bool floats, double over) {
   for (const Halved& box : boxes(sample.mesh, floats)) {
     const OctantCodes codes(box.lower, box.middle, box.upper);
     each_block(sample, SamplePages(sample), [&](const BlockView& block, std::uint32_t) {
-      const OctantCodes::Met met = codes.met_by(block);
+      const OctantCodes::NearOctants met = codes.near_octants(block);
       const Sets least = one_by_one(block, box, 0);
       const Sets most = one_by_one(block, box.grown(over), over);
       EXPECT_EQ(least.with_vertex & ~met.with_vertex, 0u);
@@ -125,7 +125,7 @@ TEST(OctantCodes, AreTheSameOnEveryInstructionSet) {
     for (const Halved& box : boxes(sample.mesh, false)) {
       const OctantCodes codes(box.lower, box.middle, box.upper);
       each_block(sample, pages, [&](const BlockView& block, std::uint32_t) {
-        const OctantCodes::Met met = codes.met_by(block);
+        const OctantCodes::NearOctants met = codes.near_octants(block);
         bits.push_back(met.with_vertex);
         bits.insert(bits.end(), met.by_box, met.by_box + block.triangle_count());
       });

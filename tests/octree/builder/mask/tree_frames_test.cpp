@@ -9,9 +9,9 @@
 
 #include "octree/builder/surface/region_cut.h"
 #include "octree/page/mask_decoder.h"
-#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/builder/chunked_tree.h"
+#include "tests/octree/support/height_field_model.h"
 #include "tests/octree/support/sample_mask.h"
-#include "tests/octree/support/sheet_model.h"
 #include "tests/storage/system/faulty_calls.h"
 
 namespace planetree::octree {

@@ -8,7 +8,7 @@
 #include "octree/builder/mask/tree_frames.h"
 #include "octree/traversal/box_walk.h"
 #include "octree/traversal/link_resolver.h"
-#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/builder/chunked_tree.h"
 #include "tests/octree/support/sample_mask.h"
 
 namespace planetree::octree {

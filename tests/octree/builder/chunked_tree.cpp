@@ -1,4 +1,4 @@
-#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/builder/chunked_tree.h"
 
 #include <cstdlib>
 

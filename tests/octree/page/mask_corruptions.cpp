@@ -1,4 +1,4 @@
-#include "tests/octree/page/mask_spoilings.h"
+#include "tests/octree/page/mask_corruptions.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace planetree::octree {
 namespace {
 
 constexpr auto kNode = static_cast<std::uint8_t>(MaskKind::kNode);
-constexpr auto kNodeAbove = static_cast<std::uint8_t>(MaskKind::kNodeAbove);
+constexpr auto kNodeWithLink = static_cast<std::uint8_t>(MaskKind::kNodeWithLink);
 constexpr auto kPlain = static_cast<std::uint8_t>(MaskKind::kPlainCorners);
 constexpr auto kCorners = static_cast<std::uint8_t>(MaskKind::kCorners);
 constexpr auto kSpecial = static_cast<std::uint8_t>(MaskKind::kSpecial);
@@ -28,7 +28,7 @@ std::size_t find_node(const RawMaskPage& page,
                       const std::function<bool(std::size_t, std::uint8_t)>& holds) {
   std::size_t node = 0;
   for (const std::uint8_t kind : page.kinds) {
-    if (kind > kNodeAbove) continue;
+    if (kind > kNodeWithLink) continue;
     if (holds(node, kind)) return node;
     ++node;
   }
@@ -140,7 +140,7 @@ std::vector<MaskCorruption> node_corruptions() {
       {"the counts of records do not add up",
        [](P& p, F&) {
          const std::size_t last = last_with_family(p);
-         ASSERT_GT(p.kinds.back(), kNodeAbove);
+         ASSERT_GT(p.kinds.back(), kNodeWithLink);
          p.leaf[last] = static_cast<std::uint8_t>(p.leaf[last] & ~std::bit_floor(p.grey[last]));
          p.kinds.back() = kNode;
        }},
@@ -171,7 +171,7 @@ std::vector<MaskCorruption> node_corruptions() {
       {"its page links do not add up",
        [](P& p, F&) {
          const std::size_t at =
-             find_node(p, [](std::size_t, std::uint8_t kind) { return kind == kNodeAbove; });
+             find_node(p, [](std::size_t, std::uint8_t kind) { return kind == kNodeWithLink; });
          p.grey[at] = p.leaf[at] = 0;
        }},
       {"its page links do not add up",

@@ -36,7 +36,7 @@ std::set<std::string> paths() {
 
 TEST(SourceRules, FindsSources) {
   EXPECT_TRUE(paths().contains("include/planetree/error.h"));
-  EXPECT_TRUE(paths().contains("tests/layering/house_test.cpp"));
+  EXPECT_TRUE(paths().contains("tests/layering/source_rules_test.cpp"));
 }
 
 TEST(SourceRules, IncludesFollowTheLayers) {

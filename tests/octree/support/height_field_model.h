@@ -9,7 +9,7 @@
 #include "octree/builder/mask/tree_frames.h"
 #include "octree/builder/surface/region_cut.h"
 #include "octree/page/block_view.h"
-#include "tests/octree/builder/patched_tree.h"
+#include "tests/octree/builder/chunked_tree.h"
 #include "tests/octree/support/sample_mask.h"
 
 namespace planetree::octree {

@@ -68,7 +68,7 @@ class RandomSideGrid : public testing::Test {
       corner = found.blocks.slab.corner_beyond(position);
       if (corner == CellSlab::kNoCorner) return {};
     }
-    const int winding = corner_of(found.listed, corner);
+    const int winding = corner_number(found.listed, corner);
     return (winding > 0) - (winding < 0);
   }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tests/octree/page/mask_spoilings.h"
+#include "tests/octree/page/mask_corruptions.h"
 
 namespace planetree::octree {
 namespace {
