@@ -60,14 +60,14 @@ std::vector<Vec3> ring(unsigned sides, double turn) {
   return rim;
 }
 
-struct Case {
+struct CellCase {
   const char* name;
   Soup soup;
   unsigned planes;
 };
 
-std::vector<Case> special_models() {
-  std::vector<Case> cases = {
+std::vector<CellCase> special_models() {
+  std::vector<CellCase> cases = {
       {"plane", box({-9, -9, -9}, {9, 9, 0.3}), 1},
       {"plane of many triangles", box({-4, -4, -4}, {4, 4, 0.25}, 16), 1},
       {"askew plane", box({-9, -9, -9}, {9, 9, 0.5}), 1},
@@ -118,7 +118,7 @@ void expect_truth(const InCell& in_cell, const SpecialCell& claim) {
 }
 
 TEST(SpecialCells, DecideTheSideOfEveryPoint) {
-  for (const Case& c : special_models())
+  for (const CellCase& c : special_models())
     for (const bool turned : {false, true}) {
       SCOPED_TRACE(std::string(c.name) + (turned ? ", inside out" : ""));
       const InCell in_cell(turned ? inside_out(c.soup) : c.soup);
@@ -133,7 +133,7 @@ TEST(SpecialCells, DecideTheSideOfEveryPoint) {
 
 // In a cavity the solid is beyond the planes.
 TEST(SpecialCells, MayBeConcave) {
-  for (const Case& c : special_models()) {
+  for (const CellCase& c : special_models()) {
     SCOPED_TRACE(c.name);
     const InCell hollow(joined({box({-20, -20, -20}, {20, 20, 20}), inside_out(c.soup)}));
     const auto special = hollow.special();
