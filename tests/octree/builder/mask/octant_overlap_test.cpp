@@ -84,16 +84,16 @@ void expect_as_one_by_one(MakePair make, int cells) {
 }
 
 TEST(OctantOverlap, MatchesTestingEachTriangleByItself) {
-  struct Case {
+  struct OverlapCase {
     const char* name;
     MakePair make;
   };
-  for (const Case& c :
-       {Case{"random", random_pair}, Case{"needle", needle}, Case{"of other size", of_other_size},
-        Case{"tiny", tiny}, Case{"tiny at a corner", tiny_at_a_corner},
-        Case{"on a lattice", on_lattice}, Case{"axis-aligned", axis_aligned},
-        Case{"barely", barely}, Case{"far away", far_away},
-        Case{"of few numbers", of_few_numbers}}) {
+  for (const OverlapCase& c :
+       {OverlapCase{"random", random_pair}, OverlapCase{"needle", needle}, OverlapCase{"of other size", of_other_size},
+        OverlapCase{"tiny", tiny}, OverlapCase{"tiny at a corner", tiny_at_a_corner},
+        OverlapCase{"on a lattice", on_lattice}, OverlapCase{"axis-aligned", axis_aligned},
+        OverlapCase{"barely", barely}, OverlapCase{"far away", far_away},
+        OverlapCase{"of few numbers", of_few_numbers}}) {
     SCOPED_TRACE(c.name);
     for (const bool same : on_each_target([&] {
            expect_as_one_by_one(c.make, 400);
