@@ -6,12 +6,12 @@
 #include <new>
 #include <utility>
 
+#include "octree/geometry/fp_environment.h"
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/startup_check.h"
 #include "query/fetch_probe.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
-#include "query/serve/fp_environment.h"
 #include "query/serve/page_accessor.h"
 
 namespace planetree {
@@ -152,11 +152,7 @@ Result<void> ModelState::start_threads(const OpenOptions& options, const ModelSe
 Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path& path,
                                                      const OpenOptions& options,
                                                      const ModelSeams& seams) {
-  if (const char* fault = octree::startup_check())
-    return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
-                      "this build computes otherwise than it must: %s; compile without "
-                      "-ffast-math, -ffp-contract and -mfpmath=387",
-                      fault);
+  if (const auto checked = octree::check_arithmetic(); !checked) return checked.error();
   if (const auto checked = check_counts(options); !checked) return checked.error();
   auto file = storage::PageFile::open(path, seams.calls);
   if (!file) return file.error();
@@ -176,7 +172,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
 
 Result<Model> ModelState::open_model(const std::filesystem::path& path, const OpenOptions& options,
                                      const ModelSeams& seams) {
-  const FpEnvironmentGuard host;
+  const octree::FpEnvironmentGuard host;
   auto state = open(path, options, seams);
   if (!state) return state.error();
   return Model(std::move(*state));

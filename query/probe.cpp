@@ -3,10 +3,10 @@
 #include <new>
 #include <utility>
 
+#include "octree/geometry/fp_environment.h"
 #include "query/batch.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
-#include "query/serve/fp_environment.h"
 
 namespace planetree {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 // Apart from what most asks come to, which needs few registers.
 [[gnu::noinline]] Containment contains_computed(query::ProbeState& probe, const Vec3& query,
                                                 const QueryOptions& options) noexcept {
-  const query::FpEnvironmentGuard host;
+  const octree::FpEnvironmentGuard host;
   return probe.contains(query, options);
 }
 
@@ -37,7 +37,7 @@ Probe& Probe::operator=(Probe&&) noexcept = default;
 Probe::~Probe() = default;
 
 ClosestPoint Probe::closest_point(Vec3 query, const QueryOptions& options) noexcept {
-  const query::FpEnvironmentGuard host;
+  const octree::FpEnvironmentGuard host;
   return state_->closest_point(query, options);
 }
 
@@ -53,13 +53,13 @@ void Probe::motion(Vec3 position, Vec3 velocity) noexcept {
 
 void Probe::contains(std::span<const Vec3> queries, std::span<Containment> answers,
                      const QueryOptions& options) noexcept {
-  const query::FpEnvironmentGuard host;
+  const octree::FpEnvironmentGuard host;
   query::contains(*state_, queries, answers, options);
 }
 
 void Probe::closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                            const QueryOptions& options) noexcept {
-  const query::FpEnvironmentGuard host;
+  const octree::FpEnvironmentGuard host;
   query::closest_points(*state_, queries, answers, options);
 }
 

@@ -97,4 +97,13 @@ const char* startup_check(const TestedPredicates& predicates) noexcept {
   return contact_fault(predicates);
 }
 
+Result<void> check_arithmetic() noexcept {
+  const char* const fault = startup_check();
+  if (!fault) return {};
+  return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
+                    "this build computes otherwise than it must: %s; compile without "
+                    "-ffast-math, -ffp-contract and -mfpmath=387",
+                    fault);
+}
+
 }  // namespace planetree::octree

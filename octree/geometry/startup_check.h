@@ -1,6 +1,7 @@
 #pragma once
 
 #include "octree/geometry/triangle_distance.h"
+#include "planetree/error.h"
 
 namespace planetree::octree {
 
@@ -23,5 +24,8 @@ struct TestedPredicates {
 /// threads  any
 const char* startup_check(
     const TestedPredicates& predicates = TestedPredicates::library()) noexcept;
+
+/// errors  kUnsupported: startup_check() found a fault.
+Result<void> check_arithmetic() noexcept;
 
 }  // namespace planetree::octree

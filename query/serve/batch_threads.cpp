@@ -6,7 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "query/serve/fp_environment.h"
+#include "octree/geometry/fp_environment.h"
 
 namespace planetree::query {
 namespace {
@@ -29,7 +29,7 @@ bool BatchThreads::run(const void* batch, std::size_t count, Work work) noexcept
   // Acquire and release: a batch sees what the last one left in the probes.
   if (busy_.exchange(true, std::memory_order_acquire)) return false;
   const auto do_piece = [&](const tbb::blocked_range<std::size_t>& piece) {
-    const FpEnvironmentGuard host;
+    const octree::FpEnvironmentGuard host;
     const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
     work(batch, thread, piece.begin(), piece.end());
   };

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "query/serve/fp_environment.h"
+#include "octree/geometry/fp_environment.h"
 
 namespace planetree::query {
 namespace {
@@ -43,7 +43,7 @@ void become_ordinary() noexcept {
 void FetchThreads::run(FetchWorker& worker) noexcept {
   claim_stack();
   become_ordinary();
-  const FpEnvironmentGuard host;
+  const octree::FpEnvironmentGuard host;
   Clock::time_point last = Clock::now() - kLately;
   while (!stopping_.load(std::memory_order_relaxed)) {
     const FetchWorker::Did did = worker.work();

@@ -1,6 +1,6 @@
 // The floating-point mode of the calling thread changes no bit of any answer.
 
-#include "query/serve/fp_environment.h"
+#include "octree/geometry/fp_environment.h"
 
 #include <gtest/gtest.h>
 

@@ -3,16 +3,14 @@
 #include <cfenv>
 #include <cstdint>
 
-namespace planetree::query {
+namespace planetree::octree {
 
-/// What a host thread told its processor to do with floating point, put aside:
-/// while this object lives, results are rounded to nearest, subnormal numbers
-/// are numbers and nothing traps. Without it a thread that rounds another way or
-/// flushes to zero, as audio and haptic threads do, would get other bits, and
-/// one that traps would die of an inexact result. Every way into the library
-/// that computes holds one.
+/// Puts the floating-point modes of the calling thread aside. While this object lives, results are
+/// rounded to nearest, subnormal numbers are numbers and nothing traps. A thread that rounds
+/// another way or flushes to zero, as audio and haptic threads do, would otherwise get other bits,
+/// and one that traps would end at an inexact result. Every public call that computes holds one.
 ///
-/// cost     reads one register where the thread has asked for nothing.
+/// cost     reads one register where the thread's modes are the usual ones.
 /// threads  of this thread alone; end it on the thread that made it.
 class FpEnvironmentGuard {
  public:
@@ -32,12 +30,12 @@ class FpEnvironmentGuard {
 
  private:
 #if defined(__SSE2__)
-  static constexpr std::uint32_t kFlags = 0x3f;      ///< what has happened so far
-  static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, and no more
+  static constexpr std::uint32_t kFlags = 0x3f;      ///< exceptions that have occurred
+  static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, nothing else
   std::uint32_t before_;
 #else
   std::fenv_t before_;
 #endif
 };
 
-}  // namespace planetree::query
+}  // namespace planetree::octree
