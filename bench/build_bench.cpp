@@ -37,12 +37,13 @@ double seconds_since(Clock::time_point started) {
 // Measures the time of each phase.
 class PhaseClock final : public octree::BuildProgress {
  public:
-  void progress(octree::BuildPhase phase, std::uint64_t, std::uint64_t) override {
-    if (phase == phase_ && started_) return;
+  Result<void> progress(octree::BuildPhase phase, std::uint64_t, std::uint64_t) override {
+    if (phase == phase_ && started_) return {};
     finish();
     phase_ = phase;
     since_ = Clock::now();
     started_ = true;
+    return {};
   }
   void finish() {
     if (!started_) return;

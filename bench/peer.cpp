@@ -27,7 +27,7 @@ class MeshCollector final : public octree::TriangleSink {
     return {};
   }
   void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
-  void progress(std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(std::uint64_t, std::uint64_t) override { return {}; }
 
   PeerMesh mesh;
 

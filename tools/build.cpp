@@ -1,13 +1,10 @@
 #include "tools/build.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <bit>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,7 +12,6 @@
 #include <system_error>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
-#include "storage/system/file_error.h"
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
@@ -30,41 +26,37 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxThreads = 1024;
 
-const char* unit_of(octree::BuildPhase phase) {
-  if (phase == octree::BuildPhase::kReading) return "bytes";
-  return phase == octree::BuildPhase::kWriting ? "pages" : "parts";
+const char* unit_of(BuildPhase phase) {
+  if (phase == BuildPhase::kReading) return "bytes";
+  return phase == BuildPhase::kWriting ? "pages" : "parts";
 }
 
 /// The phase's key in JSON, such as "matching_edges".
-std::string key_of(octree::BuildPhase phase) {
+std::string key_of(BuildPhase phase) {
   std::string key = name_of(phase);
   std::replace(key.begin(), key.end(), ' ', '_');
   return key;
 }
 
 /// Shows the progress of the build. Records the time of each phase and the file of a failure.
-class BuildMeter final : public octree::BuildProgress {
+class BuildMeter {
  public:
   BuildMeter(const BuildArguments& arguments, Console& console)
-      : arguments_(arguments),
-        console_(console),
-        progress_(arguments.quiet, arguments.json),
-        failed_at_(arguments.input) {}
+      : arguments_(arguments), console_(console), progress_(arguments.quiet, arguments.json) {}
 
-  void progress(octree::BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
-    if (phase != phase_) {
-      note_seconds();
-      phase_ = phase;
-      done_ = 0;
-      progress_.start(name_of(phase), total, unit_of(phase));
-    }
-    if (done > done_) progress_.add(done - done_);
-    done_ = std::max(done, done_);
-  }
-  void failed_at(octree::BuildDirectory, const fs::path& path) override { failed_at_ = path; }
-  void resumes(const std::string& what) override {
-    if (arguments_.quiet) return;
-    console_.note(fmt::format("planetree: {}: {}\n", arguments_.output.string(), what));
+  /// The options of the build, with this as observer. This must outlive them.
+  BuildOptions observed_options() {
+    BuildOptions options = arguments_.options;
+    options.on_progress = [this](BuildPhase phase, std::uint64_t done, std::uint64_t total) {
+      show(phase, done, total);
+      return true;
+    };
+    options.on_resume = [this](const std::string& line) {
+      if (!arguments_.quiet)
+        console_.note(fmt::format("planetree: {}: {}\n", arguments_.output.string(), line));
+    };
+    options.on_failure = [this](const fs::path& path) { failed_at_ = path; };
+    return options;
   }
   void finish() {
     note_seconds();
@@ -76,6 +68,16 @@ class BuildMeter final : public octree::BuildProgress {
   const fs::path& failed_at() const { return failed_at_; }
 
  private:
+  void show(BuildPhase phase, std::uint64_t done, std::uint64_t total) {
+    if (phase != phase_) {
+      note_seconds();
+      phase_ = phase;
+      done_ = 0;
+      progress_.start(name_of(phase), total, unit_of(phase));
+    }
+    if (done > done_) progress_.add(done - done_);
+    done_ = std::max(done, done_);
+  }
   void note_seconds() {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> elapsed = now - started_;
@@ -87,102 +89,74 @@ class BuildMeter final : public octree::BuildProgress {
   Console& console_;
   Progress progress_;
   fs::path failed_at_;
-  std::optional<octree::BuildPhase> phase_;
+  std::optional<BuildPhase> phase_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   nlohmann::ordered_json seconds_ = nlohmann::ordered_json::object();
   std::uint64_t done_ = 0;
 };
 
-/// Checks before the build what it would otherwise find only at its end.
-Result<void> check_output(const BuildArguments& arguments) {
-  std::error_code ignored;
-  const auto refuse = [](ErrorCode code, const char* text) {
-    return make_error(code, Error::kNowhere, Error::kNowhere, "%s", text);
-  };
-  const fs::path& output = arguments.output;
-  if (fs::is_directory(output, ignored))
-    return refuse(ErrorCode::kBadArgument, "this is a directory; name a file in it");
-  if (fs::equivalent(arguments.input, output, ignored))
-    return refuse(ErrorCode::kBadArgument, "this is the input itself; name another output");
-  if (fs::exists(fs::symlink_status(output, ignored)) && !arguments.options.replace)
-    return refuse(ErrorCode::kAlreadyExists,
-                  "the file exists; use --force to replace it, or another name");
-  const fs::path folder = output.parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored))
-    return refuse(ErrorCode::kNotFound, "its directory does not exist; create it first");
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0)
-    return storage::file_error(errno, storage::FileAction::kWrite, "write to its directory");
-  return {};
+double bytes_per_triangle(const BuildReport& built) {
+  return static_cast<double>(built.file_bytes) / static_cast<double>(built.triangles);
 }
 
-double bytes_per_triangle(const storage::FileHeader& header) {
-  return static_cast<double>(header.file_bytes) / static_cast<double>(header.model.triangle_count);
-}
-
-std::string json_report(const BuildArguments& arguments, const octree::BuildReport& built,
-                        double seconds, const BuildMeter& meter, const std::string& sha256) {
-  const storage::FileHeader& header = built.header;
-  const storage::ModelRecord& model = header.model;
+std::string json_report(const BuildArguments& arguments, const BuildReport& built, double seconds,
+                        const BuildMeter& meter, const std::string& sha256) {
   nlohmann::ordered_json report = {
       {"input", arguments.input.string()},
       {"file", arguments.output.string()},
-      {"triangles", model.triangle_count},
+      {"triangles", built.triangles},
       {"input_triangles", built.input_triangles},
-      {"skipped", model.skipped_count},
+      {"skipped", built.skipped},
       {"first_set_aside", nullptr},
-      {"vertices", model.vertex_count},
-      {"watertight", model.unbalanced_edge_count == 0},
-      {"unbalanced_edges", model.unbalanced_edge_count},
-      {"levels", model.height},
-      {"nodes", model.node_count},
-      {"blocks", model.block_count},
-      {"pages", header.page_count},
-      {"page_bytes", header.page_bytes},
-      {"file_bytes", header.file_bytes},
-      {"bytes_per_triangle", bytes_per_triangle(header)},
+      {"vertices", built.vertices},
+      {"watertight", built.watertight()},
+      {"unbalanced_edges", built.unbalanced_edges},
+      {"levels", built.levels},
+      {"nodes", built.nodes},
+      {"blocks", built.blocks},
+      {"pages", built.pages},
+      {"page_bytes", arguments.options.page_bytes},
+      {"file_bytes", built.file_bytes},
+      {"bytes_per_triangle", bytes_per_triangle(built)},
       {"seconds", seconds},
       {"seconds_by_phase", meter.seconds()},
       {"triangles_per_second", static_cast<double>(built.input_triangles) / seconds},
-      {"peak_resident_bytes", peak_resident_bytes()},
+      {"peak_resident_bytes", built.peak_resident_bytes},
       {"temporary_bytes", built.temporary_bytes},
       {"sha256", sha256},
-      {"content_id", content_id_text(header.content_id)}};
-  if (model.first_skipped != storage::kNoTriangle) report["first_set_aside"] = model.first_skipped;
+      {"content_id", content_id_text(built.content_id)}};
+  if (built.first_skipped != kNoTriangle) report["first_set_aside"] = built.first_skipped;
   return json_line(report);
 }
 
-std::string plain_report(const BuildArguments& arguments, const octree::BuildReport& built,
+std::string plain_report(const BuildArguments& arguments, const BuildReport& built,
                          double seconds) {
-  const storage::FileHeader& header = built.header;
-  const storage::ModelRecord& model = header.model;
   const std::string part =
-      model.has_region() ? " of " + grouped_count(built.input_triangles) : std::string();
-  const std::string surface =
-      model.unbalanced_edge_count == 0
-          ? "watertight"
-          : grouped_count(model.unbalanced_edge_count) + " unbalanced edges";
+      arguments.options.box ? " of " + grouped_count(built.input_triangles) : std::string();
+  const std::string surface = built.watertight()
+                                  ? "watertight"
+                                  : grouped_count(built.unbalanced_edges) + " unbalanced edges";
   return fmt::format(
       "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
       "({} triangles/s), {} of memory\n",
-      arguments.output.string(), grouped_count(model.triangle_count), part, surface,
-      short_bytes(header.file_bytes), grouped_count(header.page_count), bytes_per_triangle(header),
-      seconds, short_count(static_cast<double>(built.input_triangles) / seconds),
-      short_bytes(peak_resident_bytes()));
+      arguments.output.string(), grouped_count(built.triangles), part, surface,
+      short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built), seconds,
+      short_count(static_cast<double>(built.input_triangles) / seconds),
+      short_bytes(built.peak_resident_bytes));
 }
 
-void warn_of_skipped(const BuildArguments& arguments, const octree::BuildReport& report,
-                     Console& console) {
-  const std::uint64_t count = report.header.model.skipped_count;
-  if (count == 0) return;
+void warn_of_skipped(const BuildArguments& arguments, const BuildReport& report, Console& console) {
+  if (report.skipped == 0) return;
   console.warn(arguments.input.string(),
                fmt::format("{} triangle{} of bad records skipped, the first: {}; repair the "
                            "mesh, or use --strict to refuse it",
-                           grouped_count(count), count == 1 ? "" : "s", report.first_skipped));
+                           grouped_count(report.skipped), report.skipped == 1 ? "" : "s",
+                           report.first_skipped_text));
 }
 
 std::string page_size_complaint(std::uint64_t bytes) {
-  if (std::has_single_bit(bytes) && bytes >= storage::kMinPageBytes &&
-      bytes <= storage::kMaxPageBytes)
+  if (std::has_single_bit(bytes) && bytes >= BuildOptions::kMinPageBytes &&
+      bytes <= BuildOptions::kMaxPageBytes)
     return {};
   return fmt::format("--page-size: {} is not a page size; give a power of two from 4K to 256K",
                      bytes);
@@ -199,14 +173,14 @@ std::string box_complaint(const std::string& text) {
       octree::printable(text));
 }
 
-octree::RegionBox box_of(const std::string& text) {
+Box box_of(const std::string& text) {
   std::array<double, 6> v{};
   parse_coordinates(text, v);
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
 std::string memory_complaint(std::uint64_t bytes) {
-  constexpr std::uint64_t kMin = octree::BuildMemory::kMinBytes;
+  constexpr std::uint64_t kMin = BuildOptions::kMinMemoryBytes;
   if (bytes == 0 || bytes >= kMin) return {};
   return fmt::format("--memory: {} is too little for a build; give {}M or more", bytes, kMin >> 20);
 }
@@ -214,17 +188,9 @@ std::string memory_complaint(std::uint64_t bytes) {
 }  // namespace
 
 int run_build(const BuildArguments& arguments, Console& console) {
-  if (const auto checked = check_output(arguments); !checked)
-    return console.fail(arguments.output.string(), checked.error());
-  const fs::path temporary = arguments.options.spill_directory(arguments.output);
-  if (std::error_code ignored; !fs::is_directory(temporary, ignored))
-    return console.fail(temporary.string(),
-                        make_error(ErrorCode::kNotFound, Error::kNowhere, Error::kNowhere,
-                                   "no such directory for temporary files; create it first"));
   const auto started = std::chrono::steady_clock::now();
   BuildMeter meter(arguments, console);
-  const auto report =
-      octree::build_tree(arguments.input, arguments.output, arguments.options, meter);
+  const auto report = build(arguments.input, arguments.output, meter.observed_options());
   meter.finish();
   if (!report) return console.fail(meter.failed_at().string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
@@ -244,7 +210,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   struct Options {
     BuildArguments arguments;
     std::uint64_t threads = 0;
-    std::uint64_t page_bytes = octree::BuildOptions{}.page_bytes;
+    std::uint64_t page_bytes = BuildOptions{}.page_bytes;
   };
   const auto options = std::make_shared<Options>();
   BuildArguments& arguments = options->arguments;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "octree/builder/tree_builder.h"
+#include "planetree/build.h"
 #include "tools/cli/subcommand.h"
 
 namespace CLI {
@@ -17,7 +17,7 @@ namespace planetree::tools {
 struct BuildArguments {
   std::filesystem::path input;
   std::filesystem::path output;
-  octree::BuildOptions options;
+  BuildOptions options;
   bool json = false;
   bool quiet = false;
 };

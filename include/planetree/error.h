@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "planetree/export.h"
+
 /// @file
 /// Failures as values. The library never throws across its API, prints or exits: a call that can
 /// fail returns a Result.
@@ -28,6 +30,7 @@ enum class ErrorCode : std::uint16_t {
   kUnsupported,      ///< another format version, an unknown feature, or unusable arithmetic
   kTruncated,        ///< the file is shorter or longer than its header says
   kDamaged,          ///< a checksum, a count or a structure is wrong
+  kCancelled,        ///< the caller ended the call
 };
 
 /// A failure: its kind, where it is in the file, its cause and its remedy. Plain data without
@@ -46,9 +49,8 @@ struct Error {
 ///
 /// page, offset  Error::kNowhere where they do not apply.
 /// threads       any.
-[[nodiscard]] [[gnu::format(printf, 4, 5)]] Error make_error(ErrorCode code, std::uint64_t page,
-                                                             std::uint64_t offset,
-                                                             const char* format, ...) noexcept;
+[[nodiscard]] [[gnu::format(printf, 4, 5)]] PLANETREE_API Error make_error(
+    ErrorCode code, std::uint64_t page, std::uint64_t offset, const char* format, ...) noexcept;
 
 /// A T or an Error. Test it with `if (result)`, then read `*result` or `result.error()`.
 ///

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "planetree/error.h"
+#include "planetree/export.h"
 #include "planetree/stats.h"
 #include "planetree/trace.h"
 
@@ -67,7 +68,7 @@ struct OpenOptions {
 
 /// An opened .ptree file. Immutable and shared by any number of threads, each with a Probe of its
 /// own. Movable; its probes stay valid when it is moved. Must outlive its probes.
-class Model {
+class PLANETREE_API Model {
  public:
   /// Opens and checks a file, claims and locks the memory, loads the root page, makes the side
   /// grid from the upper cells of the mask if there is one, and starts the threads.

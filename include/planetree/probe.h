@@ -4,6 +4,7 @@
 #include <span>
 
 #include "planetree/error.h"
+#include "planetree/export.h"
 #include "planetree/model.h"
 #include "planetree/types.h"
 
@@ -24,7 +25,7 @@ class ProbeState;
 /// call sets those that it needs and restores the thread's.
 ///
 /// threads  one at a time. Different probes are independent.
-class Probe {
+class PLANETREE_API Probe {
  public:
   /// Makes a probe of a model. Allocates: not for real-time threads.
   ///

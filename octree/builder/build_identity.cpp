@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "storage/system/file_error.h"
@@ -48,21 +49,17 @@ Result<storage::Hash128> sample_of(const storage::FileHandle& file, std::uint64_
   return hasher.value();
 }
 
-}  // namespace
-
-Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
-                                        const BuildOptions& options, const BuildSeams& seams) {
+Result<BuildIdentity> identity_of(const std::filesystem::path& input, storage::FileCalls& calls) {
   // With O_NONBLOCK a FIFO without a writer is refused instead of waited for.
   const auto file =
-      storage::FileHandle::open(seams.calls, AT_FDCWD, input.c_str(), O_RDONLY | O_NONBLOCK);
+      storage::FileHandle::open(calls, AT_FDCWD, input.c_str(), O_RDONLY | O_NONBLOCK);
   if (!file.is_open()) return input_error("open the file");
   struct stat status;
-  if (seams.calls.fstat(file.descriptor(), &status) != 0) return input_error("examine the file");
+  if (calls.fstat(file.descriptor(), &status) != 0) return input_error("examine the file");
   if (!S_ISREG(status.st_mode))
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "not a regular file; a mesh is read out of order, so copy it into a file");
   BuildIdentity identity;
-  identity.version = version_text();
   identity.input_bytes = static_cast<std::uint64_t>(status.st_size);
   identity.input_number = status.st_ino;
   identity.changed_seconds = status.st_ctim.tv_sec;
@@ -71,6 +68,46 @@ Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
   if (!sample) return sample.error();
   identity.sample_low = sample->low;
   identity.sample_high = sample->high;
+  return identity;
+}
+
+template <class Vertex>
+BuildIdentity identity_of(const BuildInput::Mesh<Vertex>& mesh) {
+  storage::Hasher128 hasher;
+  hasher.add(std::as_bytes(mesh.vertices));
+  hasher.add(std::as_bytes(mesh.triangles));
+  BuildIdentity identity;
+  identity.input_bytes = mesh.vertices.size_bytes() + mesh.triangles.size_bytes();
+  identity.input_number = sizeof(Vertex);
+  identity.sample_low = hasher.value().low;
+  identity.sample_high = hasher.value().high;
+  return identity;
+}
+
+struct IdentityOf {
+  Result<BuildIdentity> operator()(const std::filesystem::path& path) const {
+    return identity_of(path, calls);
+  }
+  Result<BuildIdentity> operator()(const BuildInput::Stream&) const {
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "triangles of a callback cannot be compared with those of an earlier build; "
+                      "build without resume, or from a file");
+  }
+  template <class Vertex>
+  Result<BuildIdentity> operator()(const BuildInput::Mesh<Vertex>& mesh) const {
+    return identity_of(mesh);
+  }
+  storage::FileCalls& calls;
+};
+
+}  // namespace
+
+Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOptions& options,
+                                        const BuildSeams& seams) {
+  auto found = std::visit(IdentityOf{seams.calls}, input.content());
+  if (!found) return found;
+  BuildIdentity& identity = *found;
+  identity.version = version_text();
   identity.page_bytes = options.page_bytes;
   identity.strict = options.strict;
   identity.chunk_triangles = seams.chunk_triangles;
@@ -79,7 +116,7 @@ Result<BuildIdentity> BuildIdentity::of(const std::filesystem::path& input,
     const auto& [lower, upper] = *options.box;
     identity.box = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
   }
-  return identity;
+  return found;
 }
 
 const char* BuildIdentity::change_since(const BuildIdentity& earlier) const {

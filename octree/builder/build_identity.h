@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "octree/builder/build_seams.h"
 #include "octree/builder/job/build_options.h"
 #include "octree/builder/job/record_fields.h"
+#include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/file/checksum.h"
 
@@ -19,10 +19,10 @@ namespace planetree::octree {
 struct BuildIdentity {
   std::string version;  ///< versions of planetree, of the format and of the records
 
-  // The input. Any change to a file updates its st_ctim, which programs cannot set. Where st_ctim
-  // is too coarse, the sample may still differ.
+  // The input. A mesh in memory is hashed as a whole. Any change to a file updates its st_ctim,
+  // which programs cannot set. Where st_ctim is too coarse, the sample may still differ.
   std::uint64_t input_bytes = 0;
-  std::uint64_t input_number = 0;    ///< inode number
+  std::uint64_t input_number = 0;    ///< inode number; in memory, bytes of a vertex
   std::int64_t changed_seconds = 0;  ///< st_ctim
   std::int64_t changed_nanoseconds = 0;
   std::uint64_t sample_low = 0, sample_high = 0;  ///< hash of blocks all over the file
@@ -33,8 +33,9 @@ struct BuildIdentity {
   std::uint64_t sector_triangles = 0;
   std::optional<std::array<double, 6>> box;  ///< lower, then upper
 
-  /// errors  as file_error(); kBadInput: the input is not a regular file.
-  static Result<BuildIdentity> of(const std::filesystem::path& input, const BuildOptions& options,
+  /// errors  as file_error(); kBadInput: the input is not a regular file. kBadArgument: it is a
+  ///         callback, whose triangles cannot be compared with earlier ones.
+  static Result<BuildIdentity> of(const BuildInput& input, const BuildOptions& options,
                                   const BuildSeams& seams);
 
   /// Says in words what differs from `earlier`; null if nothing does.

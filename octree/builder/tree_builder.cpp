@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include "octree/builder/build_files.h"
@@ -28,7 +30,7 @@ namespace {
 
 class TreeBuild {
  public:
-  TreeBuild(const std::filesystem::path& input, const std::filesystem::path& output,
+  TreeBuild(const BuildInput& input, const std::filesystem::path& output,
             const BuildOptions& options, const BuildMemory& memory, BuildProgress& progress,
             const BuildSeams& seams)
       : input_(input),
@@ -57,11 +59,15 @@ class TreeBuild {
   void report_failure() const {
     const auto [directory, path] =
         files_.failed_at().value_or(writing_ ? std::pair(BuildDirectory::kOutput, output_)
-                                             : std::pair(BuildDirectory::kInput, input_));
+                                             : std::pair(BuildDirectory::kInput, input_path()));
     progress_.failed_at(directory, path);
   }
 
  private:
+  std::filesystem::path input_path() const {
+    const auto* const path = std::get_if<std::filesystem::path>(&input_.content());
+    return path ? *path : std::filesystem::path();
+  }
   Result<void> resume_work();
   Result<void> estimate_space();
   Result<void> order_triangles();
@@ -85,7 +91,7 @@ class TreeBuild {
     return files_.work() ? files_.work()->keep(parts...) : Result<void>();
   }
 
-  const std::filesystem::path& input_;
+  const BuildInput& input_;
   const std::filesystem::path& output_;
   const BuildOptions& options_;
   const BuildMemory memory_;
@@ -105,7 +111,7 @@ Result<void> TreeBuild::resume_work() {
   if (!options_.resume) return {};
   const auto identity = BuildIdentity::of(input_, options_, seams_);
   if (!identity) return identity.error();
-  progress_.progress(BuildPhase::kResuming, 0, 1);
+  if (const auto told = progress_.progress(BuildPhase::kResuming, 0, 1); !told) return told;
   const auto resumed = files_.resume_work(*identity);
   if (resumed) progress_.resumes(files_.work()->start());
   return resumed;
@@ -148,7 +154,8 @@ Result<void> TreeBuild::read() {
   if (const auto set = set_mesh(*mesh); !set) return set;
   whole_.emplace(mesh->frame.float64, memory_.runs_bytes, files_.triangles());
   PhaseCount count(progress_, BuildPhase::kOrdering, spool.batch_count());
-  if (const auto taken = whole_->take(spool, [&count] { count.add(); }); !taken) return taken;
+  if (const auto taken = whole_->take(spool, [&count] { return count.add(); }); !taken)
+    return taken;
   if (files_.work()) mesh->runs = whole_->extents();
   return keep(*mesh);
 }
@@ -162,7 +169,10 @@ Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.shape.wide_ids = mesh.wide_ids;
   if (model_.box)
     if (const auto near = model_.box->check_meets(model_.frame); !near) return near;
-  size_ = {mesh.frame.triangle_count, size_.vertices, mesh.frame.float64};
+  // A callback need not say its size. A closed surface has half as many vertices as triangles.
+  const std::uint64_t vertices =
+      size_.vertices > 0 ? size_.vertices : mesh.frame.triangle_count / 2;
+  size_ = {mesh.frame.triangle_count, vertices, mesh.frame.float64};
   const Checkpoint* const work = files_.work();
   return files_.check_space(
       SpaceNeed::after_reading(size_, memory_, work ? work->resumed_bytes() : 0,
@@ -279,8 +289,7 @@ Result<void> TreeBuild::colour_cells() {
   for (auto& [number, region] : earlier) model_.mask->resume(number, std::move(region));
   const auto done = [&](std::uint32_t number, const BuiltSector& region) {
     const auto kept = keep(number, region);
-    if (kept) count.add();
-    return kept;
+    return kept ? count.add() : kept;
   };
   const auto built = model_.mask->build(*sectors_, runs(), &*tree_, done);
   sectors_.reset();
@@ -298,9 +307,9 @@ Result<BuildReport> TreeBuild::write_pages() {
 
 }  // namespace
 
-Result<BuildReport> build_tree(const std::filesystem::path& input,
-                               const std::filesystem::path& output, const BuildOptions& options,
-                               BuildProgress& progress, const BuildSeams& seams) {
+Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::path& output,
+                               const BuildOptions& options, BuildProgress& progress,
+                               const BuildSeams& seams) {
   if (!std::has_single_bit(options.page_bytes) || options.page_bytes < storage::kMinPageBytes ||
       options.page_bytes > storage::kMaxPageBytes)
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
@@ -311,8 +320,12 @@ Result<BuildReport> build_tree(const std::filesystem::path& input,
   if (options.box)
     if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->with_checkpoint();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(memory->threads));
+  // More threads than processors must be allowed. Fewer are left to the arena, so that the caller's
+  // other work with TBB is not slowed down.
+  std::optional<tbb::global_control> limit;
+  if (memory->threads > tbb::info::default_concurrency())
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(memory->threads));
   tbb::task_arena arena(memory->threads);
   return arena.execute([&] {
     TreeBuild build(input, output, options, *memory, progress, seams);

@@ -6,10 +6,11 @@
 #include "octree/builder/build_seams.h"
 #include "octree/builder/job/build_options.h"
 #include "octree/builder/job/build_progress.h"
+#include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/file/file_layout.h"
 
-/// Builds a .ptree file from a mesh file.
+/// Builds a .ptree file.
 namespace planetree::octree {
 
 struct BuildReport {
@@ -19,7 +20,7 @@ struct BuildReport {
   std::uint64_t temporary_bytes = 0;  ///< bytes that were spilled to disk
 };
 
-/// Reads the mesh at `input` and writes its tree to `output`, completely or not at all. The bytes
+/// Reads a mesh and writes its tree to `output`, completely or not at all. The bytes
 /// written depend on the mesh, box and page_bytes alone.
 ///
 /// box     with options.box the file holds the triangles that touch the box, and possibly some that
@@ -38,12 +39,12 @@ struct BuildReport {
 /// errors  those of read_mesh(), storage::SpillFile, storage::PageWriter and Checkpoint;
 ///         kBadArgument for page_bytes, for an invalid box, or for one that no triangle touches;
 ///         kNoMemory for too little memory_bytes; kBadInput for a bad record under `strict`;
-///         kNoSpace where SpaceNeed foresees too little space: before anything is written, where
-///         corners turn out to have to be sorted, or once the triangles are read.
+///         those of `progress`; kNoSpace where SpaceNeed foresees too little space: before anything
+///         is written, where corners turn out to have to be sorted, or once the triangles are read.
 /// source  bottom-up construction from candidate planes: "Out-of-core real-time haptic interaction
 ///         on very large models", section 3.1; blocks, collapse and paging are ours.
-Result<BuildReport> build_tree(const std::filesystem::path& input,
-                               const std::filesystem::path& output, const BuildOptions& options,
-                               BuildProgress& progress, const BuildSeams& seams = {});
+Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::path& output,
+                               const BuildOptions& options, BuildProgress& progress,
+                               const BuildSeams& seams = {});
 
 }  // namespace planetree::octree

@@ -53,11 +53,12 @@ class CheckingSink : public TriangleSink {
     digest_.add(text.data(), text.size());
   }
 
-  void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
+  Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
     expect(bytes_done >= bytes_done_ && bytes_done <= bytes_total);
     expect(bytes_total >= bytes_total_);
     bytes_total_ = bytes_total;
     bytes_done_ = bytes_done;
+    return {};
   }
 
   void check(const Result<MeshSummary>& summary) const {

@@ -14,7 +14,7 @@ const std::filesystem::path kFolder = PLANETREE_SOURCE_DIR "/format-spec/v1/samp
 
 class Silence final : public octree::BuildProgress {
  public:
-  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
 class Collector final : public octree::TriangleSink {
@@ -24,7 +24,7 @@ class Collector final : public octree::TriangleSink {
     return {};
   }
   void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
-  void progress(std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(std::uint64_t, std::uint64_t) override { return {}; }
 
   std::vector<MeshTriangle> found;
 };

@@ -11,7 +11,7 @@ namespace planetree::oracle {
 namespace {
 
 class Silent final : public octree::BuildProgress {
-  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
 [[noreturn]] void give_up(const Error& error) {

@@ -22,7 +22,7 @@ class TriangleRounds : public octree::TriangleSink {
     return {};
   }
   void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) final {}
-  void progress(std::uint64_t, std::uint64_t) final {}
+  Result<void> progress(std::uint64_t, std::uint64_t) final { return {}; }
 
   /// Passes on the last round. Call it once the mesh is read.
   void finish() {

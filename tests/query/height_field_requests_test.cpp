@@ -13,7 +13,7 @@ namespace planetree::query {
 namespace {
 
 class NoWitness final : public octree::BuildProgress {
-  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
 FetchWorker::Seconds still_time() { return FetchWorker::Seconds(1); }

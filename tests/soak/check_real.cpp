@@ -50,13 +50,13 @@ class MeshTriangles final : public octree::TriangleSink {
     return {};
   }
   void skipped(std::uint64_t, std::uint64_t, const octree::SkippedRecord&) override {}
-  void progress(std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(std::uint64_t, std::uint64_t) override { return {}; }
 
   std::vector<Corners> triangles;
 };
 
 class Silent final : public octree::BuildProgress {
-  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
 double diagonal_of(const ModelInfo& info) {

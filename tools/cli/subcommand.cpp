@@ -37,6 +37,7 @@ int exit_status(ErrorCode code) noexcept {
     case ErrorCode::kBadArgument:
     case ErrorCode::kNotFound:
     case ErrorCode::kAlreadyExists:
+    case ErrorCode::kCancelled:
       return kCommandLineAtFault;
     case ErrorCode::kPermission:
     case ErrorCode::kNoSpace:

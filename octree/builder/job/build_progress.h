@@ -4,42 +4,13 @@
 #include <filesystem>
 #include <string>
 
+#include "planetree/build.h"
+#include "planetree/error.h"
+
 namespace planetree::octree {
 
-/// Phases of a build, in order.
-enum class BuildPhase : std::uint8_t {
-  kResuming,
-  kReading,
-  kOrdering,
-  kMatching,
-  kListing,
-  kBounding,
-  kColouring,
-  kWriting
-};
-
-/// Name of a phase for messages, such as "matching edges".
-constexpr const char* name_of(BuildPhase phase) {
-  switch (phase) {
-    case BuildPhase::kResuming:
-      return "taking up earlier work";
-    case BuildPhase::kReading:
-      return "reading";
-    case BuildPhase::kOrdering:
-      return "ordering";
-    case BuildPhase::kMatching:
-      return "matching edges";
-    case BuildPhase::kListing:
-      return "listing unbalanced edges";
-    case BuildPhase::kBounding:
-      return "bounding";
-    case BuildPhase::kColouring:
-      return "colouring";
-    case BuildPhase::kWriting:
-      break;
-  }
-  return "writing";
-}
+using planetree::BuildPhase;
+using planetree::name_of;
 
 /// The directories that a build reads or writes.
 enum class BuildDirectory : std::uint8_t { kInput, kTemporary, kOutput };
@@ -49,8 +20,8 @@ class BuildProgress {
  public:
   virtual ~BuildProgress() = default;
   /// Reports `done` of `total` units of a phase: bytes while reading, pages while writing, parts of
-  /// the model otherwise.
-  virtual void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
+  /// the model otherwise. An error ends the build and is returned from it.
+  virtual Result<void> progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) = 0;
   /// Reports, before an error is returned, which directory the error concerns, and the path.
   virtual void failed_at(BuildDirectory, const std::filesystem::path&) {}
   /// Reports once, for a build with a checkpoint, what work it resumes, or why it resumes none.

@@ -13,11 +13,14 @@ class PhaseCount {
   /// done  parts that are complete already, of `total`.
   PhaseCount(BuildProgress& progress, BuildPhase phase, std::uint64_t total, std::uint64_t done = 0)
       : progress_(progress), phase_(phase), total_(total), done_(done) {
-    progress_.progress(phase_, done_, total_);
+    told_ = progress_.progress(phase_, done_, total_);
   }
-  void add() {
+  /// Returns an error if any report so far has returned one.
+  Result<void> add() {
     const std::lock_guard lock(mutex_);
-    progress_.progress(phase_, ++done_, total_);
+    ++done_;
+    if (told_) told_ = progress_.progress(phase_, done_, total_);
+    return told_;
   }
 
  private:
@@ -26,6 +29,7 @@ class PhaseCount {
   const std::uint64_t total_;
   std::mutex mutex_;
   std::uint64_t done_;
+  Result<void> told_;
 };
 
 }  // namespace planetree::octree

@@ -1,16 +1,18 @@
 #include "octree/builder/mesh/mesh_reader.h"
 
 #include <new>
+#include <variant>
 
+#include "octree/builder/mesh/mesh_arrays.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/obj_reader.h"
 #include "octree/builder/mesh/off_reader.h"
 #include "octree/builder/mesh/ply_reader.h"
 #include "octree/builder/mesh/stl_reader.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
+#include "octree/builder/mesh/triangle_stream.h"
 
 namespace planetree::octree {
-
 namespace {
 
 Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path& path,
@@ -37,9 +39,7 @@ Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path&
       "OBJ or OFF mesh (an OBJ needs its extension)");
 }
 
-}  // namespace
-
-Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink,
+Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& sink,
                               MeshScratch& scratch) {
   try {
     const Result<MeshFile> file = MeshFile::open(path, scratch.calls());
@@ -52,9 +52,30 @@ Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& s
   }
 }
 
-Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink) {
+struct Reader {
+  Result<MeshSummary> operator()(const std::filesystem::path& path) const {
+    return read_file(path, sink, scratch);
+  }
+  Result<MeshSummary> operator()(const BuildInput::Stream& stream) const {
+    return read_stream(stream, sink);
+  }
+  template <class Vertex>
+  Result<MeshSummary> operator()(const BuildInput::Mesh<Vertex>& mesh) const {
+    return read_arrays(mesh, sink);
+  }
+  TriangleSink& sink;
+  MeshScratch& scratch;
+};
+
+}  // namespace
+
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch) {
+  return std::visit(Reader{sink, scratch}, input.content());
+}
+
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink) {
   MeshScratch scratch;
-  return read_mesh(path, sink, scratch);
+  return read_mesh(input, sink, scratch);
 }
 
 }  // namespace planetree::octree

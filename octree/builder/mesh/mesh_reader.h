@@ -1,13 +1,13 @@
 #pragma once
 
-#include <filesystem>
-
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/mesh/stream/triangle_sink.h"
+#include "planetree/build.h"
 #include "planetree/error.h"
 
-/// Readers of triangle meshes: PLY (ascii and both binary byte orders), STL (binary and ascii), OBJ
-/// and OFF (ascii and binary). They stream one triangle at a time.
+/// Readers of triangle meshes: files in PLY (ascii and both binary byte orders), STL (binary and
+/// ascii), OBJ and OFF (ascii and binary), meshes in memory, and callbacks. They stream one
+/// triangle at a time.
 ///
 /// A triangle's index is its position in the input. A polygon of n corners is split into the fan
 /// (0, i, i + 1), i = 1 ... n - 2, and takes n - 2 indices in that order. A record that cannot be
@@ -15,12 +15,13 @@
 /// depend on what is wrong elsewhere. Structural damage ends the reading with kBadInput.
 namespace planetree::octree {
 
-/// Reads the mesh at `path` into `sink`. The content decides the format: the first line of a PLY;
+/// Reads a mesh into `sink`. The content of a file decides the format: the first line of a PLY;
 /// the size of a binary STL, which is exactly what its count implies (even if it begins with
 /// "solid"); "solid" of an ascii STL; the keyword of an OFF. Otherwise the extension decides: for
 /// an OBJ, for an OFF without a keyword, and for an STL with a wrong size.
 ///
-/// path     a regular file. Its size is taken once, when it is opened. A file that becomes shorter
+/// input    a file is a regular file. Its size is taken once, when it is opened. A file that
+/// becomes shorter
 ///          during the call is an error; any other change gives unspecified triangles.
 /// scratch  memory and a directory for temporary files; must not be used otherwise during the call.
 ///          Memory is bounded whatever the size of the mesh and the order of its faces. Vertices
@@ -33,10 +34,9 @@ namespace planetree::octree {
 ///          where a byte is at fault), those of temporary files, and those of the sink. The sink
 ///          may have received a part of the mesh by then.
 /// threads  one call per sink; calls on different sinks are independent.
-Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink,
-                              MeshScratch& scratch);
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch);
 
 /// As above, with MeshScratch::kMemoryBytes and the system's directory for temporary files.
-Result<MeshSummary> read_mesh(const std::filesystem::path& path, TriangleSink& sink);
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink);
 
 }  // namespace planetree::octree

@@ -6,14 +6,17 @@
 #include <string_view>
 #include <unordered_set>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "octree/builder/mesh/header_prefix.h"
+#include "octree/builder/mesh/mesh_arrays.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/off_reader.h"
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "octree/builder/mesh/triangle_stream.h"
 
 namespace planetree::octree {
 namespace {
@@ -173,9 +176,7 @@ Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
   return size_of(*sample);
 }
 
-}  // namespace
-
-Result<MeshSize> MeshSize::estimate(const std::filesystem::path& path, storage::FileCalls& calls) {
+Result<MeshSize> size_of_file(const std::filesystem::path& path, storage::FileCalls& calls) {
   const Result<MeshFile> file = MeshFile::open(path, calls);
   if (!file) return file.error();
   const Result<MeshFormat> format = detect_format(*file, path);
@@ -195,6 +196,26 @@ Result<MeshSize> MeshSize::estimate(const std::filesystem::path& path, storage::
       break;
   }
   return MeshSize{};
+}
+
+struct SizeOf {
+  Result<MeshSize> operator()(const std::filesystem::path& path) const {
+    return size_of_file(path, calls);
+  }
+  Result<MeshSize> operator()(const BuildInput::Stream& stream) const {
+    return size_of_stream(stream);
+  }
+  template <class Vertex>
+  Result<MeshSize> operator()(const BuildInput::Mesh<Vertex>& mesh) const {
+    return size_of_arrays(mesh);
+  }
+  storage::FileCalls& calls;
+};
+
+}  // namespace
+
+Result<MeshSize> MeshSize::estimate(const BuildInput& input, storage::FileCalls& calls) {
+  return std::visit(SizeOf{calls}, input.content());
 }
 
 }  // namespace planetree::octree

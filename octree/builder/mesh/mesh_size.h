@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 
+#include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/system/file_calls.h"
 
@@ -15,15 +15,16 @@ struct MeshSize {
   bool float64 = false;          ///< coordinates may need float64, by format and header
   bool is_indexed_text = false;  ///< a text whose vertices are spilled while it is read
 
-  /// Estimates the size from the header and the length of the file, or from samples of a text that
-  /// declares nothing.
+  /// Estimates the size of a file from its header and its length, or from samples of a text that
+  /// declares nothing. A mesh in memory and a callback say their size.
   ///
   /// return  at least the true size, except for a text that is unlike its samples, an ascii PLY
   ///         with polygons of more than four corners, and a file that its reader will refuse. An
   ///         STL does not state its vertices: half as many as triangles are assumed, as a closed
-  ///         surface has, unless triangles have no corners in common.
+  ///         surface has, unless triangles have no corners in common. A callback may say
+  ///         nothing, which gives zero.
   /// errors  those of opening the file and reading it.
-  static Result<MeshSize> estimate(const std::filesystem::path& path,
+  static Result<MeshSize> estimate(const BuildInput& input,
                                    storage::FileCalls& calls = storage::FileCalls::real());
 };
 

@@ -118,7 +118,7 @@ class Obj {
       if (take_word(rest) == "v") {
         if (Result<void> taken = take_vertex(statements, rest); !taken) return taken;
       }
-      emitter_.advance(statements.end_offset());
+      if (const auto told = emitter_.advance(statements.end_offset()); !told) return told.error();
     }
     if (statements.failure()) return *statements.failure();
     emitter_.set_vertex_count(vertices_.count());
@@ -141,7 +141,8 @@ class Obj {
         if (!taken) return taken.error();
         if (!*taken) return FacePosition{statements.position(), 0, vertices_before};
       }
-      emitter_.advance(file_.size_bytes() + statements.end_offset());
+      if (const auto told = emitter_.advance(file_.size_bytes() + statements.end_offset()); !told)
+        return told.error();
     }
     if (statements.failure()) return *statements.failure();
     return FacePosition{{statements.end_offset(), 0}, 0, vertices_before};

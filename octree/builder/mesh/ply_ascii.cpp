@@ -151,7 +151,7 @@ Result<FacePosition> PlyAscii::each_line(const PlyElement& element, const FacePo
     const Result<bool> taken = take_line(record, lines);
     if (!taken) return taken.error();
     if (!*taken) return FacePosition{lines.position(), record, 0};
-    emitter_.advance(lines.after().offset);
+    if (const auto told = emitter_.advance(lines.after().offset); !told) return told.error();
   }
   return FacePosition{lines.after(), count, 0};
 }

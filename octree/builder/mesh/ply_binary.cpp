@@ -122,7 +122,7 @@ Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& 
     const Result<bool> taken = take(Face(face, list, index_type, swap_, window_));
     if (!taken) return taken.error();
     if (!*taken) return FacePosition{{face_begin, 0}, face, 0};
-    emitter_.advance(position);
+    if (const auto told = emitter_.advance(position); !told) return told.error();
   }
   return FacePosition{{position, 0}, element.count, 0};
 }

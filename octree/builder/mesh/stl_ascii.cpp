@@ -24,7 +24,7 @@ class StlAscii {
   Result<MeshSummary> read() {
     while (lines_.next_filled()) {
       if (Result<void> taken = take_line(); !taken) return taken.error();
-      emitter_.advance(lines_.after().offset);
+      if (const auto told = emitter_.advance(lines_.after().offset); !told) return told.error();
     }
     if (lines_.failure()) return *lines_.failure();
     if (depth_ != Depth::kFile) {

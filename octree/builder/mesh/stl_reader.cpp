@@ -81,7 +81,7 @@ Result<MeshSummary> read_stl_binary(const MeshFile& file, TriangleSink& sink) {
                         static_cast<std::int64_t>(k), true};
     };
     if (Result<void> taken = emitter.polygon(facet, 3, corner_at); !taken) return taken.error();
-    emitter.advance(offset + kFacetBytes);
+    if (const auto told = emitter.advance(offset + kFacetBytes); !told) return told.error();
   }
   return emitter.finish(true);
 }

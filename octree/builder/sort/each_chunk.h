@@ -16,7 +16,7 @@ namespace planetree::octree {
 /// thread. Counts chunks as the parts of a phase. Uses the calling thread's TBB arena.
 ///
 /// is_done  (number) -> bool, called for every chunk before any work.
-/// errors   those of SpillFile and `work`.
+/// errors   those of SpillFile, `progress` and `work`.
 template <class IsDone, class Work>
 Result<void> for_each_chunk(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                             BuildProgress& progress, BuildPhase phase, const IsDone& is_done,
@@ -30,8 +30,7 @@ Result<void> for_each_chunk(const TriangleRuns& runs, const std::vector<Chunk>& 
     auto triangles = runs.read_any_order(chunk.from, chunk.to);
     if (!triangles) return triangles.error();
     if (const Result<void> done = work(left[i], *triangles); !done) return done;
-    count.add();
-    return {};
+    return count.add();
   });
 }
 

@@ -8,11 +8,11 @@
 
 namespace planetree::octree {
 
-Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
+Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
                                    TriangleSpool& spool) {
   const auto report = [](void* context, std::uint64_t done, std::uint64_t total) {
-    static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
+    return static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
   spool.report_progress(report, &progress);
   const Result<MeshSummary> summary = read_mesh(input, spool, scratch);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 #include "octree/builder/job/build_options.h"
@@ -10,6 +9,7 @@
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/sort/triangle_runs.h"
 #include "octree/builder/sort/triangle_spool.h"
+#include "planetree/build.h"
 #include "planetree/error.h"
 
 namespace planetree::octree {
@@ -22,14 +22,14 @@ struct OrderedMesh {
   std::vector<TriangleRuns::Extent> runs;  ///< the runs, if none of them is in memory
 };
 
-/// Reads the mesh at `input` without sorting it.
+/// Reads a mesh without sorting it.
 ///
 /// scratch  as for read_mesh().
 /// spool    receives the triangles.
 /// return   everything but the runs.
 /// errors   those of read_mesh() and TriangleSpool; kBadInput for a bad record under
 ///          options.strict.
-Result<OrderedMesh> read_unordered(const std::filesystem::path& input, const BuildOptions& options,
+Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& options,
                                    MeshScratch& scratch, BuildProgress& progress,
                                    TriangleSpool& spool);
 

@@ -7,13 +7,12 @@
 
 namespace planetree::octree {
 
-Result<void> TriangleRuns::take(TriangleSpool& spool, const std::function<void()>& done) {
+Result<void> TriangleRuns::take(TriangleSpool& spool, const std::function<Result<void>()>& done) {
   return for_each_in_parallel(spool.batch_count(), [&](std::size_t i) -> Result<void> {
     Result<Triangles> batch = spool.take_batch(i);
     if (!batch) return batch.error();
     const auto added = add(*std::move(batch));
-    if (added) done();
-    return added;
+    return added ? done() : added;
   });
 }
 

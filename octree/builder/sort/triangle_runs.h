@@ -22,8 +22,8 @@ class TriangleRuns {
       : float64_(float64), runs_(Triangles::record_bytes(float64), held_bytes, file) {}
 
   /// Takes every batch of a spool. Uses the calling thread's TBB arena.
-  /// done  called after each batch, on any thread.
-  Result<void> take(TriangleSpool& spool, const std::function<void()>& done);
+  /// done  called after each batch, on any thread. Its error ends the taking and is returned.
+  Result<void> take(TriangleSpool& spool, const std::function<Result<void>()>& done);
 
   /// Adds triangles, in any order, as one run.
   Result<void> add(Triangles triangles);

@@ -91,8 +91,8 @@ void TriangleSpool::skipped(std::uint64_t first_index, std::uint64_t count,
   frame_.skipped_count += count;
 }
 
-void TriangleSpool::progress(std::uint64_t bytes_done, std::uint64_t bytes_total) {
-  if (progress_) progress_(progress_context_, bytes_done, bytes_total);
+Result<void> TriangleSpool::progress(std::uint64_t bytes_done, std::uint64_t bytes_total) {
+  return progress_ ? progress_(progress_context_, bytes_done, bytes_total) : Result<void>();
 }
 
 void TriangleSpool::choose_scale() {

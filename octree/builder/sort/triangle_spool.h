@@ -18,7 +18,7 @@ namespace planetree::octree {
 /// threads  one while it is filled; then any number may take batches, each once.
 class TriangleSpool final : public TriangleSink {
  public:
-  using ProgressCall = void (*)(void* context, std::uint64_t done, std::uint64_t total);
+  using ProgressCall = Result<void> (*)(void* context, std::uint64_t done, std::uint64_t total);
 
   /// batch_triangles  1 to 2^31.
   /// held_bytes       maximum of batches in memory, besides the last two.
@@ -33,7 +33,7 @@ class TriangleSpool final : public TriangleSink {
 
   Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override;
   void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override;
-  void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override;
+  Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override;
 
   /// Ends the spool. Call it once, after the last triangle.
   Result<ModelFrame> finish();

@@ -25,7 +25,7 @@ struct Encoded {
 Result<void> PageAppender::append(std::uint32_t count,
                                   const std::function<Result<FilePage>(std::uint32_t)>& make) {
   std::vector<Encoded> batch(std::min(kBatchPages, count));
-  progress_.progress(BuildPhase::kWriting, appended_, total_);
+  if (const auto told = report(); !told) return told;
   for (std::uint32_t first = 0; first < count; first += kBatchPages) {
     const std::uint32_t some = std::min(kBatchPages, count - first);
     const auto encoded = for_each_in_parallel(some, [&](std::size_t i) -> Result<void> {
@@ -43,9 +43,13 @@ Result<void> PageAppender::append(std::uint32_t count,
       if (!appended) return appended;
     }
     appended_ += some;
-    progress_.progress(BuildPhase::kWriting, appended_, total_);
+    if (const auto told = report(); !told) return told;
   }
   return {};
+}
+
+Result<void> PageAppender::report() {
+  return progress_.progress(BuildPhase::kWriting, appended_, total_);
 }
 
 }  // namespace planetree::octree

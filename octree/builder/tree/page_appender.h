@@ -31,6 +31,8 @@ class PageAppender {
                       const std::function<Result<FilePage>(std::uint32_t)>& make);
 
  private:
+  Result<void> report();
+
   storage::PageWriter& writer_;
   BuildProgress& progress_;
   const std::uint32_t total_;

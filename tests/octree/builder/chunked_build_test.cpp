@@ -15,7 +15,7 @@ namespace {
 
 class Silent final : public BuildProgress {
  public:
-  void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
   void failed_at(BuildDirectory index, const std::filesystem::path&) override {
     failed_at_ = index;
   }

@@ -22,11 +22,12 @@ class BuildRecorder final : public BuildProgress {
     std::uint64_t resumed = 0, done = 0, total = 0;
   };
 
-  void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
+  Result<void> progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
     const auto [at, begun] = counts_.try_emplace(phase, Count{done, done, total});
     EXPECT_GE(done, at->second.done);
     EXPECT_LE(done, total);
     at->second.done = done;
+    return {};
   }
   void resumes(const std::string& what) override { start = what; }
   void failed_at(BuildDirectory index, const std::filesystem::path& path) override {

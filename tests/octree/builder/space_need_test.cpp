@@ -19,7 +19,10 @@ constexpr std::uint64_t kMegabyte = 1 << 20;
 /// Builds of an ascii PLY with a separate temporary directory.
 class BuildSpace : public testing::Test, public BuildProgress {
  protected:
-  void progress(BuildPhase, std::uint64_t, std::uint64_t) override { reading_begun_ = true; }
+  Result<void> progress(BuildPhase, std::uint64_t, std::uint64_t) override {
+    reading_begun_ = true;
+    return {};
+  }
   void failed_at(BuildDirectory directory, const std::filesystem::path&) override {
     index_ = directory;
   }

@@ -16,7 +16,7 @@ namespace {
 
 class Recorder final : public BuildProgress {
  public:
-  void progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
+  Result<void> progress(BuildPhase phase, std::uint64_t done, std::uint64_t total) override {
     EXPECT_LE(done, total);
     if (!phases.empty() && phases.back() == phase) {
       EXPECT_GE(done, last_done);
@@ -25,6 +25,7 @@ class Recorder final : public BuildProgress {
     }
     last_done = done;
     last_total = total;
+    return {};
   }
   std::vector<BuildPhase> phases;
   std::uint64_t last_done = 0, last_total = 0;

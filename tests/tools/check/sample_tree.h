@@ -39,7 +39,7 @@ inline void write_mesh(const std::filesystem::path& path, unsigned side,
 
 class NoProgress final : public octree::BuildProgress {
  public:
-  void progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(octree::BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
 /// Builds a tree with pages of 4096 bytes.

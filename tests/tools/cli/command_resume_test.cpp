@@ -22,8 +22,9 @@ class CommandResume : public Command {
   static void interrupt() {
     class Watch final : public octree::BuildProgress {
      public:
-      void progress(octree::BuildPhase phase, std::uint64_t, std::uint64_t) override {
+      Result<void> progress(octree::BuildPhase phase, std::uint64_t, std::uint64_t) override {
         ordered = ordered || phase == octree::BuildPhase::kMatching;
+        return {};
       }
       bool ordered = false;
     } watch;

@@ -70,7 +70,7 @@ TEST_F(Command, EveryErrorIsOneLine) {
        "planetree: none: no such directory for temporary files; create it first"},
       {{"build", "bad_index.obj", "-o", "new.ptree", "--strict"},
        1,
-       "planetree: bad_index.obj: line 5: vertex index 7 is out of range, the file has 3 vertices; "
+       "planetree: bad_index.obj: line 5: vertex index 7 is out of range, the mesh has 3 vertices; "
        "repair the mesh or build without --strict"},
       {{"query", "none.ptree"},
        2,
@@ -192,7 +192,7 @@ TEST_F(Command, BuildNamesTheFirstSkippedRecord) {
   EXPECT_EQ(
       result.errors,
       "planetree: warning: holes.obj: 3 triangles of bad records skipped, the first: line "
-      "35: vertex index 99 is out of range, the file has 16 vertices; repair the mesh, or use "
+      "35: vertex index 99 is out of range, the mesh has 16 vertices; repair the mesh, or use "
       "--strict to refuse it\n");
   const Json report = Json::parse(result.output);
   EXPECT_EQ(report["skipped"], 3);

@@ -58,7 +58,8 @@ Result<void> CornerSort::add(std::uint64_t vertex) {
   return {};
 }
 
-Result<void> CornerSort::match(const std::function<void(std::uint64_t, std::uint64_t)>& done) {
+Result<void> CornerSort::match(
+    const std::function<Result<void>(std::uint64_t, std::uint64_t)>& done) {
   by_corner_file_.emplace(scratch_);
   by_corner_.emplace(by_corner_bytes(position_bytes_), parts_of(corner_count_), buffer_bytes_,
                      by_corner_file_->spill());
@@ -66,7 +67,7 @@ Result<void> CornerSort::match(const std::function<void(std::uint64_t, std::uint
   for (std::size_t part = 0; part < parts; ++part) {
     if (!by_vertex_->is_empty(part))
       if (const auto matched = match_part(part); !matched) return matched;
-    done(part + 1, parts);
+    if (const auto told = done(part + 1, parts); !told) return told;
   }
   by_vertex_.reset();
   by_vertex_file_.reset();

@@ -33,8 +33,9 @@ class CornerSort {
   void add_none() { ++corner_count_; }
 
   /// Joins the corners with the vertices. Call it once, after the last corner.
-  /// done  called with (completed parts, all parts) after each part of the vertices.
-  Result<void> match(const std::function<void(std::uint64_t, std::uint64_t)>& done);
+  /// done  called with (completed parts, all parts) after each part of the vertices. Its error ends
+  ///       the joining and is returned.
+  Result<void> match(const std::function<Result<void>(std::uint64_t, std::uint64_t)>& done);
 
   /// Position of a corner that has a vertex, valid until the next call; fast where numbers ascend.
   /// Null if it cannot be read: see failure().

@@ -222,7 +222,7 @@ Result<FacePosition> FaceVertexJoin::deliver_sorted(const FacePosition& begin,
   const auto added = each_face(begin, [&](const auto& face) { return this->add_to(sort, face); });
   if (!added) return added.error();
   const auto matched = sort.match([&](std::uint64_t part, std::uint64_t parts) {
-    emitter_.advance(bytes_before + rest_bytes / parts * part);
+    return emitter_.advance(bytes_before + rest_bytes / parts * part);
   });
   if (!matched) return matched.error();
   emitter_.begin_again(2 * rest_bytes);

@@ -14,15 +14,15 @@ void FanEmitter::skipped(std::uint64_t record, std::uint64_t corner_count, Recor
   next_index_ += index_count;
 }
 
-void FanEmitter::report(std::uint64_t bytes_done) {
-  sink_.progress(bytes_done, bytes_total_);
+Result<void> FanEmitter::report(std::uint64_t bytes_done) {
   next_report_bytes_ = bytes_done + kReportBytes;
+  return sink_.progress(bytes_done, bytes_total_);
 }
 
 Result<MeshSummary> FanEmitter::finish(bool float32) {
   if (record_count_ == 0) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                      "no triangle: the file holds no faces; give a mesh, not points or lines");
+                      "no triangle: the mesh has no faces; give a mesh, not points or lines");
   }
   if (!any_delivered_) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
@@ -30,7 +30,7 @@ Result<MeshSummary> FanEmitter::finish(bool float32) {
                       " face records are bad, first %s; export it again",
                       record_count_, first_skipped_->text().c_str());
   }
-  sink_.progress(bytes_total_, bytes_total_);
+  if (const auto told = sink_.progress(bytes_total_, bytes_total_); !told) return told.error();
   return MeshSummary{vertex_count_, record_count_, next_index_, float32};
 }
 

@@ -88,9 +88,10 @@ class FanEmitter {
     return {};
   }
 
-  /// Reports progress to the sink, about every 4 MiB.
-  void advance(std::uint64_t bytes_done) {
-    if (bytes_done + bytes_before_ >= next_report_bytes_) report(bytes_done + bytes_before_);
+  /// Reports progress to the sink, about every 4 MiB. Returns the sink's error, if there is one.
+  Result<void> advance(std::uint64_t bytes_done) {
+    const std::uint64_t done = bytes_done + bytes_before_;
+    return done < next_report_bytes_ ? Result<void>() : report(done);
   }
   /// Adds work to the total, counted in bytes of the file.
   void expect_more(std::uint64_t bytes) { bytes_total_ += bytes; }
@@ -99,7 +100,8 @@ class FanEmitter {
   void begin_again(std::uint64_t bytes) { bytes_before_ += bytes; }
   [[nodiscard]] std::uint64_t bytes_total() const { return bytes_total_; }
 
-  /// Ends the reading. Returns the summary, or kBadInput if there was no usable triangle.
+  /// Ends the reading. Returns the summary, kBadInput if there was no usable triangle, or the
+  /// sink's error.
   Result<MeshSummary> finish(bool float32);
 
  private:
@@ -117,7 +119,7 @@ class FanEmitter {
 
   void skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
                std::int64_t value);
-  void report(std::uint64_t bytes_done);
+  Result<void> report(std::uint64_t bytes_done);
 
   TriangleSink& sink_;
   RecordKind kind_;

@@ -13,6 +13,8 @@ const char* kind_name(RecordKind kind) {
       return "face";
     case RecordKind::kFacet:
       return "facet";
+    case RecordKind::kTriangle:
+      return "triangle";
     case RecordKind::kLine:
       break;
   }
@@ -23,14 +25,15 @@ const char* kind_name(RecordKind kind) {
 
 std::string SkippedRecord::text() const {
   char cause[128] = {};
+  const bool names_corners = kind == RecordKind::kFacet || kind == RecordKind::kTriangle;
   switch (fault) {
     case RecordFault::kVertexNotFinite:
       std::snprintf(cause, sizeof cause, "%s %" PRId64 " is not finite",
-                    kind == RecordKind::kFacet ? "corner" : "vertex", value);
+                    names_corners ? "corner" : "vertex", value);
       break;
     case RecordFault::kIndexOutOfRange:
       std::snprintf(cause, sizeof cause,
-                    "vertex index %" PRId64 " is out of range, the file has %" PRIu64 " vertices",
+                    "vertex index %" PRId64 " is out of range, the mesh has %" PRIu64 " vertices",
                     value, vertex_count);
       break;
     case RecordFault::kTooFewCorners:

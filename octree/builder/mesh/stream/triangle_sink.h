@@ -12,9 +12,10 @@ namespace planetree::octree {
 
 /// Kind of a skipped record, and how such records are counted.
 enum class RecordKind : std::uint8_t {
-  kFace,   ///< face of a PLY or an OFF, from 0
-  kFacet,  ///< facet of an STL, from 0
-  kLine,   ///< first line of an OBJ's f statement, from 1
+  kFace,      ///< face of a PLY, an OFF or a mesh in memory, from 0
+  kFacet,     ///< facet of an STL, from 0
+  kLine,      ///< first line of an OBJ's f statement, from 1
+  kTriangle,  ///< triangle of a callback, from 0
 };
 
 /// Why a record was skipped.
@@ -30,10 +31,10 @@ struct SkippedRecord {
   RecordKind kind = RecordKind::kFace;
   RecordFault fault = RecordFault::kVertexNotFinite;
   std::uint64_t record = 0;
-  /// By `fault`: the vertex or index as the file writes it (PLY and OFF from 0, OBJ from 1), an
-  /// STL's corner from 0, or the number of corners.
+  /// By `fault`: the vertex or index as the input writes it (PLY, OFF and memory from 0, OBJ from
+  /// 1), the corner of an STL or a callback from 0, or the number of corners.
   std::int64_t value = 0;
-  std::uint64_t vertex_count = 0;  ///< vertices in the file, for kIndexOutOfRange
+  std::uint64_t vertex_count = 0;  ///< vertices of the mesh, for kIndexOutOfRange
 
   /// One line, such as "face 17: vertex 5 is not finite".
   [[nodiscard]] std::string text() const;
@@ -57,14 +58,16 @@ class TriangleSink {
 
   /// Reports progress about every 4 MiB and at the end; bytes_done never decreases. bytes_total is
   /// the file's size, or twice that for a format that is read twice (OBJ). Where corners have to be
-  /// sorted, it grows by the work that this adds.
-  virtual void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) = 0;
+  /// sorted, it grows by the work that this adds. An error ends the reading and is returned from
+  /// it.
+  virtual Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) = 0;
 };
 
 /// Result of a reading.
 struct MeshSummary {
-  std::uint64_t vertex_records = 0;    ///< vertices in the file; three per STL facet
-  std::uint64_t face_records = 0;      ///< faces, facets or f statements, skipped ones included
+  std::uint64_t vertex_records =
+      0;  ///< vertices listed; three per facet of an STL or triangle of a callback
+  std::uint64_t face_records = 0;  ///< faces, facets, f statements or triangles, with skipped ones
   std::uint64_t triangle_indices = 0;  ///< indices given out, those of skipped records included
   bool float32 = false;  ///< float32 holds every value of the declared coordinate types
 };

@@ -30,7 +30,7 @@ Reading read_as(const MeshFormat& format, const PlainMesh& mesh) {
 
 class SilentProgress final : public BuildProgress {
  public:
-  void progress(BuildPhase, std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(BuildPhase, std::uint64_t, std::uint64_t) override { return {}; }
 };
 
 /// Builds from `bytes`. A refused build must leave no file behind.
@@ -145,7 +145,7 @@ TEST_P(MeshWithIndices, SkipsFacesWithIndicesOutOfRange) {
     mesh.faces = {{0, 1, 2}, {0, 1, index, 2}, {2, 1, 0}};
     expect_lines(
         read_as(GetParam(), mesh),
-        {{"0: ", ""}, {"1+2 aside: ", " is out of range, the file has 4 vertices"}, {"3: ", ""}});
+        {{"0: ", ""}, {"1+2 aside: ", " is out of range, the mesh has 4 vertices"}, {"3: ", ""}});
   }
 }
 
@@ -177,7 +177,7 @@ class Tally final : public TriangleSink {
     ++records_skipped;
     indices_skipped += count;
   }
-  void progress(std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(std::uint64_t, std::uint64_t) override { return {}; }
 
   std::uint64_t triangles = 0, records_skipped = 0, indices_skipped = 0;
 };

@@ -81,14 +81,14 @@ TEST(Obj, SkipsBadRecordsAsAWhole) {
       reading.log,
       "0: 0 0 0, 1 0 0, 0 1 0\n"
       "1+2 aside: line 6: vertex 4 is not finite\n"
-      "3+1 aside: line 7: vertex index 5 is out of range, the file has 4 vertices\n"
-      "4+1 aside: line 8: vertex index 0 is out of range, the file has 4 vertices\n"
-      "5+1 aside: line 9: vertex index -5 is out of range, the file has 4 vertices\n"
+      "3+1 aside: line 7: vertex index 5 is out of range, the mesh has 4 vertices\n"
+      "4+1 aside: line 8: vertex index 0 is out of range, the mesh has 4 vertices\n"
+      "5+1 aside: line 9: vertex index -5 is out of range, the mesh has 4 vertices\n"
       "6+1 aside: line 10: has 2 corners, fewer than 3\n"
       "7+1 aside: line 11: has 0 corners, fewer than 3\n"
-      "8+3 aside: line 12: vertex index 9223372036854775807 is out of range, the file has 4 "
+      "8+3 aside: line 12: vertex index 9223372036854775807 is out of range, the mesh has 4 "
       "vertices\n"
-      "11+1 aside: line 13: vertex index -9223372036854775808 is out of range, the file has 4 "
+      "11+1 aside: line 13: vertex index -9223372036854775808 is out of range, the mesh has 4 "
       "vertices\n"
       "12: 0 1 0, 1 0 0, 0 0 0\n");
 }
@@ -103,11 +103,11 @@ TEST(Obj, RefusesUnreadableStatements) {
 }
 
 TEST(Obj, RefusesAModelWithoutATriangle) {
-  expect_refused(kVertices, "no triangle: the file holds no faces");
-  expect_refused("", "no triangle: the file holds no faces");
+  expect_refused(kVertices, "no triangle: the mesh has no faces");
+  expect_refused("", "no triangle: the mesh has no faces");
   expect_refused("f 1 2 3\n",
                  "no triangle: all 1 face records are bad, first line 1: vertex index "
-                 "1 is out of range, the file has 0 vertices");
+                 "1 is out of range, the mesh has 0 vertices");
 }
 
 }  // namespace

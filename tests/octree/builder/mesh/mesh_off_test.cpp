@@ -97,11 +97,11 @@ TEST(OffAscii, SkipsBadRecordsAsAWhole) {
             "0: 0 0 0, 1 0 0, 0 1 0\n"
             "1+2 aside: face 1: vertex 3 is not finite\n"
             "3+1 aside: face 2: vertex 4 is not finite\n"
-            "4+3 aside: face 3: vertex index 5 is out of range, the file has 5 vertices\n"
-            "7+1 aside: face 4: vertex index -1 is out of range, the file has 5 vertices\n"
+            "4+3 aside: face 3: vertex index 5 is out of range, the mesh has 5 vertices\n"
+            "7+1 aside: face 4: vertex index -1 is out of range, the mesh has 5 vertices\n"
             "8+1 aside: face 5: has 2 corners, fewer than 3\n"
             "9+1 aside: face 6: has 0 corners, fewer than 3\n"
-            "10+1 aside: face 7: vertex index 9223372036854775807 is out of range, the file has 5 "
+            "10+1 aside: face 7: vertex index 9223372036854775807 is out of range, the mesh has 5 "
             "vertices\n"
             "11: 0 1 0, 1 0 0, 0 0 0\n");
 }
@@ -156,10 +156,10 @@ TEST(OffAscii, WrongCountsCostNoMemory) {
 }
 
 TEST(OffAscii, RefusesAModelWithoutATriangle) {
-  expect_refused("OFF\n3 0 0\n" + kVertices, "no triangle: the file holds no faces");
+  expect_refused("OFF\n3 0 0\n" + kVertices, "no triangle: the mesh has no faces");
   expect_refused("OFF\n0 1 0\n3 0 1 2\n",
                  "no triangle: all 1 face records are bad, first face 0: vertex index 0 is out of "
-                 "range, the file has 0 vertices");
+                 "range, the mesh has 0 vertices");
 }
 
 /// Counts and three vertices, each followed by `more_numbers` numbers, as its keyword requires.
@@ -205,8 +205,8 @@ TEST(OffBinary, SkipsBadRecords) {
   bytes.put(Int32{1}, Int32{0}, Int32{1}, 0.5F);
   bytes.put(Int32{3}, Int32{2}, Int32{1}, Int32{0}, Int32{0});
   EXPECT_EQ(read_bytes(bytes.str()).log,
-            "0+1 aside: face 0: vertex index 3 is out of range, the file has 3 vertices\n"
-            "1+1 aside: face 1: vertex index -2147483648 is out of range, the file has 3 vertices\n"
+            "0+1 aside: face 0: vertex index 3 is out of range, the mesh has 3 vertices\n"
+            "1+1 aside: face 1: vertex index -2147483648 is out of range, the mesh has 3 vertices\n"
             "2+1 aside: face 2: has 1 corners, fewer than 3\n"
             "3: 0 1 0, 1 0 0, 0.10000000149011612 0 0\n");
 }

@@ -61,8 +61,8 @@ TEST(PlyAscii, SkipsBadRecordsAsAWhole) {
             "0: 0 0 0, 1 0 0, 0 1 0\n"
             "1+3 aside: face 1: vertex 3 is not finite\n"
             "4+1 aside: face 2: vertex 4 is not finite\n"
-            "5+2 aside: face 3: vertex index 5 is out of range, the file has 5 vertices\n"
-            "7+1 aside: face 4: vertex index -1 is out of range, the file has 5 vertices\n"
+            "5+2 aside: face 3: vertex index 5 is out of range, the mesh has 5 vertices\n"
+            "7+1 aside: face 4: vertex index -1 is out of range, the mesh has 5 vertices\n"
             "8+1 aside: face 5: has 2 corners, fewer than 3\n"
             "9+1 aside: face 6: has 0 corners, fewer than 3\n"
             "10: 0 1 0, 1 0 0, 0 0 0\n");
@@ -126,7 +126,7 @@ TEST(PlyAscii, ReadsFacesInFrontOfVertices) {
   EXPECT_EQ(reading.error, "");
   EXPECT_EQ(reading.log,
             "0: 0 0 0, 1 0 0, 0 1 0\n"
-            "1+1 aside: face 1: vertex index 3 is out of range, the file has 3 vertices\n");
+            "1+1 aside: face 1: vertex index 3 is out of range, the mesh has 3 vertices\n");
 }
 
 TEST(PlyAscii, ReadsEveryKindOfLineEnd) {
@@ -185,7 +185,7 @@ TEST(PlyAscii, WrongCountsCostNoMemory) {
 }
 
 TEST(PlyAscii, RefusesAModelWithoutATriangle) {
-  expect_refused(ascii_ply(3, 0, "0 0 0\n1 0 0\n0 1 0\n"), "no triangle: the file holds no faces");
+  expect_refused(ascii_ply(3, 0, "0 0 0\n1 0 0\n0 1 0\n"), "no triangle: the mesh has no faces");
   expect_refused(ascii_ply(1, 2, "0 0 0\n1 0\n3 0 0 1\n"),
                  "no triangle: all 2 face records are bad, first face 0: has 1 corners");
 }

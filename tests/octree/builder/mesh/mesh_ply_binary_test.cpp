@@ -166,8 +166,8 @@ TEST(PlyBinary, SkipsBadRecordsAsAWhole) {
             "0: 0 0 0, 1 0 0, 0 1 0\n"
             "1+4 aside: face 1: vertex 3 is not finite\n"
             "5+1 aside: face 2: vertex 4 is not finite\n"
-            "6+2 aside: face 3: vertex index 5 is out of range, the file has 5 vertices\n"
-            "8+1 aside: face 4: vertex index -2147483648 is out of range, the file has 5 vertices\n"
+            "6+2 aside: face 3: vertex index 5 is out of range, the mesh has 5 vertices\n"
+            "8+1 aside: face 4: vertex index -2147483648 is out of range, the mesh has 5 vertices\n"
             "9+1 aside: face 5: has 1 corners, fewer than 3\n"
             "10: 0 1 0, 1 0 0, 0 0 0\n");
   EXPECT_EQ(reading.summary->triangle_indices, 11U);
@@ -243,13 +243,13 @@ TEST(PlyBinary, RefusesAModelWithoutATriangle) {
   Bytes bytes;
   bytes.text(header(std::endian::little, float_vertices(1) + faces(0)));
   bytes.put_all<float>({0, 0, 0});
-  expect_refused(bytes.str(), "no triangle: the file holds no faces");
+  expect_refused(bytes.str(), "no triangle: the mesh has no faces");
   Bytes bad;
   bad.text(header(std::endian::little, float_vertices(0) + faces(1)));
   bad.put<std::uint8_t>(3).put_all<std::int32_t>({0, 1, 2});
   expect_refused(bad.str(),
                  "no triangle: all 1 face records are bad, first face 0: vertex index 0 is out of "
-                 "range, the file has 0 vertices");
+                 "range, the mesh has 0 vertices");
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ class Summer : public TriangleSink {
     return {};
   }
   void skipped(std::uint64_t, std::uint64_t, const SkippedRecord&) override {}
-  void progress(std::uint64_t, std::uint64_t) override {}
+  Result<void> progress(std::uint64_t, std::uint64_t) override { return {}; }
 
   double sum = 0;
   std::uint64_t count = 0;

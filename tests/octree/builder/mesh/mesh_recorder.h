@@ -65,8 +65,9 @@ class RecordingSink : public TriangleSink {
     log +=
         std::to_string(first_index) + "+" + std::to_string(count) + " aside: " + why.text() + "\n";
   }
-  void progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
+  Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
     reports.emplace_back(bytes_done, bytes_total);
+    return {};
   }
 
   std::string log;

@@ -66,7 +66,7 @@ TEST(SparseMesh, ReachesPlyIndicesPast31BitsAndOffsetsPast32) {
               "0: 1 10 100, 2 20 200, 3 30 300\n"
               "1: 4 40 400, 3 30 300, 2 20 200\n"
               "2: 4 40 400, 2 20 200, 1 10 100\n"
-              "3+1 aside: face 2: vertex index 4294967291 is out of range, the file has 4294967291 "
+              "3+1 aside: face 2: vertex index 4294967291 is out of range, the mesh has 4294967291 "
               "vertices\n");
     ASSERT_TRUE(reading.summary);
     EXPECT_EQ(reading.summary->vertex_records, kVertexCount);
@@ -92,7 +92,7 @@ TEST(SparseMesh, SkipsAPlyFaceOfFourBillionCorners) {
   const Reading reading = read_path(file.path());
   EXPECT_EQ(reading.error, "");
   EXPECT_EQ(reading.log,
-            "0+4294967293 aside: face 0: vertex index 3 is out of range, the file has 3 vertices\n"
+            "0+4294967293 aside: face 0: vertex index 3 is out of range, the mesh has 3 vertices\n"
             "4294967293: 1 0 0, 0 1 0, 0 0 1\n");
 }
 
@@ -121,7 +121,7 @@ TEST(SparseMesh, ReachesTheLastVerticesOfABinaryOff) {
     EXPECT_EQ(reading.error, "");
     EXPECT_EQ(reading.log,
               "0: 1 10 100, 2 20 200, 3 30 300\n"
-              "1+1 aside: face 1: vertex index 2147483647 is out of range, the file has 2147483647 "
+              "1+1 aside: face 1: vertex index 2147483647 is out of range, the mesh has 2147483647 "
               "vertices\n");
   }
 }

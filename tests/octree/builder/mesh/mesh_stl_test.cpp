@@ -89,7 +89,7 @@ TEST(StlBinary, RefusesWrongCounts) {
   put_facet(fewer, kCorners);
   expect_refused(fewer.str(), "the count says 0 facets, the file has bytes for 1: the count lies");
   expect_refused(std::string(83, 'x'), "byte 83: the file ends within the 84 bytes");
-  expect_refused(binary_stl("", 0).str(), "no triangle: the file holds no faces");
+  expect_refused(binary_stl("", 0).str(), "no triangle: the mesh has no faces");
 }
 
 TEST(StlAscii, ReadsFacetsInDoublePrecision) {
@@ -157,7 +157,7 @@ TEST(StlAscii, RefusesStructuralDamage) {
   expect_refused("solid s\nfacet normal 0 0 1\nouter loop\nendloop\nouter loop\n",
                  "line 5: a facet with a second loop");
   expect_refused("solid s\nendsolid\nmore\n", "line 3: 'more' is not expected here");
-  expect_refused("solid s\nendsolid s\n", "no triangle: the file holds no faces");
+  expect_refused("solid s\nendsolid s\n", "no triangle: the mesh has no faces");
 }
 
 }  // namespace
