@@ -1,31 +1,57 @@
-# Library, headers, CMake package and planetree.pc; tools/ installs the command.
+# planetree_install_library(TARGET [COMPONENT component])
+#
+# Installs a library with its headers, its CMake package and planetree.pc. A shared object belongs
+# to the component `runtime`, everything else to `development`; tools/ installs the command as
+# `tools`. With COMPONENT all of it belongs to that component, which only
+# `cmake --install --component` installs.
 
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/planetree)
-install(TARGETS planetree EXPORT planetreeTargets FILE_SET HEADERS)
-install(EXPORT planetreeTargets NAMESPACE planetree:: DESTINATION ${package_dir})
+function(planetree_install_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 install "" "COMPONENT" "")
+  set(runtime COMPONENT runtime)
+  set(development COMPONENT development)
+  set(namelink NAMELINK_COMPONENT development)
+  if(install_COMPONENT)
+    set(runtime COMPONENT ${install_COMPONENT} EXCLUDE_FROM_ALL)
+    set(development ${runtime})
+    set(namelink "")
+  endif()
+  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/planetree)
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/${target}-package)
+  get_target_property(kind ${target} TYPE)
+  set(planetree_is_shared OFF)
+  if(kind STREQUAL SHARED_LIBRARY)
+    set(planetree_is_shared ON)
+  endif()
 
-configure_package_config_file(
-  ${PROJECT_SOURCE_DIR}/cmake/planetreeConfig.cmake.in planetreeConfig.cmake
-  INSTALL_DESTINATION ${package_dir})
-write_basic_package_version_file(planetreeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES
-  ${CMAKE_CURRENT_BINARY_DIR}/planetreeConfig.cmake
-  ${CMAKE_CURRENT_BINARY_DIR}/planetreeConfigVersion.cmake
-  DESTINATION ${package_dir})
+  install(TARGETS ${target} EXPORT ${target}Targets
+    LIBRARY ${runtime} ${namelink}
+    ARCHIVE ${development}
+    FILE_SET HEADERS ${development})
+  install(EXPORT ${target}Targets NAMESPACE planetree:: FILE planetreeTargets.cmake
+    DESTINATION ${package_dir} ${development})
 
-# An archive leaves its own needs to the program that links it; a shared object
-# brings them along.
-set(pkgconfig_requires "liblz4 liburing >= 2.2 libxxhash libhwy-contrib libhwy tbb")
-set(pkgconfig_pthread " -pthread")
-if(BUILD_SHARED_LIBS)
-  set(pkgconfig_requires "")
-  set(pkgconfig_pthread "")
-endif()
-file(RELATIVE_PATH pkgconfig_to_prefix
-  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-configure_file(${PROJECT_SOURCE_DIR}/cmake/planetree.pc.in planetree.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/planetree.pc
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  configure_package_config_file(
+    ${PROJECT_SOURCE_DIR}/cmake/planetreeConfig.cmake.in ${generated}/planetreeConfig.cmake
+    INSTALL_DESTINATION ${package_dir})
+  write_basic_package_version_file(${generated}/planetreeConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${generated}/planetreeConfig.cmake ${generated}/planetreeConfigVersion.cmake
+    DESTINATION ${package_dir} ${development})
+
+  # An archive leaves its own needs to the program that links it; a shared object
+  # brings them along.
+  set(pkgconfig_requires "liblz4 liburing >= 2.2 libxxhash libhwy-contrib libhwy tbb")
+  set(pkgconfig_pthread " -pthread")
+  if(planetree_is_shared)
+    set(pkgconfig_requires "")
+    set(pkgconfig_pthread "")
+  endif()
+  file(RELATIVE_PATH pkgconfig_to_prefix
+    ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/planetree.pc.in ${generated}/planetree.pc @ONLY)
+  install(FILES ${generated}/planetree.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig ${development})
+endfunction()

@@ -1,35 +1,55 @@
-# The installed library: the layers in one archive, or in one shared object with
-# BUILD_SHARED_LIBS. Trees are built by the command, so octree/builder stays outside.
+# planetree_add_library(NAME [STATIC|SHARED])
+#
+# The installed library: the layers in one archive, or in one shared object. Without a kind,
+# BUILD_SHARED_LIBS chooses. All kinds consist of the same objects, which are position-independent.
 
 # tests/layering fails when a header of include/planetree is not named here.
 set(planetree_headers
+  build.h
+  eigen.h
   error.h
+  export.h
   model.h
   planetree.h
   probe.h
   stats.h
   trace.h
   types.h)
-
-add_library(planetree)
-add_library(planetree::planetree ALIAS planetree)
-foreach(layer error storage_system storage_file cache geometry page traversal nearest winding mask
-        query_file query_answer query_serve query)
-  get_target_property(kind planetree_${layer} TYPE)
-  if(kind STREQUAL STATIC_LIBRARY)
-    target_sources(planetree PRIVATE $<TARGET_OBJECTS:planetree_${layer}>)
-  endif()
-endforeach()
-
 list(TRANSFORM planetree_headers PREPEND ${PROJECT_SOURCE_DIR}/include/planetree/)
-target_sources(planetree PUBLIC FILE_SET HEADERS
-  BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${planetree_headers})
-target_link_libraries(planetree PRIVATE
-  PkgConfig::liblz4 PkgConfig::liburing PkgConfig::libxxhash
-  hwy::hwy_contrib hwy::hwy TBB::tbb Threads::Threads)
-target_compile_features(planetree PUBLIC cxx_std_20)
-# Before 1.0 a minor version may change the interface.
-set_target_properties(planetree PROPERTIES
-  LINKER_LANGUAGE CXX
-  VERSION ${PROJECT_VERSION}
-  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+set(planetree_library_layers
+  error storage_system storage_file storage_spill cache
+  geometry page traversal nearest winding mask
+  builder_job builder_mesh_stream builder_mesh builder_sort builder_surface builder_tree
+  builder_mask builder
+  query_file query_answer query_serve query)
+
+function(planetree_add_library name)
+  add_library(${name} ${ARGN})
+  add_library(planetree::${name} ALIAS ${name})
+  foreach(layer IN LISTS planetree_library_layers)
+    get_target_property(kind planetree_${layer} TYPE)
+    if(kind STREQUAL STATIC_LIBRARY)
+      target_sources(${name} PRIVATE $<TARGET_OBJECTS:planetree_${layer}>)
+    endif()
+  endforeach()
+  target_sources(${name} PUBLIC FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${planetree_headers})
+  target_link_libraries(${name} PRIVATE
+    PkgConfig::liblz4 PkgConfig::liburing PkgConfig::libxxhash
+    hwy::hwy_contrib hwy::hwy TBB::tbb Threads::Threads)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  # Before 1.0 a minor version may change the interface.
+  set_target_properties(${name} PROPERTIES
+    LINKER_LANGUAGE CXX
+    OUTPUT_NAME planetree
+    EXPORT_NAME planetree
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  get_target_property(kind ${name} TYPE)
+  if(kind STREQUAL SHARED_LIBRARY)
+    set(script ${PROJECT_SOURCE_DIR}/cmake/planetree.map)
+    target_link_options(${name} PRIVATE LINKER:--version-script=${script})
+    set_target_properties(${name} PROPERTIES LINK_DEPENDS ${script})
+  endif()
+endfunction()

@@ -1,9 +1,10 @@
-# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [EXCEPT beginnings...] [DEPENDS targets...])
+# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [PUBLIC] [EXCEPT beginnings...] [DEPENDS targets...])
 #
 # One program of the sources in the current folder and below it; each test in it is a test
 # of ctest with this label.
 # GEOMETRY: the tests compute much, with the headers that this takes. TOGETHER:
-# compile several files at once; their names without a namespace must differ.
+# compile several files at once; their names without a namespace must differ. PUBLIC: the tests
+# see no header but those of the library they link, and of their own folder.
 find_package(GTest REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
 include(GoogleTest)
@@ -28,7 +29,7 @@ planetree_share_headers(geometry_test_headers
   HEADERS <Eigen/Core> <boost/multiprecision/cpp_bin_float.hpp> <boost/multiprecision/cpp_int.hpp>)
 
 function(planetree_add_tests label)
-  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY;TOGETHER" "" "EXCEPT;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY;TOGETHER;PUBLIC" "" "EXCEPT;DEPENDS")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   foreach(pattern IN LISTS test_EXCEPT)
     list(FILTER sources EXCLUDE REGEX "^${pattern}")
@@ -40,8 +41,10 @@ function(planetree_add_tests label)
 
   set(program ${label}_tests)
   add_executable(${program} ${sources})
-  target_include_directories(${program}
-    PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR})
+  if(NOT test_PUBLIC)
+    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/include)
+  endif()
   target_link_libraries(${program} PRIVATE ${test_DEPENDS} GTest::gtest_main)
   target_compile_definitions(${program}
     PRIVATE PLANETREE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
