@@ -212,7 +212,7 @@ Stats ModelState::stats() const noexcept {
   for (const PageTrace& trace : serving_->arena.traces)
     stats.page_trace_dropped += trace.ring.dropped();
   for (const FetchRequests& fetch_requests : serving_->arena.fetch_requests)
-    stats.fetch_requests += fetch_requests.missed.given();
+    stats.fetch_requests += fetch_requests.missed.store_count();
   if (fetch_threads_) {
     stats.fetch_requests_served = fetch_threads_->fetch_requests_served();
     stats.positions_prefetched = fetch_threads_->positions_prefetched();

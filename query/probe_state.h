@@ -49,10 +49,10 @@ class ProbeState {
   Containment contains_fast(const Vec3& query, const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
-    model_.requests(reader_.index()).motion.give({position, velocity, last_parts_});
+    model_.requests(reader_.index()).motion.store({position, velocity, last_parts_});
   }
-  /// See FetchProbe::bring_pages.
-  void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+  /// See FetchProbe::fetch_pages.
+  void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
                    const std::atomic<bool>& stop) noexcept;
 
  private:

@@ -54,8 +54,9 @@ double clearance(const octree::Region& region, const octree::Point& point, bool 
 
 // What the nearest of a region's triangles says of the whole surface, which is nowhere nearer
 // than those or `clear`.
-void widen(const octree::TreeInfo& tree, const octree::Point& point, double clear,
-           double max_distance, octree::NearestAnswer& nearest) {
+void account_for_missing_surface(const octree::TreeInfo& tree, const octree::Point& point,
+                                 double clear, double max_distance,
+                                 octree::NearestAnswer& nearest) {
   const bool beyond = nearest.status == Status::kBeyondMaxDistance;
   if (beyond ? max_distance <= clear : nearest.upper < clear) return;
   // Something that was left out may be nearer.
@@ -108,7 +109,7 @@ class ClosestPointQuery {
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     const SideResult& side = (parts & kSide) != 0 ? find_side(nearest, with_normal) : side_result_;
     if (with_normal) find_normal(nearest, side);
-    return lost_;
+    return incomplete_;
   }
 
  private:
@@ -147,13 +148,13 @@ class ClosestPointQuery {
     // The nearest triangle of a far query is the sample, known by a vertex alone.
     if (!far_ && options_.wait == Wait::kNever && nearest.triangle != kNoTriangle)
       coherence_.last_nearest = nearest;
-    lost_ = nearest.status == Status::kDegraded;
-    widen(model_.tree, point_, clearance(model_.region, point_, far_),
-          model_.scale.in(options_.max_distance), nearest);
+    incomplete_ = nearest.status == Status::kDegraded;
+    account_for_missing_surface(model_.tree, point_, clearance(model_.region, point_, far_),
+                                model_.scale.in(options_.max_distance), nearest);
     fill_in(model_.scale, nearest, answer_);
     if (far_) measure_far(query_, options_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = options_.max_distance;
-    if (answer_.status == Status::kDegraded && !lost_ &&
+    if (answer_.status == Status::kDegraded && !incomplete_ &&
         answer_.upper - answer_.lower <= options_.max_error)
       answer_.status = Status::kWithinError;
   }
@@ -161,7 +162,7 @@ class ClosestPointQuery {
   const SideResult& find_side(const octree::NearestAnswer& nearest, bool with_normal) {
     const SideResult& side = classify(nearest, with_normal);
     answer_.side = side.side;
-    if (side.status == Status::kDegraded) degrade();
+    if (side.status == Status::kDegraded) mark_degraded();
     return side;
   }
 
@@ -169,7 +170,7 @@ class ClosestPointQuery {
   const SideResult& classify(const octree::NearestAnswer& nearest, bool with_normal) {
     coherence_.searched_side = false;
     const SideResult& remembered = coherence_.side.side_result();
-    if (!far_ && remember_ && is_side_as_before(model_, point_, nearest.lower, coherence_.side))
+    if (!far_ && remember_ && is_cached_side(model_, point_, nearest.lower, coherence_.side))
       return remembered;
     octree::SideGrid::Lookup lookup;
     // Near the surface the nearest face decides most sides, elsewhere the side grid does.
@@ -219,7 +220,7 @@ class ClosestPointQuery {
   void find_normal(const octree::NearestAnswer& nearest, const SideResult& side) {
     const octree::Point normal = contact_normal(point_, nearest, feature(nearest), side);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
-    if (!feature(nearest).complete) degrade();
+    if (!feature(nearest).complete) mark_degraded();
   }
 
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {
@@ -231,8 +232,8 @@ class ClosestPointQuery {
     return feature_;
   }
 
-  void degrade() {
-    lost_ = true;
+  void mark_degraded() {
+    incomplete_ = true;
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
 
@@ -253,7 +254,7 @@ class ClosestPointQuery {
   octree::FeatureNormal feature_;  // at the nearest point, once requested
   bool has_feature_ = false;
   SideResult side_result_;  // a side that is not kept in the coherence
-  bool lost_ = false;
+  bool incomplete_ = false;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ using octree::Point;
 
 /// Nearer than this share of coordinates to a nearest point, which is rounded,
 /// the way from there to the query says nothing.
-constexpr double kNoWay = 0x1p-36;
+constexpr double kMinShare = 0x1p-36;
 
 double largest_coordinate(const octree::Triangle& triangle) {
   double largest = 0;
@@ -25,7 +25,8 @@ double largest_coordinate(const octree::Triangle& triangle) {
 int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
                   const Point& normal) {
   if (nearest.feature == Feature::kFace) return octree::perturbed_side(nearest.corners, query);
-  if (side == Side::kOnSurface || nearest.distance < kNoWay * largest_coordinate(nearest.corners))
+  if (side == Side::kOnSurface ||
+      nearest.distance < kMinShare * largest_coordinate(nearest.corners))
     return 0;
   const double along = (query - nearest.point).dot(normal);
   return along > 0 ? 1 : along < 0 ? -1 : 0;

@@ -19,7 +19,7 @@ inline bool outside_box(const octree::TreeInfo& tree, const octree::Point& point
 /// The ways straight out of a model's box along the axes, the shortest first.
 class ExitSegments {
  public:
-  struct Way {
+  struct Segment {
     double length = 0;
     octree::Point end = octree::Point::Zero();  ///< strictly outside, where the winding number is 0
   };
@@ -32,23 +32,24 @@ class ExitSegments {
     }
   }
 
-  const std::array<Way, 6>& all() const { return ways_; }
+  const std::array<Segment, 6>& all() const { return segments_; }
 
  private:
   void add(const octree::Point& from, Eigen::Index axis, double side, double direction) {
-    Way way{std::fabs(side - from[axis]), from};
+    Segment segment{std::fabs(side - from[axis]), from};
     // A side far from the origin may absorb the step of 1.
     const double infinity = std::numeric_limits<double>::infinity();
     const double beyond = std::nextafter(side, direction * infinity);
-    way.end[axis] = direction < 0 ? std::min(side - 1, beyond) : std::max(side + 1, beyond);
+    segment.end[axis] = direction < 0 ? std::min(side - 1, beyond) : std::max(side + 1, beyond);
     // Behind those that are as short.
     std::size_t at = count_++;
-    for (; at > 0 && way.length < ways_[at - 1].length; --at) ways_[at] = ways_[at - 1];
-    ways_[at] = way;
+    for (; at > 0 && segment.length < segments_[at - 1].length; --at)
+      segments_[at] = segments_[at - 1];
+    segments_[at] = segment;
   }
 
   std::size_t count_ = 0;
-  std::array<Way, 6> ways_;
+  std::array<Segment, 6> segments_;
 };
 
 }  // namespace planetree::query

@@ -82,24 +82,24 @@ std::optional<SideResult> side_without_pages(const ModelGeometry& model, const P
   return {};
 }
 
-bool is_side_as_before(const ModelGeometry& model, const Point& point, double clear,
-                       SideCache& memory) noexcept {
-  if (!model.region.holds(point) || !memory.same_side(point, clear)) return false;
-  memory.go_to(point, clear);
+bool is_cached_side(const ModelGeometry& model, const Point& point, double clear,
+                    SideCache& cache) noexcept {
+  if (!model.region.holds(point) || !cache.same_side(point, clear)) return false;
+  cache.move_to(point, clear);
   return true;
 }
 
 SideResult find_side(const ModelGeometry& model, const Point& point,
-                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
+                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& cache,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept {
   if (!model.watertight || !model.region.holds(point) || outside_box(model.tree, point))
     return find_side(model, point, max_work, pages, work);
-  if (is_side_as_before(model, point, clear, memory)) return memory.side_result();
-  SideSearch search(model, point, max_work, pages, work, nullptr, {&memory, &lookup});
+  if (is_cached_side(model, point, clear, cache)) return cache.side_result();
+  SideSearch search(model, point, max_work, pages, work, nullptr, {&cache, &lookup});
   const SideResult side_result = search.run();
   if (side_result.status == Status::kExact)
-    memory.note(point, side_result, search.counted(), clear);
+    cache.note(point, side_result, search.has_exact_winding(), clear);
   return side_result;
 }
 

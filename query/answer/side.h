@@ -65,17 +65,17 @@ inline octree::SideGrid::Lookup look_up_side_grid(const ModelGeometry& model,
 std::optional<SideResult> side_without_pages(const ModelGeometry& model, const octree::Point& point,
                                              const octree::SideGrid::Lookup& lookup) noexcept;
 
-/// Whether the point cannot but stand where the last one that `memory` knows does, which then is
+/// Whether the point cannot but stand where the last one that `cache` knows does, which then is
 /// what it knows of this one. No surface is nearer to the point than `clear`.
-bool is_side_as_before(const ModelGeometry& model, const octree::Point& point, double clear,
-                       SideCache& memory) noexcept;
+bool is_cached_side(const ModelGeometry& model, const octree::Point& point, double clear,
+                    SideCache& cache) noexcept;
 
-/// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
+/// The same by way of what `cache` knows if that is nearer, and hints there: where work is
 /// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
 /// to the point than `clear`, which may be 0.
 /// spot  what look_up_side_grid() says.
 SideResult find_side(const ModelGeometry& model, const octree::Point& point,
-                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
+                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& cache,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept;
 

@@ -49,25 +49,26 @@ class SideCache {
   /// Its side; unknown before any was found.
   const SideResult& side_result() const { return side_result_; }
   /// Whether its winding number is right, and not of the right sign alone.
-  bool counted() const { return counted_; }
+  bool has_exact_winding() const { return has_exact_winding_; }
 
   /// Whether `point`, which has no surface nearer than `clear`, stands where the last one
   /// does: there is nothing between.
   bool same_side(const octree::Point& point, double clear) const {
-    const double most = std::max(clear, clear_);
-    if (!(most > 0)) return false;
+    const double radius = std::max(clear, clear_);
+    if (!(radius > 0)) return false;
     const double gap = (point - point_).norm();
-    return gap * (1 + kRounding) < most;
+    return gap * (1 + kRounding) < radius;
   }
 
   /// A point's side; no surface is nearer to it than `clear`, which may be 0.
-  void note(const octree::Point& point, const SideResult& side_result, bool counted, double clear) {
+  void note(const octree::Point& point, const SideResult& side_result, bool has_exact_winding,
+            double clear) {
     side_result_ = side_result;
-    counted_ = counted;
-    go_to(point, clear);
+    has_exact_winding_ = has_exact_winding;
+    move_to(point, clear);
   }
   /// The same of a point that stands where the last one does.
-  void go_to(const octree::Point& point, double clear) {
+  void move_to(const octree::Point& point, double clear) {
     const bool off_surface =
         side_result_.side == Side::kInside || side_result_.side == Side::kOutside;
     point_ = point;
@@ -84,7 +85,7 @@ class SideCache {
   octree::Point cell_upper_ = octree::Point::Constant(kNowhere);
   octree::Point point_ = octree::Point::Constant(kNowhere);
   SideResult side_result_;
-  bool counted_ = false;
+  bool has_exact_winding_ = false;
   double clear_ = 0;
 };
 

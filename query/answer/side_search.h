@@ -12,8 +12,8 @@
 namespace planetree::query {
 
 /// What a search may go on from; null where its answer may not depend on it.
-struct Remembered {
-  SideCache* memory = nullptr;
+struct SideHints {
+  SideCache* cache = nullptr;
   const octree::SideGrid::Lookup* lookup = nullptr;  ///< what look_up_side_grid() says
 };
 
@@ -25,38 +25,38 @@ class SideSearch {
   /// All must outlive this; `reason` may be null.
   SideSearch(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
              const octree::PageReader& pages, octree::TraversalStats& work, SideReason* reason,
-             const Remembered& remembered = {})
+             const SideHints& hints = {})
       : model_(model),
         point_(point),
         max_work_(max_work),
         pages_(pages),
         work_(work),
         reason_(reason),
-        memory_(remembered.memory),
-        lookup_(remembered.lookup),
-        before_(work.nodes + work.blocks) {}
+        cache_(hints.cache),
+        lookup_(hints.lookup),
+        work_before_(work.nodes + work.blocks) {}
 
   SideResult run();
 
   /// Whether the winding number itself is known, not its sign alone.
-  bool counted() const { return counted_; }
+  bool has_exact_winding() const { return has_exact_winding_; }
 
  private:
   std::uint64_t work_left() const {
-    const std::uint64_t spent = work_.nodes + work_.blocks - before_;
+    const std::uint64_t spent = work_.nodes + work_.blocks - work_before_;
     return spent < max_work_ ? max_work_ - spent : 0;
   }
-  bool query_mask();
-  bool go_from(const octree::MaskLookup& found);
-  bool go_to_corner(const octree::MaskLookup& found);
-  bool query_slab(const octree::MaskLookup& found);
+  bool search_mask();
+  bool use_lookup(const octree::MaskLookup& found);
+  bool cross_to_corner(const octree::MaskLookup& found);
+  bool decide_by_slab(const octree::MaskLookup& found);
   template <class Grid>
-  bool go_within_octant(const octree::MaskLookup& found, const Grid& grid);
-  bool go_to_nearest(const octree::MaskLookup& found);
-  bool go(const octree::Point& end, std::int64_t winding, SideReason::Rule rule);
+  bool cross_within_octant(const octree::MaskLookup& found, const Grid& grid);
+  bool cross_to_nearest_end(const octree::MaskLookup& found);
+  bool cross_to(const octree::Point& end, std::int64_t winding, SideReason::Rule rule);
   bool finalize(const octree::Point& end, std::int64_t winding, const octree::Crossings& crossings,
                 SideReason::Rule rule);
-  void settle(std::int64_t winding, bool on_surface);
+  void set_result(std::int64_t winding, bool on_surface);
 
   const ModelGeometry& model_;
   const octree::Point& point_;
@@ -64,11 +64,11 @@ class SideSearch {
   const octree::PageReader& pages_;
   octree::TraversalStats& work_;
   SideReason* const reason_;  // null where nobody asks why
-  SideCache* const memory_;   // null where nothing is remembered
+  SideCache* const cache_;    // null where nothing is remembered
   const octree::SideGrid::Lookup* const lookup_;
-  const std::uint64_t before_;
+  const std::uint64_t work_before_;
   SideResult side_result_;
-  bool counted_ = false;
+  bool has_exact_winding_ = false;
 };
 
 }  // namespace planetree::query

@@ -17,13 +17,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::microseconds kPause(150), kLongPause(10'000);
-constexpr auto kLately = std::chrono::seconds(1);
+constexpr std::chrono::microseconds kBusyPause(150), kIdlePause(10'000);
+constexpr auto kBusyPeriod = std::chrono::seconds(1);
 
 FetchWorker::Seconds time_now() { return Clock::now().time_since_epoch(); }
 
 // Whoever opened the model may run before all others, and handle signals.
-void become_ordinary() noexcept {
+void drop_priority_and_block_signals() noexcept {
   const sched_param parameters{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
   sigset_t all;
@@ -32,7 +32,7 @@ void become_ordinary() noexcept {
 }
 
 // As much of the stack as is ever used, so that the process does not grow later.
-[[gnu::noinline]] void claim_stack() noexcept {
+[[gnu::noinline]] void prefault_stack() noexcept {
   constexpr std::size_t kLineBytes = 64;
   volatile std::byte stack[FetchThreads::kThreadBytes / 4 * 3];
   for (std::size_t at = 0; at < sizeof stack; at += kLineBytes) stack[at] = std::byte{};
@@ -41,19 +41,20 @@ void become_ordinary() noexcept {
 }  // namespace
 
 void FetchThreads::run(FetchWorker& worker) noexcept {
-  claim_stack();
-  become_ordinary();
+  prefault_stack();
+  drop_priority_and_block_signals();
   const FpEnvironmentGuard host;
-  Clock::time_point last = Clock::now() - kLately;
+  Clock::time_point last = Clock::now() - kBusyPeriod;
   while (!stopping_.load(std::memory_order_relaxed)) {
-    const FetchWorker::Did did = worker.work();
-    if (did == FetchWorker::Did::kReadForAQuery) continue;
-    if (did == FetchWorker::Did::kNothing) {
-      cache_.wait_for_wanted_page(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
+    const FetchWorker::Action action = worker.work();
+    if (action == FetchWorker::Action::kReadAwaitedPage) continue;
+    if (action == FetchWorker::Action::kNone) {
+      cache_.wait_for_wanted_page(Clock::now() - last < kBusyPeriod ? kBusyPause : kIdlePause,
+                                  stopping_);
       continue;
     }
     last = Clock::now();
-    (did == FetchWorker::Did::kServedARequest ? requests_served_ : positions_prefetched_)
+    (action == FetchWorker::Action::kServedRequest ? requests_served_ : positions_prefetched_)
         .fetch_add(1, std::memory_order_relaxed);
   }
 }

@@ -22,12 +22,12 @@ class FetchProbe {
   ///
   /// options   Wait::kForPages, and a limit of work: the query then starts from the root, since
   ///           what a probe keeps says nothing of what is resident.
-  /// is_ahead  whether a probe is moving there, rather than missing the pages.
+  /// is_prefetch  whether a probe is moving there, rather than missing the pages.
   /// stop      once true, gives up before the next missing page.
-  virtual void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+  virtual void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
                            const std::atomic<bool>& stop) noexcept = 0;
   /// Reads one page that a blocking query waits for. False: there is none.
-  virtual bool read_for_a_query() noexcept = 0;
+  virtual bool read_awaited_page() noexcept = 0;
 };
 
 /// Fetches what a model's probes miss (Wait::kNever) and what they are moving to: it runs the
@@ -47,32 +47,32 @@ class FetchWorker {
   FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
               std::size_t first, std::size_t step, Clock clock, const std::atomic<bool>& stop);
 
-  enum class Did : std::uint8_t { kNothing, kServedARequest, kLookedAhead, kReadForAQuery };
+  enum class Action : std::uint8_t { kNone, kServedRequest, kPrefetchedPosition, kReadAwaitedPage };
   /// Does one thing that there is to do: reads a page that an ask waits for, and wishes, come
   /// before plans, and of these two neither comes twice while the other waits.
-  Did work() noexcept;
+  Action work() noexcept;
 
  private:
-  struct Seen {
-    std::uint64_t request = 0, motion = 0;
-    Motion moving;
-    unsigned slots_left = 0;  // of those to look at ahead of the last motion
+  struct Progress {
+    std::uint64_t seen_request = 0, seen_motion = 0;
+    Motion motion;
+    unsigned positions_left = 0;  // of those to look at ahead of the last motion
   };
-  static_assert(sizeof(Seen) <= kProbeBytes);
+  static_assert(sizeof(Progress) <= kProbeBytes);
 
   bool serve_request(std::size_t index) noexcept;
-  bool look_ahead(std::size_t index) noexcept;
-  void note_time(Seconds taken) noexcept;
+  bool prefetch_position(std::size_t index) noexcept;
+  void note_fetch_time(Seconds taken) noexcept;
 
   const std::span<FetchRequests> requests_;
   std::unique_ptr<FetchProbe> probe_;
   const std::size_t first_, step_;
   const Clock clock_;
   const std::atomic<bool>& stop_;
-  std::vector<Seen> seen_;  // by place
-  std::size_t next_ = 0;    // the place served next: none is kept waiting by another
-  bool query_was_last_ = false;
-  Seconds slowest_{0};
+  std::vector<Progress> progress_;  // by place
+  std::size_t next_index_ = 0;      // the place served next: none is kept waiting by another
+  bool awaited_page_was_last_ = false;
+  Seconds slowest_fetch_{0};
 };
 
 }  // namespace planetree::query

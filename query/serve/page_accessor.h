@@ -37,7 +37,7 @@ class PageAccessor {
         terms_(terms),
         stop_(stop),
         wait_(wait),
-        waits_(wait == Wait::kForPages) {}
+        may_wait_(wait == Wait::kForPages) {}
   ~PageAccessor() {
     if (reader_.inside()) reader_.leave();
   }
@@ -45,7 +45,7 @@ class PageAccessor {
   PageAccessor& operator=(const PageAccessor&) = delete;
 
   /// Where to note what is looked for; null: nowhere.
-  void set_trace(PageTraceWriter* log) noexcept { log_ = log; }
+  void set_trace(PageTraceWriter* trace) noexcept { trace_ = trace; }
 
   /// The page's frame, good until the next call, or until the keeper that pages() names is told;
   /// null if it cannot be had.
@@ -54,14 +54,14 @@ class PageAccessor {
       release_frames();
       reader_.leave();
     }
-    begin();
-    if (prefetch_hook_.context && lookups_ % kLookupsPerStep == 0) step_prefetcher();
+    begin_section();
+    if (prefetch_hook_.context && lookups_ % kLookupsPerStep == 0) advance_prefetcher();
     if (const std::byte* frame = reader_.find(number)) {
-      if (log_) log_->found(number);
+      if (trace_) trace_->found(number);
       return frame;
     }
-    if (waits_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
-    if (log_ && wait_ == Wait::kNever) log_->missed(number);
+    if (may_wait_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
+    if (trace_ && wait_ == Wait::kNever) trace_->missed(number);
     missed_ = true;
     return nullptr;
   }
@@ -71,21 +71,21 @@ class PageAccessor {
 
   /// Where page() would find it, or null.
   const std::byte* peek(std::uint32_t number) noexcept {
-    begin();
+    begin_section();
     return reader_.peek(number);
   }
 
   const octree::PageReader& pages() const noexcept { return pages_; }
 
  private:
-  void begin() noexcept {
+  void begin_section() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
   // Before a section ends of which there are pointers.
   void release_frames() noexcept {
     if (release_hook_.on_release) release_hook_.on_release(release_hook_.context);
   }
-  void step_prefetcher() noexcept {
+  void advance_prefetcher() noexcept {
     if (!prefetch_hook_.step(prefetch_hook_.context, pages_)) prefetch_hook_ = {};
   }
   const std::byte* fetch(std::uint32_t number) noexcept;
@@ -114,9 +114,9 @@ class PageAccessor {
   const std::atomic<bool>* const stop_;
   octree::FrameReleaseHook release_hook_;
   octree::PrefetchHook prefetch_hook_;
-  PageTraceWriter* log_ = nullptr;
+  PageTraceWriter* trace_ = nullptr;
   const Wait wait_;
-  bool waits_;  // until it has waited long enough
+  bool may_wait_;  // until it has waited long enough
   bool missed_ = false;
   std::uint32_t lookups_ = 0;
 };

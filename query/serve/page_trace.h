@@ -35,21 +35,22 @@ class PageTraceWriter {
   /// At the beginning of an ask; null where there is nothing to note.
   PageTraceWriter* begin_query(Wait wait) noexcept {
     if (trace_ == nullptr) return nullptr;
-    waits_ = wait == Wait::kForPages;
-    if (!waits_) ++trace_->queries;
+    is_blocking_ = wait == Wait::kForPages;
+    if (!is_blocking_) ++trace_->queries;
     return this;
   }
   /// Whether what is fetched is for later.
-  void set_looks_ahead(bool ahead) noexcept { looks_ahead_ = ahead; }
+  void set_prefetching(bool ahead) noexcept { is_prefetching_ = ahead; }
 
   void found(std::uint32_t page) noexcept {
     const bool prefetched = marks_[page].load(std::memory_order_relaxed) != 0;
-    if (prefetched && !looks_ahead_) marks_[page].store(0, std::memory_order_relaxed);
-    if (!waits_) note(page, prefetched ? PageAccess::Kind::kPrefetched : PageAccess::Kind::kHit);
+    if (prefetched && !is_prefetching_) marks_[page].store(0, std::memory_order_relaxed);
+    if (!is_blocking_)
+      note(page, prefetched ? PageAccess::Kind::kPrefetched : PageAccess::Kind::kHit);
   }
   void missed(std::uint32_t page) noexcept { note(page, PageAccess::Kind::kMissed); }
   void fetched(std::uint32_t page) noexcept {
-    marks_[page].store(looks_ahead_ ? 1 : 0, std::memory_order_relaxed);
+    marks_[page].store(is_prefetching_ ? 1 : 0, std::memory_order_relaxed);
   }
 
  private:
@@ -59,8 +60,8 @@ class PageTraceWriter {
 
   PageTrace* trace_;
   PrefetchMark* marks_;
-  bool waits_ = false;
-  bool looks_ahead_ = false;
+  bool is_blocking_ = false;
+  bool is_prefetching_ = false;
 };
 
 }  // namespace planetree::query

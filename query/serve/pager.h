@@ -58,22 +58,22 @@ class Pager {
   }
   Result<cache::FillResult> fill(const cache::FillRequest& request) noexcept;
   storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
-  storage::ReadWait* wait_of(std::uint32_t fetcher) noexcept;
+  storage::ReadWait* read_wait_for(std::uint32_t fetcher) noexcept;
 
   storage::PageFile file_;
   // Each takes a descriptor while its model is open, and is given to who first needs one; owners
   // without look for what they wait for.
-  static constexpr std::uint64_t kMaxWaits = 16;
+  static constexpr std::uint64_t kMaxReadWaits = 16;
   // Longer than disks take that move; others are left to a thread that gets pages.
-  static constexpr std::chrono::milliseconds kMaxWaited{20};
+  static constexpr std::chrono::milliseconds kMaxReadWait{20};
 
   std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() of each owner of the cache
-  struct OwnWait {
+  struct FetcherWait {
     storage::ReadWait wait;
-    bool is_given = false;
+    bool is_granted = false;
   };
-  std::unique_ptr<OwnWait[]> waits_;  // of each owner, who may use it if it is given
-  std::atomic<std::uint64_t> waits_given_{0};
+  std::unique_ptr<FetcherWait[]> fetcher_waits_;  // of each owner, who may use it if it is given
+  std::atomic<std::uint64_t> granted_waits_{0};
   std::chrono::milliseconds max_wait_{};
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<QueryArena> query_arena_;

@@ -11,14 +11,14 @@ namespace planetree::query {
 
 /// The steps of SeqLock, below, at which the order of memory matters.
 enum class SeqLockStep : std::uint8_t {
-  kGiveWord,    ///< G2
-  kGiveNumber,  ///< G3
-  kTakeNumber,  ///< T1
-  kTakeWord,    ///< T2
+  kStoreWord,      ///< G2
+  kStoreSequence,  ///< G3
+  kLoadSequence,   ///< T1
+  kLoadWord,       ///< T2
 };
 
 constexpr std::memory_order order_of(SeqLockStep step) noexcept {
-  return step == SeqLockStep::kGiveWord || step == SeqLockStep::kGiveNumber
+  return step == SeqLockStep::kStoreWord || step == SeqLockStep::kStoreSequence
              ? std::memory_order_release
              : std::memory_order_acquire;
 }
@@ -56,26 +56,28 @@ class alignas(64) SeqLock {
 
  public:
   /// The giver alone.
-  void give(const Value& value) noexcept {
+  void store(const Value& value) noexcept {
     const auto words = std::bit_cast<std::array<std::uint64_t, kWords>>(value);
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, std::memory_order_relaxed);
     for (std::size_t i = 0; i < kWords; ++i)
-      words_[i].store(words[i], Atomics::order(SeqLockStep::kGiveWord));
-    sequence_.store(sequence + 2, Atomics::order(SeqLockStep::kGiveNumber));
+      words_[i].store(words[i], Atomics::order(SeqLockStep::kStoreWord));
+    sequence_.store(sequence + 2, Atomics::order(SeqLockStep::kStoreSequence));
   }
 
   /// Any thread: how many values were given so far.
-  std::uint64_t given() const noexcept { return sequence_.load(std::memory_order_relaxed) / 2; }
+  std::uint64_t store_count() const noexcept {
+    return sequence_.load(std::memory_order_relaxed) / 2;
+  }
 
   /// Any thread. False, and nothing changed, where there is no value newer than `seen`, which
   /// is 0 at first, or one is being written: to be looked for again later.
-  bool take(std::uint64_t& seen, Value& value) const noexcept {
-    const std::uint64_t first = sequence_.load(Atomics::order(SeqLockStep::kTakeNumber));
+  bool load_newer(std::uint64_t& seen, Value& value) const noexcept {
+    const std::uint64_t first = sequence_.load(Atomics::order(SeqLockStep::kLoadSequence));
     if (first == seen || first % 2 == 1) return false;
     std::array<std::uint64_t, kWords> words;
     for (std::size_t i = 0; i < kWords; ++i)
-      words[i] = words_[i].load(Atomics::order(SeqLockStep::kTakeWord));
+      words[i] = words_[i].load(Atomics::order(SeqLockStep::kLoadWord));
     if (sequence_.load(std::memory_order_relaxed) != first) return false;
     value = std::bit_cast<Value>(words);
     seen = first;

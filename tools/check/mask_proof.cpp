@@ -204,10 +204,10 @@ std::optional<std::int64_t> MaskProof::count_winding(const Point& point) {
     if (!crossings.complete) return std::nullopt;
     return model_->geometry().region_winding + crossings.difference;
   }
-  const query::ExitSegments ways(tree, point);
-  for (const query::ExitSegments::Way& way : ways.all()) {
+  const query::ExitSegments segments(tree, point);
+  for (const query::ExitSegments::Segment& segment : segments.all()) {
     const octree::Crossings crossings =
-        octree::count_crossings(tree, {point, way.end}, kAllNodes, accessor.pages(), work);
+        octree::count_crossings(tree, {point, segment.end}, kAllNodes, accessor.pages(), work);
     if (crossings.complete) return crossings.difference;
   }
   return std::nullopt;
