@@ -25,14 +25,15 @@ SideResult by_crossings(const ModelGeometry& model, const Point& point, std::uin
   return SideSearch(model, point, max_work, pages, work, reason).run();
 }
 
-// What is left out of a file may change the winding number: of a point beyond a wall of its
-// region, and of any where winding numbers are not constant off the surface.
+// Returns whether the triangles missing from a file of a region may change a point's side: beyond a
+// wall of the region; and anywhere in a model that is not watertight, where winding numbers are not
+// constant off the surface.
 bool is_unknowable(const ModelGeometry& model, const Point& point) {
   const octree::Region& region = model.region;
   return region.has_walls() && (!region.holds(point) || !model.watertight);
 }
 
-/// The nearest whole number, however large.
+// Rounds to the nearest whole number; clamps to +-2^62.
 std::int64_t rounded(double value) {
   constexpr double kMax = 0x1p62;
   return static_cast<std::int64_t>(std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMax, kMax));
@@ -42,7 +43,7 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
                              std::uint64_t max_work, const octree::PageReader& pages,
                              octree::TraversalStats& work, SideReason* reason) {
   if (reason) reason->rule = SideReason::Rule::kWindingNumber;
-  // From so far away all triangles together are less than a point.
+  // Seen from so far away, all triangles together have no measurable solid angle.
   if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
   const octree::WindingNumber w = octree::winding_number(tree, point, max_work, pages, work);
   if (reason) {

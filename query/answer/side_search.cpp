@@ -13,7 +13,7 @@ using octree::Point;
 
 SideResult SideSearch::run() {
   if (search_mask()) return side_result_;
-  // Usually the first way tells; another may do without a page that is lost.
+  // Usually the first segment decides. Another may do without a page that is missing.
   const octree::Region& region = model_.region;
   const ExitSegments segments(model_.tree, point_);
   for (const ExitSegments::Segment& segment : segments.all())
@@ -29,11 +29,13 @@ bool SideSearch::search_mask() {
   using Kind = octree::MaskLookup::Kind;
   if (cache_)
     if (const octree::MaskLookup* last = cache_->cell_with(point_)) return use_lookup(*last);
-  // What is resident, answers that remember depend on anyway. Lists are long: made where it stays.
+  // Starting at the grid's record skips the upper levels of the mask. A search with hints may do
+  // so, since its result may depend on resident pages anyway. `found` is initialized in place,
+  // because a MaskLookup is large.
   const octree::MaskLookup found =
       lookup_ ? octree::look_up(model_.mask, *lookup_, point_, work_left(), pages_, work_)
               : octree::look_up(model_.mask, point_, work_left(), pages_, work_);
-  // What a special cell knows is of this point alone.
+  // The lookup in a special cell holds for this point only.
   const bool holds_in_cell = found.kind == Kind::kColour || found.kind == Kind::kCorners;
   if (cache_ && holds_in_cell && cache_->is_near(point_, model_.tree))
     cache_->note_cell(model_.mask, found);
@@ -56,7 +58,8 @@ bool SideSearch::use_lookup(const octree::MaskLookup& found) {
   return true;
 }
 
-// What is beyond the planes of a cell has the winding number of its corner there.
+// Decides by the slab of the cell: a point beyond one of its planes has the winding number of the
+// cell's corner there.
 bool SideSearch::decide_by_slab(const octree::MaskLookup& found) {
   const octree::CellSlab& slab = found.blocks.slab;
   if (!slab.has_plane()) return false;
@@ -70,8 +73,8 @@ bool SideSearch::decide_by_slab(const octree::MaskLookup& found) {
   return true;
 }
 
-// To the corner of the octant that the point is in: past those blocks alone that have triangles
-// in the octant.
+// Counts crossings to the cell's corner in the octant that the point is in. Only the blocks that
+// have triangles in that octant count.
 template <class Grid>
 bool SideSearch::cross_within_octant(const octree::MaskLookup& found, const Grid& grid) {
   const unsigned octant = grid.octant(found.cell, point_);
@@ -88,13 +91,14 @@ bool SideSearch::cross_within_octant(const octree::MaskLookup& found, const Grid
 bool SideSearch::cross_to_corner(const octree::MaskLookup& found) {
   if (found.blocks.count == 0) return cross_to_nearest_end(found);
   const Point& lower = model_.mask.lower;
-  // Most often there is nothing to clip.
+  // Most files have no region. Their octants need no clipping. Only there slabs are used.
   if (!model_.region.has_walls())
     return decide_by_slab(found) || cross_within_octant(found, octree::CellGrid(lower));
   return cross_within_octant(found, octree::ClippedGrid(lower, model_.region));
 }
 
-// The nearest corner, or the last point if that is nearer: few triangles are between.
+// Counts crossings to the nearest corner, or to the last point if that is nearer, because few
+// triangles lie between.
 bool SideSearch::cross_to_nearest_end(const octree::MaskLookup& found) {
   const octree::ClippedGrid grid(model_.mask.lower, model_.region);
   Point corner = grid.lower(found.cell);
@@ -112,7 +116,7 @@ bool SideSearch::cross_to_nearest_end(const octree::MaskLookup& found) {
   return cross_to(corner, found.corners[nearest], SideReason::Rule::kCorner);
 }
 
-// To where the winding number is known. False if that way cannot be gone.
+// Counts crossings to an end of known winding number.
 bool SideSearch::cross_to(const Point& end, std::int64_t winding, SideReason::Rule rule) {
   if (work_left() == 0) return false;
   return finalize(end, winding,
@@ -120,7 +124,7 @@ bool SideSearch::cross_to(const Point& end, std::int64_t winding, SideReason::Ru
                   rule);
 }
 
-// From what lies between the point and an end where the winding number is known.
+// Sets the result from the crossings between the point and an end of known winding number.
 bool SideSearch::finalize(const Point& end, std::int64_t winding,
                           const octree::Crossings& crossings, SideReason::Rule rule) {
   if (!crossings.complete) return false;

@@ -11,18 +11,18 @@
 
 namespace planetree::query {
 
-/// What a search may go on from; null where its answer may not depend on it.
+/// Results of earlier work that a search may use. Null: the search must not depend on it.
 struct SideHints {
-  SideCache* cache = nullptr;
-  const octree::SideGrid::Lookup* lookup = nullptr;  ///< what look_up_side_grid() says
+  SideCache* cache = nullptr;                        ///< sides and cells of earlier queries
+  const octree::SideGrid::Lookup* lookup = nullptr;  ///< result of look_up_side_grid()
 };
 
-/// One search for the side of a point in the box of a watertight model and within its region, and
-/// what it may still spend: from the point to where the winding number is known, by the crossings
-/// between.
+/// Finds the side of one point of a watertight model. The point is in the model's box and in its
+/// region. Where the mask alone does not tell, the search counts the crossings of a segment from
+/// the point to an end of known winding number.
 class SideSearch {
  public:
-  /// All must outlive this; `reason` may be null.
+  /// The arguments must outlive this; `reason` may be null.
   SideSearch(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
              const octree::PageReader& pages, octree::TraversalStats& work, SideReason* reason,
              const SideHints& hints = {})
@@ -36,12 +36,15 @@ class SideSearch {
         lookup_(hints.lookup),
         work_before_(work.nodes + work.blocks) {}
 
+  /// Runs the search, once. kDegraded if pages were missing or the work was spent.
   SideResult run();
 
-  /// Whether the winding number itself is known, not its sign alone.
+  /// Whether the winding number of the result is exact. If not, only its sign is right.
   bool has_exact_winding() const { return has_exact_winding_; }
 
  private:
+  // The functions that return bool set the result and return true, or return false if they cannot
+  // decide.
   std::uint64_t work_left() const {
     const std::uint64_t spent = work_.nodes + work_.blocks - work_before_;
     return spent < max_work_ ? max_work_ - spent : 0;
@@ -63,8 +66,8 @@ class SideSearch {
   const std::uint64_t max_work_;
   const octree::PageReader& pages_;
   octree::TraversalStats& work_;
-  SideReason* const reason_;  // null where nobody asks why
-  SideCache* const cache_;    // null where nothing is remembered
+  SideReason* const reason_;  // may be null
+  SideCache* const cache_;    // null: not used
   const octree::SideGrid::Lookup* const lookup_;
   const std::uint64_t work_before_;
   SideResult side_result_;
