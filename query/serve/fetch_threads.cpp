@@ -17,12 +17,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Time between two looks for requests: shorter if the last action was within kBusyPeriod.
 constexpr std::chrono::microseconds kBusyPause(150), kIdlePause(10'000);
 constexpr auto kBusyPeriod = std::chrono::seconds(1);
 
 FetchWorker::Seconds time_now() { return Clock::now().time_since_epoch(); }
 
-// Whoever opened the model may run before all others, and handle signals.
+// A thread inherits the priority and signal mask of the thread that opened the model, which may be
+// a real-time thread.
 void drop_priority_and_block_signals() noexcept {
   const sched_param parameters{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
@@ -31,7 +33,7 @@ void drop_priority_and_block_signals() noexcept {
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
-// As much of the stack as is ever used, so that the process does not grow later.
+// Touches as much of the stack as is ever used, so that memory does not grow later.
 [[gnu::noinline]] void prefault_stack() noexcept {
   constexpr std::size_t kLineBytes = 64;
   volatile std::byte stack[FetchThreads::kThreadBytes / 4 * 3];

@@ -6,7 +6,8 @@
 namespace planetree::query {
 namespace {
 
-// How far ahead of a moving probe to look, by how long pages take to come.
+// Limits of how far ahead of a moving probe to prefetch; in between, the time that fetches take
+// decides.
 constexpr FetchWorker::Seconds kMinTimeAhead{0.005}, kMaxTimeAhead{0.2};
 constexpr unsigned kPositionsAhead = 4;
 
@@ -50,7 +51,8 @@ FetchWorker::Action FetchWorker::work() noexcept {
     }
     return false;
   };
-  // The pages of a wish are read with those of asks in between.
+  // While a request is served, pages that blocking queries wait for are read in between. So the two
+  // alternate.
   awaited_page_was_last_ = !awaited_page_was_last_ && probe_->read_awaited_page();
   if (awaited_page_was_last_) return Action::kReadAwaitedPage;
   if (serve_any_probe(&FetchWorker::serve_request)) return Action::kServedRequest;
@@ -66,7 +68,7 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   QueryOptions options = blocking_options(request.parts);
   options.max_error = request.max_error;
   options.max_distance = request.max_distance;
-  // A probe that remembers may spend its work elsewhere than one from the root.
+  // A query that starts from coherence may spend its work elsewhere than this one from the root.
   options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
                                 QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
   const Seconds began = clock_();
@@ -75,7 +77,7 @@ bool FetchWorker::serve_request(std::size_t index) noexcept {
   return true;
 }
 
-// One place at a time, so that wishes need not wait for all.
+// Prefetches one position at a time, so that requests need not wait for all of them.
 bool FetchWorker::prefetch_position(std::size_t index) noexcept {
   Progress& progress = progress_[index];
   if (requests_[index].motion.load_newer(progress.seen_motion, progress.motion))
@@ -88,7 +90,8 @@ bool FetchWorker::prefetch_position(std::size_t index) noexcept {
   return true;
 }
 
-// The slowest wish lately: each later one counts for a sixteenth.
+// Updates the maximum time of recent requests. It decays towards the time of each later request by
+// a sixteenth of the difference.
 void FetchWorker::note_fetch_time(Seconds taken) noexcept {
   slowest_fetch_ = std::max(taken, slowest_fetch_ + (taken - slowest_fetch_) / 16);
 }

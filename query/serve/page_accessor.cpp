@@ -2,8 +2,8 @@
 
 namespace planetree::query {
 
-// Pages of asks come first, one for each that this thread wants: neither waits for all of the
-// other's.
+// A fetch thread (stop_ is set) first reads one page that a blocking query waits for, so that
+// neither waits for all pages of the other.
 const std::byte* PageAccessor::fetch(std::uint32_t number) noexcept {
   if (trace_) trace_->fetched(number);
   release_frames();

@@ -65,7 +65,7 @@ Result<void> Pager::claim(const Limits& limits) {
 
 Result<void> Pager::lock(Locking locking) noexcept {
   if (locking == Locking::kNever) return {};
-  // The smaller part first: the system may allow no more.
+  // Locks the smaller part first, since the limit of the system may allow no more.
   query_arena_is_locked_ = query_arena_->lock();
   const bool cache_is_locked = cache_->lock_memory();
   if ((query_arena_is_locked_ && cache_is_locked) || locking != Locking::kRequire) return {};
@@ -79,7 +79,7 @@ Result<cache::FillResult> Pager::fill(const cache::FillRequest& request) noexcep
   const storage::PageEntry& entry = file_.entries()[request.page];
   std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes();
   const std::span<std::byte> raw(scratch, entry.raw_bytes);
-  // A frame is written last, so that it may hold the stored bytes before.
+  // The frame is written last. Until then it may hold the stored bytes.
   const std::span<std::byte> stored =
       stored_fits_frame() ? request.frame
                           : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
