@@ -8,7 +8,7 @@
 
 namespace planetree::query {
 
-/// The probe of a fetch thread: brings pages by running queries that wait for them.
+/// The probe of a fetch thread. It makes pages resident by running blocking queries.
 class QueryingFetchProbe final : public FetchProbe {
  public:
   QueryingFetchProbe(const ServingModel& model, cache::Reader reader)

@@ -67,7 +67,7 @@ Result<void> check_counts(const OpenOptions& options) {
   return {};
 }
 
-// Of the model's own threads.
+// Returns the number of probes of the model's own threads.
 unsigned thread_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }

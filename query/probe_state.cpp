@@ -10,7 +10,7 @@
 
 namespace planetree::query {
 
-// A fetch thread runs the query again, and waits for the pages.
+// Leaves a fetch request: a fetch thread runs the query again and waits for the pages.
 void ProbeState::request(const Vec3& query, const QueryOptions& options,
                          std::uint32_t parts) noexcept {
   model_.requests(reader_.index())
@@ -32,7 +32,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   return answer;
 }
 
-// A function of its own: what most calls of contains() do needs few registers.
+// Not inlined, because most calls of contains() end before it and then save few registers.
 [[gnu::noinline]] Containment ProbeState::search_side(const Vec3& query,
                                                       const QueryOptions& options,
                                                       const octree::Point& scaled,
