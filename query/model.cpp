@@ -55,7 +55,7 @@ Result<void> check_counts(const OpenOptions& options) {
   const auto check = [](unsigned count, const char* what, unsigned most) -> Result<void> {
     if (count >= 1 && count <= most) return {};
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "%u %s make no sense; give 1 to %u", count, what, most);
+                      "%u %s are not possible; give 1 to %u", count, what, most);
   };
   for (const Result<void>& checked :
        {check(options.batch_threads, "batch threads", OpenOptions::kMaxBatchThreads),
@@ -154,7 +154,7 @@ Result<std::unique_ptr<ModelState>> ModelState::open(const std::filesystem::path
                                                      const ModelSeams& seams) {
   if (const char* fault = octree::startup_check())
     return make_error(ErrorCode::kUnsupported, Error::kNowhere, Error::kNowhere,
-                      "this build computes otherwise than it must: %s; compile without "
+                      "the arithmetic of this build is wrong: %s; compile without "
                       "-ffast-math, -ffp-contract and -mfpmath=387",
                       fault);
   if (const auto checked = check_counts(options); !checked) return checked.error();

@@ -22,7 +22,7 @@ Result<std::unique_ptr<BatchThreads>> BatchThreads::create(unsigned threads) {
     return std::unique_ptr<BatchThreads>(new BatchThreads(threads));
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "no memory for %u batch threads; free some or ask for fewer", threads);
+                      "no memory for %u batch threads; free some or lower batch_threads", threads);
   }
 }
 

@@ -67,7 +67,8 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
   const std::size_t count = probes.size();
   const auto refused = [count] {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "the system refused %zu fetch threads; free memory or ask for fewer", count);
+                      "the system refused %zu fetch threads; free memory or lower fetch_threads",
+                      count);
   };
   try {
     std::unique_ptr<FetchThreads> threads(new FetchThreads(cache));

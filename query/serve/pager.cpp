@@ -36,6 +36,7 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.frame_bytes = header.page_bytes;
   cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
+  cache_limits.own_readers = limits.thread_probes;
   // pin() is one more.
   const std::uint64_t fetcher_count = std::uint64_t{cache_limits.max_readers} + 1;
   max_wait_ = std::min(limits.wait_limit, kMaxReadWait);

@@ -13,8 +13,8 @@ enum class BuildPhase : std::uint8_t {
   kOrdering,
   kMatching,
   kListing,
-  kBounding,
-  kColouring,
+  kBuildingTree,
+  kBuildingMask,
   kWriting
 };
 
@@ -22,7 +22,7 @@ enum class BuildPhase : std::uint8_t {
 constexpr const char* name_of(BuildPhase phase) {
   switch (phase) {
     case BuildPhase::kResuming:
-      return "taking up earlier work";
+      return "resuming";
     case BuildPhase::kReading:
       return "reading";
     case BuildPhase::kOrdering:
@@ -31,10 +31,10 @@ constexpr const char* name_of(BuildPhase phase) {
       return "matching edges";
     case BuildPhase::kListing:
       return "listing unbalanced edges";
-    case BuildPhase::kBounding:
-      return "bounding";
-    case BuildPhase::kColouring:
-      return "colouring";
+    case BuildPhase::kBuildingTree:
+      return "building tree";
+    case BuildPhase::kBuildingMask:
+      return "building mask";
     case BuildPhase::kWriting:
       break;
   }
