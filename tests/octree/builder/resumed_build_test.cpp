@@ -13,13 +13,13 @@
 namespace planetree::octree {
 namespace {
 
-const std::string kNoEarlierWork = "no earlier work to go on with; building from the start";
+const std::string kNoCheckpoint = "no checkpoint; building from the start";
 
 TEST_F(ResumedBuild, WritesTheSameBytesAndLeavesNoOtherFiles) {
   for (const Soup& soup : {sphere(3), holed(), repeated(300)}) {
     write(soup);
     expect_completed(whole());
-    EXPECT_EQ(recorder_.start, kNoEarlierWork);
+    EXPECT_EQ(recorder_.start, kNoCheckpoint);
     std::filesystem::remove(output_);
   }
 }
