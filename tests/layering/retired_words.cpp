@@ -9,7 +9,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_word_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -40,8 +42,8 @@ std::vector<std::size_t> find_words(std::string_view text, std::string_view word
   for (std::size_t at = text.find(word); at != std::string_view::npos;
        at = text.find(word, at + 1)) {
     const std::size_t end = at + word.size();
-    const bool starts = at == 0 || !is_word(text[at - 1]);
-    const bool ends = beginning || end == text.size() || !is_word(text[end]);
+    const bool starts = at == 0 || !is_word_character(text[at - 1]);
+    const bool ends = beginning || end == text.size() || !is_word_character(text[end]);
     if (starts && ends) found.push_back(at);
   }
   return found;
