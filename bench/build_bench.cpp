@@ -127,7 +127,7 @@ double peer_seconds(const Arguments& arguments) {
 int run(const Arguments& arguments) {
   const double peer_s = arguments.with_peer ? peer_seconds(arguments) : 0;
   if (peer_s > 0) fmt::print("Embree, {} threads: {:.1f} s\n", arguments.threads, peer_s);
-  fmt::print("{:>11} {:>10} {:>10} {:>8} {:>10}\n", "may use", "in all", "unparsed", "Embree's",
+  fmt::print("{:>11} {:>10} {:>10} {:>8} {:>10}\n", "limit", "total", "no parsing", "Embree's",
              "peak");
   for (const std::uint64_t memory_mib : arguments.memory_mib)
     if (!build_apart(arguments, memory_mib, peer_s)) return 1;
@@ -139,13 +139,13 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("What a build takes, beside Embree's build of medium quality");
+  CLI::App app("Measures a build next to Embree's build of medium quality");
   app.add_option("mesh", arguments.mesh, "Mesh to build from")->required();
   app.add_option("--folder", arguments.folder, "Where the tree and temporary files go")
       ->capture_default_str();
-  app.add_option("--memory-mib", arguments.memory_mib, "Memory that builds may use, one each")
+  app.add_option("--memory-mib", arguments.memory_mib, "Memory limits, one build for each")
       ->capture_default_str();
-  app.add_option("--threads", arguments.threads, "Of both")->capture_default_str();
+  app.add_option("--threads", arguments.threads, "Threads of both builds")->capture_default_str();
   app.add_flag("!--alone", arguments.with_peer, "Without Embree, which holds the mesh in memory");
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);

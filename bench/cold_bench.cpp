@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
   CLI::App app("The first queries of a model of which nothing is in memory");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
   app.add_option("--queries", arguments.queries, "Points a workload")->capture_default_str();
-  app.add_option("--memory-mib", arguments.memory_mib, "Most memory for the model")
+  app.add_option("--memory-mib", arguments.memory_mib, "Maximum memory for the model")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);

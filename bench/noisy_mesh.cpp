@@ -173,7 +173,7 @@ int run(const Arguments& arguments) {
   }
   const FinerMesh finer(*mesh, arguments.pieces, arguments.seed);
   if (finer.vertices() >= std::uint64_t{1} << 32) {
-    std::cerr << arguments.mesh << ": too many vertices; ask for fewer pieces\n";
+    std::cerr << arguments.mesh << ": too many vertices; give fewer pieces\n";
     return 2;
   }
   std::ofstream out(arguments.output, std::ios::binary);
@@ -197,10 +197,11 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("A mesh made finer, and rough, as scans are");
+  CLI::App app("Makes a mesh finer and rough, like a scan");
   app.add_option("mesh", arguments.mesh, "Mesh to begin with")->required();
   app.add_option("output", arguments.output, "PLY file to write")->required();
-  app.add_option("--pieces", arguments.pieces, "Of each edge; triangles become their square")
+  app.add_option("--pieces", arguments.pieces,
+                 "Pieces of each edge; each triangle becomes pieces * pieces triangles")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_option("--seed", arguments.seed, "Chooses the noise")->capture_default_str();

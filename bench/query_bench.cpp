@@ -34,9 +34,9 @@ double query_all(Probe& probe, const std::vector<Vec3>& points, const std::strin
 
 int run(const Arguments& arguments) {
   const auto model = Model::open(arguments.model, {.memory_budget_bytes = std::uint64_t{16} << 30});
-  if (!model) return std::cerr << "ask_bench: " << model.error().text << '\n', 1;
+  if (!model) return std::cerr << "query_bench: " << model.error().text << '\n', 1;
   auto probe = Probe::create(*model);
-  if (!probe) return std::cerr << "ask_bench: " << probe.error().text << '\n', 1;
+  if (!probe) return std::cerr << "query_bench: " << probe.error().text << '\n', 1;
   const Box box{model->info().box_lower, model->info().box_upper};
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
   for (const Workload workload : kWorkloads) {
@@ -50,7 +50,7 @@ int run(const Arguments& arguments) {
     fmt::print("{:.17g}\n", sum);
     return 0;
   }
-  std::cerr << "ask_bench: there are no points called '" << arguments.workload << "'\n";
+  std::cerr << "query_bench: there is no workload '" << arguments.workload << "'\n";
   return 2;
 }
 

@@ -113,7 +113,7 @@ void print_times(const char* what, const std::vector<QueryTimes>& rounds) {
     p999.push_back(round.p999_ns);
     degraded += round.degraded;
   }
-  fmt::print("{}: half {:.0f} ns, 99.9 % {:.0f} ns, {} degraded\n", what, median(medians),
+  fmt::print("{}: median {:.0f} ns, 99.9 % {:.0f} ns, {} degraded\n", what, median(medians),
              median(p999), degraded);
 }
 
@@ -136,14 +136,14 @@ void compare_queries(const Model& model, const std::vector<Vec3>& path) {
   }
   over = true;
   installer.join();
-  print_times("queries, nothing else done", idle);
+  print_times("queries, no other load", idle);
   print_times("queries beside installs", loaded);
   fmt::print("pages read meanwhile: {}\n", model.stats().pages_read - before);
 }
 
 void measure(const Model& model) {
   const tools::RealTimeRights rights = tools::become_real_time();
-  fmt::print("first before all threads: {}; one processor: {}\n", rights.fifo, rights.pinned);
+  fmt::print("real-time priority: {}; pinned to one processor: {}\n", rights.fifo, rights.pinned);
   fmt::print("a section of a reader: {:.1f} ns\n", section_ns());
   fmt::print("installs a second: {:.0f}, pages of {} bytes\n", installs_a_second(model),
              model.info().page_bytes);

@@ -172,7 +172,7 @@ int run(const Arguments& arguments) {
   fmt::print("{:<20}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "us", "cold page", "warm page", "tick",
              "99.9 %", "longest");
   const Ticker::Ticks alone = ticker.run(arguments.seconds);
-  fmt::print("{:<20}{:>10}{:>10}{:>10.0f}{:>10.0f}{:>10.0f}\n", "nothing beside", "", "",
+  fmt::print("{:<20}{:>10}{:>10}{:>10.0f}{:>10.0f}{:>10.0f}\n", "no other load", "", "",
              alone.median, alone.p999, alone.max);
   for (int round = 0; round < 3; ++round) measure(descriptor, *file, ticker, arguments.seconds);
   ::close(descriptor);
@@ -184,9 +184,10 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   planetree::bench::Arguments arguments;
-  CLI::App app("A page's bytes by a positioned read or out of a map");
+  CLI::App app("Compares reading a page by a positioned read and from a map of the file");
   app.add_option("model", arguments.model, "File that planetree build wrote")->required();
-  app.add_option("--seconds", arguments.seconds, "Of ticks beside each way")->capture_default_str();
+  app.add_option("--seconds", arguments.seconds, "Seconds of ticks beside each source")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return planetree::bench::run(arguments);
 }

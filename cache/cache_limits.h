@@ -17,6 +17,7 @@ struct CacheLimits {
   std::uint32_t max_readers;     ///< maximum number of simultaneous readers; 1 ... kMaxReaders
   std::uint64_t reserved_bytes;  ///< part of the budget that the caller needs for itself
   Policy policy = Policy::kClock;
+  std::uint32_t own_readers = 0;  ///< of max_readers: those that threads of the caller claim
 };
 
 inline constexpr std::uint32_t kMaxFrameBytes = std::uint32_t{1} << 28;

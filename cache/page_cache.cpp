@@ -60,8 +60,8 @@ Result<Reader> PageCache::claim_reader() noexcept {
       return Reader(*this, slot, static_cast<std::uint32_t>(&slot - tables_.slots.data()));
   }
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "all %u probes are in use: open the model with a larger max_probes",
-                    limits_.max_readers);
+                    "the limit of %u probes is reached: open the model with a larger max_probes",
+                    limits_.max_readers - limits_.own_readers);
 }
 
 Result<void> PageCache::pin(std::uint32_t page) noexcept {

@@ -32,5 +32,24 @@ function(planetree_add_layer name)
   endif()
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
     OUTPUT_VARIABLE folder)
-  set_property(GLOBAL APPEND PROPERTY planetree_layers "${name}|${folder}|${layer_DEPENDS}")
+  list(JOIN layer_DEPENDS " " depends)
+  set_property(GLOBAL APPEND PROPERTY planetree_layers "${name}|${folder}|${depends}")
+endfunction()
+
+# Writes all layers so far to a file, lowest first: a line NAME|FOLDER|DEPENDS for each, with blanks
+# between the targets of DEPENDS. docs/draw-layers makes the drawing in docs/architecture.md of it.
+function(planetree_write_layers path)
+  get_property(layers GLOBAL PROPERTY planetree_layers)
+  list(JOIN layers "\n" lines)
+  file(CONFIGURE OUTPUT ${path} CONTENT "${lines}\n" @ONLY)
+endfunction()
+
+# planetree_kernels(FILES...)
+#
+# Sources of vector kernels. Clang takes minutes to instrument them for undefined behaviour, where
+# vectors of floats have none; their addresses are checked all the same.
+function(planetree_kernels)
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-sanitize=undefined")
+  endif()
 endfunction()

@@ -14,8 +14,8 @@
 namespace planetree::query {
 namespace {
 
-// A place on the Morton curve over the model's box and as much around it;
-// neighbours there share pages. Only the order of asking depends on it.
+// Returns the position of a query on the Morton curve of a cube around the model. Queries near each
+// other on the curve share pages. Only the order of the queries depends on it.
 std::uint64_t curve_key(const ModelGeometry& model, const Vec3& query) {
   const octree::TreeInfo& tree = model.tree;
   const octree::Point from = (model.scale.in(query)-tree.centre) * 0.25;
@@ -28,8 +28,8 @@ std::uint64_t curve_key(const ModelGeometry& model, const Vec3& query) {
   return octree::morton_code(coordinate(from.x()), coordinate(from.y()), coordinate(from.z()));
 }
 
-// Queries for all cache lines of an object. Inline, for gcc 12 drops calls of what does nothing
-// else.
+// Prefetches all cache lines of an object. Always inlined, because gcc 12 drops calls of a function
+// that only prefetches.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(const T& object) noexcept {
   constexpr std::size_t kLineBytes = 64;
@@ -38,7 +38,7 @@ template <class T>
   __builtin_prefetch(bytes + sizeof(T) - 1);
 }
 
-// As many queries as are put in order together, and where their answers go.
+// The queries of a batch that are sorted together, and their answers.
 template <class Answer>
 struct Window {
   const BatchOrder& order;
@@ -48,16 +48,16 @@ struct Window {
   const ServingModel& model;
 
   void run(ProbeState& probe, std::size_t first, std::size_t end) const noexcept {
-    constexpr std::size_t kAhead = 2;  // asks
+    constexpr std::size_t kAhead = 2;  // queries
     probe.coherence().nearest.follow(octree::CoherenceCache::Course::kCurve);
     for (std::size_t i = first; i < end; ++i) {
-      // In order of the curve, queries and answers are anywhere in memory.
+      // In the order of the curve, queries and answers are scattered in memory.
       if (i + kAhead < end) {
         prefetch(queries[order.query(i + kAhead)]);
         prefetch(answers[order.query(i + kAhead)]);
       }
       const std::size_t at = order.query(i);
-      // What was there may have been keys.
+      // The memory may have held keys.
       ::new (static_cast<void*>(&answers[at])) Answer(answer(probe, queries[at]));
     }
     probe.coherence().nearest.follow(octree::CoherenceCache::Course::kPath);
@@ -77,12 +77,13 @@ struct Window {
   }
 };
 
-// How many keys find room in an answer's memory; 0 where sides are asked.
+// Number of keys that fit into the memory of an answer; 0 for containment.
 template <class Answer>
 constexpr std::size_t kKeysPerAnswer = sizeof(Answer) / sizeof(std::uint64_t);
 
-// How many of a batch's first queries are put in order together: as many as the probe has room for,
-// or more, whose keys the last answers' memory takes. Those are asked once the others are answered.
+// Returns how many of a batch's first queries are sorted together: as many as the probe has keys
+// for, or more if the memory of the last answers holds the keys. The queries of those answers run
+// later, in other windows.
 template <class Answer>
 std::size_t window_size(std::size_t count) {
   if (count <= BatchBuffers::kMax) return count;
@@ -90,7 +91,7 @@ std::size_t window_size(std::size_t count) {
   return std::max(BatchBuffers::kMax, count - (count / (kKeysPerAnswer<Answer> + 1) + 1));
 }
 
-// Memory of answers for keys instead, until new ones are made there.
+// Turns the memory of answers into keys, until new answers are constructed there.
 template <class Answer>
 std::span<std::uint64_t> keys_in(std::span<Answer> answers, std::size_t count) {
   static_assert(std::is_trivially_destructible_v<Answer>);
@@ -102,7 +103,7 @@ std::span<std::uint64_t> keys_in(std::span<Answer> answers, std::size_t count) {
   return {keys, count};
 }
 
-// For the first `count` of the queries of these answers.
+// Returns the keys of the first `count` queries: in `storage`, or in the memory of later answers.
 template <class Answer>
 std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answers,
                                   std::size_t count) {
@@ -111,12 +112,12 @@ std::span<std::uint64_t> keys_for(BatchBuffers& storage, std::span<Answer> answe
   return std::span(storage.keys).first(count);
 }
 
-// Queries every query, in an order that turns pages seldom.
+// Runs all queries, in an order that switches pages seldom.
 template <class Answer>
 void query_in_order(ProbeState& probe, std::span<const Vec3> queries, std::span<Answer> answers,
                     const QueryOptions& options) noexcept {
   assert(queries.size() == answers.size());
-  // Crews take locks and wait for each other.
+  // BatchThreads take locks and wait for each other. Real-time queries must not.
   BatchThreads* const batch_threads =
       options.wait == Wait::kNever ? nullptr : probe.model().batch_threads;
   while (!queries.empty()) {

@@ -8,17 +8,17 @@
 
 namespace planetree::query {
 
-/// The probe of a fetch thread: brings pages by running queries that wait for them.
+/// The probe of a fetch thread. It makes pages resident by running blocking queries.
 class QueryingFetchProbe final : public FetchProbe {
  public:
   QueryingFetchProbe(const ServingModel& model, cache::Reader reader)
       : probe_(ProbeState::create(model, std::move(reader))) {}
 
-  void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+  void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
                    const std::atomic<bool>& stop) noexcept override {
-    probe_->bring_pages(query, options, is_ahead, stop);
+    probe_->fetch_pages(query, options, is_prefetch, stop);
   }
-  bool read_for_a_query() noexcept override { return probe_->reader().help(); }
+  bool read_awaited_page() noexcept override { return probe_->reader().help(); }
 
  private:
   std::unique_ptr<ProbeState> probe_;

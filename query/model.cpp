@@ -55,7 +55,7 @@ Result<void> check_counts(const OpenOptions& options) {
   const auto check = [](unsigned count, const char* what, unsigned most) -> Result<void> {
     if (count >= 1 && count <= most) return {};
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "%u %s make no sense; give 1 to %u", count, what, most);
+                      "%u %s are not possible; give 1 to %u", count, what, most);
   };
   for (const Result<void>& checked :
        {check(options.batch_threads, "batch threads", OpenOptions::kMaxBatchThreads),
@@ -67,7 +67,7 @@ Result<void> check_counts(const OpenOptions& options) {
   return {};
 }
 
-// Of the model's own threads.
+// Returns the number of probes of the model's own threads.
 unsigned thread_probes(const OpenOptions& options) {
   return options.fetch_threads + (options.batch_threads > 1 ? options.batch_threads : 0);
 }
@@ -208,7 +208,7 @@ Stats ModelState::stats() const noexcept {
   for (const PageTrace& trace : serving_->arena.traces)
     stats.page_trace_dropped += trace.ring.dropped();
   for (const FetchRequests& fetch_requests : serving_->arena.fetch_requests)
-    stats.fetch_requests += fetch_requests.missed.given();
+    stats.fetch_requests += fetch_requests.missed.store_count();
   if (fetch_threads_) {
     stats.fetch_requests_served = fetch_threads_->fetch_requests_served();
     stats.positions_prefetched = fetch_threads_->positions_prefetched();

@@ -18,25 +18,27 @@
 
 namespace planetree::query {
 
-/// Where tests and benchmarks replace parts of a model: the system, so that disks can fail or
-/// stand still; its fetch threads, so that a test can take their steps; the eviction policy; what
-/// probes keep between queries.
+/// Parts of a model that tests and benchmarks may replace: system calls, so that disks can fail or
+/// hang; fetch threads, so that a test can call FetchWorker::work() itself; the eviction policy.
 struct ModelSeams {
   storage::FileCalls& calls = storage::FileCalls::real();  ///< must outlive the model
-  bool starts_fetching = true;
+  bool starts_fetching = true;                             ///< start fetch threads
   cache::Policy policy = cache::Policy::kClock;
 };
 
-/// The state behind a Model.
+/// The implementation of Model: pager, state in the arena, threads. Any thread may call the const
+/// functions.
 class ModelState {
  public:
   ~ModelState();
   ModelState(const ModelState&) = delete;
   ModelState& operator=(const ModelState&) = delete;
 
+  /// See Model::open. Requires the default floating-point mode, see FpEnvironmentGuard.
   static Result<std::unique_ptr<ModelState>> open(const std::filesystem::path& path,
                                                   const OpenOptions& options,
                                                   const ModelSeams& seams = {});
+  /// Implements Model::open.
   static Result<Model> open_model(const std::filesystem::path& path, const OpenOptions& options,
                                   const ModelSeams& seams = {});
   static const ModelState& of(const Model& model) noexcept { return *model.state_; }
@@ -45,6 +47,7 @@ class ModelState {
   Stats stats() const noexcept;
   const ServingModel& serving() const noexcept { return *serving_; }
   const ModelGeometry& geometry() const noexcept { return serving_->geometry; }
+  /// Returns the reader of a new probe, or kBadArgument if all readers are in use.
   Result<cache::Reader> claim_reader() const noexcept { return pager_->cache().claim_reader(); }
   cache::PageCache& cache() const noexcept { return pager_->cache(); }
   /// See Model::drain_page_trace.
@@ -55,7 +58,7 @@ class ModelState {
   Result<void> fill_side_grid();
   Result<void> start_threads(const OpenOptions& options, const ModelSeams& seams);
 
-  struct Destroy {  // the memory is the arena's
+  struct Destroy {  // does not free the memory, which is the arena's
     void operator()(ServingModel* serving) const noexcept { serving->~ServingModel(); }
   };
 

@@ -11,7 +11,7 @@
 namespace planetree {
 namespace {
 
-// Apart from what most asks come to, which needs few registers.
+// Not inlined, because most calls of contains() end before it and then save few registers.
 [[gnu::noinline]] Containment contains_computed(query::ProbeState& probe, const Vec3& query,
                                                 const QueryOptions& options) noexcept {
   const octree::FpEnvironmentGuard host;
@@ -42,7 +42,7 @@ ClosestPoint Probe::closest_point(Vec3 query, const QueryOptions& options) noexc
 }
 
 Containment Probe::contains(Vec3 query, const QueryOptions& options) noexcept {
-  // Before the register is read, which waits for what the thread computes.
+  // Before the FpEnvironmentGuard: reading its register waits for pending computations.
   const Containment fast = state_->contains_fast(query, options);
   return fast.side != Side::kUnknown ? fast : contains_computed(*state_, query, options);
 }

@@ -10,11 +10,11 @@
 
 namespace planetree::query {
 
-// A fetch thread runs the query again, and waits for the pages.
+// Leaves a fetch request: a fetch thread runs the query again and waits for the pages.
 void ProbeState::request(const Vec3& query, const QueryOptions& options,
                          std::uint32_t parts) noexcept {
   model_.requests(reader_.index())
-      .missed.give({query, options.max_error, options.max_distance, options.max_work, parts});
+      .missed.store({query, options.max_error, options.max_distance, options.max_work, parts});
 }
 
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
@@ -24,15 +24,15 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   const QueryOptions limited = with_defaults(options);
   PageAccessor accessor(reader_, options.wait, model_.query_terms);
   accessor.set_trace(trace_.begin_query(options.wait));
-  const bool lost =
+  const bool incomplete =
       query::closest_point({model_.geometry, accessor.pages(), coherence_}, query, limited, answer);
-  if (lost && accessor.missed()) request(query, limited, limited.parts);
+  if (incomplete && accessor.missed()) request(query, limited, limited.parts);
   last_parts_ = computed_parts(options.parts);
   if (answer.status == Status::kDegraded) model_.degraded.fetch_add(1, std::memory_order_relaxed);
   return answer;
 }
 
-// A function of its own: what most calls of contains() do needs few registers.
+// Not inlined, because most calls of contains() end before it and then save few registers.
 [[gnu::noinline]] Containment ProbeState::search_side(const Vec3& query,
                                                       const QueryOptions& options,
                                                       const octree::Point& scaled,
@@ -63,16 +63,16 @@ Containment ProbeState::contains(const Vec3& query, const QueryOptions& options)
   return search_side(query, options, scaled, lookup, trace);
 }
 
-void ProbeState::bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
                              const std::atomic<bool>& stop) noexcept {
   assert(options.wait == Wait::kForPages && options.max_work != QueryOptions::kNoLimit);
   if (!is_valid(query, options)) return;
-  trace_.set_looks_ahead(is_ahead);
+  trace_.set_prefetching(is_prefetch);
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
   accessor.set_trace(trace_.begin_query(options.wait));
   ClosestPoint unused = unanswered(Status::kExact);
   query::closest_point({model_.geometry, accessor.pages(), coherence_}, query, options, unused);
-  trace_.set_looks_ahead(false);
+  trace_.set_prefetching(false);
 }
 
 }  // namespace planetree::query

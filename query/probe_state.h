@@ -19,11 +19,13 @@
 
 namespace planetree::query {
 
-/// The state behind a Probe: runs its queries, notes what pages they missed, and keeps what helps
-/// the next ones. It lies in the model's QueryArena. One thread.
+/// The implementation of Probe. It runs queries, leaves fetch requests for missing pages, and keeps
+/// the coherence. It lies in the model's QueryArena. One thread at a time may use it.
 class ProbeState {
  public:
-  /// batch_buffers  null for the probes of the model's own threads.
+  /// model          must outlive the probe
+  /// reader         selects the probe's memory in the arena
+  /// batch_buffers  null for the probes of the model's own threads
   static std::unique_ptr<ProbeState> create(const ServingModel& model, cache::Reader reader,
                                             std::unique_ptr<BatchBuffers> batch_buffers = nullptr) {
     void* storage = model.arena.probe(reader.index());
@@ -31,7 +33,8 @@ class ProbeState {
         ::new (storage) ProbeState(model, std::move(reader), std::move(batch_buffers)));
   }
   static void* operator new(std::size_t) = delete;
-  /// The memory is the arena's: another probe has it once the reader is released.
+  /// Does nothing, since the memory is the arena's. The next probe with this reader index
+  /// reuses it.
   static void operator delete(void*) noexcept {}
 
   const ServingModel& model() const noexcept { return model_; }
@@ -43,16 +46,16 @@ class ProbeState {
   ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   /// See Probe::contains.
   Containment contains(const Vec3& query, const QueryOptions& options) noexcept;
-  /// The answer of contains() if the side grid decides it by whole numbers, as it does for most
-  /// points; else kUnknown. Computes nothing with doubles: the thread may round as it likes, and
-  /// trap. Not tried where the last query found that it does not help.
+  /// Returns the answer of contains() if the side grid tells it by integers, as for most points;
+  /// else kUnknown. It computes nothing with doubles, so the thread may be in any floating-point
+  /// mode. It looks nothing up if the grid did not decide the last query.
   Containment contains_fast(const Vec3& query, const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
-    model_.requests(reader_.index()).motion.give({position, velocity, last_parts_});
+    model_.requests(reader_.index()).motion.store({position, velocity, last_parts_});
   }
-  /// See FetchProbe::bring_pages.
-  void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+  /// See FetchProbe::fetch_pages.
+  void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
                    const std::atomic<bool>& stop) noexcept;
 
  private:
@@ -71,9 +74,9 @@ class ProbeState {
   const ServingModel& model_;
   PageTraceWriter trace_;
   std::unique_ptr<BatchBuffers> batch_buffers_;
-  std::uint32_t last_parts_ = kAllParts;  // of the last query
+  std::uint32_t last_parts_ = kAllParts;  // parts that the last query computed
   Coherence coherence_;
-  cache::Reader reader_;  // last, for it is what keeps the memory
+  cache::Reader reader_;  // last: once it is released, another probe may take the memory
 };
 
 inline Containment ProbeState::contains_fast(const Vec3& query,

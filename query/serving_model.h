@@ -16,8 +16,8 @@ namespace planetree::query {
 class BatchThreads;
 class ProbeState;
 
-/// What queries read of an open model beside its pages. It lies in the model's QueryArena, so that
-/// a query does not fault a page in.
+/// The state of an open model that queries read besides its pages. It lies in the model's
+/// QueryArena, so that no query causes a page fault. Any number of threads may read it.
 struct ServingModel {
   ServingModel(const storage::FileHeader& header, cache::PageCache& its_cache,
                const QueryArena::Parts& its_arena)
@@ -27,11 +27,12 @@ struct ServingModel {
   cache::PageCache& cache;
   const QueryArena::Parts arena;
   cache::FetchTerms query_terms{};        ///< how queries wait for pages
-  cache::FetchTerms fetcher_terms{};      ///< how fetch threads do
-  BatchThreads* batch_threads = nullptr;  ///< null: the caller's thread answers batches alone
-  std::span<const std::unique_ptr<ProbeState>> batch_probes;  ///< by thread of batch_threads
-  mutable std::atomic<std::uint64_t> degraded{0};             ///< degraded answers
+  cache::FetchTerms fetcher_terms{};      ///< how fetch threads wait for pages
+  BatchThreads* batch_threads = nullptr;  ///< null: batches run on the caller's thread
+  std::span<const std::unique_ptr<ProbeState>> batch_probes;  ///< one per thread of batch_threads
+  mutable std::atomic<std::uint64_t> degraded{0};             ///< number of degraded answers
 
+  /// `reader` is the reader index of a probe.
   FetchRequests& requests(std::uint32_t reader) const noexcept {
     return arena.fetch_requests[reader];
   }

@@ -107,7 +107,7 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"triangles", built.triangles},
       {"input_triangles", built.input_triangles},
       {"skipped", built.skipped},
-      {"first_set_aside", nullptr},
+      {"first_skipped", nullptr},
       {"vertices", built.vertices},
       {"watertight", built.watertight()},
       {"unbalanced_edges", built.unbalanced_edges},
@@ -125,7 +125,7 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"temporary_bytes", built.temporary_bytes},
       {"sha256", sha256},
       {"content_id", content_id_text(built.content_id)}};
-  if (built.first_skipped != kNoTriangle) report["first_set_aside"] = built.first_skipped;
+  if (built.first_skipped != kNoTriangle) report["first_skipped"] = built.first_skipped;
   return json_line(report);
 }
 
@@ -137,8 +137,8 @@ std::string plain_report(const BuildArguments& arguments, const BuildReport& bui
                                   ? "watertight"
                                   : grouped_count(built.unbalanced_edges) + " unbalanced edges";
   return fmt::format(
-      "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s "
-      "({} triangles/s), {} of memory\n",
+      "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s ({} "
+      "triangles/s), {} peak memory\n",
       arguments.output.string(), grouped_count(built.triangles), part, surface,
       short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built), seconds,
       short_count(static_cast<double>(built.input_triangles) / seconds),
@@ -168,8 +168,8 @@ std::string box_complaint(const std::string& text) {
   for (std::size_t axis = 0; axis < 3; ++axis) good = good && values[axis] <= values[axis + 3];
   if (good) return {};
   return fmt::format(
-      "'{}' is not a box; give X0,Y0,Z0,X1,Y1,Z1, finite numbers, none of the first three above "
-      "its like among the last",
+      "'{}' is not a box; give X0,Y0,Z0,X1,Y1,Z1, finite numbers with X0 <= X1, Y0 <= Y1 and Z0 <= "
+      "Z1",
       octree::printable(text));
 }
 
@@ -218,47 +218,44 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.require(subcommand.path("input", "IN", arguments.input,
                                      "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ"));
   subcommand.require(subcommand.path("-o,--output", "OUT.ptree", arguments.output,
-                                     "File to write; it appears whole or not at all"));
+                                     "File to write; it appears only when it is complete"));
   subcommand.default_text(
-      subcommand.count("--threads", options->threads, kMaxThreads,
-                       "Threads to work with; 0 means one for each processor. The file "
-                       "does not depend on it"),
+      subcommand.count(
+          "--threads", options->threads, kMaxThreads,
+          "Number of threads; 0 means one for each processor. The file does not depend on it"),
       "0");
   subcommand.default_text(
       subcommand.bytes("--memory", arguments.options.memory_bytes,
-                       "Most memory for the build; what does not fit is kept in temporary "
+                       "Maximum memory for the build; data that does not fit goes to temporary "
                        "files. The file does not depend on it"),
-      "a quarter of the machine's");
-  subcommand.path(
-      "--temp-dir", "DIR", arguments.options.temp_directory,
-      "Where temporary files go, about 120 bytes a triangle if memory is short, or 200 with "
-      "double coordinates; the output's directory by default. They have no names and vanish "
-      "with the process, but for what --resume keeps. A build that would find too little "
-      "room does not begin");
+      "a quarter of the machine's memory");
+  subcommand.path("--temp-dir", "DIR", arguments.options.temp_directory,
+                  "Directory for temporary files; by default that of the output. They take about "
+                  "120 bytes a triangle if memory is short, or 200 with double coordinates. They "
+                  "have no names and vanish with the process, except for the checkpoint of "
+                  "--resume. The build does not begin if space is too short");
   subcommand.text(
       "--box", "X0,Y0,Z0,X1,Y1,Z1", box_complaint,
       [&arguments](const std::string& text) { arguments.options.box = box_of(text); },
-      "Build only the triangles that touch this box, in model units. Sides, and whether the "
-      "surface is watertight, are those of the whole mesh. Answers are exact where the "
-      "surface is nearer than the box's walls, and lower bounds hold everywhere; sides are "
-      "known in the box, of a watertight mesh");
+      "Build only the triangles that touch this box, in model units. Sides and watertightness are "
+      "those of the whole mesh. Answers are exact where the surface is nearer than the box's "
+      "walls; intervals hold everywhere. Sides are known within the box, if the mesh is "
+      "watertight");
   subcommand.flag(
       "--resume", arguments.options.resume,
-      "Keep what is done in a directory OUT.ptree.work, beside the output or in --temp-dir, "
-      "until the file is complete; go on with what an earlier build with --resume, of the "
-      "same input and options, left there when it was interrupted. The file does not "
-      "depend on it");
+      "Keep a checkpoint in the directory OUT.ptree.work, next to the output or in --temp-dir, "
+      "until the file is complete. Resume from the checkpoint of an interrupted build with "
+      "--resume of the same input and options. The file does not depend on it");
   subcommand.default_text(
       subcommand.bytes("--page-size", options->page_bytes,
                        "Bytes of a page in memory: a power of two from 4K to 256K"),
       "64K");
-  subcommand.flag(
-      "--strict", arguments.options.strict,
-      "Refuse a mesh with bad records (a vertex that is not finite, an index out of range, "
-      "fewer than 3 corners) instead of setting them aside");
+  subcommand.flag("--strict", arguments.options.strict,
+                  "Refuse a mesh with bad records (a vertex that is not finite, an index out of "
+                  "range, fewer than 3 corners) instead of skipping them");
   subcommand.flag("--force", arguments.options.replace, "Replace the output if it exists");
   subcommand.flag("--json", arguments.json,
-                  "Report as one JSON object; progress as one a line, on standard error");
+                  "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");
   subcommand.on_given([options, &console, &action] {
     options->arguments.options.threads = static_cast<unsigned>(options->threads);

@@ -9,9 +9,11 @@
 #include <string>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "storage/file/file_layout.h"
 #include "tools/build.h"
 #include "tools/generate.h"
 #include "tools/inspect.h"
+#include "tools/manual/help_text.h"
 #include "tools/query.h"
 #include "tools/touch.h"
 #include "tools/verify.h"
@@ -19,9 +21,37 @@
 namespace planetree::tools {
 namespace {
 
-constexpr const char* kFooter =
-    "Sizes take K, M and G. Exit status: 0 done, 1 the data is at fault, 2 the command line is\n"
-    "at fault, 3 the machine is at fault (space, memory, permission).";
+const std::string kVersion =
+    fmt::format("planetree {} (file format {})", PLANETREE_VERSION, storage::kFormatVersion);
+
+/// The command line and, once it is parsed, what to do.
+struct CommandLine {
+  explicit CommandLine(Console& console);
+
+  CLI::App app;
+  std::function<int()> action;
+};
+
+CommandLine::CommandLine(Console& console)
+    : app("Exact closest-point queries on triangle meshes larger than memory", "planetree") {
+  app.require_subcommand(1);
+  app.set_help_flag("-h,--help", "Show this help");
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  add_generate(app, console, action);
+  add_build(app, console, action);
+  add_query(app, console, action);
+  add_inspect(app, console, action);
+  add_verify(app, console, action);
+  add_touch(app, console, action);
+  app.set_version_flag("--version", kVersion, "Show the version");
+}
+
+/// What --help shows of the command line so far.
+std::string help_for(CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const CommandSummary command = summarize(app);
+  return chosen.empty() ? help_text(command) : help_text(command, summarize(*chosen.front()));
+}
 
 int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) {
   std::string cause = error.what();
@@ -58,7 +88,7 @@ int run_action(const std::function<int()>& action, Console& console) {
     return action();
   } catch (const std::bad_alloc&) {
     const Error error = make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                                   "the system gives no more; free some, or lower --memory");
+                                   "the system has no more memory; free some, or lower --memory");
     return console.fail("memory", error);
   }
 }
@@ -66,28 +96,26 @@ int run_action(const std::function<int()>& action, Console& console) {
 }  // namespace
 
 int run_command(int argc, const char* const* argv, Console& console) {
-  CLI::App app("Exact closest-point questions about triangle meshes larger than memory",
-               "planetree");
-  app.require_subcommand(1);
-  app.footer(kFooter);
-  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-  std::function<int()> action;
-  add_generate(app, console, action);
-  add_build(app, console, action);
-  add_query(app, console, action);
-  add_inspect(app, console, action);
-  add_verify(app, console, action);
-  add_touch(app, console, action);
-  if (lacks_subcommand(app, argc, argv, console)) return kCommandLineAtFault;
+  CommandLine line(console);
+  if (lacks_subcommand(line.app, argc, argv, console)) return kCommandLineAtFault;
   try {
-    app.parse(argc, argv);
+    line.app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    console.print(kVersion + '\n');
+    return console.finish(kDone);
   } catch (const CLI::Success&) {
-    console.print(app.help());
+    console.print(help_for(line.app));
     return console.finish(kDone);
   } catch (const CLI::ParseError& error) {
-    return refuse(app, error, console);
+    return refuse(line.app, error, console);
   }
-  return run_action(action, console);
+  return run_action(line.action, console);
+}
+
+CommandSummary command_summary() {
+  Console console(stdin, stdout, stderr);
+  CommandLine line(console);
+  return summarize(line.app);
 }
 
 }  // namespace planetree::tools

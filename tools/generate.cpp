@@ -80,9 +80,10 @@ std::vector<std::string> shape_names() {
 int run_generate(const GenerateOptions& options, Console& console) {
   const bool to_standard_output = options.output == "-";
   if (to_standard_output && console.output_is_terminal())
-    return console.fail("standard output",
-                        make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                                   "a terminal cannot show a model; redirect it or name a file"));
+    return console.fail(
+        "standard output",
+        make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                   "a terminal cannot show a model; redirect standard output or name a file"));
   const auto outcome = generate(options);
   if (!outcome) return console.fail(options.output.string(), outcome.error());
   const std::string report =
@@ -103,9 +104,9 @@ void add_generate(CLI::App& app, Console& console, std::function<int()>& action)
       subcommand.path("output", "OUT.ply", options->output,
                       "PLY file to write; - is standard output, and the report then goes to "
                       "standard error"));
-  subcommand.require(
-      subcommand.count("--triangles", options->triangles, kAnyCount,
-                       "About how many triangles; K, M, G mean thousands, millions, billions"));
+  subcommand.require(subcommand.count(
+      "--triangles", options->triangles, kAnyCount,
+      "Approximate number of triangles; K, M and G mean thousands, millions and billions"));
   subcommand.default_text(
       subcommand.word(
           "--shape", shape_names(),
@@ -114,12 +115,12 @@ void add_generate(CLI::App& app, Console& console, std::function<int()>& action)
           "cone (the same), terrain (side 200) or soup (in a unit cube)"),
       "statue");
   subcommand.default_text(
-      subcommand.count("--seed", options->seed, kAnyCount,
-                       "Number that chooses the noise of statue and terrain and the "
-                       "positions of the soup"),
+      subcommand.count(
+          "--seed", options->seed, kAnyCount,
+          "Seed for the noise of statue and terrain and for the positions of the soup"),
       "1");
   subcommand.flag("--json", options->json,
-                  "Report as one JSON object; progress as one a line, on standard error");
+                  "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", options->quiet, "Show no progress");
   subcommand.flag("--force", options->force, "Replace the file if it exists");
   subcommand.on_given([options, &console, &action] {

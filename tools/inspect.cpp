@@ -149,7 +149,8 @@ int Inspection::show_nodes() {
     pages.push_back(std::move(json));
   }
   if (pages.empty()) {
-    const Error error = refusal("no page begins at that octcode; --pages lists where pages begin");
+    const Error error =
+        refusal("no page has that octcode; --pages lists the octcodes of all pages");
     return std::max(print_issues(issues), console_.fail(arguments_.file.string(), error));
   }
   if (arguments_.json) {
@@ -194,8 +195,8 @@ int show_slice(const InspectArguments& arguments, Console& console) {
                              {"greatest_distance", slice->greatest}}));
   else
     console.print(fmt::format(
-        "{}: {} = {:.6g}, {} by {} pixels of {:.3g}, a line every {:.3g}, "
-        "farthest {:.6g}\n",
+        "{}: {} = {:.6g}, {} by {} pixels of {:.3g}, an iso-line every {:.3g}, greatest distance "
+        "{:.6g}\n",
         arguments.image.string(), axis, slice->coordinate, slice->image.width(),
         slice->image.height(), slice->pixel_length, slice->line_distance, slice->greatest));
   const auto error = pages_lost(model->stats());
@@ -212,17 +213,19 @@ int show_why(const InspectArguments& arguments, Console& console) {
 
 std::string why_complaint(const std::string& text) {
   if (parse_point(text)) return {};
-  return fmt::format("'{}' is no point; give three numbers as X,Y,Z", text);
+  return fmt::format("'{}' is not a point; give three numbers as X,Y,Z", text);
 }
 
 std::string node_complaint(const std::string& text) {
   if (OctcodeQuery::parse(text)) return {};
-  return fmt::format("'{}' is no octcode; give 0x... or level:x:y:z", text);
+  return fmt::format("'{}' is not an octcode; give 0x... or level:x:y:z", text);
 }
 
 std::string slice_complaint(const std::string& text) {
   if (SlicePlane::parse(text)) return {};
-  return fmt::format("'{}' is no plane; give x, y or z, =, and a number or a percentage", text);
+  return fmt::format(
+      "'{}' is not a plane; give x, y or z with a number or a percentage, such as z=1.5 or z=50%",
+      text);
 }
 
 }  // namespace
@@ -239,7 +242,7 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   if (arguments.node && has_pages) return inspection.show_nodes();
   if (!arguments.page || !has_pages) return inspection.show_all();
   if (*arguments.page >= parts->page_count())
-    return console.fail(file, refusal(fmt::format("there is no page {}; its last is {}",
+    return console.fail(file, refusal(fmt::format("there is no page {}; the last page is {}",
                                                   *arguments.page, parts->page_count() - 1)));
   return inspection.show_page(static_cast<std::uint32_t>(*arguments.page));
 }
@@ -251,30 +254,31 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   };
   const auto options = std::make_shared<Options>();
   InspectArguments& arguments = options->arguments;
-  SubcommandOptions subcommand(app, "inspect", "Say what is in a .ptree file, damaged or not");
+  SubcommandOptions subcommand(app, "inspect",
+                               "Show the contents of a .ptree file, also of a damaged one");
   subcommand.require(subcommand.path("file", "FILE", arguments.file, "File to inspect"));
-  subcommand.flag("--levels", arguments.levels, "Also a row for each depth of the tree");
+  subcommand.flag("--levels", arguments.levels,
+                  "Add a row for each depth of the tree and each level of the mask");
   subcommand.flag("--pages", arguments.pages,
-                  "Also a row for each page; its octcode is shown as level/x/y/z");
+                  "Add a row for each page; its octcode is shown as level/x/y/z");
   const auto node = subcommand.text(
       "--node", "OCTCODE", node_complaint,
       [&arguments](const std::string& text) { arguments.node = OctcodeQuery::parse(text); },
-      "Instead the nodes at the top of the pages that begin at this octcode (0x... or "
-      "level:x:y:z): box, children and bounding planes, relative to the model's centre");
+      "Show instead the root nodes of the pages with this octcode (0x... or level:x:y:z): boxes, "
+      "children and discs, relative to the model's centre");
   const auto page =
       subcommand.count("--page", options->page, std::numeric_limits<std::uint32_t>::max(),
-                       "Instead all about one page, counted from 0, by the names of format-spec");
+                       "Show instead one page, numbered from 0, with the names of format-spec");
   const auto image = subcommand.path("--image", "OUT.png", arguments.image, "PNG file to write");
   const auto slice = subcommand.text(
       "--slice", "AXIS=VALUE", slice_complaint,
       [&arguments](const std::string& text) { arguments.slice = SlicePlane::parse(text); },
-      "Instead a picture of the distance over a plane, such as z=1.5 (model units) or z=50% "
-      "(of the box)");
+      "Draw instead the distance over a plane, such as z=1.5 (model units) or z=50% (of the box)");
   const auto why = subcommand.text(
       "--why", "X,Y,Z", why_complaint,
       [&arguments](const std::string& text) { arguments.why = parse_point(text); },
-      "Instead one answer and how it came about: the mask's cell, the rule that decided the side, "
-      "crossings, the nearest triangle, what was read (model units)");
+      "Show instead one answer and how it was found: cell of the mask, rule that decided the side, "
+      "crossings, nearest triangle, work (model units)");
   subcommand.exclude(why, node);
   subcommand.exclude(why, page);
   subcommand.exclude(why, slice);
@@ -286,7 +290,7 @@ void add_inspect(CLI::App& app, Console& console, std::function<int()>& action) 
   subcommand.need(
       subcommand.flag("--force", arguments.replace_image, "Replace the image if it exists"), image);
   subcommand.flag("--json", arguments.json,
-                  "Answer with one JSON object; progress as one a line, on standard error");
+                  "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", arguments.quiet, "Show no progress");
   subcommand.on_given([options, page, &console, &action] {
     if (SubcommandOptions::given(page)) options->arguments.page = options->page;

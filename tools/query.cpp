@@ -113,8 +113,9 @@ class QueryRun {
 
 Result<void> check_output(const QueryArguments& arguments, const Console& console) {
   if (arguments.format != AnswerFormat::kF64 || !console.output_is_terminal()) return {};
-  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "a terminal cannot show raw numbers; redirect it, or leave out --format f64");
+  return make_error(
+      ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+      "a terminal cannot show raw numbers; redirect standard output, or omit --format f64");
 }
 
 }  // namespace
@@ -145,53 +146,50 @@ void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
                                                               {"jsonl", AnswerFormat::kJsonLines},
                                                               {"f64", AnswerFormat::kF64}};
   const auto options = std::make_shared<QueryArguments>();
-  SubcommandOptions subcommand(
-      app, "query", "Find the surface point nearest to each point and the side it is on");
+  SubcommandOptions subcommand(app, "query",
+                               "Find the nearest surface point and the side of each point");
   subcommand.require(
       subcommand.path("file", "FILE", options->file, "File that planetree build wrote"));
   subcommand.default_text(
       subcommand.path("points", "POINTS", options->points,
-                      "Points to ask about, in model units: CSV (x,y,z, further columns are passed "
-                      "over, a header may name the columns), PLY (its vertices) or .f64 (raw "
-                      "little-endian float64 triples); - is CSV from standard input"),
+                      "Query points, in model units: CSV (x,y,z; other columns are ignored; a "
+                      "header may name the columns), PLY (its vertices) or .f64 (raw little-endian "
+                      "float64 triples); - is CSV from standard input"),
       "-");
-  subcommand.flag("--contains", options->contains,
-                  "Tell only which side of the surface each point is on");
+  subcommand.flag("--contains", options->contains, "Report only the side of each point");
   subcommand.default_text(
       subcommand.length("--max-error", options->options.max_error, false,
-                        "May stop once the distance is known within this, in model units; "
-                        "0 goes on until it is exact"),
+                        "Tolerance of the distance, in model units: the search may stop once the "
+                        "interval is this narrow; 0 means exact"),
       "0");
   subcommand.default_text(subcommand.length("--max-distance", options->options.max_distance, true,
-                                            "Look no farther than this, in model units"),
+                                            "Search no farther than this, in model units"),
                           "inf");
   subcommand.default_text(
-      subcommand.bytes("--memory", options->memory_bytes, "Most memory for the model"), "256M");
-  subcommand.default_text(
-      subcommand.count("--threads", options->threads, OpenOptions::kMaxBatchThreads,
-                       "Threads to answer with; 0 means one for each processor. No "
-                       "answer depends on it"),
-      "0");
+      subcommand.bytes("--memory", options->memory_bytes, "Maximum memory for the model"), "256M");
   subcommand.default_text(
       subcommand.count(
-          "--wait-limit", options->wait_limit_ms, kMaxWaitMs,
-          "Longest wait for one page, in milliseconds. An answer that needs it then is "
-          "degraded: its interval holds, and the others go on"),
+          "--threads", options->threads, OpenOptions::kMaxBatchThreads,
+          "Number of threads; 0 means one for each processor. Answers do not depend on it"),
+      "0");
+  subcommand.default_text(
+      subcommand.count("--wait-limit", options->wait_limit_ms, kMaxWaitMs,
+                       "Longest wait for one page, in milliseconds. After it the answer is "
+                       "degraded, with an interval that holds; other answers are not affected"),
       "10000");
   subcommand.default_text(
       subcommand.word(
           "--format", {"csv", "jsonl", "f64"},
           [options](const std::string& name) { options->format = formats.at(name); },
-          "csv: a header and a row for each point; jsonl: an object for each point, null for "
-          "what is not a finite number; f64: 14 little-endian float64 for each point (x y z "
+          "csv: a header and a row for each point; jsonl: an object for each point, with null for "
+          "numbers that are not finite; f64: 14 little-endian float64 for each point (x y z "
           "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
-          "surface, 1 "
-          "outside; NaN is an unknown side and no triangle), with --contains 4 (x y z side)"),
+          "surface, 1 outside; NaN means an unknown side or no triangle), with --contains 4 (x y z "
+          "side)"),
       "csv");
-  subcommand.flag(
-      "--json", options->json,
-      "Afterwards report as one JSON object, the last line on standard error; progress as one a "
-      "line there too");
+  subcommand.flag("--json", options->json,
+                  "Report at the end as one JSON object, the last line on standard error; progress "
+                  "as JSON lines there too");
   subcommand.flag("--quiet", options->quiet, "Show no progress");
   subcommand.on_given([options, &console, &action] {
     action = [options, &console] { return run_query(*options, console); };

@@ -109,37 +109,40 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
   for (const auto& [name, motion] : motions) names.push_back(name);
   const auto options = std::make_shared<TouchArguments>();
   SubcommandOptions subcommand(
-      app, "touch", "Hold a simulated haptic session: how late are its answers, how certain");
+      app, "touch",
+      "Run a simulated haptic session and report the latency and status of its answers");
   subcommand.require(
       subcommand.path("file", "FILE", options->file, "File that planetree build wrote"));
   subcommand.default_text(
-      subcommand.count("--seconds", options->seconds, kMaxSeconds, "How long, in seconds"), "10");
+      subcommand.count("--seconds", options->seconds, kMaxSeconds, "Duration in seconds"), "10");
   subcommand.default_text(
-      subcommand.count("--rate", options->rate_hz, kMaxRateHz, "Answers a second, in Hz"), "1000");
+      subcommand.count("--rate", options->rate_hz, kMaxRateHz, "Queries per second, in Hz"),
+      "1000");
   subcommand.default_text(
-      subcommand.bytes("--memory", options->memory_bytes, "Most memory for the model"), "256M");
+      subcommand.bytes("--memory", options->memory_bytes, "Maximum memory for the model"), "256M");
   subcommand.default_text(
       subcommand.word(
           "--path", names,
           [options](const std::string& name) { options->motion = motions.at(name); },
-          "How the tip moves: glide (along the surface, 0.02 % of the diagonal a tick), scratch "
-          "(0.1 %) or teleport (to another position every hundred ticks)"),
+          "Motion of the tip: glide (along the surface, 0.02 % of the diagonal per tick), scratch "
+          "(0.1 %) or teleport (to another surface point every hundred ticks)"),
       "glide");
   subcommand.path("--ticks", "OUT.csv", options->ticks,
-                  "Write every tick here: tick,x,y,z,latency_us,ask_us,width,side,status");
-  subcommand.path(
-      "--trace", "OUT.csv", options->trace,
-      "Write every page that an answer looked for here: tick,probe,page,level,access (hit, "
-      "prefetched or missed)");
-  subcommand.flag("--force", options->force, "Replace what these name if it exists");
-  subcommand.flag("--cold", options->cold,
-                  "Have the system forget the file first, so that every page comes from the disk");
+                  "Write all ticks here: tick,x,y,z,latency_us,query_us,width,side,status");
+  subcommand.path("--trace", "OUT.csv", options->trace,
+                  "Write all page accesses of the session here: tick,probe,page,level,access (hit, "
+                  "prefetched or missed)");
+  subcommand.flag("--force", options->force,
+                  "Replace the files of --ticks and --trace if they exist");
+  subcommand.flag(
+      "--cold", options->cold,
+      "Drop the file from the system's page cache first, so that every page comes from the disk");
   subcommand.flag("--json", options->json, "Report as one JSON object");
   subcommand.on_given([options, &console, &action]() -> std::string {
     if (options->trace == "-" || options->ticks == "-")
-      return "ticks and traces need files: standard output has the report";
+      return "--ticks and --trace need files; standard output is for the report";
     if (options->seconds == 0 || options->rate_hz == 0)
-      return "a session without ticks; give --seconds and --rate of 1 or more";
+      return "the session has no ticks; give --seconds and --rate of 1 or more";
     action = [options, &console] { return run_touch(*options, console); };
     return {};
   });

@@ -30,7 +30,7 @@ std::string json_report(const VerifyArguments& arguments, const CheckReport& rep
 
 const char* remark(const VerifyArguments& arguments, const CheckReport& report) {
   if (report.issues.count() > 0) return "; restore the file from a copy or build it again";
-  return arguments.full ? "" : " (--full also looks at every vertex)";
+  return arguments.full ? "" : " (--full also checks every triangle and the mask)";
 }
 
 std::string plain_report(const VerifyArguments& arguments, const CheckReport& report,
@@ -68,12 +68,13 @@ int run_verify(const VerifyArguments& arguments, Console& console) {
 
 void add_verify(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto options = std::make_shared<VerifyArguments>();
-  SubcommandOptions subcommand(app, "verify", "Hold a .ptree file against its format");
+  SubcommandOptions subcommand(app, "verify", "Check a .ptree file against its format");
   subcommand.require(subcommand.path("file", "FILE", options->file, "File to verify"));
-  subcommand.flag("--full", options->full,
-                  "Also look at every triangle and vertex: unique indices, bounds that hold");
+  subcommand.flag(
+      "--full", options->full,
+      "Also check every triangle and vertex, the bounds, the mask and the height fields");
   subcommand.flag("--json", options->json,
-                  "Report as one JSON object; progress as one a line, on standard error");
+                  "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", options->quiet, "Show no progress");
   subcommand.on_given([options, &console, &action] {
     action = [options, &console] { return run_verify(*options, console); };

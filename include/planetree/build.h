@@ -88,21 +88,21 @@ class BuildInput {
 
 /// Phases of a build, in order.
 enum class BuildPhase : std::uint8_t {
-  kResuming,   ///< checking the work of an earlier build
-  kReading,    ///< reading the input, in bytes
-  kOrdering,   ///< sorting triangles along a Morton curve, in batches
-  kMatching,   ///< matching edges, to find whether the surface is watertight; in chunks
-  kListing,    ///< collecting the faces at unbalanced edges, in chunks
-  kBounding,   ///< building the tree, in chunks
-  kColouring,  ///< finding the cells inside and outside, in sectors of space
-  kWriting     ///< writing the file, in pages
+  kResuming,      ///< checking the work of an earlier build
+  kReading,       ///< reading the input, in bytes
+  kOrdering,      ///< sorting triangles along a Morton curve, in batches
+  kMatching,      ///< matching edges, to find whether the surface is watertight; in chunks
+  kListing,       ///< collecting the faces at unbalanced edges, in chunks
+  kBuildingTree,  ///< building the tree, in chunks
+  kBuildingMask,  ///< finding the cells inside and outside, in sectors of space
+  kWriting        ///< writing the file, in pages
 };
 
 /// Name of a phase for messages, such as "matching edges".
 constexpr const char* name_of(BuildPhase phase) noexcept {
   switch (phase) {
     case BuildPhase::kResuming:
-      return "taking up earlier work";
+      return "resuming";
     case BuildPhase::kReading:
       return "reading";
     case BuildPhase::kOrdering:
@@ -111,10 +111,10 @@ constexpr const char* name_of(BuildPhase phase) noexcept {
       return "matching edges";
     case BuildPhase::kListing:
       return "listing unbalanced edges";
-    case BuildPhase::kBounding:
-      return "bounding";
-    case BuildPhase::kColouring:
-      return "colouring";
+    case BuildPhase::kBuildingTree:
+      return "building tree";
+    case BuildPhase::kBuildingMask:
+      return "building mask";
     case BuildPhase::kWriting:
       break;
   }

@@ -167,6 +167,7 @@ Result<BuildReport> build_checked(const BuildInput& input, const fs::path& outpu
     observer.failed_at(path);
     return error;
   };
+  const octree::FpEnvironmentGuard host;
   if (const auto checked = octree::check_arithmetic(); !checked) return checked.error();
   if (const auto checked = check_output(input, output, options.replace); !checked)
     return refuse(output, checked.error());
@@ -175,7 +176,6 @@ Result<BuildReport> build_checked(const BuildInput& input, const fs::path& outpu
   if (std::error_code ignored; !fs::is_directory(temporary, ignored))
     return refuse(temporary, error_of(ErrorCode::kNotFound,
                                       "no such directory for temporary files; create it first"));
-  const octree::FpEnvironmentGuard host;
   const auto built = octree::build_tree(input, output, inner, observer);
   if (!built) return built.error();
   return report_of(*built);

@@ -121,13 +121,13 @@ Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOpti
 
 const char* BuildIdentity::change_since(const BuildIdentity& earlier) const {
   if (*this == earlier) return nullptr;
-  if (version != earlier.version) return "it is another version's";
+  if (version != earlier.version) return "another version wrote it";
   const auto input = [](const BuildIdentity& i) {
     return std::tie(i.input_bytes, i.input_number, i.changed_seconds, i.changed_nanoseconds,
                     i.sample_low, i.sample_high);
   };
   if (input(*this) != input(earlier)) return "the input has changed";
-  return "its options were others";
+  return "the options have changed";
 }
 
 }  // namespace planetree::octree

@@ -112,19 +112,19 @@ bool Checkpoint::restore_sector(std::span<const std::byte> payload, SpillExtent&
 }
 
 Checkpoint::~Checkpoint() {
-  // The next build could only begin anew. An error of remove() is ignored: the one that led here
-  // says more.
+  // The next build could only begin from the start. An error of remove() is ignored: the one that
+  // led here says more.
   if (removable_) (void)remove();
 }
 
 std::string Checkpoint::start() const {
   if (!sectors_.empty())
-    return "going on after colouring " + std::to_string(sectors_.size()) + " parts";
-  if (mesh_ && !surface_) return "going on after ordering";
-  if (mesh_ && chunks_.empty()) return "going on after matching edges";
-  if (mesh_) return "going on after bounding " + std::to_string(chunks_.size()) + " parts";
-  if (refusal_ == nullptr) return "no earlier work to go on with; building from the start";
-  return std::string("earlier work is of no use, ") + refusal_ + "; building from the start";
+    return "resuming after " + std::to_string(sectors_.size()) + " parts of the mask";
+  if (mesh_ && !surface_) return "resuming after ordering";
+  if (mesh_ && chunks_.empty()) return "resuming after matching edges";
+  if (mesh_) return "resuming after " + std::to_string(chunks_.size()) + " parts of the tree";
+  if (refusal_ == nullptr) return "no checkpoint; building from the start";
+  return std::string("the checkpoint cannot be resumed: ") + refusal_ + "; building from the start";
 }
 
 std::optional<ChunkWork> Checkpoint::take_chunk(std::uint32_t number) {

@@ -35,7 +35,7 @@ class Checkpoint {
   /// Leaves the directory behind only if it holds work that can be resumed.
   ~Checkpoint();
 
-  /// Tells a person what work is resumed, or why none is.
+  /// A message for a person: what work is resumed, or why none is.
   std::string start() const;
 
   /// The file for all spilled data that is to be kept.

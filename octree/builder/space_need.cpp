@@ -74,7 +74,7 @@ Error too_little(const char* what, std::uint64_t needed, std::uint64_t free, con
 }
 
 constexpr const char* kTemporaryRemedy =
-    "free some, name a roomier --temp-dir, or give more --memory";
+    "free some, name a --temp-dir with more space, or give more --memory";
 
 }  // namespace
 

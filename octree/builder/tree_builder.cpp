@@ -242,7 +242,7 @@ Result<void> TreeBuild::build_chunks() {
   model_.chunks.resize(model_.above.chunks.size());
   resume_chunks();
   return for_each_chunk(
-      runs(), model_.above.chunks, progress_, BuildPhase::kBounding,
+      runs(), model_.above.chunks, progress_, BuildPhase::kBuildingTree,
       [&](std::size_t i) { return !model_.chunks[i].pages.empty(); },
       [&](std::size_t i, Triangles& triangles) { return build(i, triangles); });
 }
@@ -285,7 +285,7 @@ Result<void> TreeBuild::colour_cells() {
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
   auto earlier =
       files_.work() ? files_.work()->take_sectors() : std::map<std::uint32_t, BuiltSector>();
-  PhaseCount count(progress_, BuildPhase::kColouring, sectors_->touched_count(), earlier.size());
+  PhaseCount count(progress_, BuildPhase::kBuildingMask, sectors_->touched_count(), earlier.size());
   for (auto& [number, region] : earlier) model_.mask->resume(number, std::move(region));
   const auto done = [&](std::uint32_t number, const BuiltSector& region) {
     const auto kept = keep(number, region);

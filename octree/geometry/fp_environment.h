@@ -5,13 +5,14 @@
 
 namespace planetree::octree {
 
-/// Puts the floating-point modes of the calling thread aside. While this object lives, results are
-/// rounded to nearest, subnormal numbers are numbers and nothing traps. A thread that rounds
-/// another way or flushes to zero, as audio and haptic threads do, would otherwise get other bits,
-/// and one that traps would end at an inexact result. Every public call that computes holds one.
+/// Sets the floating-point mode of the thread while this object lives: results are rounded to
+/// nearest, subnormal numbers are not flushed, and nothing traps. The destructor restores the mode
+/// of the host program. Without this object, a thread that rounds otherwise or flushes to zero, as
+/// audio and haptic threads do, would get other bits; and one that traps would be killed by an
+/// inexact result. Every public function that computes holds one.
 ///
-/// cost     reads one register where the thread's modes are the usual ones.
-/// threads  of this thread alone; end it on the thread that made it.
+/// cost     reads one register if the thread is in the default mode
+/// threads  destroy it on the thread that created it
 class FpEnvironmentGuard {
  public:
 #if defined(__SSE2__)
@@ -30,8 +31,8 @@ class FpEnvironmentGuard {
 
  private:
 #if defined(__SSE2__)
-  static constexpr std::uint32_t kFlags = 0x3f;      ///< exceptions that have occurred
-  static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, nothing else
+  static constexpr std::uint32_t kFlags = 0x3f;      ///< exception flags raised so far
+  static constexpr std::uint32_t kDefault = 0x1f80;  ///< all exceptions masked, nothing else set
   std::uint32_t before_;
 #else
   std::fenv_t before_;

@@ -78,7 +78,7 @@ const char* contact_fault(const TestedPredicates& tested) {
   const double up = 0.5 + 0x1p-53;
   if (!tested.lies_on({0.25, 0.25, 0.5}, triangle) || !tested.lies_on(triangle[2], triangle) ||
       tested.lies_on({0.25, 0.25, up}, triangle) || tested.lies_on({0.5, 0.5, 1}, triangle))
-    return "points on a triangle are not told apart from points beside it";
+    return "points on a triangle are not distinguished from points next to it";
   return nullptr;
 }
 

@@ -268,8 +268,8 @@ const char* MaskDecoder::decode_list(std::byte* octants, std::byte* links, unsig
     std::memcpy(octants + i, &touched, sizeof touched);
     std::memcpy(links + i * sizeof link, &link, sizeof link);
   }
-  if (!all_touch) return "a block of a list touches nothing";
-  if (!all_lead) return "a list leads to what is no block";
+  if (!all_touch) return "a listed block has no octant";
+  if (!all_lead) return "a list has a link that leads to no block";
   return ascend ? nullptr : "the blocks of a list are not in order";
 }
 

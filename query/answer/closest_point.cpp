@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Beyond octree::kFarthestQuery all triangles are equally far in double; `from`
-// there stands for a query in its direction that is farther.
+// Returns the answer of a far query. Beyond octree::kFarthestQuery all triangles are equally far in
+// double. `from` is a point at that distance in the direction of the query.
 octree::NearestAnswer farthest(const octree::TreeInfo& tree, const octree::Point& from) {
   octree::NearestAnswer nearest;
   nearest.point = nearest.corners[0] = tree.sample;
@@ -31,7 +31,7 @@ octree::NearestAnswer farthest(const octree::TreeInfo& tree, const octree::Point
   return nearest;
 }
 
-// In model units, where the frame's could overflow.
+// Sets the distance of a far query. Computes in model units, since the model frame could overflow.
 void measure_far(const Vec3& query, const QueryOptions& options, ClosestPoint& answer) {
   const double largest = std::max({std::fabs(query.x), std::fabs(query.y), std::fabs(query.z)});
   const double x = query.x / largest, y = query.y / largest, z = query.z / largest;
@@ -45,20 +45,21 @@ void measure_far(const Vec3& query, const QueryOptions& options, ClosestPoint& a
   answer.lower = std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - 0x1p-48);
 }
 
-// How far the surface is that was left out of a file of a region: at least so far, and all of its
-// triangles would be found to be. Nothing is known where the point itself is out of reach.
+// Returns a distance that all triangles missing from a file of a region exceed, also as evaluated;
+// 0 for a far query, for which none is known.
 double clearance(const octree::Region& region, const octree::Point& point, bool far) {
   if (!region.has_walls()) return kInfinity;
   return far ? 0 : region.clearance(point);
 }
 
-// What the nearest of a region's triangles says of the whole surface, which is nowhere nearer
-// than those or `clear`.
-void widen(const octree::TreeInfo& tree, const octree::Point& point, double clear,
-           double max_distance, octree::NearestAnswer& nearest) {
+// Corrects the answer of a file of a region for the triangles missing from the file. None of them
+// is nearer than `clear`.
+void account_for_missing_surface(const octree::TreeInfo& tree, const octree::Point& point,
+                                 double clear, double max_distance,
+                                 octree::NearestAnswer& nearest) {
   const bool beyond = nearest.status == Status::kBeyondMaxDistance;
   if (beyond ? max_distance <= clear : nearest.upper < clear) return;
-  // Something that was left out may be nearer.
+  // A missing triangle may be nearer.
   nearest.lower = std::max(0.0, std::min(nearest.lower, clear));
   nearest.status = Status::kDegraded;
   if (!beyond) return;
@@ -99,7 +100,7 @@ class ClosestPointQuery {
   ClosestPointQuery(const ClosestPointQuery&) = delete;
   ClosestPointQuery& operator=(const ClosestPointQuery&) = delete;
 
-  // Returns whether something was lost for want of pages or work.
+  // Returns whether a part is not exact because pages were missing or the work was spent.
   bool run() {
     const std::uint32_t parts = computed_parts(options_.parts);
     octree::NearestAnswer nearest =
@@ -108,7 +109,7 @@ class ClosestPointQuery {
     const bool with_normal = (parts & kNormal) != 0 && answer_.triangle != kNoTriangle;
     const SideResult& side = (parts & kSide) != 0 ? find_side(nearest, with_normal) : side_result_;
     if (with_normal) find_normal(nearest, side);
-    return lost_;
+    return incomplete_;
   }
 
  private:
@@ -117,7 +118,7 @@ class ClosestPointQuery {
     return spent < options_.max_work ? options_.max_work - spent : 0;
   }
 
-  // Prefetches what the search for the side will read, if a search of the mask is likely.
+  // Starts to prefetch what the search for the side will read, if a search of the mask is likely.
   void start_prefetch() {
     if (!pages_.prefetch_hook || !coherence_.searched_side || !remember_ || far_ ||
         model_.region.has_walls() || coherence_.side.same_side(point_, 0))
@@ -144,16 +145,16 @@ class ClosestPointQuery {
 
   void report_nearest(octree::NearestAnswer& nearest) {
     stop_prefetch();
-    // The nearest triangle of a far query is the sample, known by a vertex alone.
+    // The answer of a far query has the sample, which is one vertex of a triangle.
     if (!far_ && options_.wait == Wait::kNever && nearest.triangle != kNoTriangle)
       coherence_.last_nearest = nearest;
-    lost_ = nearest.status == Status::kDegraded;
-    widen(model_.tree, point_, clearance(model_.region, point_, far_),
-          model_.scale.in(options_.max_distance), nearest);
+    incomplete_ = nearest.status == Status::kDegraded;
+    account_for_missing_surface(model_.tree, point_, clearance(model_.region, point_, far_),
+                                model_.scale.in(options_.max_distance), nearest);
     fill_in(model_.scale, nearest, answer_);
     if (far_) measure_far(query_, options_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = options_.max_distance;
-    if (answer_.status == Status::kDegraded && !lost_ &&
+    if (answer_.status == Status::kDegraded && !incomplete_ &&
         answer_.upper - answer_.lower <= options_.max_error)
       answer_.status = Status::kWithinError;
   }
@@ -161,15 +162,15 @@ class ClosestPointQuery {
   const SideResult& find_side(const octree::NearestAnswer& nearest, bool with_normal) {
     const SideResult& side = classify(nearest, with_normal);
     answer_.side = side.side;
-    if (side.status == Status::kDegraded) degrade();
+    if (side.status == Status::kDegraded) mark_degraded();
     return side;
   }
 
-  // Tries the ways to find a side in the order of their cost.
+  // Finds the side. Tries the cheapest rule first.
   const SideResult& classify(const octree::NearestAnswer& nearest, bool with_normal) {
     coherence_.searched_side = false;
     const SideResult& remembered = coherence_.side.side_result();
-    if (!far_ && remember_ && is_side_as_before(model_, point_, nearest.lower, coherence_.side))
+    if (!far_ && remember_ && is_cached_side(model_, point_, nearest.lower, coherence_.side))
       return remembered;
     octree::SideGrid::Lookup lookup;
     // Near the surface the nearest face decides most sides, elsewhere the side grid does.
@@ -188,7 +189,7 @@ class ClosestPointQuery {
   bool side_grid_decides(octree::SideGrid::Lookup& lookup) {
     std::optional<SideResult> known;
     if (far_) {
-      // The point in its place may be beyond another wall of a region.
+      // Decided for the query itself: point_ may be beyond another wall of a region.
       known =
           side_without_pages(model_, scaled_, look_up_side_grid(model_, scaled_, pages_.frames));
     } else if (remember_) {
@@ -200,13 +201,13 @@ class ClosestPointQuery {
     return known.has_value();
   }
 
-  // Whether the faces at the nearest point decide the side. Not for blocking queries of limited
-  // work: they bring in the pages for other queries, which may have to search the mask. A region
-  // with walls has no height fields, whatever its file says.
+  // Returns whether the faces at the nearest point decide the side. Not used by blocking queries of
+  // limited work: they fetch the pages for other queries, which may have to search the mask. A
+  // region with walls has no height fields, even if its file says so.
   bool faces_decide(const octree::NearestAnswer& nearest) {
     if (!remember_ || !octree::HeightField::tells_side(nearest) || model_.region.has_walls())
       return false;
-    // All faces of a vertex may take many nodes; leave enough of them to the search.
+    // Finding all faces at a vertex may visit many nodes. Enough must be left for the search.
     if (nearest.feature != Feature::kFace && work_left() < kNodesForFaces) return false;
     const int side = feature(nearest).side;
     if (side == 0) return false;
@@ -219,7 +220,7 @@ class ClosestPointQuery {
   void find_normal(const octree::NearestAnswer& nearest, const SideResult& side) {
     const octree::Point normal = contact_normal(point_, nearest, feature(nearest), side);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
-    if (!feature(nearest).complete) degrade();
+    if (!feature(nearest).complete) mark_degraded();
   }
 
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {
@@ -231,12 +232,12 @@ class ClosestPointQuery {
     return feature_;
   }
 
-  void degrade() {
-    lost_ = true;
+  void mark_degraded() {
+    incomplete_ = true;
     if (answer_.status != Status::kBeyondMaxDistance) answer_.status = Status::kDegraded;
   }
 
-  static constexpr std::uint64_t kNodesForFaces = 512;
+  static constexpr std::uint64_t kNodesForFaces = 512;  // minimum of work left to look for faces
 
   const ModelGeometry& model_;
   const octree::PageReader& pages_;
@@ -246,14 +247,14 @@ class ClosestPointQuery {
   const bool remember_;
   const octree::Point scaled_;  // the query in the model frame
   const bool far_;
-  const octree::Point point_;  // scaled_, or a point in its direction that is within reach
+  const octree::Point point_;  // scaled_; for a far query see within_reach()
   std::optional<octree::MaskPrefetcher> prefetcher_;
   octree::TraversalStats work_;
   ClosestPoint& answer_;
-  octree::FeatureNormal feature_;  // at the nearest point, once requested
+  octree::FeatureNormal feature_;  // at the nearest point, if has_feature_
   bool has_feature_ = false;
-  SideResult side_result_;  // a side that is not kept in the coherence
-  bool lost_ = false;
+  SideResult side_result_;  // a side that is not in the side cache
+  bool incomplete_ = false;
 };
 
 }  // namespace

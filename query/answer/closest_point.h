@@ -5,15 +5,15 @@
 
 namespace planetree::query {
 
-/// A ClosestPoint for which no triangle was reached.
+/// Returns the answer of a query that reached no triangle: `distance` and `upper` are infinite.
 ClosestPoint unanswered(Status status) noexcept;
 
-/// Fills in the parts of a closest-point query that are requested.
+/// Computes the requested parts of a closest-point query.
 ///
-/// query    model units; is_valid().
-/// options  with_defaults() applied.
-/// answer   unanswered(kExact).
-/// return   whether a part is not exact because pages are missing or the work is spent.
+/// query    model units; is_valid() holds
+/// options  returned by with_defaults()
+/// answer   unanswered(kExact) at the call; receives the answer
+/// return   whether a part is not exact because pages were missing or the work was spent
 bool closest_point(const QueryContext& context, const Vec3& query, const QueryOptions& options,
                    ClosestPoint& answer) noexcept;
 

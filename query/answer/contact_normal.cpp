@@ -10,9 +10,9 @@ namespace {
 
 using octree::Point;
 
-/// Nearer than this share of coordinates to a nearest point, which is rounded,
-/// the way from there to the query says nothing.
-constexpr double kNoWay = 0x1p-36;
+/// Minimum distance of a query from its nearest point, as a share of the largest coordinate, for
+/// the direction between them to be used. The nearest point is rounded, so a shorter one is noise.
+constexpr double kMinShare = 0x1p-36;
 
 double largest_coordinate(const octree::Triangle& triangle) {
   double largest = 0;
@@ -20,25 +20,26 @@ double largest_coordinate(const octree::Triangle& triangle) {
   return largest;
 }
 
-/// Whether the normal points to where the query is, or a step beside it: 1 or
-/// -1, or 0 where that cannot be told from rounding.
+/// Returns 1 if the normal points towards the (perturbed) query, -1 if it points away, and 0 if
+/// rounding leaves that uncertain.
 int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
                   const Point& normal) {
   if (nearest.feature == Feature::kFace) return octree::perturbed_side(nearest.corners, query);
-  if (side == Side::kOnSurface || nearest.distance < kNoWay * largest_coordinate(nearest.corners))
+  if (side == Side::kOnSurface ||
+      nearest.distance < kMinShare * largest_coordinate(nearest.corners))
     return 0;
   const double along = (query - nearest.point).dot(normal);
   return along > 0 ? 1 : along < 0 ? -1 : 0;
 }
 
-/// Whether the normal points into the solid: away from a query that is outside,
-/// to one that is inside. Where that cannot be told, the winding number says
-/// which way round the faces are; so it does on a surface that is not watertight,
-/// where a step aside may be outside on either side.
+/// Returns whether the normal points into the solid: away from a query that is outside, or towards
+/// one that is inside. If that is uncertain, the sign of the winding number tells the orientation
+/// of the faces. So it does for a query on a surface that is not watertight, since there both sides
+/// of the surface may be outside.
 bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
                    const SideResult& side_result, const Point& normal) {
   if (side_result.side == Side::kUnknown) return false;
-  // Only of the nearest triangle is it known that nothing is between it and the query.
+  // Nothing lies between the query and its nearest triangle. That is not known of other triangles.
   if (nearest.status != Status::kExact || !side_result.beside) return side_result.winding < 0;
   const int towards = towards_query(query, nearest, side_result.side, normal);
   if (towards == 0) return side_result.winding < 0;

@@ -9,7 +9,7 @@ SideResult find_containment(const QueryContext& context, const Vec3& query,
                             const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
                             const QueryOptions& options) noexcept {
   const ModelGeometry& model = context.model;
-  // The point in its place may be beyond another wall of a region.
+  // Decided for the query itself: within_reach() may move it beyond another wall of a region.
   if (is_far(scaled))
     if (const auto known = side_without_pages(model, scaled, lookup)) return *known;
   const octree::Point point = within_reach(scaled, query);

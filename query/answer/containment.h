@@ -6,12 +6,12 @@
 
 namespace planetree::query {
 
-/// The side of a point that the side grid does not decide.
+/// Finds the side of a point that the side grid does not decide.
 ///
-/// query    model units; is_valid().
-/// scaled   the query in the model frame.
-/// lookup   what look_up_side_grid() found for `scaled`.
-/// options  with_defaults() applied.
+/// query    model units; is_valid() holds
+/// scaled   the query in the model frame
+/// lookup   result of look_up_side_grid() for `scaled`
+/// options  returned by with_defaults()
 SideResult find_containment(const QueryContext& context, const Vec3& query,
                             const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
                             const QueryOptions& options) noexcept;

@@ -11,8 +11,8 @@
 
 namespace planetree::query {
 
-/// What answers need to know of a model besides its pages. Fixed once the side grid is filled;
-/// any number of threads may read it. Lengths are in the model frame.
+/// The data of a model that queries need besides its pages. It does not change after the side grid
+/// is filled; then any number of threads may read it. Lengths are in the model frame.
 struct ModelGeometry {
   explicit ModelGeometry(const storage::FileHeader& header);
 
@@ -20,13 +20,13 @@ struct ModelGeometry {
   octree::TreeInfo tree;
   octree::MaskInfo mask;
   octree::SideGrid side_grid;   ///< empty until filled
-  octree::Region region;        ///< where the file holds the whole surface
+  octree::Region region;        ///< part of space whose surface the file holds
   octree::Point region_corner;  ///< a point of the region; see region_winding
-  std::int64_t region_winding;  ///< winding number at `region_corner`, of watertight models
+  std::int64_t region_winding;  ///< winding number at `region_corner`; only if watertight
   bool watertight;              ///< no edge is unbalanced
 };
 
-/// The part of space for which a file holds the whole surface, model frame.
+/// Returns the part of space in which a file holds the whole surface, model frame.
 octree::Region region_of(const storage::ModelRecord& model);
 
 }  // namespace planetree::query

@@ -6,8 +6,8 @@
 
 namespace planetree::query {
 
-/// What a query works with. The answers know neither threads nor memory: pages come through
-/// `pages`, whoever provides them.
+/// The inputs of a query. The code in this folder knows neither threads nor memory; it gets pages
+/// through `pages` only.
 struct QueryContext {
   const ModelGeometry& model;
   const octree::PageReader& pages;

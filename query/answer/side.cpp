@@ -25,14 +25,15 @@ SideResult by_crossings(const ModelGeometry& model, const Point& point, std::uin
   return SideSearch(model, point, max_work, pages, work, reason).run();
 }
 
-// What is left out of a file may change the winding number: of a point beyond a wall of its
-// region, and of any where winding numbers are not constant off the surface.
+// Returns whether the triangles missing from a file of a region may change a point's side: beyond a
+// wall of the region; and anywhere in a model that is not watertight, where winding numbers are not
+// constant off the surface.
 bool is_unknowable(const ModelGeometry& model, const Point& point) {
   const octree::Region& region = model.region;
   return region.has_walls() && (!region.holds(point) || !model.watertight);
 }
 
-/// The nearest whole number, however large.
+// Rounds to the nearest whole number; clamps to +-2^62.
 std::int64_t rounded(double value) {
   constexpr double kMax = 0x1p62;
   return static_cast<std::int64_t>(std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMax, kMax));
@@ -42,7 +43,7 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
                              std::uint64_t max_work, const octree::PageReader& pages,
                              octree::TraversalStats& work, SideReason* reason) {
   if (reason) reason->rule = SideReason::Rule::kWindingNumber;
-  // From so far away all triangles together are less than a point.
+  // Seen from so far away, all triangles together have no measurable solid angle.
   if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
   const octree::WindingNumber w = octree::winding_number(tree, point, max_work, pages, work);
   if (reason) {
@@ -82,24 +83,24 @@ std::optional<SideResult> side_without_pages(const ModelGeometry& model, const P
   return {};
 }
 
-bool is_side_as_before(const ModelGeometry& model, const Point& point, double clear,
-                       SideCache& memory) noexcept {
-  if (!model.region.holds(point) || !memory.same_side(point, clear)) return false;
-  memory.go_to(point, clear);
+bool is_cached_side(const ModelGeometry& model, const Point& point, double clear,
+                    SideCache& cache) noexcept {
+  if (!model.region.holds(point) || !cache.same_side(point, clear)) return false;
+  cache.move_to(point, clear);
   return true;
 }
 
 SideResult find_side(const ModelGeometry& model, const Point& point,
-                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
+                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& cache,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept {
   if (!model.watertight || !model.region.holds(point) || outside_box(model.tree, point))
     return find_side(model, point, max_work, pages, work);
-  if (is_side_as_before(model, point, clear, memory)) return memory.side_result();
-  SideSearch search(model, point, max_work, pages, work, nullptr, {&memory, &lookup});
+  if (is_cached_side(model, point, clear, cache)) return cache.side_result();
+  SideSearch search(model, point, max_work, pages, work, nullptr, {&cache, &lookup});
   const SideResult side_result = search.run();
   if (side_result.status == Status::kExact)
-    memory.note(point, side_result, search.counted(), clear);
+    cache.note(point, side_result, search.has_exact_winding(), clear);
   return side_result;
 }
 

@@ -12,44 +12,47 @@
 
 namespace planetree::query {
 
-/// How a side was found: for those who ask why.
+/// How a side was found, for reports.
 struct SideReason {
   enum class Rule : std::uint8_t {
-    kNone,           ///< the side is not known
-    kRegion,         ///< nor can it be: the file is of a region, and the point beyond it or the
-                     ///< model not watertight
-    kOutsideBox,     ///< of the model
-    kColour,         ///< `cell` is white or black
+    kNone,           ///< the side is unknown
+    kRegion,         ///< the side cannot be known: the file is of a region, and the point is beyond
+                     ///< a wall or the model is not watertight
+    kOutsideBox,     ///< the point is outside of the model's box
+    kColour,         ///< `cell` is white, black or inverted
     kPlanes,         ///< `cell` is special
-    kSlab,           ///< the surface in `cell` is between two planes, the point beyond one of them
-    kCorner,         ///< `crossings` from a corner of `cell`, `end`, where `known` is known
-    kWayOut,         ///< `crossings` from `end`, outside of the model's box, or of its region's
-                     ///< least corner
-    kWindingNumber,  ///< of a model that is not watertight: `value`, right within `error`
+    kSlab,           ///< the point is beyond a plane of the slab of `cell`
+    kCorner,         ///< `crossings` to `end`, a corner of `cell`
+    kWayOut,         ///< `crossings` to `end`, which is outside of the model's box or is
+                     ///< ModelGeometry::region_corner
+    kWindingNumber,  ///< the model is not watertight: `value`, right within `error`
   };
   Rule rule = Rule::kNone;
-  octree::GridCell cell;  ///< of the mask: the smallest that was reached
-  bool in_mask = false;   ///< whether there is one, so that `cell` says something
-  octree::Point end = octree::Point::Zero();
-  std::int64_t known = 0;      ///< winding number at `end`
-  std::int64_t crossings = 0;  ///< what it changes by from there to the point
-  double value = 0;
-  double error = 0;
+  octree::GridCell cell;  ///< the smallest cell of the mask that was reached
+  bool in_mask = false;   ///< the model has a mask, so that `cell` has a meaning
+  octree::Point end = octree::Point::Zero();  ///< model frame
+  std::int64_t known = 0;                     ///< winding number at `end`
+  std::int64_t crossings = 0;                 ///< its change from `end` to the point
+  double value = 0;                           ///< winding number of the point
+  double error = 0;                           ///< error bound of `value`
 };
 
-/// Which side of a model's surface a point is on.
+/// Finds the side of a model's surface that a point is on.
 ///
-/// point      model frame.
-/// max_work  most nodes and blocks to visit.
-/// reason     filled if not null.
-/// return     kUnknown where degraded, and where the winding number of a model
-///            that is not watertight is one half to rounding.
+/// point     model frame
+/// max_work  maximum number of nodes and blocks to visit
+/// work      counters that the search adds to
+/// reason    receives how the side was found; may be null
+/// return    kUnknown if degraded or if the side cannot be known (Rule::kRegion); also if the model
+///           is not watertight and the winding number is one half up to rounding
 SideResult find_side(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
                      const octree::PageReader& pages, octree::TraversalStats& work,
                      SideReason* reason = nullptr) noexcept;
 
-/// What octree::SideGrid knows of a point, as far as the file knows it. The point may be any.
-/// Models that are not watertight have no colours.
+/// Looks a point up in the side grid. Finds nothing beyond a wall of the region, nor in a model
+/// that is not watertight, which has no mask. Accepts any point of the model frame.
+///
+/// frames  for prefetching the mask record that a search reads next
 inline octree::SideGrid::Lookup look_up_side_grid(const ModelGeometry& model,
                                                   const octree::Point& point,
                                                   const octree::FrameTable& frames) noexcept {
@@ -60,22 +63,28 @@ inline octree::SideGrid::Lookup look_up_side_grid(const ModelGeometry& model,
   return known ? model.side_grid.look(point, ahead) : octree::SideGrid::Lookup{};
 }
 
-/// The same as find_side() where one look tells: beyond a wall of a region, outside of a
-/// watertight model's box, or in a white or black cell. The point may be any.
+/// Returns what find_side() would, if that takes no page: beyond a wall of a region, in a region of
+/// a model that is not watertight, outside of a watertight model's box, or where the side grid has
+/// the side. Else returns nothing. Accepts any point of the model frame.
+///
+/// lookup  result of look_up_side_grid() for the point
 std::optional<SideResult> side_without_pages(const ModelGeometry& model, const octree::Point& point,
                                              const octree::SideGrid::Lookup& lookup) noexcept;
 
-/// Whether the point cannot but stand where the last one that `memory` knows does, which then is
-/// what it knows of this one. No surface is nearer to the point than `clear`.
-bool is_side_as_before(const ModelGeometry& model, const octree::Point& point, double clear,
-                       SideCache& memory) noexcept;
+/// Returns whether the point is certainly on the side of the last point in `cache`. If so, the
+/// point becomes the last point, and cache.side_result() is its result.
+///
+/// clear  lower bound on the distance of the point from the surface, model frame
+bool is_cached_side(const ModelGeometry& model, const octree::Point& point, double clear,
+                    SideCache& cache) noexcept;
 
-/// The same by way of what `memory` knows if that is nearer, and remembered there: where work is
-/// limited, or pages are missing, what is told depends on the asks before. No surface is nearer
-/// to the point than `clear`, which may be 0.
-/// spot  what look_up_side_grid() says.
+/// Does what find_side() above does with the help of `cache`, and stores an exact result there. If
+/// work is limited or pages are missing, the result depends on earlier queries.
+///
+/// lookup  result of look_up_side_grid() for the point
+/// clear   lower bound on the distance of the point from the surface, model frame; may be 0
 SideResult find_side(const ModelGeometry& model, const octree::Point& point,
-                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& memory,
+                     const octree::SideGrid::Lookup& lookup, double clear, SideCache& cache,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept;
 

@@ -9,34 +9,38 @@
 
 namespace planetree::query {
 
-/// Where a point stands with respect to a model's surface.
+/// The side of a point with respect to a model's surface.
 struct SideResult {
   Side side = Side::kUnknown;
-  Status status = Status::kExact;  ///< kDegraded: pages missing or the work spent
-  /// Of watertight models as much as 0, and of the sign of, the winding number of
-  /// the point; else that to the nearest whole number where the side is known. On
-  /// the surface: of a step beside the point if `beside`, else 1 or -1 as the rest
-  /// of the surface winds about it, 0 where that is too little to tell.
+  Status status = Status::kExact;  ///< kDegraded: pages were missing or the work was spent
+  /// Watertight models: a number with the sign of the point's winding number, or 0 if that is 0.
+  /// Other models: the winding number, rounded to a whole number; 0 if the side is unknown.
+  /// For a point on the surface see `beside`.
   std::int64_t winding = 0;
+  /// Meaning of `winding` for a point on the surface. True: it is that of the perturbed point.
+  /// False (models that are not watertight): it is the sign of the winding number of the surface
+  /// without the triangles that the point is on, or 0 if that sign is uncertain.
   bool beside = true;
 };
 
-/// What a probe's last asks found out about sides, for the next ones nearby. Of watertight
-/// models alone: elsewhere winding numbers are not constant off the surface. Plain memory,
-/// one thread.
+/// The last side and the last mask cell that a probe's queries found, for the next queries nearby.
+/// For watertight models only, since in others winding numbers are not constant off the surface. It
+/// allocates nothing. One thread at a time may use it. All lengths are in the model frame.
 class SideCache {
  public:
-  /// The cell of the mask that the point is in, if it is the last one; else null.
+  /// Returns the cached lookup if the point is in its mask cell, else null.
   const octree::MaskLookup* cell_with(const octree::Point& point) const {
     const bool within =
         (point.array() >= cell_lower_.array()).all() && (point.array() < cell_upper_.array()).all();
     return within ? &cell_ : nullptr;
   }
-  /// Whether asks come from about the same place, so that a cell is worth its bounds.
+  /// Returns whether a point is near the last one. Only then does caching a cell repay computing
+  /// the cell's bounds.
   bool is_near(const octree::Point& point, const octree::TreeInfo& tree) const {
     const double diagonal2 = (tree.box_upper - tree.box_lower).squaredNorm();
     return (point - point_).squaredNorm() < diagonal2 * (kNear * kNear);
   }
+  /// Stores the lookup of a mask cell that holds for all points in the cell.
   void note_cell(const octree::MaskInfo& mask, const octree::MaskLookup& found) {
     const octree::CellGrid grid(mask.lower);
     cell_ = found;
@@ -44,30 +48,32 @@ class SideCache {
     cell_upper_ = grid.upper(found.cell);
   }
 
-  /// The last point whose side was found.
+  /// Last point whose side was found; NaN before the first.
   const octree::Point& point() const { return point_; }
-  /// Its side; unknown before any was found.
+  /// Side of point(); unknown before the first.
   const SideResult& side_result() const { return side_result_; }
-  /// Whether its winding number is right, and not of the right sign alone.
-  bool counted() const { return counted_; }
+  /// Whether side_result().winding is exactly the winding number. If not, only its sign is right.
+  bool has_exact_winding() const { return has_exact_winding_; }
 
-  /// Whether `point`, which has no surface nearer than `clear`, stands where the last one
-  /// does: there is nothing between.
+  /// Returns whether a point is certainly on the side of the last one, because no surface lies
+  /// between them. `clear` is a lower bound on the point's distance from the surface.
   bool same_side(const octree::Point& point, double clear) const {
-    const double most = std::max(clear, clear_);
-    if (!(most > 0)) return false;
+    const double radius = std::max(clear, clear_);
+    if (!(radius > 0)) return false;
     const double gap = (point - point_).norm();
-    return gap * (1 + kRounding) < most;
+    return gap * (1 + kRounding) < radius;
   }
 
-  /// A point's side; no surface is nearer to it than `clear`, which may be 0.
-  void note(const octree::Point& point, const SideResult& side_result, bool counted, double clear) {
+  /// Stores the side of a point. `clear` is a lower bound on its distance from the
+  /// surface and may be 0.
+  void note(const octree::Point& point, const SideResult& side_result, bool has_exact_winding,
+            double clear) {
     side_result_ = side_result;
-    counted_ = counted;
-    go_to(point, clear);
+    has_exact_winding_ = has_exact_winding;
+    move_to(point, clear);
   }
-  /// The same of a point that stands where the last one does.
-  void go_to(const octree::Point& point, double clear) {
+  /// Makes a point on the side of the last one the last point.
+  void move_to(const octree::Point& point, double clear) {
     const bool off_surface =
         side_result_.side == Side::kInside || side_result_.side == Side::kOutside;
     point_ = point;
@@ -76,16 +82,16 @@ class SideCache {
 
  private:
   static constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-  static constexpr double kNear = 0x1p-6;  ///< as a share of the model's diagonal
-  static constexpr double kRounding = 0x1p-40;
+  static constexpr double kNear = 0x1p-6;       // share of the model's diagonal
+  static constexpr double kRounding = 0x1p-40;  // exceeds the relative error of `gap`
 
   octree::MaskLookup cell_;
   octree::Point cell_lower_ = octree::Point::Constant(kNowhere);
   octree::Point cell_upper_ = octree::Point::Constant(kNowhere);
   octree::Point point_ = octree::Point::Constant(kNowhere);
   SideResult side_result_;
-  bool counted_ = false;
-  double clear_ = 0;
+  bool has_exact_winding_ = false;
+  double clear_ = 0;  // lower bound on the distance of point_ from the surface
 };
 
 }  // namespace planetree::query

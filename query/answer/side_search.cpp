@@ -12,51 +12,55 @@ namespace planetree::query {
 using octree::Point;
 
 SideResult SideSearch::run() {
-  if (query_mask()) return side_result_;
-  // Usually the first way tells; another may do without a page that is lost.
+  if (search_mask()) return side_result_;
+  // Usually the first segment decides. Another may do without a page that is missing.
   const octree::Region& region = model_.region;
-  const ExitSegments ways(model_.tree, point_);
-  for (const ExitSegments::Way& way : ways.all())
-    if (region.holds(way.end) && go(way.end, 0, SideReason::Rule::kWayOut)) return side_result_;
+  const ExitSegments segments(model_.tree, point_);
+  for (const ExitSegments::Segment& segment : segments.all())
+    if (region.holds(segment.end) && cross_to(segment.end, 0, SideReason::Rule::kWayOut))
+      return side_result_;
   if (region.has_walls() &&
-      go(model_.region_corner, model_.region_winding, SideReason::Rule::kWayOut))
+      cross_to(model_.region_corner, model_.region_winding, SideReason::Rule::kWayOut))
     return side_result_;
   return {Side::kUnknown, Status::kDegraded};
 }
 
-bool SideSearch::query_mask() {
+bool SideSearch::search_mask() {
   using Kind = octree::MaskLookup::Kind;
-  if (memory_)
-    if (const octree::MaskLookup* last = memory_->cell_with(point_)) return go_from(*last);
-  // What is resident, answers that remember depend on anyway. Lists are long: made where it stays.
+  if (cache_)
+    if (const octree::MaskLookup* last = cache_->cell_with(point_)) return use_lookup(*last);
+  // Starting at the grid's record skips the upper levels of the mask. A search with hints may do
+  // so, since its result may depend on resident pages anyway. `found` is initialized in place,
+  // because a MaskLookup is large.
   const octree::MaskLookup found =
       lookup_ ? octree::look_up(model_.mask, *lookup_, point_, work_left(), pages_, work_)
               : octree::look_up(model_.mask, point_, work_left(), pages_, work_);
-  // What a special cell knows is of this point alone.
-  const bool of_all = found.kind == Kind::kColour || found.kind == Kind::kCorners;
-  if (memory_ && of_all && memory_->is_near(point_, model_.tree))
-    memory_->note_cell(model_.mask, found);
-  return go_from(found);
+  // The lookup in a special cell holds for this point only.
+  const bool holds_in_cell = found.kind == Kind::kColour || found.kind == Kind::kCorners;
+  if (cache_ && holds_in_cell && cache_->is_near(point_, model_.tree))
+    cache_->note_cell(model_.mask, found);
+  return use_lookup(found);
 }
 
-bool SideSearch::go_from(const octree::MaskLookup& found) {
+bool SideSearch::use_lookup(const octree::MaskLookup& found) {
   using Kind = octree::MaskLookup::Kind;
   if (reason_) {
     reason_->in_mask = model_.mask.page_count > 0;
     reason_->cell = found.cell;
   }
-  if (found.kind == Kind::kCorners) return go_to_corner(found);
+  if (found.kind == Kind::kCorners) return cross_to_corner(found);
   if (found.kind == Kind::kNothing) return false;
   if (reason_)
     reason_->rule =
         found.kind == Kind::kColour ? SideReason::Rule::kColour : SideReason::Rule::kPlanes;
-  counted_ = found.kind == Kind::kPlanes || found.winding == 0;
-  settle(found.winding, found.on_surface);
+  has_exact_winding_ = found.kind == Kind::kPlanes || found.winding == 0;
+  set_result(found.winding, found.on_surface);
   return true;
 }
 
-// What is beyond the planes of a cell has the winding number of its corner there.
-bool SideSearch::query_slab(const octree::MaskLookup& found) {
+// Decides by the slab of the cell: a point beyond one of its planes has the winding number of the
+// cell's corner there.
+bool SideSearch::decide_by_slab(const octree::MaskLookup& found) {
   const octree::CellSlab& slab = found.blocks.slab;
   if (!slab.has_plane()) return false;
   const Point lower = octree::CellGrid(model_.mask.lower).lower(found.cell);
@@ -64,15 +68,15 @@ bool SideSearch::query_slab(const octree::MaskLookup& found) {
       slab.corner_beyond(octree::CellSlab::position_in(point_, lower, found.cell.level));
   if (corner == octree::CellSlab::kNoCorner) return false;
   if (reason_) reason_->rule = SideReason::Rule::kSlab;
-  counted_ = true;
-  settle(octree::corner_number(found.listed, corner), false);
+  has_exact_winding_ = true;
+  set_result(octree::corner_number(found.listed, corner), false);
   return true;
 }
 
-// To the corner of the octant that the point is in: past those blocks alone that have triangles
-// in the octant.
+// Counts crossings to the cell's corner in the octant that the point is in. Only the blocks that
+// have triangles in that octant count.
 template <class Grid>
-bool SideSearch::go_within_octant(const octree::MaskLookup& found, const Grid& grid) {
+bool SideSearch::cross_within_octant(const octree::MaskLookup& found, const Grid& grid) {
   const unsigned octant = grid.octant(found.cell, point_);
   std::array<std::uint32_t, octree::kMaxListed> links;
   const unsigned count = found.blocks.in_octant(octant, links);
@@ -84,17 +88,18 @@ bool SideSearch::go_within_octant(const octree::MaskLookup& found, const Grid& g
   return finalize(corner, winding, crossings, SideReason::Rule::kCorner);
 }
 
-bool SideSearch::go_to_corner(const octree::MaskLookup& found) {
-  if (found.blocks.count == 0) return go_to_nearest(found);
+bool SideSearch::cross_to_corner(const octree::MaskLookup& found) {
+  if (found.blocks.count == 0) return cross_to_nearest_end(found);
   const Point& lower = model_.mask.lower;
-  // Most often there is nothing to clip.
+  // Most files have no region. Their octants need no clipping. Only there slabs are used.
   if (!model_.region.has_walls())
-    return query_slab(found) || go_within_octant(found, octree::CellGrid(lower));
-  return go_within_octant(found, octree::ClippedGrid(lower, model_.region));
+    return decide_by_slab(found) || cross_within_octant(found, octree::CellGrid(lower));
+  return cross_within_octant(found, octree::ClippedGrid(lower, model_.region));
 }
 
-// The nearest corner, or the last point if that is nearer: few triangles are between.
-bool SideSearch::go_to_nearest(const octree::MaskLookup& found) {
+// Counts crossings to the nearest corner, or to the last point if that is nearer, because few
+// triangles lie between.
+bool SideSearch::cross_to_nearest_end(const octree::MaskLookup& found) {
   const octree::ClippedGrid grid(model_.mask.lower, model_.region);
   Point corner = grid.lower(found.cell);
   const Point upper = grid.upper(found.cell);
@@ -104,22 +109,22 @@ bool SideSearch::go_to_nearest(const octree::MaskLookup& found) {
     if (is_upper) corner[axis] = upper[axis];
     nearest |= static_cast<unsigned>(is_upper) << axis;
   }
-  if (memory_ && memory_->counted() &&
-      (memory_->point() - point_).squaredNorm() < (corner - point_).squaredNorm() &&
-      go(memory_->point(), memory_->side_result().winding, SideReason::Rule::kCorner))
+  if (cache_ && cache_->has_exact_winding() &&
+      (cache_->point() - point_).squaredNorm() < (corner - point_).squaredNorm() &&
+      cross_to(cache_->point(), cache_->side_result().winding, SideReason::Rule::kCorner))
     return true;
-  return go(corner, found.corners[nearest], SideReason::Rule::kCorner);
+  return cross_to(corner, found.corners[nearest], SideReason::Rule::kCorner);
 }
 
-// To where the winding number is known. False if that way cannot be gone.
-bool SideSearch::go(const Point& end, std::int64_t winding, SideReason::Rule rule) {
+// Counts crossings to an end of known winding number.
+bool SideSearch::cross_to(const Point& end, std::int64_t winding, SideReason::Rule rule) {
   if (work_left() == 0) return false;
   return finalize(end, winding,
                   octree::count_crossings(model_.tree, {point_, end}, work_left(), pages_, work_),
                   rule);
 }
 
-// From what lies between the point and an end where the winding number is known.
+// Sets the result from the crossings between the point and an end of known winding number.
 bool SideSearch::finalize(const Point& end, std::int64_t winding,
                           const octree::Crossings& crossings, SideReason::Rule rule) {
   if (!crossings.complete) return false;
@@ -129,12 +134,12 @@ bool SideSearch::finalize(const Point& end, std::int64_t winding,
     reason_->known = winding;
     reason_->crossings = crossings.difference;
   }
-  counted_ = true;
-  settle(winding + crossings.difference, crossings.on_surface);
+  has_exact_winding_ = true;
+  set_result(winding + crossings.difference, crossings.on_surface);
   return true;
 }
 
-void SideSearch::settle(std::int64_t winding, bool on_surface) {
+void SideSearch::set_result(std::int64_t winding, bool on_surface) {
   const Side off_surface = winding != 0 ? Side::kInside : Side::kOutside;
   side_result_ = {on_surface ? Side::kOnSurface : off_surface, Status::kExact, winding};
 }

@@ -11,64 +11,67 @@
 
 namespace planetree::query {
 
-/// What a search may go on from; null where its answer may not depend on it.
-struct Remembered {
-  SideCache* memory = nullptr;
-  const octree::SideGrid::Lookup* lookup = nullptr;  ///< what look_up_side_grid() says
+/// Results of earlier work that a search may use. Null: the search must not depend on it.
+struct SideHints {
+  SideCache* cache = nullptr;                        ///< sides and cells of earlier queries
+  const octree::SideGrid::Lookup* lookup = nullptr;  ///< result of look_up_side_grid()
 };
 
-/// One search for the side of a point in the box of a watertight model and within its region, and
-/// what it may still spend: from the point to where the winding number is known, by the crossings
-/// between.
+/// Finds the side of one point of a watertight model. The point is in the model's box and in its
+/// region. Where the mask alone does not tell, the search counts the crossings of a segment from
+/// the point to an end of known winding number.
 class SideSearch {
  public:
-  /// All must outlive this; `reason` may be null.
+  /// The arguments must outlive this; `reason` may be null.
   SideSearch(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
              const octree::PageReader& pages, octree::TraversalStats& work, SideReason* reason,
-             const Remembered& remembered = {})
+             const SideHints& hints = {})
       : model_(model),
         point_(point),
         max_work_(max_work),
         pages_(pages),
         work_(work),
         reason_(reason),
-        memory_(remembered.memory),
-        lookup_(remembered.lookup),
-        before_(work.nodes + work.blocks) {}
+        cache_(hints.cache),
+        lookup_(hints.lookup),
+        work_before_(work.nodes + work.blocks) {}
 
+  /// Runs the search, once. kDegraded if pages were missing or the work was spent.
   SideResult run();
 
-  /// Whether the winding number itself is known, not its sign alone.
-  bool counted() const { return counted_; }
+  /// Whether the winding number of the result is exact. If not, only its sign is right.
+  bool has_exact_winding() const { return has_exact_winding_; }
 
  private:
+  // The functions that return bool set the result and return true, or return false if they cannot
+  // decide.
   std::uint64_t work_left() const {
-    const std::uint64_t spent = work_.nodes + work_.blocks - before_;
+    const std::uint64_t spent = work_.nodes + work_.blocks - work_before_;
     return spent < max_work_ ? max_work_ - spent : 0;
   }
-  bool query_mask();
-  bool go_from(const octree::MaskLookup& found);
-  bool go_to_corner(const octree::MaskLookup& found);
-  bool query_slab(const octree::MaskLookup& found);
+  bool search_mask();
+  bool use_lookup(const octree::MaskLookup& found);
+  bool cross_to_corner(const octree::MaskLookup& found);
+  bool decide_by_slab(const octree::MaskLookup& found);
   template <class Grid>
-  bool go_within_octant(const octree::MaskLookup& found, const Grid& grid);
-  bool go_to_nearest(const octree::MaskLookup& found);
-  bool go(const octree::Point& end, std::int64_t winding, SideReason::Rule rule);
+  bool cross_within_octant(const octree::MaskLookup& found, const Grid& grid);
+  bool cross_to_nearest_end(const octree::MaskLookup& found);
+  bool cross_to(const octree::Point& end, std::int64_t winding, SideReason::Rule rule);
   bool finalize(const octree::Point& end, std::int64_t winding, const octree::Crossings& crossings,
                 SideReason::Rule rule);
-  void settle(std::int64_t winding, bool on_surface);
+  void set_result(std::int64_t winding, bool on_surface);
 
   const ModelGeometry& model_;
   const octree::Point& point_;
   const std::uint64_t max_work_;
   const octree::PageReader& pages_;
   octree::TraversalStats& work_;
-  SideReason* const reason_;  // null where nobody asks why
-  SideCache* const memory_;   // null where nothing is remembered
+  SideReason* const reason_;  // may be null
+  SideCache* const cache_;    // null: not used
   const octree::SideGrid::Lookup* const lookup_;
-  const std::uint64_t before_;
+  const std::uint64_t work_before_;
   SideResult side_result_;
-  bool counted_ = false;
+  bool has_exact_winding_ = false;
 };
 
 }  // namespace planetree::query

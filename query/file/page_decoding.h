@@ -10,20 +10,23 @@
 
 namespace planetree::query {
 
-/// How blocks of a file are laid out.
+/// Returns the layout of the blocks of a file.
 octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept;
 
-/// Unpacks a page of either kind into its frame.
+/// Decodes a distance page or a mask page into its frame.
 ///
-/// entry   the page's, from the page table.
-/// raw     its raw bytes; anything at all.
-/// frame   header.page_bytes bytes, 64-byte aligned; undefined after an error.
-/// errors  kDamaged: see octree/page/page_decoder.h and octree/page/mask_decoder.h.
+/// entry   entry of the page in the page table
+/// page    page number, below header.page_count
+/// raw     raw bytes of the page; any bytes are allowed
+/// frame   header.page_bytes bytes, aligned to 64 bytes; undefined after an error
+/// errors  kDamaged: see octree/page/page_decoder.h and octree/page/mask_decoder.h
 Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
                           std::uint32_t page, std::span<const std::byte> raw,
                           std::span<std::byte> frame) noexcept;
 
-/// Whether other pages are reached through the one in a frame that decode_frame() has filled.
+/// Returns whether a page has links to other pages.
+///
+/// frame  filled by decode_frame()
 bool leads_to_pages(const storage::FileHeader& header, std::uint32_t page,
                     std::span<const std::byte> frame) noexcept;
 

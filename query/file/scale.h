@@ -8,8 +8,8 @@
 
 namespace planetree::query {
 
-/// Between the input's units and the model frame, which is the input times
-/// 2^exponent. Exact but for results below 2^-1022.
+/// Converts between model units, which are the input's, and the model frame, which is the input
+/// times 2^exponent. Exact except for results below 2^-1022.
 class Scale {
  public:
   explicit Scale(int exponent)
@@ -19,6 +19,7 @@ class Scale {
 
   int exponent() const { return exponent_; }
 
+  /// Converts to the model frame (`in`) or to model units (`out`).
   double in(double length) const { return length * in_[0] * in_[1]; }
   double out(double length) const { return length * out_[0] * out_[1]; }
   octree::Point in(const Vec3& point) const { return {in(point.x), in(point.y), in(point.z)}; }
@@ -26,7 +27,8 @@ class Scale {
     return {out(point.x()), out(point.y()), out(point.z())};
   }
 
-  /// Rounded so that the result is still a bound where it is subnormal.
+  /// Convert a bound to model units. A subnormal result is rounded down or up, so that it stays a
+  /// bound.
   double out_below(double length) const {
     const double value = out(length);
     return value < std::numeric_limits<double>::min() ? std::max(0.0, std::nextafter(value, 0.0))
@@ -40,7 +42,7 @@ class Scale {
   }
 
  private:
-  // Two factors, because one power of two may be outside the range of double.
+  // Two factors, because 2^exponent may be outside of the range of double.
   double in_[2];
   double out_[2];
   int exponent_;

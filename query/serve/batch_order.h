@@ -10,26 +10,28 @@
 
 namespace planetree::query {
 
-/// What a probe has to put batches in order with.
+/// Memory with which a probe sorts batches.
 struct BatchBuffers {
   static constexpr std::size_t kMax = 16384;
 
-  hwy::Sorter sorter;  // here, for where registers have no fixed size it allocates
-  std::array<std::uint64_t, kMax> keys{};  // so that none is touched for the first time later
+  hwy::Sorter sorter;                      // kept: with scalable vectors its constructor allocates
+  std::array<std::uint64_t, kMax> keys{};  // zeroed: no page fault later
 };
 
-/// The order in which queries of a batch are asked: by their places on a curve. Neighbours
-/// there look at the same nodes and blocks: at 7 million triangles, a million uniform points take
-/// 5 % less time where 131,072 at once are in order, and 12 % less where all are.
+/// The order in which the queries of a batch run: along a Morton curve, since neighbours on the
+/// curve visit the same nodes and blocks. With 7 million triangles, a million uniformly distributed
+/// points take 5 % less time if 131,072 are sorted at once, and 12 % less if all are
+/// (docs/experiments/batches.md).
 class BatchOrder {
  public:
-  /// keys  one for each query; used as long as this is.
+  /// keys  memory for one key per query; must outlive this
   explicit BatchOrder(std::span<std::uint64_t> keys) noexcept
       : keys_(keys), index_mask_((std::uint64_t{1} << std::bit_width(keys.size())) - 1) {}
 
-  /// `code(i)` is the Morton code of query i. Codes count as far as their first bits go that are
-  /// not the same of all, less those that an index takes: neighbours nearer than that are asked
-  /// in the caller's order. No allocation.
+  /// Sorts the queries by Morton code; `code(i)` is the code of query i. A key holds the bits of
+  /// the code below the common prefix of all codes, and in its last bits the query's index, which
+  /// replaces the last bits of the code. Queries that differ only in those bits keep the caller's
+  /// order. Does not allocate.
   template <class Code>
   void sort(const hwy::Sorter& sorter, const Code& code) noexcept {
     std::uint64_t differing = 0;
@@ -42,7 +44,7 @@ class BatchOrder {
     sorter(keys_.data(), keys_.size(), hwy::SortAscending());
   }
 
-  /// The query that comes i-th.
+  /// Returns the index of the query that runs i-th.
   std::size_t query(std::size_t i) const noexcept { return keys_[i] & index_mask_; }
 
  private:

@@ -11,7 +11,8 @@
 namespace planetree::query {
 namespace {
 
-// So long that handing a piece over costs nothing, so short that none is waited for.
+// Long enough that the cost of handing over a piece does not matter, and short enough that threads
+// do not wait long for the last one.
 constexpr std::size_t kPieceQueries = 128;
 
 }  // namespace
@@ -21,12 +22,12 @@ Result<std::unique_ptr<BatchThreads>> BatchThreads::create(unsigned threads) {
     return std::unique_ptr<BatchThreads>(new BatchThreads(threads));
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "no memory for %u batch threads; free some or ask for fewer", threads);
+                      "no memory for %u batch threads; free some or lower batch_threads", threads);
   }
 }
 
 bool BatchThreads::run(const void* batch, std::size_t count, Work work) noexcept {
-  // Acquire and release: a batch sees what the last one left in the probes.
+  // Acquire and release: a batch sees the state that the last batch left in the probes.
   if (busy_.exchange(true, std::memory_order_acquire)) return false;
   const auto do_piece = [&](const tbb::blocked_range<std::size_t>& piece) {
     const octree::FpEnvironmentGuard host;
@@ -39,7 +40,7 @@ bool BatchThreads::run(const void* batch, std::size_t count, Work work) noexcept
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kPieceQueries), do_piece,
                         tbb::simple_partitioner());
     });
-  } catch (...) {  // of memory, from oneTBB: nothing of ours throws
+  } catch (...) {  // oneTBB has no memory; `work` does not throw
     done = false;
   }
   busy_.store(false, std::memory_order_release);

@@ -10,21 +10,22 @@
 
 namespace planetree::query {
 
-/// Threads that answer a batch together. The threads are oneTBB's; the caller's is one of them.
+/// Threads that run the queries of a batch together. They are threads of oneTBB and the caller's.
 class BatchThreads {
  public:
-  /// errors  kNoMemory.
+  /// threads  number of threads, with the caller's
+  /// errors   kNoMemory
   static Result<std::unique_ptr<BatchThreads>> create(unsigned threads);
 
-  /// Answers the queries [first, end) of a batch. `thread` is below the number of threads; no two
-  /// calls at one time have the same.
+  /// Runs the queries [first, end) of a batch. `thread` is below the number of threads and differs
+  /// between calls that run at the same time. `batch` is the argument of run().
   using Work = void (*)(const void* batch, std::size_t thread, std::size_t first,
                         std::size_t end) noexcept;
 
   /// Calls `work` for pieces of [0, count) until all are done. Returns false if the threads are
-  /// busy with another batch, or oneTBB has no memory: then the caller has to do all the work.
+  /// busy with another batch or oneTBB has no memory. The caller must then do all the work itself.
   ///
-  /// threads  any, at the same time.
+  /// threads  any, at the same time
   bool run(const void* batch, std::size_t count, Work work) noexcept;
 
  private:

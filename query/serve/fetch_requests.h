@@ -7,24 +7,24 @@
 
 namespace planetree::query {
 
-/// A question that was answered without all the pages it needs: who asks it again, waiting for
-/// them, makes them resident.
+/// A real-time query that lacked pages. A fetch thread makes the pages resident by running the
+/// query again as a blocking one. The members besides `point` are those of QueryOptions.
 struct FetchRequest {
-  Vec3 point;
+  Vec3 point;  ///< model units
   double max_error = 0;
   double max_distance = 0;
   std::uint64_t max_work = 0;
   std::uint64_t parts = 0;
 };
 
-/// Where a probe is and goes to, as its user says.
+/// Position and velocity of a probe, as given to Probe::motion.
 struct Motion {
-  Vec3 position;
-  Vec3 velocity;            ///< model units a second
-  std::uint64_t parts = 0;  ///< of the probe's last ask
+  Vec3 position;            ///< model units
+  Vec3 velocity;            ///< model units per second
+  std::uint64_t parts = 0;  ///< parts of the probe's last query
 };
 
-/// What one probe would like to have in memory.
+/// What one probe leaves for fetch threads. The probe's thread stores, a fetch thread loads.
 struct FetchRequests {
   SeqLock<FetchRequest> missed;
   SeqLock<Motion> motion;

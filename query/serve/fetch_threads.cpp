@@ -17,13 +17,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::microseconds kPause(150), kLongPause(10'000);
-constexpr auto kLately = std::chrono::seconds(1);
+// Time between two looks for requests: shorter if the last action was within kBusyPeriod.
+constexpr std::chrono::microseconds kBusyPause(150), kIdlePause(10'000);
+constexpr auto kBusyPeriod = std::chrono::seconds(1);
 
 FetchWorker::Seconds time_now() { return Clock::now().time_since_epoch(); }
 
-// Whoever opened the model may run before all others, and handle signals.
-void become_ordinary() noexcept {
+// A thread inherits the priority and signal mask of the thread that opened the model, which may be
+// a real-time thread.
+void drop_priority_and_block_signals() noexcept {
   const sched_param parameters{};
   ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &parameters);
   sigset_t all;
@@ -31,8 +33,8 @@ void become_ordinary() noexcept {
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
 }
 
-// As much of the stack as is ever used, so that the process does not grow later.
-[[gnu::noinline]] void claim_stack() noexcept {
+// Touches as much of the stack as is ever used, so that memory does not grow later.
+[[gnu::noinline]] void prefault_stack() noexcept {
   constexpr std::size_t kLineBytes = 64;
   volatile std::byte stack[FetchThreads::kThreadBytes / 4 * 3];
   for (std::size_t at = 0; at < sizeof stack; at += kLineBytes) stack[at] = std::byte{};
@@ -41,19 +43,20 @@ void become_ordinary() noexcept {
 }  // namespace
 
 void FetchThreads::run(FetchWorker& worker) noexcept {
-  claim_stack();
-  become_ordinary();
+  prefault_stack();
+  drop_priority_and_block_signals();
   const octree::FpEnvironmentGuard host;
-  Clock::time_point last = Clock::now() - kLately;
+  Clock::time_point last = Clock::now() - kBusyPeriod;
   while (!stopping_.load(std::memory_order_relaxed)) {
-    const FetchWorker::Did did = worker.work();
-    if (did == FetchWorker::Did::kReadForAQuery) continue;
-    if (did == FetchWorker::Did::kNothing) {
-      cache_.wait_for_wanted_page(Clock::now() - last < kLately ? kPause : kLongPause, stopping_);
+    const FetchWorker::Action action = worker.work();
+    if (action == FetchWorker::Action::kReadAwaitedPage) continue;
+    if (action == FetchWorker::Action::kNone) {
+      cache_.wait_for_wanted_page(Clock::now() - last < kBusyPeriod ? kBusyPause : kIdlePause,
+                                  stopping_);
       continue;
     }
     last = Clock::now();
-    (did == FetchWorker::Did::kServedARequest ? requests_served_ : positions_prefetched_)
+    (action == FetchWorker::Action::kServedRequest ? requests_served_ : positions_prefetched_)
         .fetch_add(1, std::memory_order_relaxed);
   }
 }
@@ -64,7 +67,8 @@ Result<std::unique_ptr<FetchThreads>> FetchThreads::start(
   const std::size_t count = probes.size();
   const auto refused = [count] {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
-                      "the system refused %zu fetch threads; free memory or ask for fewer", count);
+                      "the system refused %zu fetch threads; free memory or lower fetch_threads",
+                      count);
   };
   try {
     std::unique_ptr<FetchThreads> threads(new FetchThreads(cache));

@@ -13,25 +13,26 @@
 
 namespace planetree::query {
 
-/// A model's fetch threads, a FetchWorker each. Queries that wait for pages wake them. Those that
-/// do not wait cannot, for that would call the system: so the threads look for wishes, often while
-/// there have been some lately.
+/// A model's fetch threads, with one FetchWorker each. A blocking query wakes them. A real-time
+/// query cannot, because that takes a system call. So the threads poll for fetch requests, more
+/// often if they had something to do within the last second.
 class FetchThreads {
  public:
-  /// What a thread takes besides its probe: its stack, as far as it is used.
+  /// Memory of a thread besides its probe: the used part of its stack.
   static constexpr std::uint64_t kThreadBytes = 65536;
 
-  /// errors  kNoMemory.
+  /// Starts one thread for each of `probes`.
   ///
-  /// requests  those of all probes; must outlive this, as must `cache`.
-  /// probes    one a thread.
+  /// cache     must outlive this
+  /// requests  fetch requests of all probes, indexed by reader; must outlive this
+  /// errors    kNoMemory
   static Result<std::unique_ptr<FetchThreads>> start(
       cache::PageCache& cache, std::span<FetchRequests> requests,
       std::vector<std::unique_ptr<FetchProbe>> probes);
-  /// Waits for the page being read.
+  /// Stops the threads. Waits for the pages that they are reading.
   ~FetchThreads();
 
-  /// Any thread; waits for nobody.
+  /// Counters since start(). Any thread may call these; they do not wait.
   std::uint64_t fetch_requests_served() const noexcept {
     return requests_served_.load(std::memory_order_relaxed);
   }

@@ -6,11 +6,12 @@
 namespace planetree::query {
 namespace {
 
-// How far ahead of a moving probe to look, by how long pages take to come.
-constexpr FetchWorker::Seconds kMinAhead{0.005}, kMaxAhead{0.2};
+// Limits of how far ahead of a moving probe to prefetch; in between, the time that fetches take
+// decides.
+constexpr FetchWorker::Seconds kMinTimeAhead{0.005}, kMaxTimeAhead{0.2};
 constexpr unsigned kPositionsAhead = 4;
 
-QueryOptions waiting(std::uint64_t parts) {
+QueryOptions blocking_options(std::uint64_t parts) {
   QueryOptions options;
   options.parts = static_cast<std::uint32_t>(parts);
   options.max_work = QueryOptions::kRealTimeWork;
@@ -21,7 +22,7 @@ bool is_moving(const Motion& motion) {
   return motion.velocity.x != 0 || motion.velocity.y != 0 || motion.velocity.z != 0;
 }
 
-Vec3 ahead_of(const Motion& motion, FetchWorker::Seconds time) {
+Vec3 position_after(const Motion& motion, FetchWorker::Seconds time) {
   return {motion.position.x + motion.velocity.x * time.count(),
           motion.position.y + motion.velocity.y * time.count(),
           motion.position.z + motion.velocity.z * time.count()};
@@ -38,58 +39,61 @@ FetchWorker::FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<Fetc
       step_(step),
       clock_(clock),
       stop_(stop),
-      seen_(requests.size()),
-      next_(first) {}
+      progress_(requests.size()),
+      next_index_(first) {}
 
-FetchWorker::Did FetchWorker::work() noexcept {
-  const auto any_of_mine = [this](bool (FetchWorker::*serve)(std::size_t) noexcept) {
-    for (std::size_t left = first_; left < seen_.size(); left += step_) {
-      const std::size_t index = next_;
-      next_ = index + step_ < seen_.size() ? index + step_ : first_;
+FetchWorker::Action FetchWorker::work() noexcept {
+  const auto serve_any_probe = [this](bool (FetchWorker::*serve)(std::size_t) noexcept) {
+    for (std::size_t left = first_; left < progress_.size(); left += step_) {
+      const std::size_t index = next_index_;
+      next_index_ = index + step_ < progress_.size() ? index + step_ : first_;
       if ((this->*serve)(index)) return true;
     }
     return false;
   };
-  // The pages of a wish are read with those of asks in between.
-  query_was_last_ = !query_was_last_ && probe_->read_for_a_query();
-  if (query_was_last_) return Did::kReadForAQuery;
-  if (any_of_mine(&FetchWorker::serve_request)) return Did::kServedARequest;
-  query_was_last_ = probe_->read_for_a_query();
-  if (query_was_last_) return Did::kReadForAQuery;
-  return any_of_mine(&FetchWorker::look_ahead) ? Did::kLookedAhead : Did::kNothing;
+  // While a request is served, pages that blocking queries wait for are read in between. So the two
+  // alternate.
+  awaited_page_was_last_ = !awaited_page_was_last_ && probe_->read_awaited_page();
+  if (awaited_page_was_last_) return Action::kReadAwaitedPage;
+  if (serve_any_probe(&FetchWorker::serve_request)) return Action::kServedRequest;
+  awaited_page_was_last_ = probe_->read_awaited_page();
+  if (awaited_page_was_last_) return Action::kReadAwaitedPage;
+  return serve_any_probe(&FetchWorker::prefetch_position) ? Action::kPrefetchedPosition
+                                                          : Action::kNone;
 }
 
 bool FetchWorker::serve_request(std::size_t index) noexcept {
   FetchRequest request;
-  if (!requests_[index].missed.take(seen_[index].request, request)) return false;
-  QueryOptions options = waiting(request.parts);
+  if (!requests_[index].missed.load_newer(progress_[index].seen_request, request)) return false;
+  QueryOptions options = blocking_options(request.parts);
   options.max_error = request.max_error;
   options.max_distance = request.max_distance;
-  // A probe that remembers may spend its work elsewhere than one from the root.
+  // A query that starts from coherence may spend its work elsewhere than this one from the root.
   options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
                                 QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
   const Seconds began = clock_();
-  probe_->bring_pages(request.point, options, false, stop_);
-  note_time(clock_() - began);
+  probe_->fetch_pages(request.point, options, false, stop_);
+  note_fetch_time(clock_() - began);
   return true;
 }
 
-// One place at a time, so that wishes need not wait for all.
-bool FetchWorker::look_ahead(std::size_t index) noexcept {
-  Seen& seen = seen_[index];
-  if (requests_[index].motion.take(seen.motion, seen.moving))
-    seen.slots_left = is_moving(seen.moving) ? kPositionsAhead : 0;
-  if (seen.slots_left == 0) return false;
-  const unsigned at = kPositionsAhead - --seen.slots_left;
-  const Seconds ahead = std::clamp(2 * slowest_, kMinAhead, kMaxAhead);
-  probe_->bring_pages(ahead_of(seen.moving, ahead * at / kPositionsAhead),
-                      waiting(seen.moving.parts), true, stop_);
+// Prefetches one position at a time, so that requests need not wait for all of them.
+bool FetchWorker::prefetch_position(std::size_t index) noexcept {
+  Progress& progress = progress_[index];
+  if (requests_[index].motion.load_newer(progress.seen_motion, progress.motion))
+    progress.positions_left = is_moving(progress.motion) ? kPositionsAhead : 0;
+  if (progress.positions_left == 0) return false;
+  const unsigned at = kPositionsAhead - --progress.positions_left;
+  const Seconds ahead = std::clamp(2 * slowest_fetch_, kMinTimeAhead, kMaxTimeAhead);
+  probe_->fetch_pages(position_after(progress.motion, ahead * at / kPositionsAhead),
+                      blocking_options(progress.motion.parts), true, stop_);
   return true;
 }
 
-// The slowest wish lately: each later one counts for a sixteenth.
-void FetchWorker::note_time(Seconds taken) noexcept {
-  slowest_ = std::max(taken, slowest_ + (taken - slowest_) / 16);
+// Updates the maximum time of recent requests. It decays towards the time of each later request by
+// a sixteenth of the difference.
+void FetchWorker::note_fetch_time(Seconds taken) noexcept {
+  slowest_fetch_ = std::max(taken, slowest_fetch_ + (taken - slowest_fetch_) / 16);
 }
 
 }  // namespace planetree::query

@@ -13,66 +13,69 @@
 
 namespace planetree::query {
 
-/// The probe of a fetch thread.
+/// Interface to the probe of a fetch thread. One thread at a time may use it.
 class FetchProbe {
  public:
   virtual ~FetchProbe() = default;
 
   /// Makes the pages resident that a query needs.
   ///
-  /// options   Wait::kForPages, and a limit of work: the query then starts from the root, since
-  ///           what a probe keeps says nothing of what is resident.
-  /// is_ahead  whether a probe is moving there, rather than missing the pages.
-  /// stop      once true, gives up before the next missing page.
-  virtual void bring_pages(const Vec3& query, const QueryOptions& options, bool is_ahead,
+  /// query        model units
+  /// options      Wait::kForPages with limited work. Such a query starts from the root, since the
+  ///              coherence of this probe does not tell which pages are resident.
+  /// is_prefetch  true: a probe moves towards `query`; false: a probe lacked pages there
+  /// stop         once true, the call gives up before the next missing page
+  virtual void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
                            const std::atomic<bool>& stop) noexcept = 0;
-  /// Reads one page that a blocking query waits for. False: there is none.
-  virtual bool read_for_a_query() noexcept = 0;
+  /// Reads one page that a blocking query waits for. Returns false if there is none.
+  virtual bool read_awaited_page() noexcept = 0;
 };
 
-/// Fetches what a model's probes miss (Wait::kNever) and what they are moving to: it runs the
-/// same query again with a probe that waits for pages. It serves every `step`-th reader. It also
-/// reads the pages that blocking queries wait for. One thread.
+/// The work of one fetch thread. It serves fetch requests by running the query again with a probe
+/// of its own that waits for pages. It prefetches for moving probes in the same way. It also reads
+/// the pages that blocking queries wait for. One thread at a time may use it.
 class FetchWorker {
  public:
   using Seconds = std::chrono::duration<double>;
   using Clock = Seconds (*)();
 
-  /// Of each probe served.
+  /// Memory for each probe that it serves.
   static constexpr std::uint64_t kProbeBytes = 96;
 
-  /// first, step  serves the probes whose readers have the places first, first + step, ...
-  /// clock        tells how long pages take to come, and so how far ahead to look.
-  /// stop         ends work() early, once true; must outlive this.
+  /// requests     fetch requests of all probes, indexed by reader; must outlive this
+  /// first, step  serves the probes with reader index first, first + step, ...
+  /// clock        measures the time of fetches, which decides how far ahead to prefetch
+  /// stop         once true, work() ends early; must outlive this
   FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
               std::size_t first, std::size_t step, Clock clock, const std::atomic<bool>& stop);
 
-  enum class Did : std::uint8_t { kNothing, kServedARequest, kLookedAhead, kReadForAQuery };
-  /// Does one thing that there is to do: reads a page that an ask waits for, and wishes, come
-  /// before plans, and of these two neither comes twice while the other waits.
-  Did work() noexcept;
+  enum class Action : std::uint8_t { kNone, kServedRequest, kPrefetchedPosition, kReadAwaitedPage };
+  /// Takes one action and returns which. Pages that blocking queries wait for and fetch requests
+  /// come before prefetching. If there are both, they alternate.
+  Action work() noexcept;
 
  private:
-  struct Seen {
-    std::uint64_t request = 0, motion = 0;
-    Motion moving;
-    unsigned slots_left = 0;  // of those to look at ahead of the last motion
+  struct Progress {
+    // Sequence numbers of the last values loaded, see SeqLock.
+    std::uint64_t seen_request = 0, seen_motion = 0;
+    Motion motion;
+    unsigned positions_left = 0;  // positions still to prefetch for `motion`
   };
-  static_assert(sizeof(Seen) <= kProbeBytes);
+  static_assert(sizeof(Progress) <= kProbeBytes);
 
   bool serve_request(std::size_t index) noexcept;
-  bool look_ahead(std::size_t index) noexcept;
-  void note_time(Seconds taken) noexcept;
+  bool prefetch_position(std::size_t index) noexcept;
+  void note_fetch_time(Seconds taken) noexcept;
 
   const std::span<FetchRequests> requests_;
   std::unique_ptr<FetchProbe> probe_;
   const std::size_t first_, step_;
   const Clock clock_;
   const std::atomic<bool>& stop_;
-  std::vector<Seen> seen_;  // by place
-  std::size_t next_ = 0;    // the place served next: none is kept waiting by another
-  bool query_was_last_ = false;
-  Seconds slowest_{0};
+  std::vector<Progress> progress_;  // indexed by reader
+  std::size_t next_index_ = 0;      // probe served next; they take turns
+  bool awaited_page_was_last_ = false;
+  Seconds slowest_fetch_{0};  // decaying maximum, see note_fetch_time()
 };
 
 }  // namespace planetree::query

@@ -2,10 +2,10 @@
 
 namespace planetree::query {
 
-// Pages of asks come first, one for each that this thread wants: neither waits for all of the
-// other's.
+// A fetch thread (stop_ is set) first reads one page that a blocking query waits for, so that
+// neither waits for all pages of the other.
 const std::byte* PageAccessor::fetch(std::uint32_t number) noexcept {
-  if (log_) log_->fetched(number);
+  if (trace_) trace_->fetched(number);
   release_frames();
   if (stop_) {
     reader_.leave();
@@ -15,7 +15,7 @@ const std::byte* PageAccessor::fetch(std::uint32_t number) noexcept {
   const cache::FetchResult fetched = reader_.fetch(number, terms_);
   if (fetched.given_up) {
     missed_ = true;
-    waits_ = false;
+    may_wait_ = false;
   }
   return fetched.frame;
 }

@@ -12,22 +12,24 @@
 
 namespace planetree::query {
 
-/// Where pages are, for asking ahead.
+/// Returns the table of frames, for prefetching.
 inline octree::FrameTable frames_of(const cache::Reader& reader) noexcept {
   return {reader.map().cells(), reader.frames(), reader.stride_bytes()};
 }
 
-/// One probe's way to pages during one ask: a section of the cache, begun where a page is
-/// first looked for, for that is an exchange with memory, and ended with this object.
+/// One query's access to pages. It holds a section of the cache. The section begins at the first
+/// page lookup, since beginning one takes an atomic exchange, and ends with this object at the
+/// latest.
 ///
-/// An ask that has waited for a page as long as it may waits for no other.
+/// After a wait for a page has reached its limit, the query waits for no other page.
 ///
-/// It stays where it is made: pages() leads to it.
+/// The object cannot be moved, because pages() points to it.
 ///
-/// wait   kNever: what is not resident cannot be had, and the system is not called.
-/// terms  how pages are waited for.
-/// stop   of a fetch thread, which reads for others in between: once true, what is not resident
-///        cannot be had any more. Else null.
+/// wait   kNever: pages that are not resident are not available, and no system call is made
+/// terms  how to wait for pages
+/// stop   only for fetch threads, which read pages for blocking queries in between; once true,
+/// pages
+///        that are not resident are no longer available. Else null.
 class PageAccessor {
  public:
   PageAccessor(cache::Reader& reader, Wait wait, const cache::FetchTerms& terms = {},
@@ -37,62 +39,64 @@ class PageAccessor {
         terms_(terms),
         stop_(stop),
         wait_(wait),
-        waits_(wait == Wait::kForPages) {}
+        may_wait_(wait == Wait::kForPages) {}
   ~PageAccessor() {
     if (reader_.inside()) reader_.leave();
   }
   PageAccessor(const PageAccessor&) = delete;
   PageAccessor& operator=(const PageAccessor&) = delete;
 
-  /// Where to note what is looked for; null: nowhere.
-  void set_trace(PageTraceWriter* log) noexcept { log_ = log; }
+  /// Sets where page lookups are recorded; null: nowhere.
+  void set_trace(PageTraceWriter* trace) noexcept { trace_ = trace; }
 
-  /// The page's frame, good until the next call, or until the keeper that pages() names is told;
-  /// null if it cannot be had.
+  /// Returns the page's frame, or null if it is not available. The pointer is valid until the next
+  /// call or, if the release hook of pages() is set, until the hook is called.
   const std::byte* page(std::uint32_t number) noexcept {
     if (++lookups_ % kLookupsPerSection == 0) {
       release_frames();
       reader_.leave();
     }
-    begin();
-    if (prefetch_hook_.context && lookups_ % kLookupsPerStep == 0) step_prefetcher();
+    begin_section();
+    if (prefetch_hook_.context && lookups_ % kLookupsPerStep == 0) advance_prefetcher();
     if (const std::byte* frame = reader_.find(number)) {
-      if (log_) log_->found(number);
+      if (trace_) trace_->found(number);
       return frame;
     }
-    if (waits_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
-    if (log_ && wait_ == Wait::kNever) log_->missed(number);
+    if (may_wait_ && !(stop_ && stop_->load(std::memory_order_relaxed))) return fetch(number);
+    if (trace_ && wait_ == Wait::kNever) trace_->missed(number);
     missed_ = true;
     return nullptr;
   }
 
-  /// Whether a page was not resident that the ask did not wait for.
+  /// Whether the query went on without a page: it may not wait, or its wait was given up.
   bool missed() const noexcept { return missed_; }
 
-  /// Where page() would find it, or null.
+  /// Returns the page's frame if it is resident, else null. Reads nothing and records nothing.
   const std::byte* peek(std::uint32_t number) noexcept {
-    begin();
+    begin_section();
     return reader_.peek(number);
   }
 
+  /// Returns the same access for traversals.
   const octree::PageReader& pages() const noexcept { return pages_; }
 
  private:
-  void begin() noexcept {
+  void begin_section() noexcept {
     if (!reader_.inside()) reader_.enter();
   }
-  // Before a section ends of which there are pointers.
+  // Call it before a section ends: a traversal may hold pointers to frames.
   void release_frames() noexcept {
     if (release_hook_.on_release) release_hook_.on_release(release_hook_.context);
   }
-  void step_prefetcher() noexcept {
+  void advance_prefetcher() noexcept {
     if (!prefetch_hook_.step(prefetch_hook_.context, pages_)) prefetch_hook_ = {};
   }
   const std::byte* fetch(std::uint32_t number) noexcept;
 
-  // Evicted frames are reused only after sections that may see them end.
+  // The section is renewed after so many lookups, since evicted frames are reused only after the
+  // sections that may see them have ended.
   static constexpr std::uint32_t kLookupsPerSection = 256;
-  // What a step asks for takes about as long to come.
+  // A step's cache line takes about as long to arrive as so many lookups take.
   static constexpr std::uint32_t kLookupsPerStep = 2;
 
   octree::PageReader pages_of(const cache::Reader& reader) noexcept {
@@ -114,9 +118,9 @@ class PageAccessor {
   const std::atomic<bool>* const stop_;
   octree::FrameReleaseHook release_hook_;
   octree::PrefetchHook prefetch_hook_;
-  PageTraceWriter* log_ = nullptr;
+  PageTraceWriter* trace_ = nullptr;
   const Wait wait_;
-  bool waits_;  // until it has waited long enough
+  bool may_wait_;  // false for good after a wait was given up
   bool missed_ = false;
   std::uint32_t lookups_ = 0;
 };

@@ -9,47 +9,49 @@
 
 namespace planetree::query {
 
-/// A PageAccess, less what is known elsewhere.
+/// The members of a PageAccess that are not known elsewhere.
 struct TracedAccess {
   std::uint64_t query = 0;
   std::uint32_t page = 0;
   PageAccess::Kind kind = PageAccess::Kind::kHit;
 };
 
-/// What the probes of one place leave for Model::drain_page_trace.
+/// The page accesses of the probes with one reader index, for Model::drain_page_trace.
 struct PageTrace {
   cache::SpscRing<TracedAccess> ring;
-  std::uint64_t queries = 0;  ///< the probe's; the next one there goes on
+  std::uint64_t queries = 0;  ///< real-time queries so far, also of earlier probes
 };
 
-/// Says which pages were brought because a probe was moving there, and not looked for since.
-/// Relaxed: nothing else follows from it.
+/// One mark per page. Not 0: the page was fetched because a probe moved towards it, and no query
+/// has looked it up since. Accessed with relaxed order, since no other data depends on it.
 using PrefetchMark = std::atomic<std::uint8_t>;
 
-/// One probe's notes of the pages it looks for, where the model keeps a trace.
+/// Records one probe's page lookups if the model keeps a trace. One thread at a time may use it.
 class PageTraceWriter {
  public:
-  /// Both null where there is no trace.
+  /// marks  indexed by page. Both are null if there is no trace.
   PageTraceWriter(PageTrace* trace, PrefetchMark* marks) noexcept : trace_(trace), marks_(marks) {}
 
-  /// At the beginning of an ask; null where there is nothing to note.
+  /// Call it at the beginning of a query. Returns this, or null if there is no trace.
   PageTraceWriter* begin_query(Wait wait) noexcept {
     if (trace_ == nullptr) return nullptr;
-    waits_ = wait == Wait::kForPages;
-    if (!waits_) ++trace_->queries;
+    is_blocking_ = wait == Wait::kForPages;
+    if (!is_blocking_) ++trace_->queries;
     return this;
   }
-  /// Whether what is fetched is for later.
-  void set_looks_ahead(bool ahead) noexcept { looks_ahead_ = ahead; }
+  /// Sets whether the pages fetched from now on are for a moving probe.
+  void set_prefetching(bool ahead) noexcept { is_prefetching_ = ahead; }
 
+  /// Record a lookup: the page was resident, was not available, or is being fetched.
   void found(std::uint32_t page) noexcept {
     const bool prefetched = marks_[page].load(std::memory_order_relaxed) != 0;
-    if (prefetched && !looks_ahead_) marks_[page].store(0, std::memory_order_relaxed);
-    if (!waits_) note(page, prefetched ? PageAccess::Kind::kPrefetched : PageAccess::Kind::kHit);
+    if (prefetched && !is_prefetching_) marks_[page].store(0, std::memory_order_relaxed);
+    if (!is_blocking_)
+      note(page, prefetched ? PageAccess::Kind::kPrefetched : PageAccess::Kind::kHit);
   }
   void missed(std::uint32_t page) noexcept { note(page, PageAccess::Kind::kMissed); }
   void fetched(std::uint32_t page) noexcept {
-    marks_[page].store(looks_ahead_ ? 1 : 0, std::memory_order_relaxed);
+    marks_[page].store(is_prefetching_ ? 1 : 0, std::memory_order_relaxed);
   }
 
  private:
@@ -59,8 +61,8 @@ class PageTraceWriter {
 
   PageTrace* trace_;
   PrefetchMark* marks_;
-  bool waits_ = false;
-  bool looks_ahead_ = false;
+  bool is_blocking_ = false;
+  bool is_prefetching_ = false;
 };
 
 }  // namespace planetree::query

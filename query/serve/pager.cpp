@@ -36,12 +36,13 @@ Result<void> Pager::claim(const Limits& limits) {
   cache_limits.frame_bytes = header.page_bytes;
   cache_limits.policy = limits.policy;
   cache_limits.max_readers = limits.readers();
+  cache_limits.own_readers = limits.thread_probes;
   // pin() is one more.
   const std::uint64_t fetcher_count = std::uint64_t{cache_limits.max_readers} + 1;
-  max_wait_ = std::min(limits.wait_limit, kMaxWaited);
+  max_wait_ = std::min(limits.wait_limit, kMaxReadWait);
   const std::uint64_t wait_bytes =
-      fetcher_count * sizeof(OwnWait) +
-      std::min(fetcher_count, kMaxWaits) * storage::ReadWait::kMappedBytes;
+      fetcher_count * sizeof(FetcherWait) +
+      std::min(fetcher_count, kMaxReadWaits) * storage::ReadWait::kMappedBytes;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + fetcher_count * scratch_bytes() +
                                 wait_bytes + sizeof(Pager) + QueryArena::bytes(needs) +
                                 limits.probe_bytes * limits.max_probes + limits.thread_bytes;
@@ -56,8 +57,8 @@ Result<void> Pager::claim(const Limits& limits) {
   query_arena_.emplace(*std::move(arena));
   if (const auto locked = lock(limits.locking); !locked) return locked;
   scratch_.reset(new (std::nothrow) std::byte[fetcher_count * scratch_bytes()]);
-  waits_.reset(new (std::nothrow) OwnWait[fetcher_count]);
-  if (!scratch_ || !waits_)
+  fetcher_waits_.reset(new (std::nothrow) FetcherWait[fetcher_count]);
+  if (!scratch_ || !fetcher_waits_)
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read pages; free some and try again");
   return {};
@@ -65,7 +66,7 @@ Result<void> Pager::claim(const Limits& limits) {
 
 Result<void> Pager::lock(Locking locking) noexcept {
   if (locking == Locking::kNever) return {};
-  // The smaller part first: the system may allow no more.
+  // Locks the smaller part first, since the limit of the system may allow no more.
   query_arena_is_locked_ = query_arena_->lock();
   const bool cache_is_locked = cache_->lock_memory();
   if ((query_arena_is_locked_ && cache_is_locked) || locking != Locking::kRequire) return {};
@@ -79,7 +80,7 @@ Result<cache::FillResult> Pager::fill(const cache::FillRequest& request) noexcep
   const storage::PageEntry& entry = file_.entries()[request.page];
   std::byte* const scratch = scratch_.get() + request.fetcher * scratch_bytes();
   const std::span<std::byte> raw(scratch, entry.raw_bytes);
-  // A frame is written last, so that it may hold the stored bytes before.
+  // The frame is written last. Until then it may hold the stored bytes.
   const std::span<std::byte> stored =
       stored_fits_frame() ? request.frame
                           : std::span(scratch + header.max_raw_bytes, header.max_stored_bytes);
@@ -97,18 +98,19 @@ Result<cache::FillResult> Pager::fill(const cache::FillRequest& request) noexcep
 }
 
 storage::ReadLimits Pager::read_limits(const cache::FillRequest& request) noexcept {
-  storage::ReadLimits terms;
-  if (max_wait_.count() > 0) terms.wait = wait_of(request.fetcher);
-  terms.max_wait = max_wait_;
-  terms.prefetch_for_write = request.frame;
-  return terms;
+  storage::ReadLimits limits;
+  if (max_wait_.count() > 0) limits.wait = read_wait_for(request.fetcher);
+  limits.max_wait = max_wait_;
+  limits.prefetch_for_write = request.frame;
+  return limits;
 }
 
-storage::ReadWait* Pager::wait_of(std::uint32_t fetcher) noexcept {
-  OwnWait& own = waits_[fetcher];
-  if (!own.is_given && waits_given_.load(std::memory_order_relaxed) < kMaxWaits)
-    own.is_given = waits_given_.fetch_add(1, std::memory_order_relaxed) < kMaxWaits;
-  return own.is_given ? &own.wait : nullptr;
+storage::ReadWait* Pager::read_wait_for(std::uint32_t fetcher) noexcept {
+  FetcherWait& fetcher_wait = fetcher_waits_[fetcher];
+  if (!fetcher_wait.is_granted && granted_waits_.load(std::memory_order_relaxed) < kMaxReadWaits)
+    fetcher_wait.is_granted =
+        granted_waits_.fetch_add(1, std::memory_order_relaxed) < kMaxReadWaits;
+  return fetcher_wait.is_granted ? &fetcher_wait.wait : nullptr;
 }
 
 }  // namespace planetree::query

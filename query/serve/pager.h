@@ -17,33 +17,36 @@
 
 namespace planetree::query {
 
-/// Page number to decoded frame: storage and cache joined, with octree's
-/// decoder between them. Holds all the memory a model may hold.
+/// Turns page numbers into decoded frames: joins the file, the decoder and the cache. Claims the
+/// memory of the model within its budget.
 class Pager {
  public:
   struct Limits {
     std::uint64_t budget_bytes = 0;
     QueryArena::Needs arena;
-    std::uint64_t probe_bytes = 0;  ///< what each probe takes beyond its QueryArena
+    std::uint64_t probe_bytes = 0;  ///< memory of each probe outside of the QueryArena
     unsigned max_probes = 0;
-    std::uint64_t thread_bytes = 0;  ///< the same of the probes of the model's own threads,
-    unsigned thread_probes = 0;      ///< all together
+    std::uint64_t thread_bytes = 0;  ///< memory of all the model's threads and their probes
+    unsigned thread_probes = 0;      ///< number of probes of the model's threads
     Locking locking = Locking::kTry;
-    std::chrono::milliseconds wait_limit{};  ///< of an ask, for one page
+    std::chrono::milliseconds wait_limit{};  ///< longest wait of a query for one page
     cache::Policy policy = cache::Policy::kClock;
 
     unsigned readers() const noexcept { return max_probes + thread_probes; }
   };
 
-  /// Opens the file, claims and locks the memory, loads and pins the root page.
-  /// calls  the system; must outlive this.
+  /// Claims and locks the memory, reads the root page and pins it.
+  ///
+  /// file    its FileCalls must outlive this
+  /// errors  kDamaged if the root is not on the first page; those of claiming memory and of reading
+  ///         a page
   static Result<std::unique_ptr<Pager>> create(storage::PageFile file, const Limits& limits);
 
   const storage::PageFile& file() const noexcept { return file_; }
   cache::PageCache& cache() const noexcept { return *cache_; }
-  /// What each thread that may read a page takes to unpack it.
+  /// Bytes that each fetcher needs to unpack a page.
   std::uint64_t scratch_bytes() const noexcept;
-  /// Of the model and its probes; claimed and locked with the cache's.
+  /// Memory of the states of model and probes, claimed and locked with the cache's.
   QueryArena& query_arena() noexcept { return *query_arena_; }
   std::uint64_t locked_bytes() const noexcept {
     return cache_->stats().locked_bytes + (query_arena_is_locked_ ? query_arena_->bytes() : 0);
@@ -58,22 +61,23 @@ class Pager {
   }
   Result<cache::FillResult> fill(const cache::FillRequest& request) noexcept;
   storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
-  storage::ReadWait* wait_of(std::uint32_t fetcher) noexcept;
+  storage::ReadWait* read_wait_for(std::uint32_t fetcher) noexcept;
 
   storage::PageFile file_;
-  // Each takes a descriptor while its model is open, and is given to who first needs one; owners
-  // without look for what they wait for.
-  static constexpr std::uint64_t kMaxWaits = 16;
-  // Longer than disks take that move; others are left to a thread that gets pages.
-  static constexpr std::chrono::milliseconds kMaxWaited{20};
+  // Maximum number of fetchers that have a ReadWait. Each takes a file descriptor while the model
+  // is open. The first fetchers that need one get one; the others poll.
+  static constexpr std::uint64_t kMaxReadWaits = 16;
+  // Maximum time of one wait, longer than a disk takes that makes progress. A read that takes
+  // longer is left to a fetch thread.
+  static constexpr std::chrono::milliseconds kMaxReadWait{20};
 
-  std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() of each owner of the cache
-  struct OwnWait {
+  std::unique_ptr<std::byte[]> scratch_;  // scratch_bytes() for each fetcher
+  struct FetcherWait {
     storage::ReadWait wait;
-    bool is_given = false;
+    bool is_granted = false;  // the fetcher may use `wait`
   };
-  std::unique_ptr<OwnWait[]> waits_;  // of each owner, who may use it if it is given
-  std::atomic<std::uint64_t> waits_given_{0};
+  std::unique_ptr<FetcherWait[]> fetcher_waits_;  // indexed by fetcher
+  std::atomic<std::uint64_t> granted_waits_{0};
   std::chrono::milliseconds max_wait_{};
   std::unique_ptr<cache::PageCache> cache_;
   std::optional<QueryArena> query_arena_;

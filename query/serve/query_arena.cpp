@@ -13,7 +13,7 @@ struct alignas(kLineBytes) Line {
   std::array<std::byte, kLineBytes> bytes;
 };
 
-// Whole lines for so many bytes.
+// Number of cache lines for so many bytes.
 constexpr std::uint64_t lines(std::uint64_t bytes) { return (bytes + kLineBytes - 1) / kLineBytes; }
 
 QueryArena::Parts cut(cache::ArenaLayout& layout, const QueryArena::Needs& needs) noexcept {
@@ -28,7 +28,7 @@ QueryArena::Parts cut(cache::ArenaLayout& layout, const QueryArena::Needs& needs
   parts.traces = layout.cut<PageTrace>(needs.readers);
   parts.marks = layout.cut<PrefetchMark>(needs.page_count);
   const auto all_slots = layout.cut<Ring::Slot>(needs.readers * slots);
-  // Where there is no memory yet, these are none.
+  // While the layout only measures, there are no traces.
   for (std::size_t i = 0; i < parts.traces.size(); ++i)
     parts.traces[i].ring.attach(all_slots.subspan(i * slots, slots));
   return parts;

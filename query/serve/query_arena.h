@@ -12,41 +12,41 @@
 
 namespace planetree::query {
 
-/// What asks touch besides frames and page map: the model's own facts, the colours of its mask,
-/// what each probe remembers and wishes, and its trace. Claimed when a model is opened, so that no
-/// ask faults a page in.
+/// The memory that queries touch besides the cache: the state of the model, its side grid, and the
+/// state, fetch requests and page trace of each probe. It is claimed and prefaulted when a model is
+/// opened, so that no query causes a page fault.
 class QueryArena {
  public:
   struct Needs {
-    std::uint32_t readers = 0;      ///< maximum of probes, those of the model's threads included
-    std::uint64_t model_bytes = 0;  ///< of what queries read of the model
-    std::uint64_t probe_bytes = 0;  ///< of the state of each probe
+    std::uint32_t readers = 0;      ///< maximum number of probes, with those of threads
+    std::uint64_t model_bytes = 0;  ///< size of the model's state
+    std::uint64_t probe_bytes = 0;  ///< size of a probe's state
     std::uint64_t side_grid_bytes = 0;
-    std::uint64_t page_trace_capacity = 0;  ///< of each reader; 0: no trace
+    std::uint64_t page_trace_capacity = 0;  ///< records per reader; 0: no trace
     std::uint64_t page_count = 0;
   };
 
-  /// Where things are.
+  /// The parts of the memory.
   struct Parts {
     std::span<std::byte> model;               ///< aligned to a cache line
     std::span<std::byte> probes;              ///< see probe()
-    std::span<FetchRequests> fetch_requests;  ///< by reader
+    std::span<FetchRequests> fetch_requests;  ///< indexed by reader
     std::span<std::byte> side_grid;
-    std::span<PageTrace> traces;    ///< by reader, or empty
-    std::span<PrefetchMark> marks;  ///< by page, or empty
+    std::span<PageTrace> traces;    ///< indexed by reader; empty without a trace
+    std::span<PrefetchMark> marks;  ///< indexed by page; empty without a trace
 
-    /// Storage for the state of the probe with this reader, aligned to a cache line.
+    /// Returns storage for the state of the probe with a reader index, aligned to a cache line.
     void* probe(std::uint32_t reader) const noexcept {
       return probes.data() + reader * (probes.size() / fetch_requests.size());
     }
   };
 
-  /// All of it: of the budget.
+  /// Bytes that claim() takes from the budget.
   static std::uint64_t bytes(const Needs& needs) noexcept;
-  /// errors  kNoMemory.
+  /// errors  kNoMemory
   static Result<QueryArena> claim(const Needs& needs) noexcept;
 
-  /// Keeps the system from paging it out; false where that is not allowed.
+  /// Locks the memory, so that the system does not page it out. Returns false if that is refused.
   bool lock() const noexcept { return memory_.lock(); }
   std::uint64_t bytes() const noexcept { return memory_.bytes(); }
   const Parts& parts() const noexcept { return parts_; }

@@ -35,7 +35,7 @@ std::vector<std::byte> compress(std::span<const std::byte> raw) {
 
 }  // namespace
 
-StoredPage encode_page(std::span<const std::byte> raw) {
+StoredPage compress_page(std::span<const std::byte> raw) {
   assert(!raw.empty() && raw.size() <= kMaxRawBytes);
   std::vector<std::byte> compressed = compress(raw);
   if (!compressed.empty()) {
@@ -57,8 +57,8 @@ bool lengths_are_plausible(Codec codec, std::uint64_t stored_bytes,
   return false;
 }
 
-Result<void> decode_page(Codec codec, std::span<const std::byte> stored,
-                         std::span<std::byte> raw_out) noexcept {
+Result<void> decompress_page(Codec codec, std::span<const std::byte> stored,
+                             std::span<std::byte> raw_out) noexcept {
   if (codec != Codec::kStored && codec != Codec::kLz4)
     return damaged("the page's codec is unknown");
   if (!lengths_are_plausible(codec, stored.size(), raw_out.size())) {

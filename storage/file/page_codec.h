@@ -19,13 +19,13 @@ struct StoredPage {
   std::vector<std::byte> bytes;
 };
 
-/// Encodes a page as an LZ4 block, or copies it if LZ4 does not make it shorter.
+/// Compresses a page to an LZ4 block, or copies it if LZ4 does not make it shorter.
 ///
 /// raw      1 to kMaxRawBytes bytes.
 /// return   depends on `raw` and the release of LZ4 alone, not on threads, memory or earlier calls.
 /// throws   std::bad_alloc.
 /// threads  any number at once.
-[[nodiscard]] StoredPage encode_page(std::span<const std::byte> raw);
+[[nodiscard]] StoredPage compress_page(std::span<const std::byte> raw);
 
 /// Whether a page can have these lengths. Without a codec, stored and raw length are equal. An LZ4
 /// block is shorter than the raw bytes, by a factor of at most 255. Readers allocate nothing for a
@@ -33,13 +33,14 @@ struct StoredPage {
 [[nodiscard]] bool lengths_are_plausible(Codec codec, std::uint64_t stored_bytes,
                                          std::uint64_t raw_bytes) noexcept;
 
-/// Decodes the raw bytes of a page.
+/// Restores the raw bytes of a page.
 ///
 /// stored   any bytes, even hostile ones.
 /// raw_out  exactly as long as the raw page; overwritten even on failure. Must not overlap
-/// `stored`. errors   kDamaged: `stored` does not decode to a page of this length, or the codec is
-/// unknown. threads  any number at once; no allocation.
-Result<void> decode_page(Codec codec, std::span<const std::byte> stored,
-                         std::span<std::byte> raw_out) noexcept;
+///          `stored`.
+/// errors   kDamaged: `stored` does not give a page of this length, or the codec is unknown.
+/// threads  any number at once; no allocation.
+Result<void> decompress_page(Codec codec, std::span<const std::byte> stored,
+                             std::span<std::byte> raw_out) noexcept;
 
 }  // namespace planetree::storage

@@ -9,8 +9,8 @@
 #include <new>
 #include <utility>
 
-#include "storage/file/file_check.h"
 #include "storage/file/file_hash.h"
+#include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
 #include "storage/file/page_codec.h"
 #include "storage/system/file_error.h"
@@ -141,7 +141,7 @@ Result<void> PageFile::unpack(std::uint32_t page, std::span<const std::byte> sto
         ErrorCode::kDamaged, page, entry.offset,
         "the page's checksum is wrong; restore the file from a copy or build it again");
   }
-  if (const Result<void> decoded = decode_page(entry.codec, stored, raw_out); !decoded) {
+  if (const Result<void> decoded = decompress_page(entry.codec, stored, raw_out); !decoded) {
     return located(decoded.error(), page, entry.offset);
   }
   return {};

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
-#include "storage/file/file_check.h"
 #include "storage/file/file_hash.h"
+#include "storage/file/header_check.h"
 
 namespace planetree::storage {
 namespace {
@@ -95,7 +95,8 @@ Result<FileHeader> PageWriter::finish(const ModelRecord& model, std::uint32_t pa
     return fail(bad_argument(entries_.size(), "fewer pages than the writer was created for"));
   }
   if (model.mask_page_count != page_count_ - first_mask_page_.value_or(page_count_)) {
-    return fail(bad_argument(Error::kNowhere, "the mask has not as many pages as the model says"));
+    return fail(
+        bad_argument(Error::kNowhere, "the mask does not have as many pages as the model states"));
   }
   const FileHeader header = make_header(model, page_bytes);
   // The writer must not write a header that a reader would refuse.

@@ -37,8 +37,8 @@ class PageWriter {
   /// Adds the next page.
   ///
   /// octcode, ordinal  key of the page, above that of the previous page of its kind.
-  /// raw_bytes         length of the page before encode_page().
-  /// stored            result of encode_page().
+  /// raw_bytes         length of the page before compress_page().
+  /// stored            result of compress_page().
   /// errors            kBadArgument: out of order, too many pages, or lengths that no page can
   /// have;
   ///                   those of file_error(), such as kNoSpace and kWriteFailed.

@@ -39,21 +39,24 @@ Result<void> check_owned(const FileHandle& handle, bool directory) noexcept {
   if (handle.calls().fstat(handle.descriptor(), &status) != 0)
     return work_error("examine the work directory");
   if (status.st_uid != ::geteuid() || (status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    return conflict_error(ErrorCode::kPermission, "earlier work there is open to other users");
+    return conflict_error(ErrorCode::kPermission, "other users can write to the work directory");
   if (!directory && (!S_ISREG(status.st_mode) || status.st_nlink > 1))
-    return conflict_error(ErrorCode::kAlreadyExists, "there are other files than those of a build");
+    return conflict_error(ErrorCode::kAlreadyExists,
+                          "the work directory has files that are not those of a build");
   return {};
 }
 
 Error directory_error() noexcept {
   if (errno == ENOTDIR || errno == ELOOP)
-    return conflict_error(ErrorCode::kAlreadyExists, "a file or link is where work shall be kept");
+    return conflict_error(ErrorCode::kAlreadyExists,
+                          "the work directory's name is that of a file or link");
   return work_error("open the work directory");
 }
 
 Error file_open_error() noexcept {
   if (errno == ELOOP || errno == EISDIR || errno == ENXIO)
-    return conflict_error(ErrorCode::kAlreadyExists, "there are other files than those of a build");
+    return conflict_error(ErrorCode::kAlreadyExists,
+                          "the work directory has files that are not those of a build");
   return work_error("open a file in the work directory");
 }
 
@@ -114,7 +117,7 @@ Result<bool> WorkDirectory::lock() {
   if (!take_lock(lock_)) {
     if (errno != EWOULDBLOCK) return work_error("lock the work directory");
     return make_error(ErrorCode::kAlreadyExists, Error::kNowhere, Error::kNowhere,
-                      "another process is at the same build; wait for it or name another output");
+                      "another process runs the same build; wait for it or name another output");
   }
   struct stat locked, named;
   if (calls.fstat(lock_.descriptor(), &locked) != 0) return work_error("examine the lock");
@@ -151,9 +154,9 @@ Result<void> WorkDirectory::remove() {
   // The lock file goes last. Once it is gone, the other files may belong to the next process.
   files_.emplace_back(kLockName);
   for (const std::string& name : files_)
-    if (!removed(directory_, name, 0)) return work_error("remove a file of completed work");
+    if (!removed(directory_, name, 0)) return work_error("remove a file of the work directory");
   if (removed(parent_, name_, AT_REMOVEDIR) || errno == ENOTEMPTY) return {};
-  return work_error("remove the directory of completed work");
+  return work_error("remove the work directory");
 }
 
 }  // namespace planetree::storage

@@ -21,7 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::string words(const Vec3& query, const QueryOptions& options, const ClosestPoint& answer) {
   char line[512];
   std::snprintf(line, sizeof line,
-                "query %a %a %a (%g %g %g), max_error %g max_distance %g max_nodes %u: "
+                "query %a %a %a (%g %g %g), max_error %g max_distance %g max_work %u: "
                 "distance %.17g in [%.17g, %.17g] triangle %lld status %d",
                 query.x, query.y, query.z, query.x, query.y, query.z, options.max_error,
                 options.max_distance, options.max_work, answer.distance, answer.lower, answer.upper,

@@ -34,6 +34,10 @@ class Collector final : public octree::TriangleSink {
 std::filesystem::path Sample::mesh_path() const { return kFolder / mesh; }
 std::filesystem::path Sample::ptree_path() const { return kFolder / ptree; }
 
+std::string sample_name(const testing::TestParamInfo<Sample>& info) {
+  return std::filesystem::path(info.param.ptree).stem();
+}
+
 const std::vector<Sample>& samples() {
   static const std::vector<Sample> all = {
       {"tetrahedron.ply", "tetrahedron.ptree", 4096},

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +25,9 @@ struct Sample {
   std::filesystem::path mesh_path() const;
   std::filesystem::path ptree_path() const;
 };
+
+/// Names a parametrised test by its sample.
+std::string sample_name(const testing::TestParamInfo<Sample>& info);
 
 const std::vector<Sample>& samples();
 /// The sample of a sphere, with enough triangles for several pages of 4096 bytes.

@@ -24,11 +24,7 @@ bool is_update() { return std::getenv("PLANETREE_UPDATE_SAMPLES") != nullptr; }
 
 class Samples : public testing::TestWithParam<Sample> {};
 
-std::string name_of(const testing::TestParamInfo<Sample>& info) {
-  return std::filesystem::path(info.param.mesh).stem();
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Samples, testing::ValuesIn(samples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, Samples, testing::ValuesIn(samples()), sample_name);
 
 // Updates before any test runs, because the order of tests is not fixed.
 class Update final : public testing::Environment {

@@ -35,11 +35,7 @@ class SpecGuarantees : public testing::TestWithParam<Sample> {
   SpecTree tree_;
 };
 
-std::string name_of(const testing::TestParamInfo<Sample>& info) {
-  return std::filesystem::path(info.param.mesh).stem();
-}
-
-INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(samples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(samples()), sample_name);
 
 TEST_P(SpecGuarantees, RecordsFormOneTree) {
   std::set<std::uint32_t> linked = {tree_.header().root_link};

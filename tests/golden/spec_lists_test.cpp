@@ -118,11 +118,7 @@ std::vector<SpecPoint> clipped(const std::array<SpecPoint, 3>& triangle, const S
   return polygon;
 }
 
-std::string name_of(const testing::TestParamInfo<Sample>& info) {
-  return std::filesystem::path(info.param.ptree).stem();
-}
-
-INSTANTIATE_TEST_SUITE_P(All, SpecLists, testing::ValuesIn(listing_samples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SpecLists, testing::ValuesIn(listing_samples()), sample_name);
 
 TEST_P(SpecLists, LeadToBlocks) {
   std::size_t lists = 0;

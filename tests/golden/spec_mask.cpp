@@ -138,7 +138,7 @@ class MaskPageReader {
     require(count >= 1 && count <= 16, "blocks of a list");
     for (unsigned i = 0; i < count; ++i, ++block_) {
       const SpecListedBlock block{block_octants_.at(block_), block_links_.at(block_)};
-      require(block.octants != 0, "a block that touches nothing");
+      require(block.octants != 0, "a listed block without an octant");
       require(block.link >> 31 == 1, "a list of nodes");
       require((block.link & 0x7fffffff) / (header_.page_bytes / 64) < header_.d(), "a list's page");
       require(i == 0 || record.blocks.back().link < block.link, "order of a list");

@@ -62,11 +62,7 @@ class SpecMasks : public testing::TestWithParam<Sample> {
   std::vector<SpecTriangle> triangles_;
 };
 
-std::string name_of(const testing::TestParamInfo<Sample>& info) {
-  return std::filesystem::path(info.param.mesh).stem();
-}
-
-INSTANTIATE_TEST_SUITE_P(All, SpecMasks, testing::ValuesIn(watertight_samples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SpecMasks, testing::ValuesIn(watertight_samples()), sample_name);
 
 TEST(SpecMaskSamples, ExistForEveryWatertightMesh) {
   for (const Sample& sample : samples()) {

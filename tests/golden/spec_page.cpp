@@ -66,7 +66,7 @@ class PageReader {
     }
     require(
         (!header_.open && !header_.has_walls()) || std::ranges::count(is_height_field_, true) == 0,
-        "a sheet of an open surface or of a region with walls");
+        "a height field of an open surface or of a region with walls");
     vertex_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
     new_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
     vertex_refs_ = layout_.byte_split<std::uint16_t>(head_.vertex_refs);

@@ -24,11 +24,7 @@ namespace {
 
 class SpecReader : public testing::TestWithParam<Sample> {};
 
-std::string name_of(const testing::TestParamInfo<Sample>& info) {
-  return std::filesystem::path(info.param.mesh).stem();
-}
-
-INSTANTIATE_TEST_SUITE_P(All, SpecReader, testing::ValuesIn(samples()), name_of);
+INSTANTIATE_TEST_SUITE_P(All, SpecReader, testing::ValuesIn(samples()), sample_name);
 
 SpecTree open_tree(const Sample& sample) {
   return SpecTree(SpecFile(read_file(sample.ptree_path())));

@@ -32,9 +32,9 @@ TEST_F(BuildControl, ReportsPhasesInOrderAndToTheirEnds) {
   };
   ASSERT_TRUE(build(mesh_.input(), output(), options_));
   EXPECT_EQ(last_done, last_total);
-  EXPECT_EQ(phases,
-            (std::vector{BuildPhase::kReading, BuildPhase::kOrdering, BuildPhase::kMatching,
-                         BuildPhase::kBounding, BuildPhase::kColouring, BuildPhase::kWriting}));
+  EXPECT_EQ(phases, (std::vector{BuildPhase::kReading, BuildPhase::kOrdering, BuildPhase::kMatching,
+                                 BuildPhase::kBuildingTree, BuildPhase::kBuildingMask,
+                                 BuildPhase::kWriting}));
 }
 
 // Cancels at the first report of progress, then at the second, and so on.
@@ -137,7 +137,7 @@ TEST_F(BuildControl, ResumesAMeshInMemoryWhereItWasCancelled) {
   std::string line;
   options_.on_resume = [&line](const std::string& text) { line = text; };
   options_.on_progress = [](BuildPhase phase, std::uint64_t, std::uint64_t) {
-    return phase != BuildPhase::kColouring;
+    return phase != BuildPhase::kBuildingMask;
   };
   const auto cancelled = build(mesh_.input(), output(), options_);
   ASSERT_FALSE(cancelled);
@@ -159,7 +159,7 @@ TEST_F(BuildControl, ResumesAMeshInMemoryWhereItWasCancelled) {
 TEST_F(BuildControl, ResumesNoOtherMesh) {
   options_.resume = true;
   options_.on_progress = [](BuildPhase phase, std::uint64_t, std::uint64_t) {
-    return phase != BuildPhase::kColouring;
+    return phase != BuildPhase::kBuildingMask;
   };
   ASSERT_FALSE(build(mesh_.input(), output(), options_));
   mesh_.vertices[7].z += 0.25;

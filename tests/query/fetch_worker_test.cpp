@@ -128,11 +128,11 @@ TEST_F(FetchWorkerSimulation, OneRequestFetchesAllPagesItsAnswerNeeds) {
   const ModelState& state = ModelState::of(model);
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe probe = make_probe(model);
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+  EXPECT_EQ(worker.work(), FetchWorker::Action::kNone);
   for (const Vec3& point : random_queries(100, -1.2, 1.2)) {
     if (probe.closest_point(point, kHastily).status == Status::kExact) continue;
-    EXPECT_EQ(worker.work(), FetchWorker::Did::kServedARequest);
-    EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+    EXPECT_EQ(worker.work(), FetchWorker::Action::kServedRequest);
+    EXPECT_EQ(worker.work(), FetchWorker::Action::kNone);
     EXPECT_EQ(probe.closest_point(point, kHastily).status, Status::kExact);
   }
 }
@@ -185,7 +185,7 @@ TEST_F(FetchWorkerSimulation, StopFlagPreventsFurtherReads) {
   Probe probe = make_probe(model);
   (void)probe.closest_point({0, 1.1, 0.3}, kHastily);
   const std::uint64_t read = model.stats().pages_read;
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedARequest);
+  EXPECT_EQ(worker.work(), FetchWorker::Action::kServedRequest);
   EXPECT_EQ(model.stats().pages_read, read);
 }
 
@@ -214,11 +214,12 @@ TEST_F(FetchWorkerSimulation, RequestsComeBeforeMotionPrefetches) {
   FetchWorker worker = fetch_worker(state, &simulated_time, never_);
   Probe moving = make_probe(model), waiting = make_probe(model);
   moving.motion({-1.2, 0, 0}, {1, 0, 0});
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
+  EXPECT_EQ(worker.work(), FetchWorker::Action::kPrefetchedPosition);
   EXPECT_EQ(waiting.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kDegraded);
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kServedARequest);
-  for (int left = 3; left > 0; --left) EXPECT_EQ(worker.work(), FetchWorker::Did::kLookedAhead);
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+  EXPECT_EQ(worker.work(), FetchWorker::Action::kServedRequest);
+  for (int left = 3; left > 0; --left)
+    EXPECT_EQ(worker.work(), FetchWorker::Action::kPrefetchedPosition);
+  EXPECT_EQ(worker.work(), FetchWorker::Action::kNone);
 }
 
 // The only test here with a second thread, which only waits.
@@ -237,15 +238,17 @@ TEST_F(FetchWorkerSimulation, RequestsAndBlockingQueriesAlternate) {
       reader.leave();
     });
     state.cache().wait_for_wanted_page(std::chrono::minutes(1), never_);
-    const FetchWorker::Did did = worker.work();
+    const FetchWorker::Action did = worker.work();
     waiting.join();
     return did;
   };
-  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 1), FetchWorker::Did::kReadForAQuery);
+  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 1),
+            FetchWorker::Action::kReadAwaitedPage);
   // The awaited page is read as well, while the request is served.
-  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 2), FetchWorker::Did::kServedARequest);
+  EXPECT_EQ(work_while_one_waits_for(sample_.page_count() - 2),
+            FetchWorker::Action::kServedRequest);
   EXPECT_EQ(probe.closest_point({0, 1.1, 0.3}, kHastily).status, Status::kExact);
-  EXPECT_EQ(worker.work(), FetchWorker::Did::kNothing);
+  EXPECT_EQ(worker.work(), FetchWorker::Action::kNone);
 }
 
 TEST_F(FetchWorkerSimulation, NoProbeStarvesAnother) {

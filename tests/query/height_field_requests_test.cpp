@@ -59,7 +59,7 @@ TEST_F(HeightFieldRequests, FetchTheMaskWhereFacesDecideTheSide) {
     const Vec3 near{point.x * share, point.y * share, point.z * share};
     if (probe.closest_point(near, kHasty).status == Status::kExact) continue;
     ++wished;
-    while (worker.work() != FetchWorker::Did::kNothing) {
+    while (worker.work() != FetchWorker::Action::kNone) {
     }
     EXPECT_EQ(probe.closest_point(near, kHasty).status, Status::kExact);
     EXPECT_EQ(probe.contains(near, kHasty).status, Status::kExact);

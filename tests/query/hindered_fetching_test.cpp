@@ -90,7 +90,7 @@ TEST_F(HinderedFetching, SlowDiskLosesRequestsButDelaysNoAnswer) {
   std::uint64_t served = 0;
   for (int step = 0; step < 20; ++step, ++queries) {
     (void)query_once(probe);
-    served += worker.work() == FetchWorker::Did::kServedARequest;
+    served += worker.work() == FetchWorker::Action::kServedRequest;
   }
   if (cache::allocations_are_counted()) {
     EXPECT_EQ(cache::allocation_count(), allocations);

@@ -108,6 +108,19 @@ TEST(Model, RefusesMaxProbesOutOfRange) {
   }
 }
 
+// The model's own threads claim readers too; the error counts only what callers may have.
+TEST(Model, NamesTheLimitOfProbesThatCallersHave) {
+  const SampleModel sample(repeated(1));
+  const Model model = sample.open_for_batches(2, 3);
+  std::vector<Probe> probes;
+  for (int i = 0; i < 3; ++i) probes.push_back(*Probe::create(model));
+  const auto refused = Probe::create(model);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadArgument);
+  EXPECT_STREQ(refused.error().text,
+               "the limit of 3 probes is reached: open the model with a larger max_probes");
+}
+
 TEST(Model, InfoDescribesTheFile) {
   const SampleModel sample(sphere(5));
   const Model model = sample.open();

@@ -121,7 +121,7 @@ TEST_F(PageTraceTest, DistinguishesPrefetchedPages) {
   FetchWorker worker = worker_of(model);
   Probe probe = make_probe(model);
   probe.motion({-1.2, 0, 0}, {2.4 / 0.005, 0, 0});
-  while (worker.work() == FetchWorker::Did::kLookedAhead) {
+  while (worker.work() == FetchWorker::Action::kPrefetchedPosition) {
   }
   std::map<Kind, int> counts[2];
   std::set<std::uint32_t> seen_pages;

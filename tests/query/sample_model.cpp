@@ -46,7 +46,7 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
 void append(storage::PageWriter& writer, std::uint64_t octcode, std::uint32_t ordinal,
             const std::vector<std::byte>& raw) {
   const auto appended = writer.append(octcode, ordinal, static_cast<std::uint32_t>(raw.size()),
-                                      storage::encode_page(raw));
+                                      storage::compress_page(raw));
   if (!appended) give_up(appended.error());
 }
 

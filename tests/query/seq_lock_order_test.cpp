@@ -40,8 +40,8 @@ class SeqLockProgram final : public Program {
 
   void run(std::uint32_t thread) override {
     if (thread == takers_) {
-      latest_.give({1, 1});
-      latest_.give({2, 2});
+      latest_.store({1, 1});
+      latest_.store({2, 2});
     } else {
       std::uint64_t seen = 0, last = 0;
       for (int i = 0; i < 2; ++i) last = take(seen, last);
@@ -51,7 +51,7 @@ class SeqLockProgram final : public Program {
  private:
   std::uint64_t take(std::uint64_t& seen, std::uint64_t last) {
     Twice taken;
-    if (!latest_.take(seen, taken)) return last;
+    if (!latest_.load_newer(seen, taken)) return last;
     if (taken.value != taken.again) Execution::current().fail("a torn value");
     if (taken.value <= last) Execution::current().fail("no newer value");
     lasts_taken_ += taken.value == 2 ? 1 : 0;
@@ -90,8 +90,8 @@ TEST_P(WeakenedSeqLock, MakesSomeRunFail) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, WeakenedSeqLock,
-                         testing::Values(SeqLockStep::kGiveWord, SeqLockStep::kGiveNumber,
-                                         SeqLockStep::kTakeNumber, SeqLockStep::kTakeWord));
+                         testing::Values(SeqLockStep::kStoreWord, SeqLockStep::kStoreSequence,
+                                         SeqLockStep::kLoadSequence, SeqLockStep::kLoadWord));
 
 }  // namespace
 }  // namespace planetree::explorer

@@ -15,20 +15,20 @@ TEST(SeqLock, StartsEmpty) {
   const SeqLock<Pair> latest;
   std::uint64_t seen = 0;
   Pair value;
-  EXPECT_FALSE(latest.take(seen, value));
+  EXPECT_FALSE(latest.load_newer(seen, value));
 }
 
 TEST(SeqLock, EachTakerTakesAValueOnce) {
   SeqLock<Pair> latest;
-  latest.give({1, 2});
-  latest.give({3, 4});
+  latest.store({1, 2});
+  latest.store({3, 4});
   for (int taker = 0; taker < 2; ++taker) {
     std::uint64_t seen = 0;
     Pair value;
-    ASSERT_TRUE(latest.take(seen, value));
+    ASSERT_TRUE(latest.load_newer(seen, value));
     EXPECT_EQ(value.first, 3u);
     EXPECT_EQ(value.second, 4u);
-    EXPECT_FALSE(latest.take(seen, value));
+    EXPECT_FALSE(latest.load_newer(seen, value));
   }
 }
 
@@ -36,12 +36,12 @@ TEST(SeqLock, ValuesAreNeverTornAndNeverGoBack) {
   SeqLock<Pair> latest;
   constexpr std::uint64_t kLast = 200000;
   std::thread giver([&] {
-    for (std::uint64_t i = 1; i <= kLast; ++i) latest.give({i, ~i});
+    for (std::uint64_t i = 1; i <= kLast; ++i) latest.store({i, ~i});
   });
   std::uint64_t seen = 0, before = 0, taken = 0;
   while (before < kLast) {
     Pair value;
-    if (!latest.take(seen, value)) continue;
+    if (!latest.load_newer(seen, value)) continue;
     ASSERT_EQ(value.second, ~value.first);
     ASSERT_GT(value.first, before);
     before = value.first;

@@ -89,7 +89,7 @@ int run(const std::string& file, std::uint64_t queries) {
 
 int main(int argc, char** argv) {
   if (argc < 2 || argc > 3) {
-    std::fprintf(stderr, "usage: check_asking MODEL.ptree [ASKS]\n");
+    std::fprintf(stderr, "usage: check_query_costs MODEL.ptree [QUERIES]\n");
     return 2;
   }
   return planetree::query::run(argv[1], argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 10000000);

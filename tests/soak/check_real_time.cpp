@@ -155,7 +155,7 @@ int run(const std::string& file, std::size_t queries) {
 
 int main(int argc, char** argv) {
   if (argc < 2 || argc > 3) {
-    std::fprintf(stderr, "usage: check_real_time MODEL.ptree [ASKS]\n");
+    std::fprintf(stderr, "usage: check_real_time MODEL.ptree [QUERIES]\n");
     return 2;
   }
   return planetree::oracle::run(argv[1], argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1000000);

@@ -103,6 +103,6 @@ int main(int argc, char** argv) {
   if (argc == 1) return run(10'000'000, 1'000'000);
   if (argc == 3)
     return run(std::strtoull(argv[1], nullptr, 10), std::strtoull(argv[2], nullptr, 10));
-  std::fprintf(stderr, "usage: check_threads [ASKS INSTALLS | --weakened NAME | --list]\n");
+  std::fprintf(stderr, "usage: check_threads [QUERIES INSTALLS | --weakened NAME | --list]\n");
   return 2;
 }

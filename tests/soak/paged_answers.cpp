@@ -79,7 +79,7 @@ PagedAnswers query_in_new_process(const fs::path& tree, const fs::path& folder,
   }
   int status = 0;
   if (child < 0 || ::waitpid(child, &status, 0) != child || status != 0)
-    give_up("asking in a small budget", "failed");
+    give_up("queries within a small budget", "failed");
   return {load<AnswerBits>(messages.answers), load<std::uint64_t>(messages.resident).at(0)};
 }
 

@@ -40,8 +40,8 @@ void EdgeCheck::count(const Point& from, const Point& to) {
 std::optional<std::string> EdgeCheck::finding() const {
   const bool watertight = edges_.is_watertight();
   if (watertight != (model_.unbalanced_edge_count == 0))
-    return watertight ? "the header says that edges are open and none is"
-                      : "the header says that the surface is watertight and it is not";
+    return watertight ? "the header states unbalanced edges, but there are none"
+                      : "the header states that the surface is watertight, but it is not";
   for (std::size_t i = 0; i < std::min<std::uint64_t>(model_.unbalanced_edge_count, listed_.size());
        ++i)
     if (listed_[i].along != model_.unbalanced_edge[i].along ||

@@ -119,13 +119,13 @@ void TreeCheck::check_model() {
     report_.issues.add(
         {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
   };
-  if (model.triangle_count == 0) wrong("the header says that there is no triangle");
+  if (model.triangle_count == 0) wrong("the header states that there is no triangle");
   if (model.skipped_count > ~std::uint64_t{0} - model.usable_triangles())
     return wrong("the header's counts of triangles overflow");
   const std::uint64_t indices = model.usable_triangles() + model.skipped_count;
   const bool names_one = model.first_skipped != storage::kNoTriangle;
   if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
-    wrong("the first skipped triangle does not fit their count");
+    wrong("the index of the first skipped triangle does not fit the number of skipped ones");
   if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
 }
 
@@ -178,7 +178,7 @@ void TreeCheck::check_roots() {
   });
   pending_.finish_page(page_, [this](const Links::Target& target, const SubtreeClaim& claim) {
     report(IssueCode::kLinkTarget,
-           fmt::format("a link leads to slot {}, where no subtree's {} begins", target.slot,
+           fmt::format("a link leads to slot {}, where no subtree begins with a {}", target.slot,
                        target.leaf ? "block" : "root node"));
     open_nodes_.erase(claim.parent);
     complete_ = false;
@@ -198,8 +198,8 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   if (claim->is_root) {
     check_root_box(box);
     if (height != header_.model.height)
-      report(IssueCode::kHeight, fmt::format("the root's height is {} and the header's {}", height,
-                                             header_.model.height));
+      report(IssueCode::kHeight, fmt::format("the root's height is {}, but the header states {}",
+                                             height, header_.model.height));
     return;
   }
   node_bounds_[index] = claim->bounds;
@@ -222,7 +222,7 @@ void TreeCheck::check_root_box(const FloatBox& box) {
     if (static_cast<double>(box.lower[axis]) <= lower &&
         upper <= static_cast<double>(box.upper[axis]))
       continue;
-    return report(IssueCode::kRootBox, "the root's box does not hold the header's");
+    return report(IssueCode::kRootBox, "the root's box does not enclose the header's box");
   }
 }
 
@@ -288,7 +288,7 @@ void TreeCheck::check_blocks() {
     const std::uint64_t last = block.id(block.triangle_count() - 1);
     if (last >= indices)
       report(IssueCode::kTriangleRange,
-             fmt::format("triangle {} is named, but the model has {}", last, indices));
+             fmt::format("a triangle has index {}, but the model has {} indices", last, indices));
     if (!geometry_) return;
     const auto bounds = block_bounds_.find(slot);
     geometry_->add(block, page_, bounds == block_bounds_.end() ? nullptr : bounds->second.get());
@@ -307,16 +307,16 @@ void TreeCheck::settle_height(std::uint64_t parent, std::uint8_t child_height) {
 
 void TreeCheck::prove_height(const OpenNode& node) {
   if (node.height == node.highest_child + 1) return;
-  report_.issues.add({IssueCode::kHeight, node.page, Error::kNowhere,
-                      fmt::format("a node says that its height is {}, but the highest below it "
-                                  "has {}",
-                                  node.height, node.highest_child)});
+  report_.issues.add(
+      {IssueCode::kHeight, node.page, Error::kNowhere,
+       fmt::format("a node states the height {}, but the greatest height below it is {}",
+                   node.height, node.highest_child)});
 }
 
 void TreeCheck::compare(const char* what, std::uint64_t stated, std::uint64_t found) {
   if (stated != found)
-    report_whole(IssueCode::kCount,
-                 fmt::format("the header says {} {}, but the pages hold {}", stated, what, found));
+    report_whole(IssueCode::kCount, fmt::format("the header states {} {}, but the pages hold {}",
+                                                stated, what, found));
 }
 
 void TreeCheck::check_counts() {

@@ -8,8 +8,8 @@
 #include <cerrno>
 
 #include "query/file/page_decoding.h"
-#include "storage/file/file_check.h"
 #include "storage/file/file_hash.h"
+#include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
 #include "storage/file/page_codec.h"
 #include "storage/system/file_error.h"
@@ -81,8 +81,8 @@ Result<void> FileParts::load() {
   header_ = choice->header;
   if (choice->copy_damaged)
     issues_.push_back({IssueCode::kHeaderCopy, Error::kNowhere, Error::kNowhere,
-                       "one of the file's two headers is damaged; copy the file anew or build it "
-                       "again before the other goes too"});
+                       "one of the file's two headers is damaged; copy the file or build it again "
+                       "before the other one is damaged too"});
   if (const auto checked = storage::check_header(header_, actual_bytes_); !checked) {
     const IssueCode code = header_issue(checked.error().code, IssueCode::kHeaderField);
     issues_.push_back(Issue::from(code, checked.error()));
@@ -146,7 +146,7 @@ std::optional<Issue> FileParts::read_page(std::uint32_t page) {
                       "the page's checksum is wrong; restore the file from a copy or build it "
                       "again");
   raw_.resize(entry.raw_bytes);
-  if (const auto decoded = storage::decode_page(entry.codec, stored_, raw_); !decoded) {
+  if (const auto decoded = storage::decompress_page(entry.codec, stored_, raw_); !decoded) {
     raw_.clear();
     return page_issue(IssueCode::kPageCodec, page, entry.offset, decoded.error().text);
   }

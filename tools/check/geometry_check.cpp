@@ -80,7 +80,9 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
   check_vertices(block, page, *bounds);
   if (model_.unbalanced_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
     report(IssueCode::kMoments, page,
-           fmt::format("the moments of the block of triangle {} are not its own", block.id(0)));
+           fmt::format(
+               "the moments stated for the block of triangle {} are not those of its triangles",
+               block.id(0)));
 }
 
 void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
@@ -99,7 +101,7 @@ void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) 
     const std::uint64_t id = block.id(i);
     min_id_ = std::min(min_id_, id);
     if (!insert(id))
-      report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} is there twice", id));
+      report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} appears twice", id));
     if (id == model_.sample_triangle) check_sample(block, i, page);
   }
 }
@@ -110,9 +112,9 @@ void GeometryCheck::check_sample(const octree::BlockView& block, unsigned triang
   const Point sample = point_of(model_.sample);
   for (const Point& corner : block.triangle(triangle))
     if (corner == sample) return;
-  report(
-      IssueCode::kSample, page,
-      fmt::format("the header's sample point is no vertex of triangle {}", model_.sample_triangle));
+  report(IssueCode::kSample, page,
+         fmt::format("the header's sample point is not a vertex of triangle {}",
+                     model_.sample_triangle));
 }
 
 void GeometryCheck::check_vertices(const octree::BlockView& block, std::uint32_t page,
@@ -131,7 +133,7 @@ void GeometryCheck::check_vertices(const octree::BlockView& block, std::uint32_t
     report(IssueCode::kVertexOutsideBox, page, message("the box that its parent states"));
   if (!in_planes)
     report(IssueCode::kVertexOutsidePlanes, page,
-           message("bounding planes that a node above it states"));
+           message("the slab or radius that a node above it states"));
 }
 
 bool GeometryCheck::insert(std::uint64_t id) {
@@ -163,11 +165,12 @@ void GeometryCheck::finish(bool complete) {
     whole_file(IssueCode::kUnbalancedEdges, *std::move(finding));
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
-               fmt::format("the header's sample triangle {} is not there", model_.sample_triangle));
+               fmt::format("the header's sample triangle {} is missing", model_.sample_triangle));
   else if (min_id_ != model_.sample_triangle)
-    whole_file(IssueCode::kSample,
-               fmt::format("the header's sample triangle is {} and the least triangle {}",
-                           model_.sample_triangle, min_id_));
+    whole_file(
+        IssueCode::kSample,
+        fmt::format("the header's sample triangle is {}, but the least index of a triangle is {}",
+                    model_.sample_triangle, min_id_));
 }
 
 }  // namespace planetree::tools

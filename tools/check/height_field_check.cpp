@@ -61,7 +61,7 @@ class HeightFieldCheck {
 
   void report(std::uint32_t page, std::uint32_t slot, const char* what) {
     issues_.add({IssueCode::kBlockHeightField, page, Error::kNowhere,
-                 fmt::format("the block in slot {} is said to be {}", slot, what)});
+                 fmt::format("the block in slot {} is {}", slot, what)});
   }
 
   FileParts& parts_;

@@ -34,13 +34,13 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "MOMENTS",
                                                                   "MODEL_BOX",
                                                                   "SAMPLE",
-                                                                  "OPEN_EDGES",
+                                                                  "UNBALANCED_EDGES",
                                                                   "MASK_CORNER",
                                                                   "MASK_COLOUR",
                                                                   "MASK_PLANES",
                                                                   "MASK_BLOCKS",
                                                                   "MASK_SLAB",
-                                                                  "BLOCK_SHEET",
+                                                                  "BLOCK_HEIGHT_FIELD",
                                                                   "REGION"};
 static_assert(!kNames.back().empty());
 

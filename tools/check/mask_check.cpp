@@ -15,8 +15,9 @@ namespace {
 
 void compare(const char* what, std::uint64_t stated, std::uint64_t found, IssueList& issues) {
   if (stated != found)
-    issues.add({IssueCode::kCount, Error::kNowhere, Error::kNowhere,
-                fmt::format("the header says {} {}, but the pages hold {}", stated, what, found)});
+    issues.add(
+        {IssueCode::kCount, Error::kNowhere, Error::kNowhere,
+         fmt::format("the header states {} {}, but the pages hold {}", stated, what, found)});
 }
 
 std::unique_ptr<MaskProof> open_proof(const FileParts& parts, IssueList& issues) {

@@ -102,7 +102,7 @@ void MaskProof::check_colour(std::uint32_t page, const GridCell& cell, int colou
   if (!grid_.has_part_of(cell)) {
     if (colour != 0)
       report(IssueCode::kMaskColour, page,
-             fmt::format("cell {} is {}, but not in the region", cell_name(cell), name));
+             fmt::format("cell {} is {}, but it is outside of the region", cell_name(cell), name));
     return;
   }
   if (!triangles_touching(cell).empty())
@@ -153,7 +153,7 @@ void MaskProof::check_list(const GreyCell& grey) {
                 !is_within_slab(grey, octree::BlockView(record, model_->geometry().tree.shape));
     else if (accessor.peek(links.page(link)) != nullptr)
       report(IssueCode::kMaskBlocks, grey.page,
-             fmt::format("cell {} lists what is no block", cell_name(grey.cell)));
+             fmt::format("cell {} lists a link that leads to no block", cell_name(grey.cell)));
   }
   if (outside)
     report(IssueCode::kMaskSlab, grey.page,
@@ -182,9 +182,9 @@ void MaskProof::check_special(const GreyCell& grey) {
     numbers[corner] = *number;
   }
   if (!octree::is_special_cell(claim_of(grey), triangles_touching(grey.cell), corners, numbers))
-    report(
-        IssueCode::kMaskPlanes, grey.page,
-        fmt::format("the planes of cell {} do not say what is inside of it", cell_name(grey.cell)));
+    report(IssueCode::kMaskPlanes, grey.page,
+           fmt::format("the planes of cell {} do not describe which part of it is inside",
+                       cell_name(grey.cell)));
 }
 
 std::optional<std::int64_t> MaskProof::winding(const GridCell& cell, unsigned corner) {
@@ -204,10 +204,10 @@ std::optional<std::int64_t> MaskProof::count_winding(const Point& point) {
     if (!crossings.complete) return std::nullopt;
     return model_->geometry().region_winding + crossings.difference;
   }
-  const query::ExitSegments ways(tree, point);
-  for (const query::ExitSegments::Way& way : ways.all()) {
+  const query::ExitSegments segments(tree, point);
+  for (const query::ExitSegments::Segment& segment : segments.all()) {
     const octree::Crossings crossings =
-        octree::count_crossings(tree, {point, way.end}, kAllNodes, accessor.pages(), work);
+        octree::count_crossings(tree, {point, segment.end}, kAllNodes, accessor.pages(), work);
     if (crossings.complete) return crossings.difference;
   }
   return std::nullopt;

@@ -52,15 +52,15 @@ void MaskWalk::add(std::uint32_t number) {
     page.cell(page.first_slot()) = GridCell{};
     if (page.header().root_count != 1)
       report_({IssueCode::kSubtreeUnlinked, number, Error::kNowhere,
-               "the mask's first page has more roots than that of the mask"});
+               "the mask's first page does not have exactly one root"});
   } else {
     take_roots(page);
   }
   visit_records(page);
   pending_.finish_page(number - parts_.first_mask_page(), [&](const auto& target, const auto&) {
     report_({IssueCode::kLinkTarget, number, Error::kNowhere,
-             fmt::format("a link leads to slot {} of the mask, where no family of the kinds "
-                         "that its node states begins",
+             fmt::format("a link leads to slot {} of the mask, where no family with the kinds that "
+                         "its node states begins",
                          target.slot)});
   });
 }
@@ -80,8 +80,10 @@ void MaskWalk::take_roots(Page& page) {
     }
     const auto members = static_cast<unsigned>(std::popcount(parent->node.grey));
     if (members > end - slot)
-      report_({IssueCode::kLinkTarget, page.number, Error::kNowhere,
-               fmt::format("the family in slot {} of the mask ends before its node says", slot)});
+      report_(
+          {IssueCode::kLinkTarget, page.number, Error::kNowhere,
+           fmt::format("the family in slot {} of the mask has fewer members than its node states",
+                       slot)});
     else
       assign_cells(page, parent->node, parent->cell, slot);
     slot += members;

@@ -17,7 +17,7 @@ Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory
   auto model = Model::open(path, options);
   if (model && model->stats().header_copy_damaged)
     console.warn(path.string(),
-                 "one of its two headers is damaged; copy the file anew or build it again");
+                 "one of its two headers is damaged; copy the file or build it again");
   return model;
 }
 
@@ -29,7 +29,7 @@ std::optional<Error> pages_lost(const Stats& stats) {
                       stats.quarantined_pages, stats.degraded_answers);
   if (stats.waits_given_up != 0)
     return make_error(ErrorCode::kReadFailed, Error::kNowhere, Error::kNowhere,
-                      "%" PRIu64 " waits for its pages were given up, so %" PRIu64
+                      "%" PRIu64 " waits for its pages reached the limit, so %" PRIu64
                       " answers are degraded; query again when the disk is less busy, or let "
                       "planetree query wait longer (--wait-limit)",
                       stats.waits_given_up, stats.degraded_answers);

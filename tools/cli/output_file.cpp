@@ -27,7 +27,7 @@ Cause cause_of(int error_number) {
     case ENOSPC:
     case EDQUOT:
     case EFBIG:
-      return {ErrorCode::kNoSpace, "free some room, raise the limit or write elsewhere"};
+      return {ErrorCode::kNoSpace, "free some space, raise the limit or write elsewhere"};
     case EACCES:
     case EPERM:
     case EROFS:
@@ -43,7 +43,7 @@ Cause cause_of(int error_number) {
     case ENOMEM:
       return {ErrorCode::kNoMemory, "free some memory"};
     default:
-      return {ErrorCode::kWriteFailed, "check the device and what reads from it"};
+      return {ErrorCode::kWriteFailed, "check the device, or the program that reads from it"};
   }
 }
 
@@ -58,7 +58,7 @@ Result<mode_t> existing_mode(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) return status.st_mode;
   if (errno == ENOENT) return mode_t{0};
-  return system_error("look at the destination", errno);
+  return system_error("examine the destination", errno);
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ Result<void> OutputFile::reserve(std::uint64_t bytes) {
   if (::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, length) == 0) return {};
   if (cause_of(errno).code != ErrorCode::kNoSpace) return {};
   return make_error(ErrorCode::kNoSpace, Error::kNowhere, Error::kNowhere,
-                    "no room for the %llu bytes of this file: %s; %s",
+                    "no space for the %llu bytes of this file: %s; %s",
                     static_cast<unsigned long long>(bytes),
                     std::generic_category().message(errno).c_str(), cause_of(errno).remedy);
 }
@@ -158,7 +158,7 @@ Result<void> OutputFile::rename_temporary() {
   if (failed != 0 && (errno == EINVAL || errno == ENOSYS)) {
     failed = ::rename(temporary_.c_str(), destination_.c_str());
   }
-  if (failed != 0) return system_error("name the finished file", errno);
+  if (failed != 0) return system_error("rename the finished file", errno);
   temporary_.clear();
   return {};
 }

@@ -9,6 +9,10 @@
 /// Text forms of counts and sizes, independent of locale.
 namespace planetree::tools {
 
+/// What help and man pages say about the suffixes of parse_count() and parse_bytes().
+inline constexpr const char* kSuffixHelp =
+    "SIZE takes the suffixes K, M, G and T as powers of 1024, N as powers of 1000.";
+
 /// Reads a count such as 5000, 20K or 1.5M. Suffixes K, M, G and T, in either case, are powers of
 /// 1000. The result must be a whole number.
 ///

@@ -17,6 +17,17 @@ inline constexpr int kDataAtFault = 1;
 inline constexpr int kCommandLineAtFault = 2;
 inline constexpr int kMachineAtFault = 3;  ///< space, memory, permission, devices
 
+/// An exit status and its meaning, as help and man pages state it.
+struct ExitStatus {
+  int status;
+  const char* meaning;
+};
+inline constexpr ExitStatus kExitStatuses[] = {
+    {kDone, "done"},
+    {kDataAtFault, "the data is at fault"},
+    {kCommandLineAtFault, "the command line is at fault"},
+    {kMachineAtFault, "the machine is at fault (space, memory, permission)"}};
+
 /// The exit status for an error.
 [[nodiscard]] int exit_status(ErrorCode code) noexcept;
 

@@ -14,7 +14,8 @@ namespace {
 std::string count_complaint(const std::string& text, std::uint64_t most) {
   const auto count = parse_count(text);
   if (!count) return count.error().text;
-  return *count <= most ? std::string() : fmt::format("{} is too many; at most {}", *count, most);
+  return *count <= most ? std::string()
+                        : fmt::format("{} is too large; give at most {}", *count, most);
 }
 
 std::string bytes_complaint(const std::string& text) {
@@ -26,7 +27,7 @@ std::string length_complaint(const std::string& text, bool infinite) {
   double value = 0;
   if (octree::parse_real(text, value) && value >= 0 && (infinite || std::isfinite(value)))
     return {};
-  return fmt::format("'{}' is not a length; give a number from 0 on, in model units",
+  return fmt::format("'{}' is not a length; give a number of 0 or more, in model units",
                      octree::printable(text));
 }
 
@@ -39,7 +40,10 @@ SubcommandOptions::SubcommandOptions(CLI::App& app, const std::string& name,
 SubcommandOptions::Option SubcommandOptions::path(const std::string& name, const char* type,
                                                   std::filesystem::path& value,
                                                   const std::string& help) {
-  return subcommand_.add_option(name, value, help)->type_name(type);
+  const auto accept = [](std::string&) { return std::string(); };
+  return subcommand_.add_option(name, value, help)
+      ->type_name(type)
+      ->check(CLI::Validator(accept, "", kPathCheck));
 }
 
 SubcommandOptions::Option SubcommandOptions::flag(const std::string& name, bool& value,
@@ -74,7 +78,7 @@ SubcommandOptions::Option SubcommandOptions::word(const std::string& name,
                                                   std::function<void(const std::string&)> take,
                                                   const std::string& help) {
   return subcommand_.add_option_function<std::string>(name, take, help)
-      ->type_name("NAME")
+      ->type_name(fmt::format("{}", fmt::join(words, "|")))
       ->check(CLI::IsMember(words).description(""));
 }
 

@@ -15,17 +15,21 @@ namespace planetree::tools {
 
 /// The command line of one subcommand, declared option by option. Each kind of value is parsed and
 /// refused in one way. The references to values must stay valid until the command line is parsed,
-/// because parsing writes to them. Only subcommand_options.cpp and command.cpp include CLI11, which
-/// takes long to compile.
+/// because parsing writes to them. Only subcommand_options.cpp, command.cpp and command_summary.cpp
+/// include CLI11, which takes long to compile.
 class SubcommandOptions {
  public:
+  /// Name of the validator by which a path is known from other texts. It accepts every text.
+  static constexpr const char* kPathCheck = "path";
+
   /// A handle of an option.
   using Option = CLI::Option*;
 
   /// Adds a subcommand to the command line.
   SubcommandOptions(CLI::App& app, const std::string& name, const std::string& help);
 
-  /// A path. A name with dashes declares an option, one without an argument.
+  /// A path: of a directory if `type` is "DIR". A name with dashes declares an option, one without
+  /// an argument.
   Option path(const std::string& name, const char* type, std::filesystem::path& value,
               const std::string& help);
   /// A flag without a value.

@@ -66,7 +66,7 @@ Result<bool> CsvPoints::next_point(Vec3& point) {
       ++found;
     }
   }
-  if (found < 3) return bad_line("it has fewer numbers than x,y,z");
+  if (found < 3) return bad_line("it has fewer than three numbers");
   return true;
 }
 

@@ -88,9 +88,9 @@ Result<void> PlyPoints::find_vertices() {
     }
     const std::uint64_t record_bytes = std::max<std::uint64_t>(element.min_record_bytes(), 1);
     if (element.has_list() && element.count > 0)
-      return bad_header("lists lie in front of the vertices; write the vertices first");
+      return bad_header("an element with lists precedes the vertices; write the vertices first");
     if (element.count > (file_.size_bytes() - offset_) / record_bytes)
-      return bad_header("the file ends in front of the vertices; export it again");
+      return bad_header("the file ends before the vertices; export it again");
     offset_ += element.count * element.min_record_bytes();
   }
   if (header_.encoding == PlyEncoding::kAscii) return {};
@@ -142,21 +142,20 @@ Error PlyPoints::refusal(const char* cause) const {
 
 Result<void> PlyPoints::read_line(Vec3& point) {
   if (!lines_.next_filled())
-    return lines_.failure() ? *lines_.failure()
-                            : refusal("the file ends in front of its last vertex");
+    return lines_.failure() ? *lines_.failure() : refusal("the file ends before its last vertex");
   std::string_view rest = lines_.line();
   double* const values[] = {&point.x, &point.y, &point.z};
   const auto& properties = header_.vertices().properties;
   for (std::size_t i = 0; i < properties.size(); ++i) {
     double value = 0;
     if (!parse_number(properties[i], octree::take_word(rest), value))
-      return refusal("a vertex is not of the numbers that the header declares");
+      return refusal("a vertex does not have the values that the header declares");
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (header_.coordinates[axis] == i) *values[axis] = value;
     if (!properties[i].is_list) continue;
     for (double item = 0; item < value; ++item)
       if (octree::take_word(rest).empty())
-        return refusal("a vertex's list is shorter than it says");
+        return refusal("a vertex's list is shorter than its count");
   }
   return {};
 }

@@ -18,7 +18,8 @@ Result<std::size_t> RawPoints::read(std::span<Vec3> points) {
     if (count > 0 || odd_bytes_ == 0) return count;
   }
   return make_error(ErrorCode::kBadInput, Error::kNowhere, offset_,
-                    "the file ends %zu bytes into a point of 24; write whole points", odd_bytes_);
+                    "the file ends %zu bytes into a point of 24 bytes; write whole points",
+                    odd_bytes_);
 }
 
 }  // namespace planetree::tools

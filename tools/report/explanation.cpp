@@ -40,7 +40,7 @@ std::string_view rule_word(Rule rule) {
     case Rule::kCorner:
       return "corner";
     case Rule::kWayOut:
-      return "way_out";
+      return "exit_segment";
     case Rule::kWindingNumber:
       return "winding_number";
   }
@@ -50,8 +50,7 @@ std::string_view rule_word(Rule rule) {
 std::string crossings_text(const Explanation& explanation) {
   const query::SideReason& reason = explanation.reason;
   return fmt::format(
-      "the surface crossed from {}, where the winding number is {}, to the point "
-      "changes it by {}",
+      "from {}, where the winding number is {}, to the point the crossings change it by {}",
       vector_text(explanation.end), reason.known, reason.crossings);
 }
 
@@ -60,10 +59,10 @@ std::string reason_text(const Explanation& explanation) {
       fmt::format("cell {} of the mask", cell_text(explanation.reason.cell.octcode()));
   switch (explanation.reason.rule) {
     case Rule::kNone:
-      return explanation.side_result.status == Status::kDegraded ? "pages cannot be read"
-                                                                 : "the surface is not watertight";
+      return "pages that decide the side cannot be read";
     case Rule::kRegion:
-      return "the file is of a region, and the point outside of that or the surface not watertight";
+      return "the file is of a region, and the point is beyond a wall or the surface is not "
+             "watertight";
     case Rule::kOutsideBox:
       return "the point is outside of the model's box";
     case Rule::kColour:
@@ -71,17 +70,17 @@ std::string reason_text(const Explanation& explanation) {
                      : explanation.side_result.winding > 0 ? " is black"
                                                            : " is inverted");
     case Rule::kPlanes:
-      return cell + " is special, and the point's side of its planes says it";
+      return cell + " is special; the point's position relative to its planes decides";
     case Rule::kSlab:
-      return cell + " is grey; the point is beyond the planes that the surface in it is between";
+      return cell + " is grey; the point is outside of the slab that holds the surface in the cell";
     case Rule::kCorner:
       return cell + " is grey; " + crossings_text(explanation);
     case Rule::kWayOut:
       return crossings_text(explanation);
     case Rule::kWindingNumber:
       return fmt::format(
-          "the surface is not watertight, and its winding number about the point is {:.6g}, right "
-          "within {:.2g}",
+          "the surface is not watertight; the winding number at the point is {:.6g}, with an error "
+          "of at most {:.2g}",
           explanation.reason.value, explanation.reason.error);
   }
   return {};
@@ -91,7 +90,7 @@ Json work_json(const octree::TraversalStats& work) {
   return {{"nodes", work.nodes},
           {"blocks", work.blocks},
           {"triangles", work.triangles},
-          {"page_turns", work.page_switches}};
+          {"page_switches", work.page_switches}};
 }
 
 std::string work_text(const octree::TraversalStats& work) {
@@ -181,8 +180,8 @@ std::string explanation_text(const Explanation& explanation) {
                       vector_text(explanation.corners[0]), vector_text(explanation.corners[1]),
                       vector_text(explanation.corners[2]));
   text += fmt::format("normal      {}\n", vector_text(answer.normal));
-  text += fmt::format("side took   {}\n", work_text(explanation.side_work));
-  text += fmt::format("nearest took {}\n", work_text(explanation.nearest_work));
+  text += fmt::format("work        side: {}\n", work_text(explanation.side_work));
+  text += fmt::format("            nearest point: {}\n", work_text(explanation.nearest_work));
   return text;
 }
 

@@ -136,11 +136,11 @@ Json unbalanced_edges_json(const storage::ModelRecord& model) {
 std::string surface_text(const storage::ModelRecord& model) {
   if (model.unbalanced_edge_count == 0)
     return "  surface     watertight; sides by crossings, exactly\n";
-  std::string text =
-      fmt::format("  surface     not watertight; {}: {} unbalanced edges\n",
-                  query::region_of(model).has_walls() ? "sides unknown, for not all of it is here"
-                                                      : "sides by winding number",
-                  grouped_count(model.unbalanced_edge_count));
+  std::string text = fmt::format("  surface     not watertight; {}: {} unbalanced edges\n",
+                                 query::region_of(model).has_walls()
+                                     ? "sides unknown, because the file is of a region with walls"
+                                     : "sides by winding number",
+                                 grouped_count(model.unbalanced_edge_count));
   for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
@@ -179,7 +179,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
   const storage::ModelRecord& model = header.model;
   Json json = {{"triangles", model.triangle_count},
                {"skipped", model.skipped_count},
-               {"first_set_aside", nullptr},
+               {"first_skipped", nullptr},
                {"vertices", model.vertex_count},
                {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
                {"region", region_json(model)},
@@ -187,11 +187,11 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"watertight", model.unbalanced_edge_count == 0},
                {"sign_rule", sign_rule(model)},
                {"unbalanced_edges", model.unbalanced_edge_count},
-               {"first_open_edges", unbalanced_edges_json(model)},
+               {"first_unbalanced_edges", unbalanced_edges_json(model)},
                {"levels", model.height},
                {"nodes", model.node_count},
                {"blocks", model.block_count},
-               {"blocks_in_sheets", survey.height_fields},
+               {"height_field_blocks", survey.height_fields},
                {"pages", header.page_count},
                {"page_bytes", header.page_bytes},
                {"file_bytes", parts.actual_bytes()},
@@ -202,7 +202,7 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"special_configurations", mask_sum(survey).special},
                {"lists_of_blocks", survey.lists},
                {"bytes", bytes_json(parts, survey)}};
-  if (model.first_skipped != storage::kNoTriangle) json["first_set_aside"] = model.first_skipped;
+  if (model.first_skipped != storage::kNoTriangle) json["first_skipped"] = model.first_skipped;
   return json;
 }
 
@@ -235,7 +235,7 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
       short_bytes(sections.headers), short_bytes(sections.page_table),
       short_bytes(sections.distance_pages), short_bytes(sections.mask_pages));
-  text += fmt::format("  pages       {} of {} in memory; {}\n", grouped_count(header.page_count),
+  text += fmt::format("  pages       {}, {} each in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));
   return text;
@@ -276,7 +276,7 @@ std::string levels_text(const FileSurvey& survey) {
   }
   if (!survey.mask.empty()) text += mask_levels_text(survey);
   if (survey.unreached_pages > 0)
-    text += fmt::format("{} pages hang from pages that cannot be read and are not counted\n",
+    text += fmt::format("{} pages below unreadable pages are not counted\n",
                         grouped_count(survey.unreached_pages));
   return text;
 }

@@ -15,9 +15,9 @@ RealTimeRights become_real_time() noexcept;
 
 /// Page faults and context switches of a thread.
 struct ThreadUsage {
-  std::uint64_t faults = 0;           ///< page faults, major and minor
-  std::uint64_t switches_wanted = 0;  ///< voluntary context switches
-  std::uint64_t switches_forced = 0;  ///< involuntary context switches
+  std::uint64_t faults = 0;                ///< page faults, major and minor
+  std::uint64_t voluntary_switches = 0;    ///< voluntary context switches
+  std::uint64_t involuntary_switches = 0;  ///< involuntary context switches
 };
 /// Those of the calling thread so far.
 ThreadUsage thread_usage() noexcept;

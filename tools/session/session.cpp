@@ -56,8 +56,9 @@ void run_ticks(Probe& probe, std::span<const Vec3> path, nanoseconds start, nano
                        static_cast<float>(answer.upper - answer.lower), answer.status, answer.side};
   }
   const ThreadUsage after = thread_usage();
-  record.usage = {after.faults - before.faults, after.switches_wanted - before.switches_wanted,
-                  after.switches_forced - before.switches_forced};
+  record.usage = {after.faults - before.faults,
+                  after.voluntary_switches - before.voluntary_switches,
+                  after.involuntary_switches - before.involuntary_switches};
 }
 
 void run_idle_thread(nanoseconds start, nanoseconds period,

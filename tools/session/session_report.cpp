@@ -101,8 +101,8 @@ nlohmann::ordered_json report_of(const TouchArguments& arguments, const TouchRec
           {"degraded_width_p50", width.at(0.5)},
           {"degraded_width_max", width.at(1)},
           {"faults", record.usage.faults},
-          {"switches_wanted", record.usage.switches_wanted},
-          {"switches_forced", record.usage.switches_forced},
+          {"voluntary_switches", record.usage.voluntary_switches},
+          {"involuntary_switches", record.usage.involuntary_switches},
           {"fifo", record.rights.fifo},
           {"pinned", record.rights.pinned},
           {"locked_bytes", stats.locked_bytes},
@@ -139,7 +139,7 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
   const auto report = report_of(arguments, record, model);
   const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
   std::string text =
-      fmt::format("{}: {} of {} ticks at {} Hz, {} of {} in memory\n", arguments.file.string(),
+      fmt::format("{}: {}, {} ticks at {} Hz, {} held of a budget of {}\n", arguments.file.string(),
                   name_of(arguments.motion), grouped_count(number("ticks")), arguments.rate_hz,
                   short_bytes(number("held_bytes")), short_bytes(number("budget_bytes")));
   text += fmt::format("late {}, degraded {} ({:.3f} %), exact again after {} ticks (p99)\n",
@@ -148,15 +148,16 @@ std::string touch_words(const TouchArguments& arguments, const TouchRecord& reco
                           static_cast<double>(std::max<std::uint64_t>(1, number("ticks"))),
                       number("refine_ticks_p99"));
   text += "microseconds         p50       p99     p99.9    p99.99       max\n";
-  text += "answer, from due" + row(report["latency_us"]) + '\n';
+  text += "latency         " + row(report["latency_us"]) + '\n';
   text += "the query alone " + row(report["query_us"]) + '\n';
   text += "idle thread     " + row(report["floor_us"]) + '\n';
-  text += fmt::format("first before all threads: {}; one processor: {}; memory locked: {}\n",
+  text += fmt::format("real-time priority: {}; pinned to one processor: {}; memory locked: {}\n",
                       granted(record.rights.fifo), granted(record.rights.pinned),
                       granted(number("locked_bytes") > 0));
-  text += fmt::format("{} page faults, {} switches forced; {} pages read, {} evicted\n",
-                      number("faults"), number("switches_forced"),
-                      grouped_count(number("pages_read")), grouped_count(number("pages_evicted")));
+  text +=
+      fmt::format("{} page faults, {} involuntary context switches; {} pages read, {} evicted\n",
+                  number("faults"), number("involuntary_switches"),
+                  grouped_count(number("pages_read")), grouped_count(number("pages_evicted")));
   if (!arguments.trace.empty())
     text += fmt::format("{} accesses dropped from the trace\n", number("page_trace_dropped"));
   return text;

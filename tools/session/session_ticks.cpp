@@ -12,7 +12,7 @@ namespace planetree::tools {
 
 std::string touch_ticks(std::span<const Vec3> path, const TouchRecord& record) {
   assert(path.size() == record.ticks.size());
-  std::string text = "tick,x,y,z,latency_us,ask_us,width,side,status\n";
+  std::string text = "tick,x,y,z,latency_us,query_us,width,side,status\n";
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Tick& tick = record.ticks[i];
     fmt::format_to(std::back_inserter(text),

@@ -55,14 +55,14 @@ Result<std::unique_ptr<Shape>> make_shape(ShapeKind kind, std::uint64_t triangle
                                           std::uint64_t seed) {
   if (triangles == 0) {
     return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "a model needs triangles; ask for at least 1");
+                      "a model needs triangles; give at least 1");
   }
   auto shape = make_unchecked(kind, std::min(triangles, kMaxTriangles), seed);
   if (shape->vertex_count() > Shape::kMaxVertices) {
-    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                      "%llu triangles need more vertices than a PLY index can tell apart (2^32); "
-                      "ask for fewer",
-                      static_cast<unsigned long long>(triangles));
+    return make_error(
+        ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+        "%llu triangles need more vertices than a PLY index can address (2^32); give fewer",
+        static_cast<unsigned long long>(triangles));
   }
   return shape;
 }

@@ -47,9 +47,9 @@ Result<std::uint64_t> checked_count(const MeshFile& file) {
   const std::uint64_t space = (file.size_bytes() - kFacetsOffset) / kFacetBytes;
   if (count == space) return count;
   return make_error(ErrorCode::kBadInput, Error::kNowhere, kCountOffset,
-                    "byte 80: the count says %" PRIu64 " facets, the file has bytes for %" PRIu64
+                    "byte 80: the count is %" PRIu64 " facets, the file has bytes for %" PRIu64
                     ": %s; copy or export it again",
-                    count, space, count > space ? "it is truncated" : "the count lies");
+                    count, space, count > space ? "it is truncated" : "the count is wrong");
 }
 
 }  // namespace

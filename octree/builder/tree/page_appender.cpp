@@ -32,7 +32,7 @@ Result<void> PageAppender::append(std::uint32_t count,
       const auto raw = make(first + static_cast<std::uint32_t>(i));
       if (!raw) return raw.error();
       batch[i] = {raw->octcode, raw->ordinal, static_cast<std::uint32_t>(raw->bytes.size()),
-                  storage::encode_page(raw->bytes)};
+                  storage::compress_page(raw->bytes)};
       return {};
     });
     if (!encoded) return encoded;

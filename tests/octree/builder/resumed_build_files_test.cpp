@@ -23,7 +23,7 @@ TEST_F(ResumedBuildFiles, IgnoresDamagedJournalRecords) {
   for (const bool open : {false, true}) {
     write(open ? holed() : sphere(2));
     const storage::Bytes expected = whole();
-    stop_in(open ? BuildPhase::kBounding : BuildPhase::kColouring, 2);
+    stop_in(open ? BuildPhase::kBuildingTree : BuildPhase::kBuildingMask, 2);
     const storage::Bytes journal = storage::read_bytes(work_ / "journal"),
                          spill = storage::read_bytes(work_ / "spill");
     for (std::size_t at = 0; at < journal.size(); at += 11) {
@@ -35,8 +35,8 @@ TEST_F(ResumedBuildFiles, IgnoresDamagedJournalRecords) {
       storage::write_bytes(work_ / "spill", spill);
       expect_completed(expected);
       // The last record of the journal is that of a sector, or of a chunk if the model is open.
-      EXPECT_TRUE(recorder_.did(BuildPhase::kBounding));
-      EXPECT_TRUE(at >= 100 || recorder_.start.starts_with("earlier work is of no use"));
+      EXPECT_TRUE(recorder_.did(BuildPhase::kBuildingTree));
+      EXPECT_TRUE(at >= 100 || recorder_.start.starts_with("the checkpoint cannot be resumed"));
       std::filesystem::remove(output_);
     }
   }
@@ -45,7 +45,7 @@ TEST_F(ResumedBuildFiles, IgnoresDamagedJournalRecords) {
 TEST_F(ResumedBuildFiles, ResumesOnlyWhatATruncatedSpillFileHolds) {
   write(sphere(2));
   const storage::Bytes expected = whole();
-  stop_in(BuildPhase::kColouring, 4);
+  stop_in(BuildPhase::kBuildingMask, 4);
   const storage::Bytes journal = storage::read_bytes(work_ / "journal"),
                        spill = storage::read_bytes(work_ / "spill");
   std::uint64_t resumed = 0;
@@ -55,8 +55,8 @@ TEST_F(ResumedBuildFiles, ResumesOnlyWhatATruncatedSpillFileHolds) {
     storage::write_bytes(work_ / "journal", journal);
     storage::write_bytes(work_ / "spill", std::span(spill).first(size));
     expect_completed(expected);
-    EXPECT_GE(recorder_.count(BuildPhase::kBounding).resumed, resumed);
-    resumed = recorder_.count(BuildPhase::kBounding).resumed;
+    EXPECT_GE(recorder_.count(BuildPhase::kBuildingTree).resumed, resumed);
+    resumed = recorder_.count(BuildPhase::kBuildingTree).resumed;
     EXPECT_FALSE(resumed > 0 && recorder_.did(BuildPhase::kMatching));
     std::filesystem::remove(output_);
   }
@@ -166,8 +166,9 @@ TEST_F(ResumedBuildFiles, RequiresOnlyTheSpaceStillNeeded) {
   EXPECT_EQ(recorder_.failed, shortage);
   EXPECT_TRUE(build_with(needed(0, false)));
   using Stop = std::pair<BuildPhase, std::uint64_t>;
-  for (const auto& [phase, parts] : {Stop(BuildPhase::kMatching, 0), Stop(BuildPhase::kBounding, 0),
-                                     Stop(BuildPhase::kBounding, 2)}) {
+  for (const auto& [phase, parts] :
+       {Stop(BuildPhase::kMatching, 0), Stop(BuildPhase::kBuildingTree, 0),
+        Stop(BuildPhase::kBuildingTree, 2)}) {
     std::filesystem::remove(output_);
     stop_in(phase, parts);
     const bool matched = phase != BuildPhase::kMatching;
@@ -192,7 +193,7 @@ TEST_F(ResumedBuildFiles, ReportsTemporaryBytes) {
   const std::uint64_t triangle_bytes = at_once->header.model.triangle_count * (16 + 36);
   EXPECT_GT(at_once->temporary_bytes, triangle_bytes);
   std::filesystem::remove(output_);
-  stop_in(BuildPhase::kColouring, 2);
+  stop_in(BuildPhase::kBuildingMask, 2);
   const auto later = build(calls, kLarge);
   ASSERT_TRUE(later);
   EXPECT_FALSE(recorder_.did(BuildPhase::kReading));
@@ -205,7 +206,7 @@ TEST_F(ResumedBuildFiles, KeepsTheCheckpointInTheTemporaryDirectory) {
   const storage::Bytes expected = whole();
   options_.temp_directory = elsewhere / ".";
   work_ = options_.work_directory(output_);
-  stop_in(BuildPhase::kBounding);
+  stop_in(BuildPhase::kBuildingTree);
   EXPECT_EQ(elsewhere.names(), Names{work_.filename()});
   EXPECT_NE(options_.work_directory(meshes_ / "model.ptree"), work_);
   expect_completed(expected);

@@ -13,13 +13,13 @@
 namespace planetree::octree {
 namespace {
 
-const std::string kNoEarlierWork = "no earlier work to go on with; building from the start";
+const std::string kNoCheckpoint = "no checkpoint; building from the start";
 
 TEST_F(ResumedBuild, WritesTheSameBytesAndLeavesNoOtherFiles) {
   for (const Soup& soup : {sphere(3), holed(), repeated(300)}) {
     write(soup);
     expect_completed(whole());
-    EXPECT_EQ(recorder_.start, kNoEarlierWork);
+    EXPECT_EQ(recorder_.start, kNoCheckpoint);
     std::filesystem::remove(output_);
   }
 }
@@ -35,15 +35,15 @@ TEST_F(ResumedBuild, ResumesAfterAStopAtAnyCall) {
       if (!resume_and_remove(expected)) continue;
       // Completed phases are not repeated, nor are parts that were counted.
       EXPECT_FALSE(stopped.did(BuildPhase::kMatching) && recorder_.did(BuildPhase::kReading));
-      EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && recorder_.did(BuildPhase::kMatching));
-      for (const BuildPhase phase : {BuildPhase::kBounding, BuildPhase::kColouring}) {
+      EXPECT_FALSE(stopped.did(BuildPhase::kBuildingTree) && recorder_.did(BuildPhase::kMatching));
+      for (const BuildPhase phase : {BuildPhase::kBuildingTree, BuildPhase::kBuildingMask}) {
         const std::uint64_t before = recorder_.count(phase).resumed;
         EXPECT_GE(before, std::max(stopped.count(phase).done, resumed[phase]));
         resumed[phase] = before;
       }
     }
-    EXPECT_EQ(resumed[BuildPhase::kBounding], recorder_.count(BuildPhase::kBounding).total);
-    EXPECT_EQ(resumed[BuildPhase::kColouring], recorder_.count(BuildPhase::kColouring).total);
+    EXPECT_EQ(resumed[BuildPhase::kBuildingTree], recorder_.count(BuildPhase::kBuildingTree).total);
+    EXPECT_EQ(resumed[BuildPhase::kBuildingMask], recorder_.count(BuildPhase::kBuildingMask).total);
     std::filesystem::remove(output_);
   }
 }
@@ -57,7 +57,7 @@ TEST_F(ResumedBuild, ResumesWithARegion) {
     SCOPED_TRACE("stopped at call " + std::to_string(call));
     const BuildRecorder stopped = recorder_;
     if (!resume_and_remove(expected)) continue;
-    EXPECT_FALSE(stopped.did(BuildPhase::kBounding) && recorder_.did(BuildPhase::kMatching));
+    EXPECT_FALSE(stopped.did(BuildPhase::kBuildingTree) && recorder_.did(BuildPhase::kMatching));
     matched_before += !recorder_.did(BuildPhase::kMatching);
   }
   EXPECT_GT(matched_before, 3);
@@ -66,11 +66,11 @@ TEST_F(ResumedBuild, ResumesWithARegion) {
 TEST_F(ResumedBuild, RestartsWithAnotherRegion) {
   write(sphere(2));
   options_.box = {{-2, -2, 0.1}, {0.3, 2, 2}};
-  stop_in(BuildPhase::kBounding);
+  stop_in(BuildPhase::kBuildingTree);
   options_.box->upper.x = 0.4;
   ASSERT_TRUE(build());
   EXPECT_EQ(recorder_.start,
-            "earlier work is of no use, its options were others; building from the start");
+            "the checkpoint cannot be resumed: the options have changed; building from the start");
 }
 
 // One call fails, is interrupted or returns early. The process survives.
@@ -124,7 +124,7 @@ TEST_F(ResumedBuild, ResumesAfterKill) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     if (!WIFSIGNALED(status)) break;
     expect_completed(expected);
-    for (const char* phase : {"start", "ordering", "bounding", "colouring"})
+    for (const char* phase : {"start", "ordering", "tree", "mask"})
       if (recorder_.start.find(phase) != std::string::npos) ++starts[phase];
     std::filesystem::remove(output_);
   }
@@ -134,7 +134,7 @@ TEST_F(ResumedBuild, ResumesAfterKill) {
 TEST_F(ResumedBuild, ResumesWithOtherMemoryAndThreads) {
   write(sphere(3));
   const storage::Bytes expected = whole();
-  for (const BuildPhase phase : {BuildPhase::kMatching, BuildPhase::kColouring}) {
+  for (const BuildPhase phase : {BuildPhase::kMatching, BuildPhase::kBuildingMask}) {
     stop_in(phase);
     ASSERT_TRUE(build(storage::FileCalls::real(), kBetween));
     EXPECT_FALSE(recorder_.did(BuildPhase::kReading));
@@ -145,28 +145,28 @@ TEST_F(ResumedBuild, ResumesWithOtherMemoryAndThreads) {
 
 TEST_F(ResumedBuild, RestartsIfTheInputChanged) {
   write(sphere(2));
-  stop_in(BuildPhase::kColouring, 4);
+  stop_in(BuildPhase::kBuildingMask, 4);
   Soup other = sphere(2);
   other[50][1].x *= 1.5;
   write(other);
   expect_completed(whole());
   EXPECT_EQ(recorder_.start,
-            "earlier work is of no use, the input has changed; building from the start");
+            "the checkpoint cannot be resumed: the input has changed; building from the start");
 }
 
 TEST_F(ResumedBuild, RestartsIfTheOptionsChanged) {
   write(sphere(2));
-  stop_in(BuildPhase::kColouring, 4);
+  stop_in(BuildPhase::kBuildingMask, 4);
   options_.page_bytes = 8192;
   expect_completed(whole());
   EXPECT_EQ(recorder_.start,
-            "earlier work is of no use, its options were others; building from the start");
+            "the checkpoint cannot be resumed: the options have changed; building from the start");
 }
 
 TEST_F(ResumedBuild, AllowsOneProcessAtATime) {
   write(sphere(2));
   const storage::Bytes expected = whole();
-  stop_in(BuildPhase::kBounding);
+  stop_in(BuildPhase::kBuildingTree);
   {
     const auto other = storage::WorkDirectory::open(work_);
     ASSERT_TRUE(other);

@@ -180,7 +180,7 @@ struct SpaceCase {
 
 TEST(SpaceNeed, ReportsTheDirectoryAndTheShortage) {
   const SpaceNeed both{30 * kMegabyte, 10 * kMegabyte}, file{0, 10 * kMegabyte - 5};
-  const std::string remedy = "free some, name a roomier --temp-dir, or give more --memory";
+  const std::string remedy = "free some, name a --temp-dir with more space, or give more --memory";
   const BuildDirectory temporary = BuildDirectory::kTemporary, output = BuildDirectory::kOutput;
   const std::vector<SpaceCase> cases = {
       {both, 30, 10, false, temporary, ""},

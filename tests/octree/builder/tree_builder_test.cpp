@@ -145,9 +145,9 @@ TEST_F(TreeBuilder, ReplacesAFileOnlyWithReplace) {
 TEST_F(TreeBuilder, ReportsEachPhaseInTurnToItsEnd) {
   write_obj(sphere(4));
   ASSERT_TRUE(build());
-  const std::vector<BuildPhase> expected{BuildPhase::kReading,   BuildPhase::kOrdering,
-                                         BuildPhase::kMatching,  BuildPhase::kBounding,
-                                         BuildPhase::kColouring, BuildPhase::kWriting};
+  const std::vector<BuildPhase> expected{BuildPhase::kReading,      BuildPhase::kOrdering,
+                                         BuildPhase::kMatching,     BuildPhase::kBuildingTree,
+                                         BuildPhase::kBuildingMask, BuildPhase::kWriting};
   EXPECT_EQ(recorder_.phases, expected);
   EXPECT_EQ(recorder_.last_done, recorder_.last_total);
 }

@@ -66,15 +66,16 @@ std::vector<MaskCorruption> mask_list_corruptions() {
          p.slab_lowers[0] = 8;
          p.slab_uppers[0] = 7;
        }},
-      {"a block of a list touches nothing", [](P& p, F&) { p.block_octants[0] = 0; }},
-      {"a block of a list touches nothing", [](P& p, F&) { p.block_octants.back() = 0; }},
-      {"a list leads to what is no block",
+      {"a listed block has no octant", [](P& p, F&) { p.block_octants[0] = 0; }},
+      {"a listed block has no octant", [](P& p, F&) { p.block_octants.back() = 0; }},
+      {"a list has a link that leads to no block",
        [](P& p, F&) { p.block_links[0] &= ~LinkFormat::kLeafBit; }},
-      {"a list leads to what is no block",
+      {"a list has a link that leads to no block",
        [](P& p, F& f) {
          p.block_links.back() = LinkFormat(f.page_bytes).make(true, f.first_page, 0);
        }},
-      {"a list leads to what is no block", [](P& p, F&) { p.block_links.back() = 0xffffffff; }},
+      {"a list has a link that leads to no block",
+       [](P& p, F&) { p.block_links.back() = 0xffffffff; }},
       {"the blocks of a list are not in order",
        [](P& p, F&) {
          const std::size_t at = first_list_of_several(p);

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "storage/file/file_check.h"
 #include "storage/file/file_hash.h"
 #include "storage/file/file_layout.h"
+#include "storage/file/header_check.h"
 
 namespace planetree::storage {
 

@@ -141,7 +141,7 @@ TEST(PageFileMixUp, ChecksOfEqualPagesDiffer) {
   const TemporaryDirectory directory;
   Result<PageWriter> writer = PageWriter::create(directory / "a.ptree", 2, false);
   ASSERT_TRUE(writer);
-  const StoredPage stored = encode_page(sample_page(1, 64));
+  const StoredPage stored = compress_page(sample_page(1, 64));
   ASSERT_TRUE(writer->append(0, 0, 64, stored));
   ASSERT_TRUE(writer->append(1, 0, 64, stored));
   ASSERT_TRUE(writer->finish(sample_model(), kMinPageBytes));

@@ -10,7 +10,7 @@
 #include "tests/storage/system/temporary_directory.h"
 
 /// Files whose hashes are right and whose content is wrong. Each test breaks rules of
-/// storage/file/file_check.h one at a time.
+/// storage/file/header_check.h one at a time.
 namespace planetree::storage {
 namespace {
 

@@ -78,7 +78,7 @@ TEST(PageWriter, NeverFollowsALinkCreatedDuringTheBuild) {
   Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
   ASSERT_TRUE(writer);
   std::filesystem::create_symlink("nowhere", directory / "a");
-  ASSERT_TRUE(writer->append(0, 0, 64, encode_page(sample_page(0, 64))));
+  ASSERT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
   EXPECT_EQ(code_of(writer->finish(sample_model(), kMinPageBytes)), ErrorCode::kAlreadyExists);
   EXPECT_EQ(directory.names(), Names{"a"});
   EXPECT_TRUE(std::filesystem::is_symlink(directory / "a"));
@@ -89,7 +89,7 @@ TEST(PageWriter, LeavesNothingWhenAbandoned) {
   {
     Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
     ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->append(0, 0, 64, encode_page(sample_page(0, 64))));
+    ASSERT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
     EXPECT_EQ(directory.names(), Names{});
   }
   EXPECT_EQ(directory.names(), Names{});
@@ -105,7 +105,7 @@ TEST(PageWriter, RefusesPathsWithoutADirectoryOrAName) {
 
 TEST(PageWriter, RefusesPagesOutOfOrder) {
   const TemporaryDirectory directory;
-  const StoredPage page = encode_page(sample_page(0, 64));
+  const StoredPage page = compress_page(sample_page(0, 64));
   const auto second = [&](std::uint64_t octcode, std::uint32_t ordinal) {
     Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
     EXPECT_TRUE(writer->append(5, 5, 64, page));
@@ -120,7 +120,7 @@ TEST(PageWriter, RefusesPagesOutOfOrder) {
 
 TEST(PageWriter, FailsForGoodAfterAnError) {
   const TemporaryDirectory directory;
-  const StoredPage page = encode_page(sample_page(0, 64));
+  const StoredPage page = compress_page(sample_page(0, 64));
   Result<PageWriter> writer = PageWriter::create(directory / "a", 2, false);
   ASSERT_TRUE(writer->append(5, 5, 64, page));
   const Result<void> failed = writer->append(5, 5, 64, page);
@@ -133,7 +133,7 @@ TEST(PageWriter, FailsForGoodAfterAnError) {
 TEST(PageWriter, RefusesAWrongNumberOfPages) {
   const TemporaryDirectory directory;
   EXPECT_EQ(code_of(PageWriter::create(directory / "a", 0, false)), ErrorCode::kBadArgument);
-  const StoredPage page = encode_page(sample_page(0, 64));
+  const StoredPage page = compress_page(sample_page(0, 64));
   Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
   ASSERT_TRUE(writer->append(0, 0, 64, page));
   EXPECT_EQ(code_of(writer->append(1, 0, 64, page)), ErrorCode::kBadArgument);
@@ -148,7 +148,7 @@ TEST(PageWriter, RefusesModelsThatAReaderWouldRefuse) {
   const TemporaryDirectory directory;
   const auto finish = [&](const ModelRecord& model, std::uint32_t page_bytes) {
     Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
-    EXPECT_TRUE(writer->append(0, 0, 64, encode_page(sample_page(0, 64))));
+    EXPECT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
     return writer->finish(model, page_bytes);
   };
   ModelRecord model = sample_model();
@@ -163,7 +163,7 @@ TEST(PageWriter, RefusesModelsThatAReaderWouldRefuse) {
 TEST(PageWriter, RefusesCallsAfterFinish) {
   const TemporaryDirectory directory;
   Result<PageWriter> writer = PageWriter::create(directory / "a", 1, false);
-  const StoredPage page = encode_page(sample_page(0, 64));
+  const StoredPage page = compress_page(sample_page(0, 64));
   ASSERT_TRUE(writer->append(0, 0, 64, page));
   ASSERT_TRUE(writer->finish(sample_model(), kMinPageBytes));
   EXPECT_EQ(code_of(writer->append(1, 0, 64, page)), ErrorCode::kBadArgument);
@@ -176,8 +176,8 @@ TEST(PageWriter, LaterOfTwoWritersFailsWithAlreadyExists) {
   Result<PageWriter> first = PageWriter::create(directory / "a", 1, false);
   Result<PageWriter> second = PageWriter::create(directory / "a", 1, false);
   ASSERT_TRUE(first && second);
-  ASSERT_TRUE(first->append(0, 0, 64, encode_page(sample_page(0, 64, 1))));
-  ASSERT_TRUE(second->append(0, 0, 64, encode_page(sample_page(0, 64, 2))));
+  ASSERT_TRUE(first->append(0, 0, 64, compress_page(sample_page(0, 64, 1))));
+  ASSERT_TRUE(second->append(0, 0, 64, compress_page(sample_page(0, 64, 2))));
   ASSERT_TRUE(second->finish(sample_model(), kMinPageBytes));
   EXPECT_EQ(code_of(first->finish(sample_model(), kMinPageBytes)), ErrorCode::kAlreadyExists);
   EXPECT_EQ((*read_all(directory / "a"))[0], sample_page(0, 64, 2));

@@ -56,7 +56,7 @@ struct SampleFile {
     for (std::uint32_t page = 0; page < page_count; ++page) {
       const Bytes bytes = raw(page);
       const Result<void> appended = writer->append(
-          page / 2, page % 2, static_cast<std::uint32_t>(bytes.size()), encode_page(bytes));
+          page / 2, page % 2, static_cast<std::uint32_t>(bytes.size()), compress_page(bytes));
       if (!appended) return appended.error();
     }
     return writer->finish(sample_model(), kMinPageBytes);

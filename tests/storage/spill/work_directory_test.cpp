@@ -61,7 +61,7 @@ TEST_F(WorkDirectoryTest, IsExclusiveToOneOpener) {
     ASSERT_FALSE(second);
     EXPECT_EQ(second.error().code, ErrorCode::kAlreadyExists);
     EXPECT_STREQ(second.error().text,
-                 "another process is at the same build; wait for it or name another output");
+                 "another process runs the same build; wait for it or name another output");
   }
   EXPECT_TRUE(WorkDirectory::open(path_));
 }

@@ -153,7 +153,7 @@ TEST_P(WriteFaults, DestinationCreatedMeanwhileIsKept) {
   FaultyCalls made = calls(Fault::kNone, 0, 0);
   Result<PageWriter> writer = PageWriter::create(path_, 1, false, made);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->append(0, 0, 64, encode_page(sample_page(0, 64))));
+  ASSERT_TRUE(writer->append(0, 0, 64, compress_page(sample_page(0, 64))));
   write_bytes(path_, old_);
   const Result<FileHeader> header = writer->finish(sample_model(), kMinPageBytes);
   ASSERT_FALSE(header);

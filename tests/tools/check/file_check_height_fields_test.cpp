@@ -52,7 +52,7 @@ TEST_F(FileCheckOfHeightFields, FindsEveryBlockWronglyMarked) {
   ASSERT_GT(unmarked, 2u);
   for (std::size_t i = 0; i < unmarked; ++i) {
     const CheckReport report = check_counts(boxes(), marking(i), true);
-    EXPECT_EQ(codes_of(report), Codes{"BLOCK_SHEET"}) << i;
+    EXPECT_EQ(codes_of(report), Codes{"BLOCK_HEIGHT_FIELD"}) << i;
     EXPECT_EQ(report.issues.count(), 1u);
     EXPECT_EQ(codes_of(check_counts(boxes(), marking(i), false)), Codes{});
   }
@@ -73,7 +73,7 @@ TEST_F(FileCheckOfHeightFields, FindsWronglyMarkedBlocksInFilesOfRegions) {
   ASSERT_GT(unmarked, 2u);
   EXPECT_EQ(codes_of(check_path(region, true)), Codes{});
   for (std::size_t i = 0; i < unmarked; ++i)
-    EXPECT_EQ(codes_of(check_counts(region, marking(i), true)), Codes{"BLOCK_SHEET"});
+    EXPECT_EQ(codes_of(check_counts(region, marking(i), true)), Codes{"BLOCK_HEIGHT_FIELD"});
 }
 
 // The bits are proven by the mask.

@@ -155,11 +155,11 @@ TEST_F(FileCheck, FindsWrongUnbalancedEdges) {
             }),
             Codes{"PAGE_STRUCTURE"});
   EXPECT_EQ(codes_of_model([](auto& model) { ++model.unbalanced_edge[2].along; }),
-            Codes{"OPEN_EDGES"});
+            Codes{"UNBALANCED_EDGES"});
   EXPECT_EQ(codes_of_model([](auto& model) {
               std::swap(model.unbalanced_edge[1].from, model.unbalanced_edge[1].to);
             }),
-            Codes{"OPEN_EDGES"});
+            Codes{"UNBALANCED_EDGES"});
 }
 
 TEST_F(FileCheck, FindsWrongMoments) {
@@ -212,7 +212,8 @@ TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
     for (auto& edge : model.unbalanced_edge) edge = {};
   };
   forge(folder / "tree.ptree", folder / "forged.ptree", forgery);
-  EXPECT_EQ(codes_of(check(storage::read_bytes(folder / "forged.ptree"))), Codes{"OPEN_EDGES"});
+  EXPECT_EQ(codes_of(check(storage::read_bytes(folder / "forged.ptree"))),
+            Codes{"UNBALANCED_EDGES"});
 }
 
 TEST(FileCheckOfShapes, AcceptsDoublesAndSkippedRecords) {

@@ -139,7 +139,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
     ASSERT_TRUE(file->read_page(page, scratch, raw));
     if (page == first_mask_page) writer->begin_mask();
     const std::vector<std::byte> bytes = changed(page, raw);
-    storage::StoredPage stored = storage::encode_page(bytes);
+    storage::StoredPage stored = storage::compress_page(bytes);
     forgery.stored(page, stored);
     const auto raw_bytes = static_cast<std::uint32_t>(bytes.size());
     ASSERT_TRUE(writer->append(entry.octcode, entry.ordinal, raw_bytes, stored));

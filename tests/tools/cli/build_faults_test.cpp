@@ -83,7 +83,7 @@ TEST_F(BuildOnSmallDisk, RefusesABuildThatNeedsMoreSpaceThanThereIs) {
       "8M", build("model.ply -o out/new.ptree --memory 160M --temp-dir small") + "; echo $?"));
   EXPECT_EQ(refused.output,
             "planetree: small: temporary files may take 13 MiB, and the device has 8 MiB free; "
-            "free some, name a roomier --temp-dir, or give more --memory\n3\n");
+            "free some, name a --temp-dir with more space, or give more --memory\n3\n");
   EXPECT_EQ(names("out"), Names{});
   const Outcome with_more_memory =
       shell(on_small_disk("8M", build("model.ply -o out/new.ptree --memory 1G --temp-dir small")));

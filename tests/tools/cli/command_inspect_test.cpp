@@ -69,11 +69,11 @@ TEST_F(Command, InspectCountsHeightFields) {
     return Json::parse(run({"inspect", file, "--json"}).output);
   };
   const Json sphere = report(samples + "sphere.ptree");
-  EXPECT_EQ(sphere["blocks_in_sheets"], sphere["blocks"]);
+  EXPECT_EQ(sphere["height_field_blocks"], sphere["blocks"]);
   const Json boxes = report(samples + "boxes.ptree");
-  EXPECT_GT(boxes["blocks_in_sheets"], 0);
-  EXPECT_LT(boxes["blocks_in_sheets"], boxes["blocks"]);
-  EXPECT_EQ(report("tree.ptree")["blocks_in_sheets"], 0);
+  EXPECT_GT(boxes["height_field_blocks"], 0);
+  EXPECT_LT(boxes["height_field_blocks"], boxes["blocks"]);
+  EXPECT_EQ(report("tree.ptree")["height_field_blocks"], 0);
   const std::string text = run({"inspect", samples + "sphere.ptree"}).output;
   const std::string blocks = sphere["blocks"].dump();
   EXPECT_NE(text.find(blocks + " blocks, " + blocks + " of them height fields"), std::string::npos)
@@ -85,10 +85,10 @@ TEST_F(Command, InspectReportsWatertightness) {
   EXPECT_EQ(open["watertight"], false);
   EXPECT_EQ(open["sign_rule"], "winding");
   EXPECT_EQ(open["unbalanced_edges"], 4 * kSide);
-  ASSERT_EQ(open["first_open_edges"].size(), 3u);
-  EXPECT_EQ(open["first_open_edges"][0]["triangle"], 0);
-  EXPECT_EQ(open["first_open_edges"][0]["along"], 1);
-  EXPECT_EQ(open["first_open_edges"][0]["against"], 0);
+  ASSERT_EQ(open["first_unbalanced_edges"].size(), 3u);
+  EXPECT_EQ(open["first_unbalanced_edges"][0]["triangle"], 0);
+  EXPECT_EQ(open["first_unbalanced_edges"][0]["along"], 1);
+  EXPECT_EQ(open["first_unbalanced_edges"][0]["against"], 0);
   const std::string text = run({"inspect", "tree.ptree"}).output;
   EXPECT_NE(text.find("not watertight"), std::string::npos) << text;
   EXPECT_NE(text.find("in triangle 0: 1 faces that way, 0 the other"), std::string::npos) << text;
@@ -97,7 +97,7 @@ TEST_F(Command, InspectReportsWatertightness) {
   const Json closed = Json::parse(run({"inspect", "solid.ptree", "--json"}).output);
   EXPECT_EQ(closed["watertight"], true);
   EXPECT_EQ(closed["sign_rule"], "crossings");
-  EXPECT_EQ(closed["first_open_edges"], Json::array());
+  EXPECT_EQ(closed["first_unbalanced_edges"], Json::array());
 }
 
 TEST_F(Command, InspectContinuesInADamagedFile) {

@@ -53,8 +53,7 @@ TEST_F(CommandResume, HelpNamesTheFlag) {
 TEST_F(CommandResume, ReportsThatThereIsNoCheckpoint) {
   const Outcome result = resume();
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.errors,
-            "planetree: new.ptree: no earlier work to go on with; building from the start\n");
+  EXPECT_EQ(result.errors, "planetree: new.ptree: no checkpoint; building from the start\n");
   EXPECT_EQ(storage::read_bytes("new.ptree"), storage::read_bytes("tree.ptree"));
   EXPECT_FALSE(fs::exists("new.ptree.work"));
 }
@@ -63,10 +62,10 @@ TEST_F(CommandResume, ResumesFromTheCheckpoint) {
   interrupt();
   const Outcome result = resume({"--json"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.errors, "planetree: new.ptree: going on after ordering\n");
+  EXPECT_EQ(result.errors, "planetree: new.ptree: resuming after ordering\n");
   const Json report = Json::parse(result.output);
   EXPECT_FALSE(report["seconds_by_phase"].contains("reading"));
-  EXPECT_TRUE(report["seconds_by_phase"].contains("bounding"));
+  EXPECT_TRUE(report["seconds_by_phase"].contains("building_tree"));
   EXPECT_EQ(storage::read_bytes("new.ptree"), storage::read_bytes("tree.ptree"));
   EXPECT_FALSE(fs::exists("new.ptree.work"));
 }
@@ -76,9 +75,10 @@ TEST_F(CommandResume, ReportsWhyTheCheckpointIsUnusable) {
   write_mesh("mesh.obj", kSide, "\n");
   const Outcome result = resume();
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.errors,
-            "planetree: new.ptree: earlier work is of no use, the input has changed; building "
-            "from the start\n");
+  EXPECT_EQ(
+      result.errors,
+      "planetree: new.ptree: the checkpoint cannot be resumed: the input has changed; building "
+      "from the start\n");
   interrupt();
   const Outcome quiet = resume({"--force", "--strict", "--quiet"});
   EXPECT_EQ(quiet.status, 0);
@@ -91,7 +91,7 @@ TEST_F(CommandResume, RefusesASecondProcess) {
   const Outcome result = resume();
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.errors,
-            "planetree: new.ptree.work: another process is at the same build; wait for it or name "
+            "planetree: new.ptree.work: another process runs the same build; wait for it or name "
             "another output\n");
   EXPECT_FALSE(fs::exists("new.ptree"));
 }
@@ -102,7 +102,8 @@ TEST_F(CommandResume, FollowsNoLinks) {
   const Outcome result = resume();
   EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.errors,
-            "planetree: new.ptree.work: a file or link is where work shall be kept; remove it or "
+            "planetree: new.ptree.work: the work directory's name is that of a file or link; "
+            "remove it or "
             "choose another directory for temporary files\n");
   EXPECT_TRUE(fs::is_empty("precious"));
 }

@@ -52,15 +52,16 @@ TEST_F(Command, EveryErrorIsOneLine) {
        "256K; see planetree build --help"},
       {{"build", "mesh.obj", "-o", "new.ptree", "--threads", "1025"},
        2,
-       "planetree: build: --threads: 1025 is too many; at most 1024; see planetree build --help"},
+       "planetree: build: --threads: 1025 is too large; give at most 1024; see planetree build "
+       "--help"},
       {{"build", "mesh.obj", "-o", "new.ptree", "--memory", "100M"},
        2,
        "planetree: build: --memory: 104857600 is too little for a build; give 160M or more; see "
        "planetree build --help"},
       {{"build", "mesh.obj", "-o", "new.ptree", "--box", "0,0,0,1,1"},
        2,
-       "planetree: build: --box: '0,0,0,1,1' is not a box; give X0,Y0,Z0,X1,Y1,Z1, finite numbers, "
-       "none of the first three above its like among the last; see planetree build --help"},
+       "planetree: build: --box: '0,0,0,1,1' is not a box; give X0,Y0,Z0,X1,Y1,Z1, finite numbers "
+       "with X0 <= X1, Y0 <= Y1 and Z0 <= Z1; see planetree build --help"},
       {{"build", "mesh.obj", "-o", "new.ptree", "--box", "500,500,500,501,501,501"},
        2,
        "planetree: mesh.obj: no triangle touches the box; that of the whole model is "
@@ -80,18 +81,18 @@ TEST_F(Command, EveryErrorIsOneLine) {
        "planetree: none.csv: cannot open it: No such file or directory; check the path"},
       {{"query", "tree.ptree", "short.csv"},
        1,
-       "planetree: short.csv: line 3: it has fewer numbers than x,y,z; give x,y,z, one point a "
+       "planetree: short.csv: line 3: it has fewer than three numbers; give x,y,z, one point a "
        "line"},
       {{"query", "tree.ptree", "word.csv"},
        1,
        "planetree: word.csv: line 2: 'two' is not a number; give x,y,z, one point a line"},
       {{"query", "tree.ptree", "odd.f64"},
        1,
-       "planetree: odd.f64: at byte 24: the file ends 1 bytes into a point of 24; write whole "
-       "points"},
+       "planetree: odd.f64: at byte 24: the file ends 1 bytes into a point of 24 bytes; write "
+       "whole points"},
       {{"query", "tree.ptree", "--max-error", "-1"},
        2,
-       "planetree: query: --max-error: '-1' is not a length; give a number from 0 on, in model "
+       "planetree: query: --max-error: '-1' is not a length; give a number of 0 or more, in model "
        "units; see planetree query --help"},
       {{"query", "tree.ptree", "--memory", "lots"},
        2,
@@ -99,15 +100,15 @@ TEST_F(Command, EveryErrorIsOneLine) {
        "4096, 64K, 256M or 1.5G (K is 1024); see planetree query --help"},
       {{"inspect", "tree.ptree", "--page", "99"},
        2,
-       "planetree: tree.ptree: there is no page 99; its last is " +
+       "planetree: tree.ptree: there is no page 99; the last page is " +
            std::to_string(entries_.size() - 1)},
       {{"inspect", "tree.ptree", "--node", "7:1:2"},
        2,
-       "planetree: inspect: --node: '7:1:2' is no octcode; give 0x... or level:x:y:z; see "
+       "planetree: inspect: --node: '7:1:2' is not an octcode; give 0x... or level:x:y:z; see "
        "planetree inspect --help"},
       {{"inspect", "tree.ptree", "--node", "9:1:2:3"},
        2,
-       "planetree: tree.ptree: no page begins at that octcode; --pages lists where pages begin"},
+       "planetree: tree.ptree: no page has that octcode; --pages lists the octcodes of all pages"},
       {{"inspect", "tree.ptree", "--slice", "z=1"},
        2,
        "planetree: inspect: --slice requires --image; see planetree inspect --help"},
@@ -150,7 +151,7 @@ TEST_F(Command, BuildsAndReports) {
   EXPECT_EQ(report["skipped"], 0);
   EXPECT_EQ(report["watertight"], false);
   EXPECT_EQ(report["unbalanced_edges"], 4 * kSide);
-  EXPECT_EQ(report["first_set_aside"], nullptr);
+  EXPECT_EQ(report["first_skipped"], nullptr);
   EXPECT_EQ(report["file_bytes"], fs::file_size("new.ptree"));
   EXPECT_EQ(report["page_bytes"], 4096);
   EXPECT_GT(report["seconds"], 0);
@@ -196,7 +197,7 @@ TEST_F(Command, BuildNamesTheFirstSkippedRecord) {
       "--strict to refuse it\n");
   const Json report = Json::parse(result.output);
   EXPECT_EQ(report["skipped"], 3);
-  EXPECT_EQ(report["first_set_aside"], 18);
+  EXPECT_EQ(report["first_skipped"], 18);
 }
 
 TEST_F(Command, QueryAnswersInTheOrderOfTheInput) {
@@ -291,8 +292,8 @@ TEST_F(Command, QueryWarnsOfADamagedHeaderAndGoesOn) {
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(lines_of(result.output).size(), 2u);
   EXPECT_EQ(result.errors,
-            "planetree: warning: tree.ptree: one of its two headers is damaged; copy the file "
-            "anew or build it again\n");
+            "planetree: warning: tree.ptree: one of its two headers is damaged; copy the file or "
+            "build it again\n");
 }
 
 TEST_F(Command, ReportsAFullDevice) {

@@ -123,7 +123,7 @@ TEST_F(Points, ReadRawTriples) {
   expect_points(read("a.F64", bytes), {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
   const Reading cut = read("b.f64", bytes.substr(0, 60));
   EXPECT_EQ(cut.points.size(), 2u);
-  EXPECT_EQ(cut.error, "the file ends 12 bytes into a point of 24; write whole points");
+  EXPECT_EQ(cut.error, "the file ends 12 bytes into a point of 24 bytes; write whole points");
 }
 
 TEST_F(Points, ReadPlyWithAndWithoutFaces) {
@@ -157,7 +157,7 @@ TEST_F(Points, RefuseDamagedPly) {
       "z\nend_header\n";
   const Reading short_file = read("a.ply", ascii + "1 2 3\n4 5 6\n");
   EXPECT_EQ(short_file.points.size(), 2u);
-  EXPECT_NE(short_file.error.find("ends in front of its last vertex"), std::string::npos);
+  EXPECT_NE(short_file.error.find("ends before its last vertex"), std::string::npos);
   const Reading bad = read("b.ply", ascii + "1 2 3\n4 five 6\n7 8 9\n", 1);
   EXPECT_EQ(bad.points.size(), 1u);
   EXPECT_EQ(bad.error.substr(0, 8), "line 9: ");

@@ -194,7 +194,8 @@ TEST(PagesLost, ReportsUnreadablePagesBeforeTimeouts) {
   const auto late = pages_lost(stats);
   ASSERT_TRUE(late);
   EXPECT_EQ(exit_status(late->code), 3);
-  EXPECT_TRUE(std::string(late->text).starts_with("3 waits for its pages were given up, so 5 "));
+  EXPECT_TRUE(
+      std::string(late->text).starts_with("3 waits for its pages reached the limit, so 5 "));
   stats.quarantined_pages = 1;
   const auto unreadable = pages_lost(stats);
   ASSERT_TRUE(unreadable);

@@ -102,8 +102,8 @@ TEST_F(SessionTest, ReportsASessionAsText) {
   ASSERT_EQ(outcome.status, kDone) << outcome.errors;
   const std::vector<std::string> lines = lines_of(outcome.output);
   ASSERT_EQ(lines.size(), 8u);
-  EXPECT_EQ(lines[0].find("tree.ptree: glide of 100 ticks at 100 Hz"), 0u);
-  EXPECT_EQ(lines[3].find("answer, from due"), 0u);
+  EXPECT_EQ(lines[0].find("tree.ptree: glide, 100 ticks at 100 Hz"), 0u);
+  EXPECT_EQ(lines[3].find("latency "), 0u);
 }
 
 TEST_F(SessionTest, WritesEveryTickOnRequest) {
@@ -112,7 +112,7 @@ TEST_F(SessionTest, WritesEveryTickOnRequest) {
   ASSERT_EQ(run(session).status, kDone);
   const std::vector<std::string> rows = lines_of(read_text("ticks.csv"));
   ASSERT_EQ(rows.size(), 201u);
-  EXPECT_EQ(rows[0], "tick,x,y,z,latency_us,ask_us,width,side,status");
+  EXPECT_EQ(rows[0], "tick,x,y,z,latency_us,query_us,width,side,status");
   EXPECT_EQ(rows[200].find("199,"), 0u);
   EXPECT_EQ(std::count(rows[200].begin(), rows[200].end(), ','), 8);
   const Outcome again = run(session);
@@ -147,7 +147,7 @@ TEST_F(SessionTest, RefusesASessionWithoutTicks) {
   const Outcome outcome = run({"touch", "tree.ptree", "--seconds", "0"});
   EXPECT_EQ(outcome.status, kCommandLineAtFault);
   EXPECT_EQ(outcome.errors,
-            "planetree: touch: a session without ticks; give --seconds and --rate of 1 or more; "
+            "planetree: touch: the session has no ticks; give --seconds and --rate of 1 or more; "
             "see planetree touch --help\n");
 }
 

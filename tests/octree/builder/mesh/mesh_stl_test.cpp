@@ -53,7 +53,7 @@ TEST(StlBinary, IsDetectedByItsSizeDespiteTheWordSolid) {
   put_facet(bytes, kCorners);
   EXPECT_EQ(read_bytes(bytes.str()).log, "0: 0 0 0, 1 0 0, 0 1 0\n");
   // The zero bytes of a count identify a binary file even if its size is wrong.
-  expect_refused(bytes.str() + std::string(50, 'x'), "the count says 1 facets");
+  expect_refused(bytes.str() + std::string(50, 'x'), "the count is 1 facets");
 }
 
 TEST(StlBinary, SkipsBadFacets) {
@@ -79,15 +79,16 @@ TEST(StlBinary, RefusesWrongCounts) {
   Bytes bytes = binary_stl("", 2);
   put_facet(bytes, kCorners);
   expect_refused(bytes.str(),
-                 "byte 80: the count says 2 facets, the file has bytes for 1: it is "
+                 "byte 80: the count is 2 facets, the file has bytes for 1: it is "
                  "truncated; copy or export it again");
   expect_refused(bytes.str() + std::string(49, 'x'), "has bytes for 1: it is truncated");
   Bytes more = binary_stl("", 4294967295);
   put_facet(more, kCorners);
-  expect_refused(more.str(), "the count says 4294967295 facets, the file has bytes for 1");
+  expect_refused(more.str(), "the count is 4294967295 facets, the file has bytes for 1");
   Bytes fewer = binary_stl("", 0);
   put_facet(fewer, kCorners);
-  expect_refused(fewer.str(), "the count says 0 facets, the file has bytes for 1: the count lies");
+  expect_refused(fewer.str(),
+                 "the count is 0 facets, the file has bytes for 1: the count is wrong");
   expect_refused(std::string(83, 'x'), "byte 83: the file ends within the 84 bytes");
   expect_refused(binary_stl("", 0).str(), "no triangle: the mesh has no faces");
 }

@@ -1,4 +1,4 @@
-#include "storage/file/file_check.h"
+#include "storage/file/header_check.h"
 
 #include <algorithm>
 #include <bit>
@@ -69,7 +69,7 @@ Result<void> check_lengths(const FileHeader& header, std::uint64_t actual_bytes)
                       header.file_bytes, actual_bytes);
   }
   if (header.page_count == 0) {
-    return bad_header(offsetof(FileHeader, page_count), "the header says that there is no page");
+    return bad_header(offsetof(FileHeader, page_count), "the header states that there is no page");
   }
   // A page has at least one byte, so the file's length bounds the page table before memory is
   // allocated for it.
@@ -132,7 +132,7 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
   // Readers allocate buffers of these sizes, so they must not exceed what the pages need.
   if (max_raw_bytes != header.max_raw_bytes || max_stored_bytes != header.max_stored_bytes) {
     return bad_header(offsetof(FileHeader, max_raw_bytes),
-                      "no page is as large as the header says the largest is");
+                      "no page is as large as the header states");
   }
   return {};
 }
