@@ -3,11 +3,71 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/triangle_distance.h"
 
 namespace planetree::octree {
+
+/// The box within which the whole surface is known, in the model frame.
+///
+/// A file may hold only the triangles that touch a given box. A side of that box within the model's
+/// box is a wall. The other sides are dropped, since no triangle lies beyond the model's box: the
+/// region is unbounded there. Every triangle that the file lacks lies strictly beyond a wall. The
+/// region of a complete file is all of space.
+class Region {
+ public:
+  /// All of space.
+  Region() = default;
+  /// lower, upper          the given box, which may be flat
+  /// box_lower, box_upper  the model's box; has a point in common with the given box
+  Region(const Point& lower, const Point& upper, const Point& box_lower, const Point& box_upper) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (lower[axis] > box_lower[axis]) lower_[axis] = lower[axis];
+      if (upper[axis] < box_upper[axis]) upper_[axis] = upper[axis];
+    }
+    has_walls_ = lower_.maxCoeff() > -kNone || upper_.minCoeff() < kNone;
+  }
+
+  /// Lower walls; -infinity on an axis without one. upper() is infinity there.
+  const Point& lower() const { return lower_; }
+  const Point& upper() const { return upper_; }
+
+  bool has_walls() const { return has_walls_; }
+  /// Returns whether a point is in the region or on a wall.
+  bool holds(const Point& point) const {
+    return (point.array() >= lower_.array()).all() && (point.array() <= upper_.array()).all();
+  }
+  /// Returns whether the region has a point in common with a closed box.
+  bool meets(const Point& lower, const Point& upper) const {
+    return (upper.array() >= lower_.array()).all() && (lower.array() <= upper_.array()).all();
+  }
+  /// Returns the nearest point of the region.
+  Point clamped(const Point& point) const { return point.cwiseMax(lower_).cwiseMin(upper_); }
+
+  /// Returns the distance from a point of the region to the nearest wall, rounded; infinity if
+  /// there is no wall.
+  double gap(const Point& point) const {
+    return std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff());
+  }
+  /// Returns a distance that all missing triangles exceed, also as evaluated. A triangle's value
+  /// errs by about 2^-42 of the distance to its farthest corner (see BestTriangle). That distance
+  /// is at most the triangle's own distance plus the model's diagonal, which is below 4. The result
+  /// is negative outside of the region and close to a wall, and infinity without walls.
+  double clearance(const Point& point) const {
+    if (!holds(point)) return -1;
+    const double gap_to_wall = gap(point);
+    return gap_to_wall < kNone ? gap_to_wall - 0x1p-40 * (gap_to_wall + 4) : kNone;
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  Point lower_ = Point::Constant(-kNone);
+  Point upper_ = Point::Constant(kNone);
+  bool has_walls_ = false;  // derived from the above; cached because every query reads it
+};
 
 /// A cell of the octree, as an octcode names it. `at` counts cells of the cell's own level.
 struct GridCell {
@@ -110,6 +170,39 @@ class CellGrid {
   }
 
   Point lower_;
+};
+
+/// Cells of the octree clipped to a region. Clipped cells are boxes too, and neighbours still share
+/// sides. A cell beyond a wall is flat and lies within the wall.
+class ClippedGrid {
+ public:
+  explicit ClippedGrid(const Point& lower, const Region& region = {})
+      : grid_(lower), region_(region) {}
+
+  Point lower(const GridCell& cell) const { return corner(cell, 0); }
+  Point upper(const GridCell& cell) const { return corner(cell, 7); }
+  Point corner(const GridCell& cell, unsigned which) const {
+    return region_.clamped(grid_.corner(cell, which));
+  }
+  Point middle(const GridCell& cell) const { return region_.clamped(grid_.middle(cell)); }
+  /// Returns the octant that a point of the region lies in; see CellGrid::octant().
+  unsigned octant(const GridCell& cell, const Point& point) const {
+    const Point middle = this->middle(cell);
+    unsigned octant = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      octant |= static_cast<unsigned>(middle[axis] <= point[axis]) << axis;
+    return octant;
+  }
+
+  /// Returns whether the cell contains a point of the region. Callers use only such cells.
+  bool has_part_of(const GridCell& cell) const {
+    return region_.meets(grid_.lower(cell), grid_.upper(cell));
+  }
+  const Region& region() const { return region_; }
+
+ private:
+  CellGrid grid_;
+  Region region_;
 };
 
 }  // namespace planetree::octree

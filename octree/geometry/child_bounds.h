@@ -1,15 +1,91 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
-#include "octree/geometry/float_box.h"
-#include "octree/geometry/plane.h"
-
 /// Bounds of one child as a node stores them: a box in 255ths of the node's own decoded box, and
-/// the disc relative to the child's decoded box. Builder, reader and verifier all decode with the
-/// functions below, so that they see the same bounds.
+/// a disc relative to the child's decoded box. The disc is a bounding plane, a unit normal in 32
+/// bits with offsets in 16 bits, and a radius. The decoded bounds are what counts: the builder
+/// widens the stored ones until the decoded ones enclose the surface. Builder, reader and verifier
+/// all decode with the functions below, so that they see the same bounds.
 namespace planetree::octree {
+
+/// A direction on the octahedron, 16 bits for each of its two coordinates.
+///
+/// source  Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
+///         Vectors", method "oct"
+struct PackedNormal {
+  std::int16_t u = 0, v = 0;
+};
+
+inline constexpr float kNormalSteps = 32767.0f;
+
+/// Returns the decoded direction; its length is 1 within 4 units of 2^-24.
+inline std::array<float, 3> unpack_normal(PackedNormal packed) {
+  float x = std::max(static_cast<float>(packed.u) / kNormalSteps, -1.0f);
+  float y = std::max(static_cast<float>(packed.v) / kNormalSteps, -1.0f);
+  const float z = 1.0f - std::fabs(x) - std::fabs(y);
+  if (z < 0) {
+    const float fold_x = 1.0f - std::fabs(y);
+    const float fold_y = 1.0f - std::fabs(x);
+    x = x < 0 ? -fold_x : fold_x;
+    y = y < 0 ? -fold_y : fold_y;
+  }
+  const float length = std::sqrt(x * x + y * y + z * z);
+  return {x / length, y / length, z / length};
+}
+
+/// Returns the packed direction nearest to (x, y, z), which is finite and not zero.
+inline PackedNormal pack_normal(double x, double y, double z) {
+  const double sum = std::fabs(x) + std::fabs(y) + std::fabs(z);
+  double u = x / sum;
+  double v = y / sum;
+  if (z < 0) {
+    const double fold_u = 1.0 - std::fabs(v);
+    const double fold_v = 1.0 - std::fabs(u);
+    u = u < 0 ? -fold_u : fold_u;
+    v = v < 0 ? -fold_v : fold_v;
+  }
+  const auto step = [](double value) {
+    const double scaled = value * 32767.0;
+    const double rounded = scaled < 0 ? scaled - 0.5 : scaled + 0.5;
+    return static_cast<std::int16_t>(std::clamp(rounded, -32767.0, 32767.0));
+  };
+  return {step(u), step(v)};
+}
+
+/// Returns the length of one step of a plane offset or a radius, for a child whose box has edges of
+/// these lengths. 16 bits cover a whole diagonal, because the centre of a box only a few ulps large
+/// may be rounded to one of its sides.
+inline float plane_step(float dx, float dy, float dz) {
+  return std::sqrt(dx * dx + dy * dy + dz * dz) * (1.0f / 32000.0f);
+}
+
+/// An axis-aligned box in float, relative to the model's centre.
+struct FloatBox {
+  std::array<float, 3> lower{};
+  std::array<float, 3> upper{};
+
+  std::array<float, 3> centre() const {
+    return {(lower[0] + upper[0]) * 0.5f, (lower[1] + upper[1]) * 0.5f,
+            (lower[2] + upper[2]) * 0.5f};
+  }
+  float plane_step() const {
+    return octree::plane_step(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
+  }
+  bool holds(const FloatBox& other) const {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!(lower[axis] <= other.lower[axis] && other.upper[axis] <= upper[axis])) return false;
+    return true;
+  }
+  float diagonal_squared() const {
+    const float dx = upper[0] - lower[0], dy = upper[1] - lower[1], dz = upper[2] - lower[2];
+    return dx * dx + dy * dy + dz * dz;
+  }
+};
 
 struct PackedChild {
   std::array<std::uint8_t, 3> lower{};  ///< steps up from the node's lower sides

@@ -1,11 +1,11 @@
-#include "octree/geometry/exact_predicates.h"
+#include "octree/geometry/predicates.h"
 
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
-#include "octree/geometry/double_parts.h"
+#include "octree/geometry/wide_numbers.h"
 
 namespace planetree::octree {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "octree/geometry/exact_predicates.h"
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {

@@ -10,8 +10,7 @@
 
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/triangle_kernels-inl.h"
-#include "octree/geometry/triangle_rows.h"
-#include "octree/geometry/vector3.h"
+#include "octree/geometry/wide_numbers.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {

@@ -15,7 +15,6 @@
 #include <hwy/highway.h>
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/geometry/triangle_rows.h"
 #include "octree/geometry/wide_floats-inl.h"
 
 HWY_BEFORE_NAMESPACE();

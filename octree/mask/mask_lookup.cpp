@@ -5,7 +5,6 @@
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
-#include "octree/mask/mask_records.h"
 #include "octree/mask/side_grid.h"
 
 namespace planetree::octree {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "octree/geometry/strict_math.h"
-#include "octree/mask/mask_records.h"
+#include "octree/mask/mask_lookup.h"
 
 namespace planetree::octree {
 

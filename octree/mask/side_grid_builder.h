@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "octree/mask/mask_records.h"
+#include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 
 namespace planetree::octree {

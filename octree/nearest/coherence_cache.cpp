@@ -5,11 +5,10 @@
 #include <bit>
 
 #include "octree/geometry/strict_math.h"
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
-#include "octree/traversal/child_overlap.h"
-#include "octree/traversal/link_resolver.h"
-#include "octree/traversal/triangle_overlap.h"
+#include "octree/traversal/overlap.h"
+#include "octree/traversal/tree_view.h"
 
 namespace planetree::octree {
 namespace {

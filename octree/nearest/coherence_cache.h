@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/traversal/nearby_subtrees.h"
-#include "octree/traversal/nearby_triangles.h"
+#include "octree/traversal/nearby_lists.h"
 #include "octree/traversal/tree_view.h"
 
 namespace planetree::octree {

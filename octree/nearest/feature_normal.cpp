@@ -7,14 +7,14 @@
 
 #include <Eigen/Geometry>
 
-#include "octree/geometry/angle.h"
+#include "octree/geometry/angles.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
-#include "octree/geometry/vector3.h"
+#include "octree/geometry/wide_numbers.h"
 #include "octree/nearest/height_field.h"
-#include "octree/traversal/box_walk.h"
 #include "octree/traversal/outcodes.h"
-#include "octree/traversal/triangle_overlap.h"
+#include "octree/traversal/overlap.h"
+#include "octree/traversal/tree_walk.h"
 
 namespace planetree::octree {
 namespace {

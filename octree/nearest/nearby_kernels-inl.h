@@ -13,12 +13,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "octree/geometry/packed_lanes-inl.h"
 #include "octree/geometry/triangle_kernels-inl.h"
+#include "octree/geometry/wide_floats-inl.h"
 #include "octree/nearest/best_triangle.h"
 #include "octree/traversal/bounds.h"
-#include "octree/traversal/nearby_subtrees.h"
-#include "octree/traversal/nearby_triangles.h"
+#include "octree/traversal/nearby_lists.h"
 #include "octree/traversal/node_kernels-inl.h"
 #include "octree/traversal/triangle_filter-inl.h"
 

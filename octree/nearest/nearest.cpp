@@ -10,7 +10,6 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/nearest/best_triangle.h"
 #include "octree/nearest/coherence_cache.h"
-#include "octree/nearest/finalize.h"
 #include "octree/nearest/nearby_kernels-inl.h"
 #include "octree/nearest/nearest_traversal-inl.h"
 #include "octree/traversal/bounds.h"

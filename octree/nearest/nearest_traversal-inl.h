@@ -14,17 +14,14 @@
 
 #include "octree/geometry/triangle_kernels-inl.h"
 #include "octree/nearest/best_triangle.h"
-#include "octree/nearest/candidates.h"
+#include "octree/nearest/candidates-inl.h"
 #include "octree/nearest/coherence_cache.h"
-#include "octree/nearest/filtered_blocks-inl.h"
-#include "octree/nearest/finalize.h"
 #include "octree/nearest/nearby_kernels-inl.h"
-#include "octree/page/block_view.h"
-#include "octree/page/child_box.h"
+#include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/frontier.h"
-#include "octree/traversal/link_resolver.h"
 #include "octree/traversal/node_kernels-inl.h"
+#include "octree/traversal/tree_view.h"
 #include "octree/traversal/triangle_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "octree/geometry/strict_math.h"
-#include "octree/page/block_numbers.h"
 #include "octree/page/block_unpacking.h"
 
 namespace planetree::octree {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "octree/page/frame.h"
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 
 namespace planetree::octree {
 

@@ -1,4 +1,4 @@
-#include "octree/page/mask_decoder.h"
+#include "octree/page/page_decoder.h"
 
 #include <algorithm>
 #include <bit>

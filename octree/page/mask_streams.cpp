@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "octree/page/stream_reader.h"
+#include "octree/page/byte_split.h"
 
 namespace planetree::octree {
 namespace {

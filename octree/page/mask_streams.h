@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "octree/page/raw_streams.h"
+#include "octree/page/byte_split.h"
 
 /// The raw bytes of a mask page, specified in format-spec/v1/spec.md, "Mask page": a head, then
 /// these streams without padding:

@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h>
 
 #include "octree/geometry/strict_math.h"
-#include "octree/page/child_sides-inl.h"
+#include "octree/page/frame_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {

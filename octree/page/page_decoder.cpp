@@ -7,10 +7,10 @@
 
 #include "octree/geometry/strict_math.h"
 #include "octree/page/block_decoder.h"
-#include "octree/page/child_box.h"
+#include "octree/page/frame.h"
 #include "octree/page/moments.h"
 #include "octree/page/node_unpacking.h"
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 
 namespace planetree::octree {
 namespace {

@@ -2,6 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+
+#include "octree/page/byte_split.h"
+#include "octree/page/frame.h"
 
 /// The head of a distance page's raw bytes, specified in format-spec/v1/spec.md, "Distance page".
 /// These streams follow it, in the order of the specification and without padding:
@@ -72,5 +76,39 @@ constexpr unsigned corner_bits(unsigned vertex_count) {
 constexpr std::size_t corner_bytes(unsigned triangle_count, unsigned vertex_count) {
   return (std::size_t{3} * triangle_count * corner_bits(vertex_count) + 7) / 8;
 }
+
+/// The streams of a distance page. Their lengths have been checked, their contents have not.
+struct RawStreams {
+  PageHead head{};
+  ByteSplit<float> root_boxes;
+  ByteSplit<std::uint8_t> child_counts, heights;
+  ByteSplit<std::uint16_t> child_kinds;
+  ByteSplit<std::uint8_t> child_boxes;  ///< 6 planes of child_count
+  ByteSplit<std::int16_t> child_normals, child_slabs;
+  ByteSplit<std::uint16_t> child_radii;
+  ByteSplit<std::int16_t> child_dipoles;     ///< 3 planes of child_count, or none
+  ByteSplit<std::int8_t> child_quadrupoles;  ///< 5 planes
+  ByteSplit<std::uint16_t> child_areas, child_second_moments;
+  ByteSplit<std::uint32_t> page_links;
+  ByteSplit<std::uint8_t> triangle_counts;  ///< with kHeightFieldBit, kCompactBit
+  ByteSplit<std::uint8_t> vertex_counts, new_counts;
+  ByteSplit<std::uint16_t> vertex_refs;
+  std::span<const std::byte> corners;
+  ByteSplit<float> vertices32;
+  ByteSplit<double> vertices64;
+  ByteSplit<std::uint32_t> first_ids32, id_steps32;
+  ByteSplit<std::uint64_t> first_ids64, id_steps64;
+
+  std::uint8_t triangle_count(std::size_t block) const {
+    return triangle_counts[block] & kCountBits;
+  }
+  bool is_height_field(std::size_t block) const {
+    return (triangle_counts[block] & kHeightFieldBit) != 0;
+  }
+  bool compact(std::size_t block) const { return (triangle_counts[block] & kCompactBit) != 0; }
+
+  /// Locates the streams in `raw`, which must outlive this object. Returns null, or a fault.
+  const char* read(std::span<const std::byte> raw, const BlockShape& shape) noexcept;
+};
 
 }  // namespace planetree::octree

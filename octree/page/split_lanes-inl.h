@@ -1,4 +1,4 @@
-// Loads elements of byte-stream split arrays (ByteSplit, octree/page/raw_streams.h) into registers
+// Loads elements of byte-stream split arrays (ByteSplit, octree/page/byte_split.h) into registers
 // of 16 bytes. Compiled once for each instruction set that Highway targets, except the scalar one,
 // which has no such registers.
 

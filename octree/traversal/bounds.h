@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/page/child_box.h"
 #include "octree/page/frame.h"
 
 /// Lower bounds, in float, on the distance to the surface within a child's box and disc, and their

@@ -14,7 +14,7 @@
 #include <limits>
 
 #include "octree/geometry/wide_floats-inl.h"
-#include "octree/page/child_sides-inl.h"
+#include "octree/page/frame_lanes-inl.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/frontier.h"
 

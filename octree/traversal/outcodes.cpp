@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "octree/geometry/wide_floats-inl.h"
-#include "octree/page/corner_codes-inl.h"
+#include "octree/page/frame_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 
 namespace planetree::octree {
 

@@ -1,14 +1,38 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
 #include "octree/geometry/triangle_distance.h"
 #include "octree/page/frame.h"
-#include "octree/page/frame_table.h"
 
-/// A tree as traversals see it: the data of its header, and access to its pages.
+/// A tree as traversals see it: the data of its header, access to its pages, and the records that
+/// links lead to. FrameTable and FrameReleaseHook are the interface between the cache, which holds
+/// frames, and readers that keep or prefetch pointers to them.
 namespace planetree::octree {
+
+/// Addresses of frames for prefetching. Nothing is read through these addresses, so that a page may
+/// be evicted meanwhile.
+struct FrameTable {
+  const std::atomic<std::uint32_t>* cells = nullptr;  ///< frame + 1; 0: not resident
+  const std::byte* frames = nullptr;
+  std::uint64_t stride_bytes = 0;  ///< distance from frame to frame
+
+  /// Returns the frame of a page, or some other page's frame if the page is not resident. Has no
+  /// branch.
+  const std::byte* frame_of(std::uint32_t page) const {
+    const std::uint32_t cell = cells[page].load(std::memory_order_relaxed);
+    return frames + stride_bytes * (cell - static_cast<std::uint32_t>(cell != 0));
+  }
+};
+
+/// Callback of a reader that keeps pointers to frames between calls. It is called before those
+/// frames may be reused.
+struct FrameReleaseHook {
+  void* context = nullptr;
+  void (*on_release)(void* context) noexcept = nullptr;
+};
 
 struct PageReader;
 
@@ -53,6 +77,104 @@ struct TraversalStats {
   std::uint64_t blocks = 0;
   std::uint64_t triangles = 0;  ///< evaluated in double
   std::uint64_t page_switches = 0;
+};
+
+/// Finds the record that a link leads to. Looks a page up only when it differs from the last one.
+class LinkResolver {
+ public:
+  LinkResolver(const TreeInfo& tree, const PageReader& pages)
+      : links_(tree.page_bytes), node_slots_(tree.shape.node_slots()), pages_(pages) {}
+
+  /// A number that no page has.
+  static constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
+
+  /// Returns the node or block that `link` leads to, valid until the next call; null if its page is
+  /// not available or has no such record.
+  ///
+  /// from  page of the node with the link, as page() returned it; kNoPage if not known
+  const std::byte* find(std::uint32_t link, TraversalStats& work, std::uint32_t from = kNoPage) {
+    const std::uint32_t page = links_.page(link);
+    const std::uint32_t slot = links_.slot(link);
+    if (!is_in_current_page(link)) {
+      ++work.page_switches;
+      page_number_ = page;
+      frame_ = pages_.page(pages_.context, page);
+    }
+    // Links within a page were checked when it was decoded. Links between pages can be checked only
+    // when both pages are decoded.
+    if (!frame_ || (page != from && !leads_to_record(link, slot))) return nullptr;
+    return frame_ + slot * kSlotBytes;
+  }
+  /// Returns whether the record is in the page that was found last.
+  bool is_in_current_page(std::uint32_t link) const {
+    return links_.page(link) == page_number_ && frame_;
+  }
+  /// Returns the page of the last record.
+  std::uint32_t page() const { return page_number_; }
+
+  /// A child, given by its node and its index there.
+  struct Child {
+    const Node* node = nullptr;
+    unsigned index = 0;
+  };
+  /// Searches the nodes of a page for the child with `link`. Returns no node if the page is not
+  /// resident or has no such child.
+  Child find_parent(std::uint32_t link, std::uint32_t page) const {
+    const std::byte* frame =
+        pages_.peek && page != kNoPage ? pages_.peek(pages_.context, page) : nullptr;
+    if (!frame) return {};
+    const auto& header = *reinterpret_cast<const FrameHeader*>(frame);
+    for (unsigned i = 0; i < header.node_count; ++i) {
+      const unsigned slot = header.first_node_slot + i * node_slots_;
+      const auto* node = reinterpret_cast<const Node*>(frame + slot * kSlotBytes);
+      for (unsigned index = 0; index < node->child_count; ++index)
+        if (node->link[index] == link) return {node, index};
+    }
+    return {};
+  }
+
+  /// Prefetches the first cache lines of a record if its page is resident. No answer depends on it.
+  /// No branch depends on the link, because it would be mispredicted.
+  ///
+  /// kNodeLines  lines of a node to prefetch; by default those that queries nearby read
+  template <std::size_t kNodeLines = kNearNodeSlots>
+  [[gnu::always_inline]] void prefetch(std::uint32_t link) const {
+    if (!pages_.frames.cells) return;
+    const std::byte* frame = pages_.frames.frame_of(links_.page(link));
+    const std::uint32_t slot = links_.slot(link);
+    const std::size_t leaf = link >> 31;
+    const std::byte* record = frame + slot * kSlotBytes;
+#pragma GCC unroll 8
+    for (std::size_t i = 0; i < kNodeLines; ++i) __builtin_prefetch(record + i * kSlotBytes);
+    // For a node, the remaining prefetches repeat its last line.
+    const std::byte* last = record + (kNodeLines - 1) * kSlotBytes;
+#pragma GCC unroll 8
+    for (std::size_t i = kNodeLines; i < kBlockLines; ++i)
+      __builtin_prefetch(last += leaf * kSlotBytes);
+  }
+
+ private:
+  static constexpr std::size_t kBlockLines = 4;  // covers all of most blocks
+
+  bool leads_to_record(std::uint32_t link, std::uint32_t slot) const {
+    const auto& header = *reinterpret_cast<const FrameHeader*>(frame_);
+    if (LinkFormat::is_leaf(link)) {
+      const auto* starts = reinterpret_cast<const std::uint64_t*>(frame_ + kSlotBytes);
+      return (starts[slot / 64] >> slot % 64 & 1) != 0;
+    }
+    if (slot < header.first_node_slot) return false;
+    const std::uint32_t offset = slot - header.first_node_slot;
+    // Constant divisors: a division by node_slots_ would take as long as the node's bounds.
+    const bool aligned = node_slots_ == kNodeSlots ? offset % kNodeSlots == 0
+                                                   : offset % (kNodeSlots + kMomentSlots) == 0;
+    return aligned && offset < header.node_count * node_slots_;
+  }
+
+  const LinkFormat links_;
+  const unsigned node_slots_;
+  const PageReader& pages_;
+  std::uint32_t page_number_ = kNoPage;
+  const std::byte* frame_ = nullptr;
 };
 
 }  // namespace planetree::octree

@@ -12,10 +12,10 @@
 #include <limits>
 
 #include "octree/geometry/wide_floats-inl.h"
-#include "octree/page/block_triangles-inl.h"
 #include "octree/page/frame.h"
+#include "octree/page/frame_lanes-inl.h"
 #include "octree/traversal/bounds.h"
-#include "octree/traversal/nearby_triangles.h"
+#include "octree/traversal/nearby_lists.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {

@@ -12,8 +12,8 @@
 #include <cstdint>
 
 #include "octree/geometry/predicates.h"
+#include "octree/geometry/triangle_distance.h"
 #include "octree/geometry/triangle_kernels-inl.h"
-#include "octree/geometry/triangle_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {

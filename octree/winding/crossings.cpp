@@ -8,11 +8,10 @@
 #include <bit>
 
 #include "octree/geometry/strict_math.h"
-#include "octree/geometry/triangle_rows.h"
-#include "octree/traversal/link_resolver.h"
+#include "octree/geometry/triangle_distance.h"
+#include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossing_kernels-inl.h"
-#include "octree/winding/float_segment.h"
 #include "octree/winding/segment_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/geometry/angles.h"
 #include "octree/geometry/certain_sum.h"
-#include "octree/geometry/solid_angle.h"
 #include "octree/geometry/strict_math.h"
-#include "octree/page/block_view.h"
-#include "octree/traversal/link_resolver.h"
+#include "octree/page/frame.h"
+#include "octree/traversal/tree_view.h"
 #include "octree/winding/multipole.h"
 
 namespace planetree::octree {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "octree/geometry/region.h"
+#include "octree/geometry/cell_grid.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/traversal/tree_view.h"

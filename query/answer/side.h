@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "octree/geometry/cell_grid.h"
-#include "octree/mask/mask_records.h"
+#include "octree/mask/mask_lookup.h"
 #include "octree/traversal/tree_view.h"
 #include "planetree/types.h"
 #include "query/answer/model_geometry.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "octree/geometry/clipped_grid.h"
+#include "octree/geometry/cell_grid.h"
 #include "octree/geometry/strict_math.h"
 #include "query/answer/exit_segments.h"
 

@@ -1,7 +1,6 @@
 #include "query/file/page_decoding.h"
 
 #include "octree/page/frame.h"
-#include "octree/page/mask_decoder.h"
 #include "octree/page/mask_frame.h"
 #include "octree/page/page_decoder.h"
 

@@ -19,7 +19,7 @@ octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept;
 /// page    page number, below header.page_count
 /// raw     raw bytes of the page; any bytes are allowed
 /// frame   header.page_bytes bytes, aligned to 64 bytes; undefined after an error
-/// errors  kDamaged: see octree/page/page_decoder.h and octree/page/mask_decoder.h
+/// errors  kDamaged: see octree/page/page_decoder.h
 Result<void> decode_frame(const storage::FileHeader& header, const storage::PageEntry& entry,
                           std::uint32_t page, std::span<const std::byte> raw,
                           std::span<std::byte> frame) noexcept;

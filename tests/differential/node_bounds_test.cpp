@@ -13,10 +13,10 @@
 
 #include <hwy/targets.h>
 
-#include "octree/traversal/nearby_triangles.h"
+#include "octree/traversal/nearby_lists.h"
 #include "octree/traversal/node_kernels-inl.h"
+#include "octree/traversal/overlap.h"
 #include "octree/traversal/triangle_filter-inl.h"
-#include "octree/traversal/triangle_overlap.h"
 #include "tests/differential/tree_pages.h"
 #include "tests/oracle/nasty_models.h"
 #include "tests/oracle/random.h"

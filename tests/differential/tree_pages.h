@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "octree/page/block_view.h"
 #include "octree/page/frame.h"
 #include "storage/file/file_layout.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "octree/mask/mask_lookup.h"
-#include "octree/page/mask_decoder.h"
 #include "octree/page/mask_streams.h"
+#include "octree/page/page_decoder.h"
 #include "tests/fuzz/fuzz_frame.h"
 
 /// Decodes arbitrary bytes as pages of a small mask and looks points up in it. Input by offset:

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "octree/geometry/child_bounds.h"
-#include "octree/geometry/plane.h"
 #include "tests/golden/spec_reader.h"
 #include "tests/golden/spec_text.h"
 

@@ -29,7 +29,7 @@ TEST(SourceText, RecognisesStandardHeaders) {
 TEST(Layers, AllowFoldersBelow) {
   EXPECT_EQ(forbidden_in("octree/builder/merge.cpp",
                          "#include \"storage/file/page_writer.h\"\n"
-                         "#include \"octree/geometry/plane.h\"\n"
+                         "#include \"octree/geometry/child_bounds.h\"\n"
                          "#include \"planetree/types.h\"\n"
                          "#include <tbb/task_arena.h>\n"),
             Lines{});
@@ -48,7 +48,7 @@ TEST(Layers, RefuseFoldersAboveOrBeside) {
   EXPECT_EQ(forbidden_in("query/answer/a.h", "#include \"query/serve/pager.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("query/a.cpp", "#include \"tools/cli/progress.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("storage/file/a.h", "#include \"planetree/types.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("examples/a.cpp", "#include \"octree/geometry/plane.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("examples/a.cpp", "#include \"octree/geometry/child_bounds.h\"\n").size(), 1u);
 }
 
 TEST(Layers, RefuseFoldersWithoutARow) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "octree/page/mask_streams.h"
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 #include "planetree/error.h"
 #include "query/file/page_decoding.h"
 #include "storage/file/file_layout.h"

@@ -3,8 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "octree/page/block_view.h"
-#include "octree/page/child_box.h"
 #include "octree/page/frame.h"
 #include "octree/page/moments.h"
 

@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "octree/geometry/child_bounds.h"
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 #include "octree/page/moments.h"
 #include "storage/file/file_layout.h"
 #include "tools/check/edge_check.h"

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "octree/geometry/clipped_grid.h"
-#include "octree/page/block_view.h"
+#include "octree/geometry/cell_grid.h"
+#include "octree/page/frame.h"
 #include "planetree/error.h"
 #include "tools/check/file_check.h"
 #include "tools/check/mask_walk.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "octree/geometry/vector3.h"
+#include "octree/geometry/wide_numbers.h"
 #include "octree/page/moments.h"
 #include "octree/traversal/bounds.h"
 #include "tools/check/frame_view.h"

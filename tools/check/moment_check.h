@@ -1,7 +1,6 @@
 #pragma once
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/page/block_view.h"
 #include "octree/page/frame.h"
 #include "tools/check/geometry_check.h"
 

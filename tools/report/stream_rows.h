@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "octree/page/mask_streams.h"
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 
 namespace planetree::tools {
 

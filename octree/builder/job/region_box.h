@@ -1,7 +1,7 @@
 #pragma once
 
 #include "octree/builder/job/model_frame.h"
-#include "octree/geometry/region.h"
+#include "octree/geometry/cell_grid.h"
 #include "planetree/error.h"
 #include "planetree/types.h"
 

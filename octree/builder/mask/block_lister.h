@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "octree/geometry/clipped_grid.h"
+#include "octree/geometry/cell_grid.h"
 #include "octree/page/mask_frame.h"
 #include "octree/traversal/tree_view.h"
 

@@ -14,7 +14,7 @@
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/nearest/height_field.h"
-#include "octree/traversal/box_walk.h"
+#include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossings.h"
 
 namespace planetree::octree {

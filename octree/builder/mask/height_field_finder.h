@@ -1,7 +1,7 @@
 #pragma once
 
 #include "octree/mask/mask_lookup.h"
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 #include "octree/traversal/tree_view.h"
 
 namespace planetree::octree {

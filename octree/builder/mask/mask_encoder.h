@@ -10,7 +10,7 @@
 
 namespace planetree::octree {
 
-/// Makes the raw bytes of mask pages, as octree/page/mask_decoder.h reads them. Any number of
+/// Makes the raw bytes of mask pages, as octree/page/page_decoder.h reads them. Any number of
 /// threads; the bytes depend on the arguments alone.
 class MaskEncoder {
  public:

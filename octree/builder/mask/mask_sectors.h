@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "octree/builder/sort/triangle_runs.h"
-#include "octree/geometry/clipped_grid.h"
+#include "octree/geometry/cell_grid.h"
 #include "storage/spill/spill_runs.h"
 
 namespace planetree::octree {

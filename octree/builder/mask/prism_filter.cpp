@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "octree/page/block_triangles-inl.h"
+#include "octree/page/frame_lanes-inl.h"
 
 #include "octree/geometry/strict_math.h"
 

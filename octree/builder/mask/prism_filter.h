@@ -3,7 +3,7 @@
 #include <array>
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 
 namespace planetree::octree {
 

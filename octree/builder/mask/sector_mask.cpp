@@ -11,7 +11,7 @@
 #include "octree/builder/mask/slab_fit.h"
 #include "octree/builder/surface/edge_count.h"
 #include "octree/builder/surface/edge_crossings.h"
-#include "octree/geometry/clipped_grid.h"
+#include "octree/geometry/cell_grid.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 

@@ -5,7 +5,7 @@
 
 #include "octree/builder/mask/mask_tree.h"
 #include "octree/builder/sort/triangles.h"
-#include "octree/geometry/clipped_grid.h"
+#include "octree/geometry/cell_grid.h"
 
 namespace planetree::octree {
 

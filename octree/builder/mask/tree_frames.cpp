@@ -4,7 +4,6 @@
 #include <new>
 
 #include "octree/geometry/strict_math.h"
-#include "octree/page/mask_decoder.h"
 #include "octree/page/page_decoder.h"
 
 namespace planetree::octree {

@@ -6,7 +6,7 @@
 #include "octree/builder/sort/triangle_runs.h"
 #include "octree/builder/sort/triangles.h"
 #include "octree/builder/surface/edge_crossings.h"
-#include "octree/geometry/region.h"
+#include "octree/geometry/cell_grid.h"
 #include "planetree/error.h"
 
 namespace planetree::octree {

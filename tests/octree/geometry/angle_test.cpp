@@ -1,4 +1,4 @@
-#include "octree/geometry/angle.h"
+#include "octree/geometry/angles.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "octree/builder/tree/float_rounding.h"
-#include "octree/geometry/plane.h"
 #include "octree/traversal/bounds.h"
 #include "tests/octree/support/sample_tree.h"
 

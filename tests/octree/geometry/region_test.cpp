@@ -1,11 +1,9 @@
-#include "octree/geometry/region.h"
+#include "octree/geometry/cell_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-
-#include "octree/geometry/clipped_grid.h"
 
 namespace planetree::octree {
 namespace {

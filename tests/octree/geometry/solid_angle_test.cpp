@@ -1,4 +1,4 @@
-#include "octree/geometry/solid_angle.h"
+#include "octree/geometry/angles.h"
 
 #include <cmath>
 #include <limits>

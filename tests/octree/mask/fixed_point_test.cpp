@@ -1,4 +1,4 @@
-#include "octree/mask/fixed_point.h"
+#include "octree/mask/grid_coordinates.h"
 
 #include <gtest/gtest.h>
 

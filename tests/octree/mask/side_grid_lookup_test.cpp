@@ -1,4 +1,4 @@
-#include "octree/mask/side_grid_lookup.h"
+#include "octree/mask/side_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 #include "tests/octree/support/each_target.h"
 #include "tests/octree/support/sample_tree.h"
 

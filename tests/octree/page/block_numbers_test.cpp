@@ -1,4 +1,4 @@
-#include "octree/page/block_numbers.h"
+#include "octree/page/block_unpacking.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 #include "tests/octree/support/each_block.h"
 #include "tests/octree/support/sample_tree.h"
 

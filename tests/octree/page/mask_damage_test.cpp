@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "octree/mask/mask_lookup.h"
-#include "octree/page/mask_decoder.h"
 #include "octree/page/mask_streams.h"
+#include "octree/page/page_decoder.h"
 #include "tests/octree/mask/random_mask.h"
 #include "tests/octree/support/sample_mask.h"
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "octree/builder/tree/moment_sums.h"
+#include "octree/geometry/angles.h"
 #include "octree/geometry/certain_sum.h"
-#include "octree/geometry/solid_angle.h"
 #include "octree/winding/multipole.h"
 #include "tests/octree/support/sample_tree.h"
 

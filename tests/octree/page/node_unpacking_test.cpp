@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "octree/page/child_box.h"
+#include "octree/page/frame.h"
 #include "tests/octree/support/each_target.h"
 
 namespace planetree::octree {

@@ -8,8 +8,7 @@
 #include <map>
 
 #include "octree/nearest/nearest.h"
-#include "octree/page/block_view.h"
-#include "octree/page/child_box.h"
+#include "octree/page/frame.h"
 #include "tests/octree/page/raw_page.h"
 #include "tests/octree/support/sample_tree.h"
 

@@ -307,7 +307,7 @@ TEST(PageRefusal, CoversEveryMessageOfTheDecoder) {
   for (const Corruption& corruption : all_corruptions()) reached.insert(corruption.sentence);
   const std::regex sentence("(return|[:?=]) \"([^\"]+)\";");
   std::size_t written = 0;
-  for (const char* name : {"raw_streams", "page_decoder", "block_decoder"}) {
+  for (const char* name : {"page_streams", "page_decoder", "block_decoder"}) {
     std::ifstream file(std::string(PLANETREE_SOURCE_DIR "/octree/page/") + name + ".cpp");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     for (std::sregex_iterator match(text.begin(), text.end(), sentence), end; match != end;

@@ -7,7 +7,6 @@
 
 #include "octree/builder/tree/stream_writer.h"
 #include "octree/page/page_streams.h"
-#include "octree/page/raw_streams.h"
 #include "tests/octree/page/stream_list.h"
 
 namespace planetree::octree {

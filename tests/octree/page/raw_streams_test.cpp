@@ -1,4 +1,4 @@
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 
 namespace planetree::octree {
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "octree/page/block_view.h"
 #include "octree/page/frame.h"
 #include "tests/octree/support/sample_tree.h"
 

@@ -8,7 +8,7 @@
 #include "octree/builder/mask/height_field_finder.h"
 #include "octree/builder/mask/tree_frames.h"
 #include "octree/builder/surface/region_cut.h"
-#include "octree/page/block_view.h"
+#include "octree/page/frame.h"
 #include "tests/octree/builder/chunked_tree.h"
 #include "tests/octree/support/sample_mask.h"
 

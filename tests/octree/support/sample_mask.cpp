@@ -8,7 +8,7 @@
 
 #include "octree/builder/mask/mask_encoder.h"
 #include "octree/geometry/predicates.h"
-#include "octree/page/mask_decoder.h"
+#include "octree/page/page_decoder.h"
 #include "tests/octree/support/exact_overlap.h"
 
 namespace planetree::octree {

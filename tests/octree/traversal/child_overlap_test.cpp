@@ -1,4 +1,4 @@
-#include "octree/traversal/child_overlap.h"
+#include "octree/traversal/overlap.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "octree/page/child_box.h"
-#include "octree/traversal/nearby_subtrees.h"
+#include "octree/page/frame.h"
+#include "octree/traversal/nearby_lists.h"
 #include "tests/octree/support/each_target.h"
 
 namespace planetree::octree {

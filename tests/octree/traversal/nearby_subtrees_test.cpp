@@ -1,4 +1,4 @@
-#include "octree/traversal/nearby_subtrees.h"
+#include "octree/traversal/nearby_lists.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "octree/traversal/nearby_triangles.h"
+#include "octree/traversal/nearby_lists.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "octree/traversal/triangle_overlap.h"
+#include "octree/traversal/overlap.h"
 #include "tests/octree/support/each_target.h"
 
 namespace planetree::octree {

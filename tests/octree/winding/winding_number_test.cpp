@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "octree/geometry/solid_angle.h"
+#include "octree/geometry/angles.h"
 #include "tests/octree/support/sample_tree.h"
 
 namespace planetree::octree {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "octree/page/page_streams.h"
-#include "octree/page/raw_streams.h"
 #include "tests/octree/support/height_field_model.h"
 #include "tests/storage/system/faulty_calls.h"
 

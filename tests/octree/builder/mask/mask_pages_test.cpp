@@ -7,7 +7,7 @@
 #include <string>
 
 #include "octree/builder/mask/mask_encoder.h"
-#include "octree/page/mask_decoder.h"
+#include "octree/page/page_decoder.h"
 #include "tests/octree/mask/random_mask.h"
 #include "tests/octree/support/sample_mask.h"
 

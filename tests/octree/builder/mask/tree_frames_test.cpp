@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "octree/builder/surface/region_cut.h"
-#include "octree/page/mask_decoder.h"
+#include "octree/page/page_decoder.h"
 #include "tests/octree/builder/chunked_tree.h"
 #include "tests/octree/support/height_field_model.h"
 #include "tests/octree/support/sample_mask.h"

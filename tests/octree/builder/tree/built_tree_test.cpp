@@ -6,8 +6,8 @@
 #include <string>
 
 #include "octree/builder/mask/tree_frames.h"
-#include "octree/traversal/box_walk.h"
-#include "octree/traversal/link_resolver.h"
+#include "octree/traversal/tree_view.h"
+#include "octree/traversal/tree_walk.h"
 #include "tests/octree/builder/chunked_tree.h"
 #include "tests/octree/support/sample_mask.h"
 

@@ -1,6 +1,6 @@
-#include "octree/page/raw_streams.h"
+#include "octree/page/page_streams.h"
 
-#include "octree/page/stream_reader.h"
+#include "octree/page/byte_split.h"
 
 namespace planetree::octree {
 namespace {

@@ -1,11 +1,41 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
-
-#include "octree/page/raw_streams.h"
+#include <type_traits>
 
 namespace planetree::octree {
+
+/// View of a byte-stream split array: byte k of element i is at [k * count + i].
+template <class T>
+class ByteSplit {
+ public:
+  ByteSplit() = default;
+  ByteSplit(const std::byte* bytes, std::size_t count) : bytes_(bytes), count_(count) {}
+  static constexpr std::size_t bytes_for(std::size_t count) { return count * sizeof(T); }
+  std::size_t size() const { return count_; }
+  const std::byte* bytes() const { return bytes_; }
+
+  T operator[](std::size_t index) const {
+    using Bits = std::conditional_t<
+        sizeof(T) == 8, std::uint64_t,
+        std::conditional_t<sizeof(T) == 4, std::uint32_t,
+                           std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
+    Bits bits = 0;
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < sizeof(T); ++k)
+      bits = static_cast<Bits>(bits | static_cast<Bits>(bytes_[k * count_ + index]) << (8 * k));
+    T value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  }
+
+ private:
+  const std::byte* bytes_ = nullptr;
+  std::size_t count_ = 0;
+};
 
 /// Takes arrays off the front of a span of bytes. Once the bytes do not suffice, all further arrays
 /// are empty.

@@ -1,4 +1,4 @@
-#include "octree/nearest/finalize.h"
+#include "octree/nearest/best_triangle.h"
 
 #include <algorithm>
 #include <cmath>
