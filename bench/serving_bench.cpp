@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include "cache/reader_slot.h"
+#include "cache/protocol.h"
 #include "planetree/probe.h"
 #include "query/model_state.h"
 #include "tools/session/real_time.h"

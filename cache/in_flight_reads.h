@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -125,6 +127,57 @@ void InFlightReads::abandon(std::uint32_t page, const Wake& wake) noexcept {
     --waiting_;
     wake(fetcher);
   });
+}
+
+inline bool InFlightReads::is_being_read(std::uint32_t page) const noexcept {
+  return std::any_of(
+      in_flight_reads_.begin(), in_flight_reads_.end(), [page](const InFlightRead& in_flight) {
+        return in_flight.stage == InFlightRead::Stage::kReads && in_flight.page == page;
+      });
+}
+
+inline void InFlightReads::read(std::uint32_t fetcher, std::uint32_t page) noexcept {
+  assert(in_flight_reads_[fetcher].stage == InFlightRead::Stage::kNone && !is_being_read(page));
+  in_flight_reads_[fetcher].stage = InFlightRead::Stage::kReads;
+  in_flight_reads_[fetcher].page = page;
+  if (waiting_ == 0) return;
+  for (InFlightRead& in_flight : in_flight_reads_)
+    if (waits_for(in_flight, page)) in_flight.stage = InFlightRead::Stage::kWaits;
+}
+
+inline void InFlightReads::wait(std::uint32_t fetcher, std::uint32_t page,
+                                bool reads_itself) noexcept {
+  assert(in_flight_reads_[fetcher].stage == InFlightRead::Stage::kNone);
+  const InFlightRead::Stage stage =
+      is_being_read(page) ? InFlightRead::Stage::kWaits : InFlightRead::Stage::kWanted;
+  assert(stage == InFlightRead::Stage::kWaits || !reads_itself);
+  in_flight_reads_[fetcher] = {stage, reads_itself, page, kNoFrame, next_number_++};
+  ++waiting_;
+}
+
+inline void InFlightReads::end(std::uint32_t fetcher) noexcept {
+  InFlightRead& in_flight = in_flight_reads_[fetcher];
+  if (in_flight.stage == InFlightRead::Stage::kWaits ||
+      in_flight.stage == InFlightRead::Stage::kWanted)
+    --waiting_;
+  in_flight.stage = InFlightRead::Stage::kNone;
+}
+
+inline std::uint32_t InFlightReads::next_wanted_page() const noexcept {
+  if (waiting_ == 0) return kNoPage;
+  const InFlightRead* first = nullptr;
+  for (const InFlightRead& in_flight : in_flight_reads_)
+    if (in_flight.stage == InFlightRead::Stage::kWanted &&
+        (!first || in_flight.number < first->number))
+      first = &in_flight;
+  return first ? first->page : kNoPage;
+}
+
+inline bool InFlightReads::holds(std::uint32_t frame) const noexcept {
+  return std::any_of(
+      in_flight_reads_.begin(), in_flight_reads_.end(), [frame](const InFlightRead& in_flight) {
+        return in_flight.stage == InFlightRead::Stage::kServed && in_flight.frame == frame;
+      });
 }
 
 }  // namespace planetree::cache

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cache/frame_pool.h"
-#include "cache/reader_slot.h"
+#include "cache/protocol.h"
 
 namespace planetree::cache {
 

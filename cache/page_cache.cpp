@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace planetree::cache {
+
 Result<std::unique_ptr<PageCache>> PageCache::create(const CacheLimits& limits, FillPage fill,
                                                      void* context) noexcept {
   assert(fill != nullptr);
@@ -123,6 +124,45 @@ CacheStats PageCache::stats() const noexcept {
   stats.budget_bytes = limits_.budget_bytes;
   stats.locked_bytes = locked_bytes_;
   return stats;
+}
+
+Reader::Reader(PageCache& cache, ReaderSlot& slot, std::uint32_t index) noexcept
+    : map_(cache.map_),
+      reference_bits_(cache.policy_.reference_bits()),
+      frames_(cache.frames_.frame(0)),
+      stride_bytes_(cache.frames_.stride_bytes()),
+      slot_(&slot),
+      index_(index),
+      cache_(&cache) {}
+
+Reader::Reader(Reader&& other) noexcept
+    : map_(other.map_),
+      reference_bits_(other.reference_bits_),
+      frames_(other.frames_),
+      stride_bytes_(other.stride_bytes_),
+      slot_(std::exchange(other.slot_, nullptr)),
+      index_(other.index_),
+      cache_(other.cache_) {}
+
+Reader& Reader::operator=(Reader&& other) noexcept {
+  if (this == &other) return *this;
+  give_back();
+  map_ = other.map_;
+  reference_bits_ = other.reference_bits_;
+  frames_ = other.frames_;
+  stride_bytes_ = other.stride_bytes_;
+  slot_ = std::exchange(other.slot_, nullptr);
+  index_ = other.index_;
+  cache_ = other.cache_;
+  return *this;
+}
+
+Reader::~Reader() { give_back(); }
+
+void Reader::give_back() noexcept {
+  if (slot_ == nullptr) return;
+  if (slot_->inside()) slot_->leave();
+  std::exchange(slot_, nullptr)->release();
 }
 
 }  // namespace planetree::cache

@@ -10,14 +10,13 @@
 #include <mutex>
 #include <span>
 
-#include "cache/cache_limits.h"
-#include "cache/cache_tables.h"
+#include "cache/cache_memory.h"
 #include "cache/eviction_policy.h"
 #include "cache/frame_pool.h"
 #include "cache/in_flight_reads.h"
 #include "cache/limbo.h"
-#include "cache/page_map.h"
 #include "cache/prefaulted_memory.h"
+#include "cache/protocol.h"
 #include "cache/reader.h"
 #include "planetree/error.h"
 
@@ -60,7 +59,7 @@ struct CacheStats {
 
 /// Decoded pages in a fixed number of frames.
 ///
-/// There are many readers and one writer. Readers find pages without waiting; reader_slot.h
+/// There are many readers and one writer. Readers find pages without waiting; protocol.h
 /// describes the protocol. The writer is the thread that holds the mutex. The mutex guards
 /// decisions only: pages are read and decoded without it. Each page is read by one thread, either
 /// the one that misses it or a helper (see FetchTerms).

@@ -46,6 +46,16 @@ void wait_for_sections(std::uint32_t attempt) noexcept {
 
 }  // namespace
 
+FetchResult Reader::fetch(std::uint32_t page, const FetchTerms& terms) noexcept {
+  slot_->leave();
+  return cache_->fetch(*slot_, page, terms);
+}
+
+bool Reader::help() noexcept {
+  assert(!inside());
+  return cache_->help(index_);
+}
+
 FetchResult PageCache::fetch(ReaderSlot& slot, std::uint32_t page,
                              const FetchTerms& terms) noexcept {
   assert(page < limits_.page_count);

@@ -6,8 +6,7 @@
 #include <cstdint>
 
 #include "cache/eviction_policy.h"
-#include "cache/page_map.h"
-#include "cache/reader_slot.h"
+#include "cache/protocol.h"
 
 namespace planetree::cache {
 

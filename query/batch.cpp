@@ -1,4 +1,4 @@
-#include "query/batch.h"
+#include "query/probe_state.h"
 
 #include <algorithm>
 #include <cassert>

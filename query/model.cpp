@@ -9,7 +9,6 @@
 #include "octree/geometry/fp_environment.h"
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/startup_check.h"
-#include "query/fetch_probe.h"
 #include "query/model_state.h"
 #include "query/probe_state.h"
 #include "query/serve/page_accessor.h"

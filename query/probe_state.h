@@ -7,14 +7,16 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <span>
 #include <utility>
 
 #include "cache/reader.h"
 #include "planetree/types.h"
-#include "query/answer/coherence.h"
+#include "query/answer/query_context.h"
 #include "query/serve/batch_order.h"
 #include "query/serve/fetch_requests.h"
-#include "query/serve/page_trace.h"
+#include "query/serve/fetch_threads.h"
+#include "query/serve/page_accessor.h"
 #include "query/serving_model.h"
 
 namespace planetree::query {
@@ -92,5 +94,29 @@ inline Containment ProbeState::contains_fast(const Vec3& query,
   trace_.begin_query(options.wait);
   return {winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
 }
+
+/// The probe of a fetch thread. It makes pages resident by running blocking queries.
+class QueryingFetchProbe final : public FetchProbe {
+ public:
+  QueryingFetchProbe(const ServingModel& model, cache::Reader reader)
+      : probe_(ProbeState::create(model, std::move(reader))) {}
+
+  void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
+                   const std::atomic<bool>& stop) noexcept override {
+    probe_->fetch_pages(query, options, is_prefetch, stop);
+  }
+  bool read_awaited_page() noexcept override { return probe_->reader().help(); }
+
+ private:
+  std::unique_ptr<ProbeState> probe_;
+};
+
+/// See Probe::closest_points.
+void closest_points(ProbeState& probe, std::span<const Vec3> queries,
+                    std::span<ClosestPoint> answers, const QueryOptions& options) noexcept;
+
+/// See Probe::contains.
+void contains(ProbeState& probe, std::span<const Vec3> queries, std::span<Containment> answers,
+              const QueryOptions& options) noexcept;
 
 }  // namespace planetree::query

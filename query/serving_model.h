@@ -8,7 +8,7 @@
 
 #include "cache/page_cache.h"
 #include "query/answer/model_geometry.h"
-#include "query/serve/page_trace.h"
+#include "query/serve/page_accessor.h"
 #include "query/serve/query_arena.h"
 
 namespace planetree::query {

@@ -9,8 +9,7 @@
 #include "octree/mask/mask_prefetcher.h"
 #include "octree/nearest/feature_normal.h"
 #include "octree/nearest/height_field.h"
-#include "query/answer/contact_normal.h"
-#include "query/answer/query_rules.h"
+#include "query/answer/query_context.h"
 #include "query/answer/side.h"
 
 namespace planetree::query {

@@ -1,10 +1,31 @@
 #pragma once
 
-#include "octree/traversal/tree_view.h"
-#include "query/answer/coherence.h"
-#include "query/answer/model_geometry.h"
+#include <algorithm>
+#include <cmath>
 
+#include "octree/nearest/coherence_cache.h"
+#include "octree/nearest/nearest.h"
+#include "octree/traversal/tree_view.h"
+#include "planetree/types.h"
+#include "query/answer/model_geometry.h"
+#include "query/answer/side.h"
+
+/// Rules for all kinds of queries.
 namespace planetree::query {
+
+/// The state that one probe keeps from query to query, because the next query is often nearby. It
+/// allocates nothing. One thread at a time may use it. Exact answers have the same bits with and
+/// without it.
+struct Coherence {
+  /// If false, every query starts from the root, as the first one does. For tests.
+  bool is_on = true;
+
+  octree::CoherenceCache nearest;      ///< subtrees and triangles near the last query
+  octree::NearestAnswer last_nearest;  ///< last real-time answer; used if pages are missing
+  SideCache side;                      ///< last point of known side; last mask cell
+  bool side_grid_answered = true;      ///< the last lookup in the side grid found a side
+  bool searched_side = false;          ///< the last closest-point query searched for the side
+};
 
 /// The inputs of a query. The code in this folder knows neither threads nor memory; it gets pages
 /// through `pages` only.
@@ -13,5 +34,45 @@ struct QueryContext {
   const octree::PageReader& pages;
   Coherence& coherence;
 };
+
+/// Returns whether a query can be answered. If not, its status is kBadQuery.
+inline bool is_valid(const Vec3& query, const QueryOptions& options) {
+  return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z) &&
+         options.max_error >= 0 && std::isfinite(options.max_error) && options.max_distance >= 0 &&
+         (options.parts & ~kAllParts) == 0;
+}
+
+/// Returns whether a coordinate of a point exceeds octree::kFarthestQuery or is not finite.
+inline bool is_far(const octree::Point& point) {
+  return !(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
+}
+
+/// Returns `scaled`, the query in the model frame. If it is far, returns a point in the same
+/// direction whose largest coordinate is octree::kFarthestQuery instead.
+inline octree::Point within_reach(const octree::Point& scaled, const Vec3& query) {
+  if (!is_far(scaled)) return scaled;
+  const octree::Point from(query.x, query.y, query.z);
+  return from / from.cwiseAbs().maxCoeff() * octree::kFarthestQuery;
+}
+
+/// Returns the options with the default work limit of real-time queries filled in.
+inline QueryOptions with_defaults(QueryOptions options) {
+  if (options.wait == Wait::kNever && options.max_work == QueryOptions::kNoLimit)
+    options.max_work = QueryOptions::kRealTimeWork;
+  return options;
+}
+
+/// Returns whether a query may use the coherence. The answer of a query of limited work depends on
+/// which nodes it visits first, so a blocking query of limited work starts from the root. The
+/// answer of a real-time query depends on the resident pages in any case.
+inline bool may_use_coherence(const Coherence& coherence, const QueryOptions& options) {
+  return coherence.is_on &&
+         (options.wait == Wait::kNever || options.max_work == QueryOptions::kNoLimit);
+}
+
+/// Returns the parts to compute: a normal needs the others.
+inline std::uint32_t computed_parts(std::uint32_t parts) {
+  return (parts & kNormal) != 0 ? kAllParts : parts;
+}
 
 }  // namespace planetree::query

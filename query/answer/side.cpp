@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/nearest/nearest.h"
 #include "octree/winding/winding_number.h"
-#include "query/answer/exit_segments.h"
+#include "query/answer/query_context.h"
 #include "query/answer/side_search.h"
 
 namespace planetree::query {
@@ -59,6 +60,42 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
   return {Side::kUnknown, w.complete ? Status::kExact : Status::kDegraded};
 }
 
+/// Minimum distance of a query from its nearest point, as a share of the largest coordinate, for
+/// the direction between them to be used. The nearest point is rounded, so a shorter one is noise.
+constexpr double kMinShare = 0x1p-36;
+
+double largest_coordinate(const octree::Triangle& triangle) {
+  double largest = 0;
+  for (const Point& corner : triangle) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+/// Returns 1 if the normal points towards the (perturbed) query, -1 if it points away, and 0 if
+/// rounding leaves that uncertain.
+int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
+                  const Point& normal) {
+  if (nearest.feature == Feature::kFace) return octree::perturbed_side(nearest.corners, query);
+  if (side == Side::kOnSurface ||
+      nearest.distance < kMinShare * largest_coordinate(nearest.corners))
+    return 0;
+  const double along = (query - nearest.point).dot(normal);
+  return along > 0 ? 1 : along < 0 ? -1 : 0;
+}
+
+/// Returns whether the normal points into the solid: away from a query that is outside, or towards
+/// one that is inside. If that is uncertain, the sign of the winding number tells the orientation
+/// of the faces. So it does for a query on a surface that is not watertight, since there both sides
+/// of the surface may be outside.
+bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
+                   const SideResult& side_result, const Point& normal) {
+  if (side_result.side == Side::kUnknown) return false;
+  // Nothing lies between the query and its nearest triangle. That is not known of other triangles.
+  if (nearest.status != Status::kExact || !side_result.beside) return side_result.winding < 0;
+  const int towards = towards_query(query, nearest, side_result.side, normal);
+  if (towards == 0) return side_result.winding < 0;
+  return (towards > 0) == (side_result.winding != 0);
+}
+
 }  // namespace
 
 SideResult find_side(const ModelGeometry& model, const Point& point, std::uint64_t max_work,
@@ -102,6 +139,28 @@ SideResult find_side(const ModelGeometry& model, const Point& point,
   if (side_result.status == Status::kExact)
     cache.note(point, side_result, search.has_exact_winding(), clear);
   return side_result;
+}
+
+SideResult find_containment(const QueryContext& context, const Vec3& query,
+                            const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
+                            const QueryOptions& options) noexcept {
+  const ModelGeometry& model = context.model;
+  // Decided for the query itself: within_reach() may move it beyond another wall of a region.
+  if (is_far(scaled))
+    if (const auto known = side_without_pages(model, scaled, lookup)) return *known;
+  const octree::Point point = within_reach(scaled, query);
+  octree::TraversalStats work;
+  if (may_use_coherence(context.coherence, options))
+    return find_side(model, point, lookup, 0, context.coherence.side, options.max_work,
+                     context.pages, work);
+  return find_side(model, point, options.max_work, context.pages, work);
+}
+
+Point contact_normal(const Point& query, const octree::NearestAnswer& nearest,
+                     const octree::FeatureNormal& feature, const SideResult& side_result) noexcept {
+  if (!(feature.normal.squaredNorm() > 0)) return {0, 0, 1};
+  return points_inward(query, nearest, side_result, feature.normal) ? Point(-feature.normal)
+                                                                    : feature.normal;
 }
 
 }  // namespace planetree::query

@@ -5,7 +5,6 @@
 
 #include "octree/geometry/cell_grid.h"
 #include "octree/geometry/strict_math.h"
-#include "query/answer/exit_segments.h"
 
 namespace planetree::query {
 

@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
@@ -13,6 +14,98 @@
 #include "octree/geometry/fp_environment.h"
 
 namespace planetree::query {
+namespace {
+
+// Limits of how far ahead of a moving probe to prefetch; in between, the time that fetches take
+// decides.
+constexpr FetchWorker::Seconds kMinTimeAhead{0.005}, kMaxTimeAhead{0.2};
+constexpr unsigned kPositionsAhead = 4;
+
+QueryOptions blocking_options(std::uint64_t parts) {
+  QueryOptions options;
+  options.parts = static_cast<std::uint32_t>(parts);
+  options.max_work = QueryOptions::kRealTimeWork;
+  return options;
+}
+
+bool is_moving(const Motion& motion) {
+  return motion.velocity.x != 0 || motion.velocity.y != 0 || motion.velocity.z != 0;
+}
+
+Vec3 position_after(const Motion& motion, FetchWorker::Seconds time) {
+  return {motion.position.x + motion.velocity.x * time.count(),
+          motion.position.y + motion.velocity.y * time.count(),
+          motion.position.z + motion.velocity.z * time.count()};
+}
+
+}  // namespace
+
+FetchWorker::FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
+                         std::size_t first, std::size_t step, Clock clock,
+                         const std::atomic<bool>& stop)
+    : requests_(requests),
+      probe_(std::move(probe)),
+      first_(first),
+      step_(step),
+      clock_(clock),
+      stop_(stop),
+      progress_(requests.size()),
+      next_index_(first) {}
+
+FetchWorker::Action FetchWorker::work() noexcept {
+  const auto serve_any_probe = [this](bool (FetchWorker::*serve)(std::size_t) noexcept) {
+    for (std::size_t left = first_; left < progress_.size(); left += step_) {
+      const std::size_t index = next_index_;
+      next_index_ = index + step_ < progress_.size() ? index + step_ : first_;
+      if ((this->*serve)(index)) return true;
+    }
+    return false;
+  };
+  // While a request is served, pages that blocking queries wait for are read in between. So the two
+  // alternate.
+  awaited_page_was_last_ = !awaited_page_was_last_ && probe_->read_awaited_page();
+  if (awaited_page_was_last_) return Action::kReadAwaitedPage;
+  if (serve_any_probe(&FetchWorker::serve_request)) return Action::kServedRequest;
+  awaited_page_was_last_ = probe_->read_awaited_page();
+  if (awaited_page_was_last_) return Action::kReadAwaitedPage;
+  return serve_any_probe(&FetchWorker::prefetch_position) ? Action::kPrefetchedPosition
+                                                          : Action::kNone;
+}
+
+bool FetchWorker::serve_request(std::size_t index) noexcept {
+  FetchRequest request;
+  if (!requests_[index].missed.load_newer(progress_[index].seen_request, request)) return false;
+  QueryOptions options = blocking_options(request.parts);
+  options.max_error = request.max_error;
+  options.max_distance = request.max_distance;
+  // A query that starts from coherence may spend its work elsewhere than this one from the root.
+  options.max_work = std::clamp(static_cast<std::uint32_t>(request.max_work),
+                                QueryOptions::kRealTimeWork, QueryOptions::kNoLimit - 1);
+  const Seconds began = clock_();
+  probe_->fetch_pages(request.point, options, false, stop_);
+  note_fetch_time(clock_() - began);
+  return true;
+}
+
+// Prefetches one position at a time, so that requests need not wait for all of them.
+bool FetchWorker::prefetch_position(std::size_t index) noexcept {
+  Progress& progress = progress_[index];
+  if (requests_[index].motion.load_newer(progress.seen_motion, progress.motion))
+    progress.positions_left = is_moving(progress.motion) ? kPositionsAhead : 0;
+  if (progress.positions_left == 0) return false;
+  const unsigned at = kPositionsAhead - --progress.positions_left;
+  const Seconds ahead = std::clamp(2 * slowest_fetch_, kMinTimeAhead, kMaxTimeAhead);
+  probe_->fetch_pages(position_after(progress.motion, ahead * at / kPositionsAhead),
+                      blocking_options(progress.motion.parts), true, stop_);
+  return true;
+}
+
+// Updates the maximum time of recent requests. It decays towards the time of each later request by
+// a sixteenth of the difference.
+void FetchWorker::note_fetch_time(Seconds taken) noexcept {
+  slowest_fetch_ = std::max(taken, slowest_fetch_ + (taken - slowest_fetch_) / 16);
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;

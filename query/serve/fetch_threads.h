@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -9,9 +11,75 @@
 
 #include "cache/page_cache.h"
 #include "planetree/error.h"
-#include "query/serve/fetch_worker.h"
+#include "planetree/types.h"
+#include "query/serve/fetch_requests.h"
 
 namespace planetree::query {
+
+/// Interface to the probe of a fetch thread. One thread at a time may use it.
+class FetchProbe {
+ public:
+  virtual ~FetchProbe() = default;
+
+  /// Makes the pages resident that a query needs.
+  ///
+  /// query        model units
+  /// options      Wait::kForPages with limited work. Such a query starts from the root, since the
+  ///              coherence of this probe does not tell which pages are resident.
+  /// is_prefetch  true: a probe moves towards `query`; false: a probe lacked pages there
+  /// stop         once true, the call gives up before the next missing page
+  virtual void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
+                           const std::atomic<bool>& stop) noexcept = 0;
+  /// Reads one page that a blocking query waits for. Returns false if there is none.
+  virtual bool read_awaited_page() noexcept = 0;
+};
+
+/// The work of one fetch thread. It serves fetch requests by running the query again with a probe
+/// of its own that waits for pages. It prefetches for moving probes in the same way. It also reads
+/// the pages that blocking queries wait for. One thread at a time may use it.
+class FetchWorker {
+ public:
+  using Seconds = std::chrono::duration<double>;
+  using Clock = Seconds (*)();
+
+  /// Memory for each probe that it serves.
+  static constexpr std::uint64_t kProbeBytes = 96;
+
+  /// requests     fetch requests of all probes, indexed by reader; must outlive this
+  /// first, step  serves the probes with reader index first, first + step, ...
+  /// clock        measures the time of fetches, which decides how far ahead to prefetch
+  /// stop         once true, work() ends early; must outlive this
+  FetchWorker(std::span<FetchRequests> requests, std::unique_ptr<FetchProbe> probe,
+              std::size_t first, std::size_t step, Clock clock, const std::atomic<bool>& stop);
+
+  enum class Action : std::uint8_t { kNone, kServedRequest, kPrefetchedPosition, kReadAwaitedPage };
+  /// Takes one action and returns which. Pages that blocking queries wait for and fetch requests
+  /// come before prefetching. If there are both, they alternate.
+  Action work() noexcept;
+
+ private:
+  struct Progress {
+    // Sequence numbers of the last values loaded, see SeqLock.
+    std::uint64_t seen_request = 0, seen_motion = 0;
+    Motion motion;
+    unsigned positions_left = 0;  // positions still to prefetch for `motion`
+  };
+  static_assert(sizeof(Progress) <= kProbeBytes);
+
+  bool serve_request(std::size_t index) noexcept;
+  bool prefetch_position(std::size_t index) noexcept;
+  void note_fetch_time(Seconds taken) noexcept;
+
+  const std::span<FetchRequests> requests_;
+  std::unique_ptr<FetchProbe> probe_;
+  const std::size_t first_, step_;
+  const Clock clock_;
+  const std::atomic<bool>& stop_;
+  std::vector<Progress> progress_;  // indexed by reader
+  std::size_t next_index_ = 0;      // probe served next; they take turns
+  bool awaited_page_was_last_ = false;
+  Seconds slowest_fetch_{0};  // decaying maximum, see note_fetch_time()
+};
 
 /// A model's fetch threads, with one FetchWorker each. A blocking query wakes them. A real-time
 /// query cannot, because that takes a system call. So the threads poll for fetch requests, more

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "cache/arena_layout.h"
+#include "cache/prefaulted_memory.h"
 
 namespace planetree::query {
 namespace {

@@ -8,7 +8,7 @@
 #include "cache/prefaulted_memory.h"
 #include "planetree/error.h"
 #include "query/serve/fetch_requests.h"
-#include "query/serve/page_trace.h"
+#include "query/serve/page_accessor.h"
 
 namespace planetree::query {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "storage/file/file_hash.h"
+#include "storage/file/checksum.h"
 #include "storage/file/page_codec.h"
 
 namespace planetree::storage {

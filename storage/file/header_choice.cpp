@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "storage/file/file_hash.h"
+#include "storage/file/checksum.h"
 
 namespace planetree::storage {
 namespace {

@@ -9,7 +9,7 @@
 #include <new>
 #include <utility>
 
-#include "storage/file/file_hash.h"
+#include "storage/file/checksum.h"
 #include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
 #include "storage/file/page_codec.h"

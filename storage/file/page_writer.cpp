@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "storage/file/file_hash.h"
+#include "storage/file/checksum.h"
 #include "storage/file/header_check.h"
 
 namespace planetree::storage {

@@ -1,4 +1,4 @@
-#include "cache/cache_limits.h"
+#include "cache/cache_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cache/clock_policy.h"
+#include "cache/eviction_policy.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cache/eviction_policy.h"
 #include "tests/cache/evicting.h"
 
 namespace planetree::cache {

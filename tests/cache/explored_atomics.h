@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "cache/protocol_step.h"
+#include "cache/protocol.h"
 #include "tests/cache/explorer/atomic.h"
 
 namespace planetree::cache {

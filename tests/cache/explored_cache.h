@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "cache/limbo.h"
-#include "cache/page_map.h"
-#include "cache/reader_slot.h"
+#include "cache/protocol.h"
 #include "tests/cache/explored_atomics.h"
 #include "tests/cache/explorer/atomic.h"
 

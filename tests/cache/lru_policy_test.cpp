@@ -1,4 +1,4 @@
-#include "cache/lru_policy.h"
+#include "cache/eviction_policy.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <list>
 
-#include "cache/eviction_policy.h"
 #include "cache/page_cache.h"
 #include "tests/cache/evicting.h"
 #include "tests/cache/tagged_pages.h"

@@ -1,4 +1,4 @@
-#include "cache/page_map.h"
+#include "cache/protocol.h"
 
 #include <gtest/gtest.h>
 

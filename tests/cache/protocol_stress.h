@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cache/page_cache.h"
-#include "cache/protocol_step.h"
+#include "cache/protocol.h"
 #include "tests/cache/stressed_cache.h"
 #include "tests/cache/tagged_pages.h"
 

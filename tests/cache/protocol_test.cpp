@@ -1,4 +1,4 @@
-// Checks the protocol between readers and the writer (cache/reader_slot.h) with the memory orders
+// Checks the protocol between readers and the writer (cache/protocol.h) with the memory orders
 // as shipped. In every run of small programs, and in many runs of larger ones, no reader sees a
 // frame that is being written, or another page's frame. Each step is necessary: with its order
 // weakened, some run fails.

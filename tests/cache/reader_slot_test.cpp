@@ -1,4 +1,4 @@
-#include "cache/reader_slot.h"
+#include "cache/protocol.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,7 @@
 
 #include "cache/frame_pool.h"
 #include "cache/limbo.h"
-#include "cache/page_map.h"
-#include "cache/reader_slot.h"
+#include "cache/protocol.h"
 #include "tests/cache/tagged_pages.h"
 
 namespace planetree::cache {

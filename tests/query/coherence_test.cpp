@@ -1,4 +1,4 @@
-#include "query/answer/coherence.h"
+#include "query/answer/query_context.h"
 
 #include <gtest/gtest.h>
 

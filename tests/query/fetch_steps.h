@@ -3,9 +3,9 @@
 #include <atomic>
 #include <memory>
 
-#include "query/fetch_probe.h"
 #include "query/model_state.h"
-#include "query/serve/fetch_worker.h"
+#include "query/probe_state.h"
+#include "query/serve/fetch_threads.h"
 
 namespace planetree::query {
 

@@ -8,7 +8,7 @@
 #include <cerrno>
 
 #include "query/file/page_decoding.h"
-#include "storage/file/file_hash.h"
+#include "storage/file/checksum.h"
 #include "storage/file/header_check.h"
 #include "storage/file/header_choice.h"
 #include "storage/file/page_codec.h"

@@ -13,7 +13,7 @@
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossings.h"
-#include "query/answer/exit_segments.h"
+#include "query/answer/side_search.h"
 #include "query/serve/page_accessor.h"
 #include "tools/check/slab_check.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "storage/file/file_hash.h"
+#include "storage/file/checksum.h"
 #include "storage/file/file_layout.h"
 #include "storage/file/header_check.h"
 

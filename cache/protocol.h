@@ -4,10 +4,55 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
-#include "cache/protocol_step.h"
+#include "cache/frame_pool.h"
 
 namespace planetree::cache {
+
+/// Steps of the protocol between readers and the writer. Apart from the mutex these are the only
+/// places where the memory order matters. BasicReaderSlot and BasicPageMap justify the order of
+/// each step. R, E and I number the steps of reading, evicting and installing a page.
+enum class ProtocolStep : std::uint8_t {
+  kClaim,          ///< a new reader continues the sequence and counts of the slot's last reader
+  kRelease,        ///< a reader hands the slot on; the other side of kClaim
+  kEnter,          ///< R1: a reader begins a section
+  kFind,           ///< R2: the reader looks up a page
+  kLeave,          ///< R5: the reader ends the section
+  kWithdraw,       ///< E2: the writer hides a page
+  kNoteSections,   ///< E3: the writer notes which sections are open
+  kSeeSectionEnd,  ///< E5: the writer finds that a noted section has ended
+  kPublish,        ///< I7: the writer shows a filled frame
+};
+
+/// Memory order of each step.
+constexpr std::memory_order order_of(ProtocolStep step) noexcept {
+  switch (step) {
+    case ProtocolStep::kEnter:
+    case ProtocolStep::kFind:
+    case ProtocolStep::kWithdraw:
+    case ProtocolStep::kNoteSections:
+      return std::memory_order_seq_cst;
+    case ProtocolStep::kClaim:
+    case ProtocolStep::kSeeSectionEnd:
+      return std::memory_order_acquire;
+    case ProtocolStep::kRelease:
+    case ProtocolStep::kLeave:
+    case ProtocolStep::kPublish:
+      return std::memory_order_release;
+  }
+  return std::memory_order_seq_cst;
+}
+
+/// Atomics and memory orders of the protocol's classes. These are templates over this type, so
+/// that tests can run the same code over atomics that show every behaviour the language allows,
+/// and with one order weakened at a time.
+struct StdAtomics {
+  template <class T>
+  using Atomic = std::atomic<T>;
+
+  static constexpr std::memory_order order(ProtocolStep step) noexcept { return order_of(step); }
+};
 
 /// Tells the writer whether one reader may hold pointers to frames.
 ///
@@ -111,5 +156,61 @@ using ReaderSlot = BasicReaderSlot<>;
 
 static_assert(sizeof(ReaderSlot) == 64 && alignof(ReaderSlot) == 64);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+
+/// Maps pages to frames. There is one cell per page, which holds frame + 1, or 0 if the page is not
+/// resident. Page numbers are dense, so an array suffices and a lookup is one load. A view of
+/// memory that PageCache owns; copies see the same cells.
+///
+/// Any thread inside a section may call find(). Only the writer, the holder of the cache's mutex,
+/// may call frame_of(), publish() and withdraw().
+template <class Atomics = StdAtomics>
+class BasicPageMap {
+ public:
+  using Cell = typename Atomics::template Atomic<std::uint32_t>;
+
+  explicit BasicPageMap(std::span<Cell> cells) noexcept
+      : cells_(cells.data()), count_(cells.size()) {}
+
+  /// R2: returns the frame of `page`, or kNoFrame. Acquires the page's bytes. seq_cst because it
+  /// is one side of a store-buffering pair with withdraw(); see BasicReaderSlot.
+  std::uint32_t find(std::uint32_t page) const noexcept {
+    assert(page < count_);
+    // 0 - 1 wraps to kNoFrame.
+    return cells_[page].load(Atomics::order(ProtocolStep::kFind)) - 1;
+  }
+
+  /// Cells of all pages, for prefetching. A cell may change at any time.
+  const Cell* cells() const noexcept { return cells_; }
+
+  /// Returns the frame of `page`, or kNoFrame. Relaxed, because all stores were made by this
+  /// thread or by earlier holders of the mutex.
+  std::uint32_t frame_of(std::uint32_t page) const noexcept {
+    assert(page < count_);
+    return cells_[page].load(std::memory_order_relaxed) - 1;
+  }
+
+  /// I7: shows a filled frame to readers. Release, so that a reader that finds the page also sees
+  /// the bytes written into its frame.
+  void publish(std::uint32_t page, std::uint32_t frame) const noexcept {
+    assert(page < count_ && frame != kNoFrame);
+    cells_[page].store(frame + 1, Atomics::order(ProtocolStep::kPublish));
+  }
+
+  /// E2: hides a page. Readers that found it before may still be reading its frame. seq_cst: the
+  /// other side of the pair with find().
+  void withdraw(std::uint32_t page) const noexcept {
+    assert(page < count_);
+    cells_[page].store(0, Atomics::order(ProtocolStep::kWithdraw));
+  }
+
+ private:
+  Cell* cells_;
+  std::size_t count_;  // read by assertions only
+};
+
+using PageMap = BasicPageMap<>;
+
+static_assert(PageMap::Cell::is_always_lock_free);
+static_assert(kNoFrame == std::uint32_t{0} - 1, "an empty cell must read as kNoFrame");
 
 }  // namespace planetree::cache
