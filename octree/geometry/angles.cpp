@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/wide_numbers.h"
@@ -72,33 +73,21 @@ struct HalfAngle {
   double error = 0;   ///< bound on the distance from (width, height) to the true end
   double length = 0;  ///< length of (width, height)
 
-  bool is_precise() const { return error < 0x1p-24 * length; }
+  bool is_precise() const { return error < kMaxHalfAngleError * length; }
 };
 
 constexpr HalfAngle kUncertain{0, 0, 1, 0};
 
-/// Error of the end in double, in units of |a||b||c|. A vector to a corner has components right to
-/// one rounding and a length right to four. Each of the four terms of the width loses at most 12
-/// roundings by its factors and its sum. The height loses 9: its six terms have magnitudes that sum
-/// to at most 1.16. Together the end is off by at most 50 roundings. The factor 256 also covers
-/// modes in which each rounding errs by a whole ulp.
-constexpr double kDoubleError = 256 * 0x1p-53;
-
-/// Range of squared lengths. Smaller ones may have lost bits to underflow; products of larger ones
-/// may overflow.
-constexpr double kShortest2 = 0x1p-320;
-constexpr double kLongest2 = 0x1p320;
-
 HalfAngle half_angle_in_double(const Point& point, const Triangle& triangle) {
   const Point a = triangle[0] - point, b = triangle[1] - point, c = triangle[2] - point;
   const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
-  if (!(std::min({a2, b2, c2}) > kShortest2 && std::max({a2, b2, c2}) < kLongest2))
+  if (!(std::min({a2, b2, c2}) > kMinAngleLength2 && std::max({a2, b2, c2}) < kMaxAngleLength2))
     return kUncertain;
   const double a1 = std::sqrt(a2), b1 = std::sqrt(b2), c1 = std::sqrt(c2);
   HalfAngle half;
   half.width = a1 * b1 * c1 + a.dot(b) * c1 + b.dot(c) * a1 + c.dot(a) * b1;
   half.height = a.dot(b.cross(c));
-  half.error = kDoubleError * (a1 * b1 * c1);
+  half.error = kHalfAngleError * (a1 * b1 * c1);
   half.length = std::sqrt(half.width * half.width + half.height * half.height);
   return half;
 }
@@ -114,9 +103,8 @@ Vector3<Scalar> wide_direction(const Point& from, const Point& to) {
   return way;
 }
 
-/// Computes the same in wider numbers, from unit vectors. A product of three of their components is
-/// right to 24 roundings. `point` differs from every corner. The result is scaled to a length of
-/// about 1.
+/// Computes the same in wider numbers, from unit vectors. `point` differs from every corner. The
+/// result is scaled to a length of about 1.
 template <class Scalar>
 HalfAngle half_angle_in_wide(const Point& point, const Triangle& triangle) {
   const auto a = wide_direction<Scalar>(point, triangle[0]);
@@ -129,8 +117,8 @@ HalfAngle half_angle_in_wide(const Point& point, const Triangle& triangle) {
   HalfAngle half;
   half.width = static_cast<double>(width / larger);
   half.height = static_cast<double>(height / larger);
-  const Scalar error = ldexp(Scalar(1), 8 - kBits<Scalar>) / larger;
-  half.error = error < 1 ? static_cast<double>(error) + kDoubleError : 1;
+  const Scalar error = ldexp(Scalar(1), kWideHalfAngleErrorBits - kBits<Scalar>) / larger;
+  half.error = error < 1 ? static_cast<double>(error) + kHalfAngleError : 1;
   half.length = std::sqrt(half.width * half.width + half.height * half.height);
   return half;
 }
@@ -146,8 +134,8 @@ WindingShare share_of(const HalfAngle& half, int side) {
     return share;
   }
   share.value = -side * angle_of(half.width, height) * kOverTwoPi;
-  // asin(e / l) is below (pi / 2) e / l, and is divided by 2 pi; 2^-50 is the error of angle_of().
-  share.error = std::min(0.5, half.error / (half.length - half.error) * 0.25 + 0x1p-50);
+  share.error =
+      std::min(0.5, half.error / (half.length - half.error) * kAsinOverTwoPi + kAngleError);
   return share;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/triangle_distance.h"
 
@@ -51,14 +52,13 @@ class Region {
   double gap(const Point& point) const {
     return std::min((point - lower_).minCoeff(), (upper_ - point).minCoeff());
   }
-  /// Returns a distance that all missing triangles exceed, also as evaluated. A triangle's value
-  /// errs by about 2^-42 of the distance to its farthest corner (see BestTriangle). That distance
-  /// is at most the triangle's own distance plus the model's diagonal, which is below 4. The result
-  /// is negative outside of the region and close to a wall, and infinity without walls.
+  /// Returns a distance that all missing triangles exceed, also as evaluated (kValueRounding). The
+  /// result is negative outside of the region and close to a wall, and infinity without walls.
   double clearance(const Point& point) const {
     if (!holds(point)) return -1;
     const double gap_to_wall = gap(point);
-    return gap_to_wall < kNone ? gap_to_wall - 0x1p-40 * (gap_to_wall + 4) : kNone;
+    return gap_to_wall < kNone ? gap_to_wall - kValueRounding * (gap_to_wall + kMaxDiagonal)
+                               : kNone;
   }
 
  private:

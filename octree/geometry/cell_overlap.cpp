@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
 namespace {
-
-/// Each side of a comparison is a sum of at most 6 products of at most 3 rounded factors. It errs
-/// by less than 2^-49 of the sum of the products' magnitudes.
-constexpr double kMargin = 0x1p-48;
-/// Products below this may have underflowed.
-constexpr double kUnderflow = 0x1p-1000;
 
 /// The triangle relative to the box's centre, and the half sides of the box. The half sides are
 /// slightly enlarged, so that the rounding of the centre does not matter.
@@ -25,7 +20,7 @@ Centred centred(const Triangle& triangle, const Point& lower, const Point& upper
   const Point centre = (lower + upper) * 0.5;
   Centred result;
   for (unsigned i = 0; i < 3; ++i) result.corners[i] = triangle[i] - centre;
-  result.half = (upper - centre).cwiseMax(centre - lower) * (1 + kMargin);
+  result.half = (upper - centre).cwiseMax(centre - lower) * (1 + kOverlapMargin);
   return result;
 }
 
@@ -43,7 +38,7 @@ inline bool apart(const Centred& centred, unsigned i, unsigned j, double p, doub
     magnitude = std::max(magnitude, std::fabs(along_i) + std::fabs(along_j));
   }
   const double reach = std::fabs(p) * centred.half[i] + std::fabs(q) * centred.half[j];
-  const double bound = reach + kMargin * (reach + magnitude) + kUnderflow;
+  const double bound = reach + kOverlapMargin * (reach + magnitude) + kProductUnderflow;
   return least > bound || greatest < -bound;
 }
 
@@ -71,7 +66,7 @@ bool apart_along_normal(const Centred& centred, const Triangle& triangle) {
     reach += std::fabs(left - right) * centred.half[axis];
     magnitude += (std::fabs(left) + std::fabs(right)) * (std::fabs(at[axis]) + centred.half[axis]);
   }
-  return std::fabs(height) > reach + kMargin * magnitude + kUnderflow;
+  return std::fabs(height) > reach + kOverlapMargin * magnitude + kProductUnderflow;
 }
 
 }  // namespace

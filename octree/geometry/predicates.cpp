@@ -4,18 +4,15 @@
 #include <cmath>
 #include <cstring>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
 namespace {
 
-/// Four times Shewchuk's (7 + 56u)u, so that it holds where each rounding errs by a whole ulp.
-constexpr double kOrientationFilter = 32 * 0x1p-53;
-constexpr double kNormalFilter = 16 * 0x1p-53;
-
 /// Bound on what flushing subnormal differences and products to zero may change, if no difference
 /// exceeds `largest`.
-double flush_loss(double largest) { return 0x1p-1010 * (1 + largest) * (1 + largest); }
+double flush_loss(double largest) { return kFlushLoss * (1 + largest) * (1 + largest); }
 
 int sign_of(double value) { return value > 0 ? 1 : -1; }
 
@@ -60,7 +57,8 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   const double right = (b[j] - a[j]) * (c[i] - a[i]);
   const double area = left - right;
   const double largest = std::max((b - a).cwiseAbs().maxCoeff(), (c - a).cwiseAbs().maxCoeff());
-  if (std::fabs(area) > kNormalFilter * (std::fabs(left) + std::fabs(right)) + flush_loss(largest))
+  if (std::fabs(area) >
+      kNormalSignFilter * (std::fabs(left) + std::fabs(right)) + flush_loss(largest))
     return sign_of(area);
   if ((same_bits(b[i], a[i]) || same_bits(c[j], a[j])) &&
       (same_bits(b[j], a[j]) || same_bits(c[i], a[i])))

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/triangle_kernels-inl.h"
 #include "octree/geometry/wide_numbers.h"
@@ -31,11 +32,9 @@ namespace {
 
 HWY_EXPORT(evaluate_on_target);
 
-// A face below this squared sine counts as its edges, which is right to 2^-50 of their length.
-constexpr double kDegenerateSine2 = 0x1p-100;
 // Minimum barycentric coordinate of a point inside a face. The true one is positive but may round
 // to 0.
-constexpr double kMinShare = 0x1p-54;
+constexpr double kMinBarycentric = 0x1p-54;
 
 // The other two corners of corner k, in order.
 constexpr std::size_t kFirst[3] = {1, 0, 0};
@@ -83,7 +82,7 @@ void refine_face(const Point& query, const Triangle& triangle, TriangleResults& 
   const auto e2 = difference<Quad>(corner[kSecond[apex]], corner[apex]);
   const auto normal = cross(e1, e2);
   const Quad normal2 = dot(normal, normal);
-  if (!(normal2 > kDegenerateSine2 * dot(e1, e1) * dot(e2, e2))) return;
+  if (!(normal2 > kDegenerateFaceSine2 * dot(e1, e1) * dot(e2, e2))) return;
   const auto from_apex = difference<Quad>(query, corner[apex]);
   const Quad v = dot(cross(from_apex, e2), normal);
   const Quad w = dot(cross(e1, from_apex), normal);
@@ -127,9 +126,9 @@ void locate(const Triangle& triangle, const TriangleResult& result,
   const Point& apex = triangle[order[number]];
   nearest.feature = Feature::kFace;
   nearest.point = apex + (a * (u - apex) + b * (v - apex));
-  nearest.barycentric[order[number]] = std::max((1 - a) - b, kMinShare);
-  nearest.barycentric[first] = std::max(a, kMinShare);
-  nearest.barycentric[second] = std::max(b, kMinShare);
+  nearest.barycentric[order[number]] = std::max((1 - a) - b, kMinBarycentric);
+  nearest.barycentric[first] = std::max(a, kMinBarycentric);
+  nearest.barycentric[second] = std::max(b, kMinBarycentric);
 }
 
 NearestOnTriangle nearest_on_triangle(const Point& query, const Triangle& triangle) noexcept {

@@ -36,18 +36,6 @@ struct NearestOnTriangle {
 /// Number of triangles that are evaluated together.
 inline constexpr std::size_t kTrianglesAtOnce = 4;
 
-/// A face whose largest angle has a squared sine below this is evaluated with 113 bits, since
-/// double would lose more than 5 bits.
-inline constexpr double kFlatFaceSine2 = 0x1p-10;
-/// A squared normal below this has lost bits to underflow.
-inline constexpr double kTinySquare = 0x1p-930;
-/// Rounding error of a value, as a multiple of (distance of the farthest corner) / sine. In units
-/// of 2^-53, the cross product loses 5, its three dot products 3 each, and the inside test (4 + 5)
-/// * 2 across an edge; 64 covers their sum.
-inline constexpr double kValueErrorFactor = 64 * 0x1p-53;
-/// Absolute part of the error: squares below 2^-1022 underflow, so that distances below this are
-/// not resolved.
-inline constexpr double kAbsoluteValueError = 0x1p-500;
 /// Result of evaluating one triangle, before its nearest point is computed. Corners are numbered in
 /// lexicographic order; side k is opposite to corner k.
 struct TriangleResult {

@@ -14,6 +14,7 @@
 
 #include <hwy/highway.h>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/geometry/wide_floats-inl.h"
 
@@ -134,8 +135,8 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
   const Doubles3 from_apex = -to_apex;
   const Doubles3 normal = cross(e1, e2);
   const Doubles normal2 = dot(normal, normal), sides2 = hn::Mul(long1, long2);
-  const auto is_regular = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, kFlatFaceSine2), sides2)),
-                                  hn::Ge(normal2, hn::Set(d, kTinySquare)));
+  const auto is_regular = hn::And(hn::Ge(normal2, hn::Mul(hn::Set(d, kMinFaceSine2), sides2)),
+                                  hn::Ge(normal2, hn::Set(d, kMinFaceNormal2)));
   const Doubles v = dot(cross(from_apex, e2), normal), w = dot(cross(e1, from_apex), normal);
   const Doubles height = dot(from_apex, normal);
   // height * height would underflow above a face with short edges.
@@ -149,7 +150,7 @@ HWY_INLINE unsigned evaluate_vector(const double* HWY_RESTRICT rows, std::size_t
       hn::IfThenElse(is_regular, hn::Div(sides2, normal2), hn::Set(d, 1.0));
   const Doubles error =
       hn::Add(hn::Mul(hn::Set(d, kValueErrorFactor), hn::Sqrt(hn::Mul(farthest, inverse_sine2))),
-              hn::Set(d, kAbsoluteValueError));
+              hn::Set(d, kUnresolvedLength));
   hn::Store(hn::IfThenElse(on_face, face, nearest.squared), d, results.squared + lane);
   hn::Store(error, d, results.error + lane);
   hn::Store(hn::IfThenElse(on_face, apex, side), d, results.number + lane);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/side_grid_builder.h"
 
@@ -32,9 +33,10 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
   coordinates_.input = FixedPoint(level, certain ? scale : FixedPoint::kNoScale);
   // The steps of the point and of the box err by one each, faces by 2^-53 of the greatest
   // coordinate.
-  constexpr std::int64_t kUncertainty = 1 << 8;
-  const double error = 0x1p-53 * (lower_.cwiseAbs().maxCoeff() + 4) * per_unit * FixedPoint::kCell;
-  bool near = 2 + error < kUncertainty;
+  constexpr std::int64_t kGridUncertainty = 1 << 8;
+  const double error = kGridFaceRounding * (lower_.cwiseAbs().maxCoeff() + kMaxDiagonal) *
+                       per_unit * FixedPoint::kCell;
+  bool near = 2 + error < kGridUncertainty;
   std::size_t stride = 1;
   for (unsigned axis = 0; axis < 3; ++axis) {
     width_[axis] = static_cast<std::uint32_t>(size[axis] * per_unit) + 1 + 2 * kRim;
@@ -44,9 +46,9 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
         (width_[axis] - 1) * FixedPoint::kCell + GridCoordinates::kRimMiddle;
     const FixedPoint::Digits lower = coordinates_.model.digits_of(lower_[axis]);
     near = near && lower.shift > 1;
-    coordinates_.first[axis] = near ? lower.steps() - kRim * FixedPoint::kCell - kUncertainty : 0;
+    coordinates_.first[axis] = near ? lower.steps() - kRim * FixedPoint::kCell - kGridUncertainty : 0;
   }
-  coordinates_.uncertainty = 2 * (near ? kUncertainty : GridCoordinates::kMin);
+  coordinates_.uncertainty = 2 * (near ? kGridUncertainty : GridCoordinates::kMin);
 }
 
 // Fills in the cells of a level and what is known about the grey ones. Returns false if `memory` is

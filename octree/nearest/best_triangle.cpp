@@ -4,22 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Squares below 2^-1022 underflow, so that lengths below this are not resolved.
-constexpr double kUnresolved = 0x1p-500;
 
-double down(double value) { return std::max(0.0, value - std::fabs(value) * 0x1p-52); }
-double up(double value) { return value + value * 0x1p-52 + std::numeric_limits<double>::min(); }
+double down(double value) { return std::max(0.0, value - std::fabs(value) * kEndRounding); }
+double up(double value) {
+  return value + value * kEndRounding + std::numeric_limits<double>::min();
+}
 
 // Lower bound on the distance to the model, from its box alone.
 double distance_to_box(const TreeInfo& tree, const Point& query) {
   const Point gap = (tree.box_lower - query).cwiseMax(query - tree.box_upper).cwiseMax(0.0);
-  return std::max(0.0, gap.norm() * (1 - 0x1p-48) - kUnresolved);
+  return std::max(0.0, gap.norm() * (1 - kNormRounding) - kUnresolvedLength);
 }
 
 NearestAnswer beyond(const NearestLimits& limits) {
@@ -36,9 +37,9 @@ NearestAnswer nothing_read(const TreeInfo& tree, const Point& query, double lowe
   NearestAnswer answer;
   const double distance = (query - tree.sample).norm();
   answer.point = tree.sample;
-  answer.upper = std::min(up(distance * (1 + 0x1p-48) + kUnresolved), up(within));
+  answer.upper = std::min(up(distance * (1 + kNormRounding) + kUnresolvedLength), up(within));
   answer.distance = answer.upper;
-  answer.lower = std::min(lower, down(distance * (1 - 0x1p-48) - kUnresolved));
+  answer.lower = std::min(lower, down(distance * (1 - kNormRounding) - kUnresolvedLength));
   answer.feature = Feature::kVertex;
   answer.status = Status::kDegraded;
   return answer;

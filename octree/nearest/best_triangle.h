@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/nearest/nearest.h"
 #include "octree/traversal/bounds.h"
 
@@ -74,8 +75,8 @@ class BestTriangle {
     threshold_ = exact_threshold_;
     // max_error needs a distance to some triangle.
     if (!bounded_ || !(limits_.max_error > 0)) return;
-    // The share of 2^-40 covers the rounding of both ends of the interval.
-    const double max_gain = limits_.max_error - (reach_ + limits_.max_error) * 0x1p-40;
+    // The rounding of both ends of the interval is part of the error.
+    const double max_gain = limits_.max_error - (reach_ + limits_.max_error) * kValueRounding;
     if (max_gain > 0)
       threshold_ =
           std::min(threshold_, prune_threshold(float_query_, std::max(0.0, reach_ - max_gain)));
@@ -83,10 +84,9 @@ class BestTriangle {
 
   const FloatQuery& float_query_;
   const NearestLimits& limits_;
-  // max_distance and the error of a value near it. The corners of a triangle there are at most
-  // max_distance and the model's diagonal away, which is below 4. The factor is kValueErrorFactor
-  // over the least sine, 2^-5, with a margin of 4 (octree/geometry/triangle_distance.h).
-  double max_reach_ = limits_.max_distance + 0x1p-40 * (limits_.max_distance + 4);
+  // max_distance and the error of a value near it: the corners of a triangle there are at most
+  // max_distance and the model's diagonal away.
+  double max_reach_ = limits_.max_distance + kValueRounding * (limits_.max_distance + kMaxDiagonal);
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
   bool is_height_field_ = false;

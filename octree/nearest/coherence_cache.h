@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/traversal/nearby_lists.h"
 #include "octree/traversal/tree_view.h"
@@ -21,11 +22,12 @@ class CoherenceCache {
   /// Upper bound on the distance from the ball's centre of every triangle that may be nearest to
   /// `query`, or as near up to the last bits.
   double reach_of(const Point& query) const {
-    return (nearest_of(query) + (query - centre_).norm()) * (1 + kSlack);
+    return (nearest_of(query) + (query - centre_).norm()) * (1 + kCoherenceSlack);
   }
   /// Upper bound on the distance from `query` to the surface.
   double nearest_of(const Point& query) const {
-    return ((query - last_nearest_).norm() + rounding(last_nearest_) + kSlack) * (1 + kSlack);
+    return ((query - last_nearest_).norm() + rounding(last_nearest_) + kCoherenceSlack) *
+           (1 + kCoherenceSlack);
   }
   /// Whether subtrees() has all triangles within `reach` of the centre.
   bool holds(double reach) const { return reach < radius_; }
@@ -39,7 +41,7 @@ class CoherenceCache {
   /// diagonal  of the model's box
   double wanted_radius(const Point& query, double distance, double diagonal) const {
     const double step = step_to(query);
-    return step <= diagonal * kMaxStep ? radius_for(step, distance) : 0;
+    return step <= diagonal * kMaxStepShare ? radius_for(step, distance) : 0;
   }
   /// The triangles of subtrees() that reach into the ball; complete only if they are few.
   const NearbyTriangles& triangles() const { return triangles_; }
@@ -47,7 +49,7 @@ class CoherenceCache {
   /// Whether subtrees() has all triangles that touch `point`, whose coordinates are rounded.
   /// triangles() then has them too, if it is complete.
   bool has_all_at(const Point& point) const {
-    return ((point - centre_).norm() + rounding(point)) * (1 + kSlack) < radius_;
+    return ((point - centre_).norm() + rounding(point)) * (1 + kCoherenceSlack) < radius_;
   }
 
   /// Makes a new ball about `query`, if wanted_radius() is above 0.
@@ -83,19 +85,20 @@ class CoherenceCache {
   double step_to(const Point& query) const { return (query - last_).norm(); }
   // Radius of a ball that lasts for steps_ steps, about a query `distance` from the surface.
   double radius_for(double step, double distance) const {
-    return distance + steps_ * std::max(step, distance * kMinStep);
+    return distance + steps_ * std::max(step, distance * kMinStepShare);
   }
 
   // Upper bound on the distance of a nearest point from the surface. Its coordinates are rounded,
   // and they may be far larger than the model.
-  static double rounding(const Point& point) { return point.cwiseAbs().maxCoeff() * 0x1p-51; }
+  static double rounding(const Point& point) {
+    return point.cwiseAbs().maxCoeff() * kNearestPointRounding;
+  }
 
-  static constexpr double kSlack = 0x1p-24;      ///< far above the error of bounds and sums
-  static constexpr double kMaxStep = 0x1p-6;     ///< share of the model's diagonal
-  static constexpr double kMinStep = 0x1p-6;     ///< share of the distance to the surface
-  static constexpr double kPathSteps = 24;       ///< steps that a ball lasts for, on a path
-  static constexpr double kCurveSteps = 3;       ///< the same, on a curve
-  static constexpr double kMaxRadiusRatio = 16;  ///< dropped beyond this multiple of radius_for()
+  static constexpr double kMaxStepShare = 0x1p-6;  ///< share of the model's diagonal
+  static constexpr double kMinStepShare = 0x1p-6;  ///< share of the distance to the surface
+  static constexpr double kPathSteps = 24;         ///< steps that a ball lasts for, on a path
+  static constexpr double kCurveSteps = 3;         ///< the same, on a curve
+  static constexpr double kMaxRadiusRatio = 16;    ///< dropped beyond this multiple of radius_for()
 
   Point centre_ = Point::Zero();
   Point last_ = Point::Constant(std::numeric_limits<double>::infinity());

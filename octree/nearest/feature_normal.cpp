@@ -8,24 +8,16 @@
 #include <Eigen/Geometry>
 
 #include "octree/geometry/angles.h"
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/wide_numbers.h"
 #include "octree/nearest/height_field.h"
-#include "octree/traversal/outcodes.h"
 #include "octree/traversal/overlap.h"
 #include "octree/traversal/tree_walk.h"
 
 namespace planetree::octree {
 namespace {
-
-/// Faces of a smaller squared sine are evaluated with 113 bits: in double they lose half of the
-/// bits.
-constexpr double kThinSine2 = 0x1p-48;
-/// Below this length of an edge, products of squares may underflow.
-constexpr double kShortEdge = 0x1p-200;
-/// A sum shorter than this share of its weights is rounding error.
-constexpr double kNoSum = 0x1p-40;
 
 Point thin_normal(const Triangle& triangle) {
   const Vector3<Quad> normal =
@@ -79,7 +71,7 @@ class Fan {
     });
     sum_up();
     const double length = sum_.norm();
-    return length > kNoSum * weights_ ? Point(sum_ / length) : first_;
+    return length > kCancelledNormalShare * weights_ ? Point(sum_ / length) : first_;
   }
 
  private:
@@ -160,8 +152,9 @@ bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept 
   const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const Point normal = u.cross(v);
   area2 = normal.squaredNorm();
-  const bool short_edge = std::min(u.squaredNorm(), v.squaredNorm()) < kShortEdge * kShortEdge;
-  if (!short_edge && area2 > kThinSine2 * u.squaredNorm() * v.squaredNorm()) {
+  const bool short_edge =
+      std::min(u.squaredNorm(), v.squaredNorm()) < kMinNormalEdge * kMinNormalEdge;
+  if (!short_edge && area2 > kThinFaceSine2 * u.squaredNorm() * v.squaredNorm()) {
     unit = normal / std::sqrt(area2);
     return true;
   }

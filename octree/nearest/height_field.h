@@ -17,9 +17,9 @@
 /// normal against that direction (kMinRise) and no thin corner (kMinSine).
 ///
 /// Proof that the faces tell the side. Let x be the point nearest to the query on a triangle of
-/// such a block, and let no other triangle be nearer by more than kMaxError. Then the segment from
-/// x to the query meets no triangle beyond its first kMaxError. Let the faces at x be as large as
-/// kMinArea requires, and x as far from what ends them. Then only these faces are within that
+/// such a block, and let no other triangle be nearer by more than kMaxInterval. Then the segment from
+/// x to the query meets no triangle beyond its first kMaxInterval. Let the faces at x be as large as
+/// kMinFaceArea requires, and x as far from what ends them. Then only these faces are within that
 /// length: a line along the direction through any other triangle there would cross one of them
 /// too. Let the query be in front of all faces at x. Then the segment leaves x to the outside. It
 /// could enter the solid only through a face that the query is behind, and there is none. So the
@@ -35,12 +35,12 @@ struct HeightField {
   static constexpr double kRim = 0x1p-30;
 
   /// Maximum width of the nearest distance's interval.
-  static constexpr double kMaxError = 0x1p-44;
+  static constexpr double kMaxInterval = 0x1p-44;
 
   /// Whether the faces at a nearest point may tell the side.
   static bool tells_side(const NearestAnswer& nearest) {
     return nearest.is_height_field && nearest.status == Status::kExact &&
-           nearest.upper - nearest.lower <= kMaxError;
+           nearest.upper - nearest.lower <= kMaxInterval;
   }
 };
 
@@ -57,7 +57,7 @@ class FacingSides {
     const Point way = query_ - face[0];
     const double height = way.dot(normal);
     const double error = kHeightError * way.norm() + kMinHeight;
-    const bool certain = std::fabs(height) > error && area2 >= kMinArea * kMinArea;
+    const bool certain = std::fabs(height) > error && area2 >= kMinFaceArea * kMinFaceArea;
     in_front_ = in_front_ && certain && height > 0;
     behind_ = behind_ && certain && height < 0;
     any_ = true;
@@ -69,7 +69,7 @@ class FacingSides {
   /// distance_by_area  inside a face: its least barycentric coordinate times twice the face's area.
   ///                   On an edge: its distance from the nearer end.
   void end_after(double distance_by_area) {
-    if (!(distance_by_area >= kMinArea)) add_unknown();
+    if (!(distance_by_area >= kMinFaceArea)) add_unknown();
   }
 
   /// 1: the query is in front of all faces; -1: behind all; 0: neither, or uncertain.
@@ -80,7 +80,7 @@ class FacingSides {
   static constexpr double kMinHeight = 0x1p-36;
   /// Minimum of twice a face's area and of end_after()'s argument. No side is longer than 4. So a
   /// corner is at least 2^-34 from the side opposite, and a point inside a face from every side.
-  static constexpr double kMinArea = 0x1p-32;
+  static constexpr double kMinFaceArea = 0x1p-32;
 
   const Point& query_;
   bool any_ = false;

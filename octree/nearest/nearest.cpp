@@ -82,7 +82,7 @@ HWY_EXPORT(nearest_on_target);
 NearestAnswer nearest(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                       const PageReader& pages, TraversalStats& work,
                       CoherenceCache* coherence_cache) noexcept {
-  assert(query.cwiseAbs().maxCoeff() <= kFarthestQuery);
+  assert(query.cwiseAbs().maxCoeff() <= kMaxQueryCoordinate);
   const bool any_way = limits.known || limits.allow_any_way();
   return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
                                                  any_way ? coherence_cache : nullptr);

@@ -4,17 +4,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "octree/geometry/tree_limits.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/nearest/coherence_cache.h"
 #include "octree/traversal/tree_view.h"
 #include "planetree/types.h"
 
 namespace planetree::octree {
-
-/// Farther queries need no traversal. Pages with coordinates beyond 2^60 are refused, so that
-/// subtracting a corner from such a query changes no bit of any squared distance. The nearest
-/// triangle is then the one of least index.
-inline constexpr double kFarthestQuery = 0x1p300;
 
 /// An answer in the model frame: the nearest point of one triangle, and the interval that holds
 /// the distance to the nearest of all.
@@ -51,7 +47,7 @@ struct NearestLimits {
 /// nearest children of all visited nodes at a time. If the ball of `coherence_cache` holds
 /// everything that may be nearest, it starts at the ball's subtrees instead of the root.
 ///
-/// query            model frame, no coordinate beyond kFarthestQuery.
+/// query            model frame, no coordinate beyond kMaxQueryCoordinate.
 /// work             counters that the traversal adds to.
 /// coherence_cache  read and renewed; may be null.
 /// return           the triangle of least (value, index). The value is that of

@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/page/block_unpacking.h"
 
 namespace planetree::octree {
 namespace {
 
-// Returns an upper bound on the distance whose square is `square`, in float.
-float extent_of(float square) {
-  return std::sqrt(square) * (1 + 0x1p-20f) + std::numeric_limits<float>::min();
-}
+// Returns an upper bound on the distance whose square is `square`, in float. Where the square has
+// underflowed the result may be too small, but it is then below kFilterMinExtent and not used.
+float extent_of(float square) { return std::sqrt(square) * kExtentInflation + kMinFloatNormal; }
 
 }  // namespace
 

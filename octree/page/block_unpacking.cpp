@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/tree_limits.h"
 #include "octree/geometry/wide_floats-inl.h"
 #include "octree/page/page_streams.h"
 #include "octree/page/split_lanes-inl.h"
@@ -48,7 +49,7 @@ std::size_t vertices_on_target(const std::byte* byte_split, std::size_t vertex_c
         greatest = hn::Max(greatest, hn::AndNot(sign, row));
     }
   }
-  const auto limit = hn::BitCast(QuadTag(), hn::Set(four, static_cast<float>(kFarthestVertex)));
+  const auto limit = hn::BitCast(QuadTag(), hn::Set(four, static_cast<float>(kMaxCoordinate)));
   good = hn::AllTrue(QuadTag(), hn::Eq(hn::Max(greatest, limit), limit));
   return whole;
 }
@@ -238,7 +239,7 @@ bool unpack_one_by_one(const ByteSplit<T>& byte_split, std::size_t first, T* ver
   for (std::size_t i = first; i < count; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const T value = byte_split[axis * count + i];
-      good &= std::fabs(value) <= T{kFarthestVertex};
+      good &= std::fabs(value) <= T{kMaxCoordinate};
       vertices[3 * i + axis] = value;
     }
   return good;

@@ -11,15 +11,11 @@
 /// has them; all instruction sets compute the same bits.
 namespace planetree::octree {
 
-/// Maximum magnitude of a vertex coordinate. Within it, no square and no product of squares
-/// overflows in any later computation. Coordinates that the builder writes are below 2^55.
-inline constexpr double kFarthestVertex = 0x1p60;
-
 /// Interleaves the coordinates of vertices.
 ///
 /// byte_split  as stored: x of all vertices, then y, then z
 /// vertices    capacity for x, y and z of each vertex in turn
-/// return      false if a coordinate is not a number or is beyond kFarthestVertex
+/// return      false if a coordinate is not a number or is beyond kMaxCoordinate
 bool unpack_vertices(const ByteSplit<float>& byte_split, float* vertices) noexcept;
 bool unpack_vertices(const ByteSplit<double>& byte_split, double* vertices) noexcept;
 

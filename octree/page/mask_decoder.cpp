@@ -8,15 +8,13 @@
 #include <limits>
 
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/tree_limits.h"
 #include "octree/page/frame.h"
 #include "octree/page/mask_frame.h"
 #include "octree/page/mask_streams.h"
 
 namespace planetree::octree {
 namespace {
-
-/// Limit of plane coordinates. Coordinates in the model frame are below 2^55.
-constexpr double kFarthestPlane = 0x1p60;
 
 class MaskDecoder {
  public:
@@ -212,7 +210,7 @@ const char* MaskDecoder::decode_plane() {
                 kPlaneSlots * next_plane_;
   for (std::size_t i = 0; i < kPlaneSlots; ++i) {
     plane[i] = streams_.plane_coordinate(kPlaneSlots * next_plane_ + i);
-    if (!(std::fabs(plane[i]) < kFarthestPlane)) return "a plane is out of range";
+    if (!(std::fabs(plane[i]) < kMaxCoordinate)) return "a plane is out of range";
   }
   ++next_plane_;
   return nullptr;

@@ -69,10 +69,10 @@ struct Moments {
 
 /// Maximum error of a stored dipole, as a share of the area: half a step on each axis, and some
 /// slack.
-inline constexpr double kVectorError = 0x1p-15;
+inline constexpr double kDipoleError = 0x1p-15;
 /// Maximum error of a stored quadrupole, as the root of the sum of the squared entries of a matrix,
 /// in units: half a step an entry, a whole one for zz, and some slack.
-inline constexpr double kFirstError = 1.75;
+inline constexpr double kQuadrupoleError = 1.75;
 
 /// The moments of all children, field by field. In the serving layout they follow the node. Absent
 /// children have zeros.

@@ -43,7 +43,7 @@ HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std
   const Floats height = dot(normal, from);
   const Floats slab_gap =
       outside(hn::Load(d, node.slab_lower + i), hn::Load(d, node.slab_upper + i), height);
-  const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kCancellation));
+  const Floats kept = hn::Mul(dot(from, from), hn::Set(d, 1.0f - kDiscCancellation));
   const Floats axis_distance = hn::Sqrt(hn::Max(hn::Sub(kept, hn::Mul(height, height)), zero));
   const Floats radius_gap = hn::Max(hn::Sub(axis_distance, hn::Load(d, node.radius + i)), zero);
   return hn::Max(bound, hn::Add(hn::Mul(slab_gap, slab_gap), hn::Mul(radius_gap, radius_gap)));

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "octree/geometry/child_bounds.h"
+#include "octree/geometry/error_bounds.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/nearby_lists.h"
@@ -128,7 +129,7 @@ class BoxWalk {
       const auto at = static_cast<Eigen::Index>(axis);
       const double least = lower[at] - centre[at], greatest = upper[at] - centre[at];
       const double slack =
-          0x1p-23 * std::max(std::fabs(least), std::fabs(greatest)) + kAbsoluteSlack;
+          kBoxRounding * std::max(std::fabs(least), std::fabs(greatest)) + kAbsoluteBoundSlack;
       box.lower[axis] = static_cast<float>(least - slack);
       box.upper[axis] = static_cast<float>(greatest + slack);
     }

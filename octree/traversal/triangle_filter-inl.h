@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/wide_floats-inl.h"
 #include "octree/page/frame.h"
 #include "octree/page/frame_lanes-inl.h"
@@ -28,12 +29,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 // along  dot product of the edge and the vector from the start to the query
 // edge2  squared length of the edge
 //
-// All arguments are products of the triangle's sides, which its three segments share. kEdgeError
-// covers their cancellation.
+// All arguments are products of the triangle's sides, which its three segments share.
+// kFilterEdgeError covers their cancellation.
 HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats along,
                                           TriangleFloats edge2) {
   const TriangleTag d;
-  const TriangleFloats least = hn::Set(d, 0x1p-126f);
+  const TriangleFloats least = hn::Set(d, kMinFloatNormal);
   const TriangleFloats one = hn::Set(d, 1.0f);
   const TriangleFloats t =
       hn::Min(hn::Max(hn::Div(along, hn::Max(edge2, least)), hn::Zero(d)), one);
@@ -41,7 +42,7 @@ HWY_INLINE TriangleFloats segment_squared(TriangleFloats p2, TriangleFloats alon
 }
 
 // Bounds on the squared distances of triangles. They hold but for the rounding of the corners,
-// which kFilterSlack covers.
+// which kFilterPositionSlack covers.
 struct TriangleBounds {
   TriangleFloats lower;  // 0 where float cannot bound it
   TriangleFloats upper;
@@ -58,12 +59,12 @@ HWY_INLINE TriangleFloats flat_lower(TriangleFloats edges, TriangleFloats whole,
                                      TriangleFloats sides, TriangleFloats longest2) {
   const TriangleTag d;
   const TriangleFloats zero = hn::Zero(d);
-  const TriangleFloats uncertainty =
-      hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-18f)), hn::Set(d, 0x1p-99f));
+  const TriangleFloats uncertainty = hn::Add(hn::Mul(sides, hn::Set(d, kFilterDeterminantError)),
+                                             hn::Set(d, kFilterDeterminantUnderflow));
   const TriangleFloats rise =
       hn::Div(hn::Sqrt(hn::Add(hn::Max(whole, zero), uncertainty)), hn::Sqrt(longest2));
   const TriangleFloats flat = hn::Max(hn::Sub(hn::Sqrt(edges), rise), zero);
-  return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, 0x1p-90f)), hn::Mul(flat, flat));
+  return hn::IfThenElseZero(hn::Gt(longest2, hn::Set(d, kFilterMinSide2)), hn::Mul(flat, flat));
 }
 
 // Returns bounds for triangles given by the vectors from the query to their corners.
@@ -81,7 +82,8 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
   const TriangleFloats edges =
       hn::Min(hn::Min(segment_squared(a2, to_b, ab2), segment_squared(a2, to_c, ac2)),
               segment_squared(b2, b_to_c, bc2));
-  const TriangleFloats edge_error = hn::Mul(hn::Add(a2, hn::Add(ab2, ac2)), hn::Set(d, kEdgeError));
+  const TriangleFloats edge_error =
+      hn::Mul(hn::Add(a2, hn::Add(ab2, ac2)), hn::Set(d, kFilterEdgeError));
 
   const TriangleFloats sides = hn::Mul(ab2, ac2);
   const TriangleFloats whole = hn::Sub(sides, hn::Mul(ab_ac, ab_ac));
@@ -94,14 +96,14 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
   const TriangleFloats face =
       hn::Sub(a2, hn::Add(hn::Mul(hn::Mul(v, inverse), to_b), hn::Mul(hn::Mul(w, inverse), to_c)));
   const TriangleFloats face_error =
-      hn::Mul(hn::Mul(a2, hn::Set(d, kFaceError)), hn::Mul(sides, inverse));
+      hn::Mul(hn::Mul(a2, hn::Set(d, kFilterFaceError)), hn::Mul(sides, inverse));
 
   const TriangleFloats squared = hn::IfThenElse(inside, face, edges);
   const TriangleFloats error = hn::IfThenElse(inside, face_error, edge_error);
   const TriangleFloats lower = hn::Max(hn::Sub(squared, error), zero);
   const TriangleFloats upper = hn::Add(squared, error);
-  const auto is_regular = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFlatSine2), sides)),
-                                  hn::Ge(whole, hn::Set(d, 0x1p-100f)));
+  const auto is_regular = hn::And(hn::Ge(whole, hn::Mul(hn::Set(d, kFilterMinSine2), sides)),
+                                  hn::Ge(whole, hn::Set(d, kFilterMinDeterminant)));
   if (hn::AllTrue(d, is_regular)) return {lower, upper};
   const TriangleFloats least = hn::Max(hn::Sub(edges, edge_error), zero);
   const TriangleFloats flat = flat_lower(least, whole, sides, hn::Max(hn::Max(ab2, ac2), bc2));
@@ -110,8 +112,8 @@ HWY_INLINE TriangleBounds triangle_bounds(const TriangleVectors& a, const Triang
 }
 
 // Returns squared distances to the boxes of triangles given in the same way, at a fifth of the
-// cost. They are no greater than those of the triangles but for rounding, which kFilterSlack
-// covers.
+// cost. They are no greater than those of the triangles but for rounding, which
+// kFilterPositionSlack covers.
 HWY_INLINE TriangleFloats box_bounds(const TriangleVectors& a, const TriangleVectors& b,
                                      const TriangleVectors& c) {
   const TriangleFloats zero = hn::Zero(TriangleTag());

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/geometry/triangle_kernels-inl.h"
@@ -34,17 +35,13 @@ HWY_INLINE Doubles largest(const Doubles3& a) {
 
 // The sign of a . (b x c), where it is certain. Components of the three vectors err by one rounding
 // each. `size` is the product of the vectors' greatest components.
-//
-// Error. The determinant is a sum of six products. Each errs by 8 roundings: three differences,
-// two products and three sums. A rounding is up to a whole ulp if the thread's rounding mode is
-// not to nearest. So the sum errs by at most 6 * 16 * 2^-53 of `size`. The absolute term is more
-// than flushing subnormals to zero can lose.
 struct CertainSign {
   DoubleMask positive, negative;
 };
 HWY_INLINE CertainSign certain_sign(Doubles determinant, Doubles size) {
   const DoubleTag d;
-  const Doubles error = hn::Add(hn::Mul(size, hn::Set(d, 0x1p-46)), hn::Set(d, 0x1p-600));
+  const Doubles error =
+      hn::Add(hn::Mul(size, hn::Set(d, kCrossingDeterminantError)), hn::Set(d, kCrossingUnderflow));
   return {hn::Gt(determinant, error), hn::Lt(determinant, hn::Neg(error))};
 }
 

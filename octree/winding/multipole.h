@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/page/moments.h"
 #include "octree/traversal/bounds.h"
@@ -32,13 +33,13 @@
 /// Taylor's remainder, the same terms are also at most 3 |x|^2 / rho^4. The integral of |x|^2 is
 /// the second moment.
 ///
-/// Error of the moments. V errs by kVectorError times the area S, so that its term errs by
-/// kVectorError S / |d|^2. F errs by kFirstError units, so that its term errs by
-/// 3 kFirstError units / |d|^3. Roundings in double are part of kVectorError.
+/// Error of the moments. V errs by kDipoleError times the area S, so that its term errs by
+/// kDipoleError S / |d|^2. F errs by kQuadrupoleError units, so that its term errs by
+/// 3 kQuadrupoleError units / |d|^3. Roundings in double are part of kDipoleError.
 ///
 /// Error of positions. Positions are relative to the model's centre. Subtracting it moves the query
-/// by at most 2^-52 of its greatest coordinate, and points of the triangles by kAbsoluteSlack / 2.
-/// With delta the sum of both, the share errs by 2 delta S / (rho - delta)^3.
+/// by at most 2^-52 of its greatest coordinate, and points of the triangles by kAbsoluteBoundSlack
+/// / 2. With delta the sum of both, the share errs by 2 delta S / (rho - delta)^3.
 ///
 /// The share itself is at most S / (4 pi rho^2). Where that is less than the error, 0 is returned
 /// as the share, with that bound as its error.
@@ -48,14 +49,15 @@ class Multipoles {
  public:
   struct Share {
     double value;
-    double error;  ///< above kMaxError: the share is unknown
+    double error;  ///< above kMaxShareError: the share is unknown
   };
   /// A share of greater error decides nothing.
-  static constexpr double kMaxError = 1;
+  static constexpr double kMaxShareError = 1;
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
   Multipoles(const Point& query, const Point& centre)
-      : from_(query - centre), delta_(kAbsoluteSlack + 0x1p-51 * from_.cwiseAbs().maxCoeff()) {}
+      : from_(query - centre),
+        delta_(kAbsoluteBoundSlack + kMultipoleQueryRounding * from_.cwiseAbs().maxCoeff()) {}
 
   /// Computes the shares of a node's children.
   void shares(const Node& node, std::array<Share, kFanOut>& shares) const {
@@ -89,8 +91,8 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
     gap2 += gap * gap;
     extent2 += extent * extent;
   }
-  const double rho = std::sqrt(gap2) * (1 - 0x1p-48) - delta_;
-  if (!(rho > 0x1p-60)) return {0, kUnknown};
+  const double rho = std::sqrt(gap2) * (1 - kNormRounding) - delta_;
+  if (!(rho > kMultipoleMinDistance)) return {0, kUnknown};
   const double area = Moments::wide(moments.area), second = Moments::wide(moments.second);
   const double dipole_unit = moments.dipole_unit(), quadrupole_unit = moments.quadrupole_unit();
   const double over_way = 1 / way.norm(), over_rho = 1 / rho;
@@ -101,10 +103,10 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
     tail = std::min(tail, (3 - 2 * share) / ((1 - share) * (1 - share)) * over_way * over_way *
                               over_way * over_way);
   const double max_share = area * over_rho2;
-  const double error = kVectorError * area * over_way * over_way +
-                       3 * kFirstError * quadrupole_unit * over_way * over_way * over_way +
+  const double error = kDipoleError * area * over_way * over_way +
+                       3 * kQuadrupoleError * quadrupole_unit * over_way * over_way * over_way +
                        second * tail + 2 * delta_ * area * over_rho2 * over_rho;
-  constexpr double kUp = kOverFourPi * (1 + 0x1p-40);
+  constexpr double kUp = kOverFourPi * kMultipoleErrorInflation;
   if (max_share < error) return {0, kUp * max_share};
   const Point u = way * over_way;
   const auto& [xx, yy, xy, yz, zx] = moments.first;

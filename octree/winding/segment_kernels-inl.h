@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
-#include "octree/traversal/bounds.h"
 
 namespace planetree::octree {
 
@@ -42,7 +42,7 @@ struct FloatSegment {
                                             : (length.y() >= length.z() ? 1 : 2);
     const double highest =
         std::max({largest, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
-    const double slack = 0x1p-20 * highest + kAbsoluteSlack;
+    const double slack = kSegmentRounding * highest + kAbsoluteBoundSlack;
     const double first = start[segment.axis], last = end[segment.axis];
     segment.lower = static_cast<float>(std::min(first, last) - slack);
     segment.upper = static_cast<float>(std::max(first, last) + slack);

@@ -7,6 +7,7 @@
 
 #include "octree/geometry/angles.h"
 #include "octree/geometry/certain_sum.h"
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/tree_view.h"
@@ -21,7 +22,7 @@ struct Proxy {
   std::uint32_t link;
   std::uint32_t order;  ///< greater for children added later
 
-  bool known() const { return share.error <= Multipoles::kMaxError; }
+  bool known() const { return share.error <= Multipoles::kMaxShareError; }
   /// The greatest of a heap is the most uncertain, of equals the last added. So unknown children
   /// are opened depth first.
   friend bool operator<(const Proxy& a, const Proxy& b) {
@@ -91,9 +92,9 @@ class WindingSum {
   WindingNumber sum() const {
     WindingNumber result;
     result.value = value_.value();
-    result.error = unknown_ > 0
-                       ? Multipoles::kUnknown
-                       : (error_.value() + error_.error() + value_.error()) * (1 + 0x1p-50);
+    result.error =
+        unknown_ > 0 ? Multipoles::kUnknown
+                     : (error_.value() + error_.error() + value_.error()) * kWindingErrorInflation;
     result.on_surface = on_surface_;
     return result;
   }
@@ -102,7 +103,7 @@ class WindingSum {
     if (unknown_ > 0) return false;
     const WindingNumber so_far = sum();
     if (!on_surface_) return so_far.above_half() || so_far.below_half();
-    return std::fabs(so_far.value) > so_far.error || so_far.error < 0.125;
+    return std::fabs(so_far.value) > so_far.error || so_far.error < kMaxSurfaceWindingError;
   }
 
   void add_proxy(const Proxy& proxy) {

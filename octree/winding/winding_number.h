@@ -28,7 +28,7 @@ struct WindingNumber {
 /// about 2^-45 a triangle.
 ///
 /// tree      its nodes have moments, or it is a single block.
-/// point     model frame, no coordinate beyond kFarthestQuery.
+/// point     model frame, no coordinate beyond kMaxQueryCoordinate.
 /// max_work  maximum number of nodes and blocks to visit.
 /// work      counters that the sum adds to.
 /// return    decided, if complete. For a point on the surface it is enough to know the sign, or

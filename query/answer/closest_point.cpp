@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_prefetcher.h"
 #include "octree/nearest/feature_normal.h"
@@ -17,8 +18,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Returns the answer of a far query. Beyond octree::kFarthestQuery all triangles are equally far in
-// double. `from` is a point at that distance in the direction of the query.
+// Returns the answer of a far query. Beyond octree::kMaxQueryCoordinate all triangles are equally
+// far in double. `from` is a point at that distance in the direction of the query.
 octree::NearestAnswer farthest(const octree::TreeInfo& tree, const octree::Point& from) {
   octree::NearestAnswer nearest;
   nearest.point = nearest.corners[0] = tree.sample;
@@ -40,8 +41,9 @@ void measure_far(const Vec3& query, const QueryOptions& options, ClosestPoint& a
     answer.lower = options.max_distance;
     return;
   }
-  answer.upper = answer.distance * (1 + 0x1p-48);
-  answer.lower = std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - 0x1p-48);
+  answer.upper = answer.distance * (1 + octree::kNormRounding);
+  answer.lower =
+      std::min(answer.distance, std::numeric_limits<double>::max()) * (1 - octree::kNormRounding);
 }
 
 // Returns a distance that all triangles missing from a file of a region exceed, also as evaluated;
@@ -63,7 +65,8 @@ void account_for_missing_surface(const octree::TreeInfo& tree, const octree::Poi
   nearest.status = Status::kDegraded;
   if (!beyond) return;
   nearest.point = tree.sample;
-  nearest.upper = (point - tree.sample).norm() * (1 + 0x1p-48) + 0x1p-500;
+  nearest.upper =
+      (point - tree.sample).norm() * (1 + octree::kNormRounding) + octree::kUnresolvedLength;
   nearest.distance = nearest.upper;
   nearest.feature = Feature::kVertex;
 }

@@ -42,17 +42,17 @@ inline bool is_valid(const Vec3& query, const QueryOptions& options) {
          (options.parts & ~kAllParts) == 0;
 }
 
-/// Returns whether a coordinate of a point exceeds octree::kFarthestQuery or is not finite.
+/// Returns whether a coordinate of a point exceeds octree::kMaxQueryCoordinate or is not finite.
 inline bool is_far(const octree::Point& point) {
-  return !(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery);
+  return !(point.cwiseAbs().maxCoeff() <= octree::kMaxQueryCoordinate);
 }
 
 /// Returns `scaled`, the query in the model frame. If it is far, returns a point in the same
-/// direction whose largest coordinate is octree::kFarthestQuery instead.
+/// direction whose largest coordinate is octree::kMaxQueryCoordinate instead.
 inline octree::Point within_reach(const octree::Point& scaled, const Vec3& query) {
   if (!is_far(scaled)) return scaled;
   const octree::Point from(query.x, query.y, query.z);
-  return from / from.cwiseAbs().maxCoeff() * octree::kFarthestQuery;
+  return from / from.cwiseAbs().maxCoeff() * octree::kMaxQueryCoordinate;
 }
 
 /// Returns the options with the default work limit of real-time queries filled in.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_lookup.h"
@@ -36,8 +37,9 @@ bool is_unknowable(const ModelGeometry& model, const Point& point) {
 
 // Rounds to the nearest whole number; clamps to +-2^62.
 std::int64_t rounded(double value) {
-  constexpr double kMax = 0x1p62;
-  return static_cast<std::int64_t>(std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMax, kMax));
+  constexpr double kMaxWindingNumber = 0x1p62;  // fits std::int64_t
+  return static_cast<std::int64_t>(
+      std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMaxWindingNumber, kMaxWindingNumber));
 }
 
 SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
@@ -45,7 +47,7 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
                              octree::TraversalStats& work, SideReason* reason) {
   if (reason) reason->rule = SideReason::Rule::kWindingNumber;
   // Seen from so far away, all triangles together have no measurable solid angle.
-  if (!(point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery)) return {Side::kOutside};
+  if (!(point.cwiseAbs().maxCoeff() <= octree::kMaxQueryCoordinate)) return {Side::kOutside};
   const octree::WindingNumber w = octree::winding_number(tree, point, max_work, pages, work);
   if (reason) {
     reason->value = w.value;
@@ -60,10 +62,6 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
   return {Side::kUnknown, w.complete ? Status::kExact : Status::kDegraded};
 }
 
-/// Minimum distance of a query from its nearest point, as a share of the largest coordinate, for
-/// the direction between them to be used. The nearest point is rounded, so a shorter one is noise.
-constexpr double kMinShare = 0x1p-36;
-
 double largest_coordinate(const octree::Triangle& triangle) {
   double largest = 0;
   for (const Point& corner : triangle) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
@@ -76,7 +74,7 @@ int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side
                   const Point& normal) {
   if (nearest.feature == Feature::kFace) return octree::perturbed_side(nearest.corners, query);
   if (side == Side::kOnSurface ||
-      nearest.distance < kMinShare * largest_coordinate(nearest.corners))
+      nearest.distance < octree::kMinDirectionShare * largest_coordinate(nearest.corners))
     return 0;
   const double along = (query - nearest.point).dot(normal);
   return along > 0 ? 1 : along < 0 ? -1 : 0;

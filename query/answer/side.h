@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "octree/geometry/cell_grid.h"
+#include "octree/geometry/error_bounds.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/nearest/feature_normal.h"
@@ -47,7 +48,7 @@ class SideCache {
   /// the cell's bounds.
   bool is_near(const octree::Point& point, const octree::TreeInfo& tree) const {
     const double diagonal2 = (tree.box_upper - tree.box_lower).squaredNorm();
-    return (point - point_).squaredNorm() < diagonal2 * (kNear * kNear);
+    return (point - point_).squaredNorm() < diagonal2 * (kMaxSideStepShare * kMaxSideStepShare);
   }
   /// Stores the lookup of a mask cell that holds for all points in the cell.
   void note_cell(const octree::MaskInfo& mask, const octree::MaskLookup& found) {
@@ -70,7 +71,7 @@ class SideCache {
     const double radius = std::max(clear, clear_);
     if (!(radius > 0)) return false;
     const double gap = (point - point_).norm();
-    return gap * (1 + kRounding) < radius;
+    return gap * (1 + octree::kGapRounding) < radius;
   }
 
   /// Stores the side of a point. `clear` is a lower bound on its distance from the
@@ -91,8 +92,7 @@ class SideCache {
 
  private:
   static constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-  static constexpr double kNear = 0x1p-6;       // share of the model's diagonal
-  static constexpr double kRounding = 0x1p-40;  // exceeds the relative error of `gap`
+  static constexpr double kMaxSideStepShare = 0x1p-6;  // share of the model's diagonal
 
   octree::MaskLookup cell_;
   octree::Point cell_lower_ = octree::Point::Constant(kNowhere);

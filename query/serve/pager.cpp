@@ -23,6 +23,10 @@ Result<std::unique_ptr<Pager>> Pager::create(storage::PageFile file, const Limit
   return pager;
 }
 
+bool Pager::stored_fits_frame() const noexcept {
+  return file_.header().max_stored_bytes <= file_.header().page_bytes;
+}
+
 std::uint64_t Pager::scratch_bytes() const noexcept {
   return file_.header().max_raw_bytes + (stored_fits_frame() ? 0 : file_.header().max_stored_bytes);
 }

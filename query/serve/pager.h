@@ -56,9 +56,7 @@ class Pager {
   explicit Pager(storage::PageFile file) : file_(std::move(file)) {}
   Result<void> claim(const Limits& limits);
   Result<void> lock(Locking locking) noexcept;
-  bool stored_fits_frame() const noexcept {
-    return file_.header().max_stored_bytes <= file_.header().page_bytes;
-  }
+  bool stored_fits_frame() const noexcept;
   Result<cache::FillResult> fill(const cache::FillRequest& request) noexcept;
   storage::ReadLimits read_limits(const cache::FillRequest& request) noexcept;
   storage::ReadWait* read_wait_for(std::uint32_t fetcher) noexcept;

@@ -159,7 +159,8 @@ void expect_normal(const BuiltModel& model, const Vec3& query, const ClosestPoin
 void expect_exact(const BuiltModel& model, const Vec3& query, const ClosestPoint& answer) {
   ASSERT_LT(answer.triangle, model.triangles().size());
   const octree::Point point = in_frame(query, model.scale_exponent());
-  if (point.cwiseAbs().maxCoeff() <= octree::kFarthestQuery) expect_least(model, query, answer);
+  if (point.cwiseAbs().maxCoeff() <= octree::kMaxQueryCoordinate)
+    expect_least(model, query, answer);
   expect_on_triangle(model.triangles()[answer.triangle], query, answer);
   expect_normal(model, query, answer);
 }

@@ -170,7 +170,7 @@ void expect_filter_passes(const std::vector<Triangle>& triangles, const FloatQue
                                                << " distance " << reach << " extent " << extent;
     nearest = std::min(nearest, reach);
   }
-  if (wide.usable && extent >= octree::kMinFilterExtent) {
+  if (wide.usable && extent >= octree::kFilterMinExtent) {
     EXPECT_GE(octree::filter_upper(filtered.min_upper, extent), nearest);
   }
 }

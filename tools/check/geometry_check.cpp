@@ -37,7 +37,7 @@ bool is_inside(const octree::FloatBox& box, const Point& point) {
 /// (octree/traversal/bounds.h). The point is relative to the model's centre.
 bool is_inside(const Bounds& bounds, const Point& point) {
   const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
-  const double slack = octree::kPlaneSlack / 2 * diagonal - octree::kAbsoluteSlack;
+  const double slack = octree::kDiscOffsetSlack / 2 * diagonal - octree::kAbsoluteBoundSlack;
   const Point normal = point_of(bounds.disc.normal);
   const Point from = point - point_of(bounds.box.centre());
   const double height = from.dot(normal);

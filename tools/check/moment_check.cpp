@@ -40,17 +40,17 @@ bool fits(const octree::Moments& stated, const Expected& expected) {
   const double area = octree::Moments::wide(stated.area);
   const double second = octree::Moments::wide(stated.second);
   const double extent = std::sqrt(second / area);
-  const double position_error = octree::kAbsoluteSlack * area;
+  const double position_error = octree::kAbsoluteBoundSlack * area;
   if (area * (1 + kRelativeSlack) < expected.area) return false;
-  if (second * (1 + kRelativeSlack) + position_error * (extent + octree::kAbsoluteSlack) <
+  if (second * (1 + kRelativeSlack) + position_error * (extent + octree::kAbsoluteBoundSlack) <
       expected.second)
     return false;
   const double vector_error =
-      (octree::kVectorError + kRelativeSlack) * area + expected.vector_error;
+      (octree::kDipoleError + kRelativeSlack) * area + expected.vector_error;
   if (!((vector_of(stated) - expected.vector).norm() <= vector_error)) return false;
   const Matrix symmetric = (expected.first + expected.first.transpose()) / 2 -
                            expected.first.trace() / 3 * Matrix::Identity();
-  const double first_error = octree::kFirstError * stated.quadrupole_unit() +
+  const double first_error = octree::kQuadrupoleError * stated.quadrupole_unit() +
                              kRelativeSlack * area * extent + position_error + expected.first_error;
   return (first_of(stated) - symmetric).norm() <= first_error;
 }
@@ -93,10 +93,10 @@ bool moments_fit(const Bounds& stated, const octree::Node& node) {
     const double least = 2 * octree::Moments::wide(octree::kMinShortFloat);
     const double kept = area > least ? area * kKept : 0;
     expected.vector += vector;
-    expected.vector_error += octree::kVectorError * area;
+    expected.vector_error += octree::kDipoleError * area;
     expected.first += first_of(moments) + by * vector.transpose();
-    expected.first_error +=
-        octree::kFirstError * moments.quadrupole_unit() + by.norm() * octree::kVectorError * area;
+    expected.first_error += octree::kQuadrupoleError * moments.quadrupole_unit() +
+                            by.norm() * octree::kDipoleError * area;
     expected.area += kept;
     // Minkowski's inequality: about `middle`, the second moment of a child is at least
     // max(0, |by| sqrt(area) - sqrt(second))^2.

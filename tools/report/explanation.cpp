@@ -125,7 +125,7 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   result.cell_lower = scale.out(grid.lower(result.reason.cell));
   result.cell_upper = scale.out(grid.upper(result.reason.cell));
   result.end = scale.out(result.reason.end);
-  if (point.cwiseAbs().maxCoeff() > octree::kFarthestQuery) return result;
+  if (point.cwiseAbs().maxCoeff() > octree::kMaxQueryCoordinate) return result;
   const octree::NearestAnswer nearest =
       octree::nearest(model.tree, point, {}, accessor.pages(), result.nearest_work);
   for (int i = 0; i < 3; ++i) result.corners[i] = scale.out(nearest.corners[i]);

@@ -7,7 +7,7 @@
 
 #include "octree/builder/mask/octant_overlap.h"
 #include "octree/geometry/strict_math.h"
-#include "octree/traversal/outcodes.h"
+#include "octree/traversal/overlap.h"
 #include "octree/traversal/tree_walk.h"
 
 namespace planetree::octree {

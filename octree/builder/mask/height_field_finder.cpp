@@ -24,13 +24,15 @@ namespace {
 constexpr std::uint64_t kMaxRecords = 1024;
 /// The ends of a prism are this many of its widths beyond its block, and its sides this share.
 constexpr double kEnds = 1;
-constexpr double kSides = 0x1p-16;
-/// Minimum distance from the ends of what is between them, so that no rounding brings it beyond.
-constexpr double kClear = HeightField::kRim / 2;
+constexpr double kPrismSideShare = 0x1p-16;
+/// Minimum distance from the ends of what is between them, so that no rounding brings it beyond:
+/// coordinates are below kMaxPrismCoordinate, so that they err by 2^-37.
+constexpr double kPrismClearance = HeightField::kRim / 2;
 /// With larger coordinates, a rim would be lost to rounding.
-constexpr double kLargest = 0x1p16;
-/// Edges shorter than this share of their triangle's distance are lost to rounding.
-constexpr double kShortest = 0x1p-24;
+constexpr double kMaxPrismCoordinate = 0x1p16;
+/// Edges shorter than this share of their triangle's distance are lost to rounding: at this length
+/// a normal errs by 2^-29.
+constexpr double kMinPrismSideShare = 0x1p-24;
 
 /// A box around a block, upright on it, and the line through its middle.
 class Prism {
@@ -55,7 +57,7 @@ class Prism {
       upper_ = upper_.cwiseMax(at);
     }
     const double width = std::max(upper_[0] - lower_[0], upper_[1] - lower_[1]);
-    const double rim = HeightField::kRim + kSides * width;
+    const double rim = HeightField::kRim + kPrismSideShare * width;
     const Point beyond(rim, rim, rim + kEnds * width);
     lower_ -= beyond;
     upper_ += beyond;
@@ -71,7 +73,7 @@ class Prism {
 
   bool is_good() const {
     return rotated_.row(2).squaredNorm() > 0 &&
-           (box_centre().cwiseAbs() + box_half()).maxCoeff() < kLargest;
+           (box_centre().cwiseAbs() + box_half()).maxCoeff() < kMaxPrismCoordinate;
   }
   /// The middle line, from the end in front to the end behind.
   PerturbedSegment middle_line() const {
@@ -92,7 +94,8 @@ class Prism {
         (a.cwiseMax(b).cwiseMax(c).array() < lower_.array()).any())
       return true;
     const auto [least, greatest] = std::minmax({a.z(), b.z(), c.z()});
-    if (!(least > lower_.z() + kClear && greatest < upper_.z() - kClear)) return false;
+    if (!(least > lower_.z() + kPrismClearance && greatest < upper_.z() - kPrismClearance))
+      return false;
     const Point u = b - a, v = c - a, w = c - b;
     const Point normal = u.cross(v);
     const double normal2 = normal.squaredNorm();
@@ -102,8 +105,9 @@ class Prism {
     constexpr double kSine2 = HeightField::kMinSine * HeightField::kMinSine;
     constexpr double kRise2 = HeightField::kMinRise * HeightField::kMinRise;
     const double reach2 = a.squaredNorm() + longest;
-    return shortest > kShortest * kShortest * reach2 && normal2 > kSine2 * other * longest &&
-           normal.z() > 0 && normal.z() * normal.z() > kRise2 * normal2;
+    return shortest > kMinPrismSideShare * kMinPrismSideShare * reach2 &&
+           normal2 > kSine2 * other * longest && normal.z() > 0 &&
+           normal.z() * normal.z() > kRise2 * normal2;
   }
   FloatPrism in_float() const {
     FloatPrism prism;
@@ -114,7 +118,7 @@ class Prism {
       prism.lower[at] = static_cast<float>(lower_[row]);
       prism.upper[at] = static_cast<float>(upper_[row]);
     }
-    prism.clear = static_cast<float>(kClear);
+    prism.clear = static_cast<float>(kPrismClearance);
     prism.middle = {static_cast<float>(middle_.x()), static_cast<float>(middle_.y())};
     return prism;
   }

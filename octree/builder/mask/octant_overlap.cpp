@@ -24,11 +24,11 @@ namespace HWY_NAMESPACE {
 // 2 R and one below R, each with the rounding of corners and of their differences. Along the
 // normal, no gap errs by more than the second share of R^3. Rounding never reverses the order of
 // two coordinates.
-constexpr float kEdgeError = 0x1p-18f;
-constexpr float kNormalError = 0x1p-14f;
+constexpr float kOctantEdgeError = 0x1p-18f;
+constexpr float kOctantNormalError = 0x1p-14f;
 // With R outside of this range, the cube of R is lost.
-constexpr float kMinReach = 0x1p-30f;
-constexpr float kMaxReach = 0x1p30f;
+constexpr float kOctantMinReach = 0x1p-30f;
+constexpr float kOctantMaxReach = 0x1p30f;
 
 // How far apart boxes and triangles are on separating axes; less than 0 where they overlap.
 class OverlapLanes {
@@ -51,10 +51,11 @@ class OverlapLanes {
     const hn::RebindToSigned<TriangleTag> di;
     const hn::Rebind<std::uint8_t, decltype(di)> bytes;
     const TriangleFloats reach = this->reach(), reach2 = hn::Mul(reach, reach);
-    const TriangleFloats edge_error = hn::Mul(reach2, hn::Set(d, kEdgeError));
-    const TriangleFloats normal_error = hn::Mul(hn::Mul(reach2, reach), hn::Set(d, kNormalError));
-    const auto fits =
-        hn::And(hn::Ge(reach, hn::Set(d, kMinReach)), hn::Le(reach, hn::Set(d, kMaxReach)));
+    const TriangleFloats edge_error = hn::Mul(reach2, hn::Set(d, kOctantEdgeError));
+    const TriangleFloats normal_error =
+        hn::Mul(hn::Mul(reach2, reach), hn::Set(d, kOctantNormalError));
+    const auto fits = hn::And(hn::Ge(reach, hn::Set(d, kOctantMinReach)),
+                              hn::Le(reach, hn::Set(d, kOctantMaxReach)));
     auto touched = hn::Zero(di), unsure = hn::Zero(di);
 #pragma GCC unroll 8
     for (unsigned octant = 0; octant < 8; ++octant) {
@@ -210,7 +211,7 @@ namespace {
 
 /// Minimum size of a cell, as a share of its distance from the origin. In smaller cells the
 /// rounding of the middle in may_touch() is not far below the errors of float.
-constexpr double kMinSize = 0x1p-28;
+constexpr double kOctantMinCellShare = 0x1p-28;
 
 }  // namespace
 
@@ -218,7 +219,7 @@ OctantOverlap::OctantOverlap(const Point& lower, const Point& middle, const Poin
     : sides_{lower, middle, upper} {
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double farthest = std::max(std::fabs(lower[axis]), std::fabs(upper[axis]));
-    float_decides_ = float_decides_ && upper[axis] - lower[axis] > kMinSize * farthest;
+    float_decides_ = float_decides_ && upper[axis] - lower[axis] > kOctantMinCellShare * farthest;
     in_float_.lower[axis] = static_cast<float>(lower[axis] - middle[axis]);
     in_float_.upper[axis] = static_cast<float>(upper[axis] - middle[axis]);
   }

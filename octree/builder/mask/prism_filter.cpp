@@ -9,16 +9,18 @@
 
 #include "octree/page/frame_lanes-inl.h"
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
-/// Stricter than the limits of HeightField, so that errors of float do not matter.
-constexpr float kRise = 0x1p-3f;
-constexpr float kSine = 0x1p-10f;
-constexpr float kErrors = 0x1p6f;
+/// Twice and four times the limits of HeightField, so that errors of float do not matter. A normal
+/// must be this many times as long as its error: 2^-6 of it is below the step from 2^-3 to 2^-4.
+constexpr float kPrismFilterRise = 0x1p-3f;
+constexpr float kPrismFilterSine = 0x1p-10f;
+constexpr float kPrismFilterNormal = 0x1p6f;
 
 class PrismLanes {
  public:
@@ -85,12 +87,12 @@ class PrismLanes {
     const TriangleFloats normal2 = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), z2);
     const TriangleFloats longest2 = hn::Max(hn::Max(dot(u, u), dot(v, v)), dot(w, w));
     // Smaller squares are lost to underflow.
-    const auto tiny = hn::Lt(normal2, hn::Set(d, 0x1p-100f));
-    const auto thin =
-        hn::Lt(normal2, hn::Mul(hn::Mul(longest2, longest2), hn::Set(d, kSine * kSine)));
-    const float lost = kErrors * error_;
+    const auto tiny = hn::Lt(normal2, hn::Set(d, kFilterMinDeterminant));
+    const auto thin = hn::Lt(normal2, hn::Mul(hn::Mul(longest2, longest2),
+                                              hn::Set(d, kPrismFilterSine * kPrismFilterSine)));
+    const float lost = kPrismFilterNormal * error_;
     const auto lost_to_rounding = hn::Lt(normal2, hn::Mul(longest2, hn::Set(d, lost * lost)));
-    const auto flat = hn::Lt(z2, hn::Mul(normal2, hn::Set(d, kRise * kRise)));
+    const auto flat = hn::Lt(z2, hn::Mul(normal2, hn::Set(d, kPrismFilterRise * kPrismFilterRise)));
     const auto other_way = hn::Lt(z, hn::Zero(d));
     return hn::Not(hn::Or(hn::Or(hn::Or(tiny, thin), hn::Or(lost_to_rounding, flat)), other_way));
   }
@@ -121,10 +123,10 @@ namespace {
 
 /// Errors of coordinates in a prism's frame are below this share of the block's reach from the
 /// origin. They come from the rounding of a vertex, two differences, the rows, three products and
-/// two sums.
-constexpr double kError = 0x1p-19;
+/// two sums: below 16 * 2^-24; doubled.
+constexpr double kPrismFilterError = 0x1p-19;
 /// For blocks so small that the squares from which their extents are found underflow.
-constexpr double kMinError = 0x1p-60;
+constexpr double kPrismFilterMinError = 0x1p-60;
 
 }  // namespace
 
@@ -133,8 +135,8 @@ PrismTriangles classify_triangles(const BlockView& block, const FloatPrism& pris
   const Point way = origin - block.vertex(0);
   const float seen_from_first[3] = {static_cast<float>(way.x()), static_cast<float>(way.y()),
                                     static_cast<float>(way.z())};
-  const float error =
-      static_cast<float>(kError * (way.norm() + double{block.header().extent}) + kMinError);
+  const float error = static_cast<float>(
+      kPrismFilterError * (way.norm() + double{block.header().extent}) + kPrismFilterMinError);
   return HWY_DYNAMIC_DISPATCH(look_on_target)(block.header(), prism, seen_from_first, error);
 }
 

@@ -11,8 +11,9 @@
 namespace planetree::octree {
 namespace {
 
-/// In 256ths of the width: far more than the rounding errors of heights.
-constexpr double kSlack = 0x1p-6;
+/// In 256ths of the width, each of which is at least 2^-3: far more than the errors of heights,
+/// which are below 2^-40.
+constexpr double kSlabFitSlack = 0x1p-6;
 
 /// The direction nearest to a normal; the same for the opposite normal.
 std::uint16_t direction_of(const Point& normal) {
@@ -48,8 +49,8 @@ CellSlab fit_slab(const GridCell& cell, const Point& lower,
   const auto in_byte = [](double step) {
     return static_cast<std::uint8_t>(std::clamp(step, 0.0, 255.0));
   };
-  slab.lower = in_byte(std::floor(least * steps - 0.5 - kSlack));
-  slab.upper = in_byte(std::ceil(greatest * steps - 0.5 + kSlack));
+  slab.lower = in_byte(std::floor(least * steps - 0.5 - kSlabFitSlack));
+  slab.upper = in_byte(std::ceil(greatest * steps - 0.5 + kSlabFitSlack));
   if (!slab.has_plane()) return {};
   return slab;
 }

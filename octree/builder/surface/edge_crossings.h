@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/predicates.h"
 
 /// How triangles meet the octants and edges of cells.
@@ -46,16 +47,15 @@ class DownwardSegment {
     for (unsigned k = 0; k < 3; ++k) {
       const Point a = triangle[k] - segment_.to, b = triangle[(k + 1) % 3] - segment_.to;
       const double one = a[i] * b[j], other = a[j] * b[i];
-      const double error = kError * (std::fabs(one) + std::fabs(other)) + kUnderflow;
+      const double error = kEdgePassError * (std::fabs(one) + std::fabs(other)) + kProductUnderflow;
       left = left || one - other > error;
       right = right || other - one > error;
     }
     return left && right;
   }
-  /// Error of a difference of two products of rounded differences, as a share of the products, and
-  /// error of products that underflow.
-  static constexpr double kError = 0x1p-49;
-  static constexpr double kUnderflow = 0x1p-1000;
+  /// Error of a difference of two products of rounded differences, as a share of the products. Each
+  /// product errs by 3 roundings and the difference by one of both; times 4.
+  static constexpr double kEdgePassError = 0x1p-49;
 
   PerturbedSegment segment_;
   unsigned axis_;

@@ -36,7 +36,7 @@ class DiscExtent {
   void pack(const FloatBox& box, PackedChild& packed) const {
     const double step = box.plane_step();
     if (!(step > 0)) return;
-    const double slack = kPlaneSlack * 32000 * step;
+    const double slack = kDiscOffsetSlack * 32000 * step;
     packed.slab_lower = static_cast<std::int16_t>(
         std::clamp(std::floor((lower_ - slack) / step), -32767.0, 32767.0));
     packed.slab_upper = static_cast<std::int16_t>(

@@ -10,6 +10,15 @@
 namespace planetree::octree {
 namespace {
 
+/// Error of the area of a thin triangle, as a share of the product of two sides. A cross product
+/// errs by 5 roundings of it, before it is halved.
+constexpr double kThinAreaError = 0x1p-48;
+/// Relative error of a sum over up to 2^32 triangles: 2^-21.
+constexpr double kMomentInflation = 1 + 0x1p-20;
+/// What cancels where a second moment is moved to another centre, as a share of the squared
+/// diagonal times the area.
+constexpr double kMomentMoveError = 0x1p-40;
+
 SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
   const Point a = triangle[0] - from, b = triangle[1] - from, c = triangle[2] - from;
   const Point u = b - a, v = c - a;
@@ -17,7 +26,7 @@ SurfaceSums of_triangle(const Triangle& triangle, const Point& from) {
   SurfaceSums sums;
   sums.vector = vector;
   // The area of a thin triangle may be too small by cancellation, but not by more than this.
-  sums.area = vector.norm() + 0x1p-48 * u.norm() * v.norm();
+  sums.area = vector.norm() + kThinAreaError * u.norm() * v.norm();
   const Point sum = a + b + c;
   sums.first = sum / 3 * vector.transpose();
   sums.position = sums.area / 3 * sum;
@@ -112,8 +121,9 @@ Moments packed(const SurfaceSums& sums, const FloatBox& box) {
   // These shares are far more than rounding may have cost: moving the reference point cancels no
   // more than the square of the box's diagonal.
   const auto diagonal2 = static_cast<double>(box.diagonal_squared());
-  const double area = sums.area * (1 + 0x1p-20);
-  const double second = std::max(0.0, sums.second) * (1 + 0x1p-20) + 0x1p-40 * diagonal2 * area;
+  const double area = sums.area * kMomentInflation;
+  const double second =
+      std::max(0.0, sums.second) * kMomentInflation + kMomentMoveError * diagonal2 * area;
   Moments moments;
   moments.area = pack_short_above(area);
   moments.second = pack_short_above(second);

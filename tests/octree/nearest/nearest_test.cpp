@@ -107,7 +107,7 @@ TEST(Nearest, EvaluatesFewTriangles) {
 
 TEST(Nearest, IsExactAtAnyDistance) {
   SampleQueries queried(sphere(3));
-  for (const double far : {1e6, 0x1p59, 0x1p61, 1e30, 0x1p200, kFarthestQuery}) {
+  for (const double far : {1e6, 0x1p59, 0x1p61, 1e30, 0x1p200, kMaxQueryCoordinate}) {
     const NearestAnswer answer = queried.closest_point(Point(far, far / 3, -far / 7));
     EXPECT_EQ(answer.status, Status::kExact) << far;
     queried.expect_interval_holds(answer, Point(far, far / 3, -far / 7));

@@ -1,4 +1,4 @@
-#include "octree/traversal/outcodes.h"
+#include "octree/traversal/overlap.h"
 
 #include <gtest/gtest.h>
 

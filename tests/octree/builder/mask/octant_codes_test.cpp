@@ -3,7 +3,7 @@
 #include <bit>
 #include <vector>
 
-#include "octree/traversal/outcodes.h"
+#include "octree/traversal/overlap.h"
 #include "tests/octree/support/each_block.h"
 #include "tests/octree/support/each_target.h"
 #include "tests/octree/support/sample_mask.h"
