@@ -46,7 +46,8 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
         (width_[axis] - 1) * FixedPoint::kCell + GridCoordinates::kRimMiddle;
     const FixedPoint::Digits lower = coordinates_.model.digits_of(lower_[axis]);
     near = near && lower.shift > 1;
-    coordinates_.first[axis] = near ? lower.steps() - kRim * FixedPoint::kCell - kGridUncertainty : 0;
+    coordinates_.first[axis] =
+        near ? lower.steps() - kRim * FixedPoint::kCell - kGridUncertainty : 0;
   }
   coordinates_.uncertainty = 2 * (near ? kGridUncertainty : GridCoordinates::kMin);
 }

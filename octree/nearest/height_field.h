@@ -17,13 +17,13 @@
 /// normal against that direction (kMinRise) and no thin corner (kMinSine).
 ///
 /// Proof that the faces tell the side. Let x be the point nearest to the query on a triangle of
-/// such a block, and let no other triangle be nearer by more than kMaxInterval. Then the segment from
-/// x to the query meets no triangle beyond its first kMaxInterval. Let the faces at x be as large as
-/// kMinFaceArea requires, and x as far from what ends them. Then only these faces are within that
-/// length: a line along the direction through any other triangle there would cross one of them
-/// too. Let the query be in front of all faces at x. Then the segment leaves x to the outside. It
-/// could enter the solid only through a face that the query is behind, and there is none. So the
-/// query is outside. Likewise, it is inside if it is behind all faces at x.
+/// such a block, and let no other triangle be nearer by more than kMaxInterval. Then the segment
+/// from x to the query meets no triangle beyond its first kMaxInterval. Let the faces at x be as
+/// large as kMinFaceArea requires, and x as far from what ends them. Then only these faces are
+/// within that length: a line along the direction through any other triangle there would cross one
+/// of them too. Let the query be in front of all faces at x. Then the segment leaves x to the
+/// outside. It could enter the solid only through a face that the query is behind, and there is
+/// none. So the query is outside. Likewise, it is inside if it is behind all faces at x.
 namespace planetree::octree {
 
 struct HeightField {
