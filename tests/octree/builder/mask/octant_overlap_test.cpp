@@ -89,11 +89,11 @@ TEST(OctantOverlap, MatchesTestingEachTriangleByItself) {
     MakePair make;
   };
   for (const OverlapCase& c :
-       {OverlapCase{"random", random_pair}, OverlapCase{"needle", needle}, OverlapCase{"of other size", of_other_size},
-        OverlapCase{"tiny", tiny}, OverlapCase{"tiny at a corner", tiny_at_a_corner},
-        OverlapCase{"on a lattice", on_lattice}, OverlapCase{"axis-aligned", axis_aligned},
-        OverlapCase{"barely", barely}, OverlapCase{"far away", far_away},
-        OverlapCase{"of few numbers", of_few_numbers}}) {
+       {OverlapCase{"random", random_pair}, OverlapCase{"needle", needle},
+        OverlapCase{"of other size", of_other_size}, OverlapCase{"tiny", tiny},
+        OverlapCase{"tiny at a corner", tiny_at_a_corner}, OverlapCase{"on a lattice", on_lattice},
+        OverlapCase{"axis-aligned", axis_aligned}, OverlapCase{"barely", barely},
+        OverlapCase{"far away", far_away}, OverlapCase{"of few numbers", of_few_numbers}}) {
     SCOPED_TRACE(c.name);
     for (const bool same : on_each_target([&] {
            expect_as_one_by_one(c.make, 400);
