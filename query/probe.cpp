@@ -22,9 +22,7 @@ void ProbeState::request(const Vec3& query, const QueryOptions& options,
       .missed.store({query, options.max_error, options.max_distance, options.max_work, parts});
 }
 
-// Not inlined into Probe::closest_point(), which would then copy the answer.
-[[gnu::noinline]] ClosestPoint ProbeState::closest_point(const Vec3& query,
-                                                         const QueryOptions& options) noexcept {
+ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
   const bool valid = is_valid(query, options);
   ClosestPoint answer = unanswered(valid ? Status::kExact : Status::kBadQuery);
   if (!valid) return answer;
