@@ -48,7 +48,8 @@ TEST(Layers, RefuseFoldersAboveOrBeside) {
   EXPECT_EQ(forbidden_in("query/answer/a.h", "#include \"query/serve/pager.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("query/a.cpp", "#include \"tools/cli/progress.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("storage/file/a.h", "#include \"planetree/types.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("examples/a.cpp", "#include \"octree/geometry/child_bounds.h\"\n").size(), 1u);
+  EXPECT_EQ(forbidden_in("examples/a.cpp", "#include \"octree/geometry/child_bounds.h\"\n").size(),
+            1u);
 }
 
 TEST(Layers, RefuseFoldersWithoutARow) {
