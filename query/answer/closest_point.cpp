@@ -261,13 +261,6 @@ class ClosestPointQuery {
 
 }  // namespace
 
-ClosestPoint unanswered(Status status) noexcept {
-  ClosestPoint answer;
-  answer.distance = answer.upper = kInfinity;
-  answer.status = status;
-  return answer;
-}
-
 bool closest_point(const QueryContext& context, const Vec3& query, const QueryOptions& options,
                    ClosestPoint& answer) noexcept {
   return ClosestPointQuery(context, query, options, answer).run();

@@ -1,12 +1,19 @@
 #pragma once
 
+#include <limits>
+
 #include "planetree/types.h"
 #include "query/answer/query_context.h"
 
 namespace planetree::query {
 
 /// Returns the answer of a query that reached no triangle: `distance` and `upper` are infinite.
-ClosestPoint unanswered(Status status) noexcept;
+inline ClosestPoint unanswered(Status status) noexcept {
+  ClosestPoint answer;
+  answer.distance = answer.upper = std::numeric_limits<double>::infinity();
+  answer.status = status;
+  return answer;
+}
 
 /// Computes the requested parts of a closest-point query.
 ///
