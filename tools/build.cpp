@@ -108,6 +108,8 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"input_triangles", built.input_triangles},
       {"skipped", built.skipped},
       {"first_skipped", nullptr},
+      {"nonplanar_polygons", built.nonplanar_polygons},
+      {"fanned_polygons", built.fanned_polygons},
       {"vertices", built.vertices},
       {"watertight", built.watertight()},
       {"unbalanced_edges", built.unbalanced_edges},
@@ -154,6 +156,23 @@ void warn_of_skipped(const BuildArguments& arguments, const BuildReport& report,
                            report.first_skipped_text));
 }
 
+void warn_of_odd_polygons(const BuildArguments& arguments, const BuildReport& report,
+                          Console& console) {
+  const auto polygons = [](std::uint64_t count) {
+    return fmt::format("{} polygon{}", grouped_count(count), count == 1 ? "" : "s");
+  };
+  if (report.nonplanar_polygons > 0)
+    console.warn(arguments.input.string(),
+                 fmt::format("{} neither convex nor flat split as seen along an axis, the first: "
+                             "{}; split them before the export to choose their triangles",
+                             polygons(report.nonplanar_polygons), report.first_nonplanar_text));
+  if (report.fanned_polygons > 0)
+    console.warn(arguments.input.string(),
+                 fmt::format("{} split into fans that may reach beyond them, the first: {}; split "
+                             "them before the export",
+                             polygons(report.fanned_polygons), report.first_fanned_text));
+}
+
 std::string page_size_complaint(std::uint64_t bytes) {
   if (std::has_single_bit(bytes) && bytes >= BuildOptions::kMinPageBytes &&
       bytes <= BuildOptions::kMaxPageBytes)
@@ -196,6 +215,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
   warn_of_skipped(arguments, *report, console);
+  warn_of_odd_polygons(arguments, *report, console);
   if (!arguments.json) {
     console.print(plain_report(arguments, *report, seconds));
     return console.finish(kDone);

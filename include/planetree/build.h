@@ -175,7 +175,15 @@ struct BuildReport {
   std::uint64_t input_triangles = 0;          ///< usable triangles of the input, in the box or not
   std::uint64_t skipped = 0;                  ///< triangle indices that skipped records take
   std::uint64_t first_skipped = kNoTriangle;  ///< the least of those indices, or kNoTriangle
-  std::string first_skipped_text;      ///< what is wrong with that record; empty if there is none
+  std::string first_skipped_text;  ///< what is wrong with that record; empty if there is none
+  /// Polygons that are not convex and whose corners are not in one plane. They were split as seen
+  /// along an axis.
+  std::uint64_t nonplanar_polygons = 0;
+  std::string first_nonplanar_text;  ///< names the first of them; empty if there is none
+  /// Polygons that cross themselves, or that have more than 2^20 corners. They were split into
+  /// fans, which may reach beyond them.
+  std::uint64_t fanned_polygons = 0;
+  std::string first_fanned_text;       ///< names the first of them; empty if there is none
   std::uint64_t vertices = 0;          ///< vertex records of the input
   std::uint64_t unbalanced_edges = 0;  ///< edges that more faces run along one way than the other
   std::uint64_t nodes = 0;             ///< inner nodes of the tree

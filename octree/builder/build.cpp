@@ -143,10 +143,14 @@ BuildReport report_of(const octree::BuildReport& built) {
   const storage::ModelRecord& model = header.model;
   BuildReport report;
   report.triangles = model.triangle_count;
-  report.input_triangles = built.input_triangles;
+  report.input_triangles = built.frame.triangle_count;
   report.skipped = model.skipped_count;
   report.first_skipped = model.first_skipped;
-  report.first_skipped_text = built.first_skipped;
+  report.first_skipped_text = built.frame.first_skipped_text;
+  report.nonplanar_polygons = built.frame.nonplanar_count;
+  report.first_nonplanar_text = built.frame.first_nonplanar_text;
+  report.fanned_polygons = built.frame.fanned_count;
+  report.first_fanned_text = built.frame.first_fanned_text;
   report.vertices = model.vertex_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
   report.nodes = model.node_count;

@@ -301,8 +301,7 @@ Result<BuildReport> TreeBuild::write_pages() {
   const auto header = write_tree(model_, *tree_, output_, options_, seams_.calls, progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
-  return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_skipped_text,
-                     files_.disk_bytes()};
+  return BuildReport{*header, model_.frame, files_.disk_bytes()};
 }
 
 }  // namespace

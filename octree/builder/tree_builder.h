@@ -6,6 +6,7 @@
 #include "octree/builder/build_seams.h"
 #include "octree/builder/job/build_options.h"
 #include "octree/builder/job/build_progress.h"
+#include "octree/builder/job/model_frame.h"
 #include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/file/file_layout.h"
@@ -15,8 +16,7 @@ namespace planetree::octree {
 
 struct BuildReport {
   storage::FileHeader header;         ///< as written
-  std::uint64_t input_triangles = 0;  ///< usable triangles of the input, built or not
-  std::string first_skipped;          ///< the first skipped record in words; empty if there is none
+  ModelFrame frame;                   ///< what reading the whole input found
   std::uint64_t temporary_bytes = 0;  ///< bytes that were spilled to disk
 };
 

@@ -61,7 +61,8 @@ template <class Record, IsA<ModelFrame> Value>
 void fields(Record& record, Value& frame) {
   record(frame.triangle_count, frame.float64, frame.scale_exponent, frame.input_lower,
          frame.input_upper, frame.input_sample, frame.sample_triangle, frame.skipped_count,
-         frame.first_skipped, frame.first_skipped_text);
+         frame.first_skipped, frame.first_skipped_text, frame.nonplanar_count,
+         frame.first_nonplanar_text, frame.fanned_count, frame.first_fanned_text);
 }
 
 template <class Record, IsA<TriangleRuns::Extent> Value>

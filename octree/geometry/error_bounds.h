@@ -60,6 +60,9 @@ inline constexpr double kValueRounding = 0x1p-40;
 inline constexpr double kOrientationFilter = 32 * kDoubleRoundoff;
 /// The same of a 2 x 2 determinant: four times Shewchuk's (3 + 16 u) u.
 inline constexpr double kNormalSignFilter = 16 * kDoubleRoundoff;
+/// Error of a sum of such determinants, for each of them, as a share of the sum of their
+/// permanents.
+inline constexpr double kAreaSumFilter = 4 * kDoubleRoundoff;
 /// What flushing subnormal differences and products to zero may change, times (1 + largest
 /// difference)^2. Each operation loses at most 2^-1022 times two such factors; 2^12 operations fit.
 inline constexpr double kFlushLoss = 0x1p-1010;

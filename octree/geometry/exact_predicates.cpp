@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
+#include <utility>
 
 #include "octree/geometry/wide_numbers.h"
 
@@ -22,7 +23,7 @@ using Whole =
 /// A determinant is a sum of six products of three differences: below 2^4134.
 using LargeWhole = Whole<4160>;
 /// Most coordinates are of similar size. Coordinates below 2^126 have differences below 2^127 and
-/// determinants below 2^384.
+/// determinants below 2^384; areas of 2^20 corners are below 2^276.
 using SmallWhole = Whole<384>;
 constexpr int kSmallBits = 126;
 
@@ -31,12 +32,10 @@ class CommonUnit {
  public:
   template <std::size_t kCount>
   explicit CommonUnit(const std::array<const Point*, kCount>& points) {
-    for (const Point* point : points)
-      for (const double value : *point)
-        if (const DoubleParts parts(value); parts.mantissa != 0) {
-          exponent_ = std::min(exponent_, parts.exponent);
-          max_ = std::max(max_, parts.exponent);
-        }
+    for (const Point* point : points) add(*point);
+  }
+  explicit CommonUnit(std::span<const Vec3> points) {
+    for (const Vec3& point : points) add({point.x, point.y, point.z});
   }
 
   /// Returns whether all coordinates are below 2^kSmallBits units.
@@ -51,6 +50,13 @@ class CommonUnit {
   }
 
  private:
+  void add(const Point& point) {
+    for (const double value : point)
+      if (const DoubleParts parts(value); parts.mantissa != 0) {
+        exponent_ = std::min(exponent_, parts.exponent);
+        max_ = std::max(max_, parts.exponent);
+      }
+  }
   template <class Number>
   Number whole(double value) const {
     const DoubleParts parts(value);
@@ -82,6 +88,20 @@ int area_sign(const CommonUnit& unit, const Point& a, const Point& b, const Poin
   return area.sign();
 }
 
+template <class Number>
+int area_sign(const CommonUnit& unit, std::span<const Vec3> corners, unsigned axis) {
+  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const Point first(corners[0].x, corners[0].y, corners[0].z);
+  std::array<Number, 3> u;
+  Number area = 0;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    auto v = unit.difference<Number>({corners[k].x, corners[k].y, corners[k].z}, first);
+    if (k > 1) area += u[i] * v[j] - u[j] * v[i];
+    u = std::move(v);
+  }
+  return area.sign();
+}
+
 }  // namespace
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
@@ -94,6 +114,13 @@ int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned a
   const CommonUnit unit(std::array{&a, &b, &c});
   return unit.small() ? area_sign<SmallWhole>(unit, a, b, c, axis)
                       : area_sign<LargeWhole>(unit, a, b, c, axis);
+}
+
+int exact_polygon_area_sign(std::span<const Vec3> corners, unsigned axis) noexcept {
+  if (corners.size() < 3) return 0;
+  const CommonUnit unit(corners);
+  return unit.small() ? area_sign<SmallWhole>(unit, corners, axis)
+                      : area_sign<LargeWhole>(unit, corners, axis);
 }
 
 }  // namespace planetree::octree

@@ -66,6 +66,28 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   return exact_normal_sign(a, b, c, axis);
 }
 
+// The sum of the fan about corner 0. Each term errs by a share of its permanent, and the sum by one
+// rounding of at most the sum of the permanents for each term.
+int polygon_area_sign(std::span<const Vec3> corners, unsigned axis) noexcept {
+  const auto at = [&corners](std::size_t k) {
+    return Point(corners[k].x, corners[k].y, corners[k].z);
+  };
+  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+  double area = 0, permanent = 0, largest = 0;
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Point u = at(k - 1) - at(0), v = at(k) - at(0);
+    const double left = u[i] * v[j], right = u[j] * v[i];
+    area += left - right;
+    permanent += std::fabs(left) + std::fabs(right);
+    largest = std::max({largest, u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff()});
+  }
+  const auto count = static_cast<double>(corners.size());
+  if (std::fabs(area) >
+      (kNormalSignFilter + kAreaSumFilter * count) * permanent + count * flush_loss(largest))
+    return sign_of(area);
+  return exact_polygon_area_sign(corners, axis);
+}
+
 // The point's step is (s1, s2, s3) with s1 >> s2 >> s3 > 0.
 int perturbed_side(const Triangle& triangle, const Point& point) noexcept {
   const auto& [a, b, c] = triangle;

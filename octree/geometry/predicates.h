@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "octree/geometry/triangle_distance.h"
+#include "planetree/types.h"
 
 /// Signs of determinants, exact for all finite points. A filter in double decides most calls,
 /// integers the others.
@@ -19,6 +22,10 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
 
 /// Returns the sign of component `axis`, 0 to 2, of (b - a) x (c - a).
 int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
+
+/// Returns the sign of component `axis` of a closed polygon's area vector: 1 if the polygon runs
+/// counterclockwise seen against the axis. At most 2^20 corners.
+int polygon_area_sign(std::span<const Vec3> corners, unsigned axis) noexcept;
 
 /// Returns the side of a triangle's plane that `point` is on after its infinitesimal step (see
 /// PerturbedSegment). The result is 0 only if the triangle has no area.
@@ -48,10 +55,12 @@ struct PerturbedSegment {
 /// crossed.
 int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept;
 
-/// The same as orientation() and normal_sign(), for arguments that the filter in double cannot
-/// decide. They compute in integers: no allocation, no rounding, no dependence on the thread's
-/// floating-point mode. A call takes about a microsecond, the filter nanoseconds.
+/// The same as orientation(), normal_sign() and polygon_area_sign(), for arguments that the filter
+/// in double cannot decide. They compute in integers: no allocation, no rounding, no dependence on
+/// the thread's floating-point mode. A call takes about a microsecond, the filter nanoseconds; of a
+/// polygon, each corner takes that.
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;
 int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
+int exact_polygon_area_sign(std::span<const Vec3> corners, unsigned axis) noexcept;
 
 }  // namespace planetree::octree

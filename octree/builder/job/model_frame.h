@@ -22,6 +22,10 @@ struct ModelFrame {
   std::uint64_t skipped_count = 0;     ///< triangle indices of skipped records
   std::uint64_t first_skipped = kNoTriangle;
   std::string first_skipped_text;
+  std::uint64_t nonplanar_count = 0;  ///< polygons that are neither convex nor flat
+  std::string first_nonplanar_text;
+  std::uint64_t fanned_count = 0;  ///< polygons whose fans may reach beyond them
+  std::string first_fanned_text;
 
   /// Box in the model frame.
   Point lower() const { return scaled(input_lower); }

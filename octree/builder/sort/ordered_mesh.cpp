@@ -23,6 +23,10 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
     return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
                       "%s; repair the mesh or build without --strict",
                       frame->first_skipped_text.c_str());
+  frame->nonplanar_count = summary->odd_polygons.nonplanar;
+  frame->first_nonplanar_text = summary->odd_polygons.first_nonplanar;
+  frame->fanned_count = summary->odd_polygons.fanned;
+  frame->first_fanned_text = summary->odd_polygons.first_fanned;
   const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
   return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}};
 }

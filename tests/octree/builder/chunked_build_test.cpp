@@ -114,7 +114,7 @@ TEST_F(ChunkedBuild, WritesOnlyTheTrianglesOfARegion) {
   EXPECT_LT(report->header.page_count, pages / 10);
   EXPECT_LT(report->header.model.triangle_count, 400u);
   EXPECT_EQ(report->header.model.input_triangles, sphere(5).size());
-  EXPECT_EQ(report->input_triangles, sphere(5).size());
+  EXPECT_EQ(report->frame.triangle_count, sphere(5).size());
   EXPECT_EQ(report->header.model.unbalanced_edge_count, 0u);
 }
 

@@ -118,7 +118,7 @@ TEST_F(TreeBuilder, ReportsTheModel) {
   EXPECT_EQ(model.scale_exponent, -1);
   EXPECT_EQ(model.sample_triangle, 0u);
   EXPECT_EQ(model.vertex_kind, storage::VertexKind::kFloat32);
-  EXPECT_NE(report->first_skipped.find("line "), std::string::npos);
+  EXPECT_NE(report->frame.first_skipped_text.find("line "), std::string::npos);
 }
 
 TEST_F(TreeBuilder, RefusesBadRecordsWhenStrict) {

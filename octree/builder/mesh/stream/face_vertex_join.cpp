@@ -14,7 +14,6 @@ FaceVertexJoin::FaceVertexJoin(MeshVertices& vertices, std::int64_t first_number
 
 // The credit has a maximum: a mesh may be in order only at its beginning.
 void FaceVertexJoin::begin_face(std::uint64_t corners) {
-  held_.clear();
   const std::uint64_t read_bytes = cache_->read_bytes();
   credit_bytes_ -= std::min(credit_bytes_, read_bytes - seen_bytes_);
   seen_bytes_ = read_bytes;

@@ -67,8 +67,6 @@ class FaceVertexJoin {
  private:
   /// Bytes that may be read per corner. Sorting moves about four times as many, in few long reads.
   static constexpr std::uint64_t kCreditBytes = 16;
-  /// Corners of a polygon that are kept, so that they are not looked up again for delivery.
-  static constexpr std::size_t kHeldCorners = 4096;
 
   template <class Face>
   class NearCorners;
@@ -104,7 +102,6 @@ class FaceVertexJoin {
   const std::uint64_t memory_bytes_;
   FanEmitter& emitter_;
   std::optional<VertexCache> cache_;
-  std::vector<Vec3> held_;          ///< positions of the face's corners from 3 on
   std::uint64_t credit_bytes_ = 0;  ///< may still be read; grows with each corner
   std::uint64_t seen_bytes_ = 0;    ///< read_bytes() when the credit was updated
   std::uint64_t limit_bytes_ = 0;   ///< maximum of read_bytes() in this face
@@ -124,14 +121,9 @@ class FaceVertexJoin::NearCorners {
       join_.over_limit_ = true;
       return false;
     }
-    if (k >= 3 && join_.held_.size() < kHeldCorners) join_.held_.push_back(corner.position);
     return true;
   }
-  bool again(std::uint64_t k, MeshCorner& corner) {
-    if (k - 3 >= join_.held_.size()) return look_up(k, corner);
-    corner.position = join_.held_[static_cast<std::size_t>(k - 3)];
-    return true;
-  }
+  bool again(std::uint64_t k, MeshCorner& corner) { return look_up(k, corner); }
 
  private:
   bool look_up(std::uint64_t k, MeshCorner& corner) {

@@ -14,6 +14,32 @@ void FanEmitter::skipped(std::uint64_t record, std::uint64_t corner_count, Recor
   next_index_ += index_count;
 }
 
+Result<void> FanEmitter::split(std::uint64_t record) {
+  const PolygonFault fault = triangulator_.split(held_);
+  if (fault != PolygonFault::kNone) note_odd(record, held_.size(), fault);
+  if (!triangulator_.is_fan()) {
+    for (const auto& [a, b, c] : triangulator_.triangles())
+      if (const auto taken = sink_.triangle(next_index_++, {held_[a], held_[b], held_[c]}); !taken)
+        return taken;
+    return {};
+  }
+  for (std::size_t k = 2; k < held_.size(); ++k)
+    if (const auto taken = sink_.triangle(next_index_++, {held_[0], held_[k - 1], held_[k]});
+        !taken)
+      return taken;
+  return {};
+}
+
+void FanEmitter::note_odd(std::uint64_t record, std::uint64_t corner_count, PolygonFault fault) {
+  const bool is_nonplanar = fault == PolygonFault::kNotPlanar;
+  std::string& first = is_nonplanar ? odd_.first_nonplanar : odd_.first_fanned;
+  if ((is_nonplanar ? odd_.nonplanar : odd_.fanned)++ > 0) return;
+  first = record_name(kind_, record) + ": a polygon of " + std::to_string(corner_count) +
+          (fault == PolygonFault::kNotPlanar  ? " corners is neither convex nor flat"
+           : fault == PolygonFault::kCrossing ? " corners crosses itself"
+                                              : " corners is too long to be examined");
+}
+
 Result<void> FanEmitter::report(std::uint64_t bytes_done) {
   next_report_bytes_ = bytes_done + kReportBytes;
   return sink_.progress(bytes_done, bytes_total_);
@@ -31,7 +57,7 @@ Result<MeshSummary> FanEmitter::finish(bool float32) {
                       record_count_, first_skipped_->text().c_str());
   }
   if (const auto told = sink_.progress(bytes_total_, bytes_total_); !told) return told.error();
-  return MeshSummary{vertex_count_, record_count_, next_index_, float32};
+  return MeshSummary{vertex_count_, record_count_, next_index_, float32, odd_};
 }
 
 }  // namespace planetree::octree

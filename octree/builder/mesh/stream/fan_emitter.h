@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
+#include "octree/builder/mesh/stream/polygon_triangulator.h"
 #include "octree/builder/mesh/stream/triangle_sink.h"
 #include "planetree/error.h"
 #include "planetree/types.h"
@@ -19,8 +21,8 @@ struct MeshCorner {
   bool in_range = true;    ///< whether the vertex exists
 };
 
-/// Hands polygons to a sink as fans of triangles. Counts triangle indices, judges records and
-/// reports progress for all formats.
+/// Splits polygons into triangles (PolygonTriangulator) and hands these to a sink. Counts triangle
+/// indices, judges records and reports progress for all formats.
 class FanEmitter {
  public:
   FanEmitter(TriangleSink& sink, RecordKind kind, std::uint64_t bytes_total)
@@ -29,11 +31,12 @@ class FanEmitter {
   /// Sets the number of vertices in the file, as far as it is known; for messages and the summary.
   void set_vertex_count(std::uint64_t count) noexcept { vertex_count_ = count; }
 
-  /// Delivers the fan of a record, or skips the record.
+  /// Delivers the triangles of a record, or skips the record.
   ///
   /// corners  first(k, corner) is called for k from 0 on until the record is judged, which is
-  ///          before any of it is delivered. Then again(k, corner) is called for k from 3 on. Both
-  ///          return false if the corner cannot be read.
+  ///          before any of it is delivered. Of a record that is too long to be kept in memory,
+  ///          again(k, corner) is then called for k from 3 on. Both return false if the corner
+  ///          cannot be read.
   /// return   false if a corner could not be read; nothing was delivered if it was in first().
   ///          Otherwise true, or the sink's error.
   template <class Corners>
@@ -44,8 +47,11 @@ class FanEmitter {
               static_cast<std::int64_t>(corner_count));
       return true;
     }
+    const bool is_polygon = corner_count > 3;
+    const bool is_held = is_polygon && corner_count <= PolygonTriangulator::kMaxCorners;
     std::array<Vec3, 3> three;
     MeshCorner corner;
+    held_.clear();
     for (std::uint64_t k = 0; k < corner_count; ++k) {
       if (!corners.first(k, corner)) return false;
       if (const std::optional<RecordFault> fault = fault_of(corner)) {
@@ -53,10 +59,20 @@ class FanEmitter {
         skipped(record, corner_count, *fault, corner.value);
         return true;
       }
-      if (k < 3) three[k] = without_negative_zero(corner.position);
+      const Vec3 position = without_negative_zero(corner.position);
+      if (is_held) {
+        held_.push_back(position);
+      } else if (k < 3) {
+        three[k] = position;
+      }
     }
     ++record_count_;
     any_delivered_ = true;
+    if (is_held) {
+      if (const auto taken = split(record); !taken) return taken.error();
+      return true;
+    }
+    if (is_polygon) note_odd(record, corner_count, PolygonFault::kTooLong);
     Result<void> taken = sink_.triangle(next_index_++, three);
     for (std::uint64_t k = 3; k < corner_count && taken; ++k) {
       if (!corners.again(k, corner)) return false;
@@ -120,6 +136,9 @@ class FanEmitter {
   void skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
                std::int64_t value);
   Result<void> report(std::uint64_t bytes_done);
+  /// Delivers the polygon of the corners in held_.
+  Result<void> split(std::uint64_t record);
+  void note_odd(std::uint64_t record, std::uint64_t corner_count, PolygonFault fault);
 
   TriangleSink& sink_;
   RecordKind kind_;
@@ -131,6 +150,9 @@ class FanEmitter {
   std::uint64_t next_index_ = 0;
   bool any_delivered_ = false;
   std::optional<SkippedRecord> first_skipped_;
+  std::vector<Vec3> held_;  ///< corners of a polygon
+  PolygonTriangulator triangulator_;
+  OddPolygons odd_;
 };
 
 }  // namespace planetree::octree

@@ -23,6 +23,10 @@ const char* kind_name(RecordKind kind) {
 
 }  // namespace
 
+std::string record_name(RecordKind kind, std::uint64_t record) {
+  return std::string(kind_name(kind)) + " " + std::to_string(record);
+}
+
 std::string SkippedRecord::text() const {
   char cause[128] = {};
   const bool names_corners = kind == RecordKind::kFacet || kind == RecordKind::kTriangle;
@@ -41,7 +45,7 @@ std::string SkippedRecord::text() const {
       break;
   }
   char line[192] = {};
-  std::snprintf(line, sizeof line, "%s %" PRIu64 ": %s", kind_name(kind), record, cause);
+  std::snprintf(line, sizeof line, "%s: %s", record_name(kind, record).c_str(), cause);
   return line;
 }
 

@@ -40,6 +40,9 @@ struct SkippedRecord {
   [[nodiscard]] std::string text() const;
 };
 
+/// Names a record, such as "face 17".
+std::string record_name(RecordKind kind, std::uint64_t record);
+
 /// Receives what a mesh reader finds, in the order of the input, on the thread that called
 /// read_mesh(). Indices ascend without a gap: triangle() and skipped() together name each index
 /// exactly once.
@@ -63,6 +66,14 @@ class TriangleSink {
   virtual Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) = 0;
 };
 
+/// Polygons that were split though they are odd; see PolygonFault. The first of each kind is named
+/// in words, such as "face 17: a polygon of 8 corners crosses itself".
+struct OddPolygons {
+  std::uint64_t nonplanar = 0;  ///< not convex, and not in one plane
+  std::uint64_t fanned = 0;     ///< split into fans that may reach beyond them
+  std::string first_nonplanar, first_fanned;
+};
+
 /// Result of a reading.
 struct MeshSummary {
   std::uint64_t vertex_records =
@@ -70,6 +81,7 @@ struct MeshSummary {
   std::uint64_t face_records = 0;  ///< faces, facets, f statements or triangles, with skipped ones
   std::uint64_t triangle_indices = 0;  ///< indices given out, those of skipped records included
   bool float32 = false;  ///< float32 holds every value of the declared coordinate types
+  OddPolygons odd_polygons;
 };
 
 }  // namespace planetree::octree
