@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,25 +36,37 @@ class CornerGrid {
   /// number  below `numbers`, each once.
   void add(std::uint32_t number, std::uint32_t numbers, const Position& position);
 
-  /// Calls visit(number) for the points of all cells that meet `box`, until it returns true.
+  /// Calls visit(number) for the points of all cells that meet a triangle, and for others nearby,
+  /// until it returns true.
   ///
   /// steps   increased by the number of cells and points that were looked at.
   /// return  whether visit() returned true.
   template <class Visit>
-  bool any_near(const Box& box, std::uint64_t& steps, const Visit& visit) const {
-    const std::size_t last_u = column(box.upper.u), last_v = row(box.upper.v);
-    for (std::size_t v = row(box.lower.v); v <= last_v; ++v)
-      for (std::size_t u = column(box.lower.u); u <= last_u; ++u) {
+  bool any_near(const std::array<Position, 3>& triangle, std::uint64_t& steps,
+                const Visit& visit) const {
+    Box box{triangle[0], triangle[0]};
+    box.extend(triangle[1]);
+    box.extend(triangle[2]);
+    const std::size_t last_row = row(box.upper.v);
+    for (std::size_t at = row(box.lower.v); at <= last_row; ++at) {
+      const Columns columns = columns_of(triangle, box, at);
+      for (std::size_t column = columns.first; column <= columns.last; ++column) {
         ++steps;
-        for (std::uint32_t k = first_[v * across_ + u]; k != kNone; k = next_[k]) {
+        for (std::uint32_t k = first_[at * across_ + column]; k != kNone; k = next_[k]) {
           ++steps;
           if (visit(k)) return true;
         }
       }
+    }
     return false;
   }
 
  private:
+  /// Columns from first to last.
+  struct Columns {
+    std::size_t first, last;
+  };
+
   // Rounding keeps the order of positions, so that a box has all cells of the points within it.
   [[nodiscard]] std::size_t cell(double offset, double scale) const {
     return std::min(static_cast<std::size_t>(offset * scale), across_ - 1);
@@ -64,6 +77,10 @@ class CornerGrid {
   [[nodiscard]] std::size_t row(double v) const {
     return cell(std::max(v - lower_.v, 0.0), scale_v_);
   }
+
+  /// Columns in which a triangle meets a row, and one more to either side.
+  [[nodiscard]] Columns columns_of(const std::array<Position, 3>& triangle, const Box& box,
+                                   std::size_t row) const;
 
   Position lower_;
   double scale_u_ = 0, scale_v_ = 0;

@@ -10,7 +10,7 @@ namespace {
 
 /// Steps that a polygon may take: cells and corners that are looked at.
 constexpr std::uint64_t kMinSteps = std::uint64_t{1} << 22;
-constexpr std::uint64_t kStepsPerCorner = 2048;
+constexpr std::uint64_t kStepsPerCorner = 4096;
 
 }  // namespace
 
@@ -43,6 +43,7 @@ void EarClipper::start(const PolygonProjection& polygon) {
   round_.clear();
   next_round_.clear();
   unsettled_.clear();
+  grid_corners_ = 0;
   left_ = count;
   some_left_ = 0;
   steps_ = 0;
@@ -59,18 +60,25 @@ void EarClipper::fill_grid() {
   std::uint32_t corner = some_left_;
   for (std::size_t i = 0; i < left_; ++i, corner = after_[corner]) box.extend(position(corner));
   grid_.start(box, left_);
-  const auto count = static_cast<std::uint32_t>(polygon_->size());
-  for (std::size_t i = 0; i < left_; ++i, corner = after_[corner])
-    grid_.add(corner, count, position(corner));
   grid_corners_ = left_;
+  is_reflex_.assign(polygon_->size(), false);
+  in_grid_.assign(polygon_->size(), false);
+  for (std::size_t i = 0; i < left_; ++i, corner = after_[corner]) note_reflex(corner);
   steps_ += left_;
+}
+
+void EarClipper::note_reflex(std::uint32_t corner) {
+  is_reflex_[corner] = turn_at(corner) < 0;
+  if (!is_reflex_[corner] || in_grid_[corner]) return;
+  in_grid_[corner] = true;
+  grid_.add(corner, static_cast<std::uint32_t>(polygon_->size()), position(corner));
 }
 
 bool EarClipper::cut_ears() {
   fill_grid();
   wait_for_all();
   while (left_ > 3) {
-    if (steps_ > max_steps_) return false;
+    if (gave_up()) return false;
     if (run_round() || !next_round_.empty()) continue;
     // Nothing waits: what was cut may have opened the way for others.
     wait_for_all();
@@ -97,7 +105,7 @@ bool EarClipper::run_round() {
   for (const std::uint32_t corner : round_)
     if (state_[corner] == Corner::kWaiting) state_[corner] = Corner::kIdle;
   for (const std::uint32_t corner : round_) {
-    if (left_ == 3 || steps_ > max_steps_) break;
+    if (left_ == 3 || gave_up()) break;
     if (state_[corner] == Corner::kIdle && may_cut(corner, Rule::kStrict)) {
       cut(corner);
       cut_spikes();
@@ -126,6 +134,7 @@ void EarClipper::cut(std::uint32_t ear) {
   --left_;
   if (ear == some_left_) some_left_ = c;
   for (const std::uint32_t neighbour : {c, a}) {
+    if (grid_corners_ > 0) note_reflex(neighbour);
     unsettled_.push_back(neighbour);
     if (state_[neighbour] == Corner::kWaiting) continue;
     state_[neighbour] = Corner::kWaiting;
@@ -141,28 +150,29 @@ void EarClipper::cut_spikes() {
   }
 }
 
+int EarClipper::turn_at(std::uint32_t corner) const {
+  return polygon_->turn(before_[corner], corner, after_[corner]);
+}
+
 bool EarClipper::is_spike(std::uint32_t corner) const {
-  const std::uint32_t a = before_[corner], c = after_[corner];
-  return polygon_->turn(a, corner, c) == 0 && !polygon_->is_between(a, corner, c);
+  return turn_at(corner) == 0 && !polygon_->is_between(before_[corner], corner, after_[corner]);
 }
 
 bool EarClipper::may_cut(std::uint32_t ear, Rule rule) {
   ++steps_;
-  const int turn = polygon_->turn(before_[ear], ear, after_[ear]);
+  const int turn = turn_at(ear);
   if (rule == Rule::kStraight) return turn == 0;
   return turn > 0 && is_ear(ear, rule == Rule::kTouching);
 }
 
 bool EarClipper::is_ear(std::uint32_t ear, bool may_touch) {
   const CornerTriple corners = {before_[ear], ear, after_[ear]};
-  CornerGrid::Box box{position(ear), position(ear)};
-  box.extend(position(corners[0]));
-  box.extend(position(corners[2]));
   if (left_ < grid_corners_ / 2) fill_grid();
-  return !grid_.any_near(box, steps_, [&](std::uint32_t corner) {
-    return state_[corner] != Corner::kCut && corner != ear && box.contains(position(corner)) &&
-           is_blocked_by(corners, corner, may_touch);
-  });
+  return !grid_.any_near({position(corners[0]), position(ear), position(corners[2])}, steps_,
+                         [&](std::uint32_t corner) {
+                           return is_reflex_[corner] && state_[corner] != Corner::kCut &&
+                                  is_blocked_by(corners, corner, may_touch);
+                         });
 }
 
 // A corner blocks an ear if it is inside or on the side that would be cut, or if an edge goes from

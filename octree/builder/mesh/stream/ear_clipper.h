@@ -37,9 +37,11 @@ class EarClipper {
   /// polygon    seen from the side from which it runs counterclockwise.
   /// has_area   false if its area is zero: it then consists of spikes or is refused.
   /// triangles  set to its triangles, two fewer than corners.
-  /// return     whether the polygon could be split: it always can if it is simple and its ears are
-  ///            found within a number of steps that grows with the number of corners.
+  /// return     whether the polygon could be split: a simple one can, unless its ears are not found
+  ///            within a number of steps that grows with the number of corners.
   bool clip(const PolygonProjection& polygon, bool has_area, std::vector<CornerTriple>& triangles);
+  /// Whether the last polygon took too many steps.
+  [[nodiscard]] bool gave_up() const { return steps_ > max_steps_; }
 
  private:
   enum class Rule : std::uint8_t { kStrict, kStraight, kTouching };
@@ -55,6 +57,8 @@ class EarClipper {
   void cut(std::uint32_t ear);
   void cut_spikes();
   [[nodiscard]] bool is_spike(std::uint32_t corner) const;
+  [[nodiscard]] int turn_at(std::uint32_t corner) const;
+  void note_reflex(std::uint32_t corner);
   [[nodiscard]] bool may_cut(std::uint32_t ear, Rule rule);
   [[nodiscard]] bool is_ear(std::uint32_t ear, bool may_touch);
   [[nodiscard]] bool is_blocked_by(const CornerTriple& ear, std::uint32_t corner,
@@ -67,8 +71,11 @@ class EarClipper {
   std::vector<Corner> state_;
   std::vector<std::uint32_t> round_, next_round_;
   std::vector<std::uint32_t> unsettled_;  ///< corners that may have become spikes
+  /// The reflex corners, and some that were: no other corner can be the only one in an ear's way.
   CornerGrid grid_;
-  std::size_t grid_corners_ = 0;  ///< corners that the grid was filled with
+  std::vector<bool> is_reflex_;
+  std::vector<bool> in_grid_;
+  std::size_t grid_corners_ = 0;  ///< corners that were left when the grid was filled
   std::size_t left_ = 0;          ///< corners that are not cut
   std::uint32_t some_left_ = 0;   ///< one of them
   std::uint64_t steps_ = 0;

@@ -4,6 +4,23 @@
 #include <cinttypes>
 
 namespace planetree::octree {
+namespace {
+
+const char* words_of(PolygonFault fault) {
+  switch (fault) {
+    case PolygonFault::kNotPlanar:
+      return "is neither convex nor flat";
+    case PolygonFault::kCrossing:
+      return "crosses itself";
+    case PolygonFault::kTooLong:
+      return "is too long to be examined";
+    case PolygonFault::kNone:
+      break;
+  }
+  return "is as it should be";
+}
+
+}  // namespace
 
 void FanEmitter::skipped(std::uint64_t record, std::uint64_t corner_count, RecordFault fault,
                          std::int64_t value) {
@@ -35,9 +52,7 @@ void FanEmitter::note_odd(std::uint64_t record, std::uint64_t corner_count, Poly
   std::string& first = is_nonplanar ? odd_.first_nonplanar : odd_.first_fanned;
   if ((is_nonplanar ? odd_.nonplanar : odd_.fanned)++ > 0) return;
   first = record_name(kind_, record) + ": a polygon of " + std::to_string(corner_count) +
-          (fault == PolygonFault::kNotPlanar  ? " corners is neither convex nor flat"
-           : fault == PolygonFault::kCrossing ? " corners crosses itself"
-                                              : " corners is too long to be examined");
+          " corners " + words_of(fault);
 }
 
 Result<void> FanEmitter::report(std::uint64_t bytes_done) {

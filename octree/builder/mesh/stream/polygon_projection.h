@@ -33,6 +33,9 @@ class PolygonProjection {
   [[nodiscard]] double v(std::size_t corner) const {
     return corners_[corner].*kAxes[(axis_ + 2) % 3];
   }
+  [[nodiscard]] bool is_same(std::size_t a, std::size_t b) const {
+    return u(a) == u(b) && v(a) == v(b);
+  }
   /// Whether b lies between a and c, and at neither, of three collinear corners.
   [[nodiscard]] bool is_between(std::size_t a, std::size_t b, std::size_t c) const {
     return u(a) != u(c) ? is_in_order(u(a), u(b), u(c)) : is_in_order(v(a), v(b), v(c));

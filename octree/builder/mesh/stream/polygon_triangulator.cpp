@@ -48,32 +48,6 @@ unsigned dominant_axis(const Vec3& normal) {
   return y >= z ? 1 : 2;
 }
 
-enum class Fan : std::uint8_t { kValid, kInvalid, kNoArea };
-
-/// Examines the fan about corner 0: whether all its triangles turn the same way and go at most once
-/// around corner 0. kNoArea if none of them has an area as seen along the axis.
-Fan fan_of(const PolygonProjection& polygon) {
-  int side = 0;
-  for (std::size_t k = 2; k < polygon.size(); ++k) {
-    const int turn = polygon.turn(0, k - 1, k);
-    if (turn == 0) continue;
-    if (side == -turn) return Fan::kInvalid;
-    side = turn;
-  }
-  if (side == 0) return Fan::kNoArea;
-  // Each triangle turns by less than half a circle: two of them never go around.
-  if (polygon.size() == 4) return Fan::kValid;
-  std::size_t first = 1;  // the first corner that is elsewhere than corner 0
-  while (polygon.u(first) == polygon.u(0) && polygon.v(first) == polygon.v(0)) ++first;
-  bool beyond_half = false;
-  for (std::size_t k = first + 1; k < polygon.size(); ++k) {
-    const int turn = side * polygon.turn(0, first, k);
-    if (turn > 0 && beyond_half) return Fan::kInvalid;
-    beyond_half |= turn < 0;
-  }
-  return Fan::kValid;
-}
-
 /// Sums up by how many quarters of a circle the edges of a polygon turn. A spike turns by a half
 /// either way.
 class QuarterTurns {
@@ -81,12 +55,12 @@ class QuarterTurns {
   explicit QuarterTurns(const PolygonProjection& polygon) : polygon_(polygon) {
     std::size_t from = polygon.size() - 1;
     std::size_t before = from;
-    while (before > 0 && same(before, 0)) --before;
+    while (before > 0 && polygon.is_same(before, 0)) --before;
     from = before;  // the edge from here to corner 0, or to one equal to it, has a length
     std::size_t at = 0;
     for (std::size_t k = 1; k <= polygon.size(); ++k) {
       const std::size_t next = k == polygon.size() ? 0 : k;
-      if (same(at, next)) continue;
+      if (polygon.is_same(at, next)) continue;
       add(from, at, next);
       from = at;
       at = next;
@@ -100,9 +74,6 @@ class QuarterTurns {
   }
 
  private:
-  [[nodiscard]] bool same(std::size_t a, std::size_t b) const {
-    return polygon_.u(a) == polygon_.u(b) && polygon_.v(a) == polygon_.v(b);
-  }
   // Quarter of the circle that an edge points into; each contains the axis it begins with.
   [[nodiscard]] int quarter(std::size_t from, std::size_t to) const {
     const bool right = polygon_.u(to) > polygon_.u(from), left = polygon_.u(to) < polygon_.u(from);
@@ -126,6 +97,36 @@ class QuarterTurns {
   std::int64_t sum_ = 0;
   std::int64_t spikes_ = 0;
 };
+
+enum class Fan : std::uint8_t { kValid, kInvalid, kNoArea };
+
+/// Examines the fan about corner 0: whether all its triangles turn the same way and go at most once
+/// around corner 0. kNoArea if none of them has an area as seen along the axis.
+Fan fan_of(const PolygonProjection& polygon) {
+  int side = 0;
+  for (std::size_t k = 2; k < polygon.size(); ++k) {
+    const int turn = polygon.turn(0, k - 1, k);
+    if (turn == 0) continue;
+    if (side == -turn) return Fan::kInvalid;
+    side = turn;
+  }
+  if (side == 0) return Fan::kNoArea;
+  // Each triangle turns by less than half a circle: two of them never go around.
+  if (polygon.size() == 4) return Fan::kValid;
+  std::size_t first = 1;  // the first corner that is elsewhere than corner 0
+  while (polygon.is_same(0, first)) ++first;
+  bool beyond_half = false, at_first = false, returns = false;
+  for (std::size_t k = first + 1; k < polygon.size(); ++k) {
+    const int turn = side * polygon.turn(0, first, k);
+    if (turn > 0 && beyond_half) return Fan::kInvalid;
+    beyond_half |= turn < 0;
+    const bool was_at_first = at_first;
+    at_first = turn == 0 && polygon.is_same(0, k);
+    returns |= was_at_first && !at_first;
+  }
+  // Where the outline comes back to corner 0 and goes on, its parts may lie on each other.
+  return !returns || QuarterTurns(polygon).may_be_simple(side) ? Fan::kValid : Fan::kInvalid;
+}
 
 bool is_planar(std::span<const Vec3> corners, const Vec3& normal) {
   const double length = std::max({std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)});
@@ -167,7 +168,7 @@ PolygonFault PolygonTriangulator::cut_ears(std::span<const Vec3> corners,
   if (side < 0) polygon.turn_over();
   if (!may_be_simple || !ears_.clip(polygon, side != 0, triangles_)) {
     triangles_.clear();
-    return PolygonFault::kCrossing;
+    return may_be_simple && ears_.gave_up() ? PolygonFault::kTooLong : PolygonFault::kCrossing;
   }
   return is_planar(corners, normal) ? PolygonFault::kNone : PolygonFault::kNotPlanar;
 }

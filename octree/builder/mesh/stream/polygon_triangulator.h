@@ -17,7 +17,8 @@ enum class PolygonFault : std::uint8_t {
   kNotPlanar,  ///< not convex, and its corners are not in one plane: it is split as seen along an
                ///< axis
   kCrossing,   ///< crosses itself: its fan may reach beyond it
-  kTooLong,    ///< has more than kMaxCorners corners: its fan may reach beyond it
+  kTooLong,  ///< has more than kMaxCorners corners, or would take long to split: its fan may reach
+             ///< beyond it
 };
 
 /// Splits polygons into triangles that together are the polygon.
@@ -30,7 +31,7 @@ enum class PolygonFault : std::uint8_t {
 /// be collinear, and holes may be joined with the outline by bridges.
 class PolygonTriangulator {
  public:
-  /// The memory for a polygon is about 60 bytes a corner.
+  /// The memory for a polygon is about 70 bytes a corner.
   static constexpr std::uint64_t kMaxCorners = std::uint64_t{1} << 20;
 
   /// Splits a polygon.
