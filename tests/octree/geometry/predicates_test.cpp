@@ -49,6 +49,31 @@ TEST(Predicates, OrientationIsExactOnAnUlpGrid) {
   EXPECT_GT(flat, 20);
 }
 
+TEST(Predicates, PolygonAreaIsExactOnAnUlpGrid) {
+  std::mt19937_64 random(44);
+  int zero = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Vec3> corners;
+    for (std::size_t k = 0, count = 3 + random() % 5; k < count; ++k) {
+      const Point p = on_ulp_grid(random);
+      corners.push_back({p.x(), p.y(), p.z()});
+    }
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      Rational sum = 0;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3 &p = corners[k], &q = corners[(k + 1) % corners.size()];
+        const double from[] = {p.x, p.y, p.z}, to[] = {q.x, q.y, q.z};
+        const unsigned u = (axis + 1) % 3, v = (axis + 2) % 3;
+        sum += Rational(from[u]) * Rational(to[v]) - Rational(from[v]) * Rational(to[u]);
+      }
+      ASSERT_EQ(polygon_area_sign(corners, axis), sum.sign());
+      ASSERT_EQ(exact_polygon_area_sign(corners, axis), sum.sign());
+      zero += sum == 0;
+    }
+  }
+  EXPECT_GT(zero, 20);
+}
+
 TEST(Predicates, OrientationIsExactNearTheSmallestNumbers) {
   std::mt19937_64 random(43);
   std::uniform_int_distribution<int> exponent(-1074, -300), mantissa(-3, 3);
