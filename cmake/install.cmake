@@ -43,7 +43,7 @@ function(planetree_install_library target)
 
   # An archive leaves its own needs to the program that links it; a shared object
   # brings them along.
-  set(pkgconfig_requires "liblz4 liburing >= 2.2 libxxhash libhwy-contrib libhwy tbb")
+  set(pkgconfig_requires "liblz4 liburing >= 2.2 libxxhash libzstd zlib libhwy-contrib libhwy tbb")
   set(pkgconfig_pthread " -pthread")
   if(planetree_is_shared)
     set(pkgconfig_requires "")

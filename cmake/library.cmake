@@ -36,7 +36,7 @@ function(planetree_add_library name)
   target_sources(${name} PUBLIC FILE_SET HEADERS
     BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${planetree_headers})
   target_link_libraries(${name} PRIVATE
-    PkgConfig::liblz4 PkgConfig::liburing PkgConfig::libxxhash
+    PkgConfig::liblz4 PkgConfig::liburing PkgConfig::libxxhash PkgConfig::libzstd PkgConfig::zlib
     hwy::hwy_contrib hwy::hwy TBB::tbb Threads::Threads)
   target_compile_features(${name} PUBLIC cxx_std_20)
   # Before 1.0 a minor version may change the interface.

@@ -235,8 +235,10 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   const auto options = std::make_shared<Options>();
   BuildArguments& arguments = options->arguments;
   SubcommandOptions subcommand(app, "build", "Build the .ptree file of a mesh");
-  subcommand.require(subcommand.path("input", "IN", arguments.input,
-                                     "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ"));
+  subcommand.require(
+      subcommand.path("input", "IN", arguments.input,
+                      "Mesh to read: PLY, STL or OFF (ascii or binary) or OBJ, as it "
+                      "is or compressed by gzip or zstd"));
   subcommand.require(subcommand.path("-o,--output", "OUT.ptree", arguments.output,
                                      "File to write; it appears only when it is complete"));
   subcommand.default_text(
@@ -249,11 +251,13 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
                        "Maximum memory for the build; data that does not fit goes to temporary "
                        "files. The file does not depend on it"),
       "a quarter of the machine's memory");
-  subcommand.path("--temp-dir", "DIR", arguments.options.temp_directory,
-                  "Directory for temporary files; by default that of the output. They take about "
-                  "120 bytes a triangle if memory is short, or 200 with double coordinates. They "
-                  "have no names and vanish with the process, except for the checkpoint of "
-                  "--resume. The build does not begin if space is too short");
+  subcommand.path(
+      "--temp-dir", "DIR", arguments.options.temp_directory,
+      "Directory for temporary files; by default that of the output. They take about "
+      "120 bytes a triangle if memory is short, or 200 with double coordinates, and the "
+      "content of a compressed mesh. They have no names and vanish with the process, except for "
+      "the checkpoint of "
+      "--resume. The build does not begin if space is too short");
   subcommand.text(
       "--box", "X0,Y0,Z0,X1,Y1,Z1", box_complaint,
       [&arguments](const std::string& text) { arguments.options.box = box_of(text); },

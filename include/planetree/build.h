@@ -63,8 +63,9 @@ class BuildInput {
   /// One of the ways to give triangles.
   using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream>;
 
-  /// A mesh file: PLY, STL or OFF (text or binary) or OBJ. The content decides the format, but an
-  /// OBJ needs its extension. A regular file; it must not change during the build.
+  /// A mesh file: PLY, STL or OFF (text or binary) or OBJ, as it is or compressed by gzip or zstd.
+  /// The content decides the format, but an OBJ needs its extension (.obj, .obj.gz, .obj.zst). A
+  /// regular file; it must not change during the build.
   template <class Path>
   requires std::convertible_to<const Path&, std::filesystem::path> &&
       (!std::same_as<Path, BuildInput>)BuildInput(const Path& path)
@@ -137,8 +138,8 @@ struct BuildOptions {
   /// 96 MiB of `memory_bytes`; fewer are used where that is too little.
   unsigned threads = 0;
   /// Directory for temporary files, about 120 bytes a triangle where memory is short, 200 with
-  /// double coordinates. They have no names and vanish with the process, except for what `resume`
-  /// keeps. Empty means the directory of the output.
+  /// double coordinates, and the content of a compressed mesh. They have no names and vanish with
+  /// the process, except for what `resume` keeps. Empty means the directory of the output.
   std::filesystem::path temp_directory;
   /// Size of a decoded page in bytes: a power of two from kMinPageBytes to kMaxPageBytes.
   std::uint32_t page_bytes = 65536;

@@ -100,6 +100,7 @@ SpaceNeed SpaceNeed::after_reading(const MeshSize& size, const BuildMemory& memo
 SpaceNeed SpaceNeed::before_reading(const MeshSize& size, const BuildMemory& memory, bool cut) {
   SpaceNeed need = after_reading(size, memory, 0, false, cut);
   need.temporary_bytes += spilled_bytes(size, memory, memory.spool_bytes);
+  need.temporary_bytes += size.unpacked_bytes;
   if (size.is_indexed_text)
     need.temporary_bytes +=
         excess(size.vertices * position_bytes(size), MeshScratch::text_bytes(memory.reading_bytes));

@@ -15,6 +15,7 @@
 #include "octree/builder/build_identity.h"
 #include "octree/builder/job/build_memory.h"
 #include "octree/builder/job/phase_count.h"
+#include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/mesh_size.h"
 #include "octree/builder/sort/each_chunk.h"
 #include "octree/builder/sort/ordered_mesh.h"
@@ -148,6 +149,15 @@ Result<void> TreeBuild::read() {
   files_.mesh().before_sorting([this] {
     return files_.check_space(SpaceNeed::before_sorting(
         size_, memory_, files_.scratch().disk_bytes(), options_.box.has_value()));
+  });
+  files_.mesh().before_unpacking([this](std::uint64_t bytes) {
+    return files_.check_space({bytes, 0});
+  });
+  files_.mesh().after_unpacking([this](const MeshFile& content) -> Result<void> {
+    const auto size = MeshSize::estimate(content, unpacked_path(input_path()));
+    if (!size) return size.error();
+    size_ = *size;
+    return files_.check_space(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
   });
   auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool);
   if (!mesh) return mesh.error();

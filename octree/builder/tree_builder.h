@@ -33,7 +33,8 @@ struct BuildReport {
 /// disk    about 120 bytes a triangle in temp_directory where memory is short; 200 with float64
 ///         coordinates; 250 more for triangles that share no edges. While a mesh is read whose
 ///         faces are in no order and whose vertices do not fit in memory, 90 more, or 120 with
-///         float64; for vertices of a text, 12 or 24 bytes each. The space is given back however
+///         float64; for vertices of a text, 12 or 24 bytes each; for a compressed
+///         mesh, its content. The space is given back however
 ///         the process ends, except for what a build that can be resumed keeps, whether memory is
 ///         short or not: about 80 bytes a triangle, or 130 with float64.
 /// errors  those of read_mesh(), storage::SpillFile, storage::PageWriter and Checkpoint;

@@ -23,6 +23,19 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
+Result<Packing> detect_packing(const MeshFile& file) {
+  const auto prefix = file.prefix(kProbeBytes);
+  if (!prefix) return prefix.error();
+  if (has_binary_stl_size(*prefix, file.size_bytes())) return Packing::kNone;
+  return packing_of(*prefix);
+}
+
+std::filesystem::path unpacked_path(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  const bool is_packed = extension == ".gz" || extension == ".zst" || extension == ".zstd";
+  return is_packed ? path.parent_path() / path.stem() : path;
+}
+
 Result<MeshFormat> detect_format(const MeshFile& file, const std::filesystem::path& path) {
   const auto prefix = file.prefix(kProbeBytes);
   if (!prefix) return prefix.error();

@@ -4,11 +4,19 @@
 #include <filesystem>
 
 #include "octree/builder/mesh/stream/mesh_file.h"
+#include "octree/builder/mesh/stream/packing.h"
 #include "planetree/error.h"
 
 namespace planetree::octree {
 
 enum class MeshFormat : std::uint8_t { kPly, kStlBinary, kStlAscii, kOff, kObj, kUnknown };
+
+/// Finds how a mesh file is compressed: by its content, unless that is a whole binary STL.
+/// errors  those of MeshFile::read().
+Result<Packing> detect_packing(const MeshFile& file);
+
+/// The path without the extension that a compressed file has, .gz or .zst.
+std::filesystem::path unpacked_path(const std::filesystem::path& path);
 
 /// Finds the format of a mesh file by its content or, where that does not tell it, by the extension
 /// of its path.

@@ -1,5 +1,6 @@
 #include "octree/builder/mesh/mesh_reader.h"
 
+#include <array>
 #include <new>
 #include <variant>
 
@@ -39,12 +40,46 @@ Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path&
       "OBJ or OFF mesh (an OBJ needs its extension)");
 }
 
+/// Passes everything on to a sink, with progress counted from behind the unpacking.
+class AfterUnpacking final : public TriangleSink {
+ public:
+  AfterUnpacking(TriangleSink& sink, std::uint64_t packed_bytes)
+      : sink_(sink), packed_bytes_(packed_bytes) {}
+
+  Result<void> triangle(std::uint64_t index, const std::array<Vec3, 3>& corners) override {
+    return sink_.triangle(index, corners);
+  }
+  void skipped(std::uint64_t first_index, std::uint64_t count, const SkippedRecord& why) override {
+    sink_.skipped(first_index, count, why);
+  }
+  Result<void> progress(std::uint64_t bytes_done, std::uint64_t bytes_total) override {
+    return sink_.progress(packed_bytes_ + bytes_done, packed_bytes_ + bytes_total);
+  }
+
+ private:
+  TriangleSink& sink_;
+  const std::uint64_t packed_bytes_;
+};
+
+Result<MeshSummary> read_packed(const MeshFile& packed, Packing packing,
+                                const std::filesystem::path& path, TriangleSink& sink,
+                                MeshScratch& scratch) {
+  const Result<MeshFile> content = unpack(packed, packing, scratch, sink);
+  if (!content) return content.error();
+  if (const auto noted = scratch.note_unpacked(*content); !noted) return noted.error();
+  AfterUnpacking rest(sink, packed.size_bytes());
+  return read_open(*content, unpacked_path(path), rest, scratch);
+}
+
 Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& sink,
                               MeshScratch& scratch) {
   try {
     const Result<MeshFile> file = MeshFile::open(path, scratch.calls());
     if (!file) return file.error();
-    return read_open(*file, path, sink, scratch);
+    const Result<Packing> packing = detect_packing(*file);
+    if (!packing) return packing.error();
+    return *packing == Packing::kNone ? read_open(*file, path, sink, scratch)
+                                      : read_packed(*file, *packing, path, sink, scratch);
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read the mesh; free some, or convert it to a binary PLY, "

@@ -9,16 +9,19 @@
 /// ascii), OBJ and OFF (ascii and binary), meshes in memory, and callbacks. They stream one
 /// triangle at a time.
 ///
-/// A triangle's index is its position in the input. A polygon of n corners is split into the fan
-/// (0, i, i + 1), i = 1 ... n - 2, and takes n - 2 indices in that order. A record that cannot be
-/// used is skipped as a whole and still takes max(1, n - 2) indices, so that an index does not
-/// depend on what is wrong elsewhere. Structural damage ends the reading with kBadInput.
+/// A triangle's index is its position in the input. A polygon of n corners is split into n - 2
+/// triangles (PolygonTriangulator): its fan (0, i, i + 1) if that covers it without overlap. A
+/// record that cannot be used is skipped as a whole and still takes max(1, n - 2) indices, so that
+/// an index does not depend on what is wrong elsewhere. Structural damage ends the reading with
+/// kBadInput.
 namespace planetree::octree {
 
 /// Reads a mesh into `sink`. The content of a file decides the format: the first line of a PLY;
 /// the size of a binary STL, which is exactly what its count implies (even if it begins with
 /// "solid"); "solid" of an ascii STL; the keyword of an OFF. Otherwise the extension decides: for
-/// an OBJ, for an OFF without a keyword, and for an STL with a wrong size.
+/// an OBJ, for an OFF without a keyword, and for an STL with a wrong size. A file that is
+/// compressed by gzip or zstd is unpacked into a temporary file first (packing.h), and then read as
+/// that, under its path without .gz or .zst; places in messages are those of the content.
 ///
 /// input    a file is a regular file. Its size is taken once, when it is opened. A file that
 /// becomes shorter

@@ -179,23 +179,14 @@ Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
 Result<MeshSize> size_of_file(const std::filesystem::path& path, storage::FileCalls& calls) {
   const Result<MeshFile> file = MeshFile::open(path, calls);
   if (!file) return file.error();
-  const Result<MeshFormat> format = detect_format(*file, path);
-  if (!format) return format.error();
-  switch (*format) {
-    case MeshFormat::kPly:
-      return size_of_records(*file, parse_prefix(*file, parse_ply_header));
-    case MeshFormat::kOff:
-      return size_of_records(*file, parse_prefix(*file, parse_off_header));
-    case MeshFormat::kStlBinary:
-      return size_by(size_of_binary_stl, Sample::of(*file, kStlHeadBytes));
-    case MeshFormat::kStlAscii:
-      return size_by(size_of_ascii_stl, Sample::of(*file));
-    case MeshFormat::kObj:
-      return size_by(size_of_obj, Sample::of(*file));
-    case MeshFormat::kUnknown:
-      break;
-  }
-  return MeshSize{};
+  const Result<Packing> packing = detect_packing(*file);
+  if (!packing) return packing.error();
+  if (*packing == Packing::kNone) return MeshSize::estimate(*file, path);
+  const Result<std::uint64_t> stated = stated_bytes(*file, *packing);
+  if (!stated) return stated.error();
+  MeshSize size;
+  size.unpacked_bytes = std::max(*stated, file->size_bytes());
+  return size;
 }
 
 struct SizeOf {
@@ -213,6 +204,26 @@ struct SizeOf {
 };
 
 }  // namespace
+
+Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem::path& path) {
+  const Result<MeshFormat> format = detect_format(file, path);
+  if (!format) return format.error();
+  switch (*format) {
+    case MeshFormat::kPly:
+      return size_of_records(file, parse_prefix(file, parse_ply_header));
+    case MeshFormat::kOff:
+      return size_of_records(file, parse_prefix(file, parse_off_header));
+    case MeshFormat::kStlBinary:
+      return size_by(size_of_binary_stl, Sample::of(file, kStlHeadBytes));
+    case MeshFormat::kStlAscii:
+      return size_by(size_of_ascii_stl, Sample::of(file));
+    case MeshFormat::kObj:
+      return size_by(size_of_obj, Sample::of(file));
+    case MeshFormat::kUnknown:
+      break;
+  }
+  return MeshSize{};
+}
 
 Result<MeshSize> MeshSize::estimate(const BuildInput& input, storage::FileCalls& calls) {
   return std::visit(SizeOf{calls}, input.content());

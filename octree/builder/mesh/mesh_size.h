@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
+#include "octree/builder/mesh/stream/mesh_file.h"
 #include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/system/file_calls.h"
@@ -14,6 +16,9 @@ struct MeshSize {
   std::uint64_t vertices = 0;
   bool float64 = false;          ///< coordinates may need float64, by format and header
   bool is_indexed_text = false;  ///< a text whose vertices are spilled while it is read
+  /// Length that a compressed file states for its content, at least its own; 0 for others. The rest
+  /// of the size is zero then: it is known once the content is unpacked.
+  std::uint64_t unpacked_bytes = 0;
 
   /// Estimates the size of a file from its header and its length, or from samples of a text that
   /// declares nothing. A mesh in memory and a callback say their size.
@@ -26,6 +31,10 @@ struct MeshSize {
   /// errors  those of opening the file and reading it.
   static Result<MeshSize> estimate(const BuildInput& input,
                                    storage::FileCalls& calls = storage::FileCalls::real());
+  /// As above, of a file that is open and not compressed.
+  ///
+  /// path  decides the format where the content does not.
+  static Result<MeshSize> estimate(const MeshFile& file, const std::filesystem::path& path);
 };
 
 }  // namespace planetree::octree

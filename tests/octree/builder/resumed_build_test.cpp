@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -46,6 +47,25 @@ TEST_F(ResumedBuild, ResumesAfterAStopAtAnyCall) {
     EXPECT_EQ(resumed[BuildPhase::kBuildingMask], recorder_.count(BuildPhase::kBuildingMask).total);
     std::filesystem::remove(output_);
   }
+}
+
+// The compressed file is what is compared with the input of the earlier build.
+TEST_F(ResumedBuild, ResumesACompressedMesh) {
+  write(sphere(2));
+  const storage::Bytes expected = whole();
+  const std::string command =
+      "gzip --force " + mesh_.string() + " && mv " + mesh_.string() + ".gz " + mesh_.string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(whole(), expected);
+  int resumed = 0;
+  for (int call = 0; stop_at(call); call += 3) {
+    SCOPED_TRACE("stopped at call " + std::to_string(call));
+    const BuildRecorder stopped = recorder_;
+    if (!resume_and_remove(expected)) continue;
+    EXPECT_FALSE(stopped.did(BuildPhase::kMatching) && recorder_.did(BuildPhase::kReading));
+    ++resumed;
+  }
+  EXPECT_GT(resumed, 0);
 }
 
 TEST_F(ResumedBuild, ResumesWithARegion) {

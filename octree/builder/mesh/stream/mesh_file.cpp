@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "octree/builder/mesh/stream/mesh_scratch.h"
+
 namespace planetree::octree {
 
 namespace {
@@ -33,6 +35,14 @@ Error open_error(int cause) {
 
 }  // namespace
 
+MeshFile::MeshFile(storage::FileHandle file, std::uint64_t size_bytes)
+    : file_(std::move(file)), size_bytes_(size_bytes) {}
+MeshFile::MeshFile(std::unique_ptr<ScratchFile> content, std::uint64_t size_bytes)
+    : content_(std::move(content)), size_bytes_(size_bytes) {}
+MeshFile::MeshFile(MeshFile&& other) noexcept = default;
+MeshFile& MeshFile::operator=(MeshFile&& other) noexcept = default;
+MeshFile::~MeshFile() = default;
+
 Result<MeshFile> MeshFile::open(const std::filesystem::path& path, storage::FileCalls& calls) {
   // With O_NONBLOCK a FIFO without a writer is refused instead of waited for.
   auto file = storage::FileHandle::open(calls, AT_FDCWD, path.c_str(), O_RDONLY | O_NONBLOCK);
@@ -48,6 +58,7 @@ Result<MeshFile> MeshFile::open(const std::filesystem::path& path, storage::File
 
 Result<void> MeshFile::read(std::uint64_t offset, std::span<std::byte> out) const {
   assert(offset <= size_bytes_ && out.size() <= size_bytes_ - offset);
+  if (content_) return content_->spill().read(offset, out);
   const auto read = file_.read_at(offset, out, "read the mesh");
   if (read || read.error().code != ErrorCode::kTruncated) return read;
   return make_error(ErrorCode::kBadInput, Error::kNowhere, read.error().offset,

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -12,8 +13,11 @@
 
 namespace planetree::octree {
 
+class ScratchFile;
+
 /// A mesh file that is open for reading. Its size is taken once, when it is opened. If the file
-/// becomes shorter, reading the missing bytes is an error.
+/// becomes shorter, reading the missing bytes is an error. The content of a compressed file is a
+/// mesh file too (packing.h).
 ///
 /// threads  any number may read.
 class MeshFile {
@@ -23,6 +27,14 @@ class MeshFile {
   /// errors  kNotFound, kPermission, kReadFailed; kBadInput: not a regular file.
   static Result<MeshFile> open(const std::filesystem::path& path,
                                storage::FileCalls& calls = storage::FileCalls::real());
+
+  /// The content of a compressed file.
+  ///
+  /// content  its MeshScratch must outlive this.
+  MeshFile(std::unique_ptr<ScratchFile> content, std::uint64_t size_bytes);
+  MeshFile(MeshFile&& other) noexcept;
+  MeshFile& operator=(MeshFile&& other) noexcept;
+  ~MeshFile();
 
   [[nodiscard]] std::uint64_t size_bytes() const noexcept { return size_bytes_; }
 
@@ -34,10 +46,10 @@ class MeshFile {
   Result<std::string> prefix(std::uint64_t bytes) const;
 
  private:
-  MeshFile(storage::FileHandle file, std::uint64_t size_bytes)
-      : file_(std::move(file)), size_bytes_(size_bytes) {}
+  MeshFile(storage::FileHandle file, std::uint64_t size_bytes);
 
   storage::FileHandle file_;
+  std::unique_ptr<ScratchFile> content_;  ///< if any, read instead of the file
   std::uint64_t size_bytes_ = 0;
 };
 

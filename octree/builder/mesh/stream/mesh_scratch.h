@@ -12,6 +12,8 @@
 
 namespace planetree::octree {
 
+class MeshFile;
+
 /// Resources for reading a mesh: memory, and a directory for temporary files.
 ///
 /// threads  one at a time.
@@ -48,6 +50,23 @@ class MeshScratch {
     return before_sorting_ ? before_sorting_() : Result<void>();
   }
 
+  /// Sets what is called now and then while a compressed mesh is unpacked, with the bytes that are
+  /// to be written next. Its error ends the reading.
+  void before_unpacking(std::function<Result<void>(std::uint64_t bytes)> hook) {
+    before_unpacking_ = std::move(hook);
+  }
+  Result<void> make_room(std::uint64_t bytes) const {
+    return before_unpacking_ ? before_unpacking_(bytes) : Result<void>();
+  }
+  /// Sets what is called once a compressed mesh is unpacked, with its content. Its error ends the
+  /// reading.
+  void after_unpacking(std::function<Result<void>(const MeshFile&)> hook) {
+    after_unpacking_ = std::move(hook);
+  }
+  Result<void> note_unpacked(const MeshFile& content) const {
+    return after_unpacking_ ? after_unpacking_(content) : Result<void>();
+  }
+
   /// Bytes that closed temporary files had on disk, together.
   [[nodiscard]] std::uint64_t disk_bytes() const { return disk_bytes_; }
   /// Whether one of the closed temporary files failed.
@@ -61,6 +80,8 @@ class MeshScratch {
   const std::filesystem::path directory_;
   storage::FileCalls& calls_;
   std::function<Result<void>()> before_sorting_;
+  std::function<Result<void>(std::uint64_t bytes)> before_unpacking_;
+  std::function<Result<void>(const MeshFile&)> after_unpacking_;
   std::uint64_t disk_bytes_ = 0;
   bool failed_ = false;
 };
