@@ -15,8 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   CheckingSink sink;
   MeshScratch scratch(std::uint64_t{1} << 20, "/dev/shm");
   const auto summary = read_mesh(memory.path(), sink, scratch);
-  const bool needs_memory = !summary && summary.error().code == planetree::ErrorCode::kNoMemory &&
-                            scratch.disk_bytes() == 0;
+  // A frame behind the first may need a larger window than there is memory for.
+  const bool needs_memory = !summary && summary.error().code == planetree::ErrorCode::kNoMemory;
   if (!needs_memory) sink.check(summary);
   return 0;
 }
