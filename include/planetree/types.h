@@ -125,8 +125,8 @@ struct ClosestPoint {
   /// (0, 0, 1) where there is none.
   Vec3 normal{0, 0, 1};
   /// Index of the nearest triangle in the input's order, counted after each polygon of n
-  /// corners is split into n - 2 and with skipped records included. Of equally near triangles the one of least index.
-  /// kNoTriangle where no triangle was reached.
+  /// corners is split into n - 2 and with skipped records included. Of equally near triangles the
+  /// one of least index. kNoTriangle where no triangle was reached.
   std::uint64_t triangle = kNoTriangle;
   /// Barycentric coordinates of `point`, in the triangle's corner order. They sum to 1, and are
   /// above 0 for as many corners as `feature` has: 3, 2 or 1. All 0 where no triangle was reached.

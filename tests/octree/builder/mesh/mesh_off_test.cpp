@@ -183,14 +183,14 @@ TEST(OffBinary, ReadsEveryKeyword) {
     for (const std::string end : {" BINARY\n", " BINARY # big-endian\n", "\tBINARY\r\n"}) {
       Bytes bytes = binary_off(keyword + end, 2, more_numbers);
       bytes.put(Int32{3}, Int32{0}, Int32{1}, Int32{2}, Int32{0});
-      bytes.put(Int32{4}, Int32{2}, Int32{1}, Int32{0}, Int32{1}, Int32{4}, 1.0F, 0.5F, 0.25F,
+      bytes.put(Int32{4}, Int32{2}, Int32{1}, Int32{0}, Int32{0}, Int32{4}, 1.0F, 0.5F, 0.25F,
                 1.0F);
       const Reading reading = read_bytes(bytes.str());
       EXPECT_EQ(reading.error, "");
       EXPECT_EQ(reading.log,
                 "0: 0.10000000149011612 0 0, 1 0 0, 0 1 0\n"
                 "1: 0 1 0, 1 0 0, 0.10000000149011612 0 0\n"
-                "2: 0 1 0, 0.10000000149011612 0 0, 1 0 0\n");
+                "2: 0 1 0, 0.10000000149011612 0 0, 0.10000000149011612 0 0\n");
       ASSERT_TRUE(reading.summary);
       EXPECT_EQ(reading.summary->vertex_records, 3U);
       EXPECT_TRUE(reading.summary->float32);
