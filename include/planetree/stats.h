@@ -15,7 +15,7 @@ struct ModelInfo {
   std::uint64_t vertices = 0;         ///< vertex records of the input
   Vec3 box_lower,                     ///< lower corner of the whole input's box
       box_upper;                      ///< upper corner of the whole input's box
-  /// Whether the file holds only the triangles that touch a region, which is a box (`planetree
+  /// Whether the file has only the triangles that touch a region, which is a box (`planetree
   /// build --box`). A wall is a face of the region that lies within the model's box.
   ///
   /// Every interval, and every side that is known, is right for the whole input. An answer is exact
