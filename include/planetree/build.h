@@ -142,8 +142,8 @@ struct BuildOptions {
   unsigned threads = 0;
   /// Directory for temporary files. It must exist. Empty means the directory of the output. If the
   /// data does not fit in memory, temporary files take about 120 bytes per triangle, or 200 with
-  /// double coordinates. They have no names if the file system allows that (O_TMPFILE), so the
-  /// system removes them when the process ends. The checkpoint of `resume` is the exception.
+  /// double coordinates. They have no names, so the system removes them when the process ends. The
+  /// checkpoint of `resume` is the exception.
   std::filesystem::path temp_directory;
   /// Size of a decoded page in bytes: a power of two from kMinPageBytes to kMaxPageBytes.
   std::uint32_t page_bytes = 65536;
