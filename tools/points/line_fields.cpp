@@ -50,30 +50,36 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, end - begin);
 }
 
-bool LineFields::is_separator(char c) const {
-  return c == character_of(separator_) || (c == '\t' && separator_ == Separator::kBlank);
-}
+LineFields::LineFields(std::string_view line, Separator separator)
+    : rest_(line),
+      separator_(character_of(separator)),
+      other_separator_(separator == Separator::kBlank ? '\t' : separator_) {}
 
-std::size_t LineFields::find_separator(std::size_t from) const {
-  while (from < rest_.size() && !is_separator(rest_[from])) ++from;
+const char* LineFields::find_separator(const char* from) const {
+  const char* const end = rest_.data() + rest_.size();
+  while (from < end && *from != separator_ && *from != other_separator_) ++from;
   return from;
 }
 
 bool LineFields::next() {
   if (ended_) return false;
-  std::size_t begin = 0;
-  while (begin < rest_.size() && is_blank(rest_[begin]) &&
-         (separator_ == Separator::kBlank || !is_separator(rest_[begin])))
-    ++begin;
-  if (begin == rest_.size() && separator_ == Separator::kBlank) return false;
-  std::size_t end = begin;
-  if (begin < rest_.size() && rest_[begin] == '"') end = closing_quote(rest_, begin + 1);
-  end = end == std::string_view::npos ? rest_.size() : find_separator(end);
-  field_ = trimmed(rest_.substr(begin, end - begin));
+  const char* begin = rest_.data();
+  const char* const end = begin + rest_.size();
+  const bool is_tab = separator_ == '\t';
+  while (begin < end && (*begin == ' ' || (*begin == '\t' && !is_tab))) ++begin;
+  if (begin == end && separator_ == ' ') return false;
+  const char* closing = begin;
+  if (begin < end && *begin == '"') {
+    const std::size_t quote =
+        closing_quote(rest_, static_cast<std::size_t>(begin - rest_.data()) + 1);
+    closing = quote == std::string_view::npos ? end : rest_.data() + quote;
+  }
+  const char* const field_end = find_separator(closing);
+  field_ = trimmed({begin, static_cast<std::size_t>(field_end - begin)});
   if (field_.size() >= 2 && field_.front() == '"' && field_.back() == '"')
     field_ = trimmed(field_.substr(1, field_.size() - 2));
-  ended_ = end == rest_.size();
-  rest_.remove_prefix(ended_ ? end : end + 1);
+  ended_ = field_end == end;
+  rest_.remove_prefix(static_cast<std::size_t>(field_end - rest_.data()) + (ended_ ? 0 : 1));
   return true;
 }
 

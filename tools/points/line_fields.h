@@ -21,18 +21,18 @@ inline constexpr Separator kSeparators[] = {Separator::kSemicolon, Separator::kT
 /// the separator. One with an opening quote alone lasts to the end of the line.
 class LineFields {
  public:
-  LineFields(std::string_view line, Separator separator) : rest_(line), separator_(separator) {}
+  LineFields(std::string_view line, Separator separator);
 
   /// Steps to the next field. False at the end of the line.
   bool next();
   [[nodiscard]] std::string_view field() const { return field_; }
 
  private:
-  [[nodiscard]] bool is_separator(char c) const;
-  [[nodiscard]] std::size_t find_separator(std::size_t from) const;
+  [[nodiscard]] const char* find_separator(const char* from) const;
 
   std::string_view rest_;
-  Separator separator_;
+  char separator_;
+  char other_separator_;  // a tab besides a blank, otherwise the same
   bool ended_ = false;
   std::string_view field_;
 };
