@@ -27,11 +27,16 @@ Result<std::size_t> InputFile::read(std::span<std::byte> out) {
 }
 
 Result<std::string_view> InputFile::front(std::size_t bytes) {
-  front_.resize(bytes);
-  const auto read = read_stream(std::as_writable_bytes(std::span(front_)));
-  front_.resize(read ? *read : 0);
-  if (!read) return read.error();
-  return std::string_view(front_.data(), front_.size());
+  constexpr std::size_t kFirstBytes = 4096;
+  for (std::size_t wanted = std::min(kFirstBytes, bytes);; wanted = std::min(4 * wanted, bytes)) {
+    const std::size_t before = front_.size();
+    front_.resize(wanted);
+    const auto read = read_stream(std::as_writable_bytes(std::span(front_).subspan(before)));
+    front_.resize(before + (read ? *read : 0));
+    if (!read) return read.error();
+    if (front_.size() < wanted || wanted == bytes)
+      return std::string_view(front_.data(), front_.size());
+  }
 }
 
 Result<std::size_t> InputFile::read_stream(std::span<std::byte> out) {

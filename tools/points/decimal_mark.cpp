@@ -31,10 +31,12 @@ class MarkFinder {
     certain_ |= has_comma && !may_group_thousands(field);
   }
 
-  [[nodiscard]] Result<DecimalMark> mark() const {
+  [[nodiscard]] Result<DecimalMark> mark(Separator separator) const {
     if (commas_ == 0) return DecimalMark::kPoint;
     if (has_points_) return refusal("has a comma where other numbers have a point");
-    if (others_ > 0 && !certain_) return refusal("may have a decimal comma or grouped thousands");
+    // Between commas, numbers with a comma are in quotes, as grouped thousands often are.
+    const bool is_doubtful = others_ > 0 || separator == Separator::kComma;
+    if (is_doubtful && !certain_) return refusal("may have a decimal comma or grouped thousands");
     return DecimalMark::kComma;
   }
 
@@ -56,7 +58,6 @@ class MarkFinder {
 
 Result<DecimalMark> find_decimal_mark(std::span<const SampleLines::Line> rows, Separator separator,
                                       const AxisColumns& columns) {
-  if (separator == Separator::kComma) return DecimalMark::kPoint;
   MarkFinder marks;
   for (const SampleLines::Line& row : rows) {
     if (is_comment(row.text)) continue;
@@ -65,7 +66,7 @@ Result<DecimalMark> find_decimal_mark(std::span<const SampleLines::Line> rows, S
       if (std::find(columns.begin(), columns.end(), column) != columns.end())
         marks.add(fields.field(), row.number);
   }
-  return marks.mark();
+  return marks.mark(separator);
 }
 
 }  // namespace planetree::tools

@@ -51,14 +51,13 @@ Separator SampleLines::separator() const {
 FieldCounts count_fields(std::string_view line, Separator separator) {
   FieldCounts counts;
   for (LineFields fields(line, separator); fields.next(); ++counts.fields)
-    counts.numbers += is_number(fields.field(), separator) ? 1 : 0;
+    counts.numbers += is_number(fields.field()) ? 1 : 0;
   return counts;
 }
 
-bool is_number(std::string_view field, Separator separator) {
+bool is_number(std::string_view field) {
   double value = 0;
-  return parse_number(field, DecimalMark::kPoint, value) ||
-         (separator != Separator::kComma && has_decimal_comma(field));
+  return parse_number(field, DecimalMark::kPoint, value) || has_decimal_comma(field);
 }
 
 bool is_count(std::string_view line) {

@@ -35,8 +35,8 @@ struct FieldCounts {
 };
 [[nodiscard]] FieldCounts count_fields(std::string_view line, Separator separator);
 
-/// Whether a field is a number with either decimal mark; a comma only where it does not separate.
-[[nodiscard]] bool is_number(std::string_view field, Separator separator);
+/// Whether a field is a number with either decimal mark.
+[[nodiscard]] bool is_number(std::string_view field);
 
 /// Whether a line is one whole number alone.
 [[nodiscard]] bool is_count(std::string_view line);

@@ -24,7 +24,10 @@ std::vector<std::string_view> names_in(std::string_view line, Separator separato
 }
 
 TextHeader read_as(std::string_view line, Separator separator, const ColumnChoice& choice) {
-  const auto names = names_in(line, separator);
+  // "X [m]" is one name also where blanks separate.
+  const std::string without_units = without_brackets(line);
+  const bool has_units = separator == Separator::kBlank && !trimmed(without_units).empty();
+  const auto names = names_in(has_units ? without_units : line, separator);
   TextHeader header;
   header.fields = names.size();
   header.axes = choice.empty() ? find_axes(names, header.columns)

@@ -16,6 +16,11 @@ using Line = SampleLines::Line;
 
 constexpr const char* kColumnsRemedy = "give --columns X,Y,Z by name or number";
 
+/// Whether a line is "sep=;" or the like, which spreadsheets write first.
+bool is_separator_hint(std::string_view line) {
+  return line.size() == 5 && octree::is_same_word(line.substr(0, 4), "sep=");
+}
+
 std::string_view first_word(std::string_view line) { return octree::take_word(line); }
 
 class LayoutFinder {
@@ -30,6 +35,7 @@ class LayoutFinder {
     if (const auto found = find_columns(); !found) return found.error();
     if (row_ == lines_.size()) return layout_;
     layout_.first_row = lines_[row_].number;
+    layout_.min_fields = find_min_fields();
     const auto decimal =
         find_decimal_mark(std::span(lines_).subspan(row_), layout_.separator, layout_.columns);
     if (!decimal) return decimal.error();
@@ -79,6 +85,7 @@ class LayoutFinder {
   /// A header, or a line without a number in front of it.
   bool take_words() {
     const Line& line = lines_[row_];
+    if (row_ == 0 && is_separator_hint(line.text)) return true;
     if (header_line_ != nullptr && !is_comment(header_line_->text)) return false;
     if (!take_header(line) &&
         (header_line_ != nullptr || count_fields(line.text, layout_.separator).numbers > 0))
@@ -139,6 +146,15 @@ class LayoutFinder {
     bool in_front = true;
     for (const std::size_t column : layout_.columns) in_front = in_front && column < 3;
     return is_blank && header_.fields != fields && !in_front;
+  }
+
+  /// A value that is missing between blanks would shift the others. Rows of names that have blanks
+  /// of their own differ in length.
+  [[nodiscard]] std::size_t find_min_fields() const {
+    if (layout_.separator != Separator::kBlank) return 0;
+    const FieldCounts counts = count_fields(lines_[row_].text, layout_.separator);
+    const bool is_named = header_line_ != nullptr && header_.fields == counts.fields;
+    return is_named || counts.fields == counts.numbers ? counts.fields : 0;
   }
 
   [[nodiscard]] static Error refusal(std::uint64_t line, const char* cause) {

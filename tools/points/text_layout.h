@@ -21,6 +21,8 @@ struct TextLayout {
   /// Number of the line with the first point, from 1. What precedes it is a header, a title, a
   /// comment or a count.
   std::uint64_t first_row = kNoRow;
+  /// The number of fields that a row has at least, if that is known.
+  std::size_t min_fields = 0;
   /// The number of points that the file declares, in this line.
   std::optional<std::uint64_t> declared_count;
   std::uint64_t count_line = 0;

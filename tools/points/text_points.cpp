@@ -85,6 +85,8 @@ Result<void> TextPoints::parse_row(std::string_view line, Vec3& point) const {
     if (!parse_number(fields.field(), layout_.decimal, *values[wanted.axis]))
       return bad_line("'" + octree::printable(fields.field()) + "' is not a number");
   }
+  for (; at < layout_.min_fields; ++at)
+    if (!fields.next()) return bad_line("it has fewer columns than the first row");
   return {};
 }
 

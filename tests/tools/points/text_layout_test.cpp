@@ -37,6 +37,14 @@ TEST_F(PointText, KeepsEmptyFieldsInTheirColumns) {
   expect_points(read("a.tsv", "id\tx\ty\tz\n\t1.5\t-2\t3e2\n\t4\t5\t6\n"), kTwo);
 }
 
+TEST_F(PointText, RefusesRowsThatLackAValueBetweenBlanks) {
+  EXPECT_EQ(read("a.txt", "x y z r\n1 2 3 4\n1 3 4\n").error,
+            "line 3: it has fewer columns than the first row; give x,y,z, one point a line");
+  EXPECT_EQ(read("b.txt", "1 2 3 4 5\n1 3 4 5\n").points.size(), 1u);
+  expect_points(read("c.txt", "1.5 -2 3e2 Main Street 7\n4 5 6 Square\n"), kTwo);
+  expect_points(read("d.csv", "1.5,-2,3e2,7,8\n4,5,6\n"), kTwo);
+}
+
 TEST_F(PointText, EndsLinesInAnyWay) {
   expect_points(read("a.csv", "1.5,-2,3e2\r4,5,6\r"), kTwo);
   expect_points(read("b.csv", "x,y,z\r\n1.5,-2,3e2\r\n4,5,6"), kTwo);
@@ -63,6 +71,9 @@ TEST_F(PointText, FindsTheHeaderBehindTitles) {
   expect_points(read("a.csv", "Scan of Monday\n\nx,y,z\n1.5,-2,3e2\n4,5,6\n"), kTwo);
   expect_points(read("b.csv", "Monday\nid;X;Y;Z\n7;1.5;-2;3e2\n8;4;5;6\n"), kTwo);
   expect_points(read("c.csv", "x,y,z\n1.5 -2 3e2\n4 5 6\n"), kTwo);
+  expect_points(read("d.csv", "sep=;\r\n1.5;-2;3e2\r\n4;5;6\r\n"), kTwo);
+  expect_points(read("e.txt", "id X [m] Y [m] Z [m]\n7 1.5 -2 3e2\n8 4 5 6\n"), kTwo);
+  expect_points(read("f.txt", "# X (mm) Y (mm) Z (mm)\n1.5 -2 3e2\n4 5 6\n"), kTwo);
   expect_refused("x,y,z\nm,m,m\n1,2,3\n", "line 2: 'm' is not a number");
   expect_refused("Scan of Monday\n1,2,3\n", "line 1: x, y and z are not among its names 'Scan of");
 }
@@ -120,6 +131,8 @@ TEST_F(PointText, ReadsDecimalCommasThatLeaveNoDoubt) {
   expect_points(read("c.txt", "id\tx\ty\tz\n1.2\t1,500\t-2,000\t300,000\n1.3\t4,0\t5,0\t6,0\n"),
                 kTwo);
   expect_points(read("d.csv", "1,500;-2,000;300,000\n4,000;5,000;6,000\n"), kTwo);
+  expect_points(read("f.csv", "\"1,5\",\"-2\",\"3e2\"\n\"4,0\",\"5,0\",\"6\"\n"), kTwo);
+  expect_refused("\"1,234\",\"5,678\",\"9,012\"\n", "line 1: '1,234' may have");
   expect_refused("1,5;2;3.5\n", "line 1: '1,5' has a comma where other numbers have a point");
   expect_refused("1,500;2;3\n", "line 1: '1,500' may have a decimal comma or grouped thousands");
   expect_refused("1.234,5;1;2\n", "line 1: '1.234,5' is not a number");
