@@ -10,10 +10,14 @@
 namespace planetree::tools {
 namespace {
 
+/// The text of a comment, without a word in front such as "columns:".
 std::string_view without_comment_mark(std::string_view line) {
   if (!is_comment(line)) return line;
   const std::size_t begin = line.find_first_not_of("#/ \t");
-  return begin == std::string_view::npos ? std::string_view() : line.substr(begin);
+  if (begin == std::string_view::npos) return {};
+  line.remove_prefix(begin);
+  std::string_view rest = line;
+  return octree::take_word(rest).ends_with(':') ? trimmed(rest) : line;
 }
 
 std::vector<std::string_view> names_in(std::string_view line, Separator separator) {
@@ -30,6 +34,7 @@ TextHeader read_as(std::string_view line, Separator separator, const ColumnChoic
   const auto names = names_in(has_units ? without_units : line, separator);
   TextHeader header;
   header.fields = names.size();
+  header.separator = separator;
   header.axes = choice.empty() ? find_axes(names, header.columns)
                                : find_chosen(choice, names, header.columns);
   return header;

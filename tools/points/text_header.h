@@ -15,6 +15,7 @@ struct TextHeader {
   NamedAxes axes = NamedAxes::kNone;
   AxisColumns columns{};
   std::size_t fields = 0;
+  Separator separator = Separator::kComma;  ///< by which the names were found
 };
 
 /// Reads a line, which may be a comment, as names of columns: separated like the rows or, if the

@@ -131,21 +131,26 @@ class LayoutFinder {
     const std::string_view row = lines_[row_].text;
     const std::size_t fields = count_fields(row, layout_.separator).fields;
     if (!is_shifted(row, fields)) return {};
+    if (is_comment(header_line_->text) && fields == 3) {  // prose
+      layout_.columns = {0, 1, 2};
+      return {};
+    }
     const std::string cause = "the row has " + std::to_string(fields) + " columns and the header " +
                               std::to_string(header_.fields);
     return refusal(lines_[row_].number, cause.c_str());
   }
 
-  /// Whether the names may not be those of the columns above them: names with blanks, or rows that
-  /// begin with a name of their own.
+  /// Whether the names may not be those of the columns below them: names with blanks, rows that
+  /// begin with a name of their own, or prose.
   [[nodiscard]] bool is_shifted(std::string_view row, std::size_t fields) const {
     const bool is_quoted = trimmed(row).starts_with('"');
     const bool is_blank = layout_.separator == Separator::kBlank;
+    const bool is_strict = is_blank || header_.separator != layout_.separator;
     const bool is_table = is_blank || layout_.separator == Separator::kTab || is_quoted;
     if (!is_comment(header_line_->text) && is_table && header_.fields + 1 == fields) return true;
     bool in_front = true;
     for (const std::size_t column : layout_.columns) in_front = in_front && column < 3;
-    return is_blank && header_.fields != fields && !in_front;
+    return is_strict && header_.fields != fields && !in_front;
   }
 
   /// A value that is missing between blanks would shift the others. Rows of names that have blanks

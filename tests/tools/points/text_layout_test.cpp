@@ -67,6 +67,16 @@ TEST_F(PointText, TakesCommentsForHeadersWhereTheyNameColumns) {
   expect_refused("# x y intensity\n1 2 3\n", "'intensity'");
 }
 
+TEST_F(PointText, TellsNamesFromProse) {
+  expect_points(read("a.txt", "# columns: x y z i\n1.5 -2 3e2 7\n4 5 6 7\n"), kTwo);
+  expect_points(read("b.txt", "# columns: z y x\n3e2,-2,1.5\n6,5,4\n"), kTwo);
+  expect_points(read("c.txt", "# the x y z of all tips\n1.5 -2 3e2\n4 5 6\n"), kTwo);
+  expect_points(read("d.txt", "# x y z of all tips\n1.5,-2,3e2,7\n4,5,6,7\n"), kTwo);
+  expect_refused("# the x y z of tips\n1 2 3 4\n", "line 2: the row has 4 columns");
+  expect_refused("# the x y z of tips\n1,2,3,4\n", "line 2: the row has 4 columns");
+  expect_refused("names x y z\n1,2,3\n", "line 2: the row has 3 columns");
+}
+
 TEST_F(PointText, FindsTheHeaderBehindTitles) {
   expect_points(read("a.csv", "Scan of Monday\n\nx,y,z\n1.5,-2,3e2\n4,5,6\n"), kTwo);
   expect_points(read("b.csv", "Monday\nid;X;Y;Z\n7;1.5;-2;3e2\n8;4;5;6\n"), kTwo);
