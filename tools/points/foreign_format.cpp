@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "octree/builder/mesh/stl_reader.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "tools/points/sample_lines.h"
 #include "tools/points/text_layout.h"
@@ -98,6 +97,16 @@ const char* text_format(std::string_view front) {
   return is_ptx(lines) ? "a PTX scan" : nullptr;
 }
 
+/// Whether a file is as long as a binary STL with the count of facets in its front.
+bool has_binary_stl_size(std::string_view front, std::uint64_t size_bytes) {
+  constexpr std::size_t kHeaderBytes = 80, kFacetBytes = 50;
+  if (front.size() < kHeaderBytes + 4) return false;
+  std::uint64_t facets = 0;
+  for (std::size_t i = 4; i-- > 0;)
+    facets = facets << 8 | static_cast<unsigned char>(front[kHeaderBytes + i]);
+  return size_bytes == kHeaderBytes + 4 + kFacetBytes * facets;
+}
+
 /// Whether no text has this byte.
 constexpr bool is_binary(char c) {
   return static_cast<unsigned char>(c) == 0x7f ||
@@ -120,7 +129,7 @@ bool is_utf16(std::string_view front) {
 
 std::optional<Error> find_foreign_format(std::string_view front,
                                          std::optional<std::uint64_t> size_bytes) {
-  if (size_bytes && octree::has_binary_stl_size(front, *size_bytes))
+  if (size_bytes && has_binary_stl_size(front, *size_bytes))
     return refusal("a binary STL mesh", kConvert);
   const auto text = front.substr(octree::text_begin(front).offset);
   for (const Signature& signature : kSignatures)
