@@ -1,5 +1,6 @@
 #include "tools/points/text_layout.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cinttypes>
 #include <span>
@@ -131,7 +132,7 @@ class LayoutFinder {
     const std::string_view row = lines_[row_].text;
     const std::size_t fields = count_fields(row, layout_.separator).fields;
     if (!is_shifted(row, fields)) return {};
-    if (is_comment(header_line_->text) && fields == 3) {  // prose
+    if (is_comment(header_line_->text) && fields == 3 && choice_.empty()) {  // prose
       layout_.columns = {0, 1, 2};
       return {};
     }
@@ -143,7 +144,7 @@ class LayoutFinder {
   /// Whether the names may not be those of the columns below them: names with blanks, rows that
   /// begin with a name of their own, or prose.
   [[nodiscard]] bool is_shifted(std::string_view row, std::size_t fields) const {
-    const bool is_quoted = trimmed(row).starts_with('"');
+    const bool is_quoted = trimmed(row).starts_with('"') && std::ranges::count(row, '"') == 2;
     const bool is_blank = layout_.separator == Separator::kBlank;
     const bool is_strict = is_blank || header_.separator != layout_.separator;
     const bool is_table = is_blank || layout_.separator == Separator::kTab || is_quoted;

@@ -104,6 +104,7 @@ TEST_F(PointText, RefusesNamesThatMayBeShifted) {
   expect_refused("Point Name X Y Z\nA 1 2 3\n", "line 2: the row has 4 columns and the header 5");
   expect_refused("\"x\" \"y\" \"z\"\n\"1\" 1.5 -2 3e2\n", "the row has 4 columns and the header 3");
   expect_refused("\"x\",\"y\",\"z\"\n\"1\",1.5,-2,3e2\n", "the row has 4 columns and the header 3");
+  expect_points(read("b.csv", "\"x\",\"y\",\"z\"\n\"1.5\",\"-2\",\"3e2\",\"a\"\n4,5,6,b\n"), kTwo);
   expect_points(read("a.txt", "//X Y Z\n1.5 -2 3e2 0.1\n4 5 6 0.2\n"), kTwo);
 }
 
@@ -117,6 +118,7 @@ TEST_F(PointText, TakesColumnsAsTyped) {
   expect_points(read("f.txt", "A 1.5 -2 3e2\nB 4 5 6\n", 2, "2,3,4"), kTwo);
   expect_refused(text, "line 1: --columns are not all among its names 'id'", "a,b,e");
   expect_refused(text, "it has a name of --columns more than once", "a,b,3");
+  expect_refused("# the a b c of tips\n1 2 3\n", "line 2: the row has 3 columns", "a,b,c");
   expect_refused("1,2,3\n", "it has no header with the names of --columns", "a,b,c");
   expect_refused("1,2,3\n", "line 1: it has fewer than three numbers", "1,2,4");
 }
