@@ -88,8 +88,13 @@ NamedAxes find_axes(const std::vector<std::string_view>& names, AxisColumns& col
     if (found != NamedAxes::kNone) return NamedAxes::kAmbiguous;
     found = take(family, columns);
   }
-  if (found == NamedAxes::kNone && survey.is_complete()) return take(survey, columns);
-  return found;
+  if (found != NamedAxes::kNone) return found;
+  if (survey.is_complete()) return take(survey, columns);
+  // x and y with a height
+  Family mixed = families[""];
+  mixed.counts[2] = survey.counts[2];
+  mixed.columns[2] = survey.columns[2];
+  return mixed.is_complete() ? take(mixed, columns) : NamedAxes::kNone;
 }
 
 NamedAxes find_chosen(const ColumnChoice& choice, const std::vector<std::string_view>& names,

@@ -60,16 +60,21 @@ std::optional<AxisName> axis_among(const std::vector<std::string>& words, std::s
                                    std::size_t least) {
   AxisName name;
   std::size_t found = 0;
+  std::optional<std::size_t> same;
   for (const std::string& word : words) {
+    const auto also = survey_name({word});
     if (const auto axis = axis_of(word, letters)) {
       name.axis = *axis;
       ++found;
     } else if (contains(kPositions, word)) {
       name.family += word + ' ';
-    } else {
+    } else if (!also || word.size() == 1 || (same && same != also->axis)) {
       return std::nullopt;
+    } else {
+      same = also->axis;  // "X/Easting"
     }
   }
+  if (same && same != name.axis) return std::nullopt;
   if (found != 1 || words.size() < least + 1) return std::nullopt;
   return name;
 }

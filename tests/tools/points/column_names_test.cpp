@@ -34,10 +34,13 @@ TEST(ColumnNames, FindAxesAsProgramsNameThem) {
   expect_found({"t", "Points:0", "Points:1", "Points:2"}, {1, 2, 3});
   expect_found({"nr", "easting", "northing", "height"}, {1, 2, 3});
   expect_found({"N", "E", "Elevation (m)"}, {1, 0, 2});
+  expect_found({"Label", "X/Easting", "Y/Northing", "Z/Altitude"}, {1, 2, 3});
+  expect_found({"name", "x", "y", "alt"}, {1, 2, 3});
 }
 
 TEST(ColumnNames, ChooseThePositionAmongOtherVectors) {
   expect_found({"nx", "ny", "nz", "x", "y", "z"}, {3, 4, 5});
+  expect_found({"n_x", "n_y", "n_z", "x", "y", "z"}, {3, 4, 5});
   expect_found({"Normals:0", "Normals:1", "Normals:2", "Points:0", "Points:1", "Points:2"},
                {3, 4, 5});
   expect_found({"vel_x", "vel_y", "vel_z", "pos_x", "pos_y", "pos_z"}, {3, 4, 5});
@@ -51,6 +54,8 @@ TEST(ColumnNames, FindNothingElse) {
   EXPECT_EQ(axes_of({"normal_x", "normal_y", "normal_z"}), NamedAxes::kNone);
   EXPECT_EQ(axes_of({"0", "1", "2"}), NamedAxes::kNone);
   EXPECT_EQ(axes_of({"pos_x", "pos_y", "point_z"}), NamedAxes::kNone);
+  EXPECT_EQ(axes_of({"X/Northing", "Y/Easting", "Z/Height"}), NamedAxes::kNone);
+  EXPECT_EQ(axes_of({"x", "y", "time"}), NamedAxes::kNone);
   EXPECT_EQ(axes_of({"lon", "lat", "height"}), NamedAxes::kNone);
   EXPECT_EQ(axes_of({}), NamedAxes::kNone);
 }
@@ -61,6 +66,7 @@ TEST(ColumnNames, RefuseToChooseBetweenEquals) {
   EXPECT_EQ(axes_of({"pos_x", "pos_y", "pos_z", "coord_x", "coord_y", "coord_z"}),
             NamedAxes::kAmbiguous);
   EXPECT_EQ(axes_of({"east", "north", "height", "altitude"}), NamedAxes::kAmbiguous);
+  EXPECT_EQ(axes_of({"x", "y", "height", "altitude"}), NamedAxes::kAmbiguous);
 }
 
 TEST(ColumnNames, TypedColumnsAreThreeDifferentOnes) {
