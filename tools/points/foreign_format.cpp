@@ -80,7 +80,8 @@ bool is_obj_mesh(const std::vector<SampleLines::Line>& lines) {
 
 /// Whether two counts precede the rows, as the size of a PTX grid does.
 bool is_ptx(const std::vector<SampleLines::Line>& lines) {
-  return lines.size() > 2 && is_count(lines[0].text) && is_count(lines[1].text);
+  return lines.size() > 2 && is_count(lines[0].text) && is_count(lines[1].text) &&
+         count_fields(lines[2].text, Separator::kBlank).numbers == 3;
 }
 
 const char* text_format(std::string_view front) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/points/sample_lines.h"
 
 namespace planetree::tools {
 namespace {
@@ -101,9 +102,10 @@ Result<void> TextPoints::check_count(bool ended) const {
 }
 
 Error TextPoints::bad_line(const std::string& cause) const {
+  const bool has_more = count_fields(lines_.line(), layout_.separator).fields > 3;
   return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
-                    "line %" PRIu64 ": %s; give x,y,z, one point a line", lines_.number(),
-                    cause.c_str());
+                    "line %" PRIu64 ": %s; give x,y,z%s, one point a line", lines_.number(),
+                    cause.c_str(), has_more ? " first, or --columns" : "");
 }
 
 }  // namespace planetree::tools

@@ -121,6 +121,7 @@ TEST_F(PointText, TakesColumnsAsTyped) {
   expect_refused("# the a b c of tips\n1 2 3\n", "line 2: the row has 3 columns", "a,b,c");
   expect_refused("1,2,3\n", "it has no header with the names of --columns", "a,b,c");
   expect_refused("1,2,3\n", "line 1: it has fewer than three numbers", "1,2,4");
+  expect_refused("A 1 2 3\n", "'A' is not a number; give x,y,z first, or --columns, one point a");
 }
 
 TEST_F(PointText, TakesACountInFront) {
