@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "planetree/error.h"
 #include "planetree/export.h"
@@ -175,7 +176,10 @@ struct BuildReport {
   std::uint64_t input_triangles = 0;          ///< usable triangles of the input, in the box or not
   std::uint64_t skipped = 0;                  ///< triangle indices that skipped records take
   std::uint64_t first_skipped = kNoTriangle;  ///< the least of those indices, or kNoTriangle
-  std::string first_skipped_text;      ///< what is wrong with that record; empty if there is none
+  std::string first_skipped_text;  ///< what is wrong with that record; empty if there is none
+  /// What the reader of a file passed over or took in another way than it is written: a line for
+  /// each kind, with its count and where it is first.
+  std::vector<std::string> notes;
   std::uint64_t vertices = 0;          ///< vertex records of the input
   std::uint64_t unbalanced_edges = 0;  ///< edges that more faces run along one way than the other
   std::uint64_t nodes = 0;             ///< inner nodes of the tree

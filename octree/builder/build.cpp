@@ -147,6 +147,7 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.skipped = model.skipped_count;
   report.first_skipped = model.first_skipped;
   report.first_skipped_text = built.first_skipped;
+  report.notes = built.notes;
   report.vertices = model.vertex_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
   report.nodes = model.node_count;

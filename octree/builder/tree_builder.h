@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "octree/builder/build_seams.h"
 #include "octree/builder/job/build_options.h"
@@ -18,6 +19,7 @@ struct BuildReport {
   std::uint64_t input_triangles = 0;  ///< usable triangles of the input, built or not
   std::string first_skipped;          ///< the first skipped record in words; empty if there is none
   std::uint64_t temporary_bytes = 0;  ///< bytes that were spilled to disk
+  std::vector<std::string> notes;     ///< as MeshSummary::notes
 };
 
 /// Reads a mesh and writes its tree to `output`, completely or not at all. The bytes
