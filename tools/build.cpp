@@ -252,6 +252,10 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       subcommand.bytes("--page-size", options->page_bytes,
                        "Bytes of a page in memory: a power of two from 4K to 256K"),
       "64K");
+  subcommand.flag(
+      "--float64", arguments.options.float64,
+      "Read coordinates that an ascii PLY declares as floats as doubles, with all their "
+      "digits. The file is larger then");
   subcommand.flag("--strict", arguments.options.strict,
                   "Refuse a mesh with bad records (a vertex that is not finite, an index out of "
                   "range, fewer than 3 corners) instead of skipping them");

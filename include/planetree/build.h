@@ -128,7 +128,7 @@ struct Box {
       upper;   ///< greatest corner
 };
 
-/// Options of build(). The file depends on `page_bytes` and `box` alone.
+/// Options of build(). The file depends on `page_bytes`, `box` and `float64` alone.
 struct BuildOptions {
   /// Maximum memory of the build in bytes, at least kMinMemoryBytes: resident memory of the process
   /// where that holds less than 64 MiB otherwise. 0 means a quarter of the machine's. What does not
@@ -149,6 +149,9 @@ struct BuildOptions {
   /// `temp_directory`, until the file is complete. A later build of the same input and options
   /// resumes there. Not for triangles from a callback.
   bool resume = false;
+  /// Reads coordinates that an ascii PLY declares as floats as doubles, with all their digits.
+  /// Other text formats declare no type, and are read as doubles anyway.
+  bool float64 = false;
   bool strict = false;   ///< a record that cannot be used is an error instead of being skipped
   bool replace = false;  ///< an existing output may be replaced
 
@@ -197,7 +200,7 @@ struct BuildReport {
 
 /// Builds the .ptree file of a mesh. The file appears whole or not at all: after an error or a
 /// cancelled build nothing is left, except for what BuildOptions::resume keeps. The bytes of the
-/// file depend on the input, `page_bytes` and `box` alone.
+/// file depend on the input, `page_bytes`, `box` and `float64` alone.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.

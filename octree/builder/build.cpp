@@ -125,6 +125,7 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
   inner.threads = options.threads;
   inner.memory_bytes = options.memory_bytes;
   inner.temp_directory = options.temp_directory;
+  inner.float64 = options.float64;
   inner.strict = options.strict;
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};

@@ -110,6 +110,7 @@ Result<BuildIdentity> BuildIdentity::of(const BuildInput& input, const BuildOpti
   identity.version = version_text();
   identity.page_bytes = options.page_bytes;
   identity.strict = options.strict;
+  identity.float64 = options.float64;
   identity.chunk_triangles = seams.chunk_triangles;
   identity.sector_triangles = seams.sector_triangles;
   if (options.box) {

@@ -122,7 +122,7 @@ Result<void> TreeBuild::resume_work() {
 
 // Checks the space before a day of work rather than after it.
 Result<void> TreeBuild::estimate_space() {
-  const auto size = MeshSize::estimate(input_, seams_.calls);
+  const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64});
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted

@@ -164,6 +164,8 @@ std::optional<ForeignFormat> foreign_format(std::string_view file) noexcept {
   if (is_json(text))
     return has_word(text, "\"asset\"") ? ForeignFormat{"a glTF file", kExport}
                                        : ForeignFormat{"a JSON file (glTF is one)", kExport};
+  if (text.starts_with('{') && has_word(text.substr(0, 80), "off"))
+    return ForeignFormat{"an object of Geomview in braces", "give the OFF in it alone"};
   if (is_wide_text(file)) return ForeignFormat{"a text in UTF-16", "save it as UTF-8"};
   if (is_iges(file)) return ForeignFormat{"an IGES file", kShape};
   if (file.size() >= 84 && file.find_first_not_of('\0') == std::string_view::npos)

@@ -10,6 +10,7 @@
 #include "octree/builder/mesh/obj_notes.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/indexed_face.h"
 #include "octree/builder/mesh/stream/mesh_lines.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "octree/builder/mesh/stream/text_vertices.h"
@@ -66,28 +67,6 @@ class ObjStatements {
 
 /// Whether a keyword is that of a face. Old files have "fo" for it.
 bool is_face(std::string_view keyword) { return keyword == "f" || keyword == "fo"; }
-
-/// An f statement that was read.
-class ObjFace {
- public:
-  ObjFace(std::uint64_t line, const std::vector<std::int64_t>& numbers,
-          std::int64_t vertices_before)
-      : line_(line), numbers_(numbers), vertices_before_(vertices_before) {}
-
-  [[nodiscard]] std::uint64_t record() const { return line_; }
-  [[nodiscard]] std::uint64_t size() const { return numbers_.size(); }
-  bool value_at(std::uint64_t k, std::int64_t& value) const {
-    value = numbers_[static_cast<std::size_t>(k)];
-    return true;
-  }
-  [[nodiscard]] std::int64_t vertices_before() const { return vertices_before_; }
-  [[nodiscard]] static Error failure() { return {}; }
-
- private:
-  const std::uint64_t line_;
-  const std::vector<std::int64_t>& numbers_;
-  const std::int64_t vertices_before_;
-};
 
 /// Reads an OBJ in two passes, since an f may name a later v.
 class Obj {
@@ -147,7 +126,7 @@ class Obj {
         faces_read_ = true;
         if (Result<void> read = read_face(statements, rest); !read) return read.error();
         const Result<bool> taken =
-            take(ObjFace(statements.position().line, numbers_, vertices_before));
+            take(IndexedFace(statements.position().line, numbers_, vertices_before));
         if (!taken) return taken.error();
         if (!*taken) return FacePosition{statements.position(), 0, vertices_before};
       }
@@ -212,7 +191,7 @@ class Obj {
 }  // namespace
 
 Result<MeshSummary> read_obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
-  return Obj(file, sink, scratch).read();
+  return with_note_of_padding(file, Obj(file, sink, scratch).read());
 }
 
 }  // namespace planetree::octree

@@ -171,7 +171,7 @@ class StlAscii {
   Depth depth_ = Depth::kFile;
   bool has_loop_ = false;
   bool last_is_other_ = false;  ///< the last line is of no keyword, perhaps a cut one
-  std::vector<Vec3> corners_;  ///< corners of the facet being read
+  std::vector<Vec3> corners_;   ///< corners of the facet being read
   std::uint64_t facet_count_ = 0;
   std::uint64_t vertex_count_ = 0;
   MeshNote unknown_lines_, unended_solids_, behind_solids_;
@@ -182,7 +182,7 @@ class StlAscii {
 Result<MeshSummary> read_stl_ascii(const MeshFile& file, TriangleSink& sink) {
   const Result<TextPosition> begin = text_begin(file);
   if (!begin) return begin.error();
-  return StlAscii(file, *begin, sink).read();
+  return with_note_of_padding(file, StlAscii(file, *begin, sink).read());
 }
 
 }  // namespace planetree::octree

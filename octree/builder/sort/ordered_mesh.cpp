@@ -15,7 +15,7 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
     return static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
   spool.report_progress(report, &progress);
-  const Result<MeshSummary> summary = read_mesh(input, spool, scratch);
+  const Result<MeshSummary> summary = read_mesh(input, spool, scratch, {options.float64});
   if (!summary) return summary.error();
   auto frame = spool.finish();
   if (!frame) return frame.error();
