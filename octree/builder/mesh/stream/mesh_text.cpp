@@ -150,7 +150,8 @@ bool exceeds_float(std::string_view word, float value, double nearest) noexcept 
   }
   // Printed from the float, the digits differ from it by half of the last one.
   const double half = 0.5000001 * std::pow(10.0, static_cast<double>(exponent));
-  return std::fabs(nearest - static_cast<double>(value)) > half;
+  const double rounding = 0x1p-52 * std::fabs(nearest);
+  return std::fabs(nearest - static_cast<double>(value)) > half + rounding;
 }
 
 bool take_integer(std::string_view& word, std::int64_t& value) noexcept {
