@@ -9,21 +9,6 @@ namespace {
 
 constexpr std::size_t kCoordinates = 3;
 
-/// The error of a text that ends in front of a record.
-Error ended(PlyWords& words, const PlyElement& element, std::uint64_t record) {
-  if (words.error()) return *words.error();
-  return words.error_at(words.after(), "the file ends at record " + std::to_string(record) +
-                                           " of " + std::to_string(element.count) + " '" +
-                                           printable(element.name) + "'");
-}
-
-/// Passes over the properties of a record from `first` up to `end`.
-bool pass(PlyWords& words, const PlyElement& element, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i)
-    if (!words.pass(element.properties[i])) return false;
-  return true;
-}
-
 }  // namespace
 
 PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
@@ -49,7 +34,7 @@ Result<FacePosition> PlyAscii::each_record(const PlyElement& element, const Face
   // A record without properties has no words.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
   for (std::uint64_t record = from.record; record < count; ++record) {
-    if (!words.begin_record()) return ended(words, element, record);
+    if (!words.begin_record()) return words.ended(element, record);
     const Result<bool> taken = take(record, words);
     if (!taken) return taken.error();
     if (!*taken) return FacePosition{words.begin(), record, 0};
@@ -61,7 +46,7 @@ Result<FacePosition> PlyAscii::each_record(const PlyElement& element, const Face
 Result<TextPosition> PlyAscii::skip(const PlyElement& element, TextPosition begin) {
   const auto end =
       each_record(element, {begin, 0, 0}, [&](std::uint64_t, PlyWords& words) -> Result<bool> {
-        if (pass(words, element, 0, element.properties.size()) && words.end_record()) return true;
+        if (words.pass(element, 0, element.properties.size()) && words.end_record()) return true;
         return *words.error();
       });
   if (!end) return end.error();
@@ -214,9 +199,9 @@ Result<FacePosition> PlyAscii::each_triangle(const FacePosition& from, const Tak
   words.allow_long_records();
   while (at.record < element.count) {
     if (!resumes) {
-      if (!words.begin_record()) return ended(words, element, at.record);
+      if (!words.begin_record()) return words.ended(element, at.record);
       at.strips.begin_list();
-      if (!pass(words, element, 0, header_.index_list) || !words.length(list, at.left))
+      if (!words.pass(element, 0, header_.index_list) || !words.length(list, at.left))
         return *words.error();
     }
     for (std::int64_t index = 0; resumes || at.left > 0; resumes = false) {
@@ -236,7 +221,7 @@ Result<FacePosition> PlyAscii::each_triangle(const FacePosition& from, const Tak
       at.strips.count_triangle();
       if (const auto told = emitter_.advance(words.bytes_done()); !told) return told.error();
     }
-    if (!pass(words, element, header_.index_list + 1, element.properties.size()) ||
+    if (!words.pass(element, header_.index_list + 1, element.properties.size()) ||
         !words.end_record())
       return *words.error();
     ++at.record;

@@ -186,6 +186,12 @@ bool PlyWords::pass(const PlyProperty& property) {
   return true;
 }
 
+bool PlyWords::pass(const PlyElement& element, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i)
+    if (!pass(element.properties[i])) return false;
+  return true;
+}
+
 bool PlyWords::no_number(const PlyProperty& property, std::string_view word, const char* what) {
   if (error_) return false;
   return fail(error_at(lines_.position(), "'" + printable(word) + "' in '" +
@@ -209,6 +215,13 @@ PlyWords::State PlyWords::state() {
 bool PlyWords::fail(const Error& error) {
   error_ = error;
   return false;
+}
+
+Error PlyWords::ended(const PlyElement& element, std::uint64_t record) {
+  if (error_) return *error_;
+  return error_at(after(), "the file ends at record " + std::to_string(record) + " of " +
+                               std::to_string(element.count) + " '" + printable(element.name) +
+                               "'");
 }
 
 Error PlyWords::crossing_error() const {

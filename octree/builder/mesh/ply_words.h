@@ -60,6 +60,8 @@ class PlyWords {
   bool real(const PlyProperty& property, double& value);
   /// Passes over a value or a list.
   bool pass(const PlyProperty& property);
+  /// Passes over the properties of a record from `first` up to `end`.
+  bool pass(const PlyElement& element, std::size_t first, std::size_t end);
   /// Ends the record.
   bool end_record() {
     ++records_on_line_;
@@ -84,6 +86,8 @@ class PlyWords {
   /// An error at the line of the record.
   [[nodiscard]] Error error_here(const std::string& cause) const;
   [[nodiscard]] Error error_at(const TextPosition& position, const std::string& cause) const;
+  /// The error of a text that ends, or cannot be read, in front of a record.
+  [[nodiscard]] Error ended(const PlyElement& element, std::uint64_t record);
   /// The error of a record that begins within a line and must not.
   [[nodiscard]] Error surplus_error() const {
     return error_here("'" + state_.first_word + "' follows the last declared value");
