@@ -200,21 +200,6 @@ TEST_F(Command, BuildNamesTheFirstSkippedRecord) {
   EXPECT_EQ(report["first_skipped"], 18);
 }
 
-TEST_F(Command, BuildTellsWhatTheReaderPassedOver) {
-  write_mesh("notes.obj", 3, "l 1 2\nsurf 0 1 0 1 1 2\nl 2 3\n");
-  const Outcome result = run({"build", "notes.obj", "-o", "notes.ptree", "--json"});
-  EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(
-      result.errors,
-      "planetree: warning: notes.obj: 1 statement of curves, patches or other files not read, the "
-      "first 'surf' in line 36; export them as faces\n"
-      "planetree: warning: notes.obj: 2 point or line statements not read, the first 'l' in line "
-      "35\n");
-  const Json report = Json::parse(result.output);
-  ASSERT_EQ(report["notes"].size(), 2u);
-  EXPECT_TRUE(report["notes"][0].get<std::string>().starts_with("1 statement of curves"));
-}
-
 TEST_F(Command, QueryAnswersInTheOrderOfTheInput) {
   const Outcome result = run({"query", "tree.ptree"}, "0,0,3\n\nnan,0,0\n0,0,1e308\n8,8,0\n");
   ASSERT_EQ(result.status, 0) << result.errors;
