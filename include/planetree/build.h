@@ -65,7 +65,8 @@ class BuildInput {
   using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream>;
 
   /// A mesh file: PLY, STL or OFF (text or binary) or OBJ; docs/formats.md says what of them. The
-  /// content decides the format, but an OBJ needs its extension. A regular file; it must not change during the build.
+  /// content decides the format, but an OBJ needs its extension. A regular file; it must not change
+  /// during the build.
   template <class Path>
   requires std::convertible_to<const Path&, std::filesystem::path> &&
       (!std::same_as<Path, BuildInput>)BuildInput(const Path& path)
