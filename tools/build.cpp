@@ -108,6 +108,7 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"input_triangles", built.input_triangles},
       {"skipped", built.skipped},
       {"first_skipped", nullptr},
+      {"notes", built.notes},
       {"vertices", built.vertices},
       {"watertight", built.watertight()},
       {"unbalanced_edges", built.unbalanced_edges},
@@ -195,6 +196,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   if (!report) return console.fail(meter.failed_at().string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
+  for (const std::string& note : report->notes) console.warn(arguments.input.string(), note);
   warn_of_skipped(arguments, *report, console);
   if (!arguments.json) {
     console.print(plain_report(arguments, *report, seconds));
@@ -250,6 +252,10 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       subcommand.bytes("--page-size", options->page_bytes,
                        "Bytes of a page in memory: a power of two from 4K to 256K"),
       "64K");
+  subcommand.flag(
+      "--float64", arguments.options.float64,
+      "Read coordinates that an ascii PLY declares as floats as doubles, with all their "
+      "digits. The file is larger then");
   subcommand.flag("--strict", arguments.options.strict,
                   "Refuse a mesh with bad records (a vertex that is not finite, an index out of "
                   "range, fewer than 3 corners) instead of skipping them");

@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "planetree/error.h"
 #include "planetree/export.h"
@@ -64,9 +65,9 @@ class BuildInput {
   /// One of the kinds of input.
   using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream>;
 
-  /// A mesh file: PLY, STL or OFF (text or binary) or OBJ. The format is detected from the content,
-  /// except for OBJ, which needs the extension .obj. The file must be a regular file and must not
-  /// change during the build.
+  /// A mesh file: PLY, STL or OFF (text or binary) or OBJ. docs/formats.md lists what is read of
+  /// each. The format is detected from the content, except for OBJ, which needs the extension .obj.
+  /// The file must be a regular file and must not change during the build.
   template <class Path>
   requires std::convertible_to<const Path&, std::filesystem::path> &&
       (!std::same_as<Path, BuildInput>)BuildInput(const Path& path)
@@ -129,7 +130,8 @@ struct Box {
       upper;   ///< upper corner
 };
 
-/// Options of build(). Of these, only `page_bytes` and `box` change the bytes of the file.
+/// Options of build(). Of these, only `page_bytes`, `box` and `float64` change the bytes of the
+/// file.
 struct BuildOptions {
   /// Maximum memory of the build in bytes, at least kMinMemoryBytes. It limits the resident memory
   /// of the whole process if the rest of the program takes less than 64 MiB. Arrays of a BuildInput
@@ -155,6 +157,9 @@ struct BuildOptions {
   /// the output. If `temp_directory` is set, it is there, and its name also has a hash of the
   /// output's path. For a callback as input, kBadArgument is returned.
   bool resume = false;
+  /// Reads coordinates that an ascii PLY declares as floats as doubles, with all their digits.
+  /// Other text formats declare no type; their coordinates are always read as doubles.
+  bool float64 = false;
   bool strict = false;   ///< a record that would be skipped is an error
   bool replace = false;  ///< an existing output may be replaced
 
@@ -186,15 +191,18 @@ struct BuildReport {
   std::uint64_t input_triangles = 0;          ///< usable triangles of the whole input
   std::uint64_t skipped = 0;                  ///< number of triangle indices of skipped records
   std::uint64_t first_skipped = kNoTriangle;  ///< the lowest of these indices, or kNoTriangle
-  std::string first_skipped_text;      ///< what is wrong with that record; empty if there is none
-  std::uint64_t vertices = 0;          ///< vertex records of the input
-  std::uint64_t unbalanced_edges = 0;  ///< edges that are not balanced, see watertight()
-  std::uint64_t nodes = 0;             ///< inner nodes of the tree
-  std::uint64_t blocks = 0;            ///< leaves of the tree: blocks of up to 16 triangles
-  std::uint32_t levels = 0;            ///< height of the tree, in nodes
-  std::uint32_t pages = 0;             ///< distance and mask pages
-  std::uint64_t file_bytes = 0;        ///< length of the file
-  std::uint64_t temporary_bytes = 0;   ///< bytes that were spilled to temporary files
+  std::string first_skipped_text;  ///< what is wrong with that record; empty if there is none
+  /// What the reader of a file ignored or changed: a line for each kind, with its count and the
+  /// place of the first.
+  std::vector<std::string> notes;
+  std::uint64_t vertices = 0;             ///< vertex records of the input
+  std::uint64_t unbalanced_edges = 0;     ///< edges that are not balanced, see watertight()
+  std::uint64_t nodes = 0;                ///< inner nodes of the tree
+  std::uint64_t blocks = 0;               ///< leaves of the tree: blocks of up to 16 triangles
+  std::uint32_t levels = 0;               ///< height of the tree, in nodes
+  std::uint32_t pages = 0;                ///< distance and mask pages
+  std::uint64_t file_bytes = 0;           ///< length of the file
+  std::uint64_t temporary_bytes = 0;      ///< bytes that were spilled to temporary files
   std::uint64_t peak_resident_bytes = 0;  ///< peak resident memory since the process started
   std::uint64_t content_id[2] = {};       ///< hash over the hashes of all pages, low word first
 
@@ -206,7 +214,7 @@ struct BuildReport {
 /// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, and the releases of planetree and LZ4, and on nothing else.
+/// `page_bytes`, `box`, `float64`, and the releases of planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.

@@ -125,6 +125,7 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
   inner.threads = options.threads;
   inner.memory_bytes = options.memory_bytes;
   inner.temp_directory = options.temp_directory;
+  inner.float64 = options.float64;
   inner.strict = options.strict;
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
@@ -147,6 +148,7 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.skipped = model.skipped_count;
   report.first_skipped = model.first_skipped;
   report.first_skipped_text = built.first_skipped;
+  report.notes = built.notes;
   report.vertices = model.vertex_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
   report.nodes = model.node_count;

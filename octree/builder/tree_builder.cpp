@@ -4,8 +4,10 @@
 #include <bit>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -101,6 +103,7 @@ class TreeBuild {
   BuildFiles files_;
   MeshSize size_;
   BuiltModel model_;
+  std::vector<std::string> notes_;  // of the reader
   std::optional<TriangleRuns> whole_;
   std::optional<TriangleRuns> part_;    // triangles of whole_ that touch the region
   std::optional<MaskSectors> sectors_;  // only if the model is watertight
@@ -119,7 +122,7 @@ Result<void> TreeBuild::resume_work() {
 
 // Checks the space before a day of work rather than after it.
 Result<void> TreeBuild::estimate_space() {
-  const auto size = MeshSize::estimate(input_, seams_.calls);
+  const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64});
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
@@ -163,6 +166,7 @@ Result<void> TreeBuild::read() {
 // Also checks the space again, now that the triangles are counted.
 Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.frame = mesh.frame;
+  notes_ = mesh.notes;
   model_.box = options_.box;
   model_.vertex_records = mesh.vertex_records;
   model_.shape.float64 = mesh.frame.float64;
@@ -302,7 +306,7 @@ Result<BuildReport> TreeBuild::write_pages() {
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
   return BuildReport{*header, model_.frame.triangle_count, model_.frame.first_skipped_text,
-                     files_.disk_bytes()};
+                     files_.disk_bytes(), notes_};
 }
 
 }  // namespace

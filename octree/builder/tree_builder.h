@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "octree/builder/build_seams.h"
 #include "octree/builder/job/build_options.h"
@@ -18,10 +19,11 @@ struct BuildReport {
   std::uint64_t input_triangles = 0;  ///< usable triangles of the input, built or not
   std::string first_skipped;          ///< the first skipped record in words; empty if there is none
   std::uint64_t temporary_bytes = 0;  ///< bytes that were spilled to disk
+  std::vector<std::string> notes;     ///< as MeshSummary::notes
 };
 
 /// Reads a mesh and writes its tree to `output`, completely or not at all. The bytes
-/// written depend on the mesh, box and page_bytes alone.
+/// written depend on the mesh, box, page_bytes and float64 alone.
 ///
 /// box     with options.box the file holds the triangles that touch the box, and possibly some that
 ///         just miss it. Frame, edges and winding numbers are those of the whole input.

@@ -16,12 +16,13 @@ namespace planetree::octree {
 namespace {
 
 Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path& path,
-                              TriangleSink& sink, MeshScratch& scratch) {
+                              TriangleSink& sink, MeshScratch& scratch,
+                              const MeshOptions& options) {
   const Result<MeshFormat> format = detect_format(file, path);
   if (!format) return format.error();
   switch (*format) {
     case MeshFormat::kPly:
-      return read_ply(file, sink, scratch);
+      return read_ply(file, sink, scratch, options);
     case MeshFormat::kStlBinary:
       return read_stl_binary(file, sink);
     case MeshFormat::kStlAscii:
@@ -40,11 +41,11 @@ Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path&
 }
 
 Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& sink,
-                              MeshScratch& scratch) {
+                              MeshScratch& scratch, const MeshOptions& options) {
   try {
     const Result<MeshFile> file = MeshFile::open(path, scratch.calls());
     if (!file) return file.error();
-    return read_open(*file, path, sink, scratch);
+    return read_open(*file, path, sink, scratch, options);
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read the mesh; free some, or convert it to a binary PLY, "
@@ -54,7 +55,7 @@ Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& s
 
 struct Reader {
   Result<MeshSummary> operator()(const std::filesystem::path& path) const {
-    return read_file(path, sink, scratch);
+    return read_file(path, sink, scratch, options);
   }
   Result<MeshSummary> operator()(const BuildInput::Stream& stream) const {
     return read_stream(stream, sink);
@@ -65,12 +66,14 @@ struct Reader {
   }
   TriangleSink& sink;
   MeshScratch& scratch;
+  const MeshOptions& options;
 };
 
 }  // namespace
 
-Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch) {
-  return std::visit(Reader{sink, scratch}, input.content());
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch,
+                              const MeshOptions& options) {
+  return std::visit(Reader{sink, scratch, options}, input.content());
 }
 
 Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "octree/builder/mesh/mesh_reader.h"
 #include "planetree/build.h"
 #include "planetree/error.h"
 #include "storage/system/file_calls.h"
@@ -25,7 +26,8 @@ struct MeshSize {
   ///         nothing, which gives zero.
   /// errors  those of opening the file and reading it.
   static Result<MeshSize> estimate(const BuildInput& input,
-                                   storage::FileCalls& calls = storage::FileCalls::real());
+                                   storage::FileCalls& calls = storage::FileCalls::real(),
+                                   const MeshOptions& options = {});
 };
 
 }  // namespace planetree::octree

@@ -15,7 +15,7 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
     return static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
   spool.report_progress(report, &progress);
-  const Result<MeshSummary> summary = read_mesh(input, spool, scratch);
+  const Result<MeshSummary> summary = read_mesh(input, spool, scratch, {options.float64});
   if (!summary) return summary.error();
   auto frame = spool.finish();
   if (!frame) return frame.error();
@@ -24,7 +24,7 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
                       "%s; repair the mesh or build without --strict",
                       frame->first_skipped_text.c_str());
   const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
-  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}};
+  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}, summary->notes};
 }
 
 }  // namespace planetree::octree

@@ -108,6 +108,15 @@ TEST(ErrorLine, IsOneLineWhateverTheName) {
   EXPECT_EQ(error_line("a", error), "planetree: a: at byte 4096: it is wrong; mend it\n");
 }
 
+TEST(ErrorLine, NamesAPositionOnce) {
+  for (const char* text :
+       {"byte 80: the count is wrong", "line 7: 'x' is no number", "byte 4096: it is damaged"})
+    EXPECT_EQ(error_line("a", make_error(ErrorCode::kBadInput, Error::kNowhere, 80, "%s", text)),
+              std::string("planetree: a: ") + text + "\n");
+  EXPECT_EQ(error_line("a", make_error(ErrorCode::kBadInput, Error::kNowhere, 80, "bytes lack")),
+            "planetree: a: at byte 80: bytes lack\n");
+}
+
 TEST(PagesLost, ReportsUnreadablePagesBeforeTimeouts) {
   Stats stats;
   EXPECT_EQ(pages_lost(stats), std::nullopt);
