@@ -1,10 +1,13 @@
-# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [PUBLIC] [EXCEPT beginnings...] [DEPENDS targets...])
+# planetree_add_tests(LABEL [GEOMETRY] [TOGETHER] [PUBLIC] [EXCEPT beginnings...] [SLOW suites...]
+#   [DEPENDS targets...])
 #
 # One program of the sources in the current folder and below it; each test in it is a test
 # of ctest with this label.
 # GEOMETRY: the tests compute much, with the headers that this takes. TOGETHER:
 # compile several files at once; their names without a namespace must differ. PUBLIC: the tests
-# see no header but those of the library they link, and of their own folder.
+# see no header but those of the library they link, and of their own folder. SLOW: suites, as
+# patterns of gtest, whose tests are not labelled LABEL_fast: `ctest -L fast` runs the others, in
+# less than a minute.
 find_package(GTest REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
 include(GoogleTest)
@@ -29,7 +32,7 @@ planetree_share_headers(geometry_test_headers
   HEADERS <Eigen/Core> <boost/multiprecision/cpp_bin_float.hpp> <boost/multiprecision/cpp_int.hpp>)
 
 function(planetree_add_tests label)
-  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY;TOGETHER;PUBLIC" "" "EXCEPT;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 test "GEOMETRY;TOGETHER;PUBLIC" "" "EXCEPT;SLOW;DEPENDS")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   foreach(pattern IN LISTS test_EXCEPT)
     list(FILTER sources EXCLUDE REGEX "^${pattern}")
@@ -53,12 +56,26 @@ function(planetree_add_tests label)
   target_precompile_headers(${program} REUSE_FROM ${headers})
   set_target_properties(${program}
     PROPERTIES UNITY_BUILD ${test_TOGETHER} UNITY_BUILD_BATCH_SIZE 6)
+  list(TRANSFORM test_SLOW APPEND ".*")
+  list(JOIN test_SLOW ":" slow)
+  if(slow STREQUAL "*.*")
+    planetree_discover_tests(${program} "*" ${label})
+  else()
+    planetree_discover_tests(${program} "-${slow}" ${label}_fast)
+    if(slow)
+      planetree_discover_tests(${program} "${slow}" ${label})
+    endif()
+  endif()
+endfunction()
+
+# Tests of a program whose names fit a filter of gtest, with this label.
+function(planetree_discover_tests program filter label)
   set(properties LABELS ${label} TIMEOUT 120)
   if(PLANETREE_DATA)
     list(APPEND properties ENVIRONMENT PLANETREE_DATA=${PLANETREE_DATA})
   endif()
   # A program lists its tests when ctest starts: while others still compile, a
   # busy machine could make it miss its time.
-  gtest_discover_tests(${program} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES ${properties})
+  gtest_discover_tests(${program} TEST_FILTER "${filter}" DISCOVERY_MODE PRE_TEST
+    DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

@@ -110,6 +110,7 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"first_skipped", nullptr},
       {"nonplanar_polygons", built.nonplanar_polygons},
       {"fanned_polygons", built.fanned_polygons},
+      {"notes", built.notes},
       {"vertices", built.vertices},
       {"watertight", built.watertight()},
       {"unbalanced_edges", built.unbalanced_edges},
@@ -214,6 +215,7 @@ int run_build(const BuildArguments& arguments, Console& console) {
   if (!report) return console.fail(meter.failed_at().string(), report.error());
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const double seconds = std::max(elapsed.count(), 1e-9);
+  for (const std::string& note : report->notes) console.warn(arguments.input.string(), note);
   warn_of_skipped(arguments, *report, console);
   warn_of_odd_polygons(arguments, *report, console);
   if (!arguments.json) {
@@ -254,10 +256,9 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.path(
       "--temp-dir", "DIR", arguments.options.temp_directory,
       "Directory for temporary files; by default that of the output. They take about "
-      "120 bytes a triangle if memory is short, or 200 with double coordinates, and the "
-      "content of a compressed mesh. They have no names and vanish with the process, except for "
-      "the checkpoint of "
-      "--resume. The build does not begin if space is too short");
+      "120 bytes a triangle if memory is short, or 200 with double coordinates. The content of a "
+      "compressed mesh takes its length. They have no names and vanish with the process, except "
+      "for the checkpoint of --resume. The build does not begin if space is too short");
   subcommand.text(
       "--box", "X0,Y0,Z0,X1,Y1,Z1", box_complaint,
       [&arguments](const std::string& text) { arguments.options.box = box_of(text); },
@@ -274,6 +275,10 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       subcommand.bytes("--page-size", options->page_bytes,
                        "Bytes of a page in memory: a power of two from 4K to 256K"),
       "64K");
+  subcommand.flag(
+      "--float64", arguments.options.float64,
+      "Read coordinates that an ascii PLY declares as floats as doubles, with all their "
+      "digits. The file is larger then");
   subcommand.flag("--strict", arguments.options.strict,
                   "Refuse a mesh with bad records (a vertex that is not finite, an index out of "
                   "range, fewer than 3 corners) instead of skipping them");

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <functional>
 #include <new>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "storage/file/file_layout.h"
 #include "tools/build.h"
+#include "tools/cli/nearest_word.h"
 #include "tools/generate.h"
 #include "tools/inspect.h"
 #include "tools/manual/help_text.h"
@@ -53,6 +56,25 @@ std::string help_for(CLI::App& app) {
   return chosen.empty() ? help_text(command) : help_text(command, summarize(*chosen.front()));
 }
 
+std::string suggestion(const std::optional<std::string>& word) {
+  return word ? fmt::format("; did you mean {}?", *word) : std::string();
+}
+
+/// What is wrong with the first option that the subcommand does not have. Empty if there is none.
+std::optional<std::string> unknown_option(const CLI::App& subcommand) {
+  const auto rest = subcommand.remaining();
+  const auto found = std::find_if(rest.begin(), rest.end(), [](const std::string& text) {
+    return text.size() > 1 && text.starts_with('-') && text != "--";
+  });
+  if (found == rest.end()) return std::nullopt;
+  const std::string option = found->substr(0, found->find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : subcommand.get_options())
+    for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
+  return fmt::format("no option '{}'{}", octree::printable(option),
+                     suggestion(nearest_word(option, names)));
+}
+
 int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) {
   std::string cause = error.what();
   std::replace(cause.begin(), cause.end(), '\n', ' ');
@@ -61,6 +83,8 @@ int refuse(const CLI::App& app, const CLI::ParseError& error, Console& console) 
     fmt::print(console.errors(), "planetree: {}; see planetree --help\n", cause);
   } else {
     const std::string subcommand = subcommands.front()->get_name();
+    // A misspelled option may be the reason why another is missing.
+    cause = unknown_option(*subcommands.front()).value_or(cause);
     fmt::print(console.errors(), "planetree: {}: {}; see planetree {} --help\n", subcommand, cause,
                subcommand);
   }
@@ -78,8 +102,11 @@ bool lacks_subcommand(const CLI::App& app, int argc, const char* const* argv, Co
   const auto subcommands = app.get_subcommands(
       [&first](const CLI::App* subcommand) { return subcommand->get_name() == first; });
   if (first.starts_with('-') || !subcommands.empty()) return false;
-  fmt::print(console.errors(), "planetree: no subcommand '{}'; planetree --help lists them\n",
-             octree::printable(first));
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr))
+    names.push_back(subcommand->get_name());
+  fmt::print(console.errors(), "planetree: no subcommand '{}'{}; planetree --help lists them\n",
+             octree::printable(first), suggestion(nearest_word(first, names)));
   return true;
 }
 

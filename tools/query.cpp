@@ -1,67 +1,53 @@
 #include "tools/query.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "planetree/model.h"
 #include "planetree/probe.h"
+#include "tools/answer_tally.h"
 #include "tools/cli/open_model.h"
 #include "tools/cli/progress.h"
-#include "tools/cli/size_text.h"
-#include "tools/cli/subcommand_options.h"
 #include "tools/points/point_reader.h"
 
 namespace planetree::tools {
 namespace {
 
 constexpr std::size_t kChunkPoints = 65536;
-constexpr std::uint64_t kMaxWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
 
-/// Counts of answers by status and by side.
-struct Tally {
-  std::uint64_t points = 0;
-  std::array<std::uint64_t, kStatusCount> by_status{};
-  std::array<std::uint64_t, kSideCount> by_side{};
+/// No progress bar where rows go to a terminal, because they would overwrite each other.
+bool shows_rows(const QueryArguments& arguments, const Console& console) {
+  return arguments.output == "-" && console.output_is_terminal();
+}
 
-  template <class Answer>
-  void add(std::span<const Answer> answers) {
-    points += answers.size();
-    for (const Answer& answer : answers) {
-      ++by_status[static_cast<std::size_t>(answer.status)];
-      ++by_side[static_cast<std::size_t>(answer.side)];
-    }
-  }
-};
-
+/// Answers points. Its time begins with it, because the first points may come late.
 class QueryRun {
  public:
   QueryRun(const QueryArguments& arguments, Console& console, const Model& model, Probe& probe)
-      : arguments_(arguments), console_(console), model_(model), probe_(probe) {}
-
-  int run(PointReader& points) {
-    const int status =
-        arguments_.contains ? answer_all<Containment>(points) : answer_all<ClosestPoint>(points);
-    const auto error = pages_lost(model_.stats());
-    return error ? std::max(status, console_.fail(arguments_.file.string(), *error)) : status;
+      : arguments_(arguments),
+        console_(console),
+        model_(model),
+        probe_(probe),
+        progress_(arguments.quiet || shows_rows(arguments, console), arguments.json) {
+    progress_.start("answering", 0, "points");
   }
 
-  std::string json_report(double seconds) const {
+  int run(PointReader& points, AnswerOutput& output) {
+    const int status = arguments_.contains ? answer_all<Containment>(points, output)
+                                           : answer_all<ClosestPoint>(points, output);
+    const auto error = pages_lost(model_.stats());
+    if (error) return std::max(status, console_.fail(arguments_.file.string(), *error));
+    return status;
+  }
+
+  std::string json_report() const {
     const Stats stats = model_.stats();
-    nlohmann::ordered_json report = {{"points", tally_.points}};
-    for (std::size_t i = 0; i < kStatusCount; ++i)
-      report[std::string(status_word(static_cast<Status>(i)))] = tally_.by_status[i];
-    for (std::size_t i = 0; i < kSideCount; ++i)
-      report["sides"][std::string(side_word(static_cast<Side>(i)))] = tally_.by_side[i];
-    report["seconds"] = seconds;
-    report["points_per_second"] = static_cast<double>(tally_.points) / std::max(seconds, 1e-9);
+    nlohmann::ordered_json report = tally_.json(seconds());
     report["pages_read"] = stats.pages_read;
     report["quarantined_pages"] = stats.quarantined_pages;
     report["waits_given_up"] = stats.waits_given_up;
@@ -78,51 +64,83 @@ class QueryRun {
     probe_.contains(queries, answers, arguments_.options);
   }
 
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  }
+
   template <class Answer>
-  int answer_all(PointReader& points) {
-    AnswerWriter writer(console_, arguments_.format);
-    // No progress bar where rows go to a terminal, because they would overwrite each other.
-    Progress progress(arguments_.quiet || console_.output_is_terminal(), arguments_.json);
-    progress.start("answering", 0, "points");
+  int answer_all(PointReader& points, AnswerOutput& output) {
+    AnswerWriter writer(output, arguments_.form);
     std::vector<Vec3> queries(kChunkPoints);
     std::vector<Answer> answers(kChunkPoints);
-    bool wanted = writer.begin(Answer());
-    while (wanted) {
+    Result<bool> wanted = true;
+    while (wanted && *wanted) {
       const auto count = points.read(queries);
-      if (!count) {
-        progress.finish();
-        return console_.fail(points.name(), count.error());
+      if (!count || (*count == 0 && tally_.points == 0)) {
+        progress_.finish();
+        return console_.fail(points.name(), count ? no_point() : count.error());
       }
       if (*count == 0) break;
       const auto batch_queries = std::span(queries).first(*count);
       const auto batch_answers = std::span(answers).first(*count);
       run(batch_queries, batch_answers);
+      if (tally_.points == 0) wanted = writer.begin(Answer());
       tally_.add<Answer>(batch_answers);
-      wanted = writer.write(batch_queries, std::span<const Answer>(batch_answers));
-      progress.add(*count);
+      if (wanted && *wanted)
+        wanted = writer.write(batch_queries, std::span<const Answer>(batch_answers));
+      progress_.add(*count);
     }
-    return kDone;
+    return finish(output, wanted);
+  }
+
+  static Error no_point() {
+    return make_error(ErrorCode::kBadInput, Error::kNowhere, Error::kNowhere,
+                      "it has no point; give at least one, as a line x,y,z");
+  }
+
+  int finish(AnswerOutput& output, const Result<bool>& wanted) {
+    const auto written = wanted ? output.commit() : Result<void>(wanted.error());
+    if (written && *wanted)
+      progress_.finish(tally_.text(seconds()));
+    else
+      progress_.finish();
+    return written ? kDone : console_.fail(arguments_.output.string(), written.error());
   }
 
   const QueryArguments& arguments_;
   Console& console_;
   const Model& model_;
   Probe& probe_;
-  Tally tally_;
+  Progress progress_;
+  AnswerTally tally_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
+/// The output must neither be an input, nor be shown as raw numbers.
 Result<void> check_output(const QueryArguments& arguments, const Console& console) {
-  if (arguments.format != AnswerFormat::kF64 || !console.output_is_terminal()) return {};
-  return make_error(
-      ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-      "a terminal cannot show raw numbers; redirect standard output, or omit --format f64");
+  namespace fs = std::filesystem;
+  if (arguments.output != "-") {
+    std::error_code none;
+    for (const fs::path& input : {arguments.file, arguments.points})
+      if (input != "-" && fs::equivalent(input, arguments.output, none))
+        return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                          "this is an input itself; name another output");
+    return {};
+  }
+  if (arguments.form.format != AnswerFormat::kF64 || !console.output_is_terminal()) return {};
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "a terminal cannot show raw numbers; use --output, or omit --format f64");
+}
+
+std::string output_name(const QueryArguments& arguments) {
+  return arguments.output == "-" ? "standard output" : arguments.output.string();
 }
 
 }  // namespace
 
 int run_query(const QueryArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments, console); !checked)
-    return console.fail("standard output", checked.error());
+    return console.fail(output_name(arguments), checked.error());
   const std::string file = arguments.file.string();
   const auto model = open_model(arguments.file, arguments.memory_bytes, console,
                                 static_cast<unsigned>(arguments.threads),
@@ -130,71 +148,15 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());
-  const auto points = open_points(arguments.points.string(), console.input());
-  if (!points) return console.fail(points_name(arguments.points.string()), points.error());
-
-  const auto started = std::chrono::steady_clock::now();
   QueryRun query_run(arguments, console, *model, *probe);
-  const int status = query_run.run(**points);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  if (arguments.json) console.note(query_run.json_report(elapsed.count()));
-  return console.finish(status);
-}
+  const auto points = open_points(arguments.points.string(), console.input(), arguments.columns);
+  if (!points) return console.fail(points_name(arguments.points.string()), points.error());
+  auto output = AnswerOutput::open(arguments.output, arguments.force, console);
+  if (!output) return console.fail(output_name(arguments), output.error());
 
-void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
-  static const std::map<std::string, AnswerFormat> formats = {{"csv", AnswerFormat::kCsv},
-                                                              {"jsonl", AnswerFormat::kJsonLines},
-                                                              {"f64", AnswerFormat::kF64}};
-  const auto options = std::make_shared<QueryArguments>();
-  SubcommandOptions subcommand(app, "query",
-                               "Find the nearest surface point and the side of each point");
-  subcommand.require(
-      subcommand.path("file", "FILE", options->file, "File that planetree build wrote"));
-  subcommand.default_text(
-      subcommand.path("points", "POINTS", options->points,
-                      "Query points, in model units: CSV (x,y,z; other columns are ignored; a "
-                      "header may name the columns), PLY (its vertices) or .f64 (raw little-endian "
-                      "float64 triples); - is CSV from standard input"),
-      "-");
-  subcommand.flag("--contains", options->contains, "Report only the side of each point");
-  subcommand.default_text(
-      subcommand.length("--max-error", options->options.max_error, false,
-                        "Tolerance of the distance, in model units: the search may stop once the "
-                        "interval is this narrow; 0 means exact"),
-      "0");
-  subcommand.default_text(subcommand.length("--max-distance", options->options.max_distance, true,
-                                            "Search no farther than this, in model units"),
-                          "inf");
-  subcommand.default_text(
-      subcommand.bytes("--memory", options->memory_bytes, "Maximum memory for the model"), "256M");
-  subcommand.default_text(
-      subcommand.count(
-          "--threads", options->threads, OpenOptions::kMaxBatchThreads,
-          "Number of threads; 0 means one for each processor. Answers do not depend on it"),
-      "0");
-  subcommand.default_text(
-      subcommand.count("--wait-limit", options->wait_limit_ms, kMaxWaitMs,
-                       "Longest wait for one page, in milliseconds. After it the answer is "
-                       "degraded, with an interval that holds; other answers are not affected"),
-      "10000");
-  subcommand.default_text(
-      subcommand.word(
-          "--format", {"csv", "jsonl", "f64"},
-          [options](const std::string& name) { options->format = formats.at(name); },
-          "csv: a header and a row for each point; jsonl: an object for each point, with null for "
-          "numbers that are not finite; f64: 14 little-endian float64 for each point (x y z "
-          "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
-          "surface, 1 outside; NaN means an unknown side or no triangle), with --contains 4 (x y z "
-          "side)"),
-      "csv");
-  subcommand.flag("--json", options->json,
-                  "Report at the end as one JSON object, the last line on standard error; progress "
-                  "as JSON lines there too");
-  subcommand.flag("--quiet", options->quiet, "Show no progress");
-  subcommand.on_given([options, &console, &action] {
-    action = [options, &console] { return run_query(*options, console); };
-    return std::string();
-  });
+  const int status = query_run.run(**points, *output);
+  if (arguments.json) console.note(query_run.json_report());
+  return console.finish(status);
 }
 
 }  // namespace planetree::tools

@@ -9,6 +9,7 @@
 #include "planetree/types.h"
 #include "tools/cli/subcommand.h"
 #include "tools/points/answer_writer.h"
+#include "tools/points/column_names.h"
 
 namespace CLI {
 class App;
@@ -20,17 +21,21 @@ namespace planetree::tools {
 struct QueryArguments {
   std::filesystem::path file;
   std::filesystem::path points = "-";  ///< "-" is standard input
+  ColumnChoice columns;                ///< of a text of points
+  std::filesystem::path output = "-";  ///< "-" is standard output
+  bool force = false;                  ///< replace the output
   QueryOptions options;
   bool contains = false;  ///< request the side alone
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
   std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;
-  AnswerFormat format = AnswerFormat::kCsv;
+  AnswerForm form;
   bool json = false;
   bool quiet = false;
 };
 
-/// Answers all points in the order of the input. Returns the exit status.
+/// Answers all points in the order of the input. Returns the exit status. Without a point, or with
+/// one that cannot be read, an output file is not written.
 int run_query(const QueryArguments& arguments, Console& console);
 
 /// Adds the subcommand `query` to the command line. If given, parsing sets `action` to a call of

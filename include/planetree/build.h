@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "planetree/error.h"
 #include "planetree/export.h"
@@ -20,86 +21,88 @@
 
 /// @file
 /// Building a .ptree file: from a mesh file, from a mesh in memory, or from a callback that streams
-/// triangles. None of them needs to fit in memory together with the tree.
+/// triangles. The mesh and the tree together may be larger than memory.
 
 namespace planetree {
 
-/// The corners of a triangle, in model units. They run counterclockwise seen from outside of the
-/// solid.
+/// The corners of a triangle, in model units, counterclockwise as seen from outside of the solid.
 using TriangleCorners = std::array<Vec3, 3>;
 /// A vertex as three floats, in model units.
 using FloatVertex = std::array<float, 3>;
 /// The indices of a triangle's vertices, from 0.
 using TriangleVertices = std::array<std::uint32_t, 3>;
 
-/// Gives the triangles of a build, some at a time: writes the next ones to the front of a buffer,
-/// which is never empty, and returns their number. 0 ends the triangles. An error ends the build
-/// and is returned from it. Calls come from the thread that called build(), one after the other.
+/// A callback that supplies the triangles of a build. Each call writes the next triangles to the
+/// start of the span, whose size is at least 1, and returns their number. 0 means that there are no
+/// more. A number above the size of the span is an error. If the callback returns an error, build()
+/// stops and returns it. If it throws, build() returns ErrorCode::kBadInput. Calls come from the
+/// thread that called build(), one after the other.
 using TriangleSource = std::function<Result<std::size_t>(std::span<TriangleCorners>)>;
 
-/// What a file is built from. A triangle's index, which answers name, counts the triangles in the
-/// order of the input, skipped ones included.
+/// What a file is built from. Answers identify a triangle by its index: its position in the input,
+/// from 0. Skipped triangles count too.
 ///
-/// Of equal triangles in equal order the same file is built, however they are given. Only
-/// ModelInfo::vertices may differ: a mesh file and a mesh in memory have the vertices that they
-/// list, a callback has three for each triangle, as an STL has. Coordinates that floats hold are
-/// stored as floats, also where they are given as doubles.
+/// Equal triangles in equal order give equal files, with one exception: ModelInfo::vertices is the
+/// number of vertices that a mesh file or a mesh in memory lists, and three per triangle for a
+/// callback or an STL file. If every coordinate is exactly a float, the file stores floats, even if
+/// the input has doubles.
 class BuildInput {
  public:
-  /// A mesh in memory. A triangle that names a missing vertex, or one that is not finite, is
-  /// skipped.
+  /// A mesh in memory. A triangle is skipped if one of its indices is out of range or a coordinate
+  /// of its corners is not finite. A mesh has at most 2^32 vertices that triangles can use.
   template <class Vertex>
   struct Mesh {
     std::span<const Vertex> vertices;             ///< positions in model units
     std::span<const TriangleVertices> triangles;  ///< indices into `vertices`
   };
-  /// Triangles from a callback. A triangle with a corner that is not finite is skipped.
+  /// Triangles from a callback. A triangle is skipped if a coordinate of its corners is not finite.
   struct Stream {
-    TriangleSource source;  ///< gives the triangles
-    /// Number of triangles that are expected, or 0. Only progress and the check of free space
+    TriangleSource source;  ///< supplies the triangles
+    /// Expected number of triangles, or 0 if unknown. Only progress and the check of free space
     /// depend on it.
     std::uint64_t expected_triangles = 0;
   };
-  /// One of the ways to give triangles.
+  /// One of the kinds of input.
   using Content = std::variant<std::filesystem::path, Mesh<Vec3>, Mesh<FloatVertex>, Stream>;
 
   /// A mesh file: PLY, STL or OFF (text or binary) or OBJ, as it is or compressed by gzip or zstd.
-  /// The content decides the format, but an OBJ needs its extension (.obj, .obj.gz, .obj.zst). A
-  /// regular file; it must not change during the build.
+  /// docs/formats.md lists what is read of each. The format is detected from the content, except
+  /// for OBJ, which needs the extension .obj (.obj.gz or .obj.zst if compressed). The file must be
+  /// a regular file and must not change during the build.
   template <class Path>
   requires std::convertible_to<const Path&, std::filesystem::path> &&
       (!std::same_as<Path, BuildInput>)BuildInput(const Path& path)
       : content_(std::filesystem::path(path)) {}
-  /// A mesh in memory. The arrays are not copied: they must stay as they are until build() returns.
+  /// A mesh in memory. The arrays are not copied. They must stay unchanged until build() returns.
   BuildInput(std::span<const Vec3> vertices, std::span<const TriangleVertices> triangles)
       : content_(Mesh<Vec3>{vertices, triangles}) {}
-  /// As above, with float coordinates.
+  /// A mesh in memory with float coordinates, under the same rules.
   BuildInput(std::span<const FloatVertex> vertices, std::span<const TriangleVertices> triangles)
       : content_(Mesh<FloatVertex>{vertices, triangles}) {}
   /// Triangles from a callback.
   explicit BuildInput(TriangleSource source, std::uint64_t expected_triangles = 0)
       : content_(Stream{std::move(source), expected_triangles}) {}
 
-  /// What was given.
+  /// Returns the input.
   const Content& content() const noexcept { return content_; }
 
  private:
   Content content_;
 };
 
-/// Phases of a build, in order.
+/// Phases of a build, in order. Each comment names the unit of progress.
 enum class BuildPhase : std::uint8_t {
-  kResuming,      ///< checking the work of an earlier build
-  kReading,       ///< reading the input, in bytes
-  kOrdering,      ///< sorting triangles along a Morton curve, in batches
-  kMatching,      ///< matching edges, to find whether the surface is watertight; in chunks
-  kListing,       ///< collecting the faces at unbalanced edges, in chunks
-  kBuildingTree,  ///< building the tree, in chunks
-  kBuildingMask,  ///< finding the cells inside and outside, in sectors of space
-  kWriting        ///< writing the file, in pages
+  kResuming,      ///< checking the checkpoint of an earlier build; one unit
+  kReading,       ///< reading the input; bytes
+  kOrdering,      ///< sorting triangles in Morton order; parts of the triangle spool
+  kMatching,      ///< matching edges, to find unbalanced ones; chunks of triangles
+  kListing,       ///< collecting the faces at unbalanced edges; chunks of triangles
+  kBuildingTree,  ///< building the tree; chunks of triangles
+  kBuildingMask,  ///< building the mask; sectors of the octree
+  kWriting        ///< writing the file; pages
 };
 
-/// Name of a phase for messages, such as "matching edges".
+/// Returns the name of a phase for messages, such as "matching edges".
 constexpr const char* name_of(BuildPhase phase) noexcept {
   switch (phase) {
     case BuildPhase::kResuming:
@@ -122,49 +125,63 @@ constexpr const char* name_of(BuildPhase phase) noexcept {
   return "writing";
 }
 
-/// A box with its sides along the axes, in model units.
+/// A closed box with faces across the axes, in model units. It may be flat.
 struct Box {
-  Vec3 lower,  ///< least corner
-      upper;   ///< greatest corner
+  Vec3 lower,  ///< lower corner
+      upper;   ///< upper corner
 };
 
-/// Options of build(). The file depends on `page_bytes` and `box` alone.
+/// Options of build(). Of these, only `page_bytes`, `box` and `float64` change the bytes of the
+/// file.
 struct BuildOptions {
-  /// Maximum memory of the build in bytes, at least kMinMemoryBytes: resident memory of the process
-  /// where that holds less than 64 MiB otherwise. 0 means a quarter of the machine's. What does not
-  /// fit is spilled to temporary files. Arrays of a BuildInput do not count.
+  /// Maximum memory of the build in bytes, at least kMinMemoryBytes. It limits the resident memory
+  /// of the whole process if the rest of the program takes less than 64 MiB. Arrays of a BuildInput
+  /// do not count. 0 means a quarter of the machine's memory, but at least kMinMemoryBytes. The
+  /// build spills what does not fit to temporary files.
   std::uint64_t memory_bytes = 0;
-  /// Maximum number of threads, the caller's included; 0 means one for each processor. Each takes
-  /// 96 MiB of `memory_bytes`; fewer are used where that is too little.
+  /// Maximum number of threads, the caller's included. 0 means one for each processor. Each thread
+  /// takes 96 MiB of `memory_bytes`, beside 64 MiB for the build as a whole. If `memory_bytes` is
+  /// too small for so many threads, the build uses fewer.
   unsigned threads = 0;
-  /// Directory for temporary files, about 120 bytes a triangle where memory is short, 200 with
-  /// double coordinates, and the content of a compressed mesh. They have no names and vanish with
-  /// the process, except for what `resume` keeps. Empty means the directory of the output.
+  /// Directory for temporary files. It must exist. Empty means the directory of the output. If the
+  /// data does not fit in memory, temporary files take about 120 bytes per triangle, or 200 with
+  /// double coordinates. The content of a compressed mesh always takes its length. Temporary files
+  /// have no names, so the system removes them when the process ends. The checkpoint of `resume` is
+  /// the exception.
   std::filesystem::path temp_directory;
   /// Size of a decoded page in bytes: a power of two from kMinPageBytes to kMaxPageBytes.
   std::uint32_t page_bytes = 65536;
-  /// Builds only the triangles that touch this box; see ModelInfo::has_region.
+  /// Builds only the triangles that touch this box, the region; see ModelInfo::has_region. Its
+  /// corners must be finite, and `lower` at most `upper` on each axis.
   std::optional<Box> box;
-  /// Keeps completed work in the directory `OUTPUT.work`, beside the output or in
-  /// `temp_directory`, until the file is complete. A later build of the same input and options
-  /// resumes there. Not for triangles from a callback.
+  /// Keeps a checkpoint: completed work in a directory that is removed when the file is complete. A
+  /// later build of the same input and options resumes it. The directory is `OUTPUT.work` beside
+  /// the output. If `temp_directory` is set, it is there, and its name also has a hash of the
+  /// output's path. For a callback as input, kBadArgument is returned.
   bool resume = false;
-  bool strict = false;   ///< a record that cannot be used is an error instead of being skipped
+  /// Reads coordinates that an ascii PLY declares as floats as doubles, with all their digits.
+  /// Other text formats declare no type; their coordinates are always read as doubles.
+  bool float64 = false;
+  bool strict = false;   ///< a record that would be skipped is an error
   bool replace = false;  ///< an existing output may be replaced
 
-  /// Called with the progress of the build: `done` of `total` units of a phase. `done` never
-  /// decreases within a phase; `total` may grow. Return false to cancel the build. Calls come from
-  /// any thread, one at a time, about every 4 MiB of the input and then a few a second.
+  /// Called with the progress of the build: `done` of `total` units of a phase, see BuildPhase.
+  /// `done` never decreases within a phase. `total` may grow. Return false to cancel the build.
+  /// Calls come from any thread, but never two at the same time. While the build reads, calls come
+  /// about every 4 MiB of the input, and in later phases about once per unit.
   std::function<bool(BuildPhase phase, std::uint64_t done, std::uint64_t total)> on_progress;
-  /// Set to true, by any thread, to cancel the build. It is read as often as there is progress.
+  /// Set it to true, from any thread, to cancel the build. The build reads it whenever it reports
+  /// progress. May be null; else it must stay valid until build() returns.
   const std::atomic<bool>* cancel = nullptr;
   /// Called once if `resume` is set, with one line that says what work is resumed, or why none is.
+  /// The call comes from the thread that called build().
   std::function<void(const std::string& line)> on_resume;
-  /// Called once before an error is returned, with the file or directory that it concerns. The path
-  /// is empty where that is an input in memory.
+  /// Called once before an error is returned, with the file or directory that the error concerns.
+  /// The path is empty if that is an input in memory or a callback. The call comes from the thread
+  /// that called build().
   std::function<void(const std::filesystem::path& path)> on_failure;
 
-  /// Minimum of `memory_bytes`, for one thread.
+  /// Minimum of `memory_bytes`; it suffices for one thread.
   static constexpr std::uint64_t kMinMemoryBytes = std::uint64_t{160} << 20;
   static constexpr std::uint32_t kMinPageBytes = 4096;    ///< minimum of `page_bytes`
   static constexpr std::uint32_t kMaxPageBytes = 262144;  ///< maximum of `page_bytes`
@@ -173,51 +190,57 @@ struct BuildOptions {
 /// What was built.
 struct BuildReport {
   std::uint64_t triangles = 0;                ///< triangles in the file
-  std::uint64_t input_triangles = 0;          ///< usable triangles of the input, in the box or not
-  std::uint64_t skipped = 0;                  ///< triangle indices that skipped records take
-  std::uint64_t first_skipped = kNoTriangle;  ///< the least of those indices, or kNoTriangle
+  std::uint64_t input_triangles = 0;          ///< usable triangles of the whole input
+  std::uint64_t skipped = 0;                  ///< number of triangle indices of skipped records
+  std::uint64_t first_skipped = kNoTriangle;  ///< the lowest of these indices, or kNoTriangle
   std::string first_skipped_text;  ///< what is wrong with that record; empty if there is none
-  /// Polygons that are not convex and whose corners are not in one plane. They were split as seen
-  /// along an axis.
+  /// What the reader of a file ignored or changed: a line for each kind, with its count and the
+  /// place of the first.
+  std::vector<std::string> notes;
+  /// Number of polygons that are not convex and whose corners are not in one plane. They are split
+  /// as seen along an axis.
   std::uint64_t nonplanar_polygons = 0;
   std::string first_nonplanar_text;  ///< names the first of them; empty if there is none
-  /// Polygons that cross themselves, or that have more than 2^20 corners. They were split into
-  /// fans, which may reach beyond them.
+  /// Number of polygons that cross themselves, have more than 2^20 corners, or would take long to
+  /// split. They are split into fans, which may reach beyond them.
   std::uint64_t fanned_polygons = 0;
-  std::string first_fanned_text;       ///< names the first of them; empty if there is none
-  std::uint64_t vertices = 0;          ///< vertex records of the input
-  std::uint64_t unbalanced_edges = 0;  ///< edges that more faces run along one way than the other
-  std::uint64_t nodes = 0;             ///< inner nodes of the tree
-  std::uint64_t blocks = 0;            ///< leaves of the tree: blocks of up to 16 triangles
-  std::uint32_t levels = 0;            ///< maximum number of nodes on a path from root to block
-  std::uint32_t pages = 0;             ///< distance and mask pages
-  std::uint64_t file_bytes = 0;        ///< length of the file
-  std::uint64_t temporary_bytes = 0;   ///< bytes that were spilled to temporary files
-  std::uint64_t peak_resident_bytes = 0;  ///< peak resident memory of the process so far
-  std::uint64_t content_id[2] = {};       ///< hash over all page hashes: equal for equal trees
+  std::string first_fanned_text;          ///< names the first of them; empty if there is none
+  std::uint64_t vertices = 0;             ///< vertex records of the input
+  std::uint64_t unbalanced_edges = 0;     ///< edges that are not balanced, see watertight()
+  std::uint64_t nodes = 0;                ///< inner nodes of the tree
+  std::uint64_t blocks = 0;               ///< leaves of the tree: blocks of up to 16 triangles
+  std::uint32_t levels = 0;               ///< height of the tree, in nodes
+  std::uint32_t pages = 0;                ///< distance and mask pages
+  std::uint64_t file_bytes = 0;           ///< length of the file
+  std::uint64_t temporary_bytes = 0;      ///< bytes that were spilled to temporary files
+  std::uint64_t peak_resident_bytes = 0;  ///< peak resident memory since the process started
+  std::uint64_t content_id[2] = {};       ///< hash over the hashes of all pages, low word first
 
-  /// Whether as many faces run along every edge one way as the other.
+  /// Whether every edge of the input is balanced: as many triangles traverse it in one direction as
+  /// in the other.
   bool watertight() const noexcept { return unbalanced_edges == 0; }
 };
 
-/// Builds the .ptree file of a mesh. The file appears whole or not at all: after an error or a
-/// cancelled build nothing is left, except for what BuildOptions::resume keeps. The bytes of the
-/// file depend on the input, `page_bytes` and `box` alone.
+/// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
+/// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
+/// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
+/// `page_bytes`, `box`, `float64`, and the releases of planetree and LZ4, and on nothing else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.
 /// errors   kBadArgument: an option is out of range, no triangle touches the box, or `output` is
-///          a directory or the input. kAlreadyExists: the file exists and may not be replaced.
-///          kNotFound, kPermission: a file or directory is missing or closed to the caller.
-///          kBadInput: the mesh is damaged, has no usable triangle, or has a bad record and
-///          `strict` is set; or a callback of the caller threw. kNoMemory, kNoSpace: too little of
-///          `memory_bytes`, of memory, or of space on the device; the space is checked before the
-///          work begins. kReadFailed, kWriteFailed, kDamaged: the system failed. kUnsupported:
-///          compiler options or the processor change floating-point results. kCancelled. Where a
-///          text names an option of the command, such as --memory, BuildOptions has it too.
+///          a directory or the input. kAlreadyExists: the file exists and `replace` is not set.
+///          kNotFound: a file or directory does not exist. kPermission: it is not accessible.
+///          kBadInput: the mesh is malformed, has no usable triangle, or has a bad record and
+///          `strict` is set; or a callback threw. kNoMemory: `memory_bytes` is too small, or the
+///          system refuses memory or threads. kNoSpace: the device has too little free space; the
+///          build checks this before it starts. kReadFailed, kWriteFailed: the system or a device
+///          failed. kTruncated, kDamaged: a temporary file does not have what was written to it.
+///          kUnsupported: compiler options or the processor change floating-point results.
+///          kCancelled. A text may name an option of the command, such as --memory: BuildOptions
+///          has the same option.
 /// threads  any; several builds may run at once. Uses oneTBB on BuildOptions::threads threads,
-///          allocates, and waits for the disk. Floating-point modes of the calling thread do not
-///          matter.
+///          allocates, and waits for the disk. Callers need not set a floating-point mode.
 [[nodiscard]] PLANETREE_API Result<BuildReport> build(const BuildInput& input,
                                                       const std::filesystem::path& output,
                                                       const BuildOptions& options = {});

@@ -14,15 +14,17 @@
 #include "planetree/types.h"
 
 /// @file
-/// Conversions between planetree and Eigen. Only programs that include this header need Eigen.
+/// Conversions between planetree and Eigen. A program that uses the library needs Eigen only if it
+/// includes this header. A matrix or vector of a wrong size fails an `eigen_assert`; with NDEBUG it
+/// is undefined behaviour. Functions that return a std::vector may throw std::bad_alloc.
 
 namespace planetree {
 
-/// A position or a direction as an Eigen vector.
+/// Converts a position or a direction to an Eigen vector.
 inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-/// A position or a direction from an Eigen vector of three numbers, a row or a column. Numbers of
-/// other types are converted to double.
+/// Converts a row or column vector of three numbers to a position or a direction. Numbers that are
+/// not double are converted to double.
 template <class Derived>
 Vec3 to_vec3(const Eigen::DenseBase<Derived>& v) {
   static_assert(Derived::IsVectorAtCompileTime, "a vector is needed");
@@ -33,14 +35,14 @@ Vec3 to_vec3(const Eigen::DenseBase<Derived>& v) {
 static_assert(std::is_standard_layout_v<Vec3> && sizeof(Vec3) == 3 * sizeof(double),
               "an array of Vec3 is an array of doubles");
 
-/// Points as the columns of a 3 x N matrix. Nothing is copied: the matrix is valid as long as the
-/// points are.
+/// Returns a view of points as the columns of a 3 x N matrix. It copies nothing. The view is valid
+/// as long as the points are.
 inline Eigen::Map<const Eigen::Matrix3Xd> columns_of(std::span<const Vec3> points) {
   return {reinterpret_cast<const double*>(points.data()), 3,
           static_cast<Eigen::Index>(points.size())};
 }
 
-/// Points from the columns of a 3 x N matrix.
+/// Copies points from the columns of a 3 x N matrix.
 template <class Derived>
 std::vector<Vec3> points_of_columns(const Eigen::DenseBase<Derived>& matrix) {
   eigen_assert(matrix.rows() == 3);
@@ -50,7 +52,7 @@ std::vector<Vec3> points_of_columns(const Eigen::DenseBase<Derived>& matrix) {
   return points;
 }
 
-/// Points from the rows of an N x 3 matrix, the usual form of a mesh's vertices.
+/// Copies points from the rows of an N x 3 matrix, the usual form of a mesh's vertices.
 template <class Derived>
 std::vector<Vec3> points_of_rows(const Eigen::DenseBase<Derived>& matrix) {
   eigen_assert(matrix.cols() == 3);
@@ -60,9 +62,9 @@ std::vector<Vec3> points_of_rows(const Eigen::DenseBase<Derived>& matrix) {
   return points;
 }
 
-/// Triangles from the rows of an N x 3 matrix of vertex indices, the usual form of a mesh's faces.
-/// An index that 32 bits do not hold, such as -1, becomes the greatest one: build() skips its
-/// triangle.
+/// Copies triangles from the rows of an N x 3 matrix of vertex indices, the usual form of a mesh's
+/// faces. An index outside of the range of std::uint32_t, such as -1, becomes 2^32 - 1. build()
+/// then skips the triangle, unless the mesh has 2^32 vertices.
 template <class Derived>
 std::vector<TriangleVertices> triangles_of_rows(const Eigen::DenseBase<Derived>& matrix) {
   using Index = typename Derived::Scalar;

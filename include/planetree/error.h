@@ -10,33 +10,34 @@
 #include "planetree/export.h"
 
 /// @file
-/// Failures as values. The library never throws across its API, prints or exits: a call that can
-/// fail returns a Result.
+/// Failures as values. The library does not throw through its interface, print, or exit. A call
+/// that can fail returns a Result. The functions of planetree/eigen.h are the exception: they
+/// allocate vectors and may throw std::bad_alloc.
 
 namespace planetree {
 
-/// Kind of a failure. It shows who can act: caller, owner of the file or machine's administrator.
+/// Kind of a failure.
 enum class ErrorCode : std::uint16_t {
   kBadArgument = 1,  ///< an argument or option of the call is out of range
-  kNotFound,         ///< no such file
-  kAlreadyExists,    ///< the destination exists and may not be replaced
+  kNotFound,         ///< a file or directory does not exist
+  kAlreadyExists,    ///< the destination exists, and the caller did not allow replacing it
   kPermission,       ///< the system refused access
   kNoSpace,          ///< no space left on the device
   kNoMemory,         ///< no memory, or the memory budget is too small
   kReadFailed,       ///< the device or the system failed to read
   kWriteFailed,      ///< the device or the system failed to write
-  kBadInput,         ///< a mesh or point file is structurally damaged
+  kBadInput,         ///< a mesh or a point file is malformed, or a callback failed
   kNotPlanetree,     ///< the file is not a .ptree file
-  kUnsupported,      ///< another format version, an unknown feature, or unusable arithmetic
-  kTruncated,        ///< the file is shorter or longer than its header says
-  kDamaged,          ///< a checksum, a count or a structure is wrong
-  kCancelled,        ///< the caller ended the call
+  kUnsupported,      ///< another format version, an unknown feature, or non-IEEE arithmetic
+  kTruncated,        ///< the file is shorter, or longer, than its header states
+  kDamaged,          ///< a checksum, a count or a structure of a .ptree file is wrong
+  kCancelled,        ///< the caller cancelled the call
 };
 
-/// A failure: its kind, where it is in the file, its cause and its remedy. Plain data without
+/// A failure: its kind, its place in the file, its cause and its remedy. Plain data without
 /// allocation, cheap to copy.
 struct Error {
-  /// Value of `page` and `offset` where the failure has none.
+  /// Value of `page` or `offset` if it does not apply.
   static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
   ErrorCode code = ErrorCode::kBadArgument;  ///< kind of the failure
@@ -45,17 +46,19 @@ struct Error {
   char text[192] = {};                       ///< cause and remedy, one line, ended by 0
 };
 
-/// Returns an Error whose text is formatted as by std::printf and truncated to fit.
+/// Returns an Error whose text is formatted as by std::printf and truncated to fit. A callback such
+/// as a TriangleSource may use it to return an error.
 ///
-/// page, offset  Error::kNowhere where they do not apply.
+/// page, offset  Error::kNowhere if they do not apply.
 /// threads       any.
 [[nodiscard]] [[gnu::format(printf, 4, 5)]] PLANETREE_API Error make_error(
     ErrorCode code, std::uint64_t page, std::uint64_t offset, const char* format, ...) noexcept;
 
 /// A T or an Error. Test it with `if (result)`, then read `*result` or `result.error()`.
 ///
-/// The accessors of the value require a value, and error() requires an error: asserted, and
-/// undefined behaviour in builds with NDEBUG. The result owns what it returns references to.
+/// operator* and operator-> require a value, and error() requires an error. Debug builds assert
+/// this. With NDEBUG a wrong call is undefined behaviour. References and pointers that a Result
+/// returns are valid as long as the Result.
 template <class T>
 class [[nodiscard]] Result {
  public:

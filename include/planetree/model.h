@@ -17,8 +17,8 @@ namespace query {
 class ModelState;
 }
 
-/// Whether to lock in memory what real-time queries touch (frames, cache tables, query arena), so
-/// that the system does not page it out.
+/// Whether to lock the arena in memory, so that the system does not swap it out. The arena is all
+/// memory of a model that real-time queries access: frames, cache tables and query arena.
 enum class Locking : std::uint8_t {
   kTry,      ///< lock what the system allows; see Stats::locked_bytes
   kRequire,  ///< lock all of it, or fail to open with kNoMemory
@@ -27,36 +27,52 @@ enum class Locking : std::uint8_t {
 
 /// Options of Model::open.
 struct OpenOptions {
-  /// Maximum memory in bytes that the model and its probes hold. Frames are claimed at open: for
-  /// all pages of the model if they fit, else for as many as fit. Open fails with kNoMemory below
-  /// the minimum, which the error names. Memory does not grow beyond the budget after open: the
-  /// buffers of future probes and 8 KiB for each io_uring ring (see wait_limit_ms) are reserved.
+  /// Budget: maximum memory in bytes of the model, its threads and its probes. Open allocates and
+  /// prefaults one frame for each page of the model, or as many frames as fit in the budget. If the
+  /// budget is below the minimum, open fails with kNoMemory, and the error text gives the minimum.
+  /// The budget includes page traces, the buffers of all `max_probes` probes, and 8 KiB for each
+  /// io_uring ring (see wait_limit_ms). So memory does not grow beyond the budget after open. The
+  /// budget does not include memory that oneTBB allocates for batches on several threads.
   std::uint64_t memory_budget_bytes = std::uint64_t{256} << 20;
-  /// Number of fetch threads, 1 to kMaxFetchThreads. They read the pages that real-time queries
-  /// missed, the pages towards which probes move, and the pages that blocking queries did not get
-  /// from the disk within 20 ms. They start at open, with SCHED_OTHER and all signals blocked,
-  /// also where the caller is a real-time thread. Each serves some of the probes and reads one
-  /// page at a time.
+  /// Number of fetch threads, 1 to kMaxFetchThreads. They read
+  ///
+  /// - the pages that real-time queries missed,
+  /// - the pages near positions predicted from Probe::motion, and
+  /// - the pages that blocking queries did not get from the disk within 20 ms.
+  ///
+  /// They start at open. They run under SCHED_OTHER even if the caller is a real-time thread, and
+  /// block all signals. Each fetch thread serves a fixed subset of the probes and reads one page at
+  /// a time.
   unsigned fetch_threads = 1;
   /// Number of threads that answer one batch (Probe::closest_points and contains over spans),
-  /// including the caller's; 1 to kMaxBatchThreads. Their probes are claimed at open. They serve
-  /// one batch at a time; a batch that finds them busy runs on its caller's thread alone.
+  /// including the caller's; 1 to kMaxBatchThreads. If it is above 1, open creates a probe for
+  /// each, which does not count towards `max_probes`. The threads serve one batch at a time. A
+  /// batch that finds them busy runs on its caller's thread alone.
   unsigned batch_threads = 1;
 
-  /// Maximum number of probes at one time, 1 to kMaxProbes. Each takes memory of the budget.
+  /// Maximum number of probes at one time, 1 to kMaxProbes. Open reserves memory of the budget for
+  /// all of them.
   unsigned max_probes = 16;
   Locking locking = Locking::kTry;  ///< whether memory is locked at open
   /// Capacity of each probe's page trace, in accesses, up to kMaxPageTraceCapacity; see
-  /// Model::drain_page_trace. Rounded up to a power of two of 16 bytes each. 0 records nothing.
+  /// Model::drain_page_trace. It is rounded up to a power of two. Each access takes 16 bytes. 0
+  /// records nothing.
   std::uint32_t page_trace_capacity = 0;
 
-  /// Maximum time in milliseconds that a blocking query (Wait::kForPages) waits for a fetch thread
-  /// to read one page. Before that the query waits for the disk itself, for the same time but at
-  /// most 20 ms. It does so with an io_uring ring; the first 16 probes that need a ring have one
-  /// each, with a file descriptor. A probe without a ring polls for 0.3 ms instead.
-  /// After the limit the query waits for no other page and ends as kDegraded with an interval that
-  /// holds. The next query tries again.
-  /// Opening and closing a model have no such limit: they wait for as long as the disk takes.
+  /// Wait limit: maximum time in milliseconds that a blocking query (Wait::kForPages) waits for a
+  /// fetch thread to read one page. Any value is allowed.
+  ///
+  /// Before that the query reads the page itself and waits for the disk for at most
+  /// min(wait_limit_ms, 20) ms. So a page takes at most about 20 ms more than the limit. The wait
+  /// uses an io_uring ring. The first 16 probes that need a ring get one. Each ring takes a file
+  /// descriptor. A probe without a ring polls for 0.3 ms instead, and so does every probe if the
+  /// limit is 0.
+  ///
+  /// After the limit the query waits for no other page. Its answer is kDegraded, and its interval
+  /// contains the true distance. The next query tries again.
+  ///
+  /// The limit does not concern opening and closing a model: they wait for as long as the disk
+  /// takes.
   unsigned wait_limit_ms = 10'000;
 
   static constexpr unsigned kMaxProbes = 1024;       ///< limit of `max_probes`
@@ -66,45 +82,57 @@ struct OpenOptions {
   static constexpr std::uint32_t kMaxPageTraceCapacity = std::uint32_t{1} << 24;
 };
 
-/// An opened .ptree file. Immutable and shared by any number of threads, each with a Probe of its
-/// own. Movable; its probes stay valid when it is moved. Must outlive its probes.
+/// An opened .ptree file. Its contents do not change. Any number of threads may share a model, each
+/// with a Probe of its own. A model can be moved; its probes and the reference that info() returned
+/// stay valid. The model, or the one it was moved to, must outlive its probes.
+///
+/// The file must not be written to or truncated while it is open: pages read later then count as
+/// damaged. It may be removed or replaced by another file, because the model keeps the one that it
+/// opened. A process made by fork() must not use the model, because the model's threads do not run
+/// there.
 class PLANETREE_API Model {
  public:
-  /// Opens and checks a file, claims and locks the memory, loads the root page, makes the side
-  /// grid from the upper cells of the mask if there is one, and starts the threads.
+  /// Opens and checks a file, allocates and locks the memory, reads the root page, and starts the
+  /// threads. If the file has a mask, also reads the upper cells of the mask into the side grid.
   ///
-  /// errors   kNotFound, kPermission, kReadFailed: the file cannot be read. kNotPlanetree,
-  ///          kUnsupported, kTruncated, kDamaged: its content is refused. kUnsupported also where
-  ///          compiler options or the processor change floating-point results. kNoMemory: the
-  ///          budget is too small (the text names the minimum), memory cannot be locked, or the
-  ///          system refuses memory or threads. kBadArgument: an option is out of range.
-  /// threads  any. Allocates, calls the system and waits for the disk.
+  /// path     a regular file.
+  /// errors   kUnsupported: compiler options or the processor change floating-point results.
+  ///          kBadArgument: an option is out of range. Both are found before the file is opened.
+  ///          kNotFound, kPermission, kReadFailed: the file cannot be read. kNotPlanetree,
+  ///          kUnsupported, kTruncated, kDamaged: the content of the file is refused. kNoMemory:
+  ///          the budget is too small (the text gives the minimum), memory cannot be locked, or the
+  ///          system refuses memory or threads. A system without io_uring is no error.
+  /// threads  any, but not real-time threads: allocates memory, makes system calls and waits for
+  ///          the disk.
   [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
                                           const OpenOptions& options = {});
 
-  /// Takes over the file of another model, which may then only be assigned to or destroyed.
+  /// Moves another model here. That one may then only be assigned to or destroyed.
   Model(Model&&) noexcept;
-  /// Closes this model, as the destructor does, and takes over the file of another one.
+  /// Closes this model, as the destructor does, and moves another one here.
   Model& operator=(Model&&) noexcept;
-  /// Ends the model's threads and releases the file and the memory. Waits for the pages that are
-  /// being read, without limit. No probe of the model may exist.
+  /// Ends the model's threads and releases the file and the memory. Waits without limit for the
+  /// pages that its threads are reading. Destroy all probes of the model before.
   ~Model();
 
-  /// Contents of the file. Valid as long as the model is open.
+  /// Returns the contents of the file. The reference is valid until the model is closed, also after
+  /// a move.
   ///
   /// threads  any.
   const ModelInfo& info() const noexcept;
-  /// State and counters.
+  /// Returns state and counters.
   ///
-  /// threads  any; takes no lock. Not for real-time threads: reads memory that is not locked.
+  /// threads  any, but not real-time threads: it takes no mutex, but it reads memory outside of
+  ///          the arena, which the system may have swapped out.
   Stats stats() const noexcept;
-  /// Moves accesses from the page trace to `accesses`, probe by probe, each probe's oldest first.
-  /// With an OpenOptions::page_trace_capacity above 0 every real-time query records its page
-  /// lookups. It drops those that find the trace of its probe full, because no query waits;
-  /// Stats::page_trace_dropped counts them.
+  /// Moves accesses from the page traces to `accesses`: all of one probe, the oldest first, then
+  /// those of the next. Real-time queries record their page lookups if
+  /// OpenOptions::page_trace_capacity is above 0. If the trace of the probe is full, a query does
+  /// not record the lookup. Stats::page_trace_dropped counts such lookups.
   ///
-  /// return   number of accesses written: fewer than accesses.size() if the trace is then empty.
-  /// threads  any, one at a time; takes no lock.
+  /// return   number of accesses written. If it is less than accesses.size(), the call has emptied
+  ///          all traces.
+  /// threads  any, but no two at the same time. Takes no mutex.
   std::size_t drain_page_trace(std::span<PageAccess> accesses) const noexcept;
 
  private:

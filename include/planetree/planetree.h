@@ -1,11 +1,11 @@
 #pragma once
 
 /// @file
-/// Exact closest-point queries on triangle models larger than memory. Includes all public headers
-/// but planetree/eigen.h, which needs Eigen.
+/// Closest-point and inside-outside queries on triangle meshes that may be larger than memory, and
+/// building their files. Includes all public headers but planetree/eigen.h, which needs Eigen.
 ///
 /// units   lengths and positions are in the units of the mesh that the file was built from.
-/// frame   positions and directions are in the frame of that mesh, neither scaled nor moved.
+/// axes    positions and directions are in the coordinate system of that mesh.
 
 #include "planetree/build.h"
 #include "planetree/error.h"

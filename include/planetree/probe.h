@@ -14,73 +14,92 @@ namespace query {
 class ProbeState;
 }
 
-/// One thread's access to a Model. Holds what a query can reuse from the queries before it.
+/// One thread's access to a Model. It keeps coherence: data that a query reuses from earlier
+/// queries nearby.
 ///
-/// No query throws, prints or, but for batches on several threads, allocates. A blocking query
-/// (Wait::kForPages) reads missing pages from the file and may wait for the disk. A real-time query
-/// (Wait::kNever) makes no system call, takes no lock, faults no page of locked memory in and
-/// visits at most QueryOptions::max_work records, 4096 by default.
+/// Queries do not throw or print. They do not allocate memory, except for a batch that runs on more
+/// than one thread.
 ///
-/// The model must outlive the probe. Floating-point modes of the calling thread do not matter: each
-/// call sets those that it needs and restores the thread's.
+/// - A blocking query (Wait::kForPages) reads missing pages from the file. It may wait for the
+///   disk.
+/// - A real-time query (Wait::kNever) makes no system call and takes no lock. It causes no page
+///   fault if the arena is locked (see Locking). It visits at most QueryOptions::max_work records,
+///   4096 by default.
 ///
-/// threads  one at a time. Different probes are independent.
+/// The model must outlive the probe. Each call saves the floating-point mode of the thread, sets
+/// the mode that it needs, and restores the thread's mode. So callers need not set a mode.
+///
+/// threads  one at a time. If another thread is to use the probe, the caller synchronises the
+///          hand-over, for example by a mutex. Different probes may be used at the same time.
 class PLANETREE_API Probe {
  public:
-  /// Makes a probe of a model. Allocates: not for real-time threads.
+  /// Makes a probe of a model.
   ///
-  /// errors   kBadArgument where OpenOptions::max_probes probes exist; kNoMemory.
-  /// threads  any.
+  /// errors   kBadArgument: the model already has OpenOptions::max_probes probes. kNoMemory.
+  /// threads  any, but not real-time threads: allocates memory. Does not wait for the disk.
   [[nodiscard]] static Result<Probe> create(const Model& model);
 
-  /// Takes over another probe, which may then only be assigned to or destroyed.
+  /// Moves another probe here. That one may then only be assigned to or destroyed.
   Probe(Probe&&) noexcept;
-  /// Destroys this probe and takes over another one.
+  /// Destroys this probe and moves another one here, which may be of another model.
   Probe& operator=(Probe&&) noexcept;
-  /// Leaves the probe's index to later probes.
+  /// Destroys the probe. A later probe may have the same index (see PageAccess::probe).
   ~Probe();
 
-  /// Returns the surface point nearest to `query`, the side of `query` and the contact normal.
+  /// Returns the surface point nearest to the query point, a certified interval of the distance,
+  /// the side of the query point, and the contact normal.
   ///
-  /// With default options the answer is exact unless pages are unreadable or do not come within
-  /// OpenOptions::wait_limit_ms, or a wall of a region is nearer than the surface (see
-  /// ModelInfo::has_region). An exact answer is a function of the file and the query alone: it has
-  /// the same bits for any thread, memory budget, order of queries and processor.
+  /// With default options the answer is exact, with these exceptions: a page is unreadable, a wait
+  /// for a page exceeds OpenOptions::wait_limit_ms, or a wall of a region is nearer to the query
+  /// point than the surface is (see ModelInfo::has_region). An exact answer is a function of the
+  /// file, the query point and the options. It has the same bits for any thread, memory budget,
+  /// order of queries and processor.
   ///
-  /// query    model units. A coordinate that is NaN or infinite gives kBadQuery.
+  /// query    query point, model units. A coordinate that is NaN or infinite gives kBadQuery.
   /// options  a value out of range gives kBadQuery.
   ClosestPoint closest_point(Vec3 query, const QueryOptions& options = {}) noexcept;
 
-  /// Returns the side of `query`. The side is exact at any distance from the surface; only
-  /// coordinates below 2^-1022 of the model's size are rounded.
+  /// Returns the side of the query point. A side that is not kUnknown is right, however near the
+  /// surface the point is. Coordinates that are smaller than about 2^-1022 times the model's
+  /// longest edge are rounded first.
   ///
-  /// The side is unknown where pages or work are missing to find it and where the file of a region
-  /// does not determine it (see ModelInfo::has_region). On a model that is not watertight it is
-  /// also unknown where the winding number is 1/2 or -1/2 to within about 2^-45 a triangle.
+  /// The side is kUnknown if pages or work are missing, or if the file of a region does not
+  /// determine it (see ModelInfo::has_region). If the surface is not watertight, the side is also
+  /// kUnknown if the magnitude of the winding number differs from 1/2 by less than about 2^-45
+  /// times the number of triangles.
   ///
-  /// query    model units. A coordinate that is NaN or infinite gives kBadQuery.
-  /// options  only `wait` and `max_work` have an effect; any value out of range gives kBadQuery.
+  /// query    query point, model units. A coordinate that is NaN or infinite gives kBadQuery.
+  /// options  only `wait` and `max_work` have an effect. A value of any option that is out of range
+  ///          gives kBadQuery.
   Containment contains(Vec3 query, const QueryOptions& options = {}) noexcept;
 
-  /// Reports position and velocity of the probe, so that fetch threads read pages that real-time
-  /// queries will need on the way before they are needed. A hint: answers depend on it only
-  /// through what is resident. Costs a few stores.
+  /// Reports where the device is and how fast it moves. From this a fetch thread predicts four
+  /// positions in the next 5 to 200 ms and reads the pages that queries there need. Each call
+  /// replaces the motion before. Call it with every query, since a motion is used once.
   ///
-  /// position  model units.
-  /// velocity  model units a second; 0 stops prefetching.
+  /// The call is a hint: it changes which pages are in memory, and answers in no other way. It
+  /// makes no system call and takes no lock.
+  ///
+  /// position  model units. A prediction that is not finite is ignored.
+  /// velocity  model units per second. 0 stops prefetching.
+  /// threads   the thread that uses the probe.
   void motion(Vec3 position, Vec3 velocity) noexcept;
 
-  /// Answers a batch: each answer has the bits that closest_point() gives. Queries run in an order
-  /// that minimises page switches, on OpenOptions::batch_threads threads. Those are oneTBB's, which
-  /// may allocate if there is more than one. With Wait::kNever the caller's thread does all the
-  /// work, and an answer depends on what is resident when its turn comes.
+  /// Answers a batch of query points. An exact answer has the same bits as that of closest_point().
   ///
-  /// queries  model units.
-  /// answers  answers[i] is that of queries[i]. As long as `queries`, must not overlap it, and is
-  ///          used as scratch memory until the call returns.
+  /// The queries run in an order that minimises page switches, on OpenOptions::batch_threads
+  /// threads. If there is more than one, they are threads of oneTBB, which may allocate memory.
+  /// With Wait::kNever the calling thread answers all queries. An answer that is not exact then
+  /// depends on the pages that are in memory when its query runs.
+  ///
+  /// queries  query points, model units. May be empty. A point that is not finite gives kBadQuery
+  ///          in its own answer only.
+  /// answers  answers[i] is that of queries[i]. answers.size() must equal queries.size(): debug
+  ///          builds assert this, and with NDEBUG other sizes are undefined behaviour. The spans
+  ///          must not overlap. The call uses `answers` as scratch memory until it returns.
   void closest_points(std::span<const Vec3> queries, std::span<ClosestPoint> answers,
                       const QueryOptions& options = {}) noexcept;
-  /// Answers a batch of contains(), under the rules of closest_points().
+  /// Answers a batch of contains(). The rules of closest_points() apply.
   void contains(std::span<const Vec3> queries, std::span<Containment> answers,
                 const QueryOptions& options = {}) noexcept;
 

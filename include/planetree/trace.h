@@ -8,17 +8,18 @@ namespace planetree {
 struct PageAccess {
   /// Result of a lookup.
   enum class Kind : std::uint8_t {
-    kHit,         ///< the page was resident
-    kPrefetched,  ///< first hit of a page that was fetched because a probe moved towards it
-    kMissed,      ///< the page was not resident
+    kHit,         ///< the page was in memory
+    kPrefetched,  ///< first hit of a page that was fetched because of Probe::motion
+    kMissed,      ///< the page was not in memory
   };
-  /// Number of the query: real-time queries of one probe index are numbered 0, 1, 2, ...
+  /// Sequence number of the real-time query. Each value of `probe` has a sequence of its own, which
+  /// starts at 0.
   std::uint64_t query = 0;
-  /// Index of the probe. Probes that exist at the same time have different ones; a new probe may
-  /// have the index of a destroyed one and continues its numbers.
+  /// Index of the probe. Probes that exist at the same time have different indices. A new probe may
+  /// have the index of a destroyed one. The sequence of query numbers then continues.
   std::uint32_t probe = 0;
   std::uint32_t page = 0;  ///< page number, below ModelInfo::pages
-  std::uint8_t level = 0;  ///< octree level of the octcode in the page's key, 0 to 19
+  std::uint8_t level = 0;  ///< octree level of the page: 0 is the whole model, 19 a finest cell
   Kind kind = Kind::kHit;  ///< result of the lookup
 };
 

@@ -6,31 +6,36 @@
 /// @file
 /// Values that queries take and return.
 ///
-/// units   lengths and positions are in model units, those of the input file.
-/// frame   positions and directions are in the frame of the input file, neither scaled nor moved.
+/// units   lengths and positions are in model units: the units of the input mesh. The scaled
+///         coordinates that the library uses inside (the model frame) are not visible to callers.
+/// axes    positions and directions are in the coordinate system of the input mesh.
 
 namespace planetree {
 
-/// A position or a direction.
+/// Three numbers: a position or a direction, or the barycentric coordinates of a point. A position
+/// may have any finite coordinates. The length of a direction is stated where one is used.
 struct Vec3 {
   double x = 0,  ///< first coordinate
       y = 0,     ///< second coordinate
       z = 0;     ///< third coordinate
 };
 
-/// The part of a triangle that is nearest.
+/// The kind of part of the nearest triangle that the nearest point is on.
 enum class Feature : std::uint8_t {
-  kFace,   ///< the inside of the triangle
+  kFace,   ///< the interior of the triangle, without edges and corners
   kEdge,   ///< one of its edges, between two corners
   kVertex  ///< one of its corners
 };
 
 /// Where a point is with respect to the solid that the surface bounds.
 ///
-/// The winding number w of a point is the sum of the solid angles of all triangles seen from it,
-/// over 4 pi. It is a whole number where the surface is watertight. A point off the surface is
-/// inside where |w| > 1/2. Space that overlapping, nested, doubled or inside-out solids enclose is
-/// therefore inside. At a hole w changes smoothly, so that the hole counts as closed.
+/// The winding number w of a point is the sum of the signed solid angles of all triangles as seen
+/// from the point, divided by 4 pi. If the surface is watertight, w is an integer. A point off the
+/// surface is inside if |w| > 1/2. So a point is inside if several overlapping or nested solids of
+/// the same orientation enclose it, if a solid that the mesh has twice encloses it, or if an
+/// inside-out solid does. A cavity whose surface has the opposite orientation is outside. Across a
+/// hole in the surface w changes smoothly, and the side changes where |w| = 1/2, as if a surface
+/// closed the hole.
 ///
 /// source  Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
 ///         numbers".
@@ -38,110 +43,138 @@ enum class Side : std::uint8_t {
   kInside,     ///< off the surface, |w| > 1/2
   kOutside,    ///< off the surface, |w| < 1/2
   kOnSurface,  ///< exactly on a triangle
-  /// Not known: pages are missing or unreadable, the work is spent, |w| is 1/2 to the last bits,
-  /// or the file of a region does not determine it (see ModelInfo::has_region). Also where the
-  /// side was not requested.
+  /// Not known, for one of these reasons: the side was not requested; a page is missing or
+  /// unreadable; QueryOptions::max_work is spent; |w| is too close to 1/2 to decide; or the file
+  /// has the triangles of a region only, and these do not determine the side (see
+  /// ModelInfo::has_region).
   kUnknown,
 };
 
-/// How far an answer is proven.
+/// What is proven of an answer. The status concerns all requested parts: kDegraded if any part is
+/// not proven. The interval contains the true distance for every status.
 enum class Status : std::uint8_t {
-  kExact,        ///< proven: nothing that was skipped can change the answer
-  kWithinError,  ///< upper - lower <= QueryOptions::max_error; another triangle may be nearer
-  /// Not proven: pages are missing or unreadable, QueryOptions::max_work is spent, or triangles
-  /// outside of the region may be nearer (see ModelInfo::has_region). The interval still holds.
+  /// No triangle that the query skipped can be nearer, and no page or work was missing for side and
+  /// normal. The side may still be kUnknown if the file does not determine it: if |w| is too close
+  /// to 1/2, or in the file of a region.
+  kExact,
+  /// Not exact, but upper - lower <= QueryOptions::max_error. A triangle other than the reported
+  /// one may be nearer. The side is as for kExact. The normal is that of the reported triangle.
+  kWithinError,
+  /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, or triangles
+  /// outside of the region may be nearer (see ModelInfo::has_region).
   kDegraded,
-  /// No surface within QueryOptions::max_distance. The side may still be unknown.
+  /// No surface within QueryOptions::max_distance. The side is computed as usual and may be
+  /// kUnknown.
   kBeyondMaxDistance,
-  kBadQuery,  ///< the query is not finite, or an option is out of range
+  kBadQuery,  ///< a coordinate of the query point is not finite, or an option is out of range
 };
 
-/// Value of ClosestPoint::triangle where no triangle was reached.
+/// Value of ClosestPoint::triangle if the query found no triangle.
 inline constexpr std::uint64_t kNoTriangle = std::numeric_limits<std::uint64_t>::max();
 
 /// Part of an answer: nearest point, triangle and interval. See QueryOptions::parts.
 inline constexpr std::uint32_t kDistance = 1;
 /// Part of an answer: the side.
 inline constexpr std::uint32_t kSide = 2;
-/// Part of an answer: the contact normal. It needs the other parts and includes them.
+/// Part of an answer: the contact normal. A query for kNormal also computes kDistance and kSide and
+/// sets their members.
 inline constexpr std::uint32_t kNormal = 4;
 /// All parts of an answer.
 inline constexpr std::uint32_t kAllParts = kDistance | kSide | kNormal;
 
 /// Whether a query waits for pages that are not in memory.
 enum class Wait : std::uint8_t {
-  /// Blocking: reads missing pages from the file, so that the answer is exact. A wait for one page
-  /// ends at OpenOptions::wait_limit_ms.
+  /// Blocking query: reads missing pages from the file. The answer is exact unless a page is
+  /// unreadable or a wait for a page exceeds OpenOptions::wait_limit_ms. Then it is kDegraded.
   kForPages,
-  /// Real time: answers at once from the pages in memory, with a certified interval where those do
-  /// not suffice. The model's fetch threads then read the missing pages.
+  /// Real-time query: answers from the pages in memory and does not wait. If these pages do not
+  /// suffice, the answer is kDegraded and its interval is wider. The model's fetch threads then
+  /// read the missing pages.
   kNever,
 };
 
 /// Options of a query. A value out of range gives Status::kBadQuery.
 struct QueryOptions {
-  /// Any of kDistance, kSide and kNormal, combined with `|`. A part that is not requested is not
-  /// computed, and its pages are not read. Without kDistance and kNormal the answer is that of a
-  /// query that reached no triangle.
+  /// Any of kDistance, kSide and kNormal, combined with `|`. Other bits are out of range. A part
+  /// that is not requested is not computed, and its pages are not read. Without kDistance and
+  /// kNormal only `side` and `status` are set: `distance` and `upper` are infinite, `lower` is 0
+  /// and `triangle` is kNoTriangle. With 0 the query computes nothing.
   std::uint32_t parts = kAllParts;
-  Wait wait = Wait::kForPages;  ///< blocking or real time
-  /// The search may stop once upper - lower <= max_error. Model units, finite, >= 0. With 0 it
-  /// goes on until the answer is exact.
+  Wait wait = Wait::kForPages;  ///< blocking or real-time query
+  /// The search may stop once upper - lower <= max_error. Model units, finite, >= 0. With 0 the
+  /// search continues until the answer is exact.
   double max_error = 0;
-  /// The search goes no farther than this. Model units, >= 0, may be infinite.
+  /// The search finds surface at this distance or nearer. If there is none, the status is
+  /// kBeyondMaxDistance. Model units, >= 0, may be infinite.
   double max_distance = std::numeric_limits<double>::infinity();
-  /// Maximum work: one unit for each tree node, triangle block and mask node visited. The distance
-  /// uses it first, the side what is left, the normal the rest. kNoLimit, the default, means no
-  /// limit for Wait::kForPages and kRealTimeWork for Wait::kNever.
+  /// Maximum work: one unit for each record visited, which is a node or block of the tree or a grey
+  /// cell of the mask. 0 is allowed. The distance search uses the work first. The search for the
+  /// side gets what is left, then the normal. kNoLimit, the default, means no limit for
+  /// Wait::kForPages and kRealTimeWork for Wait::kNever. For a real-time query that is practically
+  /// without a limit, give kNoLimit - 1.
   std::uint32_t max_work = kNoLimit;
 
-  /// Value of `max_work` that means the default.
+  /// Value of `max_work` that selects the default of the wait mode.
   static constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
-  /// Default limit of `max_work` for Wait::kNever.
+  /// Default of `max_work` for Wait::kNever.
   static constexpr std::uint32_t kRealTimeWork = 4096;
 };
 
-/// The surface point nearest to a query. No member is ever NaN.
+/// The answer to a closest-point query. No member is ever NaN.
 struct ClosestPoint {
-  /// Distance to `point`, model units, >= 0. In a degraded answer it may exceed `upper`. It equals
-  /// `upper` where no triangle was reached, and is infinite where the status is
-  /// kBeyondMaxDistance or kBadQuery or no distance was requested.
+  /// Distance to `point`, model units, >= 0. For kExact, lower <= distance <= upper. For kDegraded,
+  /// `distance` may be greater than `upper`, because `upper` may come from the box of a subtree
+  /// that the query skipped. If no triangle was found, it equals `upper`. It is infinite if the
+  /// status is kBeyondMaxDistance or kBadQuery or if no distance was requested.
   double distance = 0;
-  /// Certified lower bound of the true distance, model units, >= 0. Equals max_distance where the
-  /// status is kBeyondMaxDistance.
+  /// Certified lower bound of the true distance, model units, >= 0. It is max_distance if the
+  /// status is kBeyondMaxDistance. It is 0 if the status is kBadQuery or no distance was requested.
   double lower = 0;
-  /// Certified upper bound of the true distance, model units, may be infinite. Rounding is part of
-  /// the interval: lower < upper even when exact.
+  /// Certified upper bound of the true distance, model units. It is infinite if `distance` is. The
+  /// interval includes rounding, so lower < upper for every status.
   double upper = 0;
-  Side side = Side::kUnknown;  ///< side of the query
-  /// Best surface point known. A sample vertex of the model where pages or work were missing to
-  /// reach a triangle. (0, 0, 0) where the status is kBeyondMaxDistance or kBadQuery or no
-  /// distance was requested.
+  Side side = Side::kUnknown;  ///< side of the query point
+  /// Best surface point known. If a degraded answer has no triangle, it is the sample vertex of the
+  /// model. It is (0, 0, 0) if the status is kBeyondMaxDistance or kBadQuery or if no distance was
+  /// requested.
   Vec3 point;
   /// Contact normal, of length 1: the angle-weighted pseudo-normal of the nearest face, edge or
-  /// vertex, turned to point out of the solid. Next to an open surface that encloses nothing it
-  /// points to the query. It is as the mesh is oriented where the side is unknown. Where the
-  /// triangle is not proven to be the nearest it is turned only if the winding number is negative.
-  /// (0, 0, 1) where there is none.
+  /// vertex. The first rule that applies decides its sign:
+  ///
+  /// - If `side` is kUnknown, the normal follows the orientation of the mesh.
+  /// - If `triangle` is not proven to be the nearest, the normal follows the orientation of the
+  ///   mesh, and is reversed if the winding number is negative.
+  /// - If `side` is kOutside, the normal points towards the query point; if kInside, away from it.
+  ///   So beside an open surface that encloses no space, it points towards the query point on both
+  ///   sides of the surface.
+  /// - If `side` is kOnSurface, the normal points out of the solid if the surface is watertight.
+  ///   Otherwise it follows the orientation of the mesh, and is reversed if the winding number is
+  ///   negative.
+  ///
+  /// It is (0, 0, 1) if no normal was requested, no triangle was found, or no face at the nearest
+  /// point has area.
   Vec3 normal{0, 0, 1};
-  /// Index of the nearest triangle in the input's order, counted after each polygon of n
-  /// corners is split into n - 2 and with skipped records included. Of equally near triangles the
-  /// one of least index. kNoTriangle where no triangle was reached.
+  /// Index of the nearest triangle: its position in the input, from 0. A polygon of n corners
+  /// counts as n - 2 triangles. Skipped records count too. If several triangles are equally near as
+  /// computed in double, it is the lowest index. It is kNoTriangle if no triangle was found.
   std::uint64_t triangle = kNoTriangle;
-  /// Barycentric coordinates of `point`, in the triangle's corner order. They sum to 1, and are
-  /// above 0 for as many corners as `feature` has: 3, 2 or 1. All 0 where no triangle was reached.
+  /// Barycentric coordinates of `point`, in the order of the triangle's corners. Up to rounding
+  /// they sum to 1. A point on a face has three positive coordinates, on an edge two, at a vertex
+  /// one; the others are exactly 0. All are 0 if no triangle was found.
   Vec3 barycentric;
-  Feature feature = Feature::kFace;   ///< part of the triangle that `point` is on
-  Status status = Status::kBadQuery;  ///< how far the answer is proven
+  Feature feature = Feature::kFace;   ///< where `point` is on the triangle, if there is one
+  Status status = Status::kBadQuery;  ///< what is proven of the answer
 
-  /// The distance, negative where the side is kInside. Positive where the side is unknown.
+  /// Returns -distance if `side` is kInside, else distance, also for kOnSurface and kUnknown. It is
+  /// infinite if `distance` is.
   double signed_distance() const noexcept { return side == Side::kInside ? -distance : distance; }
 };
 
-/// The side of a query alone.
+/// The answer to a query for the side alone.
 struct Containment {
-  Side side = Side::kUnknown;         ///< side of the query
-  Status status = Status::kBadQuery;  ///< kExact, kDegraded for want of pages or work, or kBadQuery
+  Side side = Side::kUnknown;  ///< side of the query point
+  /// kDegraded if the side is unknown because pages or work were missing, kBadQuery, else kExact.
+  Status status = Status::kBadQuery;
 };
 
 }  // namespace planetree

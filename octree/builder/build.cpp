@@ -125,6 +125,7 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
   inner.threads = options.threads;
   inner.memory_bytes = options.memory_bytes;
   inner.temp_directory = options.temp_directory;
+  inner.float64 = options.float64;
   inner.strict = options.strict;
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
@@ -151,6 +152,7 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.first_nonplanar_text = built.frame.first_nonplanar_text;
   report.fanned_polygons = built.frame.fanned_count;
   report.first_fanned_text = built.frame.first_fanned_text;
+  report.notes = built.notes;
   report.vertices = model.vertex_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
   report.nodes = model.node_count;

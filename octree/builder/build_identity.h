@@ -29,6 +29,7 @@ struct BuildIdentity {
 
   std::uint32_t page_bytes = 0;
   bool strict = false;
+  bool float64 = false;
   std::uint64_t chunk_triangles = 0;
   std::uint64_t sector_triangles = 0;
   std::optional<std::array<double, 6>> box;  ///< lower, then upper
@@ -49,8 +50,8 @@ requires std::same_as<std::remove_const_t<Value>, BuildIdentity>
 void fields(Record& record, Value& identity) {
   record(identity.version, identity.input_bytes, identity.input_number, identity.changed_seconds,
          identity.changed_nanoseconds, identity.sample_low, identity.sample_high,
-         identity.page_bytes, identity.strict, identity.chunk_triangles, identity.sector_triangles,
-         identity.box);
+         identity.page_bytes, identity.strict, identity.float64, identity.chunk_triangles,
+         identity.sector_triangles, identity.box);
 }
 
 }  // namespace planetree::octree

@@ -4,8 +4,10 @@
 #include <bit>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -102,6 +104,7 @@ class TreeBuild {
   BuildFiles files_;
   MeshSize size_;
   BuiltModel model_;
+  std::vector<std::string> notes_;  // of the reader
   std::optional<TriangleRuns> whole_;
   std::optional<TriangleRuns> part_;    // triangles of whole_ that touch the region
   std::optional<MaskSectors> sectors_;  // only if the model is watertight
@@ -120,7 +123,7 @@ Result<void> TreeBuild::resume_work() {
 
 // Checks the space before a day of work rather than after it.
 Result<void> TreeBuild::estimate_space() {
-  const auto size = MeshSize::estimate(input_, seams_.calls);
+  const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64});
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
@@ -154,7 +157,7 @@ Result<void> TreeBuild::read() {
     return files_.check_space({bytes, 0});
   });
   files_.mesh().after_unpacking([this](const MeshFile& content) -> Result<void> {
-    const auto size = MeshSize::estimate(content, unpacked_path(input_path()));
+    const auto size = MeshSize::estimate(content, unpacked_path(input_path()), {options_.float64});
     if (!size) return size.error();
     size_ = *size;
     return files_.check_space(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
@@ -173,6 +176,7 @@ Result<void> TreeBuild::read() {
 // Also checks the space again, now that the triangles are counted.
 Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   model_.frame = mesh.frame;
+  notes_ = mesh.notes;
   model_.box = options_.box;
   model_.vertex_records = mesh.vertex_records;
   model_.shape.float64 = mesh.frame.float64;
@@ -311,7 +315,7 @@ Result<BuildReport> TreeBuild::write_pages() {
   const auto header = write_tree(model_, *tree_, output_, options_, seams_.calls, progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
-  return BuildReport{*header, model_.frame, files_.disk_bytes()};
+  return BuildReport{*header, model_.frame, files_.disk_bytes(), notes_};
 }
 
 }  // namespace

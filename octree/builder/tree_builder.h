@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "octree/builder/build_seams.h"
 #include "octree/builder/job/build_options.h"
@@ -18,10 +19,11 @@ struct BuildReport {
   storage::FileHeader header;         ///< as written
   ModelFrame frame;                   ///< what reading the whole input found
   std::uint64_t temporary_bytes = 0;  ///< bytes that were spilled to disk
+  std::vector<std::string> notes;     ///< as MeshSummary::notes
 };
 
 /// Reads a mesh and writes its tree to `output`, completely or not at all. The bytes
-/// written depend on the mesh, box and page_bytes alone.
+/// written depend on the mesh, box, page_bytes and float64 alone.
 ///
 /// box     with options.box the file holds the triangles that touch the box, and possibly some that
 ///         just miss it. Frame, edges and winding numbers are those of the whole input.
@@ -33,10 +35,10 @@ struct BuildReport {
 /// disk    about 120 bytes a triangle in temp_directory where memory is short; 200 with float64
 ///         coordinates; 250 more for triangles that share no edges. While a mesh is read whose
 ///         faces are in no order and whose vertices do not fit in memory, 90 more, or 120 with
-///         float64; for vertices of a text, 12 or 24 bytes each; for a compressed
-///         mesh, its content. The space is given back however
-///         the process ends, except for what a build that can be resumed keeps, whether memory is
-///         short or not: about 80 bytes a triangle, or 130 with float64.
+///         float64; for vertices of a text, 12 or 24 bytes each. The content of a compressed mesh
+///         takes its length. The space is given back however the process ends, except for what a
+///         build that can be resumed keeps, whether memory is short or not: about 80 bytes a
+///         triangle, or 130 with float64.
 /// errors  those of read_mesh(), storage::SpillFile, storage::PageWriter and Checkpoint;
 ///         kBadArgument for page_bytes, for an invalid box, or for one that no triangle touches;
 ///         kNoMemory for too little memory_bytes; kBadInput for a bad record under `strict`;

@@ -72,7 +72,7 @@ void fields(Record& record, Value& extent) {
 
 template <class Record, IsA<OrderedMesh> Value>
 void fields(Record& record, Value& mesh) {
-  record(mesh.frame, mesh.vertex_records, mesh.wide_ids, mesh.runs);
+  record(mesh.frame, mesh.vertex_records, mesh.wide_ids, mesh.runs, mesh.notes);
 }
 
 template <class Record, IsA<UnbalancedEdge> Value>

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 #include "octree/geometry/wide_numbers.h"
@@ -70,13 +72,18 @@ class CommonUnit {
 };
 
 template <class Number>
+Number determinant(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
+                   const std::array<Number, 3>& w) {
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+         u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+template <class Number>
 int orientation_sign(const CommonUnit& unit, const Point& a, const Point& b, const Point& c,
                      const Point& d) {
   const auto u = unit.difference<Number>(b, a), v = unit.difference<Number>(c, a),
              w = unit.difference<Number>(d, a);
-  const Number volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-                        u[2] * (v[0] * w[1] - v[1] * w[0]);
-  return volume.sign();
+  return determinant(u, v, w).sign();
 }
 
 template <class Number>
@@ -102,15 +109,77 @@ int area_sign(const CommonUnit& unit, std::span<const Vec3> corners, unsigned ax
   return area.sign();
 }
 
+__extension__ using Int128 = __int128;
+
+int sign_of(Int128 value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+/// Units of some points, one for each axis: the sign of a determinant does not depend on the unit
+/// of an axis. Points of one patch of a surface take some 26 bits along each axis. Planar patches
+/// need many determinants, most of which are 0, so that these are fast.
+class AxisUnits {
+ public:
+  template <std::size_t kCount>
+  explicit AxisUnits(const std::array<const Point*, kCount>& points) {
+    for (const Point* point : points)
+      for (unsigned axis = 0; axis < 3; ++axis)
+        if (const DoubleParts parts((*point)[axis]); parts.mantissa != 0) {
+          const auto magnitude = static_cast<std::uint64_t>(std::abs(parts.mantissa));
+          least_[axis] = std::min(least_[axis], parts.exponent + std::countr_zero(magnitude));
+          greatest_[axis] = std::max(greatest_[axis],
+                                     parts.exponent + static_cast<int>(std::bit_width(magnitude)));
+        }
+  }
+
+  /// Returns whether coordinates fit 62 bits, and determinants of their differences 126 bits. A
+  /// determinant is a sum of six products of three differences, each below twice a coordinate.
+  bool small() const {
+    int sum = 0, most = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const int bits = std::max(greatest_[axis] - least_[axis], 0);
+      sum += bits;
+      most = std::max(most, bits);
+    }
+    return most <= 62 && sum <= 120;
+  }
+
+  /// Returns the difference of two points, each axis in its unit.
+  std::array<Int128, 3> difference(const Point& to, const Point& from) const {
+    std::array<Int128, 3> result;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      result[axis] = Int128{whole(to[axis], axis)} - whole(from[axis], axis);
+    return result;
+  }
+
+ private:
+  std::int64_t whole(double value, unsigned axis) const {
+    const DoubleParts parts(value);
+    if (parts.mantissa == 0) return 0;
+    const int shift = parts.exponent - least_[axis];
+    // The bits shifted out are 0.
+    return shift < 0 ? parts.mantissa >> -shift : parts.mantissa * (std::int64_t{1} << shift);
+  }
+
+  std::array<int, 3> least_{4096, 4096, 4096}, greatest_{0, 0, 0};
+};
+
 }  // namespace
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+  if (const AxisUnits units(std::array{&a, &b, &c, &d}); units.small()) {
+    const auto u = units.difference(b, a), v = units.difference(c, a), w = units.difference(d, a);
+    return sign_of(determinant(u, v, w));
+  }
   const CommonUnit unit(std::array{&a, &b, &c, &d});
   return unit.small() ? orientation_sign<SmallWhole>(unit, a, b, c, d)
                       : orientation_sign<LargeWhole>(unit, a, b, c, d);
 }
 
 int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+  if (const AxisUnits units(std::array{&a, &b, &c}); units.small()) {
+    const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const auto u = units.difference(b, a), v = units.difference(c, a);
+    return sign_of(u[i] * v[j] - u[j] * v[i]);
+  }
   const CommonUnit unit(std::array{&a, &b, &c});
   return unit.small() ? area_sign<SmallWhole>(unit, a, b, c, axis)
                       : area_sign<LargeWhole>(unit, a, b, c, axis);

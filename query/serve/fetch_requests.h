@@ -7,7 +7,7 @@
 
 namespace planetree::query {
 
-/// A real-time query that lacked pages. A fetch thread makes the pages resident by running the
+/// A query that lacked pages: a real-time query, or a blocking one that gave up waiting. A fetch thread makes the pages resident by running the
 /// query again as a blocking one. The members besides `point` are those of QueryOptions.
 struct FetchRequest {
   Vec3 point;  ///< model units

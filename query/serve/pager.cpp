@@ -6,17 +6,12 @@
 #include <utility>
 
 #include "query/file/page_decoding.h"
+#include "query/file/tree_header.h"
 
 namespace planetree::query {
 
 Result<std::unique_ptr<Pager>> Pager::create(storage::PageFile file, const Limits& limits) {
-  // Links in pages are checked when a page is decoded; this one is in the header.
-  const storage::FileHeader& header = file.header();
-  if (octree::LinkFormat(header.page_bytes).page(header.model.root_link) != 0)
-    return make_error(
-        ErrorCode::kDamaged, Error::kNowhere,
-        offsetof(storage::FileHeader, model) + offsetof(storage::ModelRecord, root_link),
-        "the tree's root is not on the first page; restore the file from a copy or build it again");
+  if (const auto checked = check_tree_header(file.header()); !checked) return checked.error();
   std::unique_ptr<Pager> pager(new Pager(std::move(file)));
   if (const auto claimed = pager->claim(limits); !claimed) return claimed.error();
   if (const auto pinned = pager->cache_->pin(0); !pinned) return pinned.error();

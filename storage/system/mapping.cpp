@@ -38,17 +38,6 @@ Mapping::Mapping(Mapping&& other) noexcept
       mapped_bytes_(std::exchange(other.mapped_bytes_, 0)),
       bytes_(std::exchange(other.bytes_, {})) {}
 
-Mapping& Mapping::operator=(Mapping&& other) noexcept {
-  if (this != &other) {
-    unmap();
-    calls_ = other.calls_;
-    address_ = std::exchange(other.address_, nullptr);
-    mapped_bytes_ = std::exchange(other.mapped_bytes_, 0);
-    bytes_ = std::exchange(other.bytes_, {});
-  }
-  return *this;
-}
-
 Mapping::~Mapping() { unmap(); }
 
 Result<Mapping> Mapping::create(const FileHandle& file, std::uint64_t offset,

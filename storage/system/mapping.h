@@ -18,7 +18,7 @@ namespace planetree::storage {
 class Mapping {
  public:
   Mapping(Mapping&& other) noexcept;
-  Mapping& operator=(Mapping&& other) noexcept;
+  Mapping& operator=(Mapping&&) = delete;
   ~Mapping();
 
   /// Maps a byte range.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "planetree/planetree.h"
 #include "storage/file/file_layout.h"
@@ -14,11 +16,12 @@
 namespace planetree::golden {
 namespace {
 
-// Returns the error's text, or "opened".
-std::string open_with_root_link(std::uint32_t link) {
+// Opens a sample whose header was changed and given its right hash. Returns the error's text, or
+// "opened".
+std::string open_with(const std::function<void(storage::FileHeader&)>& change) {
   storage::FileImage image(read_file(samples().front().ptree_path()));
-  image.change_header([link](storage::FileHeader& header) {
-    header.model.root_link = link;
+  image.change_header([&change](storage::FileHeader& header) {
+    change(header);
     header.header_hash = storage::header_hash(header);
   });
   const storage::TemporaryDirectory folder;
@@ -27,10 +30,32 @@ std::string open_with_root_link(std::uint32_t link) {
   return model ? "opened" : model.error().text;
 }
 
+std::string open_with_root_link(std::uint32_t link) {
+  return open_with([link](storage::FileHeader& header) { header.model.root_link = link; });
+}
+
+std::string open_with_counts(std::uint64_t nodes, std::uint64_t blocks) {
+  return open_with([=](storage::FileHeader& header) {
+    header.model.node_count = nodes;
+    header.model.block_count = blocks;
+  });
+}
+
 TEST(ForgedHeader, MustHaveItsRootOnPageZero) {
   EXPECT_EQ(open_with_root_link(0x80000002), "opened");
   for (const std::uint32_t page : {1u, 2u, 500'000u, (1u << 25) - 1})
     EXPECT_NE(open_with_root_link(0x80000002 | page << 6).find("root"), std::string::npos) << page;
+}
+
+TEST(ForgedHeader, MayNotStateMoreRecordsThanItsPagesHold) {
+  constexpr std::uint64_t kHalf = std::uint64_t{1} << 63;
+  EXPECT_EQ(open_with_counts(0, 1), "opened");
+  for (const auto& [nodes, blocks] : {std::pair<std::uint64_t, std::uint64_t>{1 << 20, 1},
+                                      {0, 1 << 20},
+                                      {kHalf, kHalf},
+                                      {~0ull, 1}})
+    EXPECT_NE(open_with_counts(nodes, blocks).find("more nodes and blocks"), std::string::npos)
+        << nodes << ' ' << blocks;
 }
 
 }  // namespace

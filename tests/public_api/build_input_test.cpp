@@ -76,6 +76,24 @@ TEST_F(BuildInputForms, BadTrianglesAreSkippedAndCounted) {
   EXPECT_EQ(built(folder_ / "mesh.ply"), of_memory);
 }
 
+TEST_F(BuildInputForms, DigitsThatAFloatLosesAreToldOrRead) {
+  std::ofstream(folder_ / "digits.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+         "5155487.512 0 0\n5155488.25 0 0\n5155487.512 1 0\n3 0 1 2\n";
+  BuildOptions options = small_options();
+  for (const bool float64 : {false, true}) {
+    options.float64 = float64;
+    options.replace = true;
+    const auto report = build(folder_ / "digits.ply", output(), options);
+    ASSERT_TRUE(report) << report.error().text;
+    EXPECT_EQ(report->notes.size(), float64 ? 0u : 1u);
+    const auto model = Model::open(output());
+    ASSERT_TRUE(model);
+    EXPECT_EQ(model->info().box_lower.x, float64 ? 5155487.512 : 5155487.5);
+  }
+}
+
 TEST_F(BuildInputForms, BadTrianglesOfACallbackAreNamed) {
   mesh_.vertices.push_back({0, kNan, 0});
   mesh_.triangles.insert(mesh_.triangles.begin() + 5,

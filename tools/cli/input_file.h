@@ -28,6 +28,12 @@ class InputFile {
   /// errors  as storage::file_error()
   Result<std::size_t> read(std::span<std::byte> out);
 
+  /// The next `bytes` bytes, or all that are left. read() still returns them. Called once, before
+  /// read(). Valid until the next call of read().
+  ///
+  /// errors  as storage::file_error()
+  Result<std::string_view> front(std::size_t bytes);
+
  private:
   struct Close {
     bool owned = false;
@@ -37,10 +43,15 @@ class InputFile {
   };
   InputFile(std::FILE* stream, bool owned) : stream_(stream, Close{owned}) {}
 
+  Result<std::size_t> read_stream(std::span<std::byte> out);
+
   std::unique_ptr<std::FILE, Close> stream_;
+  std::vector<char> front_;
+  std::size_t front_read_ = 0;  // bytes of front_ that read() has returned
 };
 
-/// Reads a stream line by line. Lines are at most kMaxLineBytes long.
+/// Reads a stream line by line. Each of "\n", "\r\n" and "\r" ends a line, in any mixture. Lines
+/// are at most kMaxLineBytes long.
 class LineReader {
  public:
   static constexpr std::size_t kMaxLineBytes = std::size_t{1} << 16;
@@ -52,18 +63,23 @@ class LineReader {
   /// errors  kBadInput for a line that is too long; kReadFailed.
   Result<bool> next();
 
-  /// The current line without its end ("\n" or "\r\n"). Valid until next().
+  /// The current line without its end. Valid until next().
   std::string_view line() const { return line_; }
   /// Number of the current line, from 1.
   std::uint64_t number() const { return number_; }
 
  private:
   Result<void> refill();
+  /// Finds the end of the first line of the buffer. False if more bytes must be read first.
+  bool find_line_end();
 
   InputFile file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // of the bytes not yet returned
   std::size_t end_ = 0;
+  std::size_t newline_ = 0;    // of the first '\n' from begin_ on; end_ if there is none
+  std::size_t line_end_ = 0;   // of the first line
+  std::size_t next_line_ = 0;  // where the second begins
   bool ended_ = false;
   std::string_view line_;
   std::uint64_t number_ = 0;

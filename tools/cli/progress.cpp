@@ -97,6 +97,13 @@ void Progress::finish() {
   drawn_ = false;
 }
 
+void Progress::finish(std::string_view last_line) {
+  finish();
+  if (style_ != Style::kBar && !(style_ == Style::kLines && wrote_line_)) return;
+  fmt::print(stream_, "{}\n", last_line);
+  std::fflush(stream_);
+}
+
 Progress::Status Progress::status(nanoseconds now) const {
   Status status{done_.load(std::memory_order_relaxed), 0, {}};
   const double elapsed = std::chrono::duration<double>(now - started_).count();
@@ -137,6 +144,7 @@ void Progress::draw(nanoseconds now) {
   const std::string text = this->text(status);
   if (style_ == Style::kLines) {
     fmt::print(stream_, "{}{}\n", phase_, text);
+    wrote_line_ = true;
     return;
   }
   constexpr std::size_t kWidestBar = 40;

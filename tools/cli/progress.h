@@ -43,6 +43,9 @@ class Progress {
   void add(std::uint64_t count);
   /// Ends the phase and erases the bar. Does nothing without a phase.
   void finish();
+  /// As finish(), and leaves a last line for people to read: on a terminal, and elsewhere if the
+  /// work was so long that lines of it are there.
+  void finish(std::string_view last_line);
 
  private:
   /// How far a phase is.
@@ -64,7 +67,8 @@ class Progress {
   std::string unit_;
   std::uint64_t total_ = 0;
   std::chrono::nanoseconds started_{0};
-  bool drawn_ = false;
+  bool drawn_ = false;  // the bar is on the screen
+  bool wrote_line_ = false;
   // Relaxed order suffices for both. The count is only shown, and next_draw_ns_ only chooses the
   // thread that draws; the mutex guards the text.
   std::atomic<std::uint64_t> done_{0};

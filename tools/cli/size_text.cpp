@@ -14,11 +14,11 @@ constexpr std::size_t kMaxFractionDigits = 18;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The power of `base` that a suffix stands for. Empty if it is not a suffix.
-std::optional<std::uint64_t> suffix_factor(std::string_view suffix, std::uint64_t base) {
-  if (suffix.empty()) return 1;
-  if (suffix.size() > 1) return std::nullopt;
-  switch (suffix[0] | 0x20) {
+/// The power of `base` that a letter stands for, with 2^0 for none. Empty if it is no suffix.
+std::optional<std::uint64_t> letter_factor(std::string_view letter, std::uint64_t base) {
+  if (letter.empty()) return 1;
+  if (letter.size() > 1) return std::nullopt;
+  switch (letter[0] | 0x20) {
     case 'k':
       return base;
     case 'm':
@@ -30,6 +30,34 @@ std::optional<std::uint64_t> suffix_factor(std::string_view suffix, std::uint64_
     default:
       return std::nullopt;
   }
+}
+
+/// What a suffix of a number of bytes stands for: KiB is K, and KB a power of 1000.
+std::optional<std::uint64_t> bytes_factor(std::string_view suffix) {
+  if (suffix.empty() || (suffix.back() | 0x20) != 'b') return letter_factor(suffix, 1024);
+  suffix.remove_suffix(1);
+  if (suffix.size() != 2 || (suffix[1] | 0x20) != 'i') return letter_factor(suffix, 1000);
+  return letter_factor(suffix.substr(0, 1), 1024);
+}
+
+std::optional<std::uint64_t> count_factor(std::string_view suffix) {
+  return letter_factor(suffix, 1000);
+}
+
+/// The power of ten of an exponent such as "e6". Empty if it is none or too large.
+std::optional<std::uint64_t> exponent_factor(std::string_view exponent) {
+  if (exponent.size() > 1 && exponent[1] == '+') exponent.remove_prefix(1);
+  exponent.remove_prefix(std::min<std::size_t>(exponent.size(), 1));
+  if (exponent.empty() || exponent.size() > 2) return std::nullopt;
+  unsigned power = 0;
+  for (const char c : exponent) {
+    if (!is_digit(c)) return std::nullopt;
+    power = 10 * power + static_cast<unsigned>(c - '0');
+  }
+  std::uint64_t factor = 1;
+  for (; power > 0; --power)
+    if (__builtin_mul_overflow(factor, std::uint64_t{10}, &factor)) return std::nullopt;
+  return factor;
 }
 
 std::string_view leading_digits(std::string_view text) {
@@ -62,7 +90,8 @@ std::optional<std::uint64_t> fraction_value(std::string_view digits, std::uint64
   return value / divisor * (factor / common);
 }
 
-std::optional<std::uint64_t> parse(std::string_view text, std::uint64_t base) {
+std::optional<std::uint64_t> parse(
+    std::string_view text, std::optional<std::uint64_t> (*suffix_factor)(std::string_view)) {
   const std::string_view whole = leading_digits(text);
   if (whole.empty()) return std::nullopt;
   text.remove_prefix(whole.size());
@@ -72,7 +101,8 @@ std::optional<std::uint64_t> parse(std::string_view text, std::uint64_t base) {
     if (fraction.empty()) return std::nullopt;
     text.remove_prefix(1 + fraction.size());
   }
-  const auto factor = suffix_factor(text, base);
+  const bool has_exponent = text.starts_with('e') || text.starts_with('E');
+  const auto factor = has_exponent ? exponent_factor(text) : suffix_factor(text);
   const auto units = digits_value(whole);
   if (!factor || !units) return std::nullopt;
   const auto rest = fraction_value(fraction, *factor);
@@ -97,18 +127,18 @@ std::string three_digits(double value, std::string_view unit) {
 }  // namespace
 
 Result<std::uint64_t> parse_count(std::string_view text) {
-  if (const auto value = parse(text, 1000)) return *value;
+  if (const auto value = parse(text, count_factor)) return *value;
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
-                    "%s is not a count; give a whole number such as 5000, 20K, 1.5M or 2G (K is "
+                    "%s is not a count; give a whole number such as 5000, 20K, 1.5M or 1e6 (K is "
                     "1000)",
                     quoted(text).c_str());
 }
 
 Result<std::uint64_t> parse_bytes(std::string_view text) {
-  if (const auto value = parse(text, 1024)) return *value;
+  if (const auto value = parse(text, bytes_factor)) return *value;
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                     "%s is not a size; give a whole number of bytes such as 4096, 64K, 256M or "
-                    "1.5G (K is 1024)",
+                    "1.5G (K and KiB are 1024, KB is 1000)",
                     quoted(text).c_str());
 }
 

@@ -11,16 +11,18 @@ namespace planetree::tools {
 
 /// What help and man pages say about the suffixes of parse_count() and parse_bytes().
 inline constexpr const char* kSuffixHelp =
-    "SIZE takes the suffixes K, M, G and T as powers of 1024, N as powers of 1000.";
+    "SIZE takes the suffixes K, M, G and T as powers of 1024, also as KiB to TiB, and KB to TB as "
+    "powers of 1000. N takes K, M, G and T as powers of 1000. Both take exponents: 1e6.";
 
-/// Reads a count such as 5000, 20K or 1.5M. Suffixes K, M, G and T, in either case, are powers of
-/// 1000. The result must be a whole number.
+/// Reads a count such as 5000, 20K, 1.5M or 1e6. Suffixes K, M, G and T, in either case, are powers
+/// of 1000. The result must be a whole number.
 ///
 /// errors  kBadArgument: not such a number, negative, or above 2^64 - 1
 Result<std::uint64_t> parse_count(std::string_view text);
 
-/// Reads a number of bytes such as 4096, 64K or 1.5G. Suffixes K, M, G and T, in either case, are
-/// powers of 1024. The result must be a whole number.
+/// Reads a number of bytes such as 4096, 64K, 1.5G or 1e6. Suffixes K, M, G and T are powers of
+/// 1024, as are KiB, MiB, GiB and TiB; KB, MB, GB and TB are powers of 1000, all in either case.
+/// The result must be a whole number.
 ///
 /// errors  kBadArgument: not such a number, negative, or above 2^64 - 1
 Result<std::uint64_t> parse_bytes(std::string_view text);

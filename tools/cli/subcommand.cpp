@@ -17,7 +17,10 @@ std::string location_text(const Error& error) {
   // Some texts begin with their page.
   const bool has_page =
       error.page != Error::kNowhere && !std::string_view(error.text).starts_with("page ");
-  const bool has_offset = error.offset != Error::kNowhere;
+  // Those of mesh files begin with their byte or their line.
+  const bool has_offset = error.offset != Error::kNowhere &&
+                          !std::string_view(error.text).starts_with("byte ") &&
+                          !std::string_view(error.text).starts_with("line ");
   if (has_page && has_offset) return fmt::format("page {}, at byte {}: ", error.page, error.offset);
   if (has_page) return fmt::format("page {}: ", error.page);
   if (has_offset) return fmt::format("at byte {}: ", error.offset);

@@ -16,87 +16,113 @@ static_assert(std::endian::native == std::endian::little, "f64 rows are written 
 
 // Text is printed in pieces of about this size.
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Named {
   std::string_view name;
   double number;
 };
 
-// The numbers of a row before and after the side.
-std::array<Named, 6> numbers_before(const Vec3& query, const ClosestPoint& answer) {
-  return {{{"x", query.x},
-           {"y", query.y},
-           {"z", query.z},
-           {"distance", answer.distance},
-           {"lower", answer.lower},
-           {"upper", answer.upper}}};
+/// A query that needs the normal computes all other parts, too.
+bool shows(const AnswerForm& form, std::uint32_t part) {
+  return (form.parts & (part | kNormal)) != 0;
 }
-std::array<Named, 3> numbers_before(const Vec3& query, const Containment&) {
+
+double signed_distance(const ClosestPoint& answer) {
+  // Without the sign of a zero.
+  if (answer.distance == 0 || answer.side == Side::kOnSurface) return answer.distance;
+  if (answer.side == Side::kUnknown) return kNone;
+  return answer.side == Side::kInside ? -answer.distance : answer.distance;
+}
+
+// The numbers of a row, in groups that belong to one part.
+std::array<Named, 3> position(const Vec3& query) {
   return {{{"x", query.x}, {"y", query.y}, {"z", query.z}}};
 }
-std::array<Named, 6> numbers_behind(const ClosestPoint& answer) {
-  return {{{"px", answer.point.x},
-           {"py", answer.point.y},
-           {"pz", answer.point.z},
-           {"nx", answer.normal.x},
-           {"ny", answer.normal.y},
-           {"nz", answer.normal.z}}};
+std::array<Named, 3> interval(const ClosestPoint& answer, const AnswerForm& form) {
+  if (form.signed_distance)
+    return {{{"signed_distance", signed_distance(answer)},
+             {"lower", answer.lower},
+             {"upper", answer.upper}}};
+  return {{{"distance", answer.distance}, {"lower", answer.lower}, {"upper", answer.upper}}};
+}
+std::array<Named, 3> nearest_point(const ClosestPoint& answer) {
+  return {{{"px", answer.point.x}, {"py", answer.point.y}, {"pz", answer.point.z}}};
+}
+std::array<Named, 3> normal(const ClosestPoint& answer) {
+  return {{{"nx", answer.normal.x}, {"ny", answer.normal.y}, {"nz", answer.normal.z}}};
 }
 
 class CsvRow {
  public:
-  explicit CsvRow(fmt::memory_buffer& text) : out_(std::back_inserter(text)) {}
+  CsvRow(fmt::memory_buffer& text, const AnswerForm& form)
+      : out_(std::back_inserter(text)), form_(form) {}
 
   void add(const Vec3& query, const ClosestPoint& answer) {
-    add_numbers(numbers_before(query, answer));
-    fmt::format_to(out_, "{},", side_word(answer.side));
-    add_numbers(numbers_behind(answer));
-    if (answer.triangle != kNoTriangle) fmt::format_to(out_, "{}", answer.triangle);
-    fmt::format_to(out_, ",{},{}\n", feature_word(answer.feature), status_word(answer.status));
+    const bool has_distance = shows(form_, kDistance), has_side = shows(form_, kSide);
+    add_numbers(position(query), true);
+    add_numbers(interval(answer, form_), has_distance);
+    fmt::format_to(out_, "{},", has_side ? side_word(answer.side) : "");
+    add_numbers(nearest_point(answer), has_distance);
+    add_numbers(normal(answer), shows(form_, kNormal));
+    if (has_distance && answer.triangle != kNoTriangle) fmt::format_to(out_, "{}", answer.triangle);
+    fmt::format_to(out_, ",{},{}\n", has_distance ? feature_word(answer.feature) : "",
+                   status_word(answer.status));
   }
   void add(const Vec3& query, const Containment& answer) {
-    add_numbers(numbers_before(query, answer));
+    add_numbers(position(query), true);
     fmt::format_to(out_, "{},{}\n", side_word(answer.side), status_word(answer.status));
   }
 
  private:
-  template <std::size_t kCount>
-  void add_numbers(const std::array<Named, kCount>& numbers) {
-    for (const Named& named : numbers) fmt::format_to(out_, "{:.17g},", named.number);
+  void add_numbers(const std::array<Named, 3>& numbers, bool shown) {
+    for (const Named& named : numbers) {
+      if (shown)
+        fmt::format_to(out_, "{},", named.number);
+      else
+        fmt::format_to(out_, ",");
+    }
   }
 
   std::back_insert_iterator<fmt::memory_buffer> out_;
+  const AnswerForm& form_;
 };
 
 class JsonRow {
  public:
-  explicit JsonRow(fmt::memory_buffer& text) : out_(std::back_inserter(text)) {}
+  JsonRow(fmt::memory_buffer& text, const AnswerForm& form)
+      : out_(std::back_inserter(text)), form_(form) {}
 
   void add(const Vec3& query, const ClosestPoint& answer) {
-    add_numbers('{', numbers_before(query, answer));
-    fmt::format_to(out_, ",\"side\":\"{}\"", side_word(answer.side));
-    add_numbers(',', numbers_behind(answer));
-    if (answer.triangle != kNoTriangle)
-      fmt::format_to(out_, ",\"triangle\":{}", answer.triangle);
-    else
-      fmt::format_to(out_, ",\"triangle\":null");
-    fmt::format_to(out_, ",\"feature\":\"{}\",\"status\":\"{}\"}}\n", feature_word(answer.feature),
-                   status_word(answer.status));
+    const bool has_distance = shows(form_, kDistance);
+    add_numbers('{', position(query));
+    if (has_distance) add_numbers(',', interval(answer, form_));
+    if (shows(form_, kSide)) fmt::format_to(out_, ",\"side\":\"{}\"", side_word(answer.side));
+    if (has_distance) add_numbers(',', nearest_point(answer));
+    if (shows(form_, kNormal)) add_numbers(',', normal(answer));
+    if (has_distance) add_triangle(answer);
+    fmt::format_to(out_, ",\"status\":\"{}\"}}\n", status_word(answer.status));
   }
   void add(const Vec3& query, const Containment& answer) {
-    add_numbers('{', numbers_before(query, answer));
+    add_numbers('{', position(query));
     fmt::format_to(out_, ",\"side\":\"{}\",\"status\":\"{}\"}}\n", side_word(answer.side),
                    status_word(answer.status));
   }
 
  private:
-  template <std::size_t kCount>
-  void add_numbers(char before, const std::array<Named, kCount>& numbers) {
+  void add_triangle(const ClosestPoint& answer) {
+    if (answer.triangle != kNoTriangle)
+      fmt::format_to(out_, ",\"triangle\":{}", answer.triangle);
+    else
+      fmt::format_to(out_, ",\"triangle\":null");
+    fmt::format_to(out_, ",\"feature\":\"{}\"", feature_word(answer.feature));
+  }
+  void add_numbers(char before, const std::array<Named, 3>& numbers) {
     for (const Named& named : numbers) {
       fmt::format_to(out_, "{}\"{}\":", before, named.name);
       // JSON has no infinity.
       if (std::isfinite(named.number))
-        fmt::format_to(out_, "{:.17g}", named.number);
+        fmt::format_to(out_, "{}", named.number);
       else
         fmt::format_to(out_, "null");
       before = ',';
@@ -104,31 +130,37 @@ class JsonRow {
   }
 
   std::back_insert_iterator<fmt::memory_buffer> out_;
+  const AnswerForm& form_;
 };
 
 class F64Row {
  public:
-  explicit F64Row(fmt::memory_buffer& text) : text_(text) {}
+  F64Row(fmt::memory_buffer& text, const AnswerForm& form) : text_(text), form_(form) {}
 
   void add(const Vec3& query, const ClosestPoint& answer) {
-    for (const Named& named : numbers_before(query, answer)) add(named.number);
-    add(number_of(answer.side));
-    for (const Named& named : numbers_behind(answer)) add(named.number);
-    add(answer.triangle != kNoTriangle ? static_cast<double>(answer.triangle) : kNone);
+    const bool has_distance = shows(form_, kDistance);
+    add_numbers(position(query), true);
+    add_numbers(interval(answer, form_), has_distance);
+    add(shows(form_, kSide) ? number_of(answer.side) : kNone);
+    add_numbers(nearest_point(answer), has_distance);
+    add_numbers(normal(answer), shows(form_, kNormal));
+    const bool has_triangle = has_distance && answer.triangle != kNoTriangle;
+    add(has_triangle ? static_cast<double>(answer.triangle) : kNone);
   }
   void add(const Vec3& query, const Containment& answer) {
-    for (const Named& named : numbers_before(query, answer)) add(named.number);
+    add_numbers(position(query), true);
     add(number_of(answer.side));
   }
 
  private:
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
   static double number_of(Side side) {
     return side == Side::kInside    ? -1
            : side == Side::kOutside ? 1
            : side == Side::kUnknown ? kNone
                                     : 0;
+  }
+  void add_numbers(const std::array<Named, 3>& numbers, bool shown) {
+    for (const Named& named : numbers) add(shown ? named.number : kNone);
   }
   void add(double value) {
     const auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
@@ -136,89 +168,60 @@ class F64Row {
   }
 
   fmt::memory_buffer& text_;
+  const AnswerForm& form_;
 };
 
 template <class Row, class Answer>
-bool write_rows(Console& console, std::span<const Vec3> queries, std::span<const Answer> answers) {
+Result<bool> write_rows(AnswerOutput& output, const AnswerForm& form, std::span<const Vec3> queries,
+                        std::span<const Answer> answers) {
   assert(queries.size() == answers.size());
   fmt::memory_buffer text;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    Row(text).add(queries[i], answers[i]);
+    Row(text, form).add(queries[i], answers[i]);
     if (text.size() < kPieceBytes && i + 1 < queries.size()) continue;
-    if (!console.print({text.data(), text.size()})) return false;
+    const auto written = output.write({text.data(), text.size()});
+    if (!written || !*written) return written;
     text.clear();
   }
   return true;
 }
 
 template <class Answer>
-bool write_as(AnswerFormat format, Console& console, std::span<const Vec3> queries,
-              std::span<const Answer> answers) {
-  switch (format) {
+Result<bool> write_in(const AnswerForm& form, AnswerOutput& output, std::span<const Vec3> queries,
+                      std::span<const Answer> answers) {
+  switch (form.format) {
     case AnswerFormat::kCsv:
-      return write_rows<CsvRow>(console, queries, answers);
+      return write_rows<CsvRow>(output, form, queries, answers);
     case AnswerFormat::kJsonLines:
-      return write_rows<JsonRow>(console, queries, answers);
+      return write_rows<JsonRow>(output, form, queries, answers);
     case AnswerFormat::kF64:
       break;
   }
-  return write_rows<F64Row>(console, queries, answers);
+  return write_rows<F64Row>(output, form, queries, answers);
 }
 
 }  // namespace
 
-std::string_view feature_word(Feature feature) {
-  switch (feature) {
-    case Feature::kFace:
-      return "face";
-    case Feature::kEdge:
-      return "edge";
-    case Feature::kVertex:
-      break;
-  }
-  return "vertex";
+Result<bool> AnswerWriter::begin(const ClosestPoint&) {
+  if (form_.format != AnswerFormat::kCsv) return true;
+  const std::string_view distance = form_.signed_distance ? "signed_distance" : "distance";
+  return output_.write(fmt::format(
+      "x,y,z,{},lower,upper,side,px,py,pz,nx,ny,nz,triangle,feature,status\n", distance));
 }
 
-std::string_view side_word(Side side) {
-  switch (side) {
-    case Side::kInside:
-      return "inside";
-    case Side::kOutside:
-      return "outside";
-    case Side::kOnSurface:
-      return "on_surface";
-    case Side::kUnknown:
-      break;
-  }
-  return "unknown";
+Result<bool> AnswerWriter::begin(const Containment&) {
+  if (form_.format != AnswerFormat::kCsv) return true;
+  return output_.write("x,y,z,side,status\n");
 }
 
-std::string_view status_word(Status status) {
-  switch (status) {
-    case Status::kExact:
-      return "exact";
-    case Status::kWithinError:
-      return "within_error";
-    case Status::kDegraded:
-      return "degraded";
-    case Status::kBeyondMaxDistance:
-      return "beyond_max_distance";
-    case Status::kBadQuery:
-      break;
-  }
-  return "bad_query";
+Result<bool> AnswerWriter::write(std::span<const Vec3> queries,
+                                 std::span<const ClosestPoint> answers) {
+  return write_in(form_, output_, queries, answers);
 }
 
-bool AnswerWriter::heading(std::string_view names) {
-  return format_ != AnswerFormat::kCsv || console_.print(names);
-}
-
-bool AnswerWriter::write(std::span<const Vec3> queries, std::span<const ClosestPoint> answers) {
-  return write_as(format_, console_, queries, answers);
-}
-
-bool AnswerWriter::write(std::span<const Vec3> queries, std::span<const Containment> answers) {
-  return write_as(format_, console_, queries, answers);
+Result<bool> AnswerWriter::write(std::span<const Vec3> queries,
+                                 std::span<const Containment> answers) {
+  return write_in(form_, output_, queries, answers);
 }
 
 }  // namespace planetree::tools

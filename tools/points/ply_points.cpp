@@ -94,6 +94,7 @@ Result<void> PlyPoints::find_vertices() {
     offset_ += element.count * element.min_record_bytes();
   }
   if (header_.encoding == PlyEncoding::kAscii) return {};
+  if (header_.vertices().has_list()) return bad_header("the vertices have a list; leave it out");
   record_bytes_ = header_.vertices().min_record_bytes();
   for (std::size_t axis = 0; axis < 3; ++axis)
     coordinate_offsets_[axis] = header_.vertices().offset_of(header_.coordinates[axis]);

@@ -4,23 +4,27 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tools/cli/input_file.h"
-#include "tools/points/csv_points.h"
+#include "tools/points/foreign_format.h"
 #include "tools/points/ply_points.h"
 #include "tools/points/raw_points.h"
+#include "tools/points/spooled_file.h"
+#include "tools/points/text_points.h"
 
 namespace planetree::tools {
 namespace {
 
-// Enough to recognise a PLY file.
-constexpr std::uint64_t kPlyBytes = 4;
+// Enough to recognise a format and the layout of a text.
+constexpr std::size_t kFrontBytes = std::size_t{1} << 18;
 
-bool is_regular(const std::string& path) {
+std::optional<std::uint64_t> regular_size(const std::string& path) {
   struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 bool has_extension(const std::string& path, std::string_view extension) {
@@ -30,29 +34,40 @@ bool has_extension(const std::string& path, std::string_view extension) {
   return found == extension;
 }
 
+Error no_columns() {
+  return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                    "--columns is for text; the columns of PLY and .f64 are known, so omit it");
+}
+
+/// A PLY is read at several offsets, which a pipe does not allow.
+Result<std::unique_ptr<PointReader>> open_ply(const std::string& path, InputFile file) {
+  auto ply = regular_size(path) ? octree::MeshFile::open(path) : spool(file);
+  if (!ply) return ply.error();
+  return PlyPoints::create(points_name(path), *std::move(ply));
+}
+
 }  // namespace
 
 std::string points_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
-Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
-                                                 std::FILE* standard_input) {
-  const auto csv = [&path](InputFile file) -> std::unique_ptr<PointReader> {
-    return std::make_unique<CsvPoints>(points_name(path), std::move(file));
-  };
-  if (path == "-") return csv(InputFile::borrow(standard_input));
-  const bool raw = has_extension(path, ".f64");
-  // A pipe can be read only once and in order, so that it may hold CSV or raw numbers only.
-  if (!raw && is_regular(path)) {
-    auto file = octree::MeshFile::open(path);
-    if (!file) return file.error();
-    const auto front = file->prefix(kPlyBytes);
-    if (!front) return front.error();
-    if (octree::is_ply(*front)) return PlyPoints::create(path, *std::move(file));
-  }
-  auto file = InputFile::open(path);
+Result<std::unique_ptr<PointReader>> open_points(const std::string& path, std::FILE* standard_input,
+                                                 const ColumnChoice& choice) {
+  auto file = path == "-" ? InputFile::borrow(standard_input) : InputFile::open(path);
   if (!file) return file.error();
-  if (raw) return std::unique_ptr<PointReader>(std::make_unique<RawPoints>(path, *std::move(file)));
-  return csv(*std::move(file));
+  if (has_extension(path, ".f64")) {
+    if (!choice.empty()) return no_columns();
+    return std::unique_ptr<PointReader>(std::make_unique<RawPoints>(path, *std::move(file)));
+  }
+  const auto front = file->front(kFrontBytes);
+  if (!front) return front.error();
+  if (octree::is_ply(*front)) {
+    if (!choice.empty()) return no_columns();
+    return open_ply(path, *std::move(file));
+  }
+  const bool is_whole = front->size() < kFrontBytes;
+  const auto size = is_whole ? std::optional<std::uint64_t>(front->size()) : regular_size(path);
+  if (auto error = find_foreign_format(*front, size)) return *error;
+  return TextPoints::create(points_name(path), *std::move(file), *front, is_whole, choice);
 }
 
 }  // namespace planetree::tools

@@ -8,6 +8,7 @@
 
 #include "planetree/error.h"
 #include "planetree/types.h"
+#include "tools/points/column_names.h"
 
 namespace planetree::tools {
 
@@ -34,13 +35,16 @@ class PointReader {
 /// "standard input" for "-", otherwise the path itself.
 std::string points_name(const std::string& path);
 
-/// Opens a file of points. A file with the extension .f64 holds raw numbers, a regular file that
-/// begins like PLY is PLY, and everything else is CSV, including standard input.
+/// Opens a file of points: raw numbers if its extension is .f64, otherwise PLY or text, as its
+/// first bytes tell. Standard input is read in the same way.
 ///
 /// path            "-" is standard input
 /// standard_input  must outlive the reader
-/// errors          kNotFound, kPermission, kReadFailed; kBadInput for a damaged header
-Result<std::unique_ptr<PointReader>> open_points(const std::string& path,
-                                                 std::FILE* standard_input);
+/// choice          the columns of a text
+/// errors          kNotFound, kPermission, kReadFailed; kNoSpace: for a PLY from a pipe;
+///                 kBadArgument: a choice of columns for what is no text; kBadInput: neither PLY
+///                 nor a text of points, a damaged header, or one whose columns are unknown
+Result<std::unique_ptr<PointReader>> open_points(const std::string& path, std::FILE* standard_input,
+                                                 const ColumnChoice& choice = {});
 
 }  // namespace planetree::tools

@@ -9,7 +9,7 @@
 #include "tools/check/model_reader.h"
 #include "tools/cli/coordinate_text.h"
 #include "tools/cli/file_text.h"
-#include "tools/points/answer_writer.h"
+#include "tools/points/answer_words.h"
 
 namespace planetree::tools {
 namespace {

@@ -15,6 +15,7 @@ struct BuildOptions {
   /// fit is spilled.
   std::uint64_t memory_bytes = 0;
   std::filesystem::path temp_directory;  ///< for spilled data; empty: that of the output
+  bool float64 = false;                  ///< floats of a text are read as doubles
   bool strict = false;                   ///< a skipped record is an error
   bool replace = false;                  ///< an existing output may be replaced
   /// Builds only the triangles that touch this box. Points are inside or outside of the whole

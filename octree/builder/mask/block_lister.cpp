@@ -27,7 +27,7 @@ class NearBlocks {
 
   void look_at(const BlockView& block, std::uint32_t link) {
     if (count_ == kCapacity) drop_untouched();
-    if (count_ == kCapacity) return;  // too many already
+    if (too_many()) return;
     const OctantCodes::NearOctants hits = codes_.near_octants(block);
     found_[count_] = {link, static_cast<std::uint8_t>(hits.with_vertex)};
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
@@ -39,10 +39,13 @@ class NearBlocks {
     ++count_;
   }
 
+  // Whether more than kMaxListed blocks touch the cell for certain.
+  bool too_many() const { return certain_ > kMaxListed; }
+
   // False if there are more than kMaxListed.
   bool list(MaskBlocks& blocks) {
     drop_untouched();
-    if (count_ > kMaxListed) return false;
+    if (too_many()) return false;
     std::sort(found_.begin(), found_.begin() + count_);
     blocks.count = static_cast<std::uint8_t>(count_);
     for (unsigned i = 0; i < count_; ++i) {
@@ -65,6 +68,7 @@ class NearBlocks {
     const auto end = found_.begin() + count_;
     const auto untouched = [](const auto& block) { return block.second == 0; };
     count_ = static_cast<unsigned>(std::remove_if(found_.begin(), end, untouched) - found_.begin());
+    certain_ = count_;
   }
 
   const Point lower_, upper_;
@@ -72,6 +76,7 @@ class NearBlocks {
   OctantOverlap overlap_;  // indices are those in found_
   std::array<std::pair<std::uint32_t, std::uint8_t>, kCapacity> found_;  // links, octants
   unsigned count_ = 0;
+  unsigned certain_ = 0;  // found blocks that touch the cell, when they were last looked at
 };
 
 }  // namespace
@@ -82,8 +87,11 @@ BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& p
   TraversalStats work;
   const bool complete =
       BoxWalk(tree_, near.lower(), near.upper(), pages, work)
-          .run(std::numeric_limits<std::uint64_t>::max(),
-               [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); });
+          .run_while(
+              std::numeric_limits<std::uint64_t>::max(),
+              [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); },
+              [&near] { return !near.too_many(); });
+  if (near.too_many()) return Outcome::kTooMany;
   if (!complete) return Outcome::kLost;
   return near.list(blocks) ? Outcome::kListed : Outcome::kTooMany;
 }

@@ -26,6 +26,10 @@ constexpr int kFewOctants = 2;
 /// halved; with more, cells are not divided further. Such triangles are larger than the cell or
 /// coincide, and smaller cells would not separate them.
 constexpr double kMaxCopies = 3;
+/// Maximum number of times that triangles are listed in the cells of one level, for each triangle
+/// of the sector: what limits the work on needles. Each level halves their number in a cell, but
+/// lists each of them twice.
+constexpr double kMaxSpread = 6;
 /// A special cell needs this many triangles for each plane, to be worth the memory of its planes.
 constexpr std::size_t kTrianglesPerPlane = 12;
 constexpr std::size_t kMaxSpecialTriangles = 4096;
@@ -37,6 +41,7 @@ struct GreyCell {
   std::int64_t winding = 0;              ///< at its least corner
   std::size_t halved = 0;                ///< number of triangles when it last halved
   double copies = 1;                     ///< how often each triangle was listed since then
+  double spread = 1;                     ///< how often each was listed since the sector
 };
 
 using Octants = std::array<GreyCell, 8>;
@@ -94,14 +99,15 @@ class SectorMask {
   static bool worthwhile(const GreyCell& grey, Octants& octants) {
     std::size_t listed = 0;
     for (const GreyCell& octant : octants) listed += octant.triangles.size();
-    const double copies =
-        grey.copies * static_cast<double>(listed) / static_cast<double>(grey.triangles.size());
+    const double growth = static_cast<double>(listed) / static_cast<double>(grey.triangles.size());
+    const double copies = grey.copies * growth, spread = grey.spread * growth;
     for (GreyCell& octant : octants) {
       const bool halved = octant.triangles.size() <= grey.halved / 2;
       octant.halved = halved ? octant.triangles.size() : grey.halved;
       octant.copies = halved ? 1 : copies;
+      octant.spread = spread;
     }
-    return copies <= kMaxCopies;
+    return copies <= kMaxCopies && spread <= kMaxSpread;
   }
 
   Octants divide(const GreyCell& grey) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "octree/builder/mesh/foreign_format.h"
 #include "octree/builder/mesh/off_reader.h"
 #include "octree/builder/mesh/ply_reader.h"
 #include "octree/builder/mesh/stl_reader.h"
@@ -10,7 +11,7 @@
 namespace planetree::octree {
 namespace {
 
-/// Length of the prefix that is looked at; no format needs more.
+/// Length of the prefix that is looked at.
 constexpr std::uint64_t kProbeBytes = 4096;
 
 std::string lower_extension(const std::filesystem::path& path) {
@@ -19,6 +20,12 @@ std::string lower_extension(const std::filesystem::path& path) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   return extension;
+}
+
+Error refusal(const ForeignFormat& format) {
+  return make_error(ErrorCode::kBadInput, Error::kNowhere, 0, "byte 0: the file is %.*s; %.*s",
+                    static_cast<int>(format.name.size()), format.name.data(),
+                    static_cast<int>(format.remedy.size()), format.remedy.data());
 }
 
 }  // namespace
@@ -41,6 +48,7 @@ Result<MeshFormat> detect_format(const MeshFile& file, const std::filesystem::pa
   if (!prefix) return prefix.error();
   if (is_ply(*prefix)) return MeshFormat::kPly;
   if (has_binary_stl_size(*prefix, file.size_bytes())) return MeshFormat::kStlBinary;
+  if (const auto foreign = foreign_format(*prefix)) return refusal(*foreign);
   if (is_ascii_stl(*prefix)) return MeshFormat::kStlAscii;
   if (is_off(*prefix)) return MeshFormat::kOff;
   const std::string extension = lower_extension(path);

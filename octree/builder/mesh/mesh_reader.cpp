@@ -17,12 +17,13 @@ namespace planetree::octree {
 namespace {
 
 Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path& path,
-                              TriangleSink& sink, MeshScratch& scratch) {
+                              TriangleSink& sink, MeshScratch& scratch,
+                              const MeshOptions& options) {
   const Result<MeshFormat> format = detect_format(file, path);
   if (!format) return format.error();
   switch (*format) {
     case MeshFormat::kPly:
-      return read_ply(file, sink, scratch);
+      return read_ply(file, sink, scratch, options);
     case MeshFormat::kStlBinary:
       return read_stl_binary(file, sink);
     case MeshFormat::kStlAscii:
@@ -40,7 +41,7 @@ Result<MeshSummary> read_open(const MeshFile& file, const std::filesystem::path&
       "OBJ or OFF mesh (an OBJ needs its extension)");
 }
 
-/// Passes everything on to a sink, with progress counted from behind the unpacking.
+/// Passes everything on to a sink. Progress continues after that of the unpacking.
 class AfterUnpacking final : public TriangleSink {
  public:
   AfterUnpacking(TriangleSink& sink, std::uint64_t packed_bytes)
@@ -63,23 +64,23 @@ class AfterUnpacking final : public TriangleSink {
 
 Result<MeshSummary> read_packed(const MeshFile& packed, Packing packing,
                                 const std::filesystem::path& path, TriangleSink& sink,
-                                MeshScratch& scratch) {
+                                MeshScratch& scratch, const MeshOptions& options) {
   const Result<MeshFile> content = unpack(packed, packing, scratch, sink);
   if (!content) return content.error();
   if (const auto noted = scratch.note_unpacked(*content); !noted) return noted.error();
   AfterUnpacking rest(sink, packed.size_bytes());
-  return read_open(*content, unpacked_path(path), rest, scratch);
+  return read_open(*content, unpacked_path(path), rest, scratch, options);
 }
 
 Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& sink,
-                              MeshScratch& scratch) {
+                              MeshScratch& scratch, const MeshOptions& options) {
   try {
     const Result<MeshFile> file = MeshFile::open(path, scratch.calls());
     if (!file) return file.error();
     const Result<Packing> packing = detect_packing(*file);
     if (!packing) return packing.error();
-    return *packing == Packing::kNone ? read_open(*file, path, sink, scratch)
-                                      : read_packed(*file, *packing, path, sink, scratch);
+    return *packing == Packing::kNone ? read_open(*file, path, sink, scratch, options)
+                                      : read_packed(*file, *packing, path, sink, scratch, options);
   } catch (const std::bad_alloc&) {
     return make_error(ErrorCode::kNoMemory, Error::kNowhere, Error::kNowhere,
                       "no memory to read the mesh; free some, or convert it to a binary PLY, "
@@ -89,7 +90,7 @@ Result<MeshSummary> read_file(const std::filesystem::path& path, TriangleSink& s
 
 struct Reader {
   Result<MeshSummary> operator()(const std::filesystem::path& path) const {
-    return read_file(path, sink, scratch);
+    return read_file(path, sink, scratch, options);
   }
   Result<MeshSummary> operator()(const BuildInput::Stream& stream) const {
     return read_stream(stream, sink);
@@ -100,12 +101,14 @@ struct Reader {
   }
   TriangleSink& sink;
   MeshScratch& scratch;
+  const MeshOptions& options;
 };
 
 }  // namespace
 
-Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch) {
-  return std::visit(Reader{sink, scratch}, input.content());
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch,
+                              const MeshOptions& options) {
+  return std::visit(Reader{sink, scratch, options}, input.content());
 }
 
 Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink) {

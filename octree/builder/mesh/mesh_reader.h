@@ -16,12 +16,18 @@
 /// kBadInput.
 namespace planetree::octree {
 
+/// How a mesh is read.
+struct MeshOptions {
+  /// Coordinates that an ascii PLY declares as floats are read as doubles, with all their digits.
+  bool float64 = false;
+};
+
 /// Reads a mesh into `sink`. The content of a file decides the format: the first line of a PLY;
 /// the size of a binary STL, which is exactly what its count implies (even if it begins with
 /// "solid"); "solid" of an ascii STL; the keyword of an OFF. Otherwise the extension decides: for
 /// an OBJ, for an OFF without a keyword, and for an STL with a wrong size. A file that is
-/// compressed by gzip or zstd is unpacked into a temporary file first (packing.h), and then read as
-/// that, under its path without .gz or .zst; places in messages are those of the content.
+/// compressed by gzip or zstd is unpacked into a temporary file first (packing.h). The content is
+/// then read under the path without .gz or .zst. Places in messages are those of the content.
 ///
 /// input    a file is a regular file. Its size is taken once, when it is opened. A file that
 /// becomes shorter
@@ -37,7 +43,8 @@ namespace planetree::octree {
 ///          where a byte is at fault), those of temporary files, and those of the sink. The sink
 ///          may have received a part of the mesh by then.
 /// threads  one call per sink; calls on different sinks are independent.
-Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch);
+Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink, MeshScratch& scratch,
+                              const MeshOptions& options = {});
 
 /// As above, with MeshScratch::kMemoryBytes and the system's directory for temporary files.
 Result<MeshSummary> read_mesh(const BuildInput& input, TriangleSink& sink);

@@ -45,10 +45,14 @@ Result<MeshSize> size_of_records(const MeshFile& file, const Result<PlyHeader>& 
                       least = min_body_bytes(*header);
   if (least > body) return MeshSize{};
   MeshSize size{faces, vertices, !header->float32()};
-  size.is_indexed_text = header->encoding == PlyEncoding::kAscii;
-  if (size.is_indexed_text) {
-    // A closed surface has twice as many triangles as vertices, also where its faces are polygons.
-    size.triangles = std::max(faces, 2 * std::min(faces, vertices));
+  const bool is_ascii = header->encoding == PlyEncoding::kAscii;
+  size.is_indexed_text = is_ascii || header->vertices().has_list();
+  if (is_ascii) {
+    // A closed surface has twice as many triangles as vertices, also where its faces are polygons
+    // or strips.
+    const std::uint64_t of_surface = 2 * vertices;
+    size.triangles =
+        header->has_strips ? of_surface : std::max(faces, std::min(2 * faces, of_surface));
   } else {
     const PlyProperty& list = header->faces().properties[header->index_list];
     const std::uint64_t corners = (body - least) / size_bytes(list.type);
@@ -176,12 +180,19 @@ Result<MeshSize> size_by(const SizeOf& size_of, const Result<Sample>& sample) {
   return size_of(*sample);
 }
 
-Result<MeshSize> size_of_file(const std::filesystem::path& path, storage::FileCalls& calls) {
+Result<PlyHeader> ply_header_of(const MeshFile& file, const MeshOptions& options) {
+  Result<PlyHeader> header = parse_prefix(file, parse_ply_header);
+  if (header && options.float64) header->widen_text();
+  return header;
+}
+
+Result<MeshSize> size_of_file(const std::filesystem::path& path, storage::FileCalls& calls,
+                              const MeshOptions& options) {
   const Result<MeshFile> file = MeshFile::open(path, calls);
   if (!file) return file.error();
   const Result<Packing> packing = detect_packing(*file);
   if (!packing) return packing.error();
-  if (*packing == Packing::kNone) return MeshSize::estimate(*file, path);
+  if (*packing == Packing::kNone) return MeshSize::estimate(*file, path, options);
   const Result<std::uint64_t> stated = stated_bytes(*file, *packing);
   if (!stated) return stated.error();
   MeshSize size;
@@ -191,7 +202,7 @@ Result<MeshSize> size_of_file(const std::filesystem::path& path, storage::FileCa
 
 struct SizeOf {
   Result<MeshSize> operator()(const std::filesystem::path& path) const {
-    return size_of_file(path, calls);
+    return size_of_file(path, calls, options);
   }
   Result<MeshSize> operator()(const BuildInput::Stream& stream) const {
     return size_of_stream(stream);
@@ -201,16 +212,18 @@ struct SizeOf {
     return size_of_arrays(mesh);
   }
   storage::FileCalls& calls;
+  const MeshOptions& options;
 };
 
 }  // namespace
 
-Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem::path& path) {
+Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem::path& path,
+                                    const MeshOptions& options) {
   const Result<MeshFormat> format = detect_format(file, path);
   if (!format) return format.error();
   switch (*format) {
     case MeshFormat::kPly:
-      return size_of_records(file, parse_prefix(file, parse_ply_header));
+      return size_of_records(file, ply_header_of(file, options));
     case MeshFormat::kOff:
       return size_of_records(file, parse_prefix(file, parse_off_header));
     case MeshFormat::kStlBinary:
@@ -225,8 +238,9 @@ Result<MeshSize> MeshSize::estimate(const MeshFile& file, const std::filesystem:
   return MeshSize{};
 }
 
-Result<MeshSize> MeshSize::estimate(const BuildInput& input, storage::FileCalls& calls) {
-  return std::visit(SizeOf{calls}, input.content());
+Result<MeshSize> MeshSize::estimate(const BuildInput& input, storage::FileCalls& calls,
+                                    const MeshOptions& options) {
+  return std::visit(SizeOf{calls, options}, input.content());
 }
 
 }  // namespace planetree::octree

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "octree/builder/mesh/mesh_reader.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "planetree/build.h"
 #include "planetree/error.h"
@@ -16,8 +17,8 @@ struct MeshSize {
   std::uint64_t vertices = 0;
   bool float64 = false;          ///< coordinates may need float64, by format and header
   bool is_indexed_text = false;  ///< a text whose vertices are spilled while it is read
-  /// Length that a compressed file states for its content, at least its own; 0 for others. The rest
-  /// of the size is zero then: it is known once the content is unpacked.
+  /// Length that a compressed file states for its content, at least its own; 0 for other files. The
+  /// other members are 0 then: they are estimated after the content is unpacked.
   std::uint64_t unpacked_bytes = 0;
 
   /// Estimates the size of a file from its header and its length, or from samples of a text that
@@ -30,11 +31,13 @@ struct MeshSize {
   ///         nothing, which gives zero.
   /// errors  those of opening the file and reading it.
   static Result<MeshSize> estimate(const BuildInput& input,
-                                   storage::FileCalls& calls = storage::FileCalls::real());
-  /// As above, of a file that is open and not compressed.
+                                   storage::FileCalls& calls = storage::FileCalls::real(),
+                                   const MeshOptions& options = {});
+  /// Estimates the size of a file that is open and not compressed.
   ///
-  /// path  decides the format where the content does not.
-  static Result<MeshSize> estimate(const MeshFile& file, const std::filesystem::path& path);
+  /// path  decides the format if the content does not.
+  static Result<MeshSize> estimate(const MeshFile& file, const std::filesystem::path& path,
+                                   const MeshOptions& options = {});
 };
 
 }  // namespace planetree::octree

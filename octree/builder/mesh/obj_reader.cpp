@@ -7,8 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "octree/builder/mesh/obj_notes.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/indexed_face.h"
 #include "octree/builder/mesh/stream/mesh_lines.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "octree/builder/mesh/stream/text_vertices.h"
@@ -63,27 +65,8 @@ class ObjStatements {
   std::string joined_;
 };
 
-/// An f statement that was read.
-class ObjFace {
- public:
-  ObjFace(std::uint64_t line, const std::vector<std::int64_t>& numbers,
-          std::int64_t vertices_before)
-      : line_(line), numbers_(numbers), vertices_before_(vertices_before) {}
-
-  [[nodiscard]] std::uint64_t record() const { return line_; }
-  [[nodiscard]] std::uint64_t size() const { return numbers_.size(); }
-  bool value_at(std::uint64_t k, std::int64_t& value) const {
-    value = numbers_[static_cast<std::size_t>(k)];
-    return true;
-  }
-  [[nodiscard]] std::int64_t vertices_before() const { return vertices_before_; }
-  [[nodiscard]] static Error failure() { return {}; }
-
- private:
-  const std::uint64_t line_;
-  const std::vector<std::int64_t>& numbers_;
-  const std::int64_t vertices_before_;
-};
+/// Whether a keyword is that of a face. Old files have "fo" for it.
+bool is_face(std::string_view keyword) { return keyword == "f" || keyword == "fo"; }
 
 /// Reads an OBJ in two passes, since an f may name a later v.
 class Obj {
@@ -103,7 +86,9 @@ class Obj {
         {*begin, 0, 0}, file_.size_bytes(),
         [this](const FacePosition& from, const auto& take) { return each_face(from, take); });
     if (!read) return read.error();
-    return emitter_.finish(false);
+    Result<MeshSummary> summary = emitter_.finish(false);
+    if (summary) summary->notes = notes_.texts();
+    return summary || faces_read_ ? summary : no_faces(summary.error());
   }
 
  private:
@@ -115,8 +100,11 @@ class Obj {
     ObjStatements statements = statements_from(begin);
     while (statements.next()) {
       std::string_view rest = statements.text();
-      if (take_word(rest) == "v") {
+      const std::string_view keyword = take_word(rest);
+      if (keyword == "v") {
         if (Result<void> taken = take_vertex(statements, rest); !taken) return taken;
+      } else if (!is_face(keyword)) {
+        notes_.add(statements.position().line, keyword);
       }
       if (const auto told = emitter_.advance(statements.end_offset()); !told) return told.error();
     }
@@ -134,10 +122,11 @@ class Obj {
       std::string_view rest = statements.text();
       const std::string_view keyword = take_word(rest);
       if (keyword == "v") ++vertices_before;
-      if (keyword == "f") {
+      if (is_face(keyword)) {
+        faces_read_ = true;
         if (Result<void> read = read_face(statements, rest); !read) return read.error();
         const Result<bool> taken =
-            take(ObjFace(statements.position().line, numbers_, vertices_before));
+            take(IndexedFace(statements.position().line, numbers_, vertices_before));
         if (!taken) return taken.error();
         if (!*taken) return FacePosition{statements.position(), 0, vertices_before};
       }
@@ -176,6 +165,14 @@ class Obj {
     return {};
   }
 
+  /// The error of a mesh without faces, with the statements that may have been meant as such.
+  [[nodiscard]] Error no_faces(const Error& error) const {
+    const std::vector<std::string> notes = notes_.texts();
+    if (notes.empty()) return error;
+    return make_error(error.code, Error::kNowhere, Error::kNowhere,
+                      "no triangle: the mesh has no faces, but %s", notes.front().c_str());
+  }
+
   [[nodiscard]] static Error error(const ObjStatements& statements, const std::string& cause) {
     return make_error(ErrorCode::kBadInput, Error::kNowhere, statements.position().offset,
                       "line %" PRIu64 ": %s; copy or export the OBJ again",
@@ -187,12 +184,14 @@ class Obj {
   FanEmitter emitter_;
   TextVertices vertices_;
   std::vector<std::int64_t> numbers_;  ///< vertices of the f being read, as written
+  ObjNotes notes_;
+  bool faces_read_ = false;
 };
 
 }  // namespace
 
 Result<MeshSummary> read_obj(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
-  return Obj(file, sink, scratch).read();
+  return with_note_of_padding(file, Obj(file, sink, scratch).read());
 }
 
 }  // namespace planetree::octree

@@ -29,7 +29,8 @@ constexpr OffPrefix kPrefixes[] = {
     {"ST", 2, true}, {"C", 4, true}, {"N", 3, true}, {"4", 0, false}, {"n", 0, false}};
 
 struct OffKeyword {
-  std::size_t more_numbers = 0;  ///< behind x, y and z in a binary vertex; not known for ascii
+  std::size_t more_numbers = 0;  ///< behind x, y and z in a binary vertex
+  bool has_colours = false;      ///< of three or four numbers in an ascii vertex
   bool supported = true;
 };
 
@@ -38,12 +39,17 @@ struct OffKeyword {
 std::optional<OffKeyword> take_keyword(std::string_view& word) noexcept {
   std::string_view rest = word;
   OffKeyword keyword;
+  if (is_same_word(word, "off")) {
+    word = {};
+    return keyword;
+  }
   for (std::size_t i = 0; i < std::size(kPrefixes) && !rest.starts_with("OFF"); ++i) {
     for (const OffPrefix& prefix : kPrefixes) {
       if (!rest.starts_with(prefix.letters)) continue;
       rest.remove_prefix(prefix.letters.size());
       keyword.more_numbers += prefix.more_numbers;
       keyword.supported &= prefix.supported;
+      keyword.has_colours |= prefix.letters == "C";
       break;
     }
   }
@@ -89,6 +95,8 @@ class OffHeader {
     const std::string shown = printable(word);
     const std::optional<OffKeyword> keyword = take_keyword(word);
     if (!keyword) return counts(lines_.line());
+    behind_vertex_ = keyword->more_numbers;
+    if (keyword->has_colours) behind_vertex_.reset();
     if (!keyword->supported) {
       return error("'" + shown + "' has vertices of other than three dimensions: write plain OFF");
     }
@@ -102,21 +110,37 @@ class OffHeader {
   }
 
  private:
-  /// Parses the counts of vertices, faces and edges. The last is often wrong or missing.
+  /// Parses the counts of vertices, faces and edges. The last is often wrong or missing, if the
+  /// others are on one line. Where each is on a line of its own, it is not. The vertices may follow
+  /// on the same line.
   Result<PlyHeader> counts(std::string_view text) {
     PlyHeader header = records_of(PlyEncoding::kAscii, 0);
+    header.numbers_behind_vertex = behind_vertex_;
+    const TextPosition begin = lines_.position();
     std::string_view rest = text;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < kCounts; ++i) {
+      skip_blanks(rest);
+      const bool is_alone = rest.empty() && (i == 1 || is_over_lines_);
+      if (rest.empty() && !is_alone) break;
+      if (is_alone) {
+        is_over_lines_ = true;
+        if (!lines_.next_filled()) return no_counts(text, begin);
+        rest = lines_.line();
+      }
       std::string_view word = take_word(rest);
-      if (i == 2 && word.empty()) break;
       std::int64_t count = 0;
-      if (!take_integer(word, count) || !word.empty()) return no_counts(text);
-      if (i == 2) break;
-      if (count < 0) return no_counts(text);
-      header.elements[i].count = static_cast<std::uint64_t>(count);
+      if (!take_integer(word, count) || !word.empty() || (i < 2 && count < 0))
+        return no_counts(text, begin);
+      if (i < 2) header.elements[i].count = static_cast<std::uint64_t>(count);
     }
-    if (!take_word(rest).empty()) return no_counts(text);
+    skip_blanks(rest);
     header.body = lines_.after();
+    if (rest.empty()) return header;
+    header.body = {static_cast<std::uint64_t>(rest.data() - file_.data()), lines_.position().line,
+                   1};
+    // At least a vertex follows, or the words are no counts.
+    for (std::size_t i = 0; i < 3; ++i)
+      if (is_over_lines_ || take_word(rest).empty()) return no_counts(text, begin);
     return header;
   }
 
@@ -139,8 +163,9 @@ class OffHeader {
     return header;
   }
 
-  [[nodiscard]] Error no_counts(std::string_view text) const {
-    return error("'" + printable(text) + "' is not the numbers of vertices, faces and edges");
+  [[nodiscard]] static Error no_counts(std::string_view text, const TextPosition& begin) {
+    return error_at(begin,
+                    "'" + printable(text) + "' is not the numbers of vertices, faces and edges");
   }
 
   [[nodiscard]] Error cut_off() const {
@@ -157,8 +182,12 @@ class OffHeader {
                       cause.c_str());
   }
 
+  static constexpr std::size_t kCounts = 3;
+
   std::string_view file_;
   LineScanner lines_;
+  std::optional<std::size_t> behind_vertex_ = 0;  ///< numbers behind the coordinates of a vertex
+  bool is_over_lines_ = false;                    ///< each count is on a line of its own
 };
 
 }  // namespace

@@ -20,10 +20,9 @@ bool is_off(std::string_view file) noexcept;
 Result<PlyHeader> parse_off_header(std::string_view file);
 
 /// Reads an OFF, with or without a keyword, as Geomview defines it and as others write it: ascii
-/// with one vertex or face a line, or big-endian binary. Normals, colours, texture coordinates and
-/// the number of edges are not read. Vertices with other than three dimensions (4OFF, nOFF) are
-/// refused.
-/// Contract as read_mesh().
+/// with one vertex or face a line or as words, whatever the lines are; or big-endian binary.
+/// Normals, colours, texture coordinates and the number of edges are not read. Vertices with other
+/// than three dimensions (4OFF, nOFF) are refused. Contract as read_mesh().
 Result<MeshSummary> read_off(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
 
 }  // namespace planetree::octree

@@ -1,121 +1,15 @@
 #include "octree/builder/mesh/ply_ascii.h"
 
 #include <array>
-#include <cinttypes>
-#include <optional>
-#include <string>
+#include <utility>
 
 namespace planetree::octree {
 
 namespace {
 
-Error line_error(const TextPosition& position, const std::string& cause) {
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, position.offset,
-                    "line %" PRIu64 ": %s; copy or export the mesh again", position.line,
-                    cause.c_str());
-}
-
-/// The words of a line, read as the header declares them.
-class Row {
- public:
-  explicit Row(const MeshLines& lines) : rest_(lines.line()), position_(lines.position()) {}
-
-  Result<std::string_view> word(const PlyProperty& property) {
-    const std::string_view word = take_word(rest_);
-    if (!word.empty()) return word;
-    return error("the line ends in front of '" + printable(property.name) + "'");
-  }
-
-  Result<std::int64_t> integer(const PlyProperty& property) {
-    const Result<std::string_view> word = this->word(property);
-    if (!word) return word.error();
-    std::string_view rest = *word;
-    std::int64_t value = 0;
-    if (take_integer(rest, value) && rest.empty()) return value;
-    return error("'" + printable(*word) + "' in '" + printable(property.name) +
-                 "' is not an integer");
-  }
-
-  /// Reads the length of a list, which the items follow.
-  Result<std::int64_t> length(const PlyProperty& property) {
-    const Result<std::int64_t> length = integer(property);
-    if (length && *length < 0) {
-      return error("list '" + printable(property.name) + "' has a negative length");
-    }
-    return length;
-  }
-
-  /// Reads a number in the precision that the header declares, whatever digits the line has.
-  Result<double> real(const PlyProperty& property) {
-    const Result<std::string_view> word = this->word(property);
-    if (!word) return word.error();
-    double value = 0;
-    float narrow = 0;
-    const bool is_narrow = fits_float32(property.type);
-    if (is_narrow ? parse_real(*word, narrow) : parse_real(*word, value)) {
-      return is_narrow ? static_cast<double>(narrow) : value;
-    }
-    return error("'" + printable(*word) + "' in '" + printable(property.name) +
-                 "' is not a number");
-  }
-
-  Result<void> pass(const PlyProperty& property) {
-    std::int64_t count = 1;
-    if (property.is_list) {
-      const Result<std::int64_t> length = this->length(property);
-      if (!length) return length.error();
-      count = *length;
-    }
-    for (std::int64_t i = 0; i < count; ++i) {
-      if (Result<std::string_view> word = this->word(property); !word) return word.error();
-    }
-    return {};
-  }
-
-  Result<void> expect_end() {
-    const std::string_view word = take_word(rest_);
-    if (word.empty()) return {};
-    return error("'" + printable(word) + "' follows the last declared value");
-  }
-
-  /// Refuses a number of further words other than `count`, which the first call sets.
-  Result<void> expect_rest(std::optional<std::uint64_t>& count) {
-    std::uint64_t left = 0;
-    while (!take_word(rest_).empty()) ++left;
-    if (!count) count = left;
-    if (left == *count) return {};
-    return error(
-        "a vertex of more or fewer numbers than the first, so a count in the header may be wrong");
-  }
-
- private:
-  [[nodiscard]] Error error(const std::string& cause) const { return line_error(position_, cause); }
-
-  std::string_view rest_;
-  TextPosition position_;
-};
+constexpr std::size_t kCoordinates = 3;
 
 }  // namespace
-
-/// A face whose line was read.
-class PlyAscii::Face {
- public:
-  Face(std::uint64_t record, const std::vector<std::int64_t>& indices)
-      : record_(record), indices_(indices) {}
-
-  [[nodiscard]] std::uint64_t record() const { return record_; }
-  [[nodiscard]] std::uint64_t size() const { return indices_.size(); }
-  bool value_at(std::uint64_t k, std::int64_t& value) const {
-    value = indices_[static_cast<std::size_t>(k)];
-    return true;
-  }
-  [[nodiscard]] static std::int64_t vertices_before() { return 0; }
-  [[nodiscard]] static Error failure() { return {}; }
-
- private:
-  const std::uint64_t record_;
-  const std::vector<std::int64_t>& indices_;
-};
 
 PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& emitter,
                    MeshScratch& scratch)
@@ -124,116 +18,235 @@ PlyAscii::PlyAscii(const MeshFile& file, const PlyHeader& header, FanEmitter& em
       emitter_(emitter),
       scratch_(scratch),
       axes_(header.vertices().properties.size(), -1),
-      vertices_(file, header.float32(), scratch) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Where the body begins on the line of the header, lines tell nothing.
+      layout_{header.has_loose_lines && header.body.records == 0, false, header.has_loose_lines,
+              static_cast<std::size_t>(scratch.window_bytes())} {
+  for (std::size_t axis = 0; axis < kCoordinates; ++axis) {
     axes_[header.coordinates[axis]] = static_cast<int>(axis);
   }
 }
 
-MeshLines PlyAscii::lines_from(TextPosition begin) const {
-  return {file_, begin, header_.has_loose_lines ? LineComment::kHash : LineComment::kNone,
-          static_cast<std::size_t>(scratch_.window_bytes())};
-}
-
-template <class TakeLine>
-Result<FacePosition> PlyAscii::each_line(const PlyElement& element, const FacePosition& from,
-                                         const TakeLine& take_line) {
-  MeshLines lines = lines_from(from.position);
-  // A record without properties would be an empty line, and empty lines are ignored.
+template <class Take>
+Result<FacePosition> PlyAscii::each_record(const PlyElement& element, const FacePosition& from,
+                                           const Take& take) {
+  PlyWords words(file_, from.position, layout_);
+  words.note_rounded(rounded_);
+  // A record without properties has no words.
   const std::uint64_t count = element.properties.empty() ? 0 : element.count;
   for (std::uint64_t record = from.record; record < count; ++record) {
-    if (!lines.next_filled()) {
-      if (lines.failure()) return *lines.failure();
-      return line_error(lines.after(), "the file ends at record " + std::to_string(record) +
-                                           " of " + std::to_string(count) + " '" +
-                                           printable(element.name) + "'");
-    }
-    const Result<bool> taken = take_line(record, lines);
+    if (!words.begin_record()) return words.ended(element, record);
+    const Result<bool> taken = take(record, words);
     if (!taken) return taken.error();
-    if (!*taken) return FacePosition{lines.position(), record, 0};
-    if (const auto told = emitter_.advance(lines.after().offset); !told) return told.error();
+    if (!*taken) return FacePosition{words.begin(), record, 0};
+    if (const auto told = emitter_.advance(words.bytes_done()); !told) return told.error();
   }
-  return FacePosition{lines.after(), count, 0};
+  return FacePosition{words.after(), count, 0};
 }
 
 Result<TextPosition> PlyAscii::skip(const PlyElement& element, TextPosition begin) {
-  const auto end = each_line(element, {begin, 0, 0},
-                             [](std::uint64_t, const MeshLines&) -> Result<bool> { return true; });
+  const auto end =
+      each_record(element, {begin, 0, 0}, [&](std::uint64_t, PlyWords& words) -> Result<bool> {
+        if (words.pass(element, 0, element.properties.size()) && words.end_record()) return true;
+        return *words.error();
+      });
   if (!end) return end.error();
   return end->position;
 }
 
 Result<TextPosition> PlyAscii::vertices(TextPosition begin) {
-  const auto end = each_line(header_.vertices(), {begin, 0, 0},
-                             [this](std::uint64_t, const MeshLines& lines) -> Result<bool> {
-                               if (const auto taken = take_vertex(lines); !taken)
-                                 return taken.error();
-                               return true;
-                             });
+  Result<TextPosition> end = read_vertices(begin);
+  // A body of one line has faces behind the vertices.
+  may_be_words_ |= header_.numbers_behind_vertex && vertices_->count() == 1 &&
+                   words_behind_vertex_.value_or(0) >= kCoordinates;
+  if (!end && may_be_words_ && end.error().code == ErrorCode::kBadInput) {
+    const Error of_lines = end.error();
+    layout_.is_loose = false;
+    end = read_vertices(begin);
+    if (!end && end.error().code == ErrorCode::kBadInput) return of_lines;
+  }
+  if (!end) return end;
+  if (const auto finished = vertices_->finish(); !finished) return finished.error();
+  emitter_.set_vertex_count(vertices_->count());
+  return end;
+}
+
+Result<TextPosition> PlyAscii::read_vertices(TextPosition begin) {
+  vertices_.emplace(file_, header_.float32(), scratch_);
+  const auto take = [this](std::uint64_t, PlyWords& words) { return take_vertex(words); };
+  const auto end = each_record(header_.vertices(), {begin, 0, 0}, take);
   if (!end) return end.error();
-  if (const auto finished = vertices_.finish(); !finished) return finished.error();
-  emitter_.set_vertex_count(vertices_.count());
   return end->position;
+}
+
+Result<bool> PlyAscii::take_vertex(PlyWords& words) {
+  std::array<double, kCoordinates> position = {};
+  const std::vector<PlyProperty>& properties = header_.vertices().properties;
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    const int axis = axes_[i];
+    const bool read = axis < 0
+                          ? words.pass(properties[i])
+                          : words.real(properties[i], position[static_cast<std::size_t>(axis)]);
+    if (!read) return *words.error();
+  }
+  if (const auto added = vertices_->add({position[0], position[1], position[2]}); !added)
+    return added.error();
+  if (layout_.is_loose) return end_loose_vertex(words);
+  const std::size_t more = header_.numbers_behind_vertex.value_or(0);
+  for (std::size_t i = 0; i < more; ++i)
+    if (!words.pass(properties.front())) return *words.error();
+  return words.end_record() ? Result<bool>(true) : *words.error();
+}
+
+Result<bool> PlyAscii::end_loose_vertex(PlyWords& words) {
+  // Whether a line with so many words behind a vertex may have several vertices.
+  const auto has_several = [this](std::uint64_t left) {
+    if (!header_.numbers_behind_vertex) return false;
+    const std::uint64_t each = kCoordinates + *header_.numbers_behind_vertex;
+    return kCoordinates + left > each && (kCoordinates + left) % each == 0;
+  };
+  if (words.has_crossed()) {
+    may_be_words_ = header_.numbers_behind_vertex.has_value();
+    return words.crossing_error();
+  }
+  const std::uint64_t left = words.words_left_on_line();
+  if (!words_behind_vertex_) {
+    words_behind_vertex_ = left;
+    may_be_words_ = has_several(left);
+  }
+  if (left == *words_behind_vertex_) return true;
+  may_be_words_ |= has_several(left);
+  return words.error_here(
+      "a vertex of more or fewer numbers than the first, so a count in the header may be wrong");
 }
 
 Result<TextPosition> PlyAscii::faces(TextPosition begin) {
-  FaceVertexJoin join(vertices_, 0, scratch_, true, emitter_);
-  const auto each_face = [this](const FacePosition& from, const auto& take) {
-    return each_line(header_.faces(), from,
-                     [&](std::uint64_t record, const MeshLines& lines) -> Result<bool> {
-                       if (const auto taken = take_face(lines); !taken) return taken.error();
-                       return take(Face(record, indices_));
-                     });
+  FaceVertexJoin join(*vertices_, 0, scratch_, true, emitter_);
+  if (layout_.is_loose && header_.faces().count > 1) {
+    const Result<bool> share = faces_share_lines(begin);
+    if (!share) return share.error();
+    layout_.is_loose = !*share;
+  }
+  const auto take_each_face = [this](const FacePosition& from, const auto& take) {
+    return each_record(header_.faces(), from,
+                       [&](std::uint64_t record, PlyWords& words) -> Result<bool> {
+                         if (const auto taken = take_face(words); !taken) return taken.error();
+                         return take(IndexedFace(record, indices_));
+                       });
   };
-  const auto end = join.deliver({begin, 0, 0}, file_.size_bytes(), each_face);
+  const auto take_each_triangle = [this](const FacePosition& from, const auto& take) {
+    return each_triangle(from, take);
+  };
+  const FacePosition first{begin, 0, 0};
+  const auto end = header_.has_strips ? join.deliver(first, file_.size_bytes(), take_each_triangle)
+                                      : join.deliver(first, file_.size_bytes(), take_each_face);
   if (!end) return end.error();
   return end->position;
 }
 
-Result<void> PlyAscii::expect_end(TextPosition end) {
-  MeshLines lines = lines_from(end);
-  if (!lines.next_filled())
-    return lines.failure() ? Result<void>(*lines.failure()) : Result<void>();
-  return line_error(lines.position(),
-                    "text follows the last record, so a count in the header is too small");
-}
-
-Result<void> PlyAscii::take_vertex(const MeshLines& lines) {
-  Row row(lines);
-  std::array<double, 3> position = {};
-  const std::vector<PlyProperty>& properties = header_.vertices().properties;
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (axes_[i] < 0) {
-      if (Result<void> passed = row.pass(properties[i]); !passed) return passed;
-      continue;
-    }
-    const Result<double> value = row.real(properties[i]);
-    if (!value) return value.error();
-    position[static_cast<std::size_t>(axes_[i])] = *value;
-  }
-  if (const auto added = vertices_.add({position[0], position[1], position[2]}); !added)
-    return added;
-  return header_.has_loose_lines ? row.expect_rest(words_behind_vertex_) : row.expect_end();
-}
-
-Result<void> PlyAscii::take_face(const MeshLines& lines) {
-  Row row(lines);
+Result<void> PlyAscii::take_face(PlyWords& words) {
   indices_.clear();
-  const std::vector<PlyProperty>& properties = header_.faces().properties;
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (i != header_.index_list) {
-      if (Result<void> passed = row.pass(properties[i]); !passed) return passed;
-      continue;
+  const PlyElement& element = header_.faces();
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    std::int64_t value = 0;
+    bool read = i == header_.index_list ? words.length(property, value) : words.pass(property);
+    for (std::int64_t left = value; read && left > 0; --left) {
+      read = words.integer(property, value);
+      indices_.push_back(value);
     }
-    const Result<std::int64_t> length = row.length(properties[i]);
-    if (!length) return length.error();
-    for (std::int64_t k = 0; k < *length; ++k) {
-      const Result<std::int64_t> index = row.integer(properties[i]);
-      if (!index) return index.error();
-      indices_.push_back(*index);
-    }
+    if (!read) return *words.error();
   }
-  return header_.has_loose_lines ? Result<void>() : row.expect_end();
+  if (!words.end_record()) return *words.error();
+  // Behind a face on one line is its colour. Behind one that goes over lines anything may be.
+  if (layout_.is_loose && words.has_crossed() && words.words_left_on_line() > 0)
+    return words.error_here("a face that goes over lines, with further words behind it");
+  return {};
+}
+
+Result<bool> PlyAscii::faces_share_lines(TextPosition begin) {
+  PlyWords words(file_, begin, layout_);
+  if (!words.begin_record()) return false;
+  // Two triangles on a line look like one with a colour.
+  std::uint64_t faces = 0;
+  std::int64_t corners = 0, index = 0;
+  while (words.integer_on_line(corners)) {
+    if (corners < 3) return false;
+    for (; corners > 0; --corners)
+      if (!words.integer_on_line(index) || index < 0 ||
+          static_cast<std::uint64_t>(index) >= vertices_->count())
+        return false;
+    ++faces;
+  }
+  if (faces < 2) return false;
+  std::uint64_t lines = 1;
+  while (lines < header_.faces().count && words.begin_record()) ++lines;
+  if (words.error()) return *words.error();
+  return lines < header_.faces().count;
+}
+
+template <class Take>
+Result<FacePosition> PlyAscii::each_triangle(const FacePosition& from, const Take& take) {
+  const PlyElement& element = header_.faces();
+  const PlyProperty& list = element.properties[header_.index_list];
+  // Without a triangle before it, reading begins at the first list again.
+  bool resumes = from.record > 0;
+  StripPosition at =
+      resumes ? *stop_
+              : StripPosition{
+                    PlyStrips(list.type), {from.position, from.position, {}, 0, {}, false}, 0, 0};
+  at.words.is_within_line |= !resumes && from.position.records > 0;
+  PlyWords words(file_, at.words, layout_);
+  words.allow_long_records();
+  while (at.record < element.count) {
+    if (!resumes) {
+      if (!words.begin_record()) return words.ended(element, at.record);
+      at.strips.begin_list();
+      if (!words.pass(element, 0, header_.index_list) || !words.length(list, at.left))
+        return *words.error();
+    }
+    for (std::int64_t index = 0; resumes || at.left > 0; resumes = false) {
+      if (!resumes) {
+        if (!words.integer(list, index)) return *words.error();
+        --at.left;
+        if (!at.strips.add(index, words.line())) continue;
+      }
+      const Result<bool> taken = take(at.strips.triangle());
+      if (!taken) return taken.error();
+      if (!*taken) {
+        at.words = words.state();
+        stop_ = at;
+        const std::uint64_t number = at.strips.number();
+        return FacePosition{number == 0 ? from.position : at.words.next, number, 0};
+      }
+      at.strips.count_triangle();
+      if (const auto told = emitter_.advance(words.bytes_done()); !told) return told.error();
+    }
+    if (!words.pass(element, header_.index_list + 1, element.properties.size()) ||
+        !words.end_record())
+      return *words.error();
+    ++at.record;
+  }
+  left_out_ = at.strips.left_out();
+  return FacePosition{words.after(), at.strips.number(), 0};
+}
+
+Result<void> PlyAscii::expect_end(TextPosition end) {
+  PlyWords words(file_, end, layout_);
+  if (!words.begin_record()) return words.error() ? Result<void>(*words.error()) : Result<void>();
+  if (words.begin().records > 0) return words.surplus_error();
+  return words.error_here("text follows the last record, so a count in the header is too small");
+}
+
+std::vector<std::string> PlyAscii::notes() const {
+  std::vector<std::string> notes;
+  if (rounded_)
+    notes.push_back(rounded_.counted("coordinate") +
+                    " of more digits than the declared float holds, " + rounded_.first() +
+                    ", rounded; --float64 reads them as doubles");
+  if (left_out_)
+    notes.push_back(left_out_.counted("triangle") +
+                    " of strips with two equal vertices left out, " + left_out_.first());
+  return notes;
 }
 
 }  // namespace planetree::octree

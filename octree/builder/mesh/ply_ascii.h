@@ -2,21 +2,27 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "octree/builder/mesh/ply_body.h"
+#include "octree/builder/mesh/ply_strips.h"
+#include "octree/builder/mesh/ply_words.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/indexed_face.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
-#include "octree/builder/mesh/stream/mesh_lines.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
 #include "octree/builder/mesh/stream/text_vertices.h"
 
 namespace planetree::octree {
 
-/// An ascii body: one record a line; empty lines are ignored. Vertices are spilled as they are
-/// read, as floats where the header declares no wider type.
+/// An ascii body: words, whatever the lines are. Vertices are spilled as they are read, as floats
+/// where the header declares no wider type.
+///
+/// Of a body with loose lines, as OFF has, each record begins a line, as long as every vertex does.
+/// Otherwise it is read as words too, if it cannot be understood in two ways.
 class PlyAscii final : public PlyBody {
  public:
   /// All arguments must outlive this.
@@ -27,30 +33,46 @@ class PlyAscii final : public PlyBody {
   Result<TextPosition> vertices(TextPosition begin) override;
   Result<TextPosition> faces(TextPosition begin) override;
   Result<void> expect_end(TextPosition end) override;
+  [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
-  class Face;
+  /// Where reading strips goes on.
+  struct StripPosition {
+    PlyStrips strips;
+    PlyWords::State words;
+    std::uint64_t record = 0;  ///< number of the list
+    std::int64_t left = 0;     ///< indices left in the list
+  };
 
-  [[nodiscard]] MeshLines lines_from(TextPosition begin) const;
-  /// Calls take_line(record, lines), which returns Result<bool>, for the line of each record from
-  /// `from` on, until it returns false. Returns the position of that line, or the position behind
-  /// the last record.
-  template <class TakeLine>
-  Result<FacePosition> each_line(const PlyElement& element, const FacePosition& from,
-                                 const TakeLine& take_line);
-  Result<void> take_vertex(const MeshLines& lines);
-  /// Reads the line of a face into indices_.
-  Result<void> take_face(const MeshLines& lines);
+  /// Calls take(record, words), which returns Result<bool>, for each record from `from` on, until
+  /// it returns false. Returns the position of that record, or the position behind the last record.
+  template <class Take>
+  Result<FacePosition> each_record(const PlyElement& element, const FacePosition& from,
+                                   const Take& take);
+  /// Calls take(triangle) for each triangle of strips, as FaceVertexJoin::deliver() requires.
+  template <class Take>
+  Result<FacePosition> each_triangle(const FacePosition& from, const Take& take);
+  Result<TextPosition> read_vertices(TextPosition begin);
+  Result<bool> take_vertex(PlyWords& words);
+  /// Ends a vertex of a body with loose lines: compares what follows it with the first.
+  Result<bool> end_loose_vertex(PlyWords& words);
+  /// Reads a face into indices_.
+  Result<void> take_face(PlyWords& words);
+  /// Whether lines of a body with loose lines have several faces each.
+  Result<bool> faces_share_lines(TextPosition begin);
 
   const MeshFile& file_;
   const PlyHeader& header_;
   FanEmitter& emitter_;
   MeshScratch& scratch_;
   std::vector<int> axes_;  ///< axis (0 to 2) of each property of a vertex, or -1
-  TextVertices vertices_;
-  /// Words behind the values of each vertex, as counted for the first; only with loose lines.
-  std::optional<std::uint64_t> words_behind_vertex_;
+  std::optional<TextVertices> vertices_;
+  PlyLayout layout_;
+  std::optional<std::uint64_t> words_behind_vertex_;  ///< as counted for the first
+  bool may_be_words_ = false;          ///< loose lines look as if vertices began elsewhere
   std::vector<std::int64_t> indices_;  ///< vertices of the face being read
+  std::optional<StripPosition> stop_;  ///< where each_triangle() was stopped
+  MeshNote rounded_, left_out_;
 };
 
 }  // namespace planetree::octree

@@ -1,13 +1,12 @@
 #include "octree/builder/mesh/ply_binary.h"
 
+#include <array>
 #include <bit>
 #include <cinttypes>
 
 namespace planetree::octree {
 
 namespace {
-
-constexpr std::size_t kNoProperty = ~std::size_t{0};
 
 bool needs_swap(PlyEncoding encoding) {
   const bool file_little = encoding == PlyEncoding::kBinaryLittleEndian;
@@ -53,39 +52,19 @@ PlyBinary::PlyBinary(const MeshFile& file, const PlyHeader& header, FanEmitter& 
       header_(header),
       emitter_(emitter),
       scratch_(scratch),
-      swap_(needs_swap(header.encoding)),
-      vertices_(file, header, swap_),
-      window_(file, static_cast<std::size_t>(scratch.window_bytes())) {}
-
-Result<void> PlyBinary::check_space(const PlyElement& element, std::uint64_t begin) const {
-  const std::uint64_t record_bytes = element.min_record_bytes();
-  const std::uint64_t space = file_.size_bytes() - begin;
-  if (record_bytes == 0 || element.count <= space / record_bytes) return {};
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, begin,
-                    "byte %" PRIu64 ": %" PRIu64 " records '%s' of %" PRIu64
-                    " bytes or more do not fit in the %" PRIu64
-                    " left: truncated or miscounted; copy or export it again",
-                    begin, element.count, printable(element.name).c_str(), record_bytes, space);
-}
-
-Error PlyBinary::bad_record(const PlyElement& element, std::uint64_t record,
-                            std::uint64_t offset) const {
-  return make_error(ErrorCode::kBadInput, Error::kNowhere, offset,
-                    "byte %" PRIu64 ": record %" PRIu64 " of %" PRIu64
-                    " '%s' has a bad list length or is cut off: truncated or damaged; copy or "
-                    "export it again",
-                    offset, record, element.count, printable(element.name).c_str());
-}
+      records_(file, needs_swap(header.encoding), static_cast<std::size_t>(scratch.window_bytes())),
+      vertices_(file, header, records_.swap()) {}
 
 Result<TextPosition> PlyBinary::skip(const PlyElement& element, TextPosition begin) {
-  if (Result<void> space = check_space(element, begin.offset); !space) return space.error();
+  if (Result<void> space = records_.check_space(element, begin.offset); !space)
+    return space.error();
   std::uint64_t position = begin.offset;
   if (!element.has_list()) {
     return TextPosition{position + element.count * element.min_record_bytes(), 0};
   }
-  ListSpan list;
   for (std::uint64_t record = 0; record < element.count; ++record) {
-    const auto walked = walk_record(element, record, kNoProperty, position, list);
+    const auto walked =
+        records_.walk(element, record, position, [](std::size_t, std::uint64_t, std::uint64_t) {});
     if (!walked) return walked.error();
   }
   return TextPosition{position, 0};
@@ -93,18 +72,56 @@ Result<TextPosition> PlyBinary::skip(const PlyElement& element, TextPosition beg
 
 Result<TextPosition> PlyBinary::vertices(TextPosition begin) {
   const PlyElement& element = header_.vertices();
-  if (Result<void> space = check_space(element, begin.offset); !space) return space.error();
-  vertices_.set(begin.offset, element.count);
+  if (Result<void> space = records_.check_space(element, begin.offset); !space)
+    return space.error();
   emitter_.set_vertex_count(element.count);
+  if (element.has_list()) return spill_vertices(begin);
+  vertices_.set(begin.offset, element.count);
   return TextPosition{begin.offset + element.count * vertices_.record_bytes(), 0};
 }
 
+Result<TextPosition> PlyBinary::spill_vertices(TextPosition begin) {
+  const PlyElement& element = header_.vertices();
+  spilled_.emplace(file_, header_.float32(), scratch_);
+  std::vector<std::uint64_t> offsets(element.properties.size());
+  std::uint64_t position = begin.offset;
+  for (std::uint64_t record = 0; record < element.count; ++record) {
+    const auto walked = records_.walk(
+        element, record, position,
+        [&](std::size_t i, std::uint64_t offset, std::uint64_t) { offsets[i] = offset; });
+    if (!walked) return walked.error();
+    std::array<double, 3> values = {};
+    for (std::size_t axis = 0; axis < values.size(); ++axis) {
+      const PlyType type = header_.coordinate_type(axis);
+      const std::byte* const at =
+          records_.window().at(offsets[header_.coordinates[axis]], size_bytes(type));
+      if (at == nullptr) return records_.window().failure();
+      values[axis] = load_real(type, at, records_.swap());
+    }
+    if (const auto added = spilled_->add({values[0], values[1], values[2]}); !added)
+      return added.error();
+    if (const auto told = emitter_.advance(position); !told) return told.error();
+  }
+  if (const auto finished = spilled_->finish(); !finished) return finished.error();
+  return TextPosition{position, 0};
+}
+
 Result<TextPosition> PlyBinary::faces(TextPosition begin) {
-  if (Result<void> space = check_space(header_.faces(), begin.offset); !space) return space.error();
-  FaceVertexJoin join(vertices_, 0, scratch_, false, emitter_);
-  const auto end = join.deliver(
-      {begin, 0, 0}, file_.size_bytes(),
-      [this](const FacePosition& from, const auto& take) { return each_face(from, take); });
+  if (Result<void> space = records_.check_space(header_.faces(), begin.offset); !space)
+    return space.error();
+  MeshVertices* vertices = &vertices_;
+  if (spilled_) vertices = &*spilled_;
+  FaceVertexJoin join(*vertices, 0, scratch_, spilled_.has_value(), emitter_);
+  const FacePosition first{begin, 0, 0};
+  const auto end = header_.has_strips
+                       ? join.deliver(first, file_.size_bytes(),
+                                      [this](const FacePosition& from, const auto& take) {
+                                        return each_triangle(from, take);
+                                      })
+                       : join.deliver(first, file_.size_bytes(),
+                                      [this](const FacePosition& from, const auto& take) {
+                                        return each_face(from, take);
+                                      });
   if (!end) return end.error();
   return end->position;
 }
@@ -117,9 +134,10 @@ Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& 
   ListSpan list;
   for (std::uint64_t face = from.record; face < element.count; ++face) {
     const std::uint64_t face_begin = position;
-    const auto walked = walk_record(element, face, header_.index_list, position, list);
+    const auto walked = walk_face(face, position, list);
     if (!walked) return walked.error();
-    const Result<bool> taken = take(Face(face, list, index_type, swap_, window_));
+    const Result<bool> taken =
+        take(Face(face, list, index_type, records_.swap(), records_.window()));
     if (!taken) return taken.error();
     if (!*taken) return FacePosition{{face_begin, 0}, face, 0};
     if (const auto told = emitter_.advance(position); !told) return told.error();
@@ -127,11 +145,48 @@ Result<FacePosition> PlyBinary::each_face(const FacePosition& from, const Take& 
   return FacePosition{{position, 0}, element.count, 0};
 }
 
+template <class Take>
+Result<FacePosition> PlyBinary::each_triangle(const FacePosition& from, const Take& take) {
+  const PlyElement& element = header_.faces();
+  const PlyType type = element.properties[header_.index_list].type;
+  const std::uint64_t index_bytes = size_bytes(type);
+  // Without a triangle before it, reading begins at the first list again.
+  bool resumes = from.record > 0;
+  StripPosition at = resumes ? *stop_ : StripPosition{PlyStrips(type), 0, from.position.offset, {}};
+  while (resumes || at.record < element.count) {
+    if (!resumes) {
+      at.strips.begin_list();
+      const auto walked = walk_face(at.record++, at.position, at.list);
+      if (!walked) return walked.error();
+    }
+    for (; resumes || at.list.count > 0; resumes = false) {
+      if (!resumes) {
+        const std::byte* const index = records_.window().at(at.list.offset, index_bytes);
+        if (index == nullptr) return records_.window().failure();
+        at.list = {at.list.offset + index_bytes, at.list.count - 1};
+        if (!at.strips.add(load_integer(type, index, records_.swap()), 0)) continue;
+      }
+      const Result<bool> taken = take(at.strips.triangle());
+      if (!taken) return taken.error();
+      if (!*taken) {
+        stop_ = at;
+        const std::uint64_t number = at.strips.number();
+        return FacePosition{number == 0 ? from.position : TextPosition{at.list.offset, 0}, number,
+                            0};
+      }
+      at.strips.count_triangle();
+      if (const auto told = emitter_.advance(at.list.offset); !told) return told.error();
+    }
+  }
+  left_out_ = at.strips.left_out();
+  return FacePosition{{at.position, 0}, at.strips.number(), 0};
+}
+
 Result<void> PlyBinary::expect_end(TextPosition end) {
   // White space, such as a last newline, is no record.
   for (std::uint64_t at = end.offset; at < file_.size_bytes(); ++at) {
-    const std::byte* const byte = window_.at(at, 1);
-    if (byte == nullptr) return window_.failure();
+    const std::byte* const byte = records_.window().at(at, 1);
+    if (byte == nullptr) return records_.window().failure();
     if (is_space(static_cast<char>(*byte))) continue;
     return make_error(ErrorCode::kBadInput, Error::kNowhere, end.offset,
                       "byte %" PRIu64 ": %" PRIu64
@@ -142,38 +197,9 @@ Result<void> PlyBinary::expect_end(TextPosition end) {
   return {};
 }
 
-Result<void> PlyBinary::walk_record(const PlyElement& element, std::uint64_t record,
-                                    std::size_t list_property, std::uint64_t& position,
-                                    ListSpan& list) {
-  const std::uint64_t begin = position;
-  read_failed_ = window_.record_at(begin) == nullptr;
-  if (!read_failed_ && walk_properties(element, list_property, position, list)) return {};
-  return read_failed_ ? window_.failure() : bad_record(element, record, begin);
-}
-
-bool PlyBinary::walk_properties(const PlyElement& element, std::size_t list_property,
-                                std::uint64_t& position, ListSpan& list) {
-  const std::uint64_t size = file_.size_bytes();
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    const PlyProperty& property = element.properties[i];
-    const std::uint64_t fixed_bytes =
-        size_bytes(property.is_list ? property.count_type : property.type);
-    if (size - position < fixed_bytes) return false;
-    const std::uint64_t begin = position;
-    position += fixed_bytes;
-    if (!property.is_list) continue;
-    const std::byte* const at = window_.at(begin, fixed_bytes);
-    read_failed_ = at == nullptr;
-    if (read_failed_) return false;
-    const std::int64_t count = load_integer(property.count_type, at, swap_);
-    // Counts have at most 32 bits, so the product below cannot overflow.
-    if (count < 0) return false;
-    const std::uint64_t list_bytes = static_cast<std::uint64_t>(count) * size_bytes(property.type);
-    if (size - position < list_bytes) return false;
-    if (i == list_property) list = {position, static_cast<std::uint64_t>(count)};
-    position += list_bytes;
-  }
-  return true;
+std::vector<std::string> PlyBinary::notes() const {
+  if (!left_out_) return {};
+  return {left_out_.counted("triangle") + " of strips with two equal vertices left out"};
 }
 
 }  // namespace planetree::octree

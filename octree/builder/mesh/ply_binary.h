@@ -2,19 +2,25 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "octree/builder/mesh/ply_body.h"
+#include "octree/builder/mesh/ply_records.h"
+#include "octree/builder/mesh/ply_strips.h"
 #include "octree/builder/mesh/ply_vertices.h"
 #include "octree/builder/mesh/stream/face_vertex_join.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "octree/builder/mesh/stream/mesh_scratch.h"
-#include "octree/builder/mesh/stream/mesh_window.h"
+#include "octree/builder/mesh/stream/text_vertices.h"
 
 namespace planetree::octree {
 
-/// A binary PLY body. Vertices are records of one size, so that their offsets are computed. Bytes
-/// outside of the window of the file are read when they are needed.
+/// A binary PLY body. Vertices without lists are records of one size, so that their offsets are
+/// computed; others are spilled as they are read. Bytes outside of the window of the file are read
+/// when they are needed.
 class PlyBinary final : public PlyBody {
  public:
   /// All arguments must outlive this.
@@ -25,6 +31,7 @@ class PlyBinary final : public PlyBody {
   Result<TextPosition> vertices(TextPosition begin) override;
   Result<TextPosition> faces(TextPosition begin) override;
   Result<void> expect_end(TextPosition end) override;
+  [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
   /// The items of one list in the file.
@@ -32,33 +39,40 @@ class PlyBinary final : public PlyBody {
     std::uint64_t offset = 0;
     std::uint64_t count = 0;
   };
+  /// Where reading strips goes on.
+  struct StripPosition {
+    PlyStrips strips;
+    std::uint64_t record = 0;    ///< number of the list
+    std::uint64_t position = 0;  ///< behind the list's record
+    ListSpan list;               ///< what is left of the list
+  };
   class Face;
 
-  /// Steps over the record of `element` at `position`, and sets `list` to its list at property
-  /// `list_property`.
-  /// errors  kBadInput: the record reaches past the end of the file or has a list of negative
-  ///         length.
-  Result<void> walk_record(const PlyElement& element, std::uint64_t record,
-                           std::size_t list_property, std::uint64_t& position, ListSpan& list);
-  /// As walk_record(). False if the record is bad, or cannot be read.
-  bool walk_properties(const PlyElement& element, std::size_t list_property,
-                       std::uint64_t& position, ListSpan& list);
+  /// Reads vertices with lists.
+  Result<TextPosition> spill_vertices(TextPosition begin);
   /// Calls take(face) for each face, as FaceVertexJoin::deliver() requires.
   template <class Take>
   Result<FacePosition> each_face(const FacePosition& from, const Take& take);
-  /// Refuses a count of records that do not fit in the file behind `begin`.
-  [[nodiscard]] Result<void> check_space(const PlyElement& element, std::uint64_t begin) const;
-  [[nodiscard]] Error bad_record(const PlyElement& element, std::uint64_t record,
-                                 std::uint64_t offset) const;
+  /// Calls take(triangle) for each triangle of strips, as FaceVertexJoin::deliver() requires.
+  template <class Take>
+  Result<FacePosition> each_triangle(const FacePosition& from, const Take& take);
+  /// Steps over the record of a face, and sets `list` to the list of its vertices.
+  Result<void> walk_face(std::uint64_t face, std::uint64_t& position, ListSpan& list) {
+    return records_.walk(header_.faces(), face, position,
+                         [&](std::size_t i, std::uint64_t offset, std::uint64_t count) {
+                           if (i == header_.index_list) list = {offset, count};
+                         });
+  }
 
   const MeshFile& file_;
   const PlyHeader& header_;
   FanEmitter& emitter_;
   MeshScratch& scratch_;
-  const bool swap_;
+  PlyRecords records_;
   PlyVertices vertices_;
-  MeshWindow window_;
-  bool read_failed_ = false;  ///< the last record could not be read, so that it may not be bad
+  std::optional<TextVertices> spilled_;  ///< in place of vertices_
+  std::optional<StripPosition> stop_;    ///< where each_triangle() was stopped
+  MeshNote left_out_;
 };
 
 }  // namespace planetree::octree

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "octree/builder/mesh/ply_header.h"
 #include "octree/builder/mesh/stream/mesh_text.h"
 #include "planetree/error.h"
@@ -16,10 +19,12 @@ class PlyBody {
   virtual Result<TextPosition> skip(const PlyElement& element, TextPosition begin) = 0;
   /// Finds or reads the vertices. Call it once, before faces().
   virtual Result<TextPosition> vertices(TextPosition begin) = 0;
-  /// Delivers the faces.
+  /// Delivers the faces or the triangles of strips.
   virtual Result<TextPosition> faces(TextPosition begin) = 0;
   /// Refuses records that no element declares: a count in the header is wrong then.
   virtual Result<void> expect_end(TextPosition end) = 0;
+  /// What was read in another way than it is written, as MeshSummary::notes.
+  [[nodiscard]] virtual std::vector<std::string> notes() const = 0;
 };
 
 }  // namespace planetree::octree

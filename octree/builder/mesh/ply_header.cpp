@@ -9,18 +9,13 @@ namespace planetree::octree {
 
 namespace {
 
-std::optional<PlyType> type_named(std::string_view name) {
-  static constexpr std::pair<std::string_view, PlyType> kNames[] = {
-      {"char", PlyType::kInt8},      {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
-      {"uint8", PlyType::kUint8},    {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},
-      {"ushort", PlyType::kUint16},  {"uint16", PlyType::kUint16},   {"int", PlyType::kInt32},
-      {"int32", PlyType::kInt32},    {"uint", PlyType::kUint32},     {"uint32", PlyType::kUint32},
-      {"float", PlyType::kFloat32},  {"float32", PlyType::kFloat32}, {"double", PlyType::kFloat64},
-      {"float64", PlyType::kFloat64}};
-  for (const auto& [known, type] : kNames) {
-    if (known == name) return type;
-  }
-  return std::nullopt;
+/// Whether a list is called "vertex_indices", in one of its spellings.
+bool names_indices(std::string_view name) {
+  std::string letters;
+  for (const char c : name)
+    if (c != '_') letters += c;
+  return is_same_word(letters, "vertexindex") || is_same_word(letters, "vertexindices") ||
+         is_same_word(letters, "vertexindexes");
 }
 
 Error header_error(const TextPosition& position, const std::string& cause) {
@@ -31,14 +26,15 @@ Error header_error(const TextPosition& position, const std::string& cause) {
 /// Parses a header line by line.
 class HeaderParser {
  public:
-  explicit HeaderParser(std::string_view file) : lines_(file, {}, line_end_of(file)) {}
+  explicit HeaderParser(std::string_view file)
+      : lines_(file, text_begin(file), line_end_of(file)) {}
 
   Result<PlyHeader> parse() {
     lines_.next();  // "ply"
     while (lines_.next()) {
       std::string_view rest = lines_.line();
       const std::string_view keyword = take_word(rest);
-      if (keyword == "end_header") return finish();
+      if (is_same_word(keyword, "end_header")) return finish();
       if (Result<void> read = statement(keyword, rest); !read) return read.error();
     }
     return header_error(lines_.after(), "the file ends before 'end_header'");
@@ -59,10 +55,11 @@ class HeaderParser {
   }
 
   Result<void> statement(std::string_view keyword, std::string_view rest) {
-    if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return {};
-    if (keyword == "format") return format(rest);
-    if (keyword == "element") return element(rest);
-    if (keyword == "property") return property(rest);
+    if (keyword.empty() || is_same_word(keyword, "comment") || is_same_word(keyword, "obj_info"))
+      return {};
+    if (is_same_word(keyword, "format")) return format(rest);
+    if (is_same_word(keyword, "element")) return element(rest);
+    if (is_same_word(keyword, "property")) return property(rest);
     return error("'" + printable(keyword) + "' is no statement of a PLY header");
   }
 
@@ -73,9 +70,12 @@ class HeaderParser {
         {"binary_big_endian", PlyEncoding::kBinaryBigEndian}};
     const std::string_view name = take_word(rest);
     const std::string_view version = take_word(rest);
-    const auto* const known = std::find_if(std::begin(kNames), std::end(kNames),
-                                           [&](const auto& entry) { return entry.first == name; });
-    if (known == std::end(kNames) || version != "1.0") {
+    const auto* const known =
+        std::find_if(std::begin(kNames), std::end(kNames),
+                     [&](const auto& entry) { return is_same_word(name, entry.first); });
+    double number = 1;  // there is no other version; some writers leave it out
+    if (known == std::end(kNames) || (!version.empty() && !parse_real(version, number)) ||
+        number != 1) {
       return error("format '" + printable(name) + " " + printable(version) + "' is unknown");
     }
     if (has_format_) return error("a second format");
@@ -107,16 +107,16 @@ class HeaderParser {
     if (header_.elements.empty()) return error("a property in front of all elements");
     PlyProperty property;
     std::string_view word = take_word(rest);
-    if (word == "list") {
+    if (is_same_word(word, "list")) {
       property.is_list = true;
-      const std::optional<PlyType> count_type = type_named(take_word(rest));
+      const std::optional<PlyType> count_type = ply_type_named(take_word(rest));
       if (!count_type || !is_integer(*count_type)) {
         return error("a list whose length is of no integer type");
       }
       property.count_type = *count_type;
       word = take_word(rest);
     }
-    const std::optional<PlyType> type = type_named(word);
+    const std::optional<PlyType> type = ply_type_named(word);
     if (!type) return error("type '" + printable(word) + "' is unknown");
     property.type = *type;
     property.name = take_word(rest);
@@ -158,25 +158,24 @@ class HeaderParser {
                      std::string(kAxes[axis]) + "', not one");
       }
     }
-    if (header_.encoding != PlyEncoding::kAscii && header_.vertices().has_list()) {
-      return error("binary vertices with a list are not supported: leave the list out");
-    }
     return {};
   }
 
   Result<void> find_faces() {
-    const std::optional<std::size_t> found = find_element("face");
-    // Also where there are faces: ignoring the strips would silently lose triangles.
-    if (find_element("tristrips")) {
-      return error("triangle strips are not supported: write faces");
-    }
-    if (!found) return error("no triangle: the header has no element 'face'");
-    header_.face_element = *found;
+    const std::optional<std::size_t> faces = find_element("face"),
+                                     strips = find_element("tristrips");
+    const bool has_faces = faces && header_.elements[*faces].count > 0;
+    const bool has_strips = strips && header_.elements[*strips].count > 0;
+    // They may be the same surface twice, or two parts of it.
+    if (has_faces && has_strips) return error("both faces and triangle strips: write one of them");
+    if (!faces && !strips) return error("no triangle: the header has no element 'face'");
+    header_.has_strips = has_strips || !faces;
+    header_.face_element = header_.has_strips ? *strips : *faces;
     std::size_t times = 0;
     const std::vector<PlyProperty>& properties = header_.faces().properties;
     for (std::size_t i = 0; i < properties.size(); ++i) {
       const PlyProperty& property = properties[i];
-      if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+      if (!names_indices(property.name)) continue;
       if (!property.is_list || !is_integer(property.type)) {
         return error("'" + property.name + "' is not a list of integers");
       }
@@ -219,8 +218,15 @@ bool PlyHeader::float32() const {
          fits_float32(coordinate_type(2));
 }
 
+void PlyHeader::widen_text() {
+  if (encoding != PlyEncoding::kAscii) return;
+  for (const std::size_t i : coordinates)
+    elements[vertex_element].properties[i].type = PlyType::kFloat64;
+}
+
 bool is_ply(std::string_view file) noexcept {
-  if (file.substr(0, 3) != "ply" || file.size() < 4) return false;
+  file.remove_prefix(text_begin(file).offset);
+  if (!is_same_word(file.substr(0, 3), "ply") || file.size() < 4) return false;
   return file[3] == '\n' || file[3] == '\r' || file[3] == ' ' || file[3] == '\t';
 }
 

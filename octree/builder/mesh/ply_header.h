@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,14 +40,18 @@ struct PlyElement {
 /// other formats whose records follow one another in the same way.
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
-  /// Ascii only: further words may follow a record's last value, as many for each vertex, and '#'
-  /// begins a comment.
+  /// Ascii only: each record begins a line, further words may follow its last value, as many for
+  /// each vertex, and '#' begins a comment.
   bool has_loose_lines = false;
+  /// Where records with loose lines turn out not to begin lines: the numbers behind the coordinates
+  /// of a vertex; nothing if that is not known.
+  std::optional<std::size_t> numbers_behind_vertex;
   std::vector<PlyElement> elements;
   std::size_t vertex_element = 0;               ///< index in `elements`
-  std::size_t face_element = 0;                 ///< index in `elements`
+  std::size_t face_element = 0;                 ///< index in `elements`; of strips or of faces
+  bool has_strips = false;                      ///< the "faces" are triangle strips
   std::array<std::size_t, 3> coordinates = {};  ///< x, y, z: indices in the vertex's properties
-  std::size_t index_list = 0;                   ///< index in the face's properties
+  std::size_t index_list = 0;                   ///< index in the face's or strip's properties
   TextPosition body;                            ///< position of the first record
 
   [[nodiscard]] const PlyElement& vertices() const { return elements[vertex_element]; }
@@ -56,6 +61,8 @@ struct PlyHeader {
   }
   /// Whether float32 holds every value of the declared coordinate types.
   [[nodiscard]] bool float32() const;
+  /// Declares the coordinates of an ascii body as doubles.
+  void widen_text();
 };
 
 /// Whether the first word of a file is that of a PLY.

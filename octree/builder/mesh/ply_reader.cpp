@@ -2,11 +2,13 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "octree/builder/mesh/header_prefix.h"
 #include "octree/builder/mesh/ply_ascii.h"
 #include "octree/builder/mesh/ply_binary.h"
 #include "octree/builder/mesh/stream/fan_emitter.h"
+#include "octree/builder/mesh/stream/mesh_lines.h"
 
 namespace planetree::octree {
 
@@ -35,9 +37,11 @@ Result<void> read_elements(const PlyHeader& header, PlyBody& body) {
 
 }  // namespace
 
-Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch) {
-  const Result<PlyHeader> header = parse_prefix(file, parse_ply_header);
+Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch,
+                             const MeshOptions& options) {
+  Result<PlyHeader> header = parse_prefix(file, parse_ply_header);
   if (!header) return header.error();
+  if (options.float64) header->widen_text();
   return read_ply_body(file, *header, sink, scratch);
 }
 
@@ -51,7 +55,10 @@ Result<MeshSummary> read_ply_body(const MeshFile& file, const PlyHeader& header,
     body = std::make_unique<PlyBinary>(file, header, emitter, scratch);
   }
   if (Result<void> read = read_elements(header, *body); !read) return read.error();
-  return emitter.finish(header.float32());
+  Result<MeshSummary> summary = emitter.finish(header.float32());
+  if (summary) summary->notes = body->notes();
+  return header.encoding == PlyEncoding::kAscii ? with_note_of_padding(file, std::move(summary))
+                                                : summary;
 }
 
 }  // namespace planetree::octree

@@ -9,7 +9,8 @@ namespace planetree::octree {
 
 /// Reads a PLY file (is_ply()): ascii or binary, elements in any order.
 /// Contract as read_mesh().
-Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch);
+Result<MeshSummary> read_ply(const MeshFile& file, TriangleSink& sink, MeshScratch& scratch,
+                             const MeshOptions& options = {});
 
 /// Reads the records that `header` describes, whatever the format of the file is.
 /// Contract as read_mesh().

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
 
 /// Number types of a PLY file, and their values in a binary body.
 namespace planetree::octree {
@@ -15,9 +19,15 @@ enum class PlyType : std::uint8_t {
   kUint16,
   kInt32,
   kUint32,
+  kInt64,
+  kUint64,
   kFloat32,
   kFloat64
 };
+
+/// The type that a header calls `name`, in any case: "uchar", "uint8" or "uint8_t". "long" has 64
+/// bits.
+std::optional<PlyType> ply_type_named(std::string_view name) noexcept;
 
 constexpr std::uint64_t size_bytes(PlyType type) noexcept {
   switch (type) {
@@ -31,6 +41,8 @@ constexpr std::uint64_t size_bytes(PlyType type) noexcept {
     case PlyType::kUint32:
     case PlyType::kFloat32:
       return 4;
+    case PlyType::kInt64:
+    case PlyType::kUint64:
     case PlyType::kFloat64:
       break;
   }
@@ -60,7 +72,8 @@ T load(const std::byte* at, bool swap) noexcept {
   return value;
 }
 
-/// Reads a coordinate of any type; the double holds its exact value.
+/// Reads a coordinate of any type. The double holds its exact value, but is the nearest to an
+/// integer of more than 53 bits.
 inline double load_real(PlyType type, const std::byte* at, bool swap) noexcept {
   switch (type) {
     case PlyType::kInt8:
@@ -75,6 +88,10 @@ inline double load_real(PlyType type, const std::byte* at, bool swap) noexcept {
       return load<std::int32_t>(at, swap);
     case PlyType::kUint32:
       return load<std::uint32_t>(at, swap);
+    case PlyType::kInt64:
+      return static_cast<double>(load<std::int64_t>(at, swap));
+    case PlyType::kUint64:
+      return static_cast<double>(load<std::uint64_t>(at, swap));
     case PlyType::kFloat32:
       return static_cast<double>(load<float>(at, swap));
     case PlyType::kFloat64:
@@ -83,7 +100,8 @@ inline double load_real(PlyType type, const std::byte* at, bool swap) noexcept {
   return load<double>(at, swap);
 }
 
-/// Reads a count or an index. `type` is an integer type.
+/// Reads a count or an index. `type` is an integer type. One that is too large gives the largest
+/// that fits.
 inline std::int64_t load_integer(PlyType type, const std::byte* at, bool swap) noexcept {
   switch (type) {
     case PlyType::kInt8:
@@ -96,10 +114,15 @@ inline std::int64_t load_integer(PlyType type, const std::byte* at, bool swap) n
       return load<std::uint16_t>(at, swap);
     case PlyType::kInt32:
       return load<std::int32_t>(at, swap);
+    case PlyType::kUint32:
+      return load<std::uint32_t>(at, swap);
+    case PlyType::kInt64:
+      return load<std::int64_t>(at, swap);
     default:
       break;
   }
-  return load<std::uint32_t>(at, swap);
+  constexpr std::uint64_t kMax = std::numeric_limits<std::int64_t>::max();
+  return static_cast<std::int64_t>(std::min(load<std::uint64_t>(at, swap), kMax));
 }
 
 }  // namespace planetree::octree

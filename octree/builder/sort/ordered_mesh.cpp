@@ -15,7 +15,7 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
     return static_cast<BuildProgress*>(context)->progress(BuildPhase::kReading, done, total);
   };
   spool.report_progress(report, &progress);
-  const Result<MeshSummary> summary = read_mesh(input, spool, scratch);
+  const Result<MeshSummary> summary = read_mesh(input, spool, scratch, {options.float64});
   if (!summary) return summary.error();
   auto frame = spool.finish();
   if (!frame) return frame.error();
@@ -28,7 +28,7 @@ Result<OrderedMesh> read_unordered(const BuildInput& input, const BuildOptions& 
   frame->fanned_count = summary->odd_polygons.fanned;
   frame->first_fanned_text = summary->odd_polygons.first_fanned;
   const bool wide_ids = summary->triangle_indices > std::numeric_limits<std::uint32_t>::max();
-  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}};
+  return OrderedMesh{*std::move(frame), summary->vertex_records, wide_ids, {}, summary->notes};
 }
 
 }  // namespace planetree::octree

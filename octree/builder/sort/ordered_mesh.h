@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "octree/builder/job/build_options.h"
@@ -20,6 +21,7 @@ struct OrderedMesh {
   std::uint64_t vertex_records = 0;
   bool wide_ids = false;                   ///< some index takes more than 32 bits
   std::vector<TriangleRuns::Extent> runs;  ///< the runs, if none of them is in memory
+  std::vector<std::string> notes;          ///< as MeshSummary::notes
 };
 
 /// Reads a mesh without sorting it.

@@ -5,6 +5,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cfenv>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -25,6 +26,13 @@ int rational_orientation(const Point& a, const Point& b, const Point& c, const P
   const Rational volume = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
                           u[2] * (v[0] * w[1] - v[1] * w[0]);
   return volume.sign();
+}
+
+int rational_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) {
+  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const Rational area = (Rational(b[i]) - Rational(a[i])) * (Rational(c[j]) - Rational(a[j])) -
+                        (Rational(b[j]) - Rational(a[j])) * (Rational(c[i]) - Rational(a[i]));
+  return area.sign();
 }
 
 // Points within two ulps of the plane x + y + z = 1.
@@ -87,6 +95,40 @@ TEST(Predicates, OrientationIsExactNearTheSmallestNumbers) {
     ASSERT_EQ(orientation(points[0], points[1], points[2], points[3]),
               rational_orientation(points[0], points[1], points[2], points[3]));
   }
+}
+
+// Whole numbers of some bits along each axis, in units that differ by axis: all sizes that integers
+// of 128 bits can hold, and some that they cannot. Every second set of points is flat.
+TEST(Predicates, SignsAreExactForCoordinatesOfEverySize) {
+  std::mt19937_64 random(47);
+  int flat = 0, wide = 0;
+  for (int i = 0; i < 6000; ++i) {
+    int bits[3], unit[3], sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      bits[axis] = static_cast<int>(random() % 53) + 1;
+      unit[axis] = static_cast<int>(random() % 200) - 100;
+      sum += bits[axis];
+    }
+    wide += sum > 120;
+    Point p[4];
+    for (Point& point : p)
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto whole = static_cast<std::int64_t>(random() >> (64 - bits[axis]));
+        point[axis] =
+            std::ldexp(static_cast<double>(random() % 2 == 0 ? whole : -whole), unit[axis]);
+      }
+    // With halved sums of two points the fourth is in the plane of the others, exactly or nearly.
+    if (i % 2 == 0) p[3] = 0.5 * p[1] + 0.5 * p[2];
+    const int expected = rational_orientation(p[0], p[1], p[2], p[3]);
+    flat += expected == 0;
+    ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), expected);
+    ASSERT_EQ(exact_orientation(p[0], p[1], p[2], p[3]), expected);
+    for (unsigned axis = 0; axis < 3; ++axis)
+      ASSERT_EQ(exact_normal_sign(p[0], p[1], p[2], axis),
+                rational_normal_sign(p[0], p[1], p[2], axis));
+  }
+  EXPECT_GT(flat, 1000);
+  EXPECT_GT(wide, 300);
 }
 
 TEST(Predicates, OrientationIsExactForTheWidestExponentRange) {

@@ -70,6 +70,25 @@ TEST_F(CommandResume, ResumesFromTheCheckpoint) {
   EXPECT_FALSE(fs::exists("new.ptree.work"));
 }
 
+TEST_F(CommandResume, RepeatsTheNotesOfTheReader) {
+  write_mesh("mesh.obj", kSide, "l 1 2\n");
+  interrupt();
+  const Outcome result = resume();
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(result.errors.starts_with(
+      "planetree: new.ptree: resuming after ordering\n"
+      "planetree: warning: mesh.obj: 1 point or line statement not read, the first 'l' in line "))
+      << result.errors;
+}
+
+TEST_F(CommandResume, BeginsAgainWithOtherOptions) {
+  interrupt();
+  EXPECT_EQ(
+      resume({"--float64"}).errors,
+      "planetree: new.ptree: the checkpoint cannot be resumed: the options have changed; building "
+      "from the start\n");
+}
+
 TEST_F(CommandResume, ReportsWhyTheCheckpointIsUnusable) {
   interrupt();
   write_mesh("mesh.obj", kSide, "\n");

@@ -97,7 +97,7 @@ TEST_F(Command, EveryErrorIsOneLine) {
       {{"query", "tree.ptree", "--memory", "lots"},
        2,
        "planetree: query: --memory: 'lots' is not a size; give a whole number of bytes such as "
-       "4096, 64K, 256M or 1.5G (K is 1024); see planetree query --help"},
+       "4096, 64K, 256M or 1.5G (K and KiB are 1024, KB is 1000); see planetree query --help"},
       {{"inspect", "tree.ptree", "--page", "99"},
        2,
        "planetree: tree.ptree: there is no page 99; the last page is " +

@@ -57,6 +57,22 @@ TEST(Progress, IsSilentWhenQuiet) {
   EXPECT_EQ(recorder.text(), "");
 }
 
+TEST(Progress, LeavesALastLineWherePeopleWatch) {
+  for (const bool is_long : {false, true}) {
+    for (const auto style : {Progress::Style::kSilent, Progress::Style::kLines,
+                             Progress::Style::kBar, Progress::Style::kJson}) {
+      Recorder recorder(style);
+      recorder.progress().start("sorting", 2, "cells");
+      recorder.pass(is_long ? seconds(10) : milliseconds(10));
+      recorder.progress().add(2);
+      recorder.progress().finish("2 cells sorted");
+      const bool expected =
+          style == Progress::Style::kBar || (style == Progress::Style::kLines && is_long);
+      EXPECT_EQ(recorder.text().ends_with("2 cells sorted\n"), expected);
+    }
+  }
+}
+
 TEST(Progress, WritesALineEveryFiveSeconds) {
   Recorder recorder(Progress::Style::kLines);
   recorder.progress().start("sorting", 2000, "cells");

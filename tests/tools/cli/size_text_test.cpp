@@ -44,10 +44,34 @@ TEST(SizeText, ReadsBinaryBytes) {
   EXPECT_EQ(bytes_of("2T"), 2'199'023'255'552U);
 }
 
+TEST(SizeText, ReadsUnitsOfBytesInBothSystems) {
+  EXPECT_EQ(bytes_of("1GiB"), std::uint64_t{1} << 30);
+  EXPECT_EQ(bytes_of("64kib"), 65'536U);
+  EXPECT_EQ(bytes_of("1.5MiB"), 1'572'864U);
+  EXPECT_EQ(bytes_of("1GB"), 1'000'000'000U);
+  EXPECT_EQ(bytes_of("2.5kB"), 2'500U);
+  EXPECT_EQ(bytes_of("4096B"), 4096U);
+  EXPECT_EQ(bytes_of("1TB"), 1'000'000'000'000U);
+  for (const char* text : {"1B", "1KB", "1KiB", "1GiB"}) EXPECT_FALSE(parse_count(text)) << text;
+  for (const char* text : {"1GBB", "1GiBi", "1Gi", "1PB", "1PiB", "1iK"})
+    EXPECT_FALSE(parse_bytes(text)) << text;
+}
+
+TEST(SizeText, ReadsExponents) {
+  EXPECT_EQ(count_of("1e6"), 1'000'000U);
+  EXPECT_EQ(bytes_of("1E+06"), 1'000'000U);
+  EXPECT_EQ(count_of("1.25e2"), 125U);
+  EXPECT_EQ(count_of("18446744073.709551615e9"), kMax);
+  for (const char* text : {"1e", "1e+", "1e-3", "1e3K", "1.25e1", "1e20", "1e999", "2e19", "e6"}) {
+    EXPECT_FALSE(parse_count(text)) << text;
+    EXPECT_FALSE(parse_bytes(text)) << text;
+  }
+}
+
 TEST(SizeText, RefusesMalformedNumbers) {
   for (const char* text :
        {"",   "K",   ".5M", "1.",  "1.K",  "1.5",   "1.0001K", "-1",    "+1",  " 1",
-        "1 ", "1 K", "1KB", "1e6", "0x10", "1,000", "1P",      "1..5M", "nan", "1K2"}) {
+        "1 ", "1 K", "1 B", "1iB", "0x10", "1,000", "1P",      "1..5M", "nan", "1K2"}) {
     const auto count = parse_count(text);
     ASSERT_FALSE(count) << text;
     EXPECT_EQ(count.error().code, ErrorCode::kBadArgument);

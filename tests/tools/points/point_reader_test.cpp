@@ -3,66 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include "tests/storage/system/temporary_directory.h"
+#include "tests/tools/points/points_fixture.h"
 #include "tools/cli/input_file.h"
 
 namespace planetree::tools {
 namespace {
-
-struct Reading {
-  std::vector<Vec3> points;
-  std::string error;  ///< empty if the end was reached
-};
-
-class Points : public testing::Test {
- protected:
-  Reading read(const char* name, const std::string& text, std::size_t piece = 2) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    Reading reading;
-    auto points = open_points((folder_ / name).string(), stdin);
-    if (!points) {
-      reading.error = points.error().text;
-      return reading;
-    }
-    std::vector<Vec3> buffer(piece);
-    for (;;) {
-      const auto count = (*points)->read(buffer);
-      if (!count) {
-        reading.error = count.error().text;
-        return reading;
-      }
-      if (*count == 0) return reading;
-      reading.points.insert(reading.points.end(), buffer.begin(),
-                            buffer.begin() + static_cast<std::ptrdiff_t>(*count));
-    }
-  }
-  static std::string binary_ply(const std::string& header, const std::vector<float>& values,
-                                bool swap) {
-    std::string text = header;
-    for (const float value : values) {
-      std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
-      text += swap ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
-    }
-    return text;
-  }
-
-  storage::TemporaryDirectory folder_;
-};
-
-void expect_points(const Reading& reading, const std::vector<std::vector<double>>& expected) {
-  EXPECT_EQ(reading.error, "");
-  ASSERT_EQ(reading.points.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(reading.points[i].x, expected[i][0]);
-    EXPECT_EQ(reading.points[i].y, expected[i][1]);
-    EXPECT_EQ(reading.points[i].z, expected[i][2]);
-  }
-}
 
 TEST_F(Points, ReadCsvInAllItsForms) {
   const std::vector<std::vector<double>> expected = {{1, 2, 3}, {-4, 5.5, 6e3}, {7, 8, 9}};
@@ -90,9 +38,9 @@ TEST_F(Points, ErrorsNameTheLine) {
             "line 3: '' is not a number; give x,y,z, one point a line");
   EXPECT_EQ(read("b.csv", "1,2,x\n").error,
             "line 1: 'x' is not a number; give x,y,z, one point a line");
-  EXPECT_EQ(read("c.csv", "a\nb\n").error,
-            "line 2: 'b' is not a number; give x,y,z, one point a line");
-  EXPECT_EQ(read("d.csv", "1 2 3\n4 5 6\n").error,
+  EXPECT_EQ(read("c.csv", "1,2,3\na\n").error,
+            "line 2: 'a' is not a number; give x,y,z, one point a line");
+  EXPECT_EQ(read("d.csv", "1,2,3\n4 5 6\n").error,
             "line 2: '4 5 6' is not a number; give x,y,z, one point a line");
   const std::string long_line(LineReader::kMaxLineBytes + 1, '1');
   EXPECT_EQ(read("e.csv", "1,2,3\n" + long_line + "\n").error,
@@ -167,6 +115,25 @@ TEST_F(Points, RefuseDamagedPly) {
       "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999999\nproperty float "
       "x\nproperty float y\nproperty float z\nend_header\n";
   EXPECT_NE(read("e.ply", binary + "123").error.find("middle of its"), std::string::npos);
+}
+
+TEST_F(Points, ReadStandardInputAsAFile) {
+  expect_points(read_input("1 2 3\n4 5 6\n"), {{1, 2, 3}, {4, 5, 6}});
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty "
+      "double z\nend_header\n1 2 3\n";
+  expect_points(read_input(ply), {{1, 2, 3}});
+  EXPECT_EQ(read_input(ply.substr(0, ply.size() - 3)).error.substr(0, 8), "line 8: ");
+  EXPECT_NE(read_input("\x1f\x8b\x08").error.find("gzip"), std::string::npos);
+}
+
+TEST_F(Points, RefuseColumnsOfWhatIsNoText) {
+  EXPECT_NE(read("a.f64", std::string(24, '\0'), 2, "1,2,3").error.find("--columns"),
+            std::string::npos);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty "
+      "double z\nend_header\n1 2 3\n";
+  EXPECT_NE(read("a.ply", ply, 2, "1,2,3").error.find("--columns"), std::string::npos);
 }
 
 TEST_F(Points, RefuseMissingFilesAndDirectories) {

@@ -16,88 +16,10 @@
 #include "tools/cli/file_digest.h"
 #include "tools/cli/file_text.h"
 #include "tools/cli/open_model.h"
-#include "tools/points/answer_writer.h"
 #include "tools/report/slice_image.h"
 
 namespace planetree::tools {
 namespace {
-
-ClosestPoint sample_answer() {
-  ClosestPoint answer;
-  answer.distance = 0.1;
-  answer.lower = 0.09;
-  answer.upper = 1.0 / 3;
-  answer.side = Side::kInside;
-  answer.point = {-0.0, 1e-5, 2};
-  answer.normal = {0, -1, 0};
-  answer.triangle = 12345678901234;
-  answer.feature = Feature::kEdge;
-  answer.status = Status::kExact;
-  return answer;
-}
-
-template <class Answer>
-std::string written(AnswerFormat format, const Answer& answer) {
-  CapturedConsole captured;
-  AnswerWriter writer(captured.console(), format);
-  const Vec3 query{1, std::numeric_limits<double>::quiet_NaN(), 0.1};
-  EXPECT_TRUE(writer.write(std::span(&query, 1), std::span(&answer, 1)));
-  return captured.output();
-}
-
-TEST(AnswerWriter, WritesSeventeenDigits) {
-  EXPECT_EQ(
-      written(AnswerFormat::kCsv, sample_answer()),
-      "1,nan,0.10000000000000001,0.10000000000000001,0.089999999999999997,"
-      "0.33333333333333331,inside,-0,1.0000000000000001e-05,2,0,-1,0,12345678901234,edge,exact\n");
-}
-
-TEST(AnswerWriter, LeavesAMissingTriangleEmpty) {
-  ClosestPoint answer;
-  answer.distance = answer.upper = std::numeric_limits<double>::infinity();
-  answer.status = Status::kBeyondMaxDistance;
-  EXPECT_EQ(written(AnswerFormat::kCsv, answer),
-            "1,nan,0.10000000000000001,inf,0,inf,unknown,0,0,0,0,0,1,,face,beyond_max_distance\n");
-  const auto json = nlohmann::json::parse(written(AnswerFormat::kJsonLines, answer));
-  EXPECT_EQ(json["triangle"], nullptr);
-  EXPECT_EQ(json["distance"], nullptr);
-  EXPECT_EQ(json["y"], nullptr);
-}
-
-TEST(AnswerWriter, WritesTheSideAlone) {
-  const Containment answer{Side::kOnSurface, Status::kExact};
-  EXPECT_EQ(written(AnswerFormat::kCsv, answer), "1,nan,0.10000000000000001,on_surface,exact\n");
-  const auto json = nlohmann::json::parse(written(AnswerFormat::kJsonLines, answer));
-  EXPECT_EQ(json["side"], "on_surface");
-  EXPECT_EQ(json["z"], 0.1);
-  const std::string bytes = written(AnswerFormat::kF64, Containment{Side::kOutside, {}});
-  double numbers[4];
-  ASSERT_EQ(bytes.size(), sizeof numbers);
-  std::memcpy(numbers, bytes.data(), sizeof numbers);
-  EXPECT_EQ(numbers[3], 1.0);
-}
-
-TEST(AnswerWriter, WritesRawNumbers) {
-  const std::string bytes = written(AnswerFormat::kF64, sample_answer());
-  ASSERT_EQ(bytes.size(), 112u);
-  double numbers[14];
-  std::memcpy(numbers, bytes.data(), sizeof numbers);
-  EXPECT_EQ(numbers[3], 0.1);
-  EXPECT_EQ(numbers[6], -1.0);
-  EXPECT_EQ(numbers[13], 12345678901234.0);
-}
-
-TEST(AnswerWriter, HasAWordForEveryEnumerator) {
-  std::set<std::string_view> words;
-  for (std::size_t i = 0; i < kStatusCount; ++i) words.insert(status_word(static_cast<Status>(i)));
-  EXPECT_EQ(words, (std::set<std::string_view>{"exact", "within_error", "degraded",
-                                               "beyond_max_distance", "bad_query"}));
-  EXPECT_EQ(feature_word(Feature::kFace), "face");
-  words.clear();
-  for (std::size_t i = 0; i < kSideCount; ++i) words.insert(side_word(static_cast<Side>(i)));
-  EXPECT_EQ(words, (std::set<std::string_view>{"inside", "outside", "on_surface", "unknown"}));
-  EXPECT_EQ(feature_word(Feature::kVertex), "vertex");
-}
 
 TEST(Octcode, ParsesTheTextItIsShownAs) {
   for (const unsigned bits : {0u, 1u, 5u, 23u, 56u, 57u}) {
@@ -184,6 +106,15 @@ TEST(ErrorLine, IsOneLineWhateverTheName) {
             "planetree: a?b: page 3, at byte 4096: it is wrong; mend it\n");
   error.page = Error::kNowhere;
   EXPECT_EQ(error_line("a", error), "planetree: a: at byte 4096: it is wrong; mend it\n");
+}
+
+TEST(ErrorLine, NamesAPositionOnce) {
+  for (const char* text :
+       {"byte 80: the count is wrong", "line 7: 'x' is no number", "byte 4096: it is damaged"})
+    EXPECT_EQ(error_line("a", make_error(ErrorCode::kBadInput, Error::kNowhere, 80, "%s", text)),
+              std::string("planetree: a: ") + text + "\n");
+  EXPECT_EQ(error_line("a", make_error(ErrorCode::kBadInput, Error::kNowhere, 80, "bytes lack")),
+            "planetree: a: at byte 80: bytes lack\n");
 }
 
 TEST(PagesLost, ReportsUnreadablePagesBeforeTimeouts) {

@@ -1,8 +1,11 @@
 #include "octree/builder/mesh/stream/mesh_text.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <system_error>
 
@@ -104,6 +107,52 @@ bool is_same_word(std::string_view word, std::string_view lower) noexcept {
 
 bool parse_real(std::string_view word, float& value) noexcept { return parse(word, value); }
 bool parse_real(std::string_view word, double& value) noexcept { return parse(word, value); }
+
+bool parse_real(std::string_view word, float& value, double& nearest) noexcept {
+  if (!parse(word, nearest)) return false;
+  // Rounding twice differs from rounding once only where the double lies halfway between floats.
+  constexpr std::uint64_t kLowBits = (std::uint64_t{1} << 29) - 1, kHalf = std::uint64_t{1} << 28;
+  const double magnitude = std::fabs(nearest);
+  const bool is_plain = magnitude >= static_cast<double>(std::numeric_limits<float>::min()) &&
+                        magnitude <= static_cast<double>(std::numeric_limits<float>::max()) &&
+                        (std::bit_cast<std::uint64_t>(nearest) & kLowBits) != kHalf;
+  if (!is_plain) return parse(word, value);
+  value = static_cast<float>(nearest);
+  return true;
+}
+
+bool exceeds_float(std::string_view word, float value, double nearest) noexcept {
+  constexpr std::size_t kFloatDigits = 9;
+  if (!std::isfinite(value) || static_cast<double>(value) == nearest) return false;
+  // Digits, counted from the first that is not 0, and the exponent of the last that is not 0.
+  std::size_t digits = 0, zeros = 0;
+  std::int64_t exponent = 0;
+  bool is_behind_point = false;
+  std::size_t at = 0;
+  for (; at < word.size() && (word[at] != 'e' && word[at] != 'E'); ++at) {
+    const char c = word[at];
+    if (c == '.') is_behind_point = true;
+    if (!is_digit(c)) continue;
+    exponent -= is_behind_point ? 1 : 0;
+    if (c == '0') {
+      zeros += digits > 0 ? 1 : 0;
+      continue;
+    }
+    digits += zeros + 1;
+    zeros = 0;
+  }
+  if (digits <= kFloatDigits) return false;
+  exponent += static_cast<std::int64_t>(zeros);
+  if (at < word.size()) {
+    std::string_view rest = word.substr(at + 1);
+    std::int64_t written = 0;
+    if (take_integer(rest, written)) exponent += std::clamp<std::int64_t>(written, -400, 400);
+  }
+  // Printed from the float, the digits differ from it by half of the last one.
+  const double half = 0.5000001 * std::pow(10.0, static_cast<double>(exponent));
+  const double rounding = 0x1p-52 * std::fabs(nearest);
+  return std::fabs(nearest - static_cast<double>(value)) > half + rounding;
+}
 
 bool take_integer(std::string_view& word, std::int64_t& value) noexcept {
   std::string_view digits = word;

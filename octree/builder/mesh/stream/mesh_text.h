@@ -7,10 +7,11 @@
 /// Lines, words and numbers of text meshes. Nothing here depends on the locale.
 namespace planetree::octree {
 
-/// The beginning of a line.
+/// The beginning of a line, or of a record within a line.
 struct TextPosition {
-  std::uint64_t offset = 0;  ///< byte in the file
-  std::uint64_t line = 1;    ///< counted from 1
+  std::uint64_t offset = 0;   ///< byte in the file
+  std::uint64_t line = 1;     ///< counted from 1
+  std::uint64_t records = 0;  ///< records that end on this line before it; 0 where the line begins
 };
 
 /// What ends a line. With kAny each of "\n", "\r\n" and "\r" does, in any mixture. The others are
@@ -61,6 +62,13 @@ constexpr bool is_space(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
 
+/// Removes white space from the front of `rest`.
+inline void skip_blanks(std::string_view& rest) noexcept {
+  std::size_t begin = 0;
+  while (begin < rest.size() && is_space(rest[begin])) ++begin;
+  rest.remove_prefix(begin);
+}
+
 /// Removes the first word from `rest` and returns it; empty if there is none.
 std::string_view take_word(std::string_view& rest) noexcept;
 
@@ -72,6 +80,14 @@ bool is_same_word(std::string_view word, std::string_view lower) noexcept;
 /// print ("-1.#IND"). False if `word` is none of these.
 bool parse_real(std::string_view word, float& value) noexcept;
 bool parse_real(std::string_view word, double& value) noexcept;
+/// As parse_real(word, value), and gives the double that is nearest to the number.
+bool parse_real(std::string_view word, float& value, double& nearest) noexcept;
+
+/// Whether a number has more than nine digits that count, and they are not those of the float that
+/// is nearest to it, as programs print it: what a float cannot hold is lost.
+///
+/// nearest  the double that is nearest to the number.
+bool exceeds_float(std::string_view word, float value, double nearest) noexcept;
 
 /// Removes a decimal integer from the front of `word`. One that is too large gives the nearest that
 /// fits. False if there is none.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "planetree/error.h"
 #include "planetree/types.h"
@@ -81,7 +82,9 @@ struct MeshSummary {
   std::uint64_t face_records = 0;  ///< faces, facets, f statements or triangles, with skipped ones
   std::uint64_t triangle_indices = 0;  ///< indices given out, those of skipped records included
   bool float32 = false;  ///< float32 holds every value of the declared coordinate types
-  OddPolygons odd_polygons;
+  OddPolygons odd_polygons = {};
+  /// What the reader passed over or took in another way than it is written, a line for each kind.
+  std::vector<std::string> notes = {};
 };
 
 }  // namespace planetree::octree

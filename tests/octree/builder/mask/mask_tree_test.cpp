@@ -265,6 +265,16 @@ TEST(MaskTree, EndsAtTheFinestLevel) {
   EXPECT_GT(found.coloured_cells, 100u);
 }
 
+// Each level halves the needles in a cell of a fan, and lists each of them twice. Without a limit
+// the last of these models has 75,755 cells.
+TEST(MaskTree, HasNoMoreCellsIfTheSameTrianglesAreNeedles) {
+  const auto cells = [](unsigned sides) {
+    return mask_of(store(fan_cylinder(sides, 32000 / sides))).entries.size();
+  };
+  EXPECT_GT(cells(250), 4000u);
+  for (const unsigned sides : {1000u, 8000u}) EXPECT_LT(cells(sides), 16000u) << sides;
+}
+
 // There are few triangles, but most of the root is decided by the two corners where they are.
 TEST(MaskTree, DividesCellsThatTheSurfaceOnlyGrazes) {
   const SampleMask sample(

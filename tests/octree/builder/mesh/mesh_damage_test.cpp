@@ -89,8 +89,12 @@ TEST_P(MeshWithAnEnd, IsRefusedAtEveryTruncation) {
   // The last newline of a text may be missing.
   const std::size_t least = whole.size() - (GetParam().is_text ? 1 : 0);
   EXPECT_TRUE(build_bytes(GetParam(), whole.substr(0, least)));
-  for (std::size_t size = 0; size < least; size += kCutStep)
-    expect_refused(GetParam(), whole.substr(0, size), std::to_string(size) + " bytes");
+  for (std::size_t size = 0; size < least; size += kCutStep) {
+    // Without 'endsolid' an STL may be whole.
+    const std::string cut = whole.substr(0, size);
+    if (cut.ends_with("endfacet") || cut.ends_with("endfacet\n")) continue;
+    expect_refused(GetParam(), cut, std::to_string(size) + " bytes");
+  }
 }
 
 TEST(MeshWithoutAnEnd, DeliversWhatATruncatedFileHolds) {

@@ -93,6 +93,34 @@ TEST(Obj, SkipsBadRecordsAsAWhole) {
       "12: 0 1 0, 1 0 0, 0 0 0\n");
 }
 
+TEST(Obj, NotesStatementsThatAreNotRead) {
+  const std::string mesh = kVertices + "f 1 2 3\n";
+  EXPECT_EQ(notes_of(read_obj_text(mesh + "l 1 2\nl 2 3\np 1\n")),
+            "3 point or line statements not read, the first 'l' in line 5\n");
+  EXPECT_EQ(
+      notes_of(read_obj_text("cstype bezier\ndeg 3\nsurf 0 1 0 1 1 2 3 4\nend\n" + mesh)),
+      "1 statement of curves, patches or other files not read, the first 'surf' in line 3; export "
+      "them as faces\n");
+  EXPECT_EQ(
+      notes_of(read_obj_text(mesh + "bzp 1 2 3\ncurv 0 1 1 2\nfoo\nF 1 2 3\nl 1 2\n")),
+      "2 statements of curves, patches or other files not read, the first 'bzp' in line 5; export "
+      "them as faces\n"
+      "1 point or line statement not read, the first 'l' in line 9\n"
+      "2 unknown statements not read, the first 'foo' in line 7\n");
+  EXPECT_EQ(notes_of(read_obj_text("# v\nmtllib a\ng b\no c\ns off\nvn 0 0 1\nvt 0 0\nbevel on\n" +
+                                   mesh + "\n")),
+            "");
+}
+
+TEST(Obj, ReadsFacesUnderTheirOldName) {
+  const std::string triangle = "0: 0 0 0, 1 0 0, 0 1 0\n";
+  for (const std::string face : {"fo 1 2 3\n", "bevel on\nfo 1/1 2/2 3/3\n", "fo -3 -2 \\\n-1\n"}) {
+    const Reading reading = read_obj_text(kVertices + face);
+    EXPECT_EQ(reading.log, triangle) << face;
+    EXPECT_EQ(notes_of(reading), "");
+  }
+}
+
 TEST(Obj, RefusesUnreadableStatements) {
   expect_refused("v 0 0\n", "line 1: a vertex of fewer than three numbers; copy or export");
   expect_refused("v 0 0 zero\n", "line 1: 'zero' is not a number");
@@ -104,7 +132,11 @@ TEST(Obj, RefusesUnreadableStatements) {
 
 TEST(Obj, RefusesAModelWithoutATriangle) {
   expect_refused(kVertices, "no triangle: the mesh has no faces");
-  expect_refused("", "no triangle: the mesh has no faces");
+  expect_refused("\n", "no triangle: the mesh has no faces");
+  expect_refused(
+      kVertices + "surf 0 1 0 1 1 2 3\n",
+      "no triangle: the mesh has no faces, but 1 statement of curves, patches or other files "
+      "not read, the first 'surf' in line 4; export them as faces");
   expect_refused("f 1 2 3\n",
                  "no triangle: all 1 face records are bad, first line 1: vertex index "
                  "1 is out of range, the mesh has 0 vertices");

@@ -115,7 +115,7 @@ TEST(OffAscii, RefusesVerticesOfOtherDimensions) {
 }
 
 TEST(OffAscii, RefusesHeadersWithoutCounts) {
-  expect_refused("", "line 1: the file ends in front of its counts");
+  expect_refused("\n", "line 2: the file ends in front of its counts");
   expect_refused("OFF", "line 2: the file ends in front of its counts");
   expect_refused("OFF\n# 3 1 0\n", "line 3: the file ends in front of its counts");
   for (const std::string counts : {"3", "3 x 0", "3 1.5 0", "-3 1 0", "3 -1 0", "3 1 x", "3 1 0 0"})
@@ -131,8 +131,8 @@ TEST(OffAscii, RefusesBodiesThatDoNotMatchTheCounts) {
                  "line 8: text follows the last record, so a count in the header is too small");
   expect_refused("OFF\n3 1 0\n0 0 0\n1 0 # 0\n0 1 0\n3 0 1 2\n",
                  "line 4: the line ends in front of 'z'");
-  expect_refused("OFF\n3 1 0\n" + kVertices + "3 0 1\n2\n",
-                 "line 6: the line ends in front of 'corners'");
+  expect_refused("OFF\n3 1 0\n" + kVertices + "3 0 1\n",
+                 "line 6: the file ends in front of 'corners'");
   expect_refused("OFF\n3 1 0\n" + kVertices + "3 0 1 2.5\n",
                  "line 6: '2.5' in 'corners' is not an integer");
   expect_refused("OFF\n3 1 0\n" + kVertices + "-3 0 1 2\n",

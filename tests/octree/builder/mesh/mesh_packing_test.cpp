@@ -163,6 +163,16 @@ TEST(MeshPacking, RefusesDamageAndNamesThePlace) {
   }
 }
 
+TEST(MeshPacking, RefusesByNameWhatIsCompressedTwice) {
+  const Reading gzip = read_bytes(zstd_packed(gzipped(kObj)), ".obj");
+  EXPECT_EQ(gzip.code, ErrorCode::kBadInput);
+  EXPECT_EQ(gzip.error,
+            "byte 0: the file is compressed again with gzip; unpack it until it is a mesh");
+  const Reading zstd = read_bytes(gzipped(zstd_packed(kObj)), ".obj");
+  EXPECT_EQ(zstd.code, ErrorCode::kBadInput);
+  EXPECT_NE(zstd.error.find("compressed again with zstd"), std::string::npos);
+}
+
 TEST(MeshPacking, RefusesAWindowThatDoesNotFitIntoMemory) {
   const std::string packed = zstd_packed(std::string(3 << 20, '#') + "\n" + kObj, 25);
   EXPECT_EQ(read_bytes(packed, ".obj").log, kObjLog);

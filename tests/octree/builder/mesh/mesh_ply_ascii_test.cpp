@@ -165,7 +165,7 @@ TEST(PlyAscii, RefusesBodiesThatDoNotMatchTheHeader) {
   expect_refused(ascii_ply(3, 1, "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n"),
                  "line 11: 'zero' in 'y' is not a number");
   expect_refused(ascii_ply(3, 1, vertices + "3 0 1\n"),
-                 "line 13: the line ends in front of 'vertex_indices'");
+                 "line 13: the file ends in front of 'vertex_indices'");
   expect_refused(ascii_ply(3, 1, vertices + "3 0 1 2 0\n"),
                  "line 13: '0' follows the last declared value");
   expect_refused(ascii_ply(3, 1, vertices + "3 0 1 2.5\n"),
@@ -173,7 +173,7 @@ TEST(PlyAscii, RefusesBodiesThatDoNotMatchTheHeader) {
   expect_refused(ascii_ply(3, 1, vertices + "-1 0 1 2\n"),
                  "line 13: list 'vertex_indices' has a negative length");
   expect_refused(ascii_ply(3, 1, vertices + "999999999999999999999 0 1 2\n"),
-                 "line 13: the line ends in front of 'vertex_indices'");
+                 "line 13: the file ends in front of 'vertex_indices'");
   expect_refused(ascii_ply(3, 1, vertices + "3 0 1 2\n\n3 2 1 0\n"),
                  "line 15: text follows the last record");
 }

@@ -52,23 +52,71 @@ TEST(PlyHeader, BodyStartsAfterALoneCarriageReturn) {
   EXPECT_EQ(header->body.offset, text.size());
 }
 
+// What exporters write that differs from the original description.
+TEST(PlyHeader, AcceptsItsDialects) {
+  const std::string format = "format ascii 1.0\n", end = "end_header\n";
+  for (const std::string& text :
+       {"\xEF\xBB\xBFply\n" + format + kVertex + kFace + end,
+        "PLY\n" + format + kVertex + kFace + end, "ply\nformat ascii 1\n" + kVertex + kFace + end,
+        "ply\nformat ascii\n" + kVertex + kFace + end,
+        "ply \n\n" + format + "\ncomment\ncomment a: b\n" + kVertex + "obj_info x\n" + kFace +
+            "\n" + end,
+        "ply\n\t" + format +
+            "ELEMENT vertex 3 \nProperty\tFLOAT x\t\nproperty float32_t y\n"
+            "property float z\n" +
+            kFace + end}) {
+    const Result<PlyHeader> header = parse_ply_header(text);
+    ASSERT_TRUE(is_ply(text) && header) << text;
+    EXPECT_EQ(header->vertices().count, 3U);
+    EXPECT_EQ(header->body.offset, text.size());
+  }
+}
+
+TEST(PlyHeader, AcceptsEverySpellingOfTheIndices) {
+  for (const std::string name : {"vertex_indices", "vertex_index", "vertex_indexes",
+                                 "vertexIndices", "vertex_Index", "VERTEX_INDICES"})
+    EXPECT_TRUE(parse_ply_header("ply\nformat ascii 1.0\n" + kVertex +
+                                 "element face 1\nproperty list uchar int " + name +
+                                 "\nend_header\n"))
+        << name;
+  for (const std::string name : {"vertex", "indices", "vertex_ids"})
+    expect_refused("ply\nformat ascii 1.0\n" + kVertex +
+                       "element face 1\nproperty list uchar int " + name + "\nend_header\n",
+                   "the faces have 0 lists");
+}
+
+TEST(PlyHeader, TakesStripsOrFaces) {
+  const std::string begin = "ply\nformat ascii 1.0\n" + kVertex, end = "end_header\n";
+  const std::string list = "property list int int vertex_indices\n";
+  for (const bool has_empty_face : {false, true}) {
+    const std::string faces = has_empty_face ? "element face 0\n" + list : "";
+    const auto header = parse_ply_header(begin + faces + "element tristrips 2\n" + list + end);
+    ASSERT_TRUE(header);
+    EXPECT_TRUE(header->has_strips);
+    EXPECT_EQ(header->faces().name, "tristrips");
+  }
+  const auto faces = parse_ply_header(begin + kFace + "element tristrips 0\n" + list + end);
+  ASSERT_TRUE(faces);
+  EXPECT_FALSE(faces->has_strips);
+}
+
 TEST(PlyHeader, AcceptsBothNamesOfEveryType) {
   const std::pair<const char*, PlyType> types[] = {
-      {"char", PlyType::kInt8},      {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
-      {"uint8", PlyType::kUint8},    {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},
-      {"ushort", PlyType::kUint16},  {"uint16", PlyType::kUint16},   {"int", PlyType::kInt32},
-      {"int32", PlyType::kInt32},    {"uint", PlyType::kUint32},     {"uint32", PlyType::kUint32},
-      {"float", PlyType::kFloat32},  {"float32", PlyType::kFloat32}, {"double", PlyType::kFloat64},
-      {"float64", PlyType::kFloat64}};
+      {"char", PlyType::kInt8},       {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
+      {"uint8", PlyType::kUint8},     {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},
+      {"ushort", PlyType::kUint16},   {"uint16", PlyType::kUint16},   {"int", PlyType::kInt32},
+      {"int32", PlyType::kInt32},     {"uint", PlyType::kUint32},     {"uint32", PlyType::kUint32},
+      {"float", PlyType::kFloat32},   {"float32", PlyType::kFloat32}, {"double", PlyType::kFloat64},
+      {"float64", PlyType::kFloat64}, {"long", PlyType::kInt64},      {"int64", PlyType::kInt64},
+      {"ulong", PlyType::kUint64},    {"uint64", PlyType::kUint64},   {"int64_t", PlyType::kInt64},
+      {"uint8_t", PlyType::kUint8},   {"UCHAR", PlyType::kUint8}};
   for (const auto& [name, type] : types) {
     const Result<PlyHeader> header =
         parse_ply_header("ply\nformat ascii 1.0\nelement vertex 3\nproperty " + std::string(name) +
                          " x\nproperty float y\nproperty float z\n" + kFace + "end_header\n");
     ASSERT_TRUE(header) << name;
     EXPECT_EQ(header->coordinate_type(0), type) << name;
-    EXPECT_EQ(header->float32(),
-              type != PlyType::kInt32 && type != PlyType::kUint32 && type != PlyType::kFloat64)
-        << name;
+    EXPECT_EQ(header->float32(), type == PlyType::kFloat32 || size_bytes(type) <= 2) << name;
   }
 }
 
@@ -98,17 +146,14 @@ TEST(PlyHeader, RefusesLayoutsThatAreNoMesh) {
   const std::string end = "end_header\n";
   expect_refused(begin + kFace + end, "no element 'vertex'");
   expect_refused(begin + kVertex + end, "no triangle: the header has no element 'face'");
-  expect_refused(
-      begin + kVertex + "element tristrips 1\nproperty list int int vertex_index\n" + end,
-      "triangle strips are not supported");
   expect_refused(begin + kVertex + kFace + "element tristrips 1\n" + end,
-                 "triangle strips are not supported");
+                 "both faces and triangle strips: write one of them");
+  expect_refused(begin + kVertex + "element tristrips 1\nproperty int vertex_indices\n" + end,
+                 "'vertex_indices' is not a list of integers");
   expect_refused(begin + "element vertex 3\nproperty float x\nproperty float y\n" + kFace + end,
                  "the vertices have 0 numbers 'z', not one");
   expect_refused(begin + kVertex + "property float y\n" + kFace + end,
                  "the vertices have 2 numbers 'y', not one");
-  expect_refused(begin + kVertex + "property list uchar int tags\n" + kFace + end,
-                 "binary vertices with a list are not supported");
   expect_refused(begin + kVertex + "element face 1\nproperty int a\n" + end,
                  "the faces have 0 lists 'vertex_indices' or 'vertex_index'");
   expect_refused(begin + kVertex + kFace + "property list uchar int vertex_index\n" + end,

@@ -84,6 +84,14 @@ struct Reading {
   std::uint64_t offset = Error::kNowhere;
 };
 
+/// The notes of a reading, a line each.
+inline std::string notes_of(const Reading& reading) {
+  std::string text;
+  if (reading.summary)
+    for (const std::string& note : reading.summary->notes) text += note + "\n";
+  return text;
+}
+
 inline Reading read_path(const std::filesystem::path& path, MeshScratch& scratch) {
   RecordingSink recorder;
   const Result<MeshSummary> summary = read_mesh(path, recorder, scratch);

@@ -43,6 +43,58 @@ TEST(MeshLines, MatchTheLinesOfTheText) {
   }
 }
 
+/// The words of a text, each with its line.
+template <class Lines>
+std::string words_of(Lines& lines) {
+  std::string words;
+  while (lines.next()) {
+    std::string_view rest = lines.line();
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
+      words += std::to_string(lines.position().line) + ' ' + std::string(word) + '\n';
+  }
+  return words;
+}
+
+// Windows of 4 KiB end in words, in comments and within "\r\n".
+TEST(MeshLines, DividedHaveTheWordsOfTheText) {
+  std::mt19937 random(4);
+  for (const int words_a_line : {3, 400, 3000, 100000}) {
+    std::string text;
+    for (int i = 0; i < 30000; ++i) {
+      text += std::string(1 + random() % 9, "abc."[random() % 4]);
+      if (random() % 1000 == 0) text += '#';
+      if (random() % static_cast<unsigned>(words_a_line) == 0)
+        text += std::string_view("\r\n\n\r").substr(random() % 3, 1 + random() % 2);
+      text += " \t"[random() % 2];
+    }
+    const TemporaryFile path(text, ".txt");
+    const auto file = MeshFile::open(path.path());
+    ASSERT_TRUE(file);
+    for (const LineComment comment : {LineComment::kNone, LineComment::kHash}) {
+      LineScanner whole(text, {}, LineEnd::kAny, comment);
+      const std::string expected = words_of(whole);
+      for (const std::size_t window_bytes : {std::size_t{1000}, MeshWindow::kWindowBytes}) {
+        MeshLines lines(*file, {}, comment, window_bytes, LongLines::kDivided);
+        EXPECT_TRUE(words_of(lines) == expected) << words_a_line;
+        EXPECT_FALSE(lines.failure());
+        EXPECT_EQ(lines.after().offset, text.size());
+      }
+    }
+  }
+}
+
+TEST(MeshLines, EndInFrontOfZeroBytes) {
+  for (const std::string& end :
+       {std::string("\n"), std::string(10, '\0'), std::string("\n\x1a\r\n"),
+        std::string(100000, '\0'), std::string(70, ' ') + '\0' + '\n'}) {
+    const TemporaryFile path("one\ntwo" + end, ".txt");
+    const auto file = MeshFile::open(path.path());
+    ASSERT_TRUE(file);
+    MeshLines lines(*file, {});
+    EXPECT_EQ(words_of(lines), "1 one\n2 two\n");
+  }
+}
+
 TEST(MeshLines, MayBeThirtyTwoMebibytesLong) {
   const std::string text = "ab\n" + std::string(MeshLines::kMaxLineBytes - 1, 'c') + "\n";
   for (const bool longer : {false, true}) {

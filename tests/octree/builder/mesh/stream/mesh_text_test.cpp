@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <limits>
+#include <random>
+#include <string>
+#include <vector>
 
 namespace planetree::octree {
 namespace {
@@ -41,6 +47,41 @@ TEST(MeshText, RoundsFloatsOnceAndNotThroughDouble) {
   EXPECT_EQ(narrow("1e-45"), std::numeric_limits<float>::denorm_min());
   // Just above the midpoint of 1 and the next float; rounded to double it is the midpoint.
   EXPECT_EQ(narrow("1.00000005960464477539062500001"), std::nextafter(1.0F, 2.0F));
+}
+
+// Reading both at once gives the same as reading each.
+TEST(MeshText, ReadsFloatAndDoubleTogether) {
+  std::mt19937_64 random(5);
+  std::vector<std::string> words = {"0.1",
+                                    "-0",
+                                    "1e-45",
+                                    "1e39",
+                                    "-1e-60",
+                                    "1.17549435e-38",
+                                    "nan",
+                                    "inf",
+                                    "1.00000005960464477539062500001",
+                                    "1.000000059604644775390625",
+                                    "3.4028235677973366e38",
+                                    "16777217"};
+  for (int i = 0; i < 20000; ++i) {
+    const auto bits = static_cast<std::uint32_t>(random());
+    const auto value = std::bit_cast<float>(bits);
+    // At, and about, the middle between two floats.
+    const double middle =
+        0.5 * static_cast<double>(value) + 0.5 * static_cast<double>(std::nextafter(value, 2e38F));
+    char word[400];
+    std::snprintf(word, sizeof word, "%.*g", static_cast<int>(1 + random() % 40), middle);
+    words.push_back(word);
+  }
+  for (const std::string& word : words) {
+    float together = 0, alone = 0;
+    double nearest = 0, wide = 0;
+    ASSERT_TRUE(parse_real(word, together, nearest) && parse_real(word, alone) &&
+                parse_real(word, wide));
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(together), std::bit_cast<std::uint32_t>(alone)) << word;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(nearest), std::bit_cast<std::uint64_t>(wide)) << word;
+  }
 }
 
 TEST(MeshText, OverflowsAndUnderflowsCorrectly) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "octree/builder/mesh/stream/mesh_text.h"
+
+namespace planetree::octree {
+
+/// Counts one kind of thing that a reader passes over, or takes in another way than it is written,
+/// and remembers the first.
+class MeshNote {
+ public:
+  /// line  of the thing, from 1; 0 in a binary file.
+  /// word  by which it can be recognised.
+  void add(std::uint64_t line, std::string_view word = {}) {
+    if (count_++ > 0) return;
+    line_ = line;
+    word_ = printable(word);
+  }
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] explicit operator bool() const { return count_ > 0; }
+
+  /// "3 curves", or "1 curve".
+  [[nodiscard]] std::string counted(const std::string& noun) const {
+    return std::to_string(count_) + ' ' + noun + (count_ == 1 ? "" : "s");
+  }
+  /// "the first 'surf' in line 12", or without the word where there is none.
+  [[nodiscard]] std::string first() const {
+    return "the first " + (word_.empty() ? std::string() : '\'' + word_ + "' ") + "in line " +
+           std::to_string(line_);
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  std::uint64_t line_ = 0;
+  std::string word_;
+};
+
+}  // namespace planetree::octree

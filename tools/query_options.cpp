@@ -1,0 +1,174 @@
+#include <map>
+#include <memory>
+#include <string>
+
+#include "octree/builder/mesh/stream/mesh_text.h"
+#include "tools/cli/subcommand_options.h"
+#include "tools/points/line_fields.h"
+#include "tools/query.h"
+
+namespace planetree::tools {
+namespace {
+
+constexpr std::uint64_t kMaxWaitMs = std::uint64_t{24} * 60 * 60 * 1000;
+constexpr std::uint64_t kMaxWork = QueryOptions::kNoLimit - 1;
+
+struct Options {
+  QueryArguments arguments;
+  std::uint64_t max_work = QueryOptions::kNoLimit;
+  bool never_wait = false;
+};
+
+/// The parts in a list of their words; 0 if one is none.
+std::uint32_t parts_of(const std::string& text) {
+  static const std::map<std::string_view, std::uint32_t> parts = {
+      {"distance", kDistance}, {"side", kSide}, {"normal", kNormal}};
+  std::uint32_t all = 0;
+  for (LineFields words(text, Separator::kComma); words.next();) {
+    const auto part = parts.find(words.field());
+    if (part == parts.end()) return 0;
+    all |= part->second;
+  }
+  return all;
+}
+
+std::string parts_complaint(const std::string& text) {
+  if (parts_of(text) != 0) return {};
+  return "'" + octree::printable(text) +
+         "' is not a list of parts; give distance, side, normal or "
+         "several of them, with commas";
+}
+
+std::string columns_complaint(const std::string& text) {
+  const auto columns = ColumnChoice::parse(text);
+  return columns ? std::string() : "'" + octree::printable(text) + "': " + columns.error().text;
+}
+
+void add_files(SubcommandOptions& subcommand, QueryArguments& arguments) {
+  subcommand.require(
+      subcommand.path("file", "FILE", arguments.file, "File that planetree build wrote"));
+  subcommand.default_text(
+      subcommand.path(
+          "points", "POINTS", arguments.points,
+          "Query points, in model units: text with one point a line (see --columns), PLY (its "
+          "vertices) or .f64 (raw little-endian float64 triples); - is standard input, text or "
+          "PLY"),
+      "-");
+  subcommand.text(
+      "--columns", "X,Y,Z", columns_complaint,
+      [&arguments](const std::string& text) { arguments.columns = *ColumnChoice::parse(text); },
+      "The columns of x, y and z in a text, by their names in its header or by numbers from 1. "
+      "Without it a header must name x, y and z (X [m], Point_X, pos.x, Points:0 or easting, "
+      "northing, height will do), and without a header they are the first three. Commas, "
+      "semicolons, tabs or blanks separate columns; lines that begin with # or // are comments; "
+      "numbers may have a decimal comma where that leaves no doubt");
+  subcommand.default_text(
+      subcommand.path("-o,--output", "OUT", arguments.output,
+                      "File to write; it appears only when it is complete, and not at all if a "
+                      "point cannot be read; - is standard output"),
+      "-");
+  subcommand.flag("--force", arguments.force, "Replace the output if it exists");
+}
+
+void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
+  static const std::map<std::string, AnswerFormat> formats = {{"csv", AnswerFormat::kCsv},
+                                                              {"jsonl", AnswerFormat::kJsonLines},
+                                                              {"f64", AnswerFormat::kF64}};
+  AnswerForm& form = arguments.form;
+  const auto contains =
+      subcommand.flag("--contains", arguments.contains, "Report only the side of each point");
+  const auto is_signed = subcommand.flag(
+      "--signed", form.signed_distance,
+      "Report the distance as signed_distance: negative inside, NaN where the side is unknown. The "
+      "interval of lower and upper is that of the distance without its sign");
+  const auto parts = subcommand.text(
+      "--parts", "PARTS", parts_complaint,
+      [&arguments](const std::string& text) { arguments.options.parts = parts_of(text); },
+      "Compute only these parts, to save time: distance (with interval, nearest point, triangle "
+      "and feature), side, normal (needs the others and includes them), with commas between them. "
+      "The other columns of csv are empty, the other keys of jsonl are left out, the other numbers "
+      "of f64 are NaN");
+  subcommand.default_text(parts, "distance,side,normal");
+  subcommand.exclude(is_signed, contains);
+  subcommand.exclude(parts, contains);
+  subcommand.default_text(
+      subcommand.word(
+          "--format", {"csv", "jsonl", "f64"},
+          [&form](const std::string& name) { form.format = formats.at(name); },
+          "csv: a header and a row for each point; jsonl: an object for each point, with null for "
+          "numbers that are not finite; f64: 14 little-endian float64 for each point (x y z "
+          "distance lower upper side px py pz nx ny nz triangle; side is -1 inside, 0 on the "
+          "surface, 1 outside; NaN means an unknown side or no triangle), with --contains 4 (x y z "
+          "side)"),
+      "csv");
+}
+
+void add_limits(SubcommandOptions& subcommand, Options& options) {
+  QueryArguments& arguments = options.arguments;
+  subcommand.default_text(
+      subcommand.length("--max-error", arguments.options.max_error, false,
+                        "Tolerance of the distance, in model units: the search may stop once the "
+                        "interval is this narrow; 0 means exact"),
+      "0");
+  subcommand.default_text(subcommand.length("--max-distance", arguments.options.max_distance, true,
+                                            "Search no farther than this, in model units"),
+                          "inf");
+  subcommand.default_text(
+      subcommand.count("--max-work", options.max_work, kMaxWork,
+                       "Visit at most this many records of the tree and the mask for each point. "
+                       "After them the answer is degraded, with an interval that holds"),
+      "no limit; 4096 with --never-wait");
+  subcommand.flag(
+      "--never-wait", options.never_wait,
+      "Answer as in real time, only from the pages that are in memory, while the others "
+      "are being read. Answers are degraded where pages are missing, and may differ "
+      "from run to run");
+  subcommand.default_text(
+      subcommand.count("--wait-limit", arguments.wait_limit_ms, kMaxWaitMs,
+                       "Longest wait for one page, in milliseconds. After it the answer is "
+                       "degraded, with an interval that holds; other answers are not affected"),
+      "10000");
+  subcommand.default_text(
+      subcommand.bytes("--memory", arguments.memory_bytes, "Maximum memory for the model"), "256M");
+  subcommand.default_text(
+      subcommand.count(
+          "--threads", arguments.threads, OpenOptions::kMaxBatchThreads,
+          "Number of threads; 0 means one for each processor. Answers do not depend on it"),
+      "0");
+}
+
+/// What is wrong with the options together.
+std::string complaint_of(const QueryArguments& arguments) {
+  const std::uint32_t parts = arguments.options.parts;
+  const bool has_both =
+      (parts & kNormal) != 0 || (parts & (kDistance | kSide)) == (kDistance | kSide);
+  return !arguments.form.signed_distance || has_both
+             ? std::string()
+             : "--signed needs the distance and the side; add both to --parts";
+}
+
+}  // namespace
+
+void add_query(CLI::App& app, Console& console, std::function<int()>& action) {
+  const auto options = std::make_shared<Options>();
+  QueryArguments& arguments = options->arguments;
+  SubcommandOptions subcommand(app, "query",
+                               "Find the nearest surface point and the side of each point");
+  add_files(subcommand, arguments);
+  add_answers(subcommand, arguments);
+  add_limits(subcommand, *options);
+  subcommand.flag("--json", arguments.json,
+                  "Report at the end as one JSON object, the last line on standard error; progress "
+                  "as JSON lines there too");
+  subcommand.flag("--quiet", arguments.quiet, "Show no progress");
+  subcommand.on_given([options, &console, &action] {
+    QueryArguments& given = options->arguments;
+    given.options.max_work = static_cast<std::uint32_t>(options->max_work);
+    given.options.wait = options->never_wait ? Wait::kNever : Wait::kForPages;
+    given.form.parts = given.options.parts;
+    action = [options, &console] { return run_query(options->arguments, console); };
+    return complaint_of(given);
+  });
+}
+
+}  // namespace planetree::tools
