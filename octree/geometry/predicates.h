@@ -50,7 +50,7 @@ int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept
 
 /// The same as orientation() and normal_sign(), for arguments that the filter in double cannot
 /// decide. They compute in integers: no allocation, no rounding, no dependence on the thread's
-/// floating-point mode. A call takes some 50 ns if the coordinates take up to 40 bits along each
+/// floating-point mode. A call takes some 50 ns if the coordinates have at most 40 bits along each
 /// axis, as those of float models mostly do, otherwise about a microsecond.
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;
 int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;

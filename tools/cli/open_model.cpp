@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cinttypes>
-#include <thread>
+
+#include "storage/system/processors.h"
 
 namespace planetree::tools {
 
@@ -12,7 +13,7 @@ Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory
   options.memory_budget_bytes = memory_bytes;
   options.max_probes = 1;
   options.wait_limit_ms = wait_limit_ms;
-  if (batch_threads == 0) batch_threads = std::max(std::thread::hardware_concurrency(), 1u);
+  if (batch_threads == 0) batch_threads = storage::usable_processors();
   options.batch_threads = std::min(batch_threads, OpenOptions::kMaxBatchThreads);
   auto model = Model::open(path, options);
   if (model && model->stats().header_copy_damaged)
