@@ -84,6 +84,7 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
                         limits.readers() * FetchWorker::kProbeBytes * options.fetch_threads;
   limits.locking = options.locking;
   limits.wait_limit = std::chrono::milliseconds(options.wait_limit_ms);
+  limits.use_io_uring = options.use_io_uring;
   limits.policy = seams.policy;
   limits.arena.readers = limits.readers();
   limits.arena.model_bytes = sizeof(ServingModel);

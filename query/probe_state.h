@@ -63,22 +63,24 @@ class ProbeState {
  private:
   ProbeState(const ServingModel& model, cache::Reader reader,
              std::unique_ptr<BatchBuffers> batch_buffers) noexcept
-      : model_(model),
-        trace_(model.page_trace_writer(reader.index())),
-        batch_buffers_(std::move(batch_buffers)),
-        reader_(std::move(reader)) {}
+      : reader_(std::move(reader)),
+        model_(model),
+        trace_(model.page_trace_writer(reader_.index())),
+        batch_buffers_(std::move(batch_buffers)) {}
 
   Containment search_side(const Vec3& query, const QueryOptions& options,
                           const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
                           PageTraceWriter* trace) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts) noexcept;
 
+  // First, so that it is destroyed last: once the reader slot is released, another thread may make
+  // a probe in this memory.
+  cache::Reader reader_;
   const ServingModel& model_;
   PageTraceWriter trace_;
   std::unique_ptr<BatchBuffers> batch_buffers_;
   std::uint32_t last_parts_ = kAllParts;  // parts that the last query computed
   Coherence coherence_;
-  cache::Reader reader_;  // last: once it is released, another probe may take the memory
 };
 
 inline Containment ProbeState::contains_fast(const Vec3& query,

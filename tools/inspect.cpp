@@ -166,7 +166,9 @@ int Inspection::show_nodes() {
 
 int show_slice(const InspectArguments& arguments, Console& console) {
   const std::string file = arguments.file.string();
-  const auto model = open_model(arguments.file, kSliceMemoryBytes, console);
+  OpenOptions options;
+  options.memory_budget_bytes = kSliceMemoryBytes;
+  const auto model = open_model(arguments.file, options, console);
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());

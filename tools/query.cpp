@@ -132,6 +132,15 @@ Result<void> check_output(const QueryArguments& arguments, const Console& consol
                     "a terminal cannot show raw numbers; use --output, or omit --format f64");
 }
 
+OpenOptions open_options(const QueryArguments& arguments) {
+  OpenOptions options;
+  options.memory_budget_bytes = arguments.memory_bytes;
+  options.batch_threads = static_cast<unsigned>(arguments.threads);
+  options.wait_limit_ms = static_cast<unsigned>(arguments.wait_limit_ms);
+  options.use_io_uring = !arguments.no_io_uring;
+  return options;
+}
+
 std::string output_name(const QueryArguments& arguments) {
   return arguments.output == "-" ? "standard output" : arguments.output.string();
 }
@@ -142,9 +151,7 @@ int run_query(const QueryArguments& arguments, Console& console) {
   if (const auto checked = check_output(arguments, console); !checked)
     return console.fail(output_name(arguments), checked.error());
   const std::string file = arguments.file.string();
-  const auto model = open_model(arguments.file, arguments.memory_bytes, console,
-                                static_cast<unsigned>(arguments.threads),
-                                static_cast<unsigned>(arguments.wait_limit_ms));
+  const auto model = open_model(arguments.file, open_options(arguments), console);
   if (!model) return console.fail(file, model.error());
   auto probe = Probe::create(*model);
   if (!probe) return console.fail(file, probe.error());

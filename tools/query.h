@@ -29,6 +29,7 @@ struct QueryArguments {
   std::uint64_t memory_bytes = std::uint64_t{256} << 20;
   std::uint64_t threads = 0;  ///< batch threads; 0: one for each processor
   std::uint64_t wait_limit_ms = OpenOptions().wait_limit_ms;
+  bool no_io_uring = false;
   AnswerForm form;
   bool json = false;
   bool quiet = false;

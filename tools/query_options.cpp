@@ -128,6 +128,9 @@ void add_limits(SubcommandOptions& subcommand, Options& options) {
                        "Longest wait for one page, in milliseconds. After it the answer is "
                        "degraded, with an interval that holds; other answers are not affected"),
       "10000");
+  subcommand.flag("--no-io-uring", arguments.no_io_uring,
+                  "Do not wait for pages by io_uring but poll for them: for systems that end a "
+                  "process that tries");
   subcommand.default_text(
       subcommand.bytes("--memory", arguments.memory_bytes, "Maximum memory for the model"), "256M");
   subcommand.default_text(

@@ -34,9 +34,20 @@ void drop_from_page_cache(const std::filesystem::path& path) {
   ::close(file);
 }
 
+OpenOptions options_of(const TouchArguments& arguments) {
+  OpenOptions options;
+  options.memory_budget_bytes = arguments.memory_bytes;
+  options.use_io_uring = !arguments.no_io_uring;
+  options.max_probes = 1;
+  if (!arguments.trace.empty()) options.page_trace_capacity = PageTraceDrain::kAccessesWaiting;
+  return options;
+}
+
 /// Finds the tip's path with a model of its own, so that it leaves no page in the session's memory.
 Result<std::vector<Vec3>> find_path(const TouchArguments& arguments, Console& console) {
-  const auto model = open_model(arguments.file, arguments.memory_bytes, console);
+  OpenOptions options = options_of(arguments);
+  options.page_trace_capacity = 0;
+  const auto model = open_model(arguments.file, options, console);
   if (!model) return model.error();
   auto probe = Probe::create(*model);
   if (!probe) return probe.error();
@@ -55,14 +66,6 @@ Result<std::optional<OutputFile>> open_extra_output(const std::filesystem::path&
 Result<void> write_whole(OutputFile& file, const std::string& text) {
   if (const auto written = file.write(std::as_bytes(std::span(text))); !written) return written;
   return file.commit();
-}
-
-OpenOptions options_of(const TouchArguments& arguments) {
-  OpenOptions options;
-  options.memory_budget_bytes = arguments.memory_bytes;
-  options.max_probes = 1;
-  if (!arguments.trace.empty()) options.page_trace_capacity = PageTraceDrain::kAccessesWaiting;
-  return options;
 }
 
 }  // namespace
@@ -137,6 +140,9 @@ void add_touch(CLI::App& app, Console& console, std::function<int()>& action) {
   subcommand.flag(
       "--cold", options->cold,
       "Drop the file from the system's page cache first, so that every page comes from the disk");
+  subcommand.flag("--no-io-uring", options->no_io_uring,
+                  "Do not wait for pages by io_uring but poll for them: for systems that end a "
+                  "process that tries");
   subcommand.flag("--json", options->json, "Report as one JSON object");
   subcommand.on_given([options, &console, &action]() -> std::string {
     if (options->trace == "-" || options->ticks == "-")

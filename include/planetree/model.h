@@ -75,6 +75,11 @@ struct OpenOptions {
   /// takes.
   unsigned wait_limit_ms = 10'000;
 
+  /// Whether blocking queries may wait by io_uring rings; see wait_limit_ms. Set it to false if a
+  /// filter of system calls ends the process instead of refusing the call. A ring that the system
+  /// refuses is no error: queries then poll.
+  bool use_io_uring = true;
+
   static constexpr unsigned kMaxProbes = 1024;       ///< limit of `max_probes`
   static constexpr unsigned kMaxFetchThreads = 64;   ///< limit of `fetch_threads`
   static constexpr unsigned kMaxBatchThreads = 256;  ///< limit of `batch_threads`

@@ -27,6 +27,7 @@
 #include "octree/builder/tree/built_tree.h"
 #include "octree/builder/tree_file.h"
 #include "octree/geometry/strict_math.h"
+#include "planetree/model.h"
 
 namespace planetree::octree {
 namespace {
@@ -333,13 +334,15 @@ Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::p
   if (options.box)
     if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->with_checkpoint();
-  // More threads than processors must be allowed. Fewer are left to the arena, so that the caller's
-  // other work with TBB is not slowed down.
+  // As query/serve/batch_threads.cpp does: oneTBB must allow more threads than processors, or it
+  // writes a warning. Fewer are left to the arena, so that the caller's other work with oneTBB is
+  // not slowed down.
+  constexpr auto kAllowed = tbb::global_control::max_allowed_parallelism;
   std::optional<tbb::global_control> limit;
   if (memory->threads > tbb::info::default_concurrency())
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(memory->threads));
-  tbb::task_arena arena(memory->threads);
+    limit.emplace(kAllowed, std::size_t{OpenOptions::kMaxBatchThreads});
+  const std::size_t allowed = tbb::global_control::active_value(kAllowed);
+  tbb::task_arena arena(std::min(memory->threads, static_cast<int>(allowed)));
   return arena.execute([&] {
     TreeBuild build(input, output, options, *memory, progress, seams);
     auto report = build.run();

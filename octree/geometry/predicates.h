@@ -57,9 +57,9 @@ int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept
 
 /// The same as orientation(), normal_sign() and polygon_area_sign(), for arguments that the filter
 /// in double cannot decide. They compute in integers: no allocation, no rounding, no dependence on
-/// the thread's floating-point mode. A call takes some 50 ns if the coordinates take up to 40 bits
-/// along each axis, as those of float models mostly do, otherwise about a microsecond. The area of
-/// a polygon takes about a microsecond per corner.
+/// the thread's floating-point mode. The first two take some 50 ns if the coordinates have at most
+/// 40 bits along each axis, as those of float models mostly do, otherwise about a microsecond. The
+/// last takes about a microsecond per corner.
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;
 int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept;
 int exact_polygon_area_sign(std::span<const Vec3> corners, unsigned axis) noexcept;

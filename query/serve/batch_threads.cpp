@@ -1,12 +1,15 @@
 #include "query/serve/batch_threads.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
 #include "octree/geometry/fp_environment.h"
+#include "planetree/model.h"
 
 namespace planetree::query {
 namespace {
@@ -16,6 +19,17 @@ namespace {
 constexpr std::size_t kPieceQueries = 128;
 
 }  // namespace
+
+// oneTBB writes a warning to standard error if an arena asks for more threads than are allowed. It
+// allows as many as there are processors, or the least number that a global_control states; so all
+// of ours state the same. The program may have stated fewer, which is kept to.
+BatchThreads::BatchThreads(unsigned threads) {
+  constexpr auto kAllowed = tbb::global_control::max_allowed_parallelism;
+  if (static_cast<int>(threads) > tbb::info::default_concurrency())
+    limit_.emplace(kAllowed, std::size_t{OpenOptions::kMaxBatchThreads});
+  const std::size_t allowed = tbb::global_control::active_value(kAllowed);
+  arena_.initialize(static_cast<int>(std::min<std::size_t>(threads, allowed)));
+}
 
 Result<std::unique_ptr<BatchThreads>> BatchThreads::create(unsigned threads) {
   try {

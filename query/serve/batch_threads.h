@@ -3,7 +3,9 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <optional>
 
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "planetree/error.h"
@@ -29,8 +31,10 @@ class BatchThreads {
   bool run(const void* batch, std::size_t count, Work work) noexcept;
 
  private:
-  explicit BatchThreads(unsigned threads) : arena_(static_cast<int>(threads)) {}
+  explicit BatchThreads(unsigned threads);
 
+  // Declared first: the arena may not ask for more threads than oneTBB allows.
+  std::optional<tbb::global_control> limit_;
   tbb::task_arena arena_;
   std::atomic<bool> busy_{false};
 };

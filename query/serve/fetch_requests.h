@@ -7,8 +7,9 @@
 
 namespace planetree::query {
 
-/// A query that lacked pages: a real-time query, or a blocking one that gave up waiting. A fetch thread makes the pages resident by running the
-/// query again as a blocking one. The members besides `point` are those of QueryOptions.
+/// A query that lacked pages: a real-time query, or a blocking one that gave up waiting. A fetch
+/// thread makes the pages resident by running the query again as a blocking one. The members
+/// besides `point` are those of QueryOptions.
 struct FetchRequest {
   Vec3 point;  ///< model units
   double max_error = 0;

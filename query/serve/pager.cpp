@@ -39,9 +39,9 @@ Result<void> Pager::claim(const Limits& limits) {
   // pin() is one more.
   const std::uint64_t fetcher_count = std::uint64_t{cache_limits.max_readers} + 1;
   max_wait_ = std::min(limits.wait_limit, kMaxReadWait);
+  max_read_waits_ = limits.use_io_uring ? std::min(fetcher_count, kMaxReadWaits) : 0;
   const std::uint64_t wait_bytes =
-      fetcher_count * sizeof(FetcherWait) +
-      std::min(fetcher_count, kMaxReadWaits) * storage::ReadWait::kMappedBytes;
+      fetcher_count * sizeof(FetcherWait) + max_read_waits_ * storage::ReadWait::kMappedBytes;
   cache_limits.reserved_bytes = file_.table_memory_bytes() + fetcher_count * scratch_bytes() +
                                 wait_bytes + sizeof(Pager) + QueryArena::bytes(needs) +
                                 limits.probe_bytes * limits.max_probes + limits.thread_bytes;
@@ -106,9 +106,9 @@ storage::ReadLimits Pager::read_limits(const cache::FillRequest& request) noexce
 
 storage::ReadWait* Pager::read_wait_for(std::uint32_t fetcher) noexcept {
   FetcherWait& fetcher_wait = fetcher_waits_[fetcher];
-  if (!fetcher_wait.is_granted && granted_waits_.load(std::memory_order_relaxed) < kMaxReadWaits)
+  if (!fetcher_wait.is_granted && granted_waits_.load(std::memory_order_relaxed) < max_read_waits_)
     fetcher_wait.is_granted =
-        granted_waits_.fetch_add(1, std::memory_order_relaxed) < kMaxReadWaits;
+        granted_waits_.fetch_add(1, std::memory_order_relaxed) < max_read_waits_;
   return fetcher_wait.is_granted ? &fetcher_wait.wait : nullptr;
 }
 

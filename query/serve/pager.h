@@ -30,6 +30,7 @@ class Pager {
     unsigned thread_probes = 0;      ///< number of probes of the model's threads
     Locking locking = Locking::kTry;
     std::chrono::milliseconds wait_limit{};  ///< longest wait of a query for one page
+    bool use_io_uring = true;                ///< OpenOptions::use_io_uring
     cache::Policy policy = cache::Policy::kClock;
 
     unsigned readers() const noexcept { return max_probes + thread_probes; }
@@ -75,6 +76,7 @@ class Pager {
     bool is_granted = false;  // the fetcher may use `wait`
   };
   std::unique_ptr<FetcherWait[]> fetcher_waits_;  // indexed by fetcher
+  std::uint64_t max_read_waits_ = kMaxReadWaits;
   std::atomic<std::uint64_t> granted_waits_{0};
   std::chrono::milliseconds max_wait_{};
   std::unique_ptr<cache::PageCache> cache_;

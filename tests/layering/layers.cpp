@@ -82,7 +82,7 @@ const std::vector<Layer>& layers() {
       {"octree/winding", {"octree/traversal", "octree/page", "octree/geometry"}, {}, {"hwy"}},
       {"octree/mask", {"octree/traversal", "octree/page", "octree/geometry"}, {}, {"hwy"}},
       {"octree/builder/job",
-       {"octree/geometry", "storage/file"},
+       {"octree/geometry", "storage/file", "storage/system"},
        {},
        with_system({"Eigen", "tbb"})},
       {"octree/builder/mesh/stream",

@@ -160,6 +160,17 @@ TEST_F(StuckDisk, BlockingQueryReadsItsPagesItself) {
   EXPECT_EQ(disk_.rings, 1);
 }
 
+TEST_F(StuckDisk, QueriesPollIfTheyMayNotUseRings) {
+  OpenOptions options;
+  options.use_io_uring = false;
+  auto model = ModelState::open_model(sample_.path(), options, {disk_});
+  ASSERT_TRUE(model);
+  Probe probe = make_probe(*model);
+  for (const Vec3& query : queries_) EXPECT_EQ(probe.closest_point(query).status, Status::kExact);
+  EXPECT_GT(model->stats().pages_read, 10u);
+  EXPECT_EQ(disk_.rings, 0);
+}
+
 // File descriptors belong to the whole process, so a model uses few rings.
 TEST_F(StuckDisk, NumberOfRingsIsLimited) {
   if (!storage::RingCalls::are_available()) GTEST_SKIP() << "the system refuses io_uring";

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cinttypes>
-#include <thread>
+
+#include "storage/system/processors.h"
 
 namespace planetree::tools {
 
-Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory_bytes,
-                         Console& console, unsigned batch_threads, unsigned wait_limit_ms) {
-  OpenOptions options;
-  options.memory_budget_bytes = memory_bytes;
+Result<Model> open_model(const std::filesystem::path& path, OpenOptions options, Console& console) {
   options.max_probes = 1;
-  options.wait_limit_ms = wait_limit_ms;
-  if (batch_threads == 0) batch_threads = std::max(std::thread::hardware_concurrency(), 1u);
-  options.batch_threads = std::min(batch_threads, OpenOptions::kMaxBatchThreads);
+  if (options.batch_threads == 0)
+    options.batch_threads = std::min(storage::usable_processors(), OpenOptions::kMaxBatchThreads);
   auto model = Model::open(path, options);
   if (model && model->stats().header_copy_damaged)
     console.warn(path.string(),

@@ -13,13 +13,9 @@ namespace planetree::tools {
 
 /// Opens a model with one probe. Warns if one of the file's headers is damaged.
 ///
-/// memory_bytes   OpenOptions::memory_budget_bytes
-/// batch_threads  number of batch threads; 0 means one for each processor
-/// wait_limit_ms  OpenOptions::wait_limit_ms
-/// errors         as Model::open
-Result<Model> open_model(const std::filesystem::path& path, std::uint64_t memory_bytes,
-                         Console& console, unsigned batch_threads = 1,
-                         unsigned wait_limit_ms = OpenOptions().wait_limit_ms);
+/// options  max_probes is ignored; batch_threads may be 0, which means one for each processor
+/// errors   as Model::open
+Result<Model> open_model(const std::filesystem::path& path, OpenOptions options, Console& console);
 
 /// The error to report after the answers if pages were unreadable or did not come in time, so that
 /// answers are degraded. Empty if there were none.

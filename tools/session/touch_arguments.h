@@ -18,6 +18,7 @@ struct TouchArguments {
   std::filesystem::path trace;  ///< file for all page accesses; empty: none
   bool force = false;           ///< whether existing files may be replaced
   bool cold = false;            ///< drop the file from the system's page cache first
+  bool no_io_uring = false;
   bool json = false;
 };
 

@@ -3,7 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <thread>
+
+#include "storage/system/processors.h"
 
 namespace planetree::octree {
 namespace {
@@ -24,7 +25,7 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
                       "%llu MiB of memory are too little for a build; give it %llu MiB or more",
                       static_cast<unsigned long long>(bytes / kMiB),
                       static_cast<unsigned long long>(kMinBytes / kMiB));
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  if (threads == 0) threads = storage::usable_processors();
   const std::uint64_t max_threads = (bytes - kFixedBytes) / kThreadBytes;
   BuildMemory memory;
   memory.threads = static_cast<int>(std::min<std::uint64_t>(threads, max_threads));
