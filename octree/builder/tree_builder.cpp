@@ -47,7 +47,8 @@ class TreeBuild {
 
   Result<BuildReport> run() {
     if (const auto resumed = resume_work(); !resumed) return resumed.error();
-    if (const auto enough = estimate_space(); !enough) return enough.error();
+    const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64});
+    if (const auto enough = check_space(size); !enough) return enough.error();
     if (const auto ordered = order_triangles(); !ordered) return ordered.error();
     if (const auto looked = look_at_surface(); !looked) return looked.error();
     if (const auto cut = cut_out_part(); !cut) return cut.error();
@@ -73,7 +74,7 @@ class TreeBuild {
     return path ? *path : std::filesystem::path();
   }
   Result<void> resume_work();
-  Result<void> estimate_space();
+  Result<void> check_space(const Result<MeshSize>& size);
   Result<void> order_triangles();
   Result<void> read();
   Result<void> resume_mesh();
@@ -123,8 +124,7 @@ Result<void> TreeBuild::resume_work() {
 }
 
 // Checks the space before a day of work rather than after it.
-Result<void> TreeBuild::estimate_space() {
-  const auto size = MeshSize::estimate(input_, seams_.calls, {options_.float64});
+Result<void> TreeBuild::check_space(const Result<MeshSize>& size) {
   if (!size) return size.error();
   size_ = *size;
   if (files_.work() && files_.work()->mesh()) return {};  // its triangles are counted
@@ -154,14 +154,10 @@ Result<void> TreeBuild::read() {
     return files_.check_space(SpaceNeed::before_sorting(
         size_, memory_, files_.scratch().disk_bytes(), options_.box.has_value()));
   });
-  files_.mesh().before_unpacking([this](std::uint64_t bytes) {
-    return files_.check_space({bytes, 0});
-  });
-  files_.mesh().after_unpacking([this](const MeshFile& content) -> Result<void> {
-    const auto size = MeshSize::estimate(content, unpacked_path(input_path()), {options_.float64});
-    if (!size) return size.error();
-    size_ = *size;
-    return files_.check_space(SpaceNeed::before_reading(size_, memory_, options_.box.has_value()));
+  files_.mesh().before_unpacking([this](auto bytes) { return files_.check_space({bytes, 0}); });
+  files_.mesh().after_unpacking([this](const MeshFile& content) {
+    return check_space(
+        MeshSize::estimate(content, unpacked_path(input_path()), {options_.float64}));
   });
   auto mesh = read_unordered(input_, options_, files_.mesh(), progress_, spool);
   if (!mesh) return mesh.error();
