@@ -222,7 +222,7 @@ class ClosestPointQuery {
   void find_normal(const octree::NearestAnswer& nearest, const SideResult& side) {
     const octree::Point normal = contact_normal(point_, nearest, feature(nearest), side);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
-    if (!feature(nearest).complete) mark_degraded();
+    if (!feature(nearest).complete || !side.winding_is_known) mark_degraded();
   }
 
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {

@@ -55,7 +55,8 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
   }
   if (w.on_surface) {
     const bool certain = std::fabs(w.value) > w.error;
-    return {Side::kOnSurface, Status::kExact, certain ? (w.value < 0 ? -1 : 1) : 0, false};
+    return {Side::kOnSurface, Status::kExact, certain ? (w.value < 0 ? -1 : 1) : 0, false,
+            w.complete};
   }
   if (w.above_half()) return {Side::kInside, Status::kExact, rounded(w.value)};
   if (w.below_half()) return {Side::kOutside, Status::kExact};

@@ -31,6 +31,9 @@ struct SideResult {
   /// False (models that are not watertight): it is the sign of the winding number of the surface
   /// without the triangles that the point is on, or 0 if that sign is uncertain.
   bool beside = true;
+  /// False for a point on the surface if pages were missing, or the work was spent, before the sign
+  /// in `winding` was certain. The side is proven all the same.
+  bool winding_is_known = true;
 };
 
 /// The last side and the last mask cell that a probe's queries found, for the next queries nearby.

@@ -265,6 +265,30 @@ TEST_F(ContainsOpen, TurnsNormalsOutOfTheSolid) {
     }
 }
 
+// The triangle that the point is on may be found before the rest of the surface is added up.
+TEST_F(ContainsOpen, NormalsOnTheSurfaceAreNotExactBeforeTheirSignIsKnown) {
+  const Model model = sample_.open();
+  Probe probe = make_probe(model);
+  int early = 0;
+  for (const std::size_t at : {std::size_t{100}, soup_.size() / 2, soup_.size() - 1}) {
+    const Vec3 query = soup_[at][0];
+    const Vec3 truth = probe.closest_point(query).normal;
+    for (std::uint32_t work = 1; work < 400; ++work) {
+      const ClosestPoint answer = probe.closest_point(query, {.max_work = work});
+      const bool same =
+          answer.normal.x == truth.x && answer.normal.y == truth.y && answer.normal.z == truth.z;
+      if (answer.status == Status::kExact) {
+        EXPECT_TRUE(same) << work;
+      }
+      early += answer.side == Side::kOnSurface && answer.status == Status::kDegraded;
+      if (answer.side == Side::kOnSurface) {
+        EXPECT_EQ(probe.contains(query, {.max_work = 400}).status, Status::kExact);
+      }
+    }
+  }
+  EXPECT_GT(early, 0);
+}
+
 TEST_F(ContainsOpen, IsOutsideOnBothSidesOfAHeightField) {
   const SampleModel sample(octree::height_field(10));
   const Model model = sample.open();
