@@ -63,7 +63,8 @@ class CheckingSink : public TriangleSink {
 
   void check(const Result<MeshSummary>& summary) const {
     if (!summary) {
-      expect(summary.error().code == ErrorCode::kBadInput && summary.error().text[0] != 0);
+      expect(summary.error().code == ErrorCode::kBadInput || lacks_memory(summary));
+      expect(summary.error().text[0] != 0);
       return;
     }
     expect(triangle_count_ > 0 && summary->triangle_indices == next_index_);
@@ -72,6 +73,11 @@ class CheckingSink : public TriangleSink {
 
   /// A hash of all calls so far.
   [[nodiscard]] std::uint64_t digest() const { return digest_.value(); }
+
+  /// Whether the mesh was refused because it needs more memory, which a zstd frame may state.
+  static bool lacks_memory(const Result<MeshSummary>& summary) {
+    return !summary && summary.error().code == ErrorCode::kNoMemory;
+  }
 
   static void expect(bool truth) {
     if (!truth) std::abort();
@@ -96,6 +102,7 @@ void read_twice(const Read& read) {
   const Result<MeshSummary> expected = read(one, much), found = read(other, little);
   one.check(expected);
   other.check(found);
+  if (CheckingSink::lacks_memory(expected) || CheckingSink::lacks_memory(found)) return;
   CheckingSink::expect(static_cast<bool>(expected) == static_cast<bool>(found));
   // How much was delivered before structural damage depends on when the damage was found.
   if (expected) CheckingSink::expect(one.digest() == other.digest());
