@@ -84,7 +84,9 @@ class WindingSum {
       open(proxy);
     }
     WindingNumber result = sum();
-    result.complete = complete_ || decided();
+    // On the surface, records that were lost leave the error below its limit without telling the
+    // sign that all records tell.
+    result.complete = complete_ || (on_surface_ ? sign_is_certain() : decided());
     return result;
   }
 
@@ -99,11 +101,16 @@ class WindingSum {
     return result;
   }
 
+  bool sign_is_certain() const {
+    const WindingNumber so_far = sum();
+    return std::fabs(so_far.value) > so_far.error;
+  }
+
   bool decided() const {
     if (unknown_ > 0) return false;
     const WindingNumber so_far = sum();
     if (!on_surface_) return so_far.above_half() || so_far.below_half();
-    return std::fabs(so_far.value) > so_far.error || so_far.error < kMaxSurfaceWindingError;
+    return sign_is_certain() || so_far.error < kMaxSurfaceWindingError;
   }
 
   void add_proxy(const Proxy& proxy) {
