@@ -195,9 +195,10 @@ Result<void> NewFile::sync_directory() noexcept {
   const int outcome = calls().fsync(directory_.descriptor());
   // Some file systems cannot sync directories and report EINVAL or EROFS.
   if (outcome == 0 || errno == EINVAL || errno == EROFS) return {};
-  return file_error(errno, FileAction::kWrite,
-                    "make the name of the complete file durable, so that a power failure may undo "
-                    "it");
+  return file_error(
+      errno, FileAction::kWrite,
+      "sync the directory (the file is complete under its name, but a power failure may "
+      "undo that)");
 }
 
 void NewFile::discard() noexcept {

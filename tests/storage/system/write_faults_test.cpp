@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+
 #include <sys/wait.h>
+#include <string>
 
 #include <functional>
 
@@ -143,6 +145,8 @@ TEST_P(WriteFaults, AFailedSyncIsNotRetried) {
           EXPECT_TRUE(destination_is_as_before());
         } else {
           EXPECT_EQ(made.fsync_count(), 2);
+          const std::string text = header.error().text;
+          EXPECT_NE(text.find("the file is complete under its name"), std::string::npos) << text;
         }
       });
   EXPECT_GE(call_count, 10);
