@@ -55,7 +55,9 @@ enum class Side : std::uint8_t {
 enum class Status : std::uint8_t {
   /// No triangle that the query skipped can be nearer, and no page or work was missing for side and
   /// normal. The side may still be kUnknown if the file does not determine it: if |w| is too close
-  /// to 1/2, or in the file of a region.
+  /// to 1/2, or in the file of a region. If the query point is 10^12 or more diagonals of the
+  /// model's box away, the interval is wider than the model. The triangle is then that of least
+  /// computed distance, and another one may be nearer.
   kExact,
   /// Not exact, but upper - lower <= QueryOptions::max_error. A triangle other than the reported
   /// one may be nearer. The side is as for kExact. The normal is that of the reported triangle.
