@@ -156,9 +156,11 @@ class ClosestPointQuery {
     fill_in(model_.scale, nearest, answer_);
     if (far_) measure_far(query_, options_, answer_);
     if (answer_.status == Status::kBeyondMaxDistance) answer_.lower = options_.max_distance;
-    if (answer_.status == Status::kDegraded && !incomplete_ &&
-        answer_.upper - answer_.lower <= options_.max_error)
+    const bool is_within_error = answer_.upper - answer_.lower <= options_.max_error;
+    if (answer_.status == Status::kDegraded && !incomplete_ && is_within_error)
       answer_.status = Status::kWithinError;
+    // Scaling to subnormal model units rounds the interval outward by as much as its width.
+    if (answer_.status == Status::kWithinError && !is_within_error) mark_degraded();
   }
 
   const SideResult& find_side(const octree::NearestAnswer& nearest, bool with_normal) {

@@ -162,6 +162,29 @@ TEST(ClosestPoint, StaysWithinMaxError) {
   EXPECT_GT(within, 50);
 }
 
+// Subnormal lengths are multiples of 2^-1074, so that an interval gets wider when it is scaled
+// back.
+TEST(ClosestPoint, StaysWithinMaxErrorAtSubnormalLengths) {
+  constexpr double kUnit = 0x1p-1074;
+  for (const double size : {8.0, 100.0, 3000.0}) {
+    octree::Soup soup = octree::sphere(3);
+    for (auto& triangle : soup)
+      for (Vec3& corner : triangle)
+        corner = {corner.x * size * kUnit, corner.y * size * kUnit, corner.z * size * kUnit};
+    const SampleModel sample(soup);
+    const Model model = sample.open();
+    Probe probe = make_probe(model);
+    for (const double allowed : {1.0, 2.0, 3.0, 8.0, 60.0})
+      for (const Vec3& query : random_queries(40, -2, 2)) {
+        const Vec3 scaled{query.x * size * kUnit, query.y * size * kUnit, query.z * size * kUnit};
+        const ClosestPoint answer = probe.closest_point(scaled, {.max_error = allowed * kUnit});
+        if (answer.status == Status::kWithinError) {
+          EXPECT_LE(answer.upper - answer.lower, allowed * kUnit);
+        }
+      }
+  }
+}
+
 TEST(ClosestPoint, IntervalHoldsTheTruthUnderAnyLimits) {
   const SampleModel sample(scattered(1200, 0.2));
   const Model model = sample.open();
