@@ -86,7 +86,7 @@ class WindingSum {
     WindingNumber result = sum();
     // On the surface, records that were lost leave the error below its limit without telling the
     // sign that all records tell.
-    result.complete = complete_ || (on_surface_ ? sign_is_certain() : decided());
+    result.complete = complete_ || (on_surface_ ? result.sign_is_certain() : decided());
     return result;
   }
 
@@ -101,16 +101,11 @@ class WindingSum {
     return result;
   }
 
-  bool sign_is_certain() const {
-    const WindingNumber so_far = sum();
-    return std::fabs(so_far.value) > so_far.error;
-  }
-
   bool decided() const {
     if (unknown_ > 0) return false;
     const WindingNumber so_far = sum();
     if (!on_surface_) return so_far.above_half() || so_far.below_half();
-    return sign_is_certain() || so_far.error < kMaxSurfaceWindingError;
+    return so_far.sign_is_certain() || so_far.error < kMaxSurfaceWindingError;
   }
 
   void add_proxy(const Proxy& proxy) {

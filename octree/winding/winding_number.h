@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "octree/traversal/tree_view.h"
@@ -20,6 +21,8 @@ struct WindingNumber {
   bool above_half() const { return value - error > 0.5 || value + error < -0.5; }
   /// Whether the magnitude is certainly below one half.
   bool below_half() const { return value + error < 0.5 && value - error > -0.5; }
+  /// Whether the sign of the value is certain.
+  bool sign_is_certain() const { return std::fabs(value) > error; }
 };
 
 /// Computes the generalised winding number of a point until it is certain whether its magnitude is

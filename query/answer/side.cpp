@@ -54,9 +54,8 @@ SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
     reason->error = w.error;
   }
   if (w.on_surface) {
-    const bool certain = std::fabs(w.value) > w.error;
-    return {Side::kOnSurface, Status::kExact, certain ? (w.value < 0 ? -1 : 1) : 0, false,
-            w.complete};
+    const int sign = w.sign_is_certain() ? (w.value < 0 ? -1 : 1) : 0;
+    return {Side::kOnSurface, Status::kExact, sign, false, w.complete};
   }
   if (w.above_half()) return {Side::kInside, Status::kExact, rounded(w.value)};
   if (w.below_half()) return {Side::kOutside, Status::kExact};
