@@ -86,27 +86,30 @@ int orientation_sign(const CommonUnit& unit, const Point& a, const Point& b, con
   return determinant(u, v, w).sign();
 }
 
+/// Returns a component of u x v.
+template <class Number>
+Number area(const std::array<Number, 3>& u, const std::array<Number, 3>& v, unsigned axis) {
+  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
+  return u[i] * v[j] - u[j] * v[i];
+}
+
 template <class Number>
 int area_sign(const CommonUnit& unit, const Point& a, const Point& b, const Point& c,
               unsigned axis) {
-  const auto u = unit.difference<Number>(b, a), v = unit.difference<Number>(c, a);
-  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
-  const Number area = u[i] * v[j] - u[j] * v[i];
-  return area.sign();
+  return area(unit.difference<Number>(b, a), unit.difference<Number>(c, a), axis).sign();
 }
 
 template <class Number>
 int area_sign(const CommonUnit& unit, std::span<const Vec3> corners, unsigned axis) {
-  const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
   const Point first(corners[0].x, corners[0].y, corners[0].z);
   std::array<Number, 3> u;
-  Number area = 0;
+  Number sum = 0;
   for (std::size_t k = 1; k < corners.size(); ++k) {
     auto v = unit.difference<Number>({corners[k].x, corners[k].y, corners[k].z}, first);
-    if (k > 1) area += u[i] * v[j] - u[j] * v[i];
+    if (k > 1) sum += area(u, v, axis);
     u = std::move(v);
   }
-  return area.sign();
+  return sum.sign();
 }
 
 __extension__ using Int128 = __int128;
@@ -176,9 +179,7 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 
 int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
   if (const AxisUnits units(std::array{&a, &b, &c}); units.small()) {
-    const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
-    const auto u = units.difference(b, a), v = units.difference(c, a);
-    return sign_of(u[i] * v[j] - u[j] * v[i]);
+    return sign_of(area(units.difference(b, a), units.difference(c, a), axis));
   }
   const CommonUnit unit(std::array{&a, &b, &c});
   return unit.small() ? area_sign<SmallWhole>(unit, a, b, c, axis)
