@@ -11,7 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (size > 1024) return 0;
   std::string text(reinterpret_cast<const char*>(bytes), size);
   if (packing_of(text) == Packing::kNone) text.insert(0, "\x1f\x8b\x08");
-  const MemoryFile memory(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  const planetree::MemoryFile memory(reinterpret_cast<const std::uint8_t*>(text.data()),
+                                     text.size());
   CheckingSink sink;
   MeshScratch scratch(std::uint64_t{1} << 20, "/dev/shm");
   const auto summary = read_mesh(memory.path(), sink, scratch);
