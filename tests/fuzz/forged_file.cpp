@@ -23,7 +23,8 @@ std::optional<ForgedFile> ForgedFile::of(std::span<const std::byte> bytes) {
   if (bytes.size() < kHeaderBytes) return {};
   FileImage image(Bytes(bytes.begin(), bytes.end()));
   ForgedFile file{image.header(), {}};
-  if (file.header.page_count > kMaxPages || !image.table_fits()) return {};
+  const std::uint32_t page_count = file.header.page_count;
+  if (page_count == 0 || page_count > kMaxPages || !image.table_fits()) return {};
   for (std::uint32_t page = 0; page < file.header.page_count; ++page) {
     std::optional<ForgedPage> read = read_page(image, page);
     if (!read) return {};

@@ -28,7 +28,8 @@ struct ForgedFile {
   FileHeader header{};
   std::vector<ForgedPage> pages;
 
-  /// Takes a file apart. Empty if the header or a page cannot be read, or there are many pages.
+  /// Takes a file apart. Empty if the header or a page cannot be read, or there are no pages, or
+  /// many.
   static std::optional<ForgedFile> of(std::span<const std::byte> bytes);
   /// Puts the file together. Each page is compressed again.
   [[nodiscard]] Bytes bytes() const;
