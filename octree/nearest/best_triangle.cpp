@@ -75,10 +75,13 @@ NearestAnswer finalize(const TreeInfo& tree, const Point& query, const NearestLi
     return std::max(distance_to_box(tree, query), certified(float_query, squared));
   };
   if (!best.found()) {
-    answer = is_incomplete ? nothing_read(tree, query,
-                                          std::min(limits.max_distance, bound_of(skipped.unread)),
-                                          skipped.within)
-                           : beyond(limits);
+    if (is_incomplete)
+      answer = nothing_read(tree, query, std::min(limits.max_distance, bound_of(skipped.unread)),
+                            skipped.within);
+    else if (limits.max_distance < kInfinity)
+      answer = beyond(limits);
+    else  // The bounds of a forged file exclude all of its triangles, so they prove nothing.
+      answer = nothing_read(tree, query, 0, kInfinity);
     return answer;
   }
   answer_with(best, answer);

@@ -1,13 +1,9 @@
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <string>
 
 #include "storage/file/page_file.h"
+#include "tests/fuzz/memory_file.h"
 #include "tests/storage/file/file_image.h"
 
 /// Opens arbitrary bytes as a .ptree file and reads every page.
@@ -49,13 +45,8 @@ void read_all_pages(const PageFile& file) {
 }
 
 void open_and_read(std::span<const std::byte> bytes) {
-  const int memory = ::memfd_create("header_fuzz", MFD_CLOEXEC);
-  if (memory < 0) std::abort();
-  if (::write(memory, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) {
-    std::abort();
-  }
-  const Result<PageFile> file = PageFile::open("/proc/self/fd/" + std::to_string(memory));
-  ::close(memory);
+  const MemoryFile memory(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  const Result<PageFile> file = PageFile::open(memory.path());
   if (file) {
     read_all_pages(*file);
   } else if (file.error().text[0] == 0) {

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "octree/builder/mesh/mesh_reader.h"
+#include "tests/fuzz/memory_file.h"
 
 /// Parts that the fuzzers of mesh readers share.
 namespace planetree::octree {
@@ -107,24 +104,5 @@ void read_twice(const Read& read) {
   // How much was delivered before structural damage depends on when the damage was found.
   if (expected) CheckingSink::expect(one.digest() == other.digest());
 }
-
-/// The fuzzer's bytes as a file in memory.
-class MemoryFile {
- public:
-  MemoryFile(const std::uint8_t* bytes, std::size_t size)
-      : descriptor_(::memfd_create("mesh", MFD_CLOEXEC)) {
-    const ssize_t written = ::write(descriptor_, bytes, size);
-    if (written != static_cast<ssize_t>(size)) std::abort();
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  [[nodiscard]] std::filesystem::path path() const {
-    return "/proc/self/fd/" + std::to_string(descriptor_);
-  }
-
- private:
-  int descriptor_;
-};
 
 }  // namespace planetree::octree

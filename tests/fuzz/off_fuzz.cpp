@@ -2,14 +2,20 @@
 
 #include "octree/builder/mesh/stream/mesh_file.h"
 #include "tests/fuzz/mesh_fuzz.h"
+#include "tests/fuzz/mesh_mutator.h"
 
 /// Reads arbitrary bytes as OFF directly: with a keyword, or as if the file name ended in .off.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace planetree::octree;
-  const MemoryFile memory(bytes, size);
+  const planetree::MemoryFile memory(bytes, size);
   const planetree::Result<MeshFile> file = MeshFile::open(memory.path());
   if (!file) std::abort();
   read_twice(
       [&](TriangleSink& sink, MeshScratch& scratch) { return read_off(*file, sink, scratch); });
   return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned seed) {
+  return planetree::mutate_mesh(planetree::kOffGrammar, data, size, max_size, seed);
 }

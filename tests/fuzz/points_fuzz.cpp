@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/fuzz/mesh_fuzz.h"
+#include "tests/fuzz/memory_file.h"
 #include "tools/points/point_reader.h"
 
 namespace planetree::tools {
@@ -78,14 +78,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   constexpr const char* kChoices[] = {"1,2,3", "4,2,3", "x,y,z", "a,B,3"};
   ColumnChoice choice;
   if (bytes[0] % 8 < std::size(kChoices)) choice = *ColumnChoice::parse(kChoices[bytes[0] % 8]);
-  const planetree::octree::MemoryFile file(bytes + 1, size - 1);
+  const planetree::MemoryFile file(bytes + 1, size - 1);
   const Reading one = read_file(file.path(), choice, 1);
   expect(one == read_file(file.path(), choice, 4096));
   expect(one == read_stream(file.path(), choice));
 
   const std::string text = text_of(one.points);
-  const planetree::octree::MemoryFile copy(reinterpret_cast<const std::uint8_t*>(text.data()),
-                                           text.size());
+  const planetree::MemoryFile copy(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   const Reading again = read_file(copy.path(), {}, 64);
   expect(again.error.empty() && again.points.size() == one.points.size());
   // The sign of a NaN may be lost.

@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdio>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -61,6 +62,9 @@ Result<mode_t> existing_mode(const fs::path& path) {
   return system_error("examine the destination", errno);
 }
 
+/// The name by which the system knows an open file that may have no other.
+std::string descriptor_path(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
 }  // namespace
 
 Result<OutputFile> OutputFile::create(const fs::path& path, bool may_replace) {
@@ -101,15 +105,30 @@ OutputFile::~OutputFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
+// A file without a name vanishes with the process. Not every file system has them, and without
+// /proc they cannot be given a name.
 Result<void> OutputFile::open_temporary() {
+  const fs::path folder = destination_.has_parent_path() ? destination_.parent_path() : ".";
+  descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  owns_descriptor_ = descriptor_ >= 0;
+  if (owns_descriptor_ && ::access(descriptor_path(descriptor_).c_str(), F_OK) == 0) return {};
+  if (owns_descriptor_) ::close(descriptor_);
+  owns_descriptor_ = false;
+  return with_temporary_name([&](const fs::path& name) {
+    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    owns_descriptor_ = descriptor_ >= 0;
+    return owns_descriptor_;
+  });
+}
+
+template <class Create>
+Result<void> OutputFile::with_temporary_name(const Create& create) {
   constexpr int kMaxAttempts = 1000;
   const fs::path folder = destination_.parent_path();
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     // The destination's name is not part of this name, because it may have the maximum length.
     const fs::path name = folder / fmt::format(".planetree-{}-{}.part", ::getpid(), attempt);
-    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) {
-      owns_descriptor_ = true;
+    if (create(name)) {
       temporary_ = name;
       return {};
     }
@@ -120,7 +139,7 @@ Result<void> OutputFile::open_temporary() {
 }
 
 Result<void> OutputFile::reserve(std::uint64_t bytes) {
-  if (temporary_.empty() || bytes == 0) return {};
+  if (destination_.empty() || bytes == 0) return {};
   const auto length = static_cast<off_t>(std::min<std::uint64_t>(bytes, INT64_MAX));
   if (::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, length) == 0) return {};
   if (cause_of(errno).code != ErrorCode::kNoSpace) return {};
@@ -145,10 +164,24 @@ Result<void> OutputFile::write(std::span<const std::byte> bytes) {
 Result<void> OutputFile::commit() {
   if (!owns_descriptor_) return {};
   // Some devices report a lack of space only now.
-  if (!temporary_.empty() && ::fsync(descriptor_) != 0) return system_error("write", errno);
+  if (!destination_.empty() && ::fsync(descriptor_) != 0) return system_error("write", errno);
+  if (!destination_.empty() && temporary_.empty()) {
+    if (const auto linked = link_unnamed(); !linked) return linked;
+  }
   owns_descriptor_ = false;
   if (::close(std::exchange(descriptor_, -1)) != 0) return system_error("write", errno);
   return temporary_.empty() ? Result<void>{} : rename_temporary();
+}
+
+// Gives the unnamed file its name, or a temporary one if it is to replace a file.
+Result<void> OutputFile::link_unnamed() {
+  const std::string file = descriptor_path(descriptor_);
+  const auto link = [&](const fs::path& name) {
+    return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  if (link(destination_)) return {};
+  if (errno != EEXIST || !may_replace_) return system_error("name the finished file", errno);
+  return with_temporary_name(link);
 }
 
 Result<void> OutputFile::rename_temporary() {

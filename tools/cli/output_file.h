@@ -9,9 +9,11 @@
 
 namespace planetree::tools {
 
-/// A file that gets its name only when it is complete. Bytes go to a temporary file in the same
-/// folder, which commit() renames. If anything fails before, the destination is unchanged and the
-/// temporary file is removed.
+/// A file that gets its name only when it is complete. Bytes go to a file without a name in the
+/// same folder, to which commit() gives the name. If anything fails before, the destination is
+/// unchanged and nothing remains, even if the process is killed. Where the file system has no
+/// unnamed files, and while a file is replaced, the file has a temporary name, which remains if the
+/// process is killed.
 ///
 /// "-" means standard output. Standard output, devices and pipes are written directly: they cannot
 /// be replaced, so `may_replace` does not apply.
@@ -36,7 +38,7 @@ class OutputFile {
   Result<void> reserve(std::uint64_t bytes);
   /// Appends all of `bytes`. Unbuffered: pieces should be large.
   Result<void> write(std::span<const std::byte> bytes);
-  /// Flushes the bytes to the device and renames the file. The last call, made once. If it fails,
+  /// Flushes the bytes to the device and names the file. The last call, made once. If it fails,
   /// the destination is unchanged.
   Result<void> commit();
 
@@ -45,13 +47,16 @@ class OutputFile {
  private:
   OutputFile() = default;
   Result<void> open_temporary();
+  template <class Create>
+  Result<void> with_temporary_name(const Create& create);
+  Result<void> link_unnamed();
   Result<void> rename_temporary();
 
   int descriptor_ = -1;
   bool owns_descriptor_ = false;
   bool may_replace_ = false;
-  std::filesystem::path destination_;
-  std::filesystem::path temporary_;  ///< empty if written directly or committed
+  std::filesystem::path destination_;  ///< empty if written directly
+  std::filesystem::path temporary_;    ///< empty if there is none
   std::uint64_t bytes_written_ = 0;
 };
 

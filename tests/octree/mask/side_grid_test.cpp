@@ -75,11 +75,12 @@ TEST_F(SideGridTest, IsUnknownWithoutTheFirstPage) {
 }
 
 TEST_F(SideGridTest, AgreesWithTheMaskWithMissingPages) {
-  MaskPages whole(random_mask(10), 4096, kRandomMaskPage);
+  const MaskTree mask = random_mask(10);
+  MaskPages whole(mask, 4096, kRandomMaskPage);
   const std::uint32_t count = whole.mask(lower_).page_count;
   ASSERT_GT(count, 10u);
   for (std::uint32_t page = 1; page < count; page += 3) {
-    MaskPages pages(random_mask(10), 4096, kRandomMaskPage);
+    MaskPages pages(mask, 4096, kRandomMaskPage);
     pages.withhold(page);
     const SideGrid grid = grid_of(pages, 1 << 18);
     for (const Point& point : points(100)) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "octree/nearest/best_triangle.h"
 #include "tests/octree/page/raw_page.h"
 #include "tests/octree/support/sample_tree.h"
 
@@ -207,6 +208,23 @@ TEST(Nearest, AnswersFromTheSampleWithoutPages) {
   EXPECT_EQ(answer.point, queried.info.sample);
   EXPECT_EQ(answer.distance, answer.upper);
   queried.expect_interval_holds(answer, query);
+}
+
+// Only forged bounds exclude every triangle. Then nothing but the sample is known.
+TEST(Nearest, AnswersFromTheSampleWhereBoundsExcludeEveryTriangle) {
+  const SampleQueries queried(sphere(4));
+  const Point query(0.3, 0.2, 5);
+  const FloatQuery float_query = FloatQuery::from(query, queried.info.centre);
+  NearestLimits limits;
+  const BestTriangle none(float_query, limits);
+  const NearestAnswer answer = finalize(queried.info, query, limits, none, float_query, {});
+  EXPECT_EQ(answer.status, Status::kDegraded);
+  EXPECT_EQ(answer.point, queried.info.sample);
+  EXPECT_EQ(answer.lower, 0);
+  queried.expect_interval_holds(answer, query);
+  limits.max_distance = 2;
+  EXPECT_EQ(finalize(queried.info, query, limits, none, float_query, {}).status,
+            Status::kBeyondMaxDistance);
 }
 
 TEST(Nearest, IntervalHoldsWithMissingPages) {

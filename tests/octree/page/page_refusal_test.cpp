@@ -70,7 +70,7 @@ enum class From { kWhole, kUpper };
 struct Corruption {
   const char* sentence;
   From from;  ///< which sample: a page with the whole tree, or one with links to others
-  std::function<void(RawPage&, PageInfo&)> corrupt;
+  void (*corrupt)(RawPage&, PageInfo&);
 };
 
 using P = RawPage;
