@@ -168,7 +168,7 @@ TEST(CoincidentTriangles, AreEvaluatedOnceForEachFewBlocks) {
     TraversalStats work;
     const NearestAnswer answer = nearest(tree, Point(0.1, 0.2, 0.3), {}, pages.reader(), work);
     EXPECT_EQ(answer.triangle, 0u);
-    EXPECT_LT(work.triangles, 128u);
+    EXPECT_LE(work.triangles, 128u);
     EXPECT_LE(work.units, 3 * tree.record_count);
   }
 }
@@ -180,7 +180,7 @@ TEST(CoincidentTriangles, OfAPointTakeNoWideNumbers) {
   TraversalStats work;
   const NearestAnswer answer = nearest(tree, Point(0.1, 0.2, 0.3), {}, pages.reader(), work);
   EXPECT_EQ(answer.triangle, 0u);
-  EXPECT_LT(work.triangles, 128u);
+  EXPECT_LE(work.triangles, 128u);
   EXPECT_LE(work.units, 3 * tree.record_count);
 }
 
