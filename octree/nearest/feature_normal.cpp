@@ -45,10 +45,10 @@ class Fan {
   void add(const Triangle& triangle, std::uint64_t index) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       if (triangle[corner] != vertex_) continue;
+      if (!limit_.take()) return;
       const Point& next = triangle[(corner + 1) % 3];
       const Point& last = triangle[(corner + 2) % 3];
       if (other_ && next != *other_ && last != *other_) continue;
-      if (!limit_.take()) return;
       if (count_ == kSorted) {
         sorted_ = false;
         sum_up();
@@ -180,6 +180,9 @@ bool face_normal(const Triangle& triangle, Point& unit, double& area2, WorkLimit
     unit = normal / std::sqrt(area2);
     return true;
   }
+  // As of segments and points, which a vertex may have many of.
+  if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+    return false;
   if (limit && !limit->try_take(WorkUnits::kThinNormal)) return false;
   bool flat = true;
   for (unsigned axis = 0; axis < 3; ++axis)
