@@ -29,8 +29,9 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   const QueryOptions limited = with_defaults(options);
   PageAccessor accessor(reader_, options.wait, model_.query_terms);
   accessor.set_trace(trace_.begin_query(options.wait));
-  const bool incomplete =
-      query::closest_point({model_.geometry, accessor.pages(), coherence_}, query, limited, answer);
+  octree::TraversalStats work;
+  const bool incomplete = query::closest_point(
+      {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
   if (incomplete && accessor.missed()) request(query, limited, limited.parts);
   last_parts_ = computed_parts(options.parts);
   if (answer.status == Status::kDegraded) model_.degraded.fetch_add(1, std::memory_order_relaxed);
@@ -46,8 +47,9 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   const QueryOptions limited = with_defaults(options);
   PageAccessor accessor(reader_, options.wait, model_.query_terms);
   accessor.set_trace(trace);
-  const SideResult side = find_containment({model_.geometry, accessor.pages(), coherence_}, query,
-                                           scaled, lookup, limited);
+  octree::TraversalStats work;
+  const SideResult side = find_containment({model_.geometry, accessor.pages(), coherence_, work},
+                                           query, scaled, lookup, limited);
   if (side.status == Status::kDegraded) {
     if (accessor.missed()) request(query, limited, kSide);
     model_.degraded.fetch_add(1, std::memory_order_relaxed);
@@ -76,7 +78,9 @@ void ProbeState::fetch_pages(const Vec3& query, const QueryOptions& options, boo
   PageAccessor accessor(reader_, options.wait, model_.fetcher_terms, &stop);
   accessor.set_trace(trace_.begin_query(options.wait));
   ClosestPoint unused = unanswered(Status::kExact);
-  query::closest_point({model_.geometry, accessor.pages(), coherence_}, query, options, unused);
+  octree::TraversalStats work;
+  query::closest_point({model_.geometry, accessor.pages(), coherence_, work}, query, options,
+                       unused);
   trace_.set_prefetching(false);
 }
 

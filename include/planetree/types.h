@@ -109,9 +109,12 @@ struct QueryOptions {
   /// The search finds surface at this distance or nearer. If there is none, the status is
   /// kBeyondMaxDistance. Model units, >= 0, may be infinite.
   double max_distance = std::numeric_limits<double>::infinity();
-  /// Maximum work: one unit for each record visited, which is a node or block of the tree or a grey
-  /// cell of the mask. 0 is allowed. The distance search uses the work first. The search for the
-  /// side gets what is left, then the normal. kNoLimit, the default, means no limit for
+  /// Maximum work, in units of at most about 2,000 instructions. A visit of a node or block of the
+  /// tree or of a grey cell of the mask is one unit. Distances, crossing tests, solid angles, exact
+  /// signs and the faces at an edge or a vertex are charged too, so that the limit bounds the time
+  /// of a query whatever the file holds. If it is reached, the answer is kDegraded. 0 is allowed.
+  /// The distance search uses the work first. The search for the side gets what is left, then the
+  /// normal. kNoLimit, the default, means no limit for
   /// Wait::kForPages and kRealTimeWork for Wait::kNever. For a real-time query that is practically
   /// without a limit, give kNoLimit - 1.
   std::uint32_t max_work = kNoLimit;

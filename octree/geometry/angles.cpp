@@ -10,6 +10,7 @@
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/wide_numbers.h"
+#include "octree/geometry/work_limit.h"
 
 namespace planetree::octree {
 namespace {
@@ -123,6 +124,9 @@ HalfAngle half_angle_in_wide(const Point& point, const Triangle& triangle) {
   return half;
 }
 
+/// What is known of every share.
+constexpr WindingShare kAnyShare{0, 0.5, false};
+
 /// Converts the vector to a share, given the side of the plane that the point is on.
 WindingShare share_of(const HalfAngle& half, int side) {
   WindingShare share;
@@ -141,18 +145,25 @@ WindingShare share_of(const HalfAngle& half, int side) {
 
 }  // namespace
 
-WindingShare winding_share(const Point& point, const Triangle& triangle) noexcept {
+WindingShare winding_share(const Point& point, const Triangle& triangle,
+                           WorkLimit* limit) noexcept {
+  const auto may_take = [limit](std::uint64_t units) { return !limit || limit->try_take(units); };
   HalfAngle half = half_angle_in_double(point, triangle);
   const bool side_is_certain = std::fabs(half.height) > half.error;
   int side = half.height > 0 ? -1 : 1;
   if (!side_is_certain) {
-    if (lies_on(point, triangle)) return {0, 0, true};
-    side = orientation(triangle[0], triangle[1], triangle[2], point);
+    if (!may_take(WorkUnits::kExactCrossing)) return kAnyShare;
+    const bool on_surface = lies_on(point, triangle, limit);
+    if (!on_surface) side = orientation(triangle[0], triangle[1], triangle[2], point, limit);
+    if (limit && limit->exceeded()) return kAnyShare;
+    if (on_surface) return {0, 0, true};
     // The point is in the plane but not on the triangle, or the triangle has no area.
     if (side == 0) return {};
   }
-  if (!half.is_precise()) half = half_angle_in_wide<Quad>(point, triangle);
-  if (!half.is_precise()) half = half_angle_in_wide<Widest>(point, triangle);
+  if (!half.is_precise() && may_take(WorkUnits::kQuadAngle))
+    half = half_angle_in_wide<Quad>(point, triangle);
+  if (!half.is_precise() && may_take(WorkUnits::kWidestAngle))
+    half = half_angle_in_wide<Widest>(point, triangle);
   return share_of(half, side);
 }
 

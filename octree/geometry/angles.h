@@ -4,6 +4,8 @@
 
 namespace planetree::octree {
 
+class WorkLimit;
+
 /// Returns the angle between the first axis and the vector (along, across).
 ///
 /// along   finite
@@ -34,10 +36,13 @@ struct WindingShare {
 /// return   a share with an error of at most 2^-25, usually below 2^-44; larger only for points
 ///          that miss an edge by less than 2^-4000 of a right angle. A triangle without area has
 ///          the share 0.
+/// limit    charged for what takes more than double; the caller charges the rest. Null: no limit.
+///          If the limit refuses, the error may be up to 1/2, and on_surface false on the triangle.
 /// threads  any; no allocation
 /// source   the quotient is from Van Oosterom & Strackee 1983, "The solid angle of a plane
 ///          triangle". Its error bound, its sign by an exact predicate and the wider numbers near
 ///          edges are our own.
-WindingShare winding_share(const Point& point, const Triangle& triangle) noexcept;
+WindingShare winding_share(const Point& point, const Triangle& triangle,
+                           WorkLimit* limit = nullptr) noexcept;
 
 }  // namespace planetree::octree

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "octree/geometry/wide_numbers.h"
+#include "octree/geometry/work_limit.h"
 
 namespace planetree::octree {
 namespace {
@@ -165,23 +166,35 @@ class AxisUnits {
   std::array<int, 3> least_{4096, 4096, 4096}, greatest_{0, 0, 0};
 };
 
+/// Charges a sign, if there is a limit. Returns false if the limit refuses.
+bool may_take(WorkLimit* limit, std::uint64_t units) { return !limit || limit->try_take(units); }
+std::uint64_t units_of(const CommonUnit& unit) {
+  return unit.small() ? WorkUnits::kMediumSign : WorkUnits::kLargeSign;
+}
+
 }  // namespace
 
-int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d,
+                      WorkLimit* limit) noexcept {
   if (const AxisUnits units(std::array{&a, &b, &c, &d}); units.small()) {
+    if (!may_take(limit, WorkUnits::kSmallSign)) return 0;
     const auto u = units.difference(b, a), v = units.difference(c, a), w = units.difference(d, a);
     return sign_of(determinant(u, v, w));
   }
   const CommonUnit unit(std::array{&a, &b, &c, &d});
+  if (!may_take(limit, units_of(unit))) return 0;
   return unit.small() ? orientation_sign<SmallWhole>(unit, a, b, c, d)
                       : orientation_sign<LargeWhole>(unit, a, b, c, d);
 }
 
-int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+int exact_normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis,
+                      WorkLimit* limit) noexcept {
   if (const AxisUnits units(std::array{&a, &b, &c}); units.small()) {
+    if (!may_take(limit, WorkUnits::kSmallSign)) return 0;
     return sign_of(area(units.difference(b, a), units.difference(c, a), axis));
   }
   const CommonUnit unit(std::array{&a, &b, &c});
+  if (!may_take(limit, units_of(unit))) return 0;
   return unit.small() ? area_sign<SmallWhole>(unit, a, b, c, axis)
                       : area_sign<LargeWhole>(unit, a, b, c, axis);
 }

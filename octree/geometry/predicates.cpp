@@ -32,7 +32,8 @@ bool in_axis_plane(const Point& a, const Point& b, const Point& c, const Point& 
 
 }  // namespace
 
-int orientation(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d,
+                WorkLimit* limit) noexcept {
   const Point u = b - a, v = c - a, w = d - a;
   const double xy = v.x() * w.y(), yx = v.y() * w.x();
   const double yz = v.y() * w.z(), zy = v.z() * w.y();
@@ -48,10 +49,11 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
   // The most frequent remaining case: d is a corner of the triangle.
   if (same_bits(d, a) || same_bits(d, b) || same_bits(d, c)) return 0;
   if (in_axis_plane(a, b, c, d)) return 0;
-  return exact_orientation(a, b, c, d);
+  return exact_orientation(a, b, c, d, limit);
 }
 
-int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis,
+                WorkLimit* limit) noexcept {
   const unsigned i = (axis + 1) % 3, j = (axis + 2) % 3;
   const double left = (b[i] - a[i]) * (c[j] - a[j]);
   const double right = (b[j] - a[j]) * (c[i] - a[i]);
@@ -63,7 +65,7 @@ int normal_sign(const Point& a, const Point& b, const Point& c, unsigned axis) n
   if ((same_bits(b[i], a[i]) || same_bits(c[j], a[j])) &&
       (same_bits(b[j], a[j]) || same_bits(c[i], a[i])))
     return 0;
-  return exact_normal_sign(a, b, c, axis);
+  return exact_normal_sign(a, b, c, axis, limit);
 }
 
 // The sum of the fan about corner 0. Each term errs by a share of its permanent, and the sum by one
@@ -89,24 +91,25 @@ int polygon_area_sign(std::span<const Vec3> corners, unsigned axis) noexcept {
 }
 
 // The point's step is (s1, s2, s3) with s1 >> s2 >> s3 > 0.
-int perturbed_side(const Triangle& triangle, const Point& point) noexcept {
+int perturbed_side(const Triangle& triangle, const Point& point, WorkLimit* limit) noexcept {
   const auto& [a, b, c] = triangle;
-  int side = orientation(a, b, c, point);
-  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(a, b, c, axis);
+  int side = orientation(a, b, c, point, limit);
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(a, b, c, axis, limit);
   return side;
 }
 
-bool lies_on(const Point& point, const Triangle& triangle) noexcept {
+bool lies_on(const Point& point, const Triangle& triangle, WorkLimit* limit) noexcept {
   const auto& [a, b, c] = triangle;
   if ((point.array() < a.cwiseMin(b).cwiseMin(c).array()).any() ||
       (point.array() > a.cwiseMax(b).cwiseMax(c).array()).any())
     return false;
-  if (orientation(a, b, c, point) != 0) return false;
+  if (orientation(a, b, c, point, limit) != 0) return false;
   // A point in the triangle's plane lies on the triangle if, seen along each axis, it is not on
   // different sides of two edges. A triangle without area is the part of its line within its box.
   for (unsigned axis = 0; axis < 3; ++axis) {
-    const int sides[] = {normal_sign(a, b, point, axis), normal_sign(b, c, point, axis),
-                         normal_sign(c, a, point, axis)};
+    const int sides[] = {normal_sign(a, b, point, axis, limit),
+                         normal_sign(b, c, point, axis, limit),
+                         normal_sign(c, a, point, axis, limit)};
     const auto [least, greatest] = std::minmax_element(std::begin(sides), std::end(sides));
     if (*least < 0 && *greatest > 0) return false;
   }
@@ -125,14 +128,16 @@ int compare(double left, double right) { return left < right ? -1 : left > right
 ///     steps of p:  (q - b) x e,
 ///     steps of q:  e x (p - b),
 ///     products:    (step of q) . (e x step of p).
-int passing_side(const PerturbedSegment& segment, const Point& a, const Point& b) {
-  int side = orientation(b, segment.from, segment.to, a);
-  for (unsigned axis = 0; side == 0 && axis < 3; ++axis) side = normal_sign(b, segment.to, a, axis);
+int passing_side(const PerturbedSegment& segment, const Point& a, const Point& b,
+                 WorkLimit* limit) {
+  int side = orientation(b, segment.from, segment.to, a, limit);
+  for (unsigned axis = 0; side == 0 && axis < 3; ++axis)
+    side = normal_sign(b, segment.to, a, axis, limit);
   if (side != 0) return side;
   const int e[3] = {compare(a.x(), b.x()), compare(a.y(), b.y()), compare(a.z(), b.z())};
   const int products[3][2] = {{-e[2], e[1]}, {e[2], -e[0]}, {-e[1], e[0]}};
   for (unsigned axis = 0; side == 0 && axis < 3; ++axis) {
-    side = normal_sign(b, a, segment.from, axis);
+    side = normal_sign(b, a, segment.from, axis, limit);
     for (const int product : products[axis])
       if (side == 0) side = product;
   }
@@ -141,12 +146,14 @@ int passing_side(const PerturbedSegment& segment, const Point& a, const Point& b
 
 }  // namespace
 
-int crossing(const PerturbedSegment& segment, const Triangle& triangle) noexcept {
-  const int from = perturbed_side(triangle, segment.from);
-  if (from == 0 || from == perturbed_side(triangle, segment.to)) return 0;
+int crossing(const PerturbedSegment& segment, const Triangle& triangle, WorkLimit* limit) noexcept {
+  const int from = perturbed_side(triangle, segment.from, limit);
+  if (from == 0 || from == perturbed_side(triangle, segment.to, limit)) return 0;
   const auto& [a, b, c] = triangle;
-  const int passing = passing_side(segment, a, b);
-  if (passing != passing_side(segment, b, c) || passing != passing_side(segment, c, a)) return 0;
+  const int passing = passing_side(segment, a, b, limit);
+  if (passing != passing_side(segment, b, c, limit) ||
+      passing != passing_side(segment, c, a, limit))
+    return 0;
   return -from;
 }
 

@@ -85,7 +85,15 @@ const char* contact_fault(const TestedPredicates& tested) {
 }  // namespace
 
 TestedPredicates TestedPredicates::library() noexcept {
-  return {&octree::orientation, &octree::normal_sign, &octree::lies_on};
+  return {[](const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+            return octree::orientation(a, b, c, d);
+          },
+          [](const Point& a, const Point& b, const Point& c, unsigned axis) noexcept {
+            return octree::normal_sign(a, b, c, axis);
+          },
+          [](const Point& point, const Triangle& triangle) noexcept {
+            return octree::lies_on(point, triangle);
+          }};
 }
 
 const char* startup_check(const TestedPredicates& predicates) noexcept {

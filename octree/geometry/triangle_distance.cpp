@@ -12,6 +12,7 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/triangle_kernels-inl.h"
 #include "octree/geometry/wide_numbers.h"
+#include "octree/geometry/work_limit.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
@@ -19,7 +20,9 @@ namespace HWY_NAMESPACE {
 
 void evaluate_on_target(const Point& query, const TriangleView& triangles,
                         TriangleResults& results) {
-  evaluate_selected(triangles, 1, query, results);
+  std::uint64_t units = 0;
+  WorkLimit limit(units, WorkLimit::kNone);
+  evaluate_selected(triangles, 1, query, limit, results);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -98,12 +101,15 @@ void refine_face(const Point& query, const Triangle& triangle, TriangleResults& 
 
 }  // namespace
 
-void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
+bool has_equal_corners(const TriangleView& triangles, unsigned triangle) noexcept {
+  const Triangle corners = triangles.triangle(static_cast<unsigned>(std::countr_zero(triangle)));
+  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
+}
+
+void refine_flat(const Point& query, const TriangleView& triangles, unsigned triangle,
                  TriangleResults& results) noexcept {
-  for (; flat != 0; flat &= flat - 1) {
-    const auto lane = static_cast<unsigned>(std::countr_zero(flat));
-    refine_face(query, triangles.triangle(lane), results, lane);
-  }
+  const auto lane = static_cast<unsigned>(std::countr_zero(triangle));
+  refine_face(query, triangles.triangle(lane), results, lane);
 }
 
 void locate(const Triangle& triangle, const TriangleResult& result,

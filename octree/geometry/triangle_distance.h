@@ -134,9 +134,12 @@ struct TriangleRows {
   }
 };
 
-/// Evaluates the triangles with a bit in `flat` again with 113 bits. evaluate_triangles() found
-/// their faces too flat for double.
-void refine_flat(const Point& query, const TriangleView& triangles, unsigned flat,
+/// Returns whether the triangle with a bit in `triangle` has two equal corners, and so no face.
+bool has_equal_corners(const TriangleView& triangles, unsigned triangle) noexcept;
+
+/// Evaluates the triangle with a bit in `triangle` again with 113 bits. evaluate_triangles() found
+/// its face too flat for double.
+void refine_flat(const Point& query, const TriangleView& triangles, unsigned triangle,
                  TriangleResults& results) noexcept;
 
 }  // namespace planetree::octree

@@ -17,6 +17,7 @@
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/geometry/wide_floats-inl.h"
+#include "octree/geometry/work_limit.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
@@ -173,12 +174,31 @@ HWY_INLINE unsigned evaluate_triangles(const double* HWY_RESTRICT rows, std::siz
   return flat;
 }
 
-// Evaluates kTrianglesAtOnce triangles. Only findings with a bit in `some` are meaningful.
-HWY_INLINE void evaluate_selected(const TriangleView& triangles, unsigned selected,
-                                  const Point& query, TriangleResults& results) {
+// Evaluates flat faces again. Returns a bit for each that `work` refuses.
+template <class Work>
+HWY_NOINLINE unsigned refine_flat_faces(const TriangleView& triangles, unsigned flat,
+                                        const Point& query, Work& work, TriangleResults& results) {
+  unsigned refused = 0;
+  for (; flat != 0; flat &= flat - 1) {
+    const unsigned triangle = flat & (0U - flat);
+    if (has_equal_corners(triangles, triangle)) continue;
+    if (work.take(WorkUnits::kFlatFace))
+      refine_flat(query, triangles, triangle, results);
+    else
+      refused |= triangle;
+  }
+  return refused;
+}
+
+// Evaluates those of kTrianglesAtOnce triangles that have a bit in `selected`. Charges `work`, a
+// WorkLimit or a TraversalWork, for flat faces. Returns a bit for each triangle that it refuses,
+// whose result has no meaning.
+template <class Work>
+HWY_INLINE unsigned evaluate_selected(const TriangleView& triangles, unsigned selected,
+                                      const Point& query, Work& work, TriangleResults& results) {
   const unsigned flat =
       evaluate_triangles(triangles.at, triangles.stride, query, results) & selected;
-  if (flat != 0) refine_flat(query, triangles, flat, results);
+  return flat == 0 ? 0 : refine_flat_faces(triangles, flat, query, work, results);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -5,6 +5,7 @@
 #include "octree/geometry/octcode.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/mask/side_grid.h"
 
 namespace planetree::octree {
@@ -12,15 +13,18 @@ namespace {
 
 /// Finds on which side of a special cell's planes the point is.
 void find_by_planes(const MaskSpecial& special, const double* planes, const Point& point,
-                    MaskLookup& found) {
+                    WorkLimit& limit, MaskLookup& found) {
+  if (!limit.take(special.plane_count)) return;
   bool beyond = false, perturbed_beyond = false, on_plane = false;
   for (unsigned i = 0; i < special.plane_count; ++i) {
     const Triangle plane = mask_plane(planes, i);
-    const int side = orientation(plane[0], plane[1], plane[2], point);
+    const int side = orientation(plane[0], plane[1], plane[2], point, &limit);
     beyond = beyond || side > 0;
     on_plane = on_plane || side == 0;
-    perturbed_beyond = perturbed_beyond || (side != 0 ? side : perturbed_side(plane, point)) > 0;
+    perturbed_beyond =
+        perturbed_beyond || (side != 0 ? side : perturbed_side(plane, point, &limit)) > 0;
   }
+  if (limit.exceeded()) return;
   found.kind = MaskLookup::Kind::kPlanes;
   found.winding = perturbed_beyond ? int{special.beyond} : int{special.behind};
   found.on_surface = on_plane && !beyond;
@@ -38,12 +42,12 @@ void read_list(const MaskListed& listed, const MaskRecords& records, MaskLookup&
 }
 
 void read_leaf(const std::byte* record, const MaskRecords& records, const Point& point,
-               MaskLookup& found) {
+               WorkLimit& limit, MaskLookup& found) {
   const auto& corners = *reinterpret_cast<const MaskCorners*>(record);
   if (is_special(corners)) {
     const auto& special = *reinterpret_cast<const MaskSpecial*>(record);
     const auto* planes = reinterpret_cast<const double*>(records.slot(special.plane_slot));
-    find_by_planes(special, planes, point, found);
+    find_by_planes(special, planes, point, limit, found);
   } else if (is_listed(corners)) {
     read_list(*reinterpret_cast<const MaskListed*>(record), records, found);
   } else if (corners[0] != kUncounted) {
@@ -55,12 +59,11 @@ void read_leaf(const std::byte* record, const MaskRecords& records, const Point&
 // Goes down from the node of the cell reached so far. octant_in(cell) returns the octant of a cell
 // that the point is in.
 template <class OctantIn>
-void go_down(MaskRecords& records, const MaskNode& from, const Point& point, std::uint64_t max_work,
+void go_down(MaskRecords& records, const MaskNode& from, const Point& point, WorkLimit& limit,
              const OctantIn& octant_in, TraversalStats& work, MaskLookup& found) {
   MaskNode node = from;
   // Stops at the last level: a forged mask could be deeper.
-  for (std::uint64_t left = std::min<std::uint64_t>(max_work, kLevels - found.cell.level); left > 0;
-       --left) {
+  for (unsigned left = kLevels - found.cell.level; left > 0 && limit.take(); --left) {
     ++work.nodes;
     const unsigned octant = octant_in(found.cell);
     found.cell = found.cell.child(octant);
@@ -71,31 +74,30 @@ void go_down(MaskRecords& records, const MaskNode& from, const Point& point, std
     }
     const std::byte* record = records.child(node, octant, work);
     if (!record) return;
-    if ((node.leaf >> octant & 1) != 0) return read_leaf(record, records, point, found);
+    if ((node.leaf >> octant & 1) != 0) return read_leaf(record, records, point, limit, found);
     node = *reinterpret_cast<const MaskNode*>(record);
   }
 }
 
 // Looks a point up from the root down.
-void look_from_root(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
+void look_from_root(const MaskInfo& mask, const Point& point, WorkLimit& limit,
                     const PageReader& pages, TraversalStats& work, MaskLookup& found) {
-  if (mask.page_count == 0 || max_work == 0) return;
+  if (mask.page_count == 0 || limit.spent()) return;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
   if (!record) return;
-  if (!records.root_is_node()) return read_leaf(record, records, point, found);
+  if (!records.root_is_node()) return read_leaf(record, records, point, limit, found);
   const std::uint64_t octants = CellGrid(mask.lower).finest(point).first_code();
   const auto octant_in = [octants](const GridCell& cell) {
     return static_cast<unsigned>(octants >> 3 * (kLevels - cell.level - 1) & 7);
   };
-  go_down(records, *reinterpret_cast<const MaskNode*>(record), point, max_work, octant_in, work,
+  go_down(records, *reinterpret_cast<const MaskNode*>(record), point, limit, octant_in, work,
           found);
 }
 
 // Looks a point up from the record that the side grid found for it.
 void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point& point,
-               std::uint64_t max_work, const PageReader& pages, TraversalStats& work,
-               MaskLookup& found) {
+               WorkLimit& limit, const PageReader& pages, TraversalStats& work, MaskLookup& found) {
   found.cell = lookup.cell;
   MaskRecords records(mask, pages);
   const SideGridRecord& record = *lookup.record;
@@ -107,11 +109,11 @@ void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point
       read_list(listed, records, found);
   } else if (record.is_leaf()) {
     const std::byte* leaf = records.record(record.link, true, work);
-    if (leaf) read_leaf(leaf, records, point, found);
+    if (leaf) read_leaf(leaf, records, point, limit, found);
   } else {
     const CellGrid grid(mask.lower);
     const auto octant_in = [&](const GridCell& cell) { return grid.octant(cell, point); };
-    go_down(records, record.node(), point, max_work, octant_in, work, found);
+    go_down(records, record.node(), point, limit, octant_in, work, found);
   }
 }
 
@@ -120,17 +122,19 @@ void look_from(const SideGrid::Lookup& lookup, const MaskInfo& mask, const Point
 MaskLookup look_up(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
                    const PageReader& pages, TraversalStats& work) noexcept {
   MaskLookup found;
-  look_from_root(mask, point, max_work, pages, work, found);
+  WorkLimit limit(work.units, max_work);
+  look_from_root(mask, point, limit, pages, work, found);
   return found;
 }
 
 MaskLookup look_up(const MaskInfo& mask, const SideGrid::Lookup& lookup, const Point& point,
                    std::uint64_t max_work, const PageReader& pages, TraversalStats& work) noexcept {
   MaskLookup found;
-  if (lookup.record && max_work > 0)
-    look_from(lookup, mask, point, max_work, pages, work, found);
+  WorkLimit limit(work.units, max_work);
+  if (lookup.record && !limit.spent())
+    look_from(lookup, mask, point, limit, pages, work, found);
   else
-    look_from_root(mask, point, max_work, pages, work, found);
+    look_from_root(mask, point, limit, pages, work, found);
   return found;
 }
 

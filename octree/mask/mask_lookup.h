@@ -43,7 +43,8 @@ struct MaskLookup {
 /// Finds the cell of the mask that a point is in.
 ///
 /// point     within the model's box, model frame.
-/// max_work  maximum number of nodes to visit; kLevels always suffice.
+/// max_work  maximum work in units, see WorkLimit: one for each node, and those of a special cell's
+///           planes.
 /// work      counters that the lookup adds to.
 /// threads   any; no allocation, no lock, no exception.
 MaskLookup look_up(const MaskInfo& mask, const Point& point, std::uint64_t max_work,

@@ -46,6 +46,16 @@ class BestTriangle {
     refresh();
   }
 
+  /// Whether a triangle is the best one again, with a greater index. It then has the same value,
+  /// and offering it would change nothing.
+  ///
+  /// corner  corner(k) returns a corner of the triangle
+  template <class Corner>
+  bool repeats(const Corner& corner, std::uint64_t index) const {
+    return index > triangle_ && corner(0) == corners_[0] && corner(1) == corners_[1] &&
+           corner(2) == corners_[2];
+  }
+
   /// Keeps an evaluated triangle if its (value, index) is less than that of the best one.
   ///
   /// is_height_field  flag of the triangle's block

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/overlap.h"
@@ -17,13 +18,15 @@ namespace {
 // again and again.
 class LimitedFinder {
  public:
-  LimitedFinder(const TreeInfo& tree, std::uint64_t max_count, const PageReader& pages,
+  LimitedFinder(const TreeInfo& tree, WorkLimit& limit, const PageReader& pages,
                 TraversalStats& work)
-      : records_(tree, pages), work_(work), left_(std::min(max_count, tree.record_count)) {}
+      : records_(tree, pages), work_(work), limit_(limit), left_(tree.record_count) {}
 
   // Returns null if the record's page is missing or no work is left.
   const std::byte* find(std::uint32_t link) {
-    const std::byte* record = left_ > 0 ? records_.find(link, work_) : nullptr;
+    const unsigned units = LinkFormat::is_leaf(link) ? WorkUnits::kBallBlock : 1;
+    const std::byte* record =
+        left_ > 0 && limit_.try_take(units) ? records_.find(link, work_) : nullptr;
     if (!record) {
       left_ = 0;  // after a missing page nothing more is searched
       return nullptr;
@@ -36,6 +39,7 @@ class LimitedFinder {
  private:
   LinkResolver records_;
   TraversalStats& work_;
+  WorkLimit& limit_;
   std::uint64_t left_;
 };
 
@@ -150,7 +154,7 @@ class TriangleSearch {
 }  // namespace
 
 void CoherenceCache::renew(const TreeInfo& tree, const Point& query, double distance,
-                           std::uint64_t max_work, const PageReader& pages,
+                           WorkLimit& limit, const PageReader& pages,
                            TraversalStats& work) noexcept {
   const double diagonal = (tree.box_upper - tree.box_lower).norm();
   const double radius = wanted_radius(query, distance, diagonal);
@@ -159,7 +163,7 @@ void CoherenceCache::renew(const TreeInfo& tree, const Point& query, double dist
   radius_ = radius;
   triangles_.clear();
   const Ball ball(tree, centre_, radius_);
-  LimitedFinder records(tree, max_work, pages, work);
+  LimitedFinder records(tree, limit, pages, work);
   if (!SubtreeSearch(ball, records, subtrees_).run(tree.root_link)) return forget();
   if (!subtrees_.are_blocks()) return;
   TriangleSearch search(tree, ball);

@@ -10,6 +10,8 @@
 
 namespace planetree::octree {
 
+class WorkLimit;
+
 /// The subtrees that reach into a ball about an earlier query, and the triangles that do if they
 /// are few. Queries near that one start there instead of at the root.
 ///
@@ -55,9 +57,9 @@ class CoherenceCache {
   /// Makes a new ball about `query`, if wanted_radius() is above 0.
   ///
   /// distance  from `query` to the surface, as its exact answer says
-  /// max_work  maximum number of nodes and blocks to visit; if it does not suffice or a page is
-  ///           missing, the ball has larger subtrees and no triangles, or is dropped
-  void renew(const TreeInfo& tree, const Point& query, double distance, std::uint64_t max_work,
+  /// limit     of the work; if it does not suffice or a page is missing, the ball has larger
+  ///           subtrees and no triangles, or is dropped
+  void renew(const TreeInfo& tree, const Point& query, double distance, WorkLimit& limit,
              const PageReader& pages, TraversalStats& work) noexcept;
 
   /// Records an exact answer.

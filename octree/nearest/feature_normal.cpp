@@ -12,6 +12,7 @@
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/wide_numbers.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/nearest/height_field.h"
 #include "octree/traversal/overlap.h"
 #include "octree/traversal/tree_walk.h"
@@ -37,12 +38,14 @@ class Fan {
  public:
   /// other  the edge's other end; null for a vertex.
   /// sides  receives every face; may be null.
-  Fan(const Point& vertex, const Point* other, FacingSides* sides)
-      : vertex_(vertex), other_(other), sides_(sides) {}
+  /// limit  charged for each face
+  Fan(const Point& vertex, const Point* other, FacingSides* sides, WorkLimit& limit)
+      : vertex_(vertex), other_(other), sides_(sides), limit_(limit) {}
 
   void add(const Triangle& triangle, std::uint64_t index) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       if (triangle[corner] != vertex_) continue;
+      if (!limit_.take()) return;
       const Point& next = triangle[(corner + 1) % 3];
       const Point& last = triangle[(corner + 2) % 3];
       if (other_ && next != *other_ && last != *other_) continue;
@@ -51,13 +54,14 @@ class Fan {
         sum_up();
       }
       Face& face = faces_[count_];
-      double area2 = 0;
-      const bool has_area = face_normal(triangle, face.normal, area2);
-      if (sides_) has_area ? sides_->add(triangle, face.normal, area2) : sides_->add_unknown();
-      if (!has_area) continue;
+      if (corner != last_corner_ || triangle != last_triangle_)
+        measure(triangle, corner, next - vertex_, last - vertex_);
+      if (sides_) has_area_ ? sides_->add(triangle, normal_, area2_) : sides_->add_unknown();
+      if (!has_area_) continue;
+      face.normal = normal_;
       face.index = index;
       face.corner = corner;
-      face.weight = other_ ? 1 : angle_between(next - vertex_, last - vertex_);
+      face.weight = weight_;
       ++count_;
     }
   }
@@ -82,6 +86,14 @@ class Fan {
     Point normal;
   };
 
+  // Computes normal and weight of a face. Many faces may coincide; only the first is measured.
+  void measure(const Triangle& triangle, unsigned corner, const Point& next, const Point& last) {
+    last_triangle_ = triangle;
+    last_corner_ = corner;
+    has_area_ = face_normal(triangle, normal_, area2_, &limit_);
+    weight_ = other_ || !has_area_ ? 1 : angle_between(next, last);
+  }
+
   void sum_up() {
     for (const Face& face : std::span(faces_, count_)) {
       sum_ += face.weight * face.normal;
@@ -98,6 +110,7 @@ class Fan {
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
   FacingSides* sides_;
+  WorkLimit& limit_;
   bool sorted_ = true;
   std::size_t count_ = 0;
   Face faces_[kSorted];
@@ -105,13 +118,22 @@ class Fan {
   double weights_ = 0;
   Point first_ = Point::Zero();
   std::uint64_t first_index_ = kNoTriangle;
+  // The last face measured, if last_corner_ is below 3.
+  unsigned last_corner_ = 3;
+  Triangle last_triangle_;
+  bool has_area_;
+  double area2_;
+  double weight_;
+  Point normal_;
 };
 
 /// Computes the normal where the nearest point is inside a face.
-void normal_of_face(const Point& query, const NearestAnswer& nearest, FeatureNormal& found) {
+void normal_of_face(const Point& query, const NearestAnswer& nearest, WorkLimit& limit,
+                    FeatureNormal& found) {
   double area2 = 0;
-  if (!face_normal(nearest.corners, found.normal, area2)) {
+  if (!face_normal(nearest.corners, found.normal, area2, &limit)) {
     found.normal = Point::Zero();
+    found.complete = !limit.exceeded();
     return;
   }
   if (!nearest.is_height_field) return;
@@ -148,7 +170,7 @@ bool walk_to(const Point& vertex, const NearbySubtrees* subtrees, Fan& fan, cons
 
 }  // namespace
 
-bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept {
+bool face_normal(const Triangle& triangle, Point& unit, double& area2, WorkLimit* limit) noexcept {
   const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const Point normal = u.cross(v);
   area2 = normal.squaredNorm();
@@ -158,9 +180,13 @@ bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept 
     unit = normal / std::sqrt(area2);
     return true;
   }
+  // As of segments and points, which a vertex may have many of.
+  if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+    return false;
+  if (limit && !limit->try_take(WorkUnits::kThinNormal)) return false;
   bool flat = true;
   for (unsigned axis = 0; axis < 3; ++axis)
-    flat = flat && normal_sign(triangle[0], triangle[1], triangle[2], axis) == 0;
+    flat = flat && normal_sign(triangle[0], triangle[1], triangle[2], axis, limit) == 0;
   if (!flat) unit = thin_normal(triangle);
   return !flat;
 }
@@ -170,7 +196,8 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
                     const PageReader& pages, TraversalStats& work, FeatureNormal& found) noexcept {
   found.complete = true;
   found.side = 0;
-  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, found);
+  WorkLimit limit(work.units, max_work);
+  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, limit, found);
   // Corners of the feature that holds the nearest point: one of a vertex, two of an edge.
   const Point* ends[3] = {};
   double shares[3] = {};
@@ -183,26 +210,25 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
   const Point& vertex = *ends[0];
   const bool on_edge = nearest.feature == Feature::kEdge;
   FacingSides sides(query);
-  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.is_height_field ? &sides : nullptr);
+  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.is_height_field ? &sides : nullptr, limit);
   if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
   const bool use_cache = coherence_cache && coherence_cache->has_all_at(nearest.point);
   if (use_cache && coherence_cache->triangles().complete()) {
     add_faces(vertex, coherence_cache->triangles(), fan);
   } else {
-    const std::uint64_t before = work.nodes + work.blocks;
     const NearbySubtrees* subtrees = use_cache ? &coherence_cache->subtrees() : nullptr;
-    found.complete = walk_to(vertex, subtrees, fan, tree, max_work, pages, work);
+    found.complete = walk_to(vertex, subtrees, fan, tree, limit.left(), pages, work);
     // So many faces are summed in the order of a walk from the root, which no cache changes.
     if (subtrees && !fan.is_sorted())
-      return feature_normal(tree, query, nearest, nullptr,
-                            max_work - (work.nodes + work.blocks - before), pages, work, found);
+      return feature_normal(tree, query, nearest, nullptr, limit.left(), pages, work, found);
   }
+  found.complete = found.complete && !limit.exceeded();
   found.normal = fan.normal();
   if (found.complete && nearest.is_height_field) found.side = sides.common();
   // Not even the page of the nearest triangle was available: its own normal is the best known.
   double area2 = 0;
   if (!found.complete && found.normal.squaredNorm() == 0 &&
-      !face_normal(nearest.corners, found.normal, area2))
+      !face_normal(nearest.corners, found.normal, area2, &limit))
     found.normal = Point::Zero();
 }
 

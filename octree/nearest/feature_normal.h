@@ -7,18 +7,22 @@
 
 namespace planetree::octree {
 
+class WorkLimit;
+
 /// Computes the unit normal of a triangle, along (b - a) x (c - a).
 ///
 /// triangle  model frame.
 /// unit      the normal, right within 2^-26 rad down to a sine of 2^-84 of the angle at a; left
 ///           as it is if the triangle has no area.
 /// area2     square of twice the area.
-/// return    false if the triangle has no area.
+/// limit     charged for what double does not suffice for; may be null.
+/// return    false if the triangle has no area, or if the limit refuses.
 ///
 /// Error. A cross product errs by 5 roundings over the sine of the angle between the edges. Double
 /// is used down to a sine of 2^-24, so that the error is below 2^-26 rad. Thinner triangles are
 /// evaluated with 113 bits, so that it is below 2^-26 rad down to a sine of 2^-84.
-bool face_normal(const Triangle& triangle, Point& unit, double& area2) noexcept;
+bool face_normal(const Triangle& triangle, Point& unit, double& area2,
+                 WorkLimit* limit = nullptr) noexcept;
 
 /// A pseudo-normal. Its sign follows the orientation of the mesh.
 struct FeatureNormal {
@@ -40,7 +44,7 @@ struct FeatureNormal {
 /// coherence_cache  as that query left it; may be null. If it has all faces at the nearest point,
 ///                  no page is read. If it has only the subtrees that they are in, no other
 ///                  subtree is visited, unless the faces are more than can be sorted.
-/// max_work         maximum number of nodes and blocks to visit.
+/// max_work         maximum work in units, see WorkLimit.
 /// work             counters that the search adds to.
 /// found            receives the result, because returning a copy takes longer.
 /// threads          any; no allocation, no lock, no exception of its own.

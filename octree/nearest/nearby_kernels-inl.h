@@ -15,6 +15,7 @@
 
 #include "octree/geometry/triangle_kernels-inl.h"
 #include "octree/geometry/wide_floats-inl.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/nearest/best_triangle.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/nearby_lists.h"
@@ -82,9 +83,9 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
 
 // Evaluates four triangles of a list, from `first` on, and offers those that have a bit in `near`.
 HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsigned near,
-                           const Point& query, BestTriangle& best) {
+                           const Point& query, WorkLimit& limit, BestTriangle& best) {
   TriangleResults results;
-  evaluate_selected(list.exact().view(first), near, query, results);
+  near &= ~evaluate_selected(list.exact().view(first), near, query, limit, results);
   for (; near != 0; near &= near - 1) {
     const auto lane = static_cast<unsigned>(std::countr_zero(near));
     best.offer(results.of(lane), list.id(first + lane), list.is_height_field(first + lane),
@@ -93,10 +94,11 @@ HWY_INLINE void offer_four(const NearbyTriangles& list, std::size_t first, unsig
 }
 
 // Offers the triangles of a list that may be nearest. Triangles farther than `reach` from the
-// list's centre cannot matter.
+// list's centre cannot matter. Even a query without work gets those that double suffices for, which
+// take a bounded time; limit.exceeded() tells whether others were left out.
 HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Point& query,
                              const FloatQuery& float_query, BestTriangle& best,
-                             TraversalStats& work) {
+                             WorkLimit& work_limit, TraversalStats& work) {
   const TriangleTag d;
   const std::size_t count = list.count_within(reach);
   const FloatOffset from(query, list.centre());
@@ -121,7 +123,7 @@ HWY_INLINE void offer_nearby(const NearbyTriangles& list, double reach, const Po
       const unsigned four = near & ((1u << kTrianglesAtOnce) - 1);
       if (four == 0) continue;
       work.triangles += static_cast<unsigned>(std::popcount(four));
-      offer_four(list, first, four, query, best);
+      offer_four(list, first, four, query, work_limit, best);
     }
   }
 }

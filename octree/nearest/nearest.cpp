@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
+#include <limits>
 
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/nearest/best_triangle.h"
 #include "octree/nearest/coherence_cache.h"
 #include "octree/nearest/nearby_kernels-inl.h"
@@ -18,33 +21,42 @@ HWY_BEFORE_NAMESPACE();
 namespace planetree::octree {
 namespace HWY_NAMESPACE {
 
+std::uint64_t units_of(const NearestLimits& limits) {
+  return limits.max_work == std::numeric_limits<std::uint32_t>::max() ? WorkLimit::kNone
+                                                                      : limits.max_work;
+}
+
 // Finds the nearest triangle in a list of all that may be nearest. None of these is farther than
-// `reach` from the list's centre.
+// `reach` from the list's centre. The answer is not exact if `limit` refuses some of them.
 NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
-                              const NearbyTriangles& list, double reach, TraversalStats& work) {
+                              const NearbyTriangles& list, double reach, WorkLimit& limit,
+                              TraversalStats& work) {
   const FloatQuery float_query = FloatQuery::from(query, tree.centre);
   BestTriangle best(float_query, limits);
-  offer_nearby(list, reach, query, float_query, best, work);
+  offer_nearby(list, reach, query, float_query, best, limit, work);
+  if (limit.exceeded()) [[unlikely]]
+    return {};
+  limit.take_some(WorkUnits::kNearbyList);
   return finalize(tree, query, limits, best, float_query, {});
 }
 
 NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
                                 const NearestLimits& limits, const PageReader& pages,
                                 TraversalStats& work, CoherenceCache* coherence_cache) {
-  const std::uint64_t before = work.nodes + work.blocks;
+  WorkLimit limit(work.units, units_of(limits));
   const double reach = coherence_cache ? coherence_cache->reach_of(query) : 0;
   const bool in_ball = coherence_cache && coherence_cache->holds(reach);
   const bool in_list = in_ball && coherence_cache->triangles().complete();
   const auto traverse = [&](bool from_ball) {
-    NearestTraversal traversal(tree, query, limits, pages, work);
+    NearestTraversal traversal(tree, query, limits, limit, pages, work);
     from_ball ? traversal.run_from(*coherence_cache) : traversal.run_from_root();
     if (limits.known) traversal.fall_back_on(*limits.known);
     return finalize(tree, query, limits, traversal.best(), traversal.float_query(),
                     traversal.skipped_bounds());
   };
-  NearestAnswer answer =
-      in_list ? nearest_of_list(tree, query, limits, coherence_cache->triangles(), reach, work)
-              : traverse(in_ball);
+  NearestAnswer answer = in_list ? nearest_of_list(tree, query, limits,
+                                                   coherence_cache->triangles(), reach, limit, work)
+                                 : traverse(in_ball);
   if (in_list) {
     if (answer.status == Status::kExact) {
       coherence_cache->note(query, answer.point);
@@ -62,9 +74,7 @@ NearestAnswer nearest_on_target(const TreeInfo& tree, const Point& query,
     answer = traverse(false);
   }
   if (coherence_cache && answer.status == Status::kExact) {
-    const std::uint64_t spent = work.nodes + work.blocks - before;
-    const std::uint64_t left = limits.max_work - std::min<std::uint64_t>(spent, limits.max_work);
-    coherence_cache->renew(tree, query, answer.distance, left, pages, work);
+    coherence_cache->renew(tree, query, answer.distance, limit, pages, work);
     coherence_cache->note(query, answer.point);
   }
   return answer;

@@ -8,11 +8,13 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "octree/geometry/triangle_kernels-inl.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/nearest/best_triangle.h"
 #include "octree/nearest/candidates-inl.h"
 #include "octree/nearest/coherence_cache.h"
@@ -32,12 +34,13 @@ namespace HWY_NAMESPACE {
 class NearestTraversal {
  public:
   NearestTraversal(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
-                   const PageReader& pages, TraversalStats& work)
+                   WorkLimit& work_limit, const PageReader& pages, TraversalStats& work)
       : tree_(tree),
         query_(query),
         float_query_(FloatQuery::from(query, tree.centre)),
         limits_(limits),
-        visits_left_(std::min<std::uint64_t>(limits.max_work, tree.record_count)),
+        // At most the number of records: in a forged tree links could lead in circles.
+        work_left_(work_limit, tree.record_count),
         work_(work),
         release_hook_(limits.allow_any_way() ? pages.release_hook : nullptr),
         records_(tree, pages),
@@ -117,11 +120,10 @@ class NearestTraversal {
   // Visits a record. Returns true if a child of it is to be visited next; `entry` is then that
   // child.
   HWY_INLINE bool visit(FrontierEntry& entry) {
-    if (visits_left_ == 0) {
+    if (!work_left_.visit()) {
       skipped_.unread = std::min(skipped_.unread, entry.bound);
       return false;
     }
-    --visits_left_;
     // Without a release hook, the frame of these blocks may be gone after the next lookup.
     if (!release_hook_ && !blocks_.empty() && !records_.is_in_current_page(entry.link))
       add_candidates_of_blocks();
@@ -130,7 +132,7 @@ class NearestTraversal {
       skip(entry);
     } else if (LinkFormat::is_leaf(entry.link)) {
       ++work_.blocks;
-      visit_block(BlockView(record, tree_.shape));
+      visit_block(BlockView(record, tree_.shape), entry.bound);
     } else {
       ++work_.nodes;
       return visit_node(entry, *reinterpret_cast<const Node*>(record), records_.page());
@@ -142,7 +144,7 @@ class NearestTraversal {
   // from above.
   void skip(const FrontierEntry& entry) {
     skipped_.unread = std::min(skipped_.unread, entry.bound);
-    if (box_lookups_ == kMaxBoxLookups) return;
+    if (box_lookups_ == kMaxBoxLookups || !work_left_.take(WorkUnits::kParentSearch)) return;
     ++box_lookups_;
     if (entry.from == LinkResolver::kNoPage) return skip_subtree_of_ball(entry.link);
     const LinkResolver::Child child = records_.find_parent(entry.link, entry.from);
@@ -200,11 +202,14 @@ class NearestTraversal {
       records_.prefetch<kNodeLines>(group.link[i < near ? i : 0]);
   }
 
-  HWY_INLINE void visit_block(const BlockView& block) {
+  // bound  of the block
+  HWY_INLINE void visit_block(const BlockView& block, float bound) {
     const BlockHeader& header = block.header();
     // The block is too small for float, or the query too far away.
     if (!can_filter(float_query_, header.extent)) {
-      for (unsigned i = 0; i < header.triangle_count; ++i) add_candidate(block, i, 0);
+      const unsigned count = header.vertex_count() <= 3 ? different(block) : header.triangle_count;
+      if (!may_evaluate(bound)) return;
+      for (unsigned i = 0; i < count; ++i) add_candidate(block, i, 0);
       return;
     }
     if (blocks_.full()) add_candidates_of_blocks();
@@ -212,8 +217,33 @@ class NearestTraversal {
     FilteredTriangles& filtered = blocks_.next();
     filter_block(header, from.at, filter_limit(header.extent), filtered);
     if (filtered.near == 0) return;
+    if (header.vertex_count() <= 3) [[unlikely]] {
+      filtered.near &= (1U << different(block)) - 1;
+      if (filtered.near == 0) return;
+    }
+    if (!may_evaluate(bound)) return;
     blocks_.add(header);
     best_.tighten(filter_upper(filtered.min_upper, header.extent));
+  }
+
+  // Returns how many triangles of a block to consider. Of equal ones the first suffices, because it
+  // has the least index, and none is needed if it is the best triangle again.
+  HWY_NOINLINE unsigned different(const BlockView& block) const {
+    if (!block.header().repeats_one_triangle()) return block.triangle_count();
+    const auto corners = block.header().corners(0);
+    const auto corner = [&](std::size_t k) { return block.vertex(corners[k]); };
+    return best_.repeats(corner, block.id(0)) ? 0 : 1;
+  }
+
+  // Charges the evaluation of a block's triangles. Returns false if the work does not suffice; the
+  // block then counts as unread.
+  HWY_INLINE bool may_evaluate(float bound) {
+    if (!work_left_.take(WorkUnits::kNearBlock)) [[unlikely]] {
+      skipped_.unread = std::min(skipped_.unread, bound);
+      return false;
+    }
+    pending_bound_ = std::min(pending_bound_, bound);
+    return true;
   }
 
   // Filter values above this belong to triangles that cannot be nearest.
@@ -267,11 +297,16 @@ class NearestTraversal {
     for (std::size_t i = 0; i < candidates_.size(); i += kTrianglesAtOnce) {
       TriangleResults results;
       const std::size_t count = std::min(candidates_.size() - i, kTrianglesAtOnce);
-      evaluate_selected(rows.view(i), (1U << count) - 1, query_, results);
-      for (std::size_t lane = 0; lane < count; ++lane)
+      const unsigned all = (1U << count) - 1;
+      const unsigned refused = evaluate_selected(rows.view(i), all, query_, work_left_, results);
+      if (refused != 0) [[unlikely]]
+        skipped_.unread = std::min(skipped_.unread, pending_bound_);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        if ((refused >> lane & 1) != 0) continue;
         best_.offer(results.of(lane), candidates_.id(i + lane),
                     candidates_.is_height_field(i + lane),
                     [&](Triangle& to) { rows.view(0).copy_triangle(i + lane, to); });
+      }
     }
     work_.triangles += candidates_.size();
     candidates_.clear();
@@ -281,8 +316,7 @@ class NearestTraversal {
   const Point query_;
   const FloatQuery float_query_;
   const NearestLimits limits_;
-  // At most the number of records: in a forged tree links could lead in circles.
-  std::uint64_t visits_left_;
+  TraversalWork work_left_;
   TraversalStats& work_;
   FrameReleaseHook* const release_hook_;
   LinkResolver records_;
@@ -293,6 +327,7 @@ class NearestTraversal {
   Frontier::Order order_ = Frontier::Order::kLast;
   const NearbySubtrees* subtrees_ = nullptr;  // those of a ball; null if the root is the start
   SkippedBounds skipped_;
+  float pending_bound_ = std::numeric_limits<float>::infinity();  // of blocks with candidates
   unsigned box_lookups_ = 0;
 };
 

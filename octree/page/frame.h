@@ -119,6 +119,20 @@ struct alignas(kSlotBytes) BlockHeader {
     };
     return {at(packed_corners[0]), at(packed_corners[1]), at(packed_corners[2])};
   }
+  /// Returns whether all triangles have the same corners in the same order.
+  bool repeats_one_triangle() const {
+    if (vertex_count() > 3) return false;
+    if (compact()) {
+      // In the lanes behind the last triangle too, which repeat it.
+      const auto same = [](std::uint64_t packed) {
+        return packed == (packed & 15U) * 0x1111'1111'1111'1111U;
+      };
+      return same(packed_corners[0]) && same(packed_corners[1]) && same(packed_corners[2]);
+    }
+    for (unsigned i = 1; i < triangle_count; ++i)
+      if (corners(i) != corners(0)) return false;
+    return true;
+  }
 };
 static_assert(sizeof(BlockHeader) == kSlotBytes);
 static_assert(offsetof(BlockHeader, packed_corners) == 40);

@@ -77,6 +77,7 @@ struct TraversalStats {
   std::uint64_t blocks = 0;
   std::uint64_t triangles = 0;  ///< evaluated in double
   std::uint64_t page_switches = 0;
+  std::uint64_t units = 0;  ///< units of work, see WorkLimit
 };
 
 /// Finds the record that a link leads to. Looks a page up only when it differs from the last one.

@@ -8,6 +8,7 @@
 
 #include "octree/geometry/child_bounds.h"
 #include "octree/geometry/error_bounds.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/bounds.h"
 #include "octree/traversal/nearby_lists.h"
@@ -27,8 +28,9 @@ class TreeWalk {
   void start_from(std::uint32_t link) { links_[size_++] = {link, LinkResolver::kNoPage}; }
 
   /// Calls visit(BlockView, link) for each block. meeting(Node) returns a bit for each child to
-  /// visit. Returns false if some blocks were not visited, because pages were not available or more
-  /// than `max_work` nodes and blocks would have been visited.
+  /// visit. Returns false if some blocks were not visited, because pages were not available or the
+  /// work would have exceeded `max_work`. A visit is one unit; what visit() does more it charges
+  /// itself.
   template <class Visit, class Meeting>
   bool run(std::uint64_t max_work, const Visit& visit, const Meeting& meeting) {
     return run_while(max_work, visit, meeting, [] { return true; });
@@ -39,12 +41,13 @@ class TreeWalk {
   bool run_while(std::uint64_t max_work, const Visit& visit, const Meeting& meeting,
                  const ShouldContinue& should_continue) {
     // A valid tree takes at most record_count visits; a corrupt one may take more.
-    std::uint64_t left = std::min(max_work, tree_.record_count);
+    std::uint64_t left = tree_.record_count;
+    WorkLimit limit(work_.units, max_work);
     bool complete = true;
     if (size_ == 0) start_from(tree_.root_link);
     Link next = links_[--size_];
     for (bool more = true; more; --left) {
-      if (left == 0 || !should_continue()) return false;
+      if (left == 0 || !should_continue() || !limit.take()) return false;
       const std::byte* record = records_.find(next.to, work_, next.from);
       unsigned children = 0;
       if (!record) {

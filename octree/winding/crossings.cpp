@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/triangle_distance.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/traversal/tree_walk.h"
 #include "octree/winding/crossing_kernels-inl.h"
@@ -21,7 +23,8 @@ namespace HWY_NAMESPACE {
 // Sums crossings. It gathers triangles until there are as many as are tested at once.
 class CrossingSum {
  public:
-  explicit CrossingSum(const PerturbedSegment& segment) : segment_(segment) {}
+  CrossingSum(const PerturbedSegment& segment, WorkLimit& limit)
+      : segment_(segment), limit_(limit) {}
 
   void add(const Triangle& triangle) {
     if (size_ == 0)
@@ -31,29 +34,46 @@ class CrossingSum {
     if (++size_ == kTrianglesAtOnce) test();
   }
 
+  // Not complete if the limit refused a test.
   Crossings sum() {
     if (size_ > 0) test();
+    sum_.complete = !limit_.exceeded();
     return sum_;
   }
 
  private:
   void test() {
     const unsigned used = (1U << size_) - 1;
+    size_ = 0;
+    if (!limit_.take()) return;
     const CrossedTriangles crossed = cross_triangles(rows_, segment_);
     sum_.difference += std::popcount(crossed.forward & used);
     sum_.difference -= std::popcount(crossed.backward & used);
     for (unsigned unsure = crossed.unsure & used; unsure != 0; unsure &= unsure - 1) {
-      const Triangle triangle = rows_.triangle(static_cast<unsigned>(std::countr_zero(unsure)));
-      sum_.on_surface = sum_.on_surface || lies_on(segment_.from, triangle);
-      sum_.difference += crossing(segment_, triangle);
+      if (!limit_.take(WorkUnits::kExactCrossing)) return;
+      add_exactly(rows_.triangle(static_cast<unsigned>(std::countr_zero(unsure))));
     }
-    size_ = 0;
+  }
+
+  // Many triangles may coincide; only the first of them is tested.
+  void add_exactly(const Triangle& triangle) {
+    if (triangle != tested_) {
+      sum_.on_surface = sum_.on_surface || lies_on(segment_.from, triangle, &limit_);
+      tested_crossing_ = crossing(segment_, triangle, &limit_);
+      tested_ = triangle;
+    }
+    sum_.difference += tested_crossing_;
   }
 
   const PerturbedSegment& segment_;
+  WorkLimit& limit_;
   std::size_t size_ = 0;
   TriangleRows<kTrianglesAtOnce> rows_;
   Crossings sum_;
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  // The last triangle tested by exact signs.
+  Triangle tested_{Point::Constant(kNone), Point::Constant(kNone), Point::Constant(kNone)};
+  int tested_crossing_ = 0;
 };
 
 // Does what triangles_met() does, for a block of double vertices: returns a bit for each triangle
@@ -74,12 +94,13 @@ unsigned boxes_met(const BlockView& block, const PerturbedSegment& segment) {
 // Counts the crossings of a segment with the triangles of the blocks that are visited.
 class BlockCrossings {
  public:
-  BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, TraversalStats& work)
+  BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, WorkLimit& limit,
+                 TraversalStats& work)
       : segment_(segment),
         block_segment_(FloatSegment::between(
             segment.from, segment.to, Point::Zero(),
             std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff()))),
-        crossings_(segment),
+        crossings_(segment, limit),
         work_(work) {}
 
   void visit(const BlockView& block) {
@@ -94,7 +115,7 @@ class BlockCrossings {
 
   Crossings found(bool complete) {
     Crossings found = crossings_.sum();
-    found.complete = complete;
+    found.complete = found.complete && complete;
     return found;
   }
 
@@ -108,7 +129,8 @@ class BlockCrossings {
 Crossings count_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
                           std::uint64_t max_work, const PageReader& pages, TraversalStats& work) {
   const FloatSegment node_segment = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
-  BlockCrossings crossings(tree, segment, work);
+  WorkLimit limit(work.units, max_work);
+  BlockCrossings crossings(tree, segment, limit, work);
   const auto visit = [&](const BlockView& block, std::uint32_t)
                          HWY_ATTR { crossings.visit(block); };
   const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, node_segment); };
@@ -119,10 +141,11 @@ Crossings count_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
 Crossings count_in_blocks_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
                                     std::span<const std::uint32_t> blocks, std::uint64_t max_work,
                                     const PageReader& pages, TraversalStats& work) {
-  if (blocks.size() > max_work) return {.complete = false};
+  WorkLimit limit(work.units, max_work);
+  if (!limit.take(blocks.size())) return {.complete = false};
   LinkResolver records(tree, pages);
   for (const std::uint32_t link : blocks) records.prefetch(link);
-  BlockCrossings crossings(tree, segment, work);
+  BlockCrossings crossings(tree, segment, limit, work);
   bool complete = true;
   for (const std::uint32_t link : blocks) {
     const std::byte* record = LinkFormat::is_leaf(link) ? records.find(link, work) : nullptr;

@@ -19,7 +19,7 @@ struct Crossings {
 ///
 /// segment   model frame. Its ends are moved by the infinitesimal steps of predicates.h, so that a
 ///           segment through a vertex or along a face counts as one beside it does.
-/// max_work  maximum number of nodes and blocks to visit.
+/// max_work  maximum work in units, see WorkLimit.
 /// work      counters that the walk adds to.
 /// threads   any; no allocation, no lock, no exception of its own.
 /// source    "Out-of-core real-time haptic interaction on very large models", section 3.3, counts

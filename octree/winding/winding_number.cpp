@@ -9,6 +9,7 @@
 #include "octree/geometry/certain_sum.h"
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/tree_view.h"
 #include "octree/winding/multipole.h"
@@ -59,17 +60,18 @@ class OpenList {
 
 class WindingSum {
  public:
-  WindingSum(const TreeInfo& tree, const Point& point, const PageReader& pages,
-             TraversalStats& work)
+  WindingSum(const TreeInfo& tree, const Point& point, std::uint64_t max_work,
+             const PageReader& pages, TraversalStats& work)
       : tree_(tree),
         point_(point),
         work_(work),
+        limit_(work.units, max_work),
         multipoles_(point, tree.centre),
         records_(tree, pages) {}
 
-  WindingNumber run(std::uint64_t max_work) {
+  WindingNumber run() {
     // At most the number of records: in a forged tree links could lead in circles.
-    std::uint64_t left = std::min(max_work, tree_.record_count);
+    std::uint64_t left = tree_.record_count;
     add_proxy({{0, Multipoles::kUnknown}, tree_.root_link, 0});
     open_list_.push({{0, Multipoles::kUnknown}, tree_.root_link, 0});
     while (!open_list_.empty() && !decided()) {
@@ -77,12 +79,13 @@ class WindingSum {
       // After the loss of an unknown child, all that can still be found is that the point is on the
       // surface. A child of known share is too far away for that.
       if (lost_unknown_ && proxy.known()) continue;
-      if (left-- == 0) {
+      if (left-- == 0 || !limit_.take()) {
         complete_ = false;
         break;
       }
       open(proxy);
     }
+    complete_ = complete_ && !limit_.exceeded();
     WindingNumber result = sum();
     // On the surface, records that were lost leave the error below its limit without telling the
     // sign that all records tell.
@@ -137,11 +140,10 @@ class WindingSum {
       lost_unknown_ = lost_unknown_ || !proxy.known();
       return;
     }
+    if (leaf) return open_block(BlockView(record, tree_.shape), proxy);
+    if (!limit_.take(WorkUnits::kMoments)) return;
     remove_proxy(proxy);
-    if (leaf)
-      add_block(BlockView(record, tree_.shape));
-    else
-      open_node(*reinterpret_cast<const Node*>(record), deep);
+    open_node(*reinterpret_cast<const Node*>(record), deep);
   }
 
   void open_node(const Node& node, bool deep) {
@@ -158,11 +160,15 @@ class WindingSum {
     }
   }
 
-  void add_block(const BlockView& block) {
+  void open_block(const BlockView& block, const Proxy& proxy) {
     ++work_.blocks;
+    if (!limit_.take((block.triangle_count() + WorkUnits::kSolidAngles - 1) /
+                     WorkUnits::kSolidAngles))
+      return;
+    remove_proxy(proxy);
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       ++work_.triangles;
-      const WindingShare share = winding_share(point_, block.triangle(i));
+      const WindingShare share = winding_share(point_, block.triangle(i), &limit_);
       value_.add(share.value);
       error_.add(share.error);
       on_surface_ = on_surface_ || share.on_surface;
@@ -172,6 +178,7 @@ class WindingSum {
   const TreeInfo& tree_;
   const Point& point_;
   TraversalStats& work_;
+  WorkLimit limit_;
   const Multipoles multipoles_;
   LinkResolver records_;
   OpenList open_list_;
@@ -187,7 +194,7 @@ class WindingSum {
 
 WindingNumber winding_number(const TreeInfo& tree, const Point& point, std::uint64_t max_work,
                              const PageReader& pages, TraversalStats& work) noexcept {
-  return WindingSum(tree, point, pages, work).run(max_work);
+  return WindingSum(tree, point, max_work, pages, work).run();
 }
 
 }  // namespace planetree::octree

@@ -32,7 +32,7 @@ struct WindingNumber {
 ///
 /// tree      its nodes have moments, or it is a single block.
 /// point     model frame, no coordinate beyond kMaxQueryCoordinate.
-/// max_work  maximum number of nodes and blocks to visit.
+/// max_work  maximum work in units, see WorkLimit.
 /// work      counters that the sum adds to.
 /// return    decided, if complete. For a point on the surface it is enough to know the sign, or
 ///           that the magnitude is below 1/4. A missing page is replaced by the moments of the

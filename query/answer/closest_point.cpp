@@ -91,8 +91,10 @@ class ClosestPointQuery {
       : model_(context.model),
         pages_(context.pages),
         coherence_(context.coherence),
+        work_(context.work),
         query_(query),
         options_(options),
+        max_units_(max_units(options)),
         remember_(may_use_coherence(coherence_, options)),
         scaled_(model_.scale.in(query)),
         far_(is_far(scaled_)),
@@ -116,8 +118,7 @@ class ClosestPointQuery {
 
  private:
   std::uint64_t work_left() const {
-    const std::uint64_t spent = work_.nodes + work_.blocks;
-    return spent < options_.max_work ? options_.max_work - spent : 0;
+    return work_.units < max_units_ ? max_units_ - work_.units : 0;
   }
 
   // Starts to prefetch what the search for the side will read, if a search of the mask is likely.
@@ -222,9 +223,11 @@ class ClosestPointQuery {
   }
 
   void find_normal(const octree::NearestAnswer& nearest, const SideResult& side) {
-    const octree::Point normal = contact_normal(point_, nearest, feature(nearest), side);
+    const octree::FeatureNormal& faces = feature(nearest);
+    octree::WorkLimit limit(work_.units, work_left());
+    const octree::Point normal = contact_normal(point_, nearest, faces, side, limit);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
-    if (!feature(nearest).complete || !side.winding_is_known) mark_degraded();
+    if (!faces.complete || !side.winding_is_known || limit.exceeded()) mark_degraded();
   }
 
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {
@@ -246,14 +249,15 @@ class ClosestPointQuery {
   const ModelGeometry& model_;
   const octree::PageReader& pages_;
   Coherence& coherence_;
+  octree::TraversalStats& work_;
   const Vec3& query_;
   const QueryOptions& options_;
+  const std::uint64_t max_units_;
   const bool remember_;
   const octree::Point scaled_;  // the query in the model frame
   const bool far_;
   const octree::Point point_;  // scaled_; for a far query see within_reach()
   std::optional<octree::MaskPrefetcher> prefetcher_;
-  octree::TraversalStats work_;
   ClosestPoint& answer_;
   octree::FeatureNormal feature_;  // at the nearest point, if has_feature_
   bool has_feature_ = false;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "octree/geometry/work_limit.h"
 #include "octree/nearest/coherence_cache.h"
 #include "octree/nearest/nearest.h"
 #include "octree/traversal/tree_view.h"
@@ -33,6 +35,7 @@ struct QueryContext {
   const ModelGeometry& model;
   const octree::PageReader& pages;
   Coherence& coherence;
+  octree::TraversalStats& work;  ///< counters that the query adds to; zero before it
 };
 
 /// Returns whether a query can be answered. If not, its status is kBadQuery.
@@ -60,6 +63,11 @@ inline QueryOptions with_defaults(QueryOptions options) {
   if (options.wait == Wait::kNever && options.max_work == QueryOptions::kNoLimit)
     options.max_work = QueryOptions::kRealTimeWork;
   return options;
+}
+
+/// Returns the work limit of options returned by with_defaults().
+inline std::uint64_t max_units(const QueryOptions& options) {
+  return options.max_work == QueryOptions::kNoLimit ? octree::WorkLimit::kNone : options.max_work;
 }
 
 /// Returns whether a query may use the coherence. The answer of a query of limited work depends on

@@ -71,8 +71,9 @@ double largest_coordinate(const octree::Triangle& triangle) {
 /// Returns 1 if the normal points towards the (perturbed) query, -1 if it points away, and 0 if
 /// rounding leaves that uncertain.
 int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side side,
-                  const Point& normal) {
-  if (nearest.feature == Feature::kFace) return octree::perturbed_side(nearest.corners, query);
+                  const Point& normal, octree::WorkLimit& limit) {
+  if (nearest.feature == Feature::kFace)
+    return octree::perturbed_side(nearest.corners, query, &limit);
   if (side == Side::kOnSurface ||
       nearest.distance < octree::kMinDirectionShare * largest_coordinate(nearest.corners))
     return 0;
@@ -85,11 +86,12 @@ int towards_query(const Point& query, const octree::NearestAnswer& nearest, Side
 /// of the faces. So it does for a query on a surface that is not watertight, since there both sides
 /// of the surface may be outside.
 bool points_inward(const Point& query, const octree::NearestAnswer& nearest,
-                   const SideResult& side_result, const Point& normal) {
+                   const SideResult& side_result, const Point& normal, octree::WorkLimit& limit) {
   if (side_result.side == Side::kUnknown) return false;
   // Nothing lies between the query and its nearest triangle. That is not known of other triangles.
   if (nearest.status != Status::kExact || !side_result.beside) return side_result.winding < 0;
-  const int towards = towards_query(query, nearest, side_result.side, normal);
+  const int towards = towards_query(query, nearest, side_result.side, normal, limit);
+  if (limit.exceeded()) return false;
   if (towards == 0) return side_result.winding < 0;
   return (towards > 0) == (side_result.winding != 0);
 }
@@ -147,18 +149,18 @@ SideResult find_containment(const QueryContext& context, const Vec3& query,
   if (is_far(scaled))
     if (const auto known = side_without_pages(model, scaled, lookup)) return *known;
   const octree::Point point = within_reach(scaled, query);
-  octree::TraversalStats work;
   if (may_use_coherence(context.coherence, options))
-    return find_side(model, point, lookup, 0, context.coherence.side, options.max_work,
-                     context.pages, work);
-  return find_side(model, point, options.max_work, context.pages, work);
+    return find_side(model, point, lookup, 0, context.coherence.side, max_units(options),
+                     context.pages, context.work);
+  return find_side(model, point, max_units(options), context.pages, context.work);
 }
 
 Point contact_normal(const Point& query, const octree::NearestAnswer& nearest,
-                     const octree::FeatureNormal& feature, const SideResult& side_result) noexcept {
+                     const octree::FeatureNormal& feature, const SideResult& side_result,
+                     octree::WorkLimit& limit) noexcept {
   if (!(feature.normal.squaredNorm() > 0)) return {0, 0, 1};
-  return points_inward(query, nearest, side_result, feature.normal) ? Point(-feature.normal)
-                                                                    : feature.normal;
+  return points_inward(query, nearest, side_result, feature.normal, limit) ? Point(-feature.normal)
+                                                                           : feature.normal;
 }
 
 }  // namespace planetree::query

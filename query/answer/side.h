@@ -7,6 +7,7 @@
 
 #include "octree/geometry/cell_grid.h"
 #include "octree/geometry/error_bounds.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/nearest/feature_normal.h"
@@ -134,7 +135,7 @@ struct SideReason {
 /// Finds the side of a model's surface that a point is on.
 ///
 /// point     model frame
-/// max_work  maximum number of nodes and blocks to visit
+/// max_work  maximum work in units, see octree::WorkLimit
 /// work      counters that the search adds to
 /// reason    receives how the side was found; may be null
 /// return    kUnknown if degraded or if the side cannot be known (Rule::kRegion); also if the model
@@ -198,8 +199,10 @@ SideResult find_containment(const QueryContext& context, const Vec3& query,
 /// query, nearest  a query and its answer, which names a triangle; model frame
 /// feature         pseudo-normal at the nearest point
 /// side_result     side of the query
+/// limit           charged for signs that double does not suffice for. If it refuses, the normal
+///                 follows the orientation of the mesh.
 octree::Point contact_normal(const octree::Point& query, const octree::NearestAnswer& nearest,
-                             const octree::FeatureNormal& feature,
-                             const SideResult& side_result) noexcept;
+                             const octree::FeatureNormal& feature, const SideResult& side_result,
+                             octree::WorkLimit& limit) noexcept;
 
 }  // namespace planetree::query

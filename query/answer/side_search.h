@@ -81,7 +81,7 @@ class SideSearch {
         reason_(reason),
         cache_(hints.cache),
         lookup_(hints.lookup),
-        work_before_(work.nodes + work.blocks) {}
+        work_before_(work.units) {}
 
   /// Runs the search, once. kDegraded if pages were missing or the work was spent.
   SideResult run();
@@ -93,7 +93,7 @@ class SideSearch {
   // The functions that return bool set the result and return true, or return false if they cannot
   // decide.
   std::uint64_t work_left() const {
-    const std::uint64_t spent = work_.nodes + work_.blocks - work_before_;
+    const std::uint64_t spent = work_.units - work_before_;
     return spent < max_work_ ? max_work_ - spent : 0;
   }
   bool search_mask();

@@ -118,7 +118,11 @@ TEST(CrossingsInBlocks, AreIncompleteWhereWorkEnds) {
   ListedOctants listed(sphere(5));
   const auto [segment, blocks] = listed.one_of(3);
   ASSERT_GE(blocks.size(), 3u);
-  EXPECT_TRUE(listed.count(segment, blocks, blocks.size()).complete);
+  EXPECT_TRUE(listed.count(segment, blocks).complete);
+  const std::uint64_t needed = listed.work.units;
+  EXPECT_GT(needed, blocks.size());
+  EXPECT_TRUE(listed.count(segment, blocks, needed).complete);
+  EXPECT_FALSE(listed.count(segment, blocks, needed - 1).complete);
   EXPECT_FALSE(listed.count(segment, blocks, blocks.size() - 1).complete);
   EXPECT_LT(listed.work.blocks, blocks.size());
   EXPECT_FALSE(listed.count(segment, blocks, 0).complete);

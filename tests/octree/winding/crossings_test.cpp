@@ -91,7 +91,7 @@ TEST(CountCrossings, IsIncompleteWhereWorkOrPagesEnd) {
   const PerturbedSegment segment{{0.1, 0.2, 0}, {0.1, 0.2, 3}};
   TraversalStats work;
   ASSERT_TRUE(count_crossings(tree, segment, kEveryNode, pages.reader(), work).complete);
-  const std::uint64_t needed = work.nodes + work.blocks;
+  const std::uint64_t needed = work.units;
   EXPECT_TRUE(count_crossings(tree, segment, needed, pages.reader(), work).complete);
   EXPECT_FALSE(count_crossings(tree, segment, needed - 1, pages.reader(), work).complete);
   EXPECT_FALSE(count_crossings(tree, segment, 0, pages.reader(), work).complete);

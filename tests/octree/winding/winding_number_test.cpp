@@ -86,12 +86,13 @@ TEST(WindingNumber, ErrorBoundHoldsAtAnyWork) {
   const Point points[] = {{0.01, 0.005, -0.002}, {0.1, 0.2, -0.4}, {0, 0, 0.3}, {0.4, -0.5, 0.2}};
   for (const Point& point : points) {
     const double truth = winding.truth(point);
-    for (std::uint64_t nodes = 0; nodes <= winding.records(); ++nodes) {
-      const WindingNumber found = winding.winding(point, nodes);
+    ASSERT_TRUE(winding.winding(point).complete);
+    const std::uint64_t needed = winding.work.units;
+    for (std::uint64_t units = 0; units <= needed; ++units) {
+      const WindingNumber found = winding.winding(point, units);
       expect_true(found, truth);
-      EXPECT_LE(winding.work.nodes + winding.work.blocks, nodes);
-      EXPECT_EQ(found.complete,
-                found.above_half() || found.below_half() || nodes == winding.records());
+      EXPECT_LE(winding.work.units, units);
+      EXPECT_EQ(found.complete, found.above_half() || found.below_half() || units == needed);
     }
     EXPECT_TRUE(winding.winding(point).complete);
   }
