@@ -79,7 +79,7 @@ void go_down(MaskRecords& records, const MaskNode& from, const Point& point, std
 // Looks a point up from the root down.
 void look_from_root(const MaskInfo& mask, const Point& point, std::uint64_t max_work,
                     const PageReader& pages, TraversalStats& work, MaskLookup& found) {
-  if (mask.page_count == 0 || max_work == 0) return;
+  if (mask.page_count == 0 || max_work == 0 || !mask.reaches(point)) return;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
   if (!record) return;

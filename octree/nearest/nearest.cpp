@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 // `reach` from the list's centre.
 NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                               const NearbyTriangles& list, double reach, TraversalStats& work) {
-  const FloatQuery float_query = FloatQuery::from(query, tree.centre);
-  BestTriangle best(float_query, limits);
+  const FloatQuery float_query = FloatQuery::from(query, tree);
+  BestTriangle best(float_query, limits, tree.span(query));
   offer_nearby(list, reach, query, float_query, best, work);
   return finalize(tree, query, limits, best, float_query, {});
 }

@@ -64,7 +64,7 @@ class WindingSum {
       : tree_(tree),
         point_(point),
         work_(work),
-        multipoles_(point, tree.centre),
+        multipoles_(point, tree),
         records_(tree, pages) {}
 
   WindingNumber run(std::uint64_t max_work) {

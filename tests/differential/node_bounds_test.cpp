@@ -33,7 +33,7 @@ Vec3 plain(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Corners plain(const Triangle& t) { return {plain(t[0]), plain(t[1]), plain(t[2])}; }
 
 FloatQuery float_query(const TreePages& pages, const Point& query) {
-  return FloatQuery::from(query, pages.centre());
+  return FloatQuery::from(query, pages.tree());
 }
 
 // A child's box holds every corner below it. Stored numbers are used as they are; corners may

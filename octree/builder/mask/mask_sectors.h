@@ -45,7 +45,7 @@ class MaskSectors {
     storage::SpillRuns::Extent visitors;  ///< triangles that touch other sectors than their own
   };
 
-  /// lower       least corner of the model's box, model frame.
+  /// lower       least corner of the core, model frame.
   /// known       region in which sides are needed; all triangles that touch it are in the model.
   /// winding     number at the least corner of the root, clamped to `known`.
   /// held_bytes  maximum, in memory, of triangles that touch other sectors than their own.
