@@ -71,8 +71,8 @@ inline constexpr double kFlushLoss = 0x1p-1010;
 /// doubled.
 inline constexpr double kOverlapMargin = 0x1p-48;
 /// Absolute error of products that underflow. A product loses at most 2^-1075, times a third factor
-/// below 2^61 in the model frame.
-inline constexpr double kProductUnderflow = 0x1p-1000;
+/// below 2^113 in the model frame.
+inline constexpr double kProductUnderflow = 0x1p-950;
 
 // Bounds in float of boxes and discs: octree/traversal/bounds.h. There D is the distance to the
 // centre of a box, d the distance to the surface in it, and r the diagonal of the box.
@@ -211,7 +211,7 @@ inline constexpr double kMultipoleErrorInflation = 1 + 0x1p-40;
 /// six products errs by 8 roundings, three differences, two products and three sums, each of which
 /// errs by a whole ulp in a directed mode: 6 * 16 u.
 inline constexpr double kCrossingDeterminantError = 0x1p-46;
-/// More than flushing subnormals to zero can lose: 2^-1022 times 2^61 and 2^301.
+/// More than flushing subnormals to zero can lose: 2^-1022 times 2^113 and 2^301.
 inline constexpr double kCrossingUnderflow = 0x1p-600;
 /// Error of a face of the side grid, as a share of its coordinate: a face is rounded once.
 inline constexpr double kGridFaceRounding = kDoubleRoundoff;

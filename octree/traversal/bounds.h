@@ -105,7 +105,7 @@ inline double certified(const FloatQuery& query, float bound_squared) {
 
 /// Returns whether float suffices to filter a block's triangles for a query.
 inline bool can_filter(const FloatQuery& query, float block_extent) {
-  return query.usable && block_extent >= kFilterMinExtent;
+  return query.usable && block_extent >= kFilterMinExtent && block_extent <= kFilterMaxExtent;
 }
 
 /// Returns an upper bound on the distance to a triangle with this filter value.

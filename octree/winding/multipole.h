@@ -96,7 +96,7 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
   }
   const double delta = has_strays_ ? delta_ + kMultipoleQueryRounding * farthest : delta_;
   const double rho = std::sqrt(gap2) * (1 - kNormRounding) - delta;
-  if (!(rho > kMultipoleMinDistance)) return {0, kUnknown};
+  if (!(rho > kMultipoleMinDistance) || !moments.are_known()) return {0, kUnknown};
   const double area = Moments::wide(moments.area), second = Moments::wide(moments.second);
   const double dipole_unit = moments.dipole_unit(), quadrupole_unit = moments.quadrupole_unit();
   const double over_way = 1 / way.norm(), over_rho = 1 / rho;

@@ -33,7 +33,8 @@ Vec3 plain(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Corners plain(const Triangle& t) { return {plain(t[0]), plain(t[1]), plain(t[2])}; }
 
 FloatQuery float_query(const TreePages& pages, const Point& query) {
-  return FloatQuery::from(query, pages.tree());
+  const Point from = query - pages.centre();
+  return FloatQuery::from(from.x(), from.y(), from.z());
 }
 
 // A child's box holds every corner below it. Stored numbers are used as they are; corners may

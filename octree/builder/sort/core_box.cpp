@@ -15,8 +15,9 @@ constexpr double kWindowMargin = 2;
 /// Strays are told from the core only if the model is so many times as long as the middle of the
 /// sample, and so many times as long as the core.
 constexpr double kMinModelPerMiddle = 16, kMinModelPerCore = 4;
-/// Greatest coordinate, in lengths of the core. Coordinates in the model frame are then below 2^55.
-constexpr double kMaxCoordinatePerCore = 0x1p52;
+/// Greatest coordinate, in lengths of the core. Coordinates in the model frame are then below
+/// kMaxCoordinate.
+constexpr double kMaxCoordinatePerCore = 0x1p110;
 /// Longest edge, in lengths of the core, of a stray triangle that is longer than its gap to the
 /// core. It makes bounds less certain by a share of 2^-40 of its edge (bound_slack()).
 constexpr double kMaxEdgePerCore = 0x1p20;

@@ -114,7 +114,7 @@ TEST(MaskLists, AreAbsentWhereCornersHaveMoreThanTwoWindingNumbers) {
 // root.
 TEST(MaskLists, AreAbsentAtSectorRoots) {
   const ChunkedTree tree(grains(60, 0.05), 150);
-  RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+  RegionCut cut(tree.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
   MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
   ASSERT_TRUE(sectors.divide(*tree.runs, 20) && sectors.add(tree.mesh));
@@ -139,7 +139,7 @@ TEST(MaskLists, AreAbsentAtSectorRoots) {
 // The mask consists of its root alone, in a page of its own.
 TEST(MaskLists, ArePresentInAMaskOfOneCell) {
   const ChunkedTree tree(box({0, 0, 0}, {1.75, 1.5, 1.25}));
-  RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+  RegionCut cut(tree.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
   MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
   ASSERT_TRUE(sectors.divide(*tree.runs) && sectors.add(tree.mesh));

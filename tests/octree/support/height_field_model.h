@@ -21,7 +21,7 @@ struct HeightFieldModel {
         mask(4096, tree.shape.float64, file),
         info(tree.tree->info()),
         surface(tree.mesh) {
-    RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+    RegionCut cut(tree.mesh.frame, {}, nullptr);
     if (!cut.add(tree.mesh)) std::abort();
     MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
                         spill_file());

@@ -80,7 +80,7 @@ TEST_F(PageFileRefusal, RefusesOtherVersionsAndUnknownFeatures) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported, "version 10");
+  expect_refused(image, ErrorCode::kUnsupported, "version 11");
 }
 
 TEST_F(PageFileRefusal, AcceptsUnknownCompatibleFeatures) {
@@ -185,6 +185,41 @@ TEST_F(PageFileRefusal, RefusesBadRegions) {
   expect_model_refused([](ModelRecord& m) { m.region_winding = 1; }, "region");
 }
 
+TEST_F(PageFileRefusal, RefusesBadCores) {
+  const auto make_core = [](ModelRecord& m) {
+    m.stray_count = 1;
+    m.stray_edge = 0x1p10;
+    for (int axis = 0; axis < 3; ++axis) m.core_upper[axis] = 0;
+  };
+  const auto expect_core_refused = [&](const std::function<void(ModelRecord&)>& change,
+                                       const char* said) {
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          make_core(m);
+          change(m);
+        },
+        said);
+  };
+  FileImage parted = good();
+  parted.change_header([&](FileHeader& h) { make_core(h.model); });
+  parted.seal_header();
+  EXPECT_EQ(refusal_of(parted).text[0], 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double value : {kNan, kInfinity, -kInfinity, -9.0, 9.0}) {
+      expect_core_refused([&](ModelRecord& m) { m.core_lower[axis] = value; }, "core");
+      expect_core_refused([&](ModelRecord& m) { m.core_upper[axis] = value; }, "core");
+    }
+    // Without strays, the core is the box.
+    expect_model_refused([&](ModelRecord& m) { m.core_lower[axis] = 0; }, "core");
+    expect_model_refused([&](ModelRecord& m) { m.core_upper[axis] = 0; }, "core");
+  }
+  for (const std::uint64_t count : {std::uint64_t{12}, ~std::uint64_t{0}})
+    expect_core_refused([&](ModelRecord& m) { m.stray_count = count; }, "strays");
+  for (const double edge : {kNan, kInfinity, -1.0, 0x1.8p60})
+    expect_core_refused([&](ModelRecord& m) { m.stray_edge = edge; }, "edge of strays");
+  expect_model_refused([](ModelRecord& m) { m.stray_edge = 1; }, "edge of strays");
+}
+
 TEST_F(PageFileRefusal, RefusesBadModelFields) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double value : {kNan, kInfinity, -kInfinity}) {
@@ -262,7 +297,7 @@ TEST_F(PageFileRefusal, AcceptsModelsAtTheLimits) {
     h.model.height = 96;
     h.model.vertex_kind = VertexKind::kFloat64;
     h.model.triangle_id_bytes = 8;
-    h.model.box_lower[0] = h.model.box_upper[0];
+    h.model.box_lower[0] = h.model.core_lower[0] = h.model.box_upper[0];
   });
   image.seal_header();
   EXPECT_EQ(refusal_of(image).text[0], 0);
