@@ -48,9 +48,9 @@ inline constexpr double kDegenerateFaceSine2 = 0x1p-100;
 /// Bound on the model's diagonal: in the model frame the longest edge of its box is below 2, so
 /// that the diagonal is below 2 sqrt(3).
 inline constexpr double kMaxDiagonal = 4;
-/// Error of a value near a limit, as a share of the limit and TreeInfo::span(). kValueErrorFactor over
-/// the least sine, 2^-5, is 2^-42 of the distance of the farthest corner, which is at most their
-/// sum; times 4.
+/// Error of a value near a limit, as a share of the limit and TreeInfo::span(). kValueErrorFactor
+/// over the least sine, 2^-5, is 2^-42 of the distance of the farthest corner, which is at most
+/// their sum; times 4.
 inline constexpr double kValueRounding = 0x1p-40;
 
 // Signs of determinants and overlap of boxes, in double.

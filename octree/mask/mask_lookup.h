@@ -19,8 +19,8 @@ struct MaskInfo {
 
   /// Returns whether a point of the model's box is in the root cell.
   bool reaches(const Point& point) const {
-    return !beside_strays || ((point.array() >= lower.array()).all() &&
-                              (point.array() <= lower.array() + 2.0).all());
+    return !beside_strays ||
+           ((point.array() >= lower.array()).all() && (point.array() <= lower.array() + 2.0).all());
   }
 };
 

@@ -82,10 +82,10 @@ struct TreeInfo {
     stray_edge = edge;
     bound_slack = octree::bound_slack(edge);
   }
-  /// Returns a length S such that the farthest corner of a triangle at distance d from a query is at
-  /// most 2 d + S away. kMaxDiagonal bounds the edges in the core. A stray that may be nearer to the
-  /// core than it is long has edges up to stray_edge. Other strays are no longer than their gap to
-  /// the core, which is at most the sum of d and of the query's distance from the centre.
+  /// Returns a length S such that the farthest corner of a triangle at distance d from a query is
+  /// at most 2 d + S away. kMaxDiagonal bounds the edges in the core. A stray that may be nearer to
+  /// the core than it is long has edges up to stray_edge. Other strays are no longer than their gap
+  /// to the core, which is at most the sum of d and of the query's distance from the centre.
   double span(const Point& query) const {
     return has_strays ? std::max(kMaxDiagonal, stray_edge) + 4 * (query - centre).norm()
                       : kMaxDiagonal;

@@ -79,18 +79,18 @@ class BlockCrossings {
         largest_(largest_coordinate(tree.core_lower, tree.core_upper)),
         has_strays_(tree.has_strays),
         block_segment_(FloatSegment::between(segment.from, segment.to, Point::Zero(), largest_)),
-        stray_segment_(has_strays_ ? FloatSegment::between(
-                                         segment.from, segment.to, Point::Zero(),
-                                         largest_coordinate(tree.box_lower, tree.box_upper))
-                                   : block_segment_),
+        stray_segment_(
+            has_strays_ ? FloatSegment::between(segment.from, segment.to, Point::Zero(),
+                                                largest_coordinate(tree.box_lower, tree.box_upper))
+                        : block_segment_),
         crossings_(segment),
         work_(work) {}
 
   void visit(const BlockView& block) {
     const float* vertices = block.float_vertices();
     const FloatSegment& in_float = is_stray(block) ? stray_segment_ : block_segment_;
-    unsigned met = vertices ? triangles_met(block.header(), vertices, in_float)
-                            : boxes_met(block, segment_);
+    unsigned met =
+        vertices ? triangles_met(block.header(), vertices, in_float) : boxes_met(block, segment_);
     for (; met != 0; met &= met - 1) {
       crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
       ++work_.triangles;
@@ -109,9 +109,9 @@ class BlockCrossings {
   }
   // Whether a vertex of a block may have a greater coordinate than any of the core.
   bool is_stray(const BlockView& block) const {
-    return has_strays_ && block.vertex(0).cwiseAbs().maxCoeff() +
-                                  static_cast<double>(block.header().extent) >
-                              largest_;
+    return has_strays_ &&
+           block.vertex(0).cwiseAbs().maxCoeff() + static_cast<double>(block.header().extent) >
+               largest_;
   }
 
   const PerturbedSegment& segment_;

@@ -39,7 +39,8 @@
 ///
 /// Error of positions. Positions are relative to the model's centre. Subtracting it moves the query
 /// by at most 2^-52 of its greatest coordinate, and points of the triangles by kAbsoluteBoundSlack
-/// / 2, or by 2^-52 of the box's greatest coordinate if it is of strays. With delta the sum of all, the share errs by 2 delta S / (rho - delta)^3.
+/// / 2, or by 2^-52 of the box's greatest coordinate if it is of strays. With delta the sum of all,
+/// the share errs by 2 delta S / (rho - delta)^3.
 ///
 /// The share itself is at most S / (4 pi rho^2). Where that is less than the error, 0 is returned
 /// as the share, with that bound as its error.

@@ -55,9 +55,8 @@ struct FloatSegment {
       cross_axes.axis = (segment.axis + 1 + i) % 3;
       cross_axes.slope = along != 0 ? static_cast<float>(way[cross_axes.axis] / along) : 0;
       // Without a slope, nothing errs but the conversion of the offset.
-      const double slack =
-          slack_of(cross_axes.slope == 0 && way[cross_axes.axis] == 0 ? start[cross_axes.axis]
-                                                                       : highest);
+      const double slack = slack_of(
+          cross_axes.slope == 0 && way[cross_axes.axis] == 0 ? start[cross_axes.axis] : highest);
       const double offset = start[cross_axes.axis] - static_cast<double>(cross_axes.slope) * first;
       cross_axes.lowest = static_cast<float>(offset - slack);
       cross_axes.highest = static_cast<float>(offset + slack);

@@ -61,11 +61,7 @@ class WindingSum {
  public:
   WindingSum(const TreeInfo& tree, const Point& point, const PageReader& pages,
              TraversalStats& work)
-      : tree_(tree),
-        point_(point),
-        work_(work),
-        multipoles_(point, tree),
-        records_(tree, pages) {}
+      : tree_(tree), point_(point), work_(work), multipoles_(point, tree), records_(tree, pages) {}
 
   WindingNumber run(std::uint64_t max_work) {
     // At most the number of records: in a forged tree links could lead in circles.

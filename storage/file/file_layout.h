@@ -41,8 +41,8 @@ struct UnbalancedEdge {
 static_assert(sizeof(UnbalancedEdge) == 64);
 
 /// Facts about the whole model. The model frame is the input's coordinates times
-/// 2^scale_exponent, so that the longest edge of the core lies in [1, 2). The core is the box of all
-/// triangles but the strays, which are few and far outside.
+/// 2^scale_exponent, so that the longest edge of the core lies in [1, 2). The core is the box of
+/// all triangles but the strays, which are few and far outside.
 struct ModelRecord {
   std::uint64_t triangle_count;         ///< triangles in the file: those of the region, if any
   std::uint64_t skipped_count;          ///< triangles of skipped records, which are not in the file

@@ -112,8 +112,13 @@ TEST(NodeBounds, HoldAfterQuantising) {
 // off as its corner.
 Soup ulp_cluster(Random& random, double width) {
   const Vec3 at{0.5, 0.5, 0.5};
-  Soup triangles{{Vec3{-0.99, -0.99, -0.99}, Vec3{-0.98, -0.99, -0.99}, Vec3{-0.99, -0.98, -0.99}},
-                 {Vec3{0.99, 0.99, 0.99}, Vec3{0.98, 0.99, 0.99}, Vec3{0.99, 0.98, 0.99}}};
+  Soup triangles;
+  // So many that they are not taken for strays.
+  for (int i = 0; i < 400; ++i) {
+    triangles.push_back(
+        {Vec3{-0.99, -0.99, -0.99}, Vec3{-0.98, -0.99, -0.99}, Vec3{-0.99, -0.98, -0.99}});
+    triangles.push_back({Vec3{0.99, 0.99, 0.99}, Vec3{0.98, 0.99, 0.99}, Vec3{0.99, 0.98, 0.99}});
+  }
   for (int i = 0; i < 20000; ++i) {
     const double along = i < 2000 ? random.unit() : random.between(0.9, 1);
     const auto corner = [&] {

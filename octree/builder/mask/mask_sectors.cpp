@@ -18,8 +18,9 @@ constexpr unsigned kMaxFutileSteps = 3;
 
 }  // namespace
 
-Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t max_triangles) {
-  auto end = runs.cut(kStrayCode);
+Result<void> MaskSectors::divide(const TriangleRuns& runs, bool has_strays,
+                                 std::uint64_t max_triangles) {
+  auto end = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
   if (!end) return end.error();
   const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *end);
   return divide(0, {runs.begin(), *std::move(end), in_core}, runs, max_triangles, 0);

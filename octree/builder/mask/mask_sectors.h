@@ -59,7 +59,10 @@ class MaskSectors {
         visitors_(Triangles::record_bytes(float64), held_bytes, file) {}
 
   /// Divides the root into sectors. Call it before anything else.
-  Result<void> divide(const TriangleRuns& runs, std::uint64_t max_triangles = kSectorTriangles);
+  ///
+  /// has_strays  some triangle may be stray
+  Result<void> divide(const TriangleRuns& runs, bool has_strays,
+                      std::uint64_t max_triangles = kSectorTriangles);
 
   /// Adds a part of the model, each triangle once. Returns what was added.
   Result<Part> add(const Triangles& triangles);

@@ -109,16 +109,15 @@ class ChunkCutter {
 
 }  // namespace
 
-Result<ChunkTree> cut_chunks(const TriangleRuns& runs, std::uint64_t most) {
+Result<ChunkTree> cut_chunks(const TriangleRuns& runs, bool has_strays, std::uint64_t most) {
   ChunkCutter cutter(runs, most);
-  auto middle = runs.cut(kStrayCode);
+  auto middle = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
   if (!middle) return middle.error();
   const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *middle);
   const std::uint64_t strays = runs.size() - in_core;
   Stretch core{{runs.begin(), *middle, in_core}}, rest{{*middle, runs.end(), strays}, kStrayCode};
-  const auto added = in_core > 0 && strays > 0
-                         ? cutter.add_parts(std::move(core), std::move(rest))
-                         : cutter.add(std::move(strays == 0 ? core : rest));
+  const auto added = in_core > 0 && strays > 0 ? cutter.add_parts(std::move(core), std::move(rest))
+                                               : cutter.add(std::move(strays == 0 ? core : rest));
   if (!added) return added.error();
   return std::move(cutter.tree);
 }

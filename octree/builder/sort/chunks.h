@@ -36,8 +36,12 @@ struct ChunkTree {
   bool parts_strays = false;
 };
 
-/// Parts the core from the strays. Splits both by the bits of Morton codes, and by triangle index where all codes are equal,
-/// until no chunk has more triangles than the maximum. The chunks do not depend on the runs.
-Result<ChunkTree> cut_chunks(const TriangleRuns& runs, std::uint64_t most = kChunkTriangles);
+/// Parts the core from the strays. Splits both by the bits of Morton codes, and by triangle index
+/// where all codes are equal, until no chunk has more triangles than the maximum. The chunks do not
+/// depend on the runs.
+///
+/// has_strays  some triangle may be stray
+Result<ChunkTree> cut_chunks(const TriangleRuns& runs, bool has_strays,
+                             std::uint64_t most = kChunkTriangles);
 
 }  // namespace planetree::octree

@@ -87,11 +87,10 @@ CoreFinder::Core CoreFinder::found() const {
   const double edge = longest_edge(core_.lower, core_.upper);
   const double farthest =
       std::max(model_lower_.cwiseAbs().maxCoeff(), model_upper_.cwiseAbs().maxCoeff());
-  const bool taken = core_.stray_count > 0 && edge > 0 &&
-                     core_count_ / kTrianglesPerStray >= core_.stray_count &&
-                     longest_edge(model_lower_, model_upper_) > kMinModelPerCore * edge &&
-                     farthest < kMaxCoordinatePerCore * edge &&
-                     core_.stray_edge < kMaxEdgePerCore * edge;
+  const bool taken =
+      core_.stray_count > 0 && edge > 0 && core_count_ / kTrianglesPerStray >= core_.stray_count &&
+      longest_edge(model_lower_, model_upper_) > kMinModelPerCore * edge &&
+      farthest < kMaxCoordinatePerCore * edge && core_.stray_edge < kMaxEdgePerCore * edge;
   return taken ? core_ : Core{model_lower_, model_upper_, 0, 0};
 }
 

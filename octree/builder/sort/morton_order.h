@@ -18,7 +18,7 @@ constexpr bool is_stray(std::uint64_t code) { return (code & kStrayCode) != 0; }
 /// Morton code and position of a triangle. The code is that of the finest octree cell that holds
 /// the centre of the triangle's box.
 struct MortonKey {
-  std::uint64_t code;  ///< without kStrayCode
+  std::uint64_t code;      ///< without kStrayCode
   std::uint32_t position;  ///< in the Triangles it belongs to
 };
 

@@ -165,7 +165,7 @@ TopTree build_top_tree(const ChunkTree& above, const std::vector<BuiltChunk>& ch
   TopTreeBuilder(chunks, shape, top_tree.tree).run();
   const std::size_t slots = page_bytes / kSlotBytes - frame_head_slots(page_bytes);
   top_tree.plan.page_bytes = page_bytes;
-  top_tree.plan.pages = 
+  top_tree.plan.pages =
       TopTreePlanner(top_tree.tree, chunks, above.parts_strays, slots / shape.node_slots()).run();
   return top_tree;
 }
