@@ -59,7 +59,7 @@ class Judge {
       : triangles_(triangles_of(mesh)),
         distances_(triangles_),
         sides_(exact_sides),
-        diagonal_(Box{info.box_lower, info.box_upper}.diagonal()),
+        diagonal_(Box{info.core_lower, info.core_upper}.diagonal()),
         closed_(info.watertight()) {}
 
   void judge(const Vec3& query, std::span<Peer* const> peers, std::vector<Verdict>& verdicts) {
@@ -115,7 +115,7 @@ int run(const char* mesh_file, const char* file, std::size_t count) {
   for (const Workload workload : {Workload::kUniform, Workload::kNear, Workload::kMedial}) {
     std::vector<Verdict> verdicts(peers.size());
     for (const Vec3& query :
-         make_queries(workload, {info.box_lower, info.box_upper}, surface, count, 1))
+         make_queries(workload, {info.core_lower, info.core_upper}, surface, count, 1))
       judge.judge(query, peers, verdicts);
     for (std::size_t i = 0; i < peers.size(); ++i) print(workload, *peers[i], verdicts[i]);
   }

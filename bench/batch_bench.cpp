@@ -78,7 +78,7 @@ int run(const Arguments& arguments) {
   for (const Workload workload : {Workload::kUniform, Workload::kNear}) {
     const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
     const std::vector<Vec3> points =
-        make_queries(workload, {info.box_lower, info.box_upper}, surface, arguments.points, 1);
+        make_queries(workload, {info.core_lower, info.core_upper}, surface, arguments.points, 1);
     const Answers unanswered(points.size());
     std::vector<Way> ways{
         {"one by one", *alone,

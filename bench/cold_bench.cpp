@@ -63,7 +63,7 @@ Result<std::vector<Vec3>> points_of(const Arguments& arguments, Workload workloa
   auto probe = Probe::create(*model);
   if (!probe) return probe.error();
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
-  return make_queries(workload, {model->info().box_lower, model->info().box_upper}, surface,
+  return make_queries(workload, {model->info().core_lower, model->info().core_upper}, surface,
                       arguments.queries, 1);
 }
 

@@ -55,7 +55,7 @@ int run(const Arguments& arguments) {
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
   fmt::print("{:<12}{:>10}{:>10}{:>10}\n", "points", "memory %", "clock", "lru");
   for (const Workload workload : kQueried) {
-    const auto points = make_queries(workload, {model->info().box_lower, model->info().box_upper},
+    const auto points = make_queries(workload, {model->info().core_lower, model->info().core_upper},
                                      surface, arguments.queries, 1);
     for (const double percent : arguments.percents) {
       const auto budget = static_cast<std::uint64_t>(

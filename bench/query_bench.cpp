@@ -37,7 +37,7 @@ int run(const Arguments& arguments) {
   if (!model) return std::cerr << "query_bench: " << model.error().text << '\n', 1;
   auto probe = Probe::create(*model);
   if (!probe) return std::cerr << "query_bench: " << probe.error().text << '\n', 1;
-  const Box box{model->info().box_lower, model->info().box_upper};
+  const Box box{model->info().core_lower, model->info().core_upper};
   const SurfaceOf surface = [&](const Vec3& query) { return probe->closest_point(query); };
   for (const Workload workload : kWorkloads) {
     if (name_of(workload) != arguments.workload) continue;

@@ -73,10 +73,10 @@ int main(int argc, char** argv) {
 
   // The tip starts above the middle of the model's top, moves down into the model, then sideways.
   const planetree::ModelInfo& info = model->info();
-  const Vec3 size = sum(info.box_upper, info.box_lower, -1);
+  const Vec3 size = sum(info.core_upper, info.core_lower, -1);
   const double diagonal = length(size);
-  Vec3 tip = sum(info.box_lower, size, 0.5);
-  tip.z = info.box_upper.z + 0.01 * diagonal;
+  Vec3 tip = sum(info.core_lower, size, 0.5);
+  tip.z = info.core_upper.z + 0.01 * diagonal;
   const double per_second = 1e6 / static_cast<double>(kPeriod.count());
   const double step = 1e-4 * diagonal;
 

@@ -27,6 +27,9 @@ ModelInfo describe(const storage::PageFile& file) {
   info.vertices = model.vertex_count;
   info.box_lower = {model.box_lower[0], model.box_lower[1], model.box_lower[2]};
   info.box_upper = {model.box_upper[0], model.box_upper[1], model.box_upper[2]};
+  info.core_lower = {model.core_lower[0], model.core_lower[1], model.core_lower[2]};
+  info.core_upper = {model.core_upper[0], model.core_upper[1], model.core_upper[2]};
+  info.strays = model.stray_count;
   info.unbalanced_edges = model.unbalanced_edge_count;
   info.input_triangles = model.usable_triangles();
   info.has_region = model.has_region();

@@ -139,10 +139,12 @@ std::string plain_report(const BuildArguments& arguments, const BuildReport& bui
   const std::string surface = built.watertight()
                                   ? "watertight"
                                   : grouped_count(built.unbalanced_edges) + " unbalanced edges";
+  const std::string strays =
+      built.strays > 0 ? grouped_count(built.strays) + " of them far outside, " : std::string();
   return fmt::format(
-      "{}: {}{} triangles, {}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s ({} "
+      "{}: {}{} triangles, {}{}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s ({} "
       "triangles/s), {} peak memory\n",
-      arguments.output.string(), grouped_count(built.triangles), part, surface,
+      arguments.output.string(), grouped_count(built.triangles), part, strays, surface,
       short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built), seconds,
       short_count(static_cast<double>(built.input_triangles) / seconds),
       short_bytes(built.peak_resident_bytes));

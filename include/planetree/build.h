@@ -206,6 +206,7 @@ struct BuildReport {
   std::uint64_t fanned_polygons = 0;
   std::string first_fanned_text;          ///< names the first of them; empty if there is none
   std::uint64_t vertices = 0;             ///< vertex records of the input
+  std::uint64_t strays = 0;               ///< triangles of the input far outside of all others
   std::uint64_t unbalanced_edges = 0;     ///< edges that are not balanced, see watertight()
   std::uint64_t nodes = 0;                ///< inner nodes of the tree
   std::uint64_t blocks = 0;               ///< leaves of the tree: blocks of up to 16 triangles

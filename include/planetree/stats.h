@@ -15,6 +15,12 @@ struct ModelInfo {
   std::uint64_t vertices = 0;         ///< vertex records of the input
   Vec3 box_lower,                     ///< lower corner of the whole input's box
       box_upper;                      ///< upper corner of the whole input's box
+  Vec3 core_lower,  ///< lower corner of the core: the box of all triangles but the strays
+      core_upper;   ///< upper corner of the core
+  /// Number of stray triangles of the whole input. These are few, at most one in 64, and so far
+  /// from all others that the box is more than four times as long as the core. 0: the core is the
+  /// box.
+  std::uint64_t strays = 0;
   /// Whether the file has only the triangles that touch a region, which is a box (`planetree
   /// build --box`). A wall is a face of the region that lies within the model's box.
   ///

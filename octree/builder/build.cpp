@@ -154,6 +154,7 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.first_fanned_text = built.frame.first_fanned_text;
   report.notes = built.notes;
   report.vertices = model.vertex_count;
+  report.strays = model.stray_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
   report.nodes = model.node_count;
   report.blocks = model.block_count;

@@ -134,7 +134,7 @@ Result<void> TreeBuild::check_space(const Result<MeshSize>& size) {
 Result<void> TreeBuild::order_triangles() {
   const bool ordered_before = files_.work() && files_.work()->mesh();
   if (const auto ordered = ordered_before ? resume_mesh() : read(); !ordered) return ordered;
-  auto above = cut_chunks(*whole_, seams_.chunk_triangles);
+  auto above = cut_chunks(*whole_, model_.frame.stray_count > 0, seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   return {};
@@ -213,7 +213,7 @@ Result<void> TreeBuild::look_at_surface() {
 }
 
 Result<void> TreeBuild::match_edges() {
-  RegionCut cut(model_.frame.lower(), model_.frame.upper(), region(), part_ ? &*part_ : nullptr);
+  RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
   auto edges =
       octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),
                           progress_, [&cut](const Triangles& chunk) { return cut.add(chunk); });
@@ -230,7 +230,7 @@ Result<void> TreeBuild::cut_out_part() {
   if (!part_) return {};
   whole_.reset();
   if (part_->size() == 0) return no_triangle_touches(model_.frame);
-  auto above = cut_chunks(*part_, seams_.chunk_triangles);
+  auto above = cut_chunks(*part_, model_.frame.stray_count > 0, seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   const std::uint64_t triangles = part_->size();
@@ -245,9 +245,11 @@ Result<void> TreeBuild::cut_out_part() {
 
 Result<void> TreeBuild::build_chunks() {
   if (model_.edges.unbalanced_edges == 0) {
-    sectors_.emplace(model_.frame.lower(), region(), model_.cut.winding, model_.frame.float64,
+    sectors_.emplace(model_.frame.core_lower(), region(), model_.cut.winding, model_.frame.float64,
                      memory_.visitor_bytes, files_.triangles());
-    if (const auto divided = sectors_->divide(runs(), seams_.sector_triangles); !divided)
+    if (const auto divided =
+            sectors_->divide(runs(), model_.frame.stray_count > 0, seams_.sector_triangles);
+        !divided)
       return divided;
   }
   model_.chunks.resize(model_.above.chunks.size());
@@ -292,7 +294,7 @@ Result<void> TreeBuild::number_pages() {
 
 // Only a watertight model has a mask: its winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
-  if (!sectors_) return {};
+  if (!sectors_ || sectors_->touched_count() == 0) return {};
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
   auto earlier =
       files_.work() ? files_.work()->take_sectors() : std::map<std::uint32_t, BuiltSector>();

@@ -21,8 +21,12 @@ void describe_mesh(const BuiltModel& built, storage::ModelRecord& model) {
     model.box_lower[axis] = frame.input_lower[axis];
     model.box_upper[axis] = frame.input_upper[axis];
     model.centre[axis] = centre[axis];
+    model.core_lower[axis] = frame.input_core_lower[axis];
+    model.core_upper[axis] = frame.input_core_upper[axis];
     model.sample[axis] = built.cut.sample[axis];
   }
+  model.stray_count = frame.stray_count;
+  model.stray_edge = frame.stray_edge;
   model.sample_triangle = built.cut.sample_triangle;
   model.scale_exponent = frame.scale_exponent;
   model.vertex_kind =

@@ -60,7 +60,8 @@ concept IsA = std::same_as<std::remove_const_t<Value>, Struct>;
 template <class Record, IsA<ModelFrame> Value>
 void fields(Record& record, Value& frame) {
   record(frame.triangle_count, frame.float64, frame.scale_exponent, frame.input_lower,
-         frame.input_upper, frame.input_sample, frame.sample_triangle, frame.skipped_count,
+         frame.input_upper, frame.input_core_lower, frame.input_core_upper, frame.stray_count,
+         frame.stray_edge, frame.input_sample, frame.sample_triangle, frame.skipped_count,
          frame.first_skipped, frame.first_skipped_text, frame.nonplanar_count,
          frame.first_nonplanar_text, frame.fanned_count, frame.first_fanned_text);
 }

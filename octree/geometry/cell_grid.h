@@ -54,11 +54,12 @@ class Region {
   }
   /// Returns a distance that all missing triangles exceed, also as evaluated (kValueRounding). The
   /// result is negative outside of the region and close to a wall, and infinity without walls.
-  double clearance(const Point& point) const {
+  ///
+  /// span  TreeInfo::span() of the point
+  double clearance(const Point& point, double span) const {
     if (!holds(point)) return -1;
     const double gap_to_wall = gap(point);
-    return gap_to_wall < kNone ? gap_to_wall - kValueRounding * (gap_to_wall + kMaxDiagonal)
-                               : kNone;
+    return gap_to_wall < kNone ? gap_to_wall - kValueRounding * (gap_to_wall + span) : kNone;
   }
 
  private:

@@ -48,9 +48,9 @@ inline constexpr double kDegenerateFaceSine2 = 0x1p-100;
 /// Bound on the model's diagonal: in the model frame the longest edge of its box is below 2, so
 /// that the diagonal is below 2 sqrt(3).
 inline constexpr double kMaxDiagonal = 4;
-/// Error of a value near a limit, as a share of the limit and kMaxDiagonal. kValueErrorFactor over
-/// the least sine, 2^-5, is 2^-42 of the distance of the farthest corner, which is at most their
-/// sum; times 4.
+/// Error of a value near a limit, as a share of the limit and TreeInfo::span(). kValueErrorFactor
+/// over the least sine, 2^-5, is 2^-42 of the distance of the farthest corner, which is at most
+/// their sum; times 4.
 inline constexpr double kValueRounding = 0x1p-40;
 
 // Signs of determinants and overlap of boxes, in double.
@@ -71,8 +71,8 @@ inline constexpr double kFlushLoss = 0x1p-1010;
 /// doubled.
 inline constexpr double kOverlapMargin = 0x1p-48;
 /// Absolute error of products that underflow. A product loses at most 2^-1075, times a third factor
-/// below 2^61 in the model frame.
-inline constexpr double kProductUnderflow = 0x1p-1000;
+/// below 2^113 in the model frame.
+inline constexpr double kProductUnderflow = 0x1p-950;
 
 // Bounds in float of boxes and discs: octree/traversal/bounds.h. There D is the distance to the
 // centre of a box, d the distance to the surface in it, and r the diagonal of the box.
@@ -91,6 +91,17 @@ inline constexpr double kBoundInflation = 1 + 32 * 0x1p-24;
 /// is pruned that is equally near within the error of its value, in whatever order children are
 /// visited.
 inline constexpr double kAbsoluteBoundSlack = 0x1p-38;
+/// Returns the absolute error of bounds in a model with strays that come near its core. The value
+/// of such a stray may err by as much more as its edge is longer than kMaxDiagonal. Other strays
+/// are no longer than their distance from the core, so that their values err by 2^-41 of it, which
+/// kBoundInflation covers. Near a stray, a query is so far from
+/// the centre that kFloatQueryRounding covers the error.
+///
+/// stray_edge  see storage::ModelRecord::stray_edge
+constexpr double bound_slack(double stray_edge) {
+  return stray_edge > kMaxDiagonal ? kAbsoluteBoundSlack * (stray_edge / kMaxDiagonal)
+                                   : kAbsoluteBoundSlack;
+}
 /// Error of a query rounded to float, as a share of its greatest coordinate: each coordinate errs
 /// by v of it, together sqrt(3) v.
 inline constexpr double kFloatQueryRounding = 2 * 0x1p-24;
@@ -200,7 +211,7 @@ inline constexpr double kMultipoleErrorInflation = 1 + 0x1p-40;
 /// six products errs by 8 roundings, three differences, two products and three sums, each of which
 /// errs by a whole ulp in a directed mode: 6 * 16 u.
 inline constexpr double kCrossingDeterminantError = 0x1p-46;
-/// More than flushing subnormals to zero can lose: 2^-1022 times 2^61 and 2^301.
+/// More than flushing subnormals to zero can lose: 2^-1022 times 2^113 and 2^301.
 inline constexpr double kCrossingUnderflow = 0x1p-600;
 /// Error of a face of the side grid, as a share of its coordinate: a face is rounded once.
 inline constexpr double kGridFaceRounding = kDoubleRoundoff;

@@ -82,7 +82,7 @@ void go_down(MaskRecords& records, const MaskNode& from, const Point& point, Wor
 // Looks a point up from the root down.
 void look_from_root(const MaskInfo& mask, const Point& point, WorkLimit& limit,
                     const PageReader& pages, TraversalStats& work, MaskLookup& found) {
-  if (mask.page_count == 0 || limit.spent()) return;
+  if (mask.page_count == 0 || limit.spent() || !mask.reaches(point)) return;
   MaskRecords records(mask, pages);
   const std::byte* record = records.root(work);
   if (!record) return;

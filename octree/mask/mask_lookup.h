@@ -14,7 +14,14 @@ struct MaskInfo {
   std::uint32_t page_bytes = 0;
   std::uint32_t first_page = 0;
   std::uint32_t page_count = 0;  ///< 0: the model has no mask
-  Point lower = Point::Zero();   ///< least corner of the model's box, model frame
+  Point lower = Point::Zero();   ///< least corner of the model's core, model frame
+  bool beside_strays = false;    ///< surface may lie beyond the root cell
+
+  /// Returns whether a point of the model's box is in the root cell.
+  bool reaches(const Point& point) const {
+    return !beside_strays ||
+           ((point.array() >= lower.array()).all() && (point.array() <= lower.array() + 2.0).all());
+  }
 };
 
 /// Returns a triangle in plane `index` of the planes that follow a page's records.
@@ -42,7 +49,7 @@ struct MaskLookup {
 
 /// Finds the cell of the mask that a point is in.
 ///
-/// point     within the model's box, model frame.
+/// point     within the model's box, model frame. Outside of the root cell nothing is found.
 /// max_work  maximum work in units, see WorkLimit: one for each node, and those of a special cell's
 ///           planes.
 /// work      counters that the lookup adds to.

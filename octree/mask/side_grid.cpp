@@ -88,7 +88,7 @@ bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool cl
 void SideGrid::fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, int scale,
                     const PageReader& pages, std::span<std::byte> memory) noexcept {
   // A forged header may state a box that does not fit into the root.
-  const Point size = tree.box_upper - mask.lower;
+  const Point size = tree.core_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
   if (mask.page_count == 0 || !fits) return;
   assert(reinterpret_cast<std::uintptr_t>(memory.data()) % alignof(SideGridRecord) == 0);

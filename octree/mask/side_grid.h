@@ -36,7 +36,8 @@ using SideGridLookup = int (*)(const GridCoordinates& coordinates, const SideGri
 /// Returns the fastest implementation for this processor. All return the same signs.
 SideGridLookup fastest_side_grid_lookup() noexcept;
 
-/// A table of a mask's cells of one level, with a rim of white cells around the model's box. Of
+/// A table of a mask's cells of one level, with a rim of cells around the core, which are white
+/// if there are no strays and else unknown. Of
 /// grey cells it also has the colours of two more levels, and the slabs of leaves. One lookup tells
 /// the side of most points and reads no page. For other points the grid has records of the mask, so
 /// that a lookup in the mask need not start at the root. The grid is filled once. Then any thread

@@ -42,8 +42,9 @@ class SideGrid::SideGridBuilder {
   // Number of cells along an axis, without the rim.
   std::uint32_t width(unsigned axis) const { return grid_.width_[axis] - 2 * kRim; }
 
-  // Makes the rim white, up to the ends of the bricks.
+  // Makes the rim white, up to the ends of the bricks. Beside strays nothing is known of it.
   void fill_rim() {
+    if (mask_.beside_strays) return;
     const auto in_rim = [&](unsigned axis, std::uint32_t at) {
       return at < kRim || at >= width(axis) + kRim;
     };

@@ -14,8 +14,11 @@ namespace planetree::octree {
 /// The best triangle of a traversal so far, and the thresholds for pruning that follow from it.
 class BestTriangle {
  public:
-  BestTriangle(const FloatQuery& float_query, const NearestLimits& limits)
-      : float_query_(float_query), limits_(limits) {
+  /// span  TreeInfo::span() of the query
+  BestTriangle(const FloatQuery& float_query, const NearestLimits& limits, double span)
+      : float_query_(float_query),
+        limits_(limits),
+        max_reach_(limits.max_distance + kValueRounding * (limits.max_distance + span)) {
     refresh();
   }
 
@@ -94,9 +97,7 @@ class BestTriangle {
 
   const FloatQuery& float_query_;
   const NearestLimits& limits_;
-  // max_distance and the error of a value near it: the corners of a triangle there are at most
-  // max_distance and the model's diagonal away.
-  double max_reach_ = limits_.max_distance + kValueRounding * (limits_.max_distance + kMaxDiagonal);
+  double max_reach_;  // max_distance and the error of a value near it
   double lower_ = std::numeric_limits<double>::infinity();
   std::uint64_t triangle_ = kNoTriangle;
   bool is_height_field_ = false;

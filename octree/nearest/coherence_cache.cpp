@@ -49,7 +49,7 @@ class Ball {
   Ball(const TreeInfo& tree, const Point& centre, double radius)
       : centre_(centre),
         radius_(radius),
-        query_(FloatQuery::from(centre, tree.centre)),
+        query_(FloatQuery::from(centre, tree)),
         threshold_(prune_threshold(query_, radius)) {}
 
   // Adds the children that reach into the ball.
@@ -156,7 +156,7 @@ class TriangleSearch {
 void CoherenceCache::renew(const TreeInfo& tree, const Point& query, double distance,
                            WorkLimit& limit, const PageReader& pages,
                            TraversalStats& work) noexcept {
-  const double diagonal = (tree.box_upper - tree.box_lower).norm();
+  const double diagonal = (tree.core_upper - tree.core_lower).norm();
   const double radius = wanted_radius(query, distance, diagonal);
   if (!(radius > 0)) return;
   centre_ = query;

@@ -40,7 +40,7 @@ class CoherenceCache {
   /// steps like this one would leave the ball.
   ///
   /// distance  from `query` to the surface
-  /// diagonal  of the model's box
+  /// diagonal  of the model's core
   double wanted_radius(const Point& query, double distance, double diagonal) const {
     const double step = step_to(query);
     return step <= diagonal * kMaxStepShare ? radius_for(step, distance) : 0;

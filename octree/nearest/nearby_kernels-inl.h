@@ -73,7 +73,7 @@ HWY_INLINE void find_near(const NearbySubtrees& list, const FloatQuery& query, f
       return outside(hn::Load(d, list.lower(axis) + i), hn::Load(d, list.upper(axis) + i), at);
     };
     const TriangleVectors gaps{gap(0, p.x), gap(1, p.y), gap(2, p.z)};
-    const TriangleFloats squared = dot(gaps, gaps);
+    const TriangleFloats squared = hn::Min(dot(gaps, gaps), hn::Set(d, kMaxFloatBound));
     const auto beyond = hn::Gt(squared, hn::Set(d, threshold));
     const PackedLanes near(d, hn::AndNot(beyond, hn::FirstN(d, list.size() - i)));
     found.add(near, bound_keys(squared, SubtreeKeys::kIndexBits, i));

@@ -31,8 +31,8 @@ std::uint64_t units_of(const NearestLimits& limits) {
 NearestAnswer nearest_of_list(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                               const NearbyTriangles& list, double reach, WorkLimit& limit,
                               TraversalStats& work) {
-  const FloatQuery float_query = FloatQuery::from(query, tree.centre);
-  BestTriangle best(float_query, limits);
+  const FloatQuery float_query = FloatQuery::from(query, tree);
+  BestTriangle best(float_query, limits, tree.span(query));
   offer_nearby(list, reach, query, float_query, best, limit, work);
   if (limit.exceeded()) [[unlikely]]
     return {};

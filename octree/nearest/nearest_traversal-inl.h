@@ -37,14 +37,14 @@ class NearestTraversal {
                    WorkLimit& work_limit, const PageReader& pages, TraversalStats& work)
       : tree_(tree),
         query_(query),
-        float_query_(FloatQuery::from(query, tree.centre)),
+        float_query_(FloatQuery::from(query, tree)),
         limits_(limits),
         // At most the number of records: in a forged tree links could lead in circles.
         work_left_(work_limit, tree.record_count),
         work_(work),
         release_hook_(limits.allow_any_way() ? pages.release_hook : nullptr),
         records_(tree, pages),
-        best_(float_query_, limits_) {
+        best_(float_query_, limits_, tree.span(query)) {
     if (release_hook_) *release_hook_ = {this, &on_release};
   }
   ~NearestTraversal() {

@@ -210,7 +210,7 @@ const char* MaskDecoder::decode_plane() {
                 kPlaneSlots * next_plane_;
   for (std::size_t i = 0; i < kPlaneSlots; ++i) {
     plane[i] = streams_.plane_coordinate(kPlaneSlots * next_plane_ + i);
-    if (!(std::fabs(plane[i]) < kMaxCoordinate)) return "a plane is out of range";
+    if (!(std::fabs(plane[i]) < kMaxPlaneCoordinate)) return "a plane is out of range";
   }
   ++next_plane_;
   return nullptr;

@@ -20,7 +20,8 @@ namespace planetree::octree {
 /// A positive float without its lower 16 bits: 8 bits of precision.
 using ShortFloat = std::uint16_t;
 inline constexpr ShortFloat kMinShortFloat = 0x0080;  ///< 2^-126
-inline constexpr ShortFloat kMaxShortFloat = 0x7f7f;  ///< below 2^128
+/// Below 2^128. As an area or a second moment it says that no bound is known.
+inline constexpr ShortFloat kMaxShortFloat = 0x7f7f;
 
 constexpr float unpack_short(ShortFloat packed) {
   return std::bit_cast<float>(std::uint32_t{packed} << 16);
@@ -57,6 +58,7 @@ struct Moments {
 
   /// Units of the stored integers. A dipole is at most as long as the area. A quadrupole is, by
   /// Cauchy and Schwarz, at most the root of area times second moment.
+  bool are_known() const { return area < kMaxShortFloat && second < kMaxShortFloat; }
   double dipole_unit() const { return wide(area) * (1.0 / kDipoleSteps); }
   double quadrupole_unit() const {
     return std::sqrt(wide(area) * wide(second)) * (1.0 / kQuadrupoleSteps);

@@ -145,8 +145,11 @@ const char* PageDecoder::decode_node(std::size_t index) {
   if (count > streams_.head.child_count - next_child_) return "its children do not add up";
   const std::uint8_t height = streams_.heights[index];
   if (height == 0 || height > kMaxHeight) return "a node's height is out of range";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(target.box.upper[axis] - target.box.lower[axis]))
+      return "a node's box is too large";
+  // Infinite if the box is so large that discs in it have no unit.
   const float gate = target.box.diagonal_squared() * (1.0f / 64.0f);
-  if (!std::isfinite(gate)) return "a node's box is too large";
   if (const char* fault = decode_bounds(target, count)) return fault;
   std::memset(target.link, 0, sizeof target.link);
   std::memset(target.reserved, 0, sizeof target.reserved);

@@ -9,6 +9,7 @@
 #include "octree/geometry/tree_limits.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/page/frame.h"
+#include "octree/traversal/tree_view.h"
 
 /// Lower bounds, in float, on the distance to the surface within a child's box and disc, and on the
 /// distance to triangles; and their errors.
@@ -44,14 +45,16 @@ namespace planetree::octree {
 /// A query rounded to float for the vector kernels, relative to the model's centre.
 struct FloatQuery {
   float x = 0, y = 0, z = 0;
-  double slack = 0;     ///< bound on the query's rounding error, plus kAbsoluteBoundSlack
+  double slack = 0;     ///< bound on the query's rounding error, plus that of bounds
   bool usable = false;  ///< false: too far for squares in float, nothing may be pruned
 
-  /// Converts a query in the model frame. `centre` is the model's centre.
-  static FloatQuery from(const Point& query, const Point& centre) {
-    return from(query.x() - centre.x(), query.y() - centre.y(), query.z() - centre.z());
+  /// Converts a query in the model frame.
+  static FloatQuery from(const Point& query, const TreeInfo& tree) {
+    const Point& centre = tree.centre;
+    return from(query.x() - centre.x(), query.y() - centre.y(), query.z() - centre.z(),
+                tree.bound_slack);
   }
-  static FloatQuery from(double x, double y, double z) {
+  static FloatQuery from(double x, double y, double z, double bound_slack = kAbsoluteBoundSlack) {
     const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
     FloatQuery query;
     query.usable = largest < kMaxFloatQuery;
@@ -59,7 +62,7 @@ struct FloatQuery {
     query.x = static_cast<float>(x);
     query.y = static_cast<float>(y);
     query.z = static_cast<float>(z);
-    query.slack = kFloatQueryRounding * largest + kAbsoluteBoundSlack;
+    query.slack = kFloatQueryRounding * largest + bound_slack;
     return query;
   }
 };
@@ -102,7 +105,7 @@ inline double certified(const FloatQuery& query, float bound_squared) {
 
 /// Returns whether float suffices to filter a block's triangles for a query.
 inline bool can_filter(const FloatQuery& query, float block_extent) {
-  return query.usable && block_extent >= kFilterMinExtent;
+  return query.usable && block_extent >= kFilterMinExtent && block_extent <= kFilterMaxExtent;
 }
 
 /// Returns an upper bound on the distance to a triangle with this filter value.

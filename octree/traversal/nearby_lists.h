@@ -109,7 +109,7 @@ class NearbyTriangles {
       extent2 = std::max(extent2, set(next[ring[i]]++, found[i]));
     extent_ = round_up(std::sqrt(extent2));
     for (std::size_t i = size_; i % kLanes != 0; ++i) repeat_last(i);
-    complete_ = size_ > 0 && extent_ >= kFilterMinExtent;
+    complete_ = size_ > 0 && extent_ >= kFilterMinExtent && extent_ <= kFilterMaxExtent;
   }
 
   /// Returns whether the list holds all triangles of the ball and its extent suffices for float.

@@ -30,7 +30,7 @@ HWY_INLINE Floats child_bounds(const Node& node, const Wide3& p, bool discs, std
   const Wide3 upper{upper_sides(node, 0, i), upper_sides(node, 1, i), upper_sides(node, 2, i)};
   const Wide3 gap{outside(lower.x, upper.x, p.x), outside(lower.y, upper.y, p.y),
                   outside(lower.z, upper.z, p.z)};
-  const Floats bound = dot(gap, gap);
+  const Floats bound = hn::Min(dot(gap, gap), hn::Set(d, kMaxFloatBound));
   if (!discs) return bound;
   const Floats half = hn::Set(d, 0.5f);
   const Floats zero = hn::Zero(d);

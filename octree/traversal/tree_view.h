@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "octree/geometry/error_bounds.h"
 #include "octree/geometry/triangle_distance.h"
 #include "octree/page/frame.h"
 
@@ -66,9 +68,28 @@ struct TreeInfo {
   std::uint64_t record_count = 0;  ///< nodes and blocks together
   Point box_lower = Point::Zero();
   Point box_upper = Point::Zero();
+  Point core_lower = Point::Zero();  ///< box of all triangles but the strays
+  Point core_upper = Point::Zero();
   Point centre = Point::Zero();  ///< boxes and planes are relative to it
   Point sample = Point::Zero();  ///< a vertex of the triangle of least index
   std::uint64_t sample_triangle = 0;
+  bool has_strays = false;                   ///< some triangle is not in the core
+  double stray_edge = 0;                     ///< see storage::ModelRecord::stray_edge
+  double bound_slack = kAbsoluteBoundSlack;  ///< octree::bound_slack() of stray_edge
+
+  void set_strays(std::uint64_t count, double edge) {
+    has_strays = count > 0;
+    stray_edge = edge;
+    bound_slack = octree::bound_slack(edge);
+  }
+  /// Returns a length S such that the farthest corner of a triangle at distance d from a query is
+  /// at most 2 d + S away. kMaxDiagonal bounds the edges in the core. A stray that may be nearer to
+  /// the core than it is long has edges up to stray_edge. Other strays are no longer than their gap
+  /// to the core, which is at most the sum of d and of the query's distance from the centre.
+  double span(const Point& query) const {
+    return has_strays ? std::max(kMaxDiagonal, stray_edge) + 4 * (query - centre).norm()
+                      : kMaxDiagonal;
+  }
 };
 
 /// Work done in a tree; for tests and benchmarks.

@@ -97,16 +97,21 @@ class BlockCrossings {
   BlockCrossings(const TreeInfo& tree, const PerturbedSegment& segment, WorkLimit& limit,
                  TraversalStats& work)
       : segment_(segment),
-        block_segment_(FloatSegment::between(
-            segment.from, segment.to, Point::Zero(),
-            std::max(tree.box_lower.cwiseAbs().maxCoeff(), tree.box_upper.cwiseAbs().maxCoeff()))),
+        largest_(largest_coordinate(tree.core_lower, tree.core_upper)),
+        has_strays_(tree.has_strays),
+        block_segment_(FloatSegment::between(segment.from, segment.to, Point::Zero(), largest_)),
+        stray_segment_(
+            has_strays_ ? FloatSegment::between(segment.from, segment.to, Point::Zero(),
+                                                largest_coordinate(tree.box_lower, tree.box_upper))
+                        : block_segment_),
         crossings_(segment, limit),
         work_(work) {}
 
   void visit(const BlockView& block) {
     const float* vertices = block.float_vertices();
-    unsigned met = vertices ? triangles_met(block.header(), vertices, block_segment_)
-                            : boxes_met(block, segment_);
+    const FloatSegment& in_float = is_stray(block) ? stray_segment_ : block_segment_;
+    unsigned met =
+        vertices ? triangles_met(block.header(), vertices, in_float) : boxes_met(block, segment_);
     for (; met != 0; met &= met - 1) {
       crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
       ++work_.triangles;
@@ -120,8 +125,20 @@ class BlockCrossings {
   }
 
  private:
+  static double largest_coordinate(const Point& lower, const Point& upper) {
+    return std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+  }
+  // Whether a vertex of a block may have a greater coordinate than any of the core.
+  bool is_stray(const BlockView& block) const {
+    return has_strays_ &&
+           block.vertex(0).cwiseAbs().maxCoeff() + static_cast<double>(block.header().extent) >
+               largest_;
+  }
+
   const PerturbedSegment& segment_;
-  const FloatSegment block_segment_;
+  const double largest_;
+  const bool has_strays_;
+  const FloatSegment block_segment_, stray_segment_;
   CrossingSum crossings_;
   TraversalStats& work_;
 };

@@ -39,7 +39,8 @@
 ///
 /// Error of positions. Positions are relative to the model's centre. Subtracting it moves the query
 /// by at most 2^-52 of its greatest coordinate, and points of the triangles by kAbsoluteBoundSlack
-/// / 2. With delta the sum of both, the share errs by 2 delta S / (rho - delta)^3.
+/// / 2, or by 2^-52 of the box's greatest coordinate if it is of strays. With delta the sum of all,
+/// the share errs by 2 delta S / (rho - delta)^3.
 ///
 /// The share itself is at most S / (4 pi rho^2). Where that is less than the error, 0 is returned
 /// as the share, with that bound as its error.
@@ -55,8 +56,9 @@ class Multipoles {
   static constexpr double kMaxShareError = 1;
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-  Multipoles(const Point& query, const Point& centre)
-      : from_(query - centre),
+  Multipoles(const Point& query, const TreeInfo& tree)
+      : from_(query - tree.centre),
+        has_strays_(tree.has_strays),
         delta_(kAbsoluteBoundSlack + kMultipoleQueryRounding * from_.cwiseAbs().maxCoeff()) {}
 
   /// Computes the shares of a node's children.
@@ -71,13 +73,14 @@ class Multipoles {
 
   Share share(const Node& node, const Moments& moments, std::size_t child) const;
 
-  Point from_;    ///< the query, relative to the model's centre
-  double delta_;  ///< delta
+  Point from_;       ///< the query, relative to the model's centre
+  bool has_strays_;  ///< positions may be far from the centre
+  double delta_;     ///< delta of a child in the core
 };
 
 inline Multipoles::Share Multipoles::share(const Node& node, const Moments& moments,
                                            std::size_t child) const {
-  double gap2 = 0, extent2 = 0;
+  double gap2 = 0, extent2 = 0, farthest = 0;
   Point way;
   const FloatBox box = child_box(node, child);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -88,11 +91,13 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
     const double gap = std::max({0.0, lower - from_[i], from_[i] - upper});
     const double extent = std::max(upper - middle, middle - lower);
     way[i] = middle - from_[i];
+    farthest = std::max({farthest, std::fabs(lower), std::fabs(upper)});
     gap2 += gap * gap;
     extent2 += extent * extent;
   }
-  const double rho = std::sqrt(gap2) * (1 - kNormRounding) - delta_;
-  if (!(rho > kMultipoleMinDistance)) return {0, kUnknown};
+  const double delta = has_strays_ ? delta_ + kMultipoleQueryRounding * farthest : delta_;
+  const double rho = std::sqrt(gap2) * (1 - kNormRounding) - delta;
+  if (!(rho > kMultipoleMinDistance) || !moments.are_known()) return {0, kUnknown};
   const double area = Moments::wide(moments.area), second = Moments::wide(moments.second);
   const double dipole_unit = moments.dipole_unit(), quadrupole_unit = moments.quadrupole_unit();
   const double over_way = 1 / way.norm(), over_rho = 1 / rho;
@@ -105,7 +110,7 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
   const double max_share = area * over_rho2;
   const double error = kDipoleError * area * over_way * over_way +
                        3 * kQuadrupoleError * quadrupole_unit * over_way * over_way * over_way +
-                       second * tail + 2 * delta_ * area * over_rho2 * over_rho;
+                       second * tail + 2 * delta * area * over_rho2 * over_rho;
   constexpr double kUp = kOverFourPi * kMultipoleErrorInflation;
   if (max_share < error) return {0, kUp * max_share};
   const Point u = way * over_way;

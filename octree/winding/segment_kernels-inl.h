@@ -42,15 +42,21 @@ struct FloatSegment {
                                             : (length.y() >= length.z() ? 1 : 2);
     const double highest =
         std::max({largest, start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()});
-    const double slack = kSegmentRounding * highest + kAbsoluteBoundSlack;
+    const auto slack_of = [](double coordinate) {
+      return kSegmentRounding * std::fabs(coordinate) + kAbsoluteBoundSlack;
+    };
     const double first = start[segment.axis], last = end[segment.axis];
-    segment.lower = static_cast<float>(std::min(first, last) - slack);
-    segment.upper = static_cast<float>(std::max(first, last) + slack);
+    const double lower = std::min(first, last), upper = std::max(first, last);
+    segment.lower = static_cast<float>(lower - slack_of(lower));
+    segment.upper = static_cast<float>(upper + slack_of(upper));
     const double along = way[segment.axis];
     for (unsigned i = 0; i < 2; ++i) {
       CrossAxis& cross_axes = segment.cross_axes[i];
       cross_axes.axis = (segment.axis + 1 + i) % 3;
       cross_axes.slope = along != 0 ? static_cast<float>(way[cross_axes.axis] / along) : 0;
+      // Without a slope, nothing errs but the conversion of the offset.
+      const double slack = slack_of(
+          cross_axes.slope == 0 && way[cross_axes.axis] == 0 ? start[cross_axes.axis] : highest);
       const double offset = start[cross_axes.axis] - static_cast<double>(cross_axes.slope) * first;
       cross_axes.lowest = static_cast<float>(offset - slack);
       cross_axes.highest = static_cast<float>(offset + slack);

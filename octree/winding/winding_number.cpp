@@ -66,7 +66,7 @@ class WindingSum {
         point_(point),
         work_(work),
         limit_(work.units, max_work),
-        multipoles_(point, tree.centre),
+        multipoles_(point, tree),
         records_(tree, pages) {}
 
   WindingNumber run() {

@@ -48,9 +48,9 @@ void measure_far(const Vec3& query, const QueryOptions& options, ClosestPoint& a
 
 // Returns a distance that all triangles missing from a file of a region exceed, also as evaluated;
 // 0 for a far query, for which none is known.
-double clearance(const octree::Region& region, const octree::Point& point, bool far) {
-  if (!region.has_walls()) return kInfinity;
-  return far ? 0 : region.clearance(point);
+double clearance(const ModelGeometry& model, const octree::Point& point, bool far) {
+  if (!model.region.has_walls()) return kInfinity;
+  return far ? 0 : model.region.clearance(point, model.tree.span(point));
 }
 
 // Corrects the answer of a file of a region for the triangles missing from the file. None of them
@@ -152,7 +152,7 @@ class ClosestPointQuery {
     if (!far_ && options_.wait == Wait::kNever && nearest.triangle != kNoTriangle)
       coherence_.last_nearest = nearest;
     incomplete_ = nearest.status == Status::kDegraded;
-    account_for_missing_surface(model_.tree, point_, clearance(model_.region, point_, far_),
+    account_for_missing_surface(model_.tree, point_, clearance(model_, point_, far_),
                                 model_.scale.in(options_.max_distance), nearest);
     fill_in(model_.scale, nearest, answer_);
     if (far_) measure_far(query_, options_, answer_);

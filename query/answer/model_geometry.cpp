@@ -14,6 +14,9 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
   tree.record_count = model.node_count + model.block_count;
   tree.box_lower = scale.in(Vec3{model.box_lower[0], model.box_lower[1], model.box_lower[2]});
   tree.box_upper = scale.in(Vec3{model.box_upper[0], model.box_upper[1], model.box_upper[2]});
+  tree.core_lower = scale.in(Vec3{model.core_lower[0], model.core_lower[1], model.core_lower[2]});
+  tree.core_upper = scale.in(Vec3{model.core_upper[0], model.core_upper[1], model.core_upper[2]});
+  tree.set_strays(model.stray_count, model.stray_edge);
   tree.centre = {model.centre[0], model.centre[1], model.centre[2]};
   tree.sample = {model.sample[0], model.sample[1], model.sample[2]};
   tree.sample_triangle = model.sample_triangle;
@@ -25,7 +28,8 @@ octree::MaskInfo mask_info(const storage::FileHeader& header, const octree::Tree
   mask.page_bytes = header.page_bytes;
   mask.first_page = header.first_mask_page();
   mask.page_count = header.model.mask_page_count;
-  mask.lower = tree.box_lower;
+  mask.lower = tree.core_lower;
+  mask.beside_strays = tree.has_strays;
   return mask;
 }
 
@@ -44,7 +48,7 @@ ModelGeometry::ModelGeometry(const storage::FileHeader& header)
       tree(tree_info(header, scale)),
       mask(mask_info(header, tree)),
       region(region_of(header.model)),
-      region_corner(region.clamped(tree.box_lower)),
+      region_corner(region.clamped(tree.core_lower)),
       region_winding(header.model.region_winding),
       watertight(header.model.unbalanced_edge_count == 0) {}
 

@@ -51,7 +51,7 @@ class SideCache {
   /// Returns whether a point is near the last one. Only then does caching a cell repay computing
   /// the cell's bounds.
   bool is_near(const octree::Point& point, const octree::TreeInfo& tree) const {
-    const double diagonal2 = (tree.box_upper - tree.box_lower).squaredNorm();
+    const double diagonal2 = (tree.core_upper - tree.core_lower).squaredNorm();
     return (point - point_).squaredNorm() < diagonal2 * (kMaxSideStepShare * kMaxSideStepShare);
   }
   /// Stores the lookup of a mask cell that holds for all points in the cell.
@@ -96,7 +96,7 @@ class SideCache {
 
  private:
   static constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-  static constexpr double kMaxSideStepShare = 0x1p-6;  // share of the model's diagonal
+  static constexpr double kMaxSideStepShare = 0x1p-6;  // share of the core's diagonal
 
   octree::MaskLookup cell_;
   octree::Point cell_lower_ = octree::Point::Constant(kNowhere);

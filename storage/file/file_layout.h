@@ -14,15 +14,15 @@
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
 ///   ...                    pages           stored bytes from page 0 on, without gaps: distance
 ///                                          pages, then mask pages
-///   file_bytes - 576       header's copy   kHeaderBytes
+///   file_bytes - 640       header's copy   kHeaderBytes
 namespace planetree::storage {
 
 static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 10;
-inline constexpr std::size_t kHeaderBytes = 576;
+inline constexpr std::uint16_t kFormatVersion = 11;
+inline constexpr std::size_t kHeaderBytes = 640;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
 inline constexpr std::uint32_t kMaxPageBytes = 262144;
@@ -41,7 +41,8 @@ struct UnbalancedEdge {
 static_assert(sizeof(UnbalancedEdge) == 64);
 
 /// Facts about the whole model. The model frame is the input's coordinates times
-/// 2^scale_exponent, so that the longest edge of the box lies in [1, 2).
+/// 2^scale_exponent, so that the longest edge of the core lies in [1, 2). The core is the box of
+/// all triangles but the strays, which are few and far outside.
 struct ModelRecord {
   std::uint64_t triangle_count;         ///< triangles in the file: those of the region, if any
   std::uint64_t skipped_count;          ///< triangles of skipped records, which are not in the file
@@ -72,6 +73,12 @@ struct ModelRecord {
   double region_lower[3];       ///< input coordinates
   double region_upper[3];       ///< likewise
   std::int64_t region_winding;  ///< winding number at the lower corner of the mask's root cell
+  double core_lower[3];         ///< core of the whole input; input coordinates, exact
+  double core_upper[3];         ///< likewise
+  std::uint64_t stray_count;    ///< triangles of the input that are not in the core
+  /// Model frame: no less than any edge of a stray that has an edge longer than its gap to the
+  /// core; 0 if there is none. Distances to such strays are less certain.
+  double stray_edge;
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   /// Number of usable triangles of the whole input.
@@ -79,7 +86,7 @@ struct ModelRecord {
     return has_region() ? input_triangles : triangle_count;
   }
 };
-static_assert(sizeof(ModelRecord) == 448);
+static_assert(sizeof(ModelRecord) == 512);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic

@@ -5,6 +5,7 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "storage/file/checksum.h"
 #include "storage/file/page_codec.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr int kMaxHeight = 96;
 constexpr int kMaxMaskLevel = 19;
 constexpr std::int32_t kMaxScaleExponent = 1200;
+// Lengths in the model frame that bounds can be made of.
+constexpr double kMaxStrayEdge = 0x1p60;
 constexpr std::uint64_t kMaxWinding = std::uint64_t{1} << 62;
 
 Error damaged(std::uint64_t page, std::uint64_t offset, const char* cause) noexcept {
@@ -153,6 +156,35 @@ Result<void> check_unbalanced_edges(const ModelRecord& model) noexcept {
   return {};
 }
 
+// The core is a part of the box, and all of it where there are no strays.
+bool is_core(const ModelRecord& model) noexcept {
+  if (!all_finite(model.core_lower) || !all_finite(model.core_upper)) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(model.box_lower[axis] <= model.core_lower[axis] &&
+          model.core_lower[axis] <= model.core_upper[axis] &&
+          model.core_upper[axis] <= model.box_upper[axis])) {
+      return false;
+    }
+  }
+  return model.stray_count > 0 ||
+         (std::equal(std::begin(model.box_lower), std::end(model.box_lower), model.core_lower) &&
+          std::equal(std::begin(model.box_upper), std::end(model.box_upper), model.core_upper));
+}
+
+Result<void> check_core(const ModelRecord& model) noexcept {
+  if (!is_core(model)) {
+    return bad_model(offsetof(ModelRecord, core_lower), "the core is not one of the model");
+  }
+  if (model.stray_count >= model.usable_triangles() && model.stray_count > 0) {
+    return bad_model(offsetof(ModelRecord, stray_count), "all triangles are strays");
+  }
+  if (!(model.stray_edge >= 0 && model.stray_edge <= kMaxStrayEdge) ||
+      (model.stray_count == 0 && model.stray_edge > 0)) {
+    return bad_model(offsetof(ModelRecord, stray_edge), "the edge of strays is out of range");
+  }
+  return {};
+}
+
 // The region must overlap the model's box, because at least one triangle touches both.
 bool is_region(const ModelRecord& model) noexcept {
   if (!all_finite(model.region_lower) || !all_finite(model.region_upper)) return false;
@@ -263,6 +295,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   if (!all_zero(model.reserved)) {
     return bad_model(offsetof(ModelRecord, reserved), "the model's reserved bytes are not zero");
   }
+  if (const Result<void> checked = check_core(model); !checked) return checked;
   if (const Result<void> checked = check_mask(model); !checked) return checked;
   if (const Result<void> checked = check_region(model); !checked) return checked;
   return check_unbalanced_edges(model);

@@ -33,7 +33,8 @@ Vec3 plain(const Point& p) { return {p.x(), p.y(), p.z()}; }
 Corners plain(const Triangle& t) { return {plain(t[0]), plain(t[1]), plain(t[2])}; }
 
 FloatQuery float_query(const TreePages& pages, const Point& query) {
-  return FloatQuery::from(query, pages.centre());
+  const Point from = query - pages.centre();
+  return FloatQuery::from(from.x(), from.y(), from.z());
 }
 
 // A child's box holds every corner below it. Stored numbers are used as they are; corners may
@@ -111,8 +112,13 @@ TEST(NodeBounds, HoldAfterQuantising) {
 // off as its corner.
 Soup ulp_cluster(Random& random, double width) {
   const Vec3 at{0.5, 0.5, 0.5};
-  Soup triangles{{Vec3{-0.99, -0.99, -0.99}, Vec3{-0.98, -0.99, -0.99}, Vec3{-0.99, -0.98, -0.99}},
-                 {Vec3{0.99, 0.99, 0.99}, Vec3{0.98, 0.99, 0.99}, Vec3{0.99, 0.98, 0.99}}};
+  Soup triangles;
+  // So many that they are not taken for strays.
+  for (int i = 0; i < 400; ++i) {
+    triangles.push_back(
+        {Vec3{-0.99, -0.99, -0.99}, Vec3{-0.98, -0.99, -0.99}, Vec3{-0.99, -0.98, -0.99}});
+    triangles.push_back({Vec3{0.99, 0.99, 0.99}, Vec3{0.98, 0.99, 0.99}, Vec3{0.99, 0.98, 0.99}});
+  }
   for (int i = 0; i < 20000; ++i) {
     const double along = i < 2000 ? random.unit() : random.between(0.9, 1);
     const auto corner = [&] {

@@ -108,6 +108,8 @@ void decode_and_query(std::uint8_t choices, std::span<const std::byte> first,
   tree.record_count = 1000;
   tree.box_lower = Point(-1, -1, -1);
   tree.box_upper = Point(1, 1, 1);
+  tree.core_lower = tree.box_lower;
+  tree.core_upper = tree.box_upper;
   const bool leaf = (choices & kRootIsBlock) != 0;
   tree.root_link =
       LinkFormat(info.page_bytes)

@@ -95,6 +95,10 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, region_lower)
       .PLANETREE_FIELD(ModelRecord, region_upper)
       .PLANETREE_FIELD(ModelRecord, region_winding)
+      .PLANETREE_FIELD(ModelRecord, core_lower)
+      .PLANETREE_FIELD(ModelRecord, core_upper)
+      .PLANETREE_FIELD(ModelRecord, stray_count)
+      .PLANETREE_FIELD(ModelRecord, stray_edge)
       .take();
 }
 

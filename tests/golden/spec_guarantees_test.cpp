@@ -200,7 +200,7 @@ std::string morton_bits(const SpecHeader& header, const SpecTriangle& triangle) 
       least = std::min(least, corner[axis]);
       greatest = std::max(greatest, corner[axis]);
     }
-    const double lower = std::ldexp(header.box_lower[axis], header.scale_exponent);
+    const double lower = std::ldexp(header.core_lower[axis], header.scale_exponent);
     const double at = ((least + greatest) * 0.5 - lower) * 0x1p18;
     cell[axis] = static_cast<std::uint32_t>(std::clamp(at, 0.0, 524287.0));
   }

@@ -226,7 +226,7 @@ const SpecMaskRecord& SpecMask::octant(const SpecMaskRecord& node, unsigned numb
 SpecPoint SpecMask::corner(const SpecCell& cell, unsigned number) const {
   SpecPoint point{};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    const double lower = std::ldexp(header_.box_lower[axis], header_.scale_exponent);
+    const double lower = std::ldexp(header_.core_lower[axis], header_.scale_exponent);
     const double i = cell.at[axis] + (number >> axis & 1);
     const double side = lower + std::ldexp(i, 1 - static_cast<int>(cell.level));
     point[axis] = std::clamp(side, header_.wall_lower[axis], header_.wall_upper[axis]);
@@ -238,7 +238,7 @@ SpecPoint SpecMask::in_cell(const SpecCell& cell, const SpecPoint& point) const 
   SpecPoint u{};
   for (unsigned axis = 0; axis < 3; ++axis) {
     const int level = static_cast<int>(cell.level);
-    const double lower = std::ldexp(header_.box_lower[axis], header_.scale_exponent);
+    const double lower = std::ldexp(header_.core_lower[axis], header_.scale_exponent);
     const double side = lower + std::ldexp(cell.at[axis], 1 - level);
     u[axis] = std::ldexp(point[axis] - side, level - 1);
   }

@@ -30,7 +30,7 @@ std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
 bool is_whole(Bytes header) {
   constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
   return std::memcmp(header.data(), kMagic, 8) == 0 &&
-         hash64(header.first(568), 0) == get<std::uint64_t>(header, 568);
+         hash64(header.first(632), 0) == get<std::uint64_t>(header, 632);
 }
 
 // "Region": sides within the mesh's box are walls.
@@ -50,7 +50,7 @@ void read_region(Bytes model, SpecHeader& read) {
 }
 
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 448);
+  const Bytes model = header.subspan(80, 512);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -59,6 +59,10 @@ SpecHeader read_header(Bytes header) {
   read.block_count = get<std::uint64_t>(model, 40);
   read.box_lower = get<SpecPoint>(model, 48);
   read.box_upper = get<SpecPoint>(model, 72);
+  read.core_lower = get<SpecPoint>(model, 448);
+  read.core_upper = get<SpecPoint>(model, 472);
+  read.stray_count = get<std::uint64_t>(model, 496);
+  read.stray_edge = get<double>(model, 504);
   read.centre = get<SpecPoint>(model, 96);
   read.sample = get<SpecPoint>(model, 120);
   read.sample_triangle = get<std::uint64_t>(model, 144);
@@ -86,8 +90,8 @@ bool SpecHeader::has_walls() const {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 10, "another version");
-  require(get<std::uint16_t>(header, 10) == 576, "header length");
+  require(get<std::uint16_t>(header, 8) == 11, "another version");
+  require(get<std::uint16_t>(header, 10) == 640, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
   header_ = read_header(header);
@@ -97,17 +101,17 @@ SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
 
 Bytes SpecFile::choose_header() const {
   const Bytes all(bytes_);
-  require(all.size() >= 1065, "too short");
-  if (is_whole(all.first(576))) return all.first(576);
-  require(is_whole(all.last(576)), "no whole header");
-  return all.last(576);
+  require(all.size() >= 1321, "too short");
+  if (is_whole(all.first(640))) return all.first(640);
+  require(is_whole(all.last(640)), "no whole header");
+  return all.last(640);
 }
 
 void SpecFile::check_table(Bytes header) const {
-  const Bytes table = Bytes(bytes_).subspan(576, std::size_t{40} * header_.page_count);
+  const Bytes table = Bytes(bytes_).subspan(640, std::size_t{40} * header_.page_count);
   require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
   std::vector<std::uint64_t> page_hashes;
-  std::uint64_t end = 576 + table.size();
+  std::uint64_t end = 640 + table.size();
   std::pair<std::uint64_t, std::uint32_t> last_key{};
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
     page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
@@ -117,13 +121,13 @@ void SpecFile::check_table(Bytes header) const {
     require(k == 0 || k == header_.d() || last_key < key, "order of keys");
     last_key = key;
   }
-  require(end == bytes_.size() - 576, "pages do not tile the file");
+  require(end == bytes_.size() - 640, "pages do not tile the file");
   const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
   require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {
-  return Bytes(bytes_).subspan(576 + std::size_t{40} * number, 40);
+  return Bytes(bytes_).subspan(640 + std::size_t{40} * number, 40);
 }
 
 std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {

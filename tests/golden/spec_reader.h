@@ -20,7 +20,9 @@ using SpecPoint = std::array<double, 3>;
 struct SpecHeader {
   std::uint32_t page_bytes, page_count;
   std::uint64_t triangle_count, node_count, block_count;
-  SpecPoint box_lower, box_upper, centre, sample;
+  SpecPoint box_lower, box_upper, core_lower, core_upper, centre, sample;
+  std::uint64_t stray_count;
+  double stray_edge;
   std::uint64_t sample_triangle;
   std::int32_t scale_exponent;
   std::uint32_t root_link;

@@ -29,9 +29,13 @@ storage::ModelRecord describe(const octree::SampleTree& sample) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     model.box_lower[axis] = sample.mesh.frame.input_lower[axis];
     model.box_upper[axis] = sample.mesh.frame.input_upper[axis];
+    model.core_lower[axis] = sample.mesh.frame.input_core_lower[axis];
+    model.core_upper[axis] = sample.mesh.frame.input_core_upper[axis];
     model.centre[axis] = info.centre[axis];
     model.sample[axis] = info.sample[axis];
   }
+  model.stray_count = sample.mesh.frame.stray_count;
+  model.stray_edge = sample.mesh.frame.stray_edge;
   model.sample_triangle = info.sample_triangle;
   model.scale_exponent = sample.mesh.frame.scale_exponent;
   model.root_link = info.root_link;

@@ -37,6 +37,7 @@ bool is_inside(const octree::FloatBox& box, const Point& point) {
 /// (octree/traversal/bounds.h). The point is relative to the model's centre.
 bool is_inside(const Bounds& bounds, const Point& point) {
   const double diagonal = 32000 * static_cast<double>(bounds.box.plane_step());
+  if (!std::isfinite(diagonal)) return true;  // no query reads it
   const double slack = octree::kDiscOffsetSlack / 2 * diagonal - octree::kAbsoluteBoundSlack;
   const Point normal = point_of(bounds.disc.normal);
   const Point from = point - point_of(bounds.box.centre());

@@ -63,7 +63,7 @@ class Raster {
         up_(plane.axis == 2 ? 1 : 2),
         coordinate_(plane.coordinate(info)) {
     const auto length = [&info](unsigned axis) {
-      return component(info.box_upper, axis) - component(info.box_lower, axis);
+      return component(info.core_upper, axis) - component(info.core_lower, axis);
     };
     double longer = std::max(length(right_), length(up_));
     if (!(longer > 0)) longer = length(axis_) > 0 ? length(axis_) : 1;
@@ -76,7 +76,7 @@ class Raster {
     width_ = pixels(right_);
     height_ = pixels(up_);
     const auto middle = [&info](unsigned axis) {
-      return component(info.box_lower, axis) / 2 + component(info.box_upper, axis) / 2;
+      return component(info.core_lower, axis) / 2 + component(info.core_upper, axis) / 2;
     };
     left_ = middle(right_) - pixel_ * width_ / 2;
     top_ = middle(up_) + pixel_ * height_ / 2;
@@ -166,7 +166,7 @@ std::optional<SlicePlane> SlicePlane::parse(std::string_view text) {
 double SlicePlane::coordinate(const ModelInfo& info) const {
   if (!percent) return value;
   const double share = value / 100;
-  return component(info.box_lower, axis) * (1 - share) + component(info.box_upper, axis) * share;
+  return component(info.core_lower, axis) * (1 - share) + component(info.core_upper, axis) * share;
 }
 
 Result<SliceImage> draw_slice(const Model& model, Probe& probe, const SlicePlane& plane,

@@ -182,6 +182,8 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"first_skipped", nullptr},
                {"vertices", model.vertex_count},
                {"box", {{"lower", model.box_lower}, {"upper", model.box_upper}}},
+               {"core", {{"lower", model.core_lower}, {"upper", model.core_upper}}},
+               {"strays", model.stray_count},
                {"region", region_json(model)},
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
                {"watertight", model.unbalanced_edge_count == 0},
@@ -221,6 +223,10 @@ std::string summary_text(const std::string& name, const FileParts& parts,
                         grouped_count(model.skipped_count), model.first_skipped);
   text += fmt::format("  box         {} to {}\n", point_text(model.box_lower),
                       point_text(model.box_upper));
+  if (model.stray_count > 0)
+    text += fmt::format("  core        {} to {}; {} stray triangles are far outside\n",
+                        point_text(model.core_lower), point_text(model.core_upper),
+                        grouped_count(model.stray_count));
   text += region_text(model);
   text += surface_text(model);
   text += fmt::format(

@@ -23,9 +23,9 @@ double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 class Walk {
  public:
   Walk(const Model& model, Probe& probe, double step)
-      : box_lower_(model.info().box_lower),
-        box_upper_(model.info().box_upper),
-        diagonal_(length(sum(box_upper_, box_lower_, -1))),
+      : core_lower_(model.info().core_lower),
+        core_upper_(model.info().core_upper),
+        diagonal_(length(sum(core_upper_, core_lower_, -1))),
         step_(step * diagonal_),
         probe_(probe) {}
 
@@ -65,9 +65,9 @@ class Walk {
     return from + (to - from) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
   Vec3 random_point() {
-    const double x = random_between(box_lower_.x, box_upper_.x);
-    const double y = random_between(box_lower_.y, box_upper_.y);
-    return {x, y, random_between(box_lower_.z, box_upper_.z)};
+    const double x = random_between(core_lower_.x, core_upper_.x);
+    const double y = random_between(core_lower_.y, core_upper_.y);
+    return {x, y, random_between(core_lower_.z, core_upper_.z)};
   }
   Vec3 random_direction() {
     for (;;) {
@@ -79,7 +79,7 @@ class Walk {
     }
   }
 
-  const Vec3 box_lower_, box_upper_;
+  const Vec3 core_lower_, core_upper_;
   const double diagonal_;
   const double step_;
   Probe& probe_;

@@ -15,7 +15,8 @@ HeightFieldMarks::HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask)
   mask_.page_bytes = info_.page_bytes;
   mask_.first_page = tree.pages().size();
   mask_.page_count = mask.size();
-  mask_.lower = info_.box_lower;
+  mask_.lower = info_.core_lower;
+  mask_.beside_strays = info_.has_strays;
 }
 
 Result<void> HeightFieldMarks::mark(std::uint32_t number, FilePage& page) {

@@ -18,8 +18,12 @@ constexpr unsigned kMaxFutileSteps = 3;
 
 }  // namespace
 
-Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t max_triangles) {
-  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, max_triangles, 0);
+Result<void> MaskSectors::divide(const TriangleRuns& runs, bool has_strays,
+                                 std::uint64_t max_triangles) {
+  auto end = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
+  if (!end) return end.error();
+  const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *end);
+  return divide(0, {runs.begin(), *std::move(end), in_core}, runs, max_triangles, 0);
 }
 
 Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
@@ -77,10 +81,11 @@ class MaskSectors::Visit {
   explicit Visit(const MaskSectors& sectors) : sectors_(sectors), visitors_(sectors.float64_) {}
 
   void add(const storage::SpillKey& key, const Triangle& triangle) {
-    own_ = sectors_.sector_of_code(key.first);
+    // A stray has no sector of its own: it visits those that it touches.
+    own_ = is_stray(key.first) ? kNone : sectors_.sector_of_code(key.first);
     key_ = key;
     const BoxedTriangle boxed(triangle);
-    if (is_inside_own(boxed))
+    if (own_ != kNone && is_inside_own(boxed))
       rise_of(own_);
     else
       add_touched(0, boxed);
@@ -108,7 +113,8 @@ class MaskSectors::Visit {
     }
     const Point lower = sectors_.grid_.lower(sector.cell),
                 upper = sectors_.grid_.upper(sector.cell);
-    if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
+    const bool in_root = at == 0 && own_ == 0;
+    if (!in_root && !may_touch(triangle.corners, lower, upper)) return;
     if (at != own_ && sectors_.grid_.has_part_of(sector.cell))
       visitors_.add({at, key_.second}, triangle.corners);
     auto& rise = rise_of(at);
@@ -139,8 +145,10 @@ class MaskSectors::Visit {
   void add_rise(const BoxedTriangle& triangle, const GridCell& cell,
                 std::array<std::int64_t, 8>& rise) const;
 
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
   const MaskSectors& sectors_;
-  std::size_t own_ = 0;
+  std::size_t own_ = 0;  // kNone of a stray
   storage::SpillKey key_;
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by sector
   std::size_t last_ = 0;                                        // sector that last_rise_ is of

@@ -45,7 +45,7 @@ class MaskSectors {
     storage::SpillRuns::Extent visitors;  ///< triangles that touch other sectors than their own
   };
 
-  /// lower       least corner of the model's box, model frame.
+  /// lower       least corner of the core, model frame.
   /// known       region in which sides are needed; all triangles that touch it are in the model.
   /// winding     number at the least corner of the root, clamped to `known`.
   /// held_bytes  maximum, in memory, of triangles that touch other sectors than their own.
@@ -59,7 +59,10 @@ class MaskSectors {
         visitors_(Triangles::record_bytes(float64), held_bytes, file) {}
 
   /// Divides the root into sectors. Call it before anything else.
-  Result<void> divide(const TriangleRuns& runs, std::uint64_t max_triangles = kSectorTriangles);
+  ///
+  /// has_strays  some triangle may be stray
+  Result<void> divide(const TriangleRuns& runs, bool has_strays,
+                      std::uint64_t max_triangles = kSectorTriangles);
 
   /// Adds a part of the model, each triangle once. Returns what was added.
   Result<Part> add(const Triangles& triangles);

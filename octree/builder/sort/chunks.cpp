@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "octree/builder/sort/morton_order.h"
 #include "octree/geometry/octcode.h"
 
 namespace planetree::octree {
@@ -38,6 +39,17 @@ class ChunkCutter {
     tree.nodes[at].right = static_cast<std::uint32_t>(tree.nodes.size());
     if (const auto added = add(std::move(halves->upper)); !added) return added;
     tree.nodes[at].end = static_cast<std::uint32_t>(tree.chunks.size());
+    return {};
+  }
+
+  // Adds the core and the strays, side by side.
+  Result<void> add_parts(Stretch core, Stretch strays) {
+    tree.parts_strays = true;
+    tree.nodes.push_back({0, 0, 1, 0});
+    if (const auto added = add(std::move(core)); !added) return added;
+    tree.nodes[0].right = static_cast<std::uint32_t>(tree.nodes.size());
+    if (const auto added = add(std::move(strays)); !added) return added;
+    tree.nodes[0].end = static_cast<std::uint32_t>(tree.chunks.size());
     return {};
   }
 
@@ -97,9 +109,15 @@ class ChunkCutter {
 
 }  // namespace
 
-Result<ChunkTree> cut_chunks(const TriangleRuns& runs, std::uint64_t most) {
+Result<ChunkTree> cut_chunks(const TriangleRuns& runs, bool has_strays, std::uint64_t most) {
   ChunkCutter cutter(runs, most);
-  const auto added = cutter.add({{runs.begin(), runs.end(), runs.size()}});
+  auto middle = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
+  if (!middle) return middle.error();
+  const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *middle);
+  const std::uint64_t strays = runs.size() - in_core;
+  Stretch core{{runs.begin(), *middle, in_core}}, rest{{*middle, runs.end(), strays}, kStrayCode};
+  const auto added = in_core > 0 && strays > 0 ? cutter.add_parts(std::move(core), std::move(rest))
+                                               : cutter.add(std::move(strays == 0 ? core : rest));
   if (!added) return added.error();
   return std::move(cutter.tree);
 }

@@ -30,12 +30,18 @@ struct ChunkNode {
 };
 
 struct ChunkTree {
-  std::vector<Chunk> chunks;     ///< in Morton order
+  std::vector<Chunk> chunks;     ///< in Morton order, those of strays last
   std::vector<ChunkNode> nodes;  ///< node 0 is the root; children come after their parents
+  /// Node 0 has the core on its left and the strays on its right.
+  bool parts_strays = false;
 };
 
-/// Splits a model by the bits of Morton codes, and by triangle index where all codes are equal,
-/// until no chunk has more triangles than the maximum. The chunks do not depend on the runs.
-Result<ChunkTree> cut_chunks(const TriangleRuns& runs, std::uint64_t most = kChunkTriangles);
+/// Parts the core from the strays. Splits both by the bits of Morton codes, and by triangle index
+/// where all codes are equal, until no chunk has more triangles than the maximum. The chunks do not
+/// depend on the runs.
+///
+/// has_strays  some triangle may be stray
+Result<ChunkTree> cut_chunks(const TriangleRuns& runs, bool has_strays,
+                             std::uint64_t most = kChunkTriangles);
 
 }  // namespace planetree::octree

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "octree/geometry/octcode.h"
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
@@ -26,7 +25,7 @@ std::uint64_t morton_code_of(const Triangle& triangle, const Point& lower) {
 
 std::vector<MortonKey> keys_of(const Triangles& sorted) {
   std::vector<MortonKey> keys(sorted.size());
-  for (std::uint32_t i = 0; i < sorted.size(); ++i) keys[i] = {sorted.code(i), i};
+  for (std::uint32_t i = 0; i < sorted.size(); ++i) keys[i] = {morton_part(sorted.code(i)), i};
   return keys;
 }
 

@@ -43,6 +43,7 @@ Result<void> TriangleSpool::triangle(std::uint64_t index, const std::array<Vec3,
     frame_.sample_triangle = index;
   }
   note(corners);
+  sample_.add(corners[0]);
   batches_.back().held.add({0, index}, points_of(corners));
   ++frame_.triangle_count;
   return {};
@@ -95,23 +96,55 @@ Result<void> TriangleSpool::progress(std::uint64_t bytes_done, std::uint64_t byt
   return progress_ ? progress_(progress_context_, bytes_done, bytes_total) : Result<void>();
 }
 
+// Calls use(triangles) with a batch as it was read.
+template <class Use>
+Result<void> TriangleSpool::read_batch(const Batch& batch, const Use& use) const {
+  if (batch.held.size() > 0) {
+    use(batch.held);
+    return {};
+  }
+  std::vector<std::byte> records(batch.bytes);
+  if (const auto read = file_.read(batch.offset, records); !read) return read.error();
+  use(Triangles(std::move(records), batch.float64));
+  return {};
+}
+
+// Looks at all triangles again only if some may be stray.
+Result<void> TriangleSpool::find_core() {
+  CoreFinder finder(sample_, frame_.input_lower, frame_.input_upper);
+  for (std::size_t i = 0; finder.may_have_strays() && i < batches_.size(); ++i) {
+    const auto read = read_batch(batches_[i], [&finder](const Triangles& triangles) {
+      for (std::uint32_t at = 0; at < triangles.size(); ++at) finder.add(triangles.corners(at));
+    });
+    if (!read) return read;
+  }
+  const CoreFinder::Core core = finder.found();
+  frame_.input_core_lower = core.lower;
+  frame_.input_core_upper = core.upper;
+  frame_.stray_count = core.stray_count;
+  frame_.stray_edge = core.stray_edge;
+  return {};
+}
+
 void TriangleSpool::choose_scale() {
-  const Point &lower = frame_.input_lower, &upper = frame_.input_upper;
+  const Point &lower = frame_.input_core_lower, &upper = frame_.input_core_upper;
   // Halves, because the difference of two doubles may overflow.
   double half = (upper * 0.5 - lower * 0.5).maxCoeff();
   if (half == 0) half = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff()) * 0.5;
   int exponent = 0;
   if (half > 0) std::frexp(half, &exponent);
   frame_.scale_exponent = half > 0 ? -exponent : 0;
+  frame_.stray_edge = std::ldexp(frame_.stray_edge, frame_.scale_exponent);
 }
 
 Result<ModelFrame> TriangleSpool::finish() {
+  if (!batches_.empty())
+    if (const auto put = spill_batch(batches_.back()); !put) return put.error();
+  if (const auto found = find_core(); !found) return found.error();
   choose_scale();
   if (min_magnitude_ > 0 &&
       std::ldexp(min_magnitude_, frame_.scale_exponent) < std::numeric_limits<float>::min())
     frame_.float64 = true;
-  if (!batches_.empty())
-    if (const auto put = spill_batch(batches_.back()); !put) return put.error();
   return frame_;
 }
 
@@ -125,11 +158,17 @@ Result<Triangles> TriangleSpool::take_batch(std::size_t at) {
     triangles = Triangles(std::move(records), batch.float64);
   }
   if (frame_.float64 && !batch.float64) triangles = widened(triangles);
-  const Point lower = frame_.lower();
+  const Point lower = frame_.core_lower(), upper = frame_.core_upper();
+  const auto is_in_core = [&](const Triangle& corners) {
+    return std::all_of(corners.begin(), corners.end(), [&](const Point& corner) {
+      return (corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all();
+    });
+  };
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     Triangle corners = triangles.corners(i);
     for (Point& corner : corners) corner = frame_.scaled(corner);
-    triangles.set(i, {morton_code_of(corners, lower), triangles.index(i)}, corners);
+    const std::uint64_t stray = is_in_core(corners) ? 0 : kStrayCode;
+    triangles.set(i, {morton_code_of(corners, lower) | stray, triangles.index(i)}, corners);
   }
   return triangles;
 }

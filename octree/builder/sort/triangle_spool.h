@@ -7,6 +7,7 @@
 
 #include "octree/builder/job/model_frame.h"
 #include "octree/builder/mesh/mesh_reader.h"
+#include "octree/builder/sort/core_box.h"
 #include "octree/builder/sort/triangles.h"
 #include "storage/spill/spill_file.h"
 
@@ -39,8 +40,8 @@ class TriangleSpool final : public TriangleSink {
   Result<ModelFrame> finish();
 
   std::size_t batch_count() const { return batches_.size(); }
-  /// The triangles of a batch in the order of the input, in the model frame, with their Morton
-  /// codes. Releases the memory of the batch. Call it after finish().
+  /// The triangles of a batch in the order of the input, in the model frame, with their codes.
+  /// Releases the memory of the batch. Call it after finish().
   Result<Triangles> take_batch(std::size_t batch);
 
  private:
@@ -54,13 +55,17 @@ class TriangleSpool final : public TriangleSink {
   void note(const std::array<Vec3, 3>& corners);
   void widen_last();
   Result<void> spill_batch(Batch& batch);
+  Result<void> find_core();
   void choose_scale();
+  template <class Use>
+  Result<void> read_batch(const Batch& batch, const Use& use) const;
 
   const std::uint32_t batch_triangles_;
   std::uint64_t held_bytes_;
   storage::SpillFile& file_;
   std::vector<Batch> batches_;
   ModelFrame frame_;
+  CornerSample sample_;
   double min_magnitude_ = 0;  // minimum over all coordinates that are not 0
   ProgressCall progress_ = nullptr;
   void* progress_context_ = nullptr;

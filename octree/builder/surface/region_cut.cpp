@@ -21,11 +21,10 @@ DownwardSegment exit_segment(const Point& from, const Point& box_lower) {
 
 }  // namespace
 
-RegionCut::RegionCut(const Point& box_lower, const Point& box_upper, const Region& region,
-                     TriangleRuns* kept)
-    : lower_(region.clamped(box_lower)),
-      upper_(region.clamped(box_upper)),
-      exit_segment_(exit_segment(lower_, box_lower)),
+RegionCut::RegionCut(const ModelFrame& frame, const Region& region, TriangleRuns* kept)
+    : lower_(region.clamped(frame.lower())),
+      upper_(region.clamped(frame.upper())),
+      exit_segment_(exit_segment(region.clamped(frame.core_lower()), frame.lower())),
       kept_(kept) {}
 
 SurfaceCut RegionCut::look_at(const Triangles& triangles, Triangles& taken) const {

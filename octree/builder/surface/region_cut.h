@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <mutex>
 
+#include "octree/builder/job/model_frame.h"
 #include "octree/builder/sort/triangle_runs.h"
 #include "octree/builder/sort/triangles.h"
 #include "octree/builder/surface/edge_crossings.h"
@@ -26,11 +27,10 @@ struct SurfaceCut {
 ///         axis, and going on cell by cell from its end, are ours.
 class RegionCut {
  public:
-  /// box_lower, box_upper  box of the whole surface.
-  /// region                if it has no walls, all triangles are taken.
-  /// kept                  receives copies of the triangles; null: none are taken.
-  RegionCut(const Point& box_lower, const Point& box_upper, const Region& region,
-            TriangleRuns* kept);
+  /// frame   of the whole surface.
+  /// region  if it has no walls, all triangles are taken.
+  /// kept    receives copies of the triangles; null: none are taken.
+  RegionCut(const ModelFrame& frame, const Region& region, TriangleRuns* kept);
 
   /// Adds a part of the surface, each triangle once, in any order. Any number of threads.
   Result<void> add(const Triangles& triangles);

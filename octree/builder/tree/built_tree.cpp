@@ -33,6 +33,9 @@ TreeInfo BuiltTree::info() const {
   info.record_count = node_count_ + block_count_;
   info.box_lower = frame_.lower();
   info.box_upper = frame_.upper();
+  info.core_lower = frame_.core_lower();
+  info.core_upper = frame_.core_upper();
+  info.set_strays(frame_.stray_count, frame_.stray_edge);
   info.centre = frame_.centre();
   return info;
 }

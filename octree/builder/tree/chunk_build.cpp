@@ -17,8 +17,8 @@ namespace {
 void describe(const Triangles& triangles, const WideTree& tree, BuiltChunk& chunk) {
   chunk.node_count = tree.nodes.size();
   chunk.block_count = tree.blocks.size();
-  chunk.min_code = triangles.code(0);
-  chunk.greatest_code = triangles.code(triangles.size() - 1);
+  chunk.min_code = morton_part(triangles.code(0));
+  chunk.greatest_code = morton_part(triangles.code(triangles.size() - 1));
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
     chunk.area += area_vector(triangles.corners(i));
   if (tree.nodes.empty()) {

@@ -21,7 +21,7 @@ struct BuiltChunk {
   std::uint8_t height = 0;         ///< height of the root; 0 if it is a block
   std::uint64_t node_count = 0;
   std::uint64_t block_count = 0;
-  std::uint64_t min_code = 0, greatest_code = 0;
+  std::uint64_t min_code = 0, greatest_code = 0;  ///< Morton codes
   FloatBox box;                       ///< box of the root, relative to the model's centre
   std::vector<FloatBox> boxes_below;  ///< boxes two levels below the root
   Point area = Point::Zero();         ///< sum of the triangles' area vectors

@@ -35,7 +35,8 @@ class DiscExtent {
   // Rounds outward, with the slack that evaluation in float needs.
   void pack(const FloatBox& box, PackedChild& packed) const {
     const double step = box.plane_step();
-    if (!(step > 0)) return;
+    // Of a point there is nothing to say, and in a box as large as those of far strays no unit.
+    if (!(step > 0) || !std::isfinite(step)) return;
     const double slack = kDiscOffsetSlack * 32000 * step;
     packed.slab_lower = static_cast<std::int16_t>(
         std::clamp(std::floor((lower_ - slack) / step), -32767.0, 32767.0));

@@ -91,14 +91,17 @@ class TopTreeBuilder {
 /// hang from different pages do not.
 class TopTreePlanner {
  public:
-  TopTreePlanner(const WideTree& tree, const std::vector<BuiltChunk>& chunks, std::size_t capacity)
-      : tree_(tree), chunks_(chunks), capacity_(capacity) {}
+  // keeps_root  as for collapse().
+  TopTreePlanner(const WideTree& tree, const std::vector<BuiltChunk>& chunks, bool keeps_root,
+                 std::size_t capacity)
+      : tree_(tree), chunks_(chunks), keeps_root_(keeps_root), capacity_(capacity) {}
 
   std::vector<PlannedPage> run() {
     if (tree_.nodes.empty()) return {};
     start({0});
     for (std::size_t i = 0; i < pages_.size(); ++i) {
-      const std::vector<std::uint32_t> left = fill(pages_[i]);
+      const std::vector<std::uint32_t> left =
+          fill(pages_[i], i == 0 && keeps_root_ ? 1 : capacity_);
       const std::size_t roots = std::min(kRoots, capacity_);
       for (std::size_t first = 0; first < left.size(); first += roots) {
         const std::size_t last = std::min(first + roots, left.size());
@@ -123,13 +126,13 @@ class TopTreePlanner {
   }
 
   // Returns the nodes that do not fit.
-  std::vector<std::uint32_t> fill(PlannedPage& page) const {
+  std::vector<std::uint32_t> fill(PlannedPage& page, std::size_t capacity) const {
     std::vector<std::uint32_t> left;
     for (std::size_t i = 0; i < page.nodes.size(); ++i) {
       const WideNode& node = tree_.nodes[page.nodes[i]];
       for (unsigned c = 0; c < node.child_count; ++c) {
         if (node.children[c].block) continue;
-        (page.nodes.size() < capacity_ ? page.nodes : left).push_back(node.children[c].index);
+        (page.nodes.size() < capacity ? page.nodes : left).push_back(node.children[c].index);
       }
     }
     return left;
@@ -137,14 +140,18 @@ class TopTreePlanner {
 
   std::uint64_t octcode_of(std::uint32_t at) const {
     const WideNode& node = tree_.nodes[at];
-    const std::uint64_t least = chunks_[node.children[0].begin].min_code;
-    const std::uint64_t greatest =
-        chunks_[node.children[node.child_count - 1u].end - 1].greatest_code;
+    std::uint64_t least = ~std::uint64_t{0}, greatest = 0;
+    // Codes ascend within a child. Those of strays may be less than those of the core before them.
+    for (unsigned i = 0; i < node.child_count; ++i) {
+      least = std::min(least, chunks_[node.children[i].begin].min_code);
+      greatest = std::max(greatest, chunks_[node.children[i].end - 1].greatest_code);
+    }
     return octcode_of_range(least, greatest);
   }
 
   const WideTree& tree_;
   const std::vector<BuiltChunk>& chunks_;
+  const bool keeps_root_;
   const std::size_t capacity_;
   std::vector<PlannedPage> pages_;
 };
@@ -154,11 +161,12 @@ class TopTreePlanner {
 TopTree build_top_tree(const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
                        const BlockShape& shape, std::uint32_t page_bytes) {
   TopTree top_tree;
-  top_tree.tree = collapse(binary_above(above, chunks));
+  top_tree.tree = collapse(binary_above(above, chunks), above.parts_strays);
   TopTreeBuilder(chunks, shape, top_tree.tree).run();
   const std::size_t slots = page_bytes / kSlotBytes - frame_head_slots(page_bytes);
   top_tree.plan.page_bytes = page_bytes;
-  top_tree.plan.pages = TopTreePlanner(top_tree.tree, chunks, slots / shape.node_slots()).run();
+  top_tree.plan.pages =
+      TopTreePlanner(top_tree.tree, chunks, above.parts_strays, slots / shape.node_slots()).run();
   return top_tree;
 }
 

@@ -107,14 +107,16 @@ void pack_box(const FloatBox& parent, WideChild& child) {
 
 class Collapser {
  public:
-  Collapser(const std::vector<BinaryNode>& binary, WideTree& tree)
-      : binary_(binary), opened_(binary), tree_(tree) {}
+  Collapser(const std::vector<BinaryNode>& binary, bool keeps_root, WideTree& tree)
+      : binary_(binary), opened_(binary), keeps_root_(keeps_root), tree_(tree) {}
 
   // Appends the wide node for binary node `from`, whose decoded box is `box`.
   std::uint32_t add_node(std::uint32_t from, const FloatBox& box) {
     const auto at = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
-    const Opening opening = opened_.of(from);
+    const Opening opening = from == 0 && keeps_root_
+                                ? Opening{{binary_[0].left, binary_[0].right}, 2}
+                                : opened_.of(from);
     tree_.nodes[at].box = box;
     tree_.nodes[at].child_count = static_cast<std::uint8_t>(opening.count);
     unsigned height = 0;
@@ -124,7 +126,9 @@ class Collapser {
       if (child.block) {
         child.index = add_block(child.begin, child.end);
       } else {
-        child.index = add_node(opening.child[i], child.box);
+        // A child of a kept root begins a page, which stores its box as it is.
+        const bool begins_page = from == 0 && keeps_root_;
+        child.index = add_node(opening.child[i], begins_page ? child.true_box : child.box);
         height = std::max<unsigned>(height, tree_.nodes[child.index].height);
       }
       tree_.nodes[at].children[i] = child;
@@ -150,14 +154,15 @@ class Collapser {
 
   const std::vector<BinaryNode>& binary_;
   const OpenedChildren opened_;
+  const bool keeps_root_;
   WideTree& tree_;
 };
 
 }  // namespace
 
-WideTree collapse(const std::vector<BinaryNode>& binary) {
+WideTree collapse(const std::vector<BinaryNode>& binary, bool keeps_root) {
   WideTree tree;
-  Collapser collapser(binary, tree);
+  Collapser collapser(binary, keeps_root, tree);
   if (binary[0].leaf())
     collapser.add_block(binary[0].begin, binary[0].end);
   else

@@ -48,6 +48,10 @@ struct WideTree {
 
 /// Collapses a binary tree into wide nodes so that the sum of their surface areas is least. A node
 /// then has about six of eight children. The leaves become blocks as they are.
-WideTree collapse(const std::vector<BinaryNode>& binary);
+///
+/// keeps_root  the root keeps its two children, which begin pages of their own. Where one of them
+/// is
+///             far larger than the other, the steps of the root's box resolve nothing of the other.
+WideTree collapse(const std::vector<BinaryNode>& binary, bool keeps_root = false);
 
 }  // namespace planetree::octree

@@ -38,12 +38,12 @@ TEST(Region, ContainsItsWalls) {
 // The clearance is slightly less than the distance to the nearest wall, to cover all rounding.
 TEST(Region, ClearanceEndsBeforeTheNearestWall) {
   const Region region = some_region();
-  const double clear = region.clearance({0.25, 10, 0.625});
+  const double clear = region.clearance({0.25, 10, 0.625}, kMaxDiagonal);
   EXPECT_LT(clear, 0.125 - 0x1p-39);
   EXPECT_GT(clear, 0.125 - 0x1p-36);
-  EXPECT_LT(region.clearance({-1e200, 10, 0.5}), 0);
-  EXPECT_LT(region.clearance({0, 0, 0}), 0);
-  EXPECT_EQ(Region().clearance({1e200, 0, 0}), kFar);
+  EXPECT_LT(region.clearance({-1e200, 10, 0.5}, kMaxDiagonal), 0);
+  EXPECT_LT(region.clearance({0, 0, 0}, kMaxDiagonal), 0);
+  EXPECT_EQ(Region().clearance({1e200, 0, 0}, kMaxDiagonal), kFar);
 }
 
 TEST(ClippedGrid, EndsCellsAtTheWalls) {

@@ -48,6 +48,8 @@ class MaskPrefetcherTest : public testing::Test {
     TreeInfo tree;
     tree.box_lower = lower_;
     tree.box_upper = lower_ + Point(1.2, 1.9, 0.7);
+    tree.core_lower = tree.box_lower;
+    tree.core_upper = tree.box_upper;
     // The memory holds a grid of a level far above the leaves.
     side_grid_.fill(mask_, tree, false, 0, pages_.resident_reader(), memory_);
   }

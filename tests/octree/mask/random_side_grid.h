@@ -22,6 +22,8 @@ class RandomSideGrid : public testing::Test {
     TreeInfo tree;
     tree.box_lower = lower;
     tree.box_upper = lower + size;
+    tree.core_lower = tree.box_lower;
+    tree.core_upper = tree.box_upper;
     return tree;
   }
   SideGrid grid_of(MaskPages& pages, std::size_t bytes) {

@@ -145,7 +145,7 @@ TEST(UnpackVertices, InterleavesCoordinates) {
 
 TEST(UnpackVertices, RefusesNonFiniteAndHugeCoordinates) {
   using Limits = std::numeric_limits<float>;
-  const float most = 0x1p60f;
+  const float most = 0x1p112f;
   for (const std::size_t count : {16, 21})
     for (std::size_t i = 0; i < 3 * count; ++i) {
       std::vector<float> values(3 * count, 0.5f);

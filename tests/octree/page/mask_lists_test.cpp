@@ -114,10 +114,10 @@ TEST(MaskLists, AreAbsentWhereCornersHaveMoreThanTwoWindingNumbers) {
 // root.
 TEST(MaskLists, AreAbsentAtSectorRoots) {
   const ChunkedTree tree(grains(60, 0.05), 150);
-  RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+  RegionCut cut(tree.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
   MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, true, 1 << 20, spill_file());
-  ASSERT_TRUE(sectors.divide(*tree.runs, 20) && sectors.add(tree.mesh));
+  ASSERT_TRUE(sectors.divide(*tree.runs, false, 20) && sectors.add(tree.mesh));
   std::mutex mutex;
   std::size_t roots = 0;
   const auto above = build_mask(
@@ -139,10 +139,10 @@ TEST(MaskLists, AreAbsentAtSectorRoots) {
 // The mask consists of its root alone, in a page of its own.
 TEST(MaskLists, ArePresentInAMaskOfOneCell) {
   const ChunkedTree tree(box({0, 0, 0}, {1.75, 1.5, 1.25}));
-  RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+  RegionCut cut(tree.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(tree.mesh));
   MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
-  ASSERT_TRUE(sectors.divide(*tree.runs) && sectors.add(tree.mesh));
+  ASSERT_TRUE(sectors.divide(*tree.runs, false) && sectors.add(tree.mesh));
   BuiltMask mask(4096, false, spill_file());
   ASSERT_TRUE(mask.build(sectors, *tree.runs, tree.tree.get(),
                          [](std::uint32_t, const BuiltSector&) { return Result<void>(); }));

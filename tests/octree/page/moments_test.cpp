@@ -91,7 +91,7 @@ TEST(Multipoles, ErrorBoundsHold) {
                                                   static_cast<double>(box.lower[1]) + by.y,
                                                   static_cast<double>(box.lower[2]) + by.z);
         std::array<Multipoles::Share, kFanOut> shares;
-        Multipoles(query, sample.centre).shares(node, shares);
+        Multipoles(query, tree_info(sample)).shares(node, shares);
         for (unsigned child = 0; child < wide.child_count; ++child) {
           if (!(shares[child].error < 1)) continue;
           double exact = 0;
@@ -115,7 +115,7 @@ TEST(Multipoles, AreUnknownInsideTheBox) {
   const Node& root =
       *reinterpret_cast<const Node*>(pages.record(LinkFormat(65536), sample.plan.node_links[0]));
   std::array<Multipoles::Share, kFanOut> shares;
-  Multipoles(sample.mesh.corners(0)[0], sample.centre).shares(root, shares);
+  Multipoles(sample.mesh.corners(0)[0], tree_info(sample)).shares(root, shares);
   EXPECT_TRUE(std::any_of(shares.begin(), shares.begin() + root.child_count,
                           [](const auto& share) { return share.error == Multipoles::kUnknown; }));
 }

@@ -21,11 +21,11 @@ struct HeightFieldModel {
         mask(4096, tree.shape.float64, file),
         info(tree.tree->info()),
         surface(tree.mesh) {
-    RegionCut cut(tree.mesh.lower(), tree.mesh.upper(), {}, nullptr);
+    RegionCut cut(tree.mesh.frame, {}, nullptr);
     if (!cut.add(tree.mesh)) std::abort();
     MaskSectors sectors(tree.mesh.lower(), {}, cut.found().winding, tree.shape.float64, 1 << 20,
                         spill_file());
-    if (!sectors.divide(*tree.runs, 2000) || !sectors.add(tree.mesh) ||
+    if (!sectors.divide(*tree.runs, false, 2000) || !sectors.add(tree.mesh) ||
         !mask.build(sectors, *tree.runs, tree.tree.get(),
                     [](std::uint32_t, const BuiltSector&) { return Result<void>(); }))
       std::abort();

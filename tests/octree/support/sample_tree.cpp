@@ -115,11 +115,11 @@ void put_in(MaskTree& whole, std::size_t index, MaskTree part) {
 
 MaskTree mask_of(const SampleMesh& mesh, std::uint64_t most, const BuiltTree* tree) {
   const auto runs = runs_of(mesh);
-  RegionCut cut(mesh.frame.lower(), mesh.frame.upper(), {}, nullptr);
+  RegionCut cut(mesh.frame, {}, nullptr);
   if (!cut.add(mesh)) std::abort();
-  MaskSectors sectors(mesh.frame.lower(), {}, cut.found().winding, mesh.float64(), 1000,
+  MaskSectors sectors(mesh.frame.core_lower(), {}, cut.found().winding, mesh.float64(), 1000,
                       spill_file());
-  if (!sectors.divide(*runs, most) || !sectors.add(mesh)) std::abort();
+  if (!sectors.divide(*runs, mesh.frame.stray_count > 0, most) || !sectors.add(mesh)) std::abort();
   std::mutex mutex;
   std::map<std::size_t, MaskTree> parts;
   MaskTree whole = *build_mask(
@@ -200,6 +200,9 @@ TreeInfo tree_info(const SampleTree& sample) {
   info.record_count = sample.tree.nodes.size() + sample.tree.blocks.size();
   info.box_lower = sample.mesh.frame.lower();
   info.box_upper = sample.mesh.frame.upper();
+  info.core_lower = sample.mesh.frame.core_lower();
+  info.core_upper = sample.mesh.frame.core_upper();
+  info.set_strays(sample.mesh.frame.stray_count, sample.mesh.frame.stray_edge);
   info.centre = sample.centre;
   info.sample = sample.mesh.frame.scaled(sample.mesh.frame.input_sample);
   info.sample_triangle = sample.mesh.frame.sample_triangle;

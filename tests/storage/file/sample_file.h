@@ -35,6 +35,8 @@ inline ModelRecord sample_model() {
   for (int axis = 0; axis < 3; ++axis) {
     model.box_lower[axis] = -1.0;
     model.box_upper[axis] = 1.0 + axis;
+    model.core_lower[axis] = model.box_lower[axis];
+    model.core_upper[axis] = model.box_upper[axis];
     model.sample[axis] = 0.5;
   }
   model.triangle_id_bytes = 4;

@@ -70,9 +70,16 @@ TEST_F(FileCheck, FindsBoxesThatDoNotAgreeAcrossPages) {
 }
 
 TEST_F(FileCheck, FindsAWrongBoxInTheHeader) {
-  EXPECT_EQ(codes_of_model([](auto& model) { model.box_upper[1] += 1; }),
+  EXPECT_EQ(codes_of_model([](auto& model) {
+              model.box_upper[1] += 1;
+              model.core_upper[1] += 1;
+            }),
             (Codes{"ROOT_BOX", "MODEL_BOX"}));
-  EXPECT_EQ(codes_of_model([](auto& model) { model.box_upper[1] -= 1; }), Codes{"MODEL_BOX"});
+  EXPECT_EQ(codes_of_model([](auto& model) {
+              model.box_upper[1] -= 1;
+              model.core_upper[1] -= 1;
+            }),
+            Codes{"MODEL_BOX"});
 }
 
 TEST_F(FileCheck, FindsWrongHeights) {

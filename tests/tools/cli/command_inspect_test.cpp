@@ -119,7 +119,7 @@ TEST_F(Command, InspectShowsOnePage) {
   const Outcome result = run({"inspect", "tree.ptree", "--page", "0", "--json"});
   ASSERT_EQ(result.status, 0) << result.errors;
   const Json page = Json::parse(result.output);
-  EXPECT_EQ(page["entry"]["offset"], 576 + 40 * entries_.size());
+  EXPECT_EQ(page["entry"]["offset"], 640 + 40 * entries_.size());
   EXPECT_EQ(page["head"]["page_number"], 0);
   std::uint64_t bytes = 0;
   for (const Json& stream : page["streams"]) {

@@ -43,8 +43,8 @@ TEST(Octcode, RefusesMalformedOctcodes) {
 
 TEST(SlicePlane, ReadsNumbersAndShares) {
   ModelInfo info;
-  info.box_lower = {-1, -2, -4};
-  info.box_upper = {1, 2, 0};
+  info.core_lower = {-1, -2, -4};
+  info.core_upper = {1, 2, 0};
   EXPECT_EQ(SlicePlane::parse("z=50%")->coordinate(info), -2);
   EXPECT_EQ(SlicePlane::parse("Y=0%")->coordinate(info), -2);
   EXPECT_EQ(SlicePlane::parse("x=-1.5e1")->coordinate(info), -15);

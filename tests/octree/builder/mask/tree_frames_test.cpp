@@ -149,10 +149,10 @@ TEST_F(FramesAfterReadErrors, KeepTheError) {
 // A missing list would change the file.
 TEST_F(FramesAfterReadErrors, FailTheMaskBuild) {
   const ChunkedTree sample(sphere(4), 40, 4096, file_);
-  RegionCut cut(sample.mesh.lower(), sample.mesh.upper(), {}, nullptr);
+  RegionCut cut(sample.mesh.frame, {}, nullptr);
   ASSERT_TRUE(cut.add(sample.mesh));
   MaskSectors sectors(sample.mesh.lower(), {}, cut.found().winding, false, 1 << 20, spill_file());
-  ASSERT_TRUE(sectors.divide(*sample.runs, 300) && sectors.add(sample.mesh));
+  ASSERT_TRUE(sectors.divide(*sample.runs, false, 300) && sectors.add(sample.mesh));
   std::mutex mutex;
   std::size_t taken = 0;
   const auto build = [&] {

@@ -31,7 +31,7 @@ TEST(Chunks, HoldEveryTriangleOnceInOrder) {
     Triangles sorted = mesh;
     sorted.sort();
     const auto runs = runs_of(mesh, 300);
-    const auto tree = cut_chunks(*runs, 100);
+    const auto tree = cut_chunks(*runs, false, 100);
     ASSERT_TRUE(tree);
     std::uint32_t at = 0;
     for (const Chunk& chunk : tree->chunks) {
@@ -53,7 +53,7 @@ TEST(Chunks, AreTheLeavesOfTheirTree) {
   for (const ChunkCase& c : chunk_cases()) {
     SCOPED_TRACE(c.name);
     const auto runs = runs_of(store(c.soup));
-    const auto tree = cut_chunks(*runs, 100);
+    const auto tree = cut_chunks(*runs, false, 100);
     ASSERT_TRUE(tree);
     std::size_t leaves = 0;
     for (std::size_t at = 0; at < tree->nodes.size(); ++at) {
@@ -79,7 +79,7 @@ TEST(Chunks, DoNotDependOnTheRuns) {
   std::vector<std::vector<std::uint64_t>> sizes;
   for (const std::uint32_t run_triangles : {50u, 333u, 100000u}) {
     const auto runs = runs_of(mesh, run_triangles);
-    const auto tree = cut_chunks(*runs, 60);
+    const auto tree = cut_chunks(*runs, false, 60);
     ASSERT_TRUE(tree);
     sizes.emplace_back();
     for (const Chunk& chunk : tree->chunks) sizes.back().push_back(chunk.size);
@@ -96,7 +96,7 @@ TEST(MaskSectors, ReadAllTrianglesThatTouchThem) {
     const Surface surface(mesh);
     const auto runs = runs_of(mesh, 200);
     MaskSectors sectors(mesh.lower(), {}, 0, mesh.float64(), 2000, spill_file());
-    ASSERT_TRUE(sectors.divide(*runs, 40));
+    ASSERT_TRUE(sectors.divide(*runs, false, 40));
     ASSERT_TRUE(sectors.add(mesh));
     std::size_t undivided = 0;
     for (std::size_t at = 0; at < sectors.all().size(); ++at) {

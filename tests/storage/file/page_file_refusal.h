@@ -1,0 +1,67 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "storage/file/page_file.h"
+#include "tests/storage/file/sample_file.h"
+#include "tests/storage/system/temporary_directory.h"
+
+/// Files whose hashes are right and whose content is wrong. Each test breaks rules of
+/// storage/file/header_check.h one at a time.
+namespace planetree::storage {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class PageFileRefusal : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(SampleFile().write(directory_ / "good.ptree"));
+    good_ = read_bytes(directory_ / "good.ptree");
+  }
+
+  FileImage good() const { return FileImage(good_); }
+
+  Error refusal_of(FileImage image) {
+    write_bytes(directory_ / "bad.ptree", image.bytes());
+    const Result<PageFile> file = PageFile::open(directory_ / "bad.ptree");
+    return file ? Error{} : file.error();
+  }
+
+  void expect_refused(const FileImage& image, ErrorCode code, const char* said) {
+    const Error error = refusal_of(image);
+    EXPECT_EQ(error.code, code) << said << " got: " << error.text;
+    EXPECT_NE(std::strstr(error.text, said), nullptr) << said << " got: " << error.text;
+  }
+
+  void expect_header_refused(const std::function<void(FileHeader&)>& change, ErrorCode code,
+                             const char* said) {
+    FileImage image = good();
+    image.change_header(change);
+    image.seal_header();
+    expect_refused(image, code, said);
+  }
+
+  void expect_model_refused(const std::function<void(ModelRecord&)>& change, const char* said) {
+    expect_header_refused([&](FileHeader& header) { change(header.model); }, ErrorCode::kDamaged,
+                          said);
+  }
+
+  void expect_entry_refused(std::uint32_t page, const std::function<void(PageEntry&)>& change,
+                            const char* said) {
+    FileImage image = good();
+    image.change_entry(page, change);
+    image.seal();
+    expect_refused(image, ErrorCode::kDamaged, said);
+    EXPECT_EQ(refusal_of(image).page, page) << said;
+  }
+
+  TemporaryDirectory directory_;
+  Bytes good_;
+};
+
+}  // namespace planetree::storage
