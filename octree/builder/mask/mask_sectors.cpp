@@ -12,47 +12,64 @@
 namespace planetree::octree {
 namespace {
 
-/// Division ends after more than this many steps in a row that each leave more than half of the
-/// triangles together: their centres coincide.
-constexpr unsigned kMaxFutileSteps = 3;
+/// A cell is not divided if this many steps leave nearly all centres in one cell: large triangles
+/// with centres so near would touch all of the cells.
+constexpr unsigned kFutileSteps = 4;
+/// Nearly all: this share of them.
+constexpr double kTogether = 0.875;
 
 }  // namespace
 
 Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t max_triangles) {
-  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, max_triangles, 0);
+  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, max_triangles);
 }
 
 Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                                 std::uint64_t max_triangles, unsigned futile_steps) {
-  if (stretch.size <= max_triangles || futile_steps > kMaxFutileSteps ||
-      sectors_[at].cell.level == kLevels || !grid_.has_part_of(sectors_[at].cell))
-    return {};
-  const auto octants = octants_of(at, stretch, runs);
+                                 std::uint64_t max_triangles) {
+  const GridCell cell = sectors_[at].cell;
+  if (stretch.size <= max_triangles || cell.level == kLevels || !grid_.has_part_of(cell)) return {};
+  const auto separated = separates(cell, stretch, runs);
+  if (!separated) return separated.error();
+  if (!*separated) return {};
+  const auto octants = octants_of(cell, stretch, runs);
   if (!octants) return octants.error();
   const std::size_t first = sectors_.size();
   sectors_[at].first_octant = static_cast<std::uint32_t>(first);
-  bool all_in_region = true;
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    sectors_.push_back({sectors_[at].cell.child(octant)});
-    all_in_region = all_in_region && grid_.has_part_of(sectors_.back().cell);
-  }
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    const Stretch& part = (*octants)[octant];
-    // At the rim of the region, all centres may be in one octant however far apart they are.
-    const bool separated = part.size <= stretch.size / 2 || !all_in_region;
-    const auto divided =
-        divide(first + octant, part, runs, max_triangles, separated ? 0 : futile_steps + 1);
-    if (!divided) return divided;
-  }
+  for (unsigned octant = 0; octant < 8; ++octant) sectors_.push_back({cell.child(octant)});
+  for (unsigned octant = 0; octant < 8; ++octant)
+    if (const auto divided = divide(first + octant, (*octants)[octant], runs, max_triangles);
+        !divided)
+      return divided;
   return {};
 }
 
+// Follows the octants with most centres.
+Result<bool> MaskSectors::separates(GridCell cell, const Stretch& stretch,
+                                    const TriangleRuns& runs) const {
+  const auto few = static_cast<std::uint64_t>(kTogether * static_cast<double>(stretch.size));
+  Stretch most = stretch;
+  for (unsigned step = 0; step < kFutileSteps && cell.level < kLevels; ++step) {
+    auto octants = octants_of(cell, most, runs);
+    if (!octants) return octants.error();
+    unsigned greatest = 0;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      // At the rim of the region, all centres may be in one octant however far apart they are.
+      if (!grid_.has_part_of(cell.child(octant))) return true;
+      if ((*octants)[octant].size > (*octants)[greatest].size) greatest = octant;
+    }
+    most = std::move((*octants)[greatest]);
+    if (most.size <= few) return true;
+    cell = cell.child(greatest);
+  }
+  return false;
+}
+
 Result<std::array<MaskSectors::Stretch, 8>> MaskSectors::octants_of(
-    std::size_t at, const Stretch& stretch, const TriangleRuns& runs) const {
+    const GridCell& cell, const Stretch& stretch, const TriangleRuns& runs) const {
   std::array<Stretch, 8> octants;
   octants[0].from = stretch.from;
   for (unsigned octant = 1; octant < 8; ++octant) {
-    auto cut = runs.cut(sectors_[at].cell.child(octant).first_code());
+    auto cut = runs.cut(cell.child(octant).first_code());
     if (!cut) return cut.error();
     octants[octant - 1].to = *cut;
     octants[octant].from = *std::move(cut);
@@ -112,7 +129,8 @@ class MaskSectors::Visit {
     if (at != own_ && sectors_.grid_.has_part_of(sector.cell))
       visitors_.add({at, key_.second}, triangle.corners);
     auto& rise = rise_of(at);
-    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, sector.cell, rise);
+    if (may_cross_edges(triangle, lower, upper) && !is_segment(triangle.corners))
+      add_rise(triangle, sector.cell, rise);
   }
 
   // Whether the triangle touches no other sector, and no edge of its own sector.

@@ -88,8 +88,10 @@ class MaskSectors {
   class Visit;
 
   Result<void> divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                      std::uint64_t max_triangles, unsigned futile_steps);
-  Result<std::array<Stretch, 8>> octants_of(std::size_t at, const Stretch& stretch,
+                      std::uint64_t max_triangles);
+  /// Whether division of a cell separates the centres of its triangles.
+  Result<bool> separates(GridCell cell, const Stretch& stretch, const TriangleRuns& runs) const;
+  Result<std::array<Stretch, 8>> octants_of(const GridCell& cell, const Stretch& stretch,
                                             const TriangleRuns& runs) const;
   Triangles joined(const Triangles& own, const Triangles& visitors, std::size_t sector) const;
   void sum_up(const Part& part);
