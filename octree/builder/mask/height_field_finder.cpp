@@ -187,8 +187,10 @@ bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader
       difference += crossing(line, near.triangle(static_cast<unsigned>(std::countr_zero(middle))));
   };
   TraversalStats work;
-  const bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
-                            .run_while(kMaxRecords, look_at, [&] { return accepts; });
+  // The line crosses all accepted triangles from the front, so that the difference only falls.
+  const bool complete =
+      BoxWalk(tree_, centre - half, centre + half, pages, work)
+          .run_while(kMaxRecords, look_at, [&] { return accepts && difference >= -1; });
   // The winding number behind is one more than that in front.
   return complete && accepts && difference == -1 &&
          winding_at(tree_, mask_, line.from, pages, work) == 0;
