@@ -32,6 +32,10 @@ constexpr double kMaxCopies = 3;
 /// of the sector: what limits the work on needles. Each level halves their number in a cell, but
 /// lists each of them twice.
 constexpr double kMaxSpread = 6;
+/// Maximum while cells have many triangles. The spread of ordinary triangles grows last, in cells
+/// that are as small as the triangles.
+constexpr double kMaxEarlySpread = 3;
+constexpr std::size_t kManyTriangles = 4096;
 /// More triangles than this are in too many blocks to be listed.
 constexpr std::size_t kMaxListedTriangles = kMaxListed * kMaxBlockTriangles;
 /// A special cell needs this many triangles for each plane, to be worth the memory of its planes.
@@ -107,7 +111,8 @@ class SectorMask {
       octant.copies = halved ? 1 : copies;
       octant.spread = spread;
     }
-    return copies <= kMaxCopies && spread <= kMaxSpread;
+    const double max_spread = grey.count > kManyTriangles ? kMaxEarlySpread : kMaxSpread;
+    return copies <= kMaxCopies && spread <= max_spread;
   }
 
   Octants divide(const GreyCell& grey) const {
