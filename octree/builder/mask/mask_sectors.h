@@ -77,6 +77,12 @@ class MaskSectors {
   /// The winding number at the root's least corner.
   std::int64_t winding() const { return winding_; }
 
+  /// In how many sectors a triangle is on average, rounded down; at least 1. Needles are in many.
+  /// Call it after the last part.
+  std::uint64_t spread(const TriangleRuns& runs) const {
+    return 1 + visitors_.size() / std::max<std::uint64_t>(runs.size(), 1);
+  }
+
   /// All triangles that may touch a sector, in Morton order. Call it after the last part.
   Result<Triangles> read(std::size_t sector, const TriangleRuns& runs) const;
 

@@ -29,13 +29,9 @@ constexpr int kFewOctants = 2;
 /// coincide, and smaller cells would not separate them.
 constexpr double kMaxCopies = 3;
 /// Maximum number of times that triangles are listed in the cells of one level, for each triangle
-/// of the sector: what limits the work on needles. Each level halves their number in a cell, but
+/// of the model: what limits the work on needles. Each level halves their number in a cell, but
 /// lists each of them twice.
 constexpr double kMaxSpread = 6;
-/// Maximum while cells have many triangles. The spread of ordinary triangles grows last, in cells
-/// that are as small as the triangles.
-constexpr double kMaxEarlySpread = 3;
-constexpr std::size_t kManyTriangles = 4096;
 /// More triangles than this are in too many blocks to be listed.
 constexpr std::size_t kMaxListedTriangles = kMaxListed * kMaxBlockTriangles;
 /// A special cell needs this many triangles for each plane, to be worth the memory of its planes.
@@ -50,7 +46,7 @@ struct GreyCell {
   std::int64_t winding = 0;              ///< at its least corner
   std::size_t halved = 0;                ///< number of triangles when it last halved
   double copies = 1;                     ///< how often each triangle was listed since then
-  double spread = 1;                     ///< how often each was listed since the sector
+  double spread = 1;                     ///< how often each of the model was listed
 };
 
 using Octants = std::array<GreyCell, 8>;
@@ -61,8 +57,10 @@ class SectorMask {
       : grid_(grid), list_(list), count_(triangles.size()), triangles_(distinct(triangles)) {}
 
   // winding  number at the cell's least corner.
-  MaskTree run(const GridCell& cell, std::int64_t winding) const {
+  // spread   how often sectors list the triangles.
+  MaskTree run(const GridCell& cell, std::int64_t winding, double spread) const {
     GreyCell sector{cell, {}, count_, winding, count_};
+    sector.spread = spread;
     sector.triangles.resize(triangles_.size());
     std::iota(sector.triangles.begin(), sector.triangles.end(), 0);
     MaskTree tree;
@@ -111,8 +109,7 @@ class SectorMask {
       octant.copies = halved ? 1 : copies;
       octant.spread = spread;
     }
-    const double max_spread = grey.count > kManyTriangles ? kMaxEarlySpread : kMaxSpread;
-    return copies <= kMaxCopies && spread <= max_spread;
+    return copies <= kMaxCopies && spread <= kMaxSpread;
   }
 
   Octants divide(const GreyCell& grey) const {
@@ -261,8 +258,8 @@ class SectorMask {
 }  // namespace
 
 MaskTree mask_of_sector(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
-                        const Triangles& triangles, const ListBlocks& list) {
-  return SectorMask(grid, triangles, list).run(cell, winding);
+                        std::uint64_t spread, const Triangles& triangles, const ListBlocks& list) {
+  return SectorMask(grid, triangles, list).run(cell, winding, static_cast<double>(spread));
 }
 
 }  // namespace planetree::octree

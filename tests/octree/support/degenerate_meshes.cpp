@@ -37,10 +37,10 @@ class Numbers {
 
 Vec3 plus(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-double rounded(double value) { return static_cast<double>(static_cast<float>(value)); }
+double to_float(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 std::uint32_t add(IndexedMesh& mesh, const Vec3& p) {
-  mesh.vertices.push_back({rounded(p.x), rounded(p.y), rounded(p.z)});
+  mesh.vertices.push_back({to_float(p.x), to_float(p.y), to_float(p.z)});
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
