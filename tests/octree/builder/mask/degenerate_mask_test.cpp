@@ -60,14 +60,14 @@ TEST(MaskSectors, AreNotDividedWhereTrianglesCoincide) {
 }
 
 TEST(MaskTree, ListsNoBlocksForCellsWithTooManyTriangles) {
-  SampleMesh mesh = store(degenerate("cylinder-1K", 60000));
+  SampleMesh mesh = store(degenerate("cylinder-1K", 20000));
   mesh.sort();
   const ClippedGrid grid(mesh.lower());
   std::size_t lists = 0;
   const auto list = [&](const GridCell& cell, MaskBlocks&) {
     ++lists;
     std::size_t touching = 0;
-    if (lists % 16 != 0) return false;
+    if (lists % 256 != 0) return false;
     for (std::uint32_t i = 0; i < mesh.size(); ++i)
       touching += may_touch(mesh.corners(i), grid.lower(cell), grid.upper(cell));
     EXPECT_LE(touching, kMaxListed * kMaxBlockTriangles);
@@ -82,7 +82,7 @@ TEST(MaskTree, ListsNoBlocksForCellsWithTooManyTriangles) {
 }
 
 TEST(MaskTree, DividesNeedlesLessIfTheyAreInManySectors) {
-  SampleMesh mesh = store(degenerate("cylinder-1K", 60000));
+  SampleMesh mesh = store(degenerate("cylinder-1K", 20000));
   mesh.sort();
   const ClippedGrid grid(mesh.lower());
   const auto cells = [&](std::uint64_t spread) {
@@ -107,19 +107,19 @@ TEST(MaskSectors, SayHowManyOfThemATriangleIsIn) {
 
 // An ordinary model of as many triangles has about a cell for three triangles.
 TEST(MaskTree, HasFewCellsIfTrianglesAreDegenerate) {
-  constexpr std::uint32_t kTriangles = 20000;
+  constexpr std::uint32_t kTriangles = 6000;
   for (const std::string_view kind :
        {"double-cone", "solid-needles", "bars", "coincident-solid", "shells", "segments",
-        "short-segments", "one-segment", "points", "cylinder-1K", "cylinder-10K"}) {
+        "short-segments", "one-segment", "points", "cylinder-1K"}) {
     SCOPED_TRACE(std::string(kind));
     const Soup soup = degenerate(kind, kTriangles);
     EXPECT_LT(mask_of(store(soup)).entries.size(), soup.size());
   }
 }
 
-// The line through the first block's middle crosses every copy.
+// The line through a block's middle crosses copies of its triangle in hundreds of blocks.
 TEST(HeightFieldFinder, StopsAtTheSecondTriangleOnTheLine) {
-  const HeightFieldModel model(copies(sphere(2), 400));
+  const HeightFieldModel model(degenerate("coincident-solid", 20000));
   TreeFrames frames(*model.tree.tree, &model.mask);
   const HeightFieldFinder finder(model.info, model.mask_info);
   std::size_t blocks = 0, marked = 0;
@@ -130,7 +130,7 @@ TEST(HeightFieldFinder, StopsAtTheSecondTriangleOnTheLine) {
   });
   EXPECT_EQ(marked, 0u);
   EXPECT_GT(blocks, 1000u);
-  EXPECT_LT(work.blocks, 64 * blocks);
+  EXPECT_LT(work.blocks, 64 * blocks) << work.blocks;
 }
 
 }  // namespace
