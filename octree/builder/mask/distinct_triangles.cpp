@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "octree/geometry/strict_math.h"
 
@@ -30,8 +31,7 @@ void join_copies(std::vector<BoxedTriangle>& triangles, std::size_t first) {
       kept = order[i];
       continue;
     }
-    ++triangles[kept].copies;
-    triangles[order[i]].copies = 0;
+    triangles[kept].copies += std::exchange(triangles[order[i]].copies, 0);
   }
   triangles.erase(
       std::remove_if(std::next(triangles.begin(), static_cast<std::ptrdiff_t>(first)),
@@ -48,8 +48,14 @@ std::vector<BoxedTriangle> distinct(const Triangles& triangles) {
   for (std::uint32_t i = 0; i < triangles.size();) {
     const std::size_t first = found.size();
     for (const std::uint64_t code = triangles.code(i);
-         i < triangles.size() && triangles.code(i) == code; ++i)
-      found.emplace_back(triangles.corners(i));
+         i < triangles.size() && triangles.code(i) == code; ++i) {
+      const Triangle corners = triangles.corners(i);
+      // Copies mostly follow each other.
+      if (found.size() > first && found.back().corners == corners)
+        ++found.back().copies;
+      else
+        found.emplace_back(corners);
+    }
     if (found.size() - first > 1) join_copies(found, first);
   }
   return found;

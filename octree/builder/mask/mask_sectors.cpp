@@ -95,12 +95,21 @@ class MaskSectors::Visit {
 
   void add(const storage::SpillKey& key, const Triangle& triangle) {
     own_ = sectors_.sector_of_code(key.first);
-    key_ = key;
     const BoxedTriangle boxed(triangle);
-    if (is_inside_own(boxed))
+    if (is_inside_own(boxed)) {
       rise_of(own_);
-    else
-      add_touched(0, boxed);
+      return;
+    }
+    if (touched_.empty() || triangle != listed_) {
+      listed_ = triangle;
+      touched_.clear();
+      list_touched(0, boxed);
+    }
+    for (const Touched& touched : touched_) {
+      if (touched.as_visitor) visitors_.add({touched.sector, key.second}, triangle);
+      auto& rise = rise_of(touched.sector);
+      for (unsigned which = 1; which < 8; ++which) rise[which] += touched.rise[which];
+    }
   }
 
   // Everything but the visitors.
@@ -115,22 +124,29 @@ class MaskSectors::Visit {
   }
 
  private:
-  void add_touched(std::size_t at, const BoxedTriangle& triangle) {
+  // A sector that a triangle touches.
+  struct Touched {
+    std::uint32_t sector = 0;
+    bool as_visitor = false;
+    std::array<std::int64_t, 8> rise{};
+  };
+
+  void list_touched(std::size_t at, const BoxedTriangle& triangle) {
     const Region& sector = sectors_.sectors_[at];
     if (sector.divided()) {
       const unsigned near = octants_of_box(triangle, sectors_.grid_.middle(sector.cell));
       for (unsigned octant = 0; octant < 8; ++octant)
-        if ((near >> octant & 1) != 0) add_touched(sector.first_octant + octant, triangle);
+        if ((near >> octant & 1) != 0) list_touched(sector.first_octant + octant, triangle);
       return;
     }
     const Point lower = sectors_.grid_.lower(sector.cell),
                 upper = sectors_.grid_.upper(sector.cell);
     if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
-    if (at != own_ && sectors_.grid_.has_part_of(sector.cell))
-      visitors_.add({at, key_.second}, triangle.corners);
-    auto& rise = rise_of(at);
+    Touched touched{static_cast<std::uint32_t>(at),
+                    at != own_ && sectors_.grid_.has_part_of(sector.cell)};
     if (may_cross_edges(triangle, lower, upper) && !is_segment(triangle.corners))
-      add_rise(triangle, sector.cell, rise);
+      touched.rise = rise_along_edges(triangle, sector.cell);
+    touched_.push_back(touched);
   }
 
   // Whether the triangle touches no other sector, and no edge of its own sector.
@@ -154,22 +170,24 @@ class MaskSectors::Visit {
                .count() >= 2;
   }
 
-  void add_rise(const BoxedTriangle& triangle, const GridCell& cell,
-                std::array<std::int64_t, 8>& rise) const;
+  std::array<std::int64_t, 8> rise_along_edges(const BoxedTriangle& triangle,
+                                               const GridCell& cell) const;
 
   const MaskSectors& sectors_;
   std::size_t own_ = 0;
-  storage::SpillKey key_;
+  // Of the last triangle that was not inside its own sector. Copies follow each other mostly.
+  Triangle listed_;
+  std::vector<Touched> touched_;
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by sector
   std::size_t last_ = 0;                                        // sector that last_rise_ is of
   std::array<std::int64_t, 8>* last_rise_ = nullptr;
   Triangles visitors_;
 };
 
-// Adds the crossings along the cell's edges: each corner is reached from the corner before it on
+// Sums the crossings along the cell's edges: each corner is reached from the corner before it on
 // the way from the least corner.
-void MaskSectors::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
-                                  std::array<std::int64_t, 8>& rise) const {
+std::array<std::int64_t, 8> MaskSectors::Visit::rise_along_edges(const BoxedTriangle& triangle,
+                                                                 const GridCell& cell) const {
   std::array<std::int64_t, 8> steps{};
   for (unsigned which = 1; which < 8; ++which) {
     const unsigned before = which & (which - 1);
@@ -177,8 +195,8 @@ void MaskSectors::Visit::add_rise(const BoxedTriangle& triangle, const GridCell&
         {sectors_.grid_.corner(cell, which), sectors_.grid_.corner(cell, before)},
         axis_of_edge(which, before));
     steps[which] = steps[before] + edge.crossing(triangle);
-    rise[which] += steps[which];
   }
+  return steps;
 }
 
 void MaskSectors::sum_up(const Part& part) {
