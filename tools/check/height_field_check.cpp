@@ -44,7 +44,8 @@ class HeightFieldCheck {
     query::PageAccessor accessor(proof_->reader, Wait::kForPages);
     const octree::HeightFieldFinder finder(proof_->model->geometry().tree,
                                            proof_->model->geometry().mask);
-    return finder.is_height_field(block, accessor.pages());
+    octree::TraversalStats work;
+    return finder.is_height_field(block, accessor.pages(), work);
   }
 
   bool open() {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cstdint>
 #include <utility>
 
 #include "octree/builder/mask/octant_overlap.h"
@@ -12,6 +12,10 @@
 
 namespace planetree::octree {
 namespace {
+
+/// Maximum number of nodes and blocks to visit for a cell. Cells of ordinary models take at most a
+/// quarter of it, those among needles thousands: the boxes of needles meet nearly all cells.
+constexpr std::uint64_t kMaxVisits = 256;
 
 /// The blocks near a cell, and the octants of the cell that they touch.
 class NearBlocks {
@@ -88,10 +92,10 @@ BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& p
   const bool complete =
       BoxWalk(tree_, near.lower(), near.upper(), pages, work)
           .run_while(
-              std::numeric_limits<std::uint64_t>::max(),
+              kMaxVisits,
               [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); },
               [&near] { return !near.too_many(); });
-  if (near.too_many()) return Outcome::kTooMany;
+  if (near.too_many() || work.nodes + work.blocks >= kMaxVisits) return Outcome::kTooMany;
   if (!complete) return Outcome::kLost;
   return near.list(blocks) ? Outcome::kListed : Outcome::kTooMany;
 }

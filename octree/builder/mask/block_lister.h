@@ -17,7 +17,7 @@ class BlockLister {
 
   enum class Outcome {
     kListed,
-    kTooMany,  ///< more than kMaxListed
+    kTooMany,  ///< more than kMaxListed, or too many boxes meet the cell
     kLost,     ///< a page could not be read
   };
   /// Lists the blocks in the order of their links.

@@ -172,7 +172,8 @@ bool HeightFieldFinder::may_be_height_field(const BlockView& block) {
          all_accepted(block, prism, classify_triangles(block, prism.in_float(), prism.origin()));
 }
 
-bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader& pages) const {
+bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader& pages,
+                                        TraversalStats& work) const {
   const Prism prism(block);
   if (!prism.is_good()) return false;
   const Point centre = prism.box_centre(), half = prism.box_half();
@@ -186,9 +187,10 @@ bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader
     for (unsigned middle = found.met & found.middle; middle != 0; middle &= middle - 1)
       difference += crossing(line, near.triangle(static_cast<unsigned>(std::countr_zero(middle))));
   };
-  TraversalStats work;
-  const bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
-                            .run_while(kMaxRecords, look_at, [&] { return accepts; });
+  // The line crosses all accepted triangles from the front, so that the difference only falls.
+  const bool complete =
+      BoxWalk(tree_, centre - half, centre + half, pages, work)
+          .run_while(kMaxRecords, look_at, [&] { return accepts && difference >= -1; });
   // The winding number behind is one more than that in front.
   return complete && accepts && difference == -1 &&
          winding_at(tree_, mask_, line.from, pages, work) == 0;

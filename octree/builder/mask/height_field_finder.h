@@ -21,8 +21,9 @@ class HeightFieldFinder {
 
   /// block   need not be in a frame of `pages`.
   /// pages   those of the tree and of the mask.
+  /// work    what was visited is added.
   /// return  false where it cannot be proven, and where pages are missing.
-  bool is_height_field(const BlockView& block, const PageReader& pages) const;
+  bool is_height_field(const BlockView& block, const PageReader& pages, TraversalStats& work) const;
 
  private:
   const TreeInfo& tree_;

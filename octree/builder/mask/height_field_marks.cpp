@@ -7,6 +7,13 @@
 #include "octree/page/page_streams.h"
 
 namespace planetree::octree {
+namespace {
+
+/// Maximum of nodes and blocks to visit in a page, for each block that is looked at. Those of
+/// ordinary models take a quarter of it; the boxes around needles meet thousands of blocks.
+constexpr std::uint64_t kVisitsPerBlock = 128;
+
+}  // namespace
 
 HeightFieldMarks::HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask)
     : info_(tree.info()), workspaces_([&tree, &mask] {
@@ -38,9 +45,12 @@ Result<void> HeightFieldMarks::mark(std::uint32_t number, FilePage& page) {
   // these.
   if (2 * promising.size() < header.block_count) promising.clear();
   const HeightFieldFinder finder(info_, mask_);
-  for (const auto& [i, block] : promising)
-    if (finder.is_height_field(block, pages))
+  TraversalStats work;
+  for (const auto& [i, block] : promising) {
+    if (work.nodes + work.blocks > kVisitsPerBlock * promising.size()) break;
+    if (finder.is_height_field(block, pages, work))
       page.bytes[page.blocks_at + i] |= std::byte{kHeightFieldBit};
+  }
   return workspace.frames.state();
 }
 

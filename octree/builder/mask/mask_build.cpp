@@ -153,7 +153,7 @@ Result<MaskTree> build_mask(const MaskSectors& sectors, const TriangleRuns& runs
     if (!triangles) return triangles.error();
     CellBlocks& blocks = threads.local();
     const MaskTree mask = mask_of_sector(
-        sectors.grid(), sector.cell, join.winding(at), *triangles,
+        sectors.grid(), sector.cell, join.winding(at), sectors.spread(runs), *triangles,
         [&](const GridCell& cell, MaskBlocks& list) { return blocks.list(cell, list); });
     if (!blocks.state()) return blocks.state().error();
     roots[at] = SectorRoot::of(mask, at);

@@ -12,51 +12,73 @@
 namespace planetree::octree {
 namespace {
 
-/// Division ends after more than this many steps in a row that each leave more than half of the
-/// triangles together: their centres coincide.
-constexpr unsigned kMaxFutileSteps = 3;
+/// A cell is not divided if this many steps leave nearly all centres in one cell: large triangles
+/// with centres so near would touch all of the cells.
+constexpr unsigned kFutileSteps = 4;
+/// Nearly all: this share of them.
+constexpr double kTogether = 0.875;
 
 }  // namespace
 
+<<<<<<< HEAD
 Result<void> MaskSectors::divide(const TriangleRuns& runs, bool has_strays,
                                  std::uint64_t max_triangles) {
   auto end = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
   if (!end) return end.error();
   const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *end);
   return divide(0, {runs.begin(), *std::move(end), in_core}, runs, max_triangles, 0);
+=======
+Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t max_triangles) {
+  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, max_triangles);
+>>>>>>> growth
 }
 
 Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                                 std::uint64_t max_triangles, unsigned futile_steps) {
-  if (stretch.size <= max_triangles || futile_steps > kMaxFutileSteps ||
-      sectors_[at].cell.level == kLevels || !grid_.has_part_of(sectors_[at].cell))
-    return {};
-  const auto octants = octants_of(at, stretch, runs);
+                                 std::uint64_t max_triangles) {
+  const GridCell cell = sectors_[at].cell;
+  if (stretch.size <= max_triangles || cell.level == kLevels || !grid_.has_part_of(cell)) return {};
+  const auto separated = separates(cell, stretch, runs);
+  if (!separated) return separated.error();
+  if (!*separated) return {};
+  const auto octants = octants_of(cell, stretch, runs);
   if (!octants) return octants.error();
   const std::size_t first = sectors_.size();
   sectors_[at].first_octant = static_cast<std::uint32_t>(first);
-  bool all_in_region = true;
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    sectors_.push_back({sectors_[at].cell.child(octant)});
-    all_in_region = all_in_region && grid_.has_part_of(sectors_.back().cell);
-  }
-  for (unsigned octant = 0; octant < 8; ++octant) {
-    const Stretch& part = (*octants)[octant];
-    // At the rim of the region, all centres may be in one octant however far apart they are.
-    const bool separated = part.size <= stretch.size / 2 || !all_in_region;
-    const auto divided =
-        divide(first + octant, part, runs, max_triangles, separated ? 0 : futile_steps + 1);
-    if (!divided) return divided;
-  }
+  for (unsigned octant = 0; octant < 8; ++octant) sectors_.push_back({cell.child(octant)});
+  for (unsigned octant = 0; octant < 8; ++octant)
+    if (const auto divided = divide(first + octant, (*octants)[octant], runs, max_triangles);
+        !divided)
+      return divided;
   return {};
 }
 
+// Follows the octants with most centres.
+Result<bool> MaskSectors::separates(GridCell cell, const Stretch& stretch,
+                                    const TriangleRuns& runs) const {
+  const auto few = static_cast<std::uint64_t>(kTogether * static_cast<double>(stretch.size));
+  Stretch most = stretch;
+  for (unsigned step = 0; step < kFutileSteps && cell.level < kLevels; ++step) {
+    auto octants = octants_of(cell, most, runs);
+    if (!octants) return octants.error();
+    unsigned greatest = 0;
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      // At the rim of the region, all centres may be in one octant however far apart they are.
+      if (!grid_.has_part_of(cell.child(octant))) return true;
+      if ((*octants)[octant].size > (*octants)[greatest].size) greatest = octant;
+    }
+    most = std::move((*octants)[greatest]);
+    if (most.size <= few) return true;
+    cell = cell.child(greatest);
+  }
+  return false;
+}
+
 Result<std::array<MaskSectors::Stretch, 8>> MaskSectors::octants_of(
-    std::size_t at, const Stretch& stretch, const TriangleRuns& runs) const {
+    const GridCell& cell, const Stretch& stretch, const TriangleRuns& runs) const {
   std::array<Stretch, 8> octants;
   octants[0].from = stretch.from;
   for (unsigned octant = 1; octant < 8; ++octant) {
-    auto cut = runs.cut(sectors_[at].cell.child(octant).first_code());
+    auto cut = runs.cut(cell.child(octant).first_code());
     if (!cut) return cut.error();
     octants[octant - 1].to = *cut;
     octants[octant].from = *std::move(cut);
@@ -81,14 +103,30 @@ class MaskSectors::Visit {
   explicit Visit(const MaskSectors& sectors) : sectors_(sectors), visitors_(sectors.float64_) {}
 
   void add(const storage::SpillKey& key, const Triangle& triangle) {
+<<<<<<< HEAD
     // A stray has no sector of its own: it visits those that it touches.
     own_ = is_stray(key.first) ? kNone : sectors_.sector_of_code(key.first);
     key_ = key;
     const BoxedTriangle boxed(triangle);
     if (own_ != kNone && is_inside_own(boxed))
+=======
+    own_ = sectors_.sector_of_code(key.first);
+    const BoxedTriangle boxed(triangle);
+    if (is_inside_own(boxed)) {
+>>>>>>> growth
       rise_of(own_);
-    else
-      add_touched(0, boxed);
+      return;
+    }
+    if (touched_.empty() || triangle != listed_) {
+      listed_ = triangle;
+      touched_.clear();
+      list_touched(0, boxed);
+    }
+    for (const Touched& touched : touched_) {
+      if (touched.as_visitor) visitors_.add({touched.sector, key.second}, triangle);
+      auto& rise = rise_of(touched.sector);
+      for (unsigned which = 1; which < 8; ++which) rise[which] += touched.rise[which];
+    }
   }
 
   // Everything but the visitors.
@@ -103,22 +141,38 @@ class MaskSectors::Visit {
   }
 
  private:
-  void add_touched(std::size_t at, const BoxedTriangle& triangle) {
+  // A sector that a triangle touches.
+  struct Touched {
+    std::uint32_t sector = 0;
+    bool as_visitor = false;
+    std::array<std::int64_t, 8> rise{};
+  };
+
+  void list_touched(std::size_t at, const BoxedTriangle& triangle) {
     const Region& sector = sectors_.sectors_[at];
     if (sector.divided()) {
       const unsigned near = octants_of_box(triangle, sectors_.grid_.middle(sector.cell));
       for (unsigned octant = 0; octant < 8; ++octant)
-        if ((near >> octant & 1) != 0) add_touched(sector.first_octant + octant, triangle);
+        if ((near >> octant & 1) != 0) list_touched(sector.first_octant + octant, triangle);
       return;
     }
     const Point lower = sectors_.grid_.lower(sector.cell),
                 upper = sectors_.grid_.upper(sector.cell);
+<<<<<<< HEAD
     const bool in_root = at == 0 && own_ == 0;
     if (!in_root && !may_touch(triangle.corners, lower, upper)) return;
     if (at != own_ && sectors_.grid_.has_part_of(sector.cell))
       visitors_.add({at, key_.second}, triangle.corners);
     auto& rise = rise_of(at);
     if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, sector.cell, rise);
+=======
+    if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
+    Touched touched{static_cast<std::uint32_t>(at),
+                    at != own_ && sectors_.grid_.has_part_of(sector.cell)};
+    if (may_cross_edges(triangle, lower, upper) && !is_segment(triangle.corners))
+      touched.rise = rise_along_edges(triangle, sector.cell);
+    touched_.push_back(touched);
+>>>>>>> growth
   }
 
   // Whether the triangle touches no other sector, and no edge of its own sector.
@@ -142,24 +196,31 @@ class MaskSectors::Visit {
                .count() >= 2;
   }
 
-  void add_rise(const BoxedTriangle& triangle, const GridCell& cell,
-                std::array<std::int64_t, 8>& rise) const;
+  std::array<std::int64_t, 8> rise_along_edges(const BoxedTriangle& triangle,
+                                               const GridCell& cell) const;
 
   static constexpr std::size_t kNone = ~std::size_t{0};
 
   const MaskSectors& sectors_;
+<<<<<<< HEAD
   std::size_t own_ = 0;  // kNone of a stray
   storage::SpillKey key_;
+=======
+  std::size_t own_ = 0;
+  // Of the last triangle that was not inside its own sector. Copies follow each other mostly.
+  Triangle listed_;
+  std::vector<Touched> touched_;
+>>>>>>> growth
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by sector
   std::size_t last_ = 0;                                        // sector that last_rise_ is of
   std::array<std::int64_t, 8>* last_rise_ = nullptr;
   Triangles visitors_;
 };
 
-// Adds the crossings along the cell's edges: each corner is reached from the corner before it on
+// Sums the crossings along the cell's edges: each corner is reached from the corner before it on
 // the way from the least corner.
-void MaskSectors::Visit::add_rise(const BoxedTriangle& triangle, const GridCell& cell,
-                                  std::array<std::int64_t, 8>& rise) const {
+std::array<std::int64_t, 8> MaskSectors::Visit::rise_along_edges(const BoxedTriangle& triangle,
+                                                                 const GridCell& cell) const {
   std::array<std::int64_t, 8> steps{};
   for (unsigned which = 1; which < 8; ++which) {
     const unsigned before = which & (which - 1);
@@ -167,8 +228,8 @@ void MaskSectors::Visit::add_rise(const BoxedTriangle& triangle, const GridCell&
         {sectors_.grid_.corner(cell, which), sectors_.grid_.corner(cell, before)},
         axis_of_edge(which, before));
     steps[which] = steps[before] + edge.crossing(triangle);
-    rise[which] += steps[which];
   }
+  return steps;
 }
 
 void MaskSectors::sum_up(const Part& part) {

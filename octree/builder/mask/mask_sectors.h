@@ -80,6 +80,12 @@ class MaskSectors {
   /// The winding number at the root's least corner.
   std::int64_t winding() const { return winding_; }
 
+  /// In how many sectors a triangle is on average, rounded down; at least 1. Needles are in many.
+  /// Call it after the last part.
+  std::uint64_t spread(const TriangleRuns& runs) const {
+    return 1 + visitors_.size() / std::max<std::uint64_t>(runs.size(), 1);
+  }
+
   /// All triangles that may touch a sector, in Morton order. Call it after the last part.
   Result<Triangles> read(std::size_t sector, const TriangleRuns& runs) const;
 
@@ -91,8 +97,10 @@ class MaskSectors {
   class Visit;
 
   Result<void> divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
-                      std::uint64_t max_triangles, unsigned futile_steps);
-  Result<std::array<Stretch, 8>> octants_of(std::size_t at, const Stretch& stretch,
+                      std::uint64_t max_triangles);
+  /// Whether division of a cell separates the centres of its triangles.
+  Result<bool> separates(GridCell cell, const Stretch& stretch, const TriangleRuns& runs) const;
+  Result<std::array<Stretch, 8>> octants_of(const GridCell& cell, const Stretch& stretch,
                                             const TriangleRuns& runs) const;
   Triangles joined(const Triangles& own, const Triangles& visitors, std::size_t sector) const;
   void sum_up(const Part& part);

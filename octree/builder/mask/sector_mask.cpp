@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "octree/builder/mask/distinct_triangles.h"
 #include "octree/builder/mask/octant_overlap.h"
 #include "octree/builder/mask/slab_fit.h"
 #include "octree/builder/surface/edge_count.h"
@@ -14,6 +15,7 @@
 #include "octree/geometry/cell_grid.h"
 #include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
+#include "octree/geometry/tree_limits.h"
 
 namespace planetree::octree {
 namespace {
@@ -27,9 +29,11 @@ constexpr int kFewOctants = 2;
 /// coincide, and smaller cells would not separate them.
 constexpr double kMaxCopies = 3;
 /// Maximum number of times that triangles are listed in the cells of one level, for each triangle
-/// of the sector: what limits the work on needles. Each level halves their number in a cell, but
+/// of the model: what limits the work on needles. Each level halves their number in a cell, but
 /// lists each of them twice.
 constexpr double kMaxSpread = 6;
+/// More triangles than this are in too many blocks to be listed.
+constexpr std::size_t kMaxListedTriangles = kMaxListed * kMaxBlockTriangles;
 /// A special cell needs this many triangles for each plane, to be worth the memory of its planes.
 constexpr std::size_t kTrianglesPerPlane = 12;
 constexpr std::size_t kMaxSpecialTriangles = 4096;
@@ -37,11 +41,12 @@ constexpr std::size_t kMaxSpecialTriangles = 4096;
 /// A cell and what is known of it.
 struct GreyCell {
   GridCell cell;
-  std::vector<std::uint32_t> triangles;  ///< positions of all that may touch it
+  std::vector<std::uint32_t> triangles;  ///< positions of all distinct ones that may touch it
+  std::size_t count = 0;                 ///< number of these triangles, copies included
   std::int64_t winding = 0;              ///< at its least corner
   std::size_t halved = 0;                ///< number of triangles when it last halved
   double copies = 1;                     ///< how often each triangle was listed since then
-  double spread = 1;                     ///< how often each was listed since the sector
+  double spread = 1;                     ///< how often each of the model was listed
 };
 
 using Octants = std::array<GreyCell, 8>;
@@ -49,15 +54,13 @@ using Octants = std::array<GreyCell, 8>;
 class SectorMask {
  public:
   SectorMask(const ClippedGrid& grid, const Triangles& triangles, const ListBlocks& list)
-      : grid_(grid), list_(list) {
-    triangles_.reserve(triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i)
-      triangles_.emplace_back(triangles.corners(i));
-  }
+      : grid_(grid), list_(list), count_(triangles.size()), triangles_(distinct(triangles)) {}
 
   // winding  number at the cell's least corner.
-  MaskTree run(const GridCell& cell, std::int64_t winding) const {
-    GreyCell sector{cell, {}, winding, triangles_.size()};
+  // spread   how often sectors list the triangles.
+  MaskTree run(const GridCell& cell, std::int64_t winding, double spread) const {
+    GreyCell sector{cell, {}, count_, winding, count_};
+    sector.spread = spread;
     sector.triangles.resize(triangles_.size());
     std::iota(sector.triangles.begin(), sector.triangles.end(), 0);
     MaskTree tree;
@@ -71,8 +74,7 @@ class SectorMask {
   void grow(GreyCell grey, MaskTree& tree, std::size_t index) const {
     tree.levels = std::max(tree.levels, grey.cell.level);
     if (make_special(grey, tree, index)) return;
-    const std::size_t count = grey.triangles.size();
-    if (grey.cell.level == kLevels || (count <= kFewTriangles && !in_few_octants(grey)))
+    if (grey.cell.level == kLevels || (grey.count <= kFewTriangles && !in_few_octants(grey)))
       return make_corners(grey, tree, index);
     Octants octants = divide(grey);
     if (!worthwhile(grey, octants)) return make_corners(grey, tree, index);
@@ -98,12 +100,12 @@ class SectorMask {
   // Whether octants separate the triangles. Sets `halved` and `copies` of the octants.
   static bool worthwhile(const GreyCell& grey, Octants& octants) {
     std::size_t listed = 0;
-    for (const GreyCell& octant : octants) listed += octant.triangles.size();
-    const double growth = static_cast<double>(listed) / static_cast<double>(grey.triangles.size());
+    for (const GreyCell& octant : octants) listed += octant.count;
+    const double growth = static_cast<double>(listed) / static_cast<double>(grey.count);
     const double copies = grey.copies * growth, spread = grey.spread * growth;
     for (GreyCell& octant : octants) {
-      const bool halved = octant.triangles.size() <= grey.halved / 2;
-      octant.halved = halved ? octant.triangles.size() : grey.halved;
+      const bool halved = octant.count <= grey.halved / 2;
+      octant.halved = halved ? octant.count : grey.halved;
       octant.copies = halved ? 1 : copies;
       octant.spread = spread;
     }
@@ -135,9 +137,11 @@ class SectorMask {
     for (unsigned octant = 0; octant < 8; ++octant)
       octants[octant].triangles.reserve(counts[octant]);
     for (std::size_t i = 0; i < touched.size(); ++i)
-      for (unsigned left = touched[i]; left != 0; left &= left - 1)
-        octants[static_cast<unsigned>(std::countr_zero(left))].triangles.push_back(
-            grey.triangles[i]);
+      for (unsigned left = touched[i]; left != 0; left &= left - 1) {
+        GreyCell& octant = octants[static_cast<unsigned>(std::countr_zero(left))];
+        octant.triangles.push_back(grey.triangles[i]);
+        octant.count += static_cast<std::size_t>(triangles_[grey.triangles[i]].copies);
+      }
   }
 
   // The octants that each triangle may touch, one bit each.
@@ -186,7 +190,7 @@ class SectorMask {
 
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
     const std::size_t count = grey.triangles.size();
-    if (count < kTrianglesPerPlane || count > kMaxSpecialTriangles) return false;
+    if (grey.count < kTrianglesPerPlane || count > kMaxSpecialTriangles) return false;
     // A few triangles, far apart in the list, usually decide.
     constexpr std::size_t kSamples = 8;
     std::vector<Triangle> triangles;
@@ -199,7 +203,7 @@ class SectorMask {
     if (!in_few_planes(triangles)) return false;
     const std::array<Point, 8> corners = corners_of(grey.cell);
     const auto special = special_cell(triangles, corners, edge_count(corners, grey).all());
-    if (!special || special->plane_count * kTrianglesPerPlane > count) return false;
+    if (!special || special->plane_count * kTrianglesPerPlane > grey.count) return false;
     tree.entries[index].kind = MaskEntry::Kind::kSpecial;
     tree.entries[index].first = static_cast<std::uint32_t>(tree.specials.size());
     tree.specials.push_back(*special);
@@ -234,7 +238,7 @@ class SectorMask {
     const GridCell& cell = grey.cell;
     MaskEntry& entry = tree.entries[index];
     const auto [least, greatest] = std::minmax_element(entry.corners.begin(), entry.corners.end());
-    if (cell.level == kLevels || *greatest - *least > 1) return;
+    if (cell.level == kLevels || *greatest - *least > 1 || grey.count > kMaxListedTriangles) return;
     MaskBlocks blocks;
     // A cell that the surface misses by less than rounding may have no octant that is touched.
     if (!list_(cell, blocks) || blocks.count == 0) return;
@@ -247,14 +251,15 @@ class SectorMask {
 
   const ClippedGrid& grid_;
   const ListBlocks& list_;
-  std::vector<BoxedTriangle> triangles_;
+  const std::size_t count_;
+  const std::vector<BoxedTriangle> triangles_;
 };
 
 }  // namespace
 
 MaskTree mask_of_sector(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
-                        const Triangles& triangles, const ListBlocks& list) {
-  return SectorMask(grid, triangles, list).run(cell, winding);
+                        std::uint64_t spread, const Triangles& triangles, const ListBlocks& list) {
+  return SectorMask(grid, triangles, list).run(cell, winding, static_cast<double>(spread));
 }
 
 }  // namespace planetree::octree

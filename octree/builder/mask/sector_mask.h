@@ -20,10 +20,11 @@ using ListBlocks = std::function<bool(const GridCell& cell, MaskBlocks& blocks)>
 /// white.
 ///
 /// winding    number at the cell's least corner.
+/// spread     MaskSectors::spread(): the more, the less cells of needles are divided.
 /// triangles  all that may touch the cell, at least one. Only the order of planes in a special cell
 ///            depends on their order.
 /// memory     about 150 bytes a triangle during the call.
 MaskTree mask_of_sector(const ClippedGrid& grid, const GridCell& cell, std::int64_t winding,
-                        const Triangles& triangles, const ListBlocks& list);
+                        std::uint64_t spread, const Triangles& triangles, const ListBlocks& list);
 
 }  // namespace planetree::octree

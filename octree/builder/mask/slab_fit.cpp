@@ -33,7 +33,7 @@ CellSlab fit_slab(const GridCell& cell, const Point& lower,
   Point normals = Point::Zero();
   for (const std::uint32_t position : positions) {
     const auto& [a, b, c] = triangles[position].corners;
-    normals += (b - a).cross(c - a);
+    normals += static_cast<double>(triangles[position].copies) * (b - a).cross(c - a);
   }
   CellSlab slab;
   if (!(normals.squaredNorm() > 0) || !normals.allFinite()) return slab;

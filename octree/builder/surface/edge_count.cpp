@@ -10,7 +10,8 @@ EdgeCount::EdgeCount(const std::array<Point, 8>& corners, std::int64_t winding,
     : corners_(corners), winding_(winding), triangles_(triangles) {
   for (const std::uint32_t position : positions) {
     const unsigned sides = sides_crossed(triangles[position]);
-    if ((sides & (sides - 1)) != 0) near_.push_back({position, sides});
+    if ((sides & (sides - 1)) != 0 && !is_segment(triangles[position].corners))
+      near_.push_back({position, sides});
   }
 }
 

@@ -20,7 +20,15 @@ struct alignas(64) BoxedTriangle {
 
   Point least, greatest;
   Triangle corners;
+  std::int64_t copies = 1;  ///< triangles with these corners that this one stands for
 };
+
+/// Whether two corners are equal. Nothing crosses such a triangle, and it takes long to find that
+/// exactly.
+inline bool is_segment(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return a == b || b == c || c == a;
+}
 
 /// A segment along one axis, from its greater end down to its lesser end.
 class DownwardSegment {
@@ -28,14 +36,15 @@ class DownwardSegment {
   DownwardSegment(const PerturbedSegment& segment, unsigned axis)
       : segment_(segment), axis_(axis) {}
 
-  /// As octree::crossing(), but the boxes decide for most triangles. A triangle whose box does not
-  /// reach above the segment's lower end on some axis is not crossed, since the perturbation moves
-  /// the segment up. Triangles in the sides of cells, which take long to decide exactly, are among
-  /// these.
+  /// As octree::crossing(), for all copies of a triangle, but the boxes decide for most triangles.
+  /// A triangle whose box does not reach above the segment's lower end on some axis is not crossed,
+  /// since the perturbation moves the segment up. Triangles in the sides of cells, which take long
+  /// to decide exactly, are among these.
   std::int64_t crossing(const BoxedTriangle& triangle) const {
     const bool near = (triangle.least.array() <= segment_.from.array()).all() &&
                       (triangle.greatest.array() > segment_.to.array()).all();
-    return near && !passes_by(triangle.corners) ? octree::crossing(segment_, triangle.corners) : 0;
+    if (!near || passes_by(triangle.corners)) return 0;
+    return triangle.copies * octree::crossing(segment_, triangle.corners);
   }
 
  private:

@@ -66,24 +66,6 @@ Soup grains(std::size_t count, double edge, std::uint64_t seed) {
   return soup;
 }
 
-Soup fan_cylinder(unsigned sides, unsigned rings) {
-  const auto rim = [&](unsigned i, unsigned ring) {
-    const double angle = 6.283185307179586 * (i % sides) / sides;
-    return Vec3{std::cos(angle), std::sin(angle), 2.0 * ring / rings};
-  };
-  Soup soup;
-  for (unsigned i = 0; i < sides; ++i) {
-    for (unsigned ring = 0; ring < rings; ++ring) {
-      const Vec3 a = rim(i, ring), b = rim(i + 1, ring + 1);
-      soup.push_back({a, rim(i + 1, ring), b});
-      soup.push_back({a, b, rim(i, ring + 1)});
-    }
-    soup.push_back({rim(i, rings), rim(i + 1, rings), Vec3{0, 0, 2}});
-    soup.push_back({rim(i + 1, 0), rim(i, 0), Vec3{0, 0, 0}});
-  }
-  return soup;
-}
-
 Soup inside_out(Soup soup) {
   for (auto& triangle : soup) std::swap(triangle[1], triangle[2]);
   return soup;

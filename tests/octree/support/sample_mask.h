@@ -19,8 +19,6 @@ namespace planetree::octree {
 Soup box(const Vec3& lower, const Vec3& upper, unsigned side = 1);
 /// Tetrahedra in the unit cube with edges up to `edge`, of either orientation.
 Soup grains(std::size_t count, double edge, std::uint64_t seed = 1);
-/// A closed cylinder of some rings. Both ends are fans about one vertex.
-Soup fan_cylinder(unsigned sides, unsigned rings);
 Soup inside_out(Soup soup);
 Soup translated(Soup soup, const Vec3& by);
 Soup scaled(Soup soup, double factor);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "octree/geometry/cell_overlap.h"
+#include "tests/octree/support/degenerate_meshes.h"
 #include "tests/octree/support/each_block.h"
 #include "tests/octree/support/each_target.h"
 #include "tests/octree/support/sample_mask.h"
@@ -152,6 +153,18 @@ TEST(BlockLister, ListsNoMoreThanMaxListed) {
   EXPECT_LE(*listed.rbegin(), kMaxListed);
   EXPECT_TRUE(too_many.contains(kMaxListed + 1));
   EXPECT_GT(*too_many.begin(), kMaxListed);
+}
+
+// Boxes of needles meet cells that the needles pass by far away.
+TEST(BlockLister, GivesUpWhereTheBoxesOfManyBlocksMeetTheCell) {
+  Lister lister(degenerate_kind("solid-needles")->make(40000).soup());
+  std::size_t few_touch = 0;
+  for (const GridCell& cell : lister.cells(60)) {
+    MaskBlocks blocks;
+    if (lister.list(cell, blocks) == Listing::kListed) continue;
+    few_touch += lister.one_by_one(cell, 0).size() <= kMaxListed;
+  }
+  EXPECT_GT(few_touch, 5u);
 }
 
 TEST(BlockLister, IsLostWhereAPageIsMissing) {

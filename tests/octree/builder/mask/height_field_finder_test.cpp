@@ -14,6 +14,7 @@ namespace {
 
 struct Marks {
   std::size_t blocks = 0, marked = 0;
+  TraversalStats work;
   double share() const { return static_cast<double>(marked) / static_cast<double>(blocks); }
 };
 
@@ -24,7 +25,7 @@ Marks each_mark(const HeightFieldModel& model, const BlockCall& look) {
   const HeightFieldFinder finder(model.info, model.mask_info);
   Marks marks;
   model.each_block([&](const BlockView& block, std::uint32_t) {
-    const bool marked = finder.is_height_field(block, frames.reader());
+    const bool marked = finder.is_height_field(block, frames.reader(), marks.work);
     ++marks.blocks;
     marks.marked += marked;
     look(block, marked);
@@ -193,8 +194,9 @@ TEST(HeightFieldFinder, FindsNoneWhereAPageIsMissing) {
                               return held ? nullptr : self.pages.page(self.pages.context, page);
                             }};
     std::size_t marked = 0;
+    TraversalStats work;
     model.each_block([&](const BlockView& block, std::uint32_t) {
-      marked += finder.is_height_field(block, reader);
+      marked += finder.is_height_field(block, reader, work);
     });
     return marked;
   };

@@ -42,9 +42,10 @@ TEST(HeightFieldMarks, MatchTheBlocksFound) {
   std::vector<std::vector<bool>> found(model.tree.tree->pages().size());
   TreeFrames frames(*model.tree.tree, &model.mask);
   const HeightFieldFinder finder(model.info, model.mask_info);
+  TraversalStats work;
   std::size_t height_fields = 0, in_none = 0;
   model.each_block([&](const BlockView& block, std::uint32_t page) {
-    found[page].push_back(finder.is_height_field(block, frames.reader()));
+    found[page].push_back(finder.is_height_field(block, frames.reader(), work));
     ++(found[page].back() ? height_fields : in_none);
   });
   ASSERT_GT(height_fields, 0u);

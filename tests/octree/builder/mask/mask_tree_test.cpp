@@ -11,6 +11,7 @@
 #include <string>
 
 #include "octree/geometry/predicates.h"
+#include "tests/octree/support/degenerate_meshes.h"
 #include "tests/octree/support/sample_mask.h"
 
 namespace planetree::octree {
@@ -269,7 +270,7 @@ TEST(MaskTree, EndsAtTheFinestLevel) {
 // the last of these models has 75,755 cells.
 TEST(MaskTree, HasNoMoreCellsIfTheSameTrianglesAreNeedles) {
   const auto cells = [](unsigned sides) {
-    return mask_of(store(fan_cylinder(sides, 32000 / sides))).entries.size();
+    return mask_of(store(fan_cylinder_mesh(sides, 32000 / sides).soup())).entries.size();
   };
   EXPECT_GT(cells(250), 4000u);
   for (const unsigned sides : {1000u, 8000u}) EXPECT_LT(cells(sides), 16000u) << sides;
