@@ -76,6 +76,7 @@ class TreeBuild {
   Result<void> resume_work();
   Result<void> check_space(const Result<MeshSize>& size);
   Result<void> order_triangles();
+  Result<void> cut(const TriangleRuns& runs);
   Result<void> read();
   Result<void> resume_mesh();
   Result<void> set_mesh(const OrderedMesh& mesh);
@@ -134,7 +135,11 @@ Result<void> TreeBuild::check_space(const Result<MeshSize>& size) {
 Result<void> TreeBuild::order_triangles() {
   const bool ordered_before = files_.work() && files_.work()->mesh();
   if (const auto ordered = ordered_before ? resume_mesh() : read(); !ordered) return ordered;
-  auto above = cut_chunks(*whole_, model_.frame.stray_count > 0, seams_.chunk_triangles);
+  return cut(*whole_);
+}
+
+Result<void> TreeBuild::cut(const TriangleRuns& runs) {
+  auto above = cut_chunks(runs, model_.frame.has_strays(), seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   return {};
@@ -230,9 +235,7 @@ Result<void> TreeBuild::cut_out_part() {
   if (!part_) return {};
   whole_.reset();
   if (part_->size() == 0) return no_triangle_touches(model_.frame);
-  auto above = cut_chunks(*part_, model_.frame.stray_count > 0, seams_.chunk_triangles);
-  if (!above) return above.error();
-  model_.above = *std::move(above);
+  if (const auto cut_up = cut(*part_); !cut_up) return cut_up.error();
   const std::uint64_t triangles = part_->size();
   const MeshSize part{triangles, std::min(size_.vertices, 3 * triangles), size_.float64};
   // Of the resumed bytes, all but those of triangles count.
@@ -247,10 +250,9 @@ Result<void> TreeBuild::build_chunks() {
   if (model_.edges.unbalanced_edges == 0) {
     sectors_.emplace(model_.frame.core_lower(), region(), model_.cut.winding, model_.frame.float64,
                      memory_.visitor_bytes, files_.triangles());
-    if (const auto divided =
-            sectors_->divide(runs(), model_.frame.stray_count > 0, seams_.sector_triangles);
-        !divided)
-      return divided;
+    const bool strays = model_.frame.has_strays();
+    const auto divided = sectors_->divide(runs(), strays, seams_.sector_triangles);
+    if (!divided) return divided;
   }
   model_.chunks.resize(model_.above.chunks.size());
   resume_chunks();

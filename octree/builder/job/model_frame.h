@@ -31,6 +31,7 @@ struct ModelFrame {
   std::uint64_t fanned_count = 0;  ///< polygons whose fans may reach beyond them
   std::string first_fanned_text;
 
+  bool has_strays() const { return stray_count > 0; }
   /// Box in the model frame.
   Point lower() const { return scaled(input_lower); }
   Point upper() const { return scaled(input_upper); }

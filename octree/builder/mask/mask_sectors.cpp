@@ -20,17 +20,12 @@ constexpr double kTogether = 0.875;
 
 }  // namespace
 
-<<<<<<< HEAD
 Result<void> MaskSectors::divide(const TriangleRuns& runs, bool has_strays,
                                  std::uint64_t max_triangles) {
   auto end = has_strays ? runs.cut(kStrayCode) : Result<TriangleRuns::Cut>(runs.end());
   if (!end) return end.error();
   const std::uint64_t in_core = TriangleRuns::count(runs.begin(), *end);
-  return divide(0, {runs.begin(), *std::move(end), in_core}, runs, max_triangles, 0);
-=======
-Result<void> MaskSectors::divide(const TriangleRuns& runs, std::uint64_t max_triangles) {
-  return divide(0, {runs.begin(), runs.end(), runs.size()}, runs, max_triangles);
->>>>>>> growth
+  return divide(0, {runs.begin(), *std::move(end), in_core}, runs, max_triangles);
 }
 
 Result<void> MaskSectors::divide(std::size_t at, const Stretch& stretch, const TriangleRuns& runs,
@@ -103,17 +98,10 @@ class MaskSectors::Visit {
   explicit Visit(const MaskSectors& sectors) : sectors_(sectors), visitors_(sectors.float64_) {}
 
   void add(const storage::SpillKey& key, const Triangle& triangle) {
-<<<<<<< HEAD
     // A stray has no sector of its own: it visits those that it touches.
     own_ = is_stray(key.first) ? kNone : sectors_.sector_of_code(key.first);
-    key_ = key;
     const BoxedTriangle boxed(triangle);
-    if (own_ != kNone && is_inside_own(boxed))
-=======
-    own_ = sectors_.sector_of_code(key.first);
-    const BoxedTriangle boxed(triangle);
-    if (is_inside_own(boxed)) {
->>>>>>> growth
+    if (own_ != kNone && is_inside_own(boxed)) {
       rise_of(own_);
       return;
     }
@@ -158,21 +146,13 @@ class MaskSectors::Visit {
     }
     const Point lower = sectors_.grid_.lower(sector.cell),
                 upper = sectors_.grid_.upper(sector.cell);
-<<<<<<< HEAD
     const bool in_root = at == 0 && own_ == 0;
     if (!in_root && !may_touch(triangle.corners, lower, upper)) return;
-    if (at != own_ && sectors_.grid_.has_part_of(sector.cell))
-      visitors_.add({at, key_.second}, triangle.corners);
-    auto& rise = rise_of(at);
-    if (may_cross_edges(triangle, lower, upper)) add_rise(triangle, sector.cell, rise);
-=======
-    if (at != 0 && !may_touch(triangle.corners, lower, upper)) return;
     Touched touched{static_cast<std::uint32_t>(at),
                     at != own_ && sectors_.grid_.has_part_of(sector.cell)};
     if (may_cross_edges(triangle, lower, upper) && !is_segment(triangle.corners))
       touched.rise = rise_along_edges(triangle, sector.cell);
     touched_.push_back(touched);
->>>>>>> growth
   }
 
   // Whether the triangle touches no other sector, and no edge of its own sector.
@@ -202,15 +182,10 @@ class MaskSectors::Visit {
   static constexpr std::size_t kNone = ~std::size_t{0};
 
   const MaskSectors& sectors_;
-<<<<<<< HEAD
   std::size_t own_ = 0;  // kNone of a stray
-  storage::SpillKey key_;
-=======
-  std::size_t own_ = 0;
   // Of the last triangle that was not inside its own sector. Copies follow each other mostly.
   Triangle listed_;
   std::vector<Touched> touched_;
->>>>>>> growth
   std::map<std::uint32_t, std::array<std::int64_t, 8>> rises_;  // by sector
   std::size_t last_ = 0;                                        // sector that last_rise_ is of
   std::array<std::int64_t, 8>* last_rise_ = nullptr;

@@ -6,7 +6,9 @@ namespace planetree::octree {
 
 ChunkedTree::ChunkedTree(const Soup& soup, std::uint64_t chunk_triangles, std::uint32_t page_bytes,
                          storage::SpillFile& file)
-    : mesh(store(soup)), runs(runs_of(mesh)), above(*cut_chunks(*runs, mesh.frame.stray_count > 0, chunk_triangles)) {
+    : mesh(store(soup)),
+      runs(runs_of(mesh)),
+      above(*cut_chunks(*runs, mesh.frame.stray_count > 0, chunk_triangles)) {
   shape.float64 = mesh.float64();
   for (const Chunk& chunk : above.chunks) {
     Triangles triangles = *runs->read(chunk.from, chunk.to);

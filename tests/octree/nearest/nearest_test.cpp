@@ -214,9 +214,9 @@ TEST(Nearest, AnswersFromTheSampleWithoutPages) {
 TEST(Nearest, AnswersFromTheSampleWhereBoundsExcludeEveryTriangle) {
   const SampleQueries queried(sphere(4));
   const Point query(0.3, 0.2, 5);
-  const FloatQuery float_query = FloatQuery::from(query, queried.info.centre);
+  const FloatQuery float_query = FloatQuery::from(query, queried.info);
   NearestLimits limits;
-  const BestTriangle none(float_query, limits);
+  const BestTriangle none(float_query, limits, queried.info.span(query));
   const NearestAnswer answer = finalize(queried.info, query, limits, none, float_query, {});
   EXPECT_EQ(answer.status, Status::kDegraded);
   EXPECT_EQ(answer.point, queried.info.sample);
