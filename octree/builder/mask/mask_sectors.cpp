@@ -151,7 +151,7 @@ class MaskSectors::Visit {
     Touched touched{static_cast<std::uint32_t>(at),
                     at != own_ && sectors_.grid_.has_part_of(sector.cell)};
     if (may_cross_edges(triangle, lower, upper) && !is_segment(triangle.corners))
-      touched.rise = rise_along_edges(triangle, sector.cell);
+      touched.rise = rise_along_edges(triangle, lower, upper);
     touched_.push_back(touched);
   }
 
@@ -176,8 +176,8 @@ class MaskSectors::Visit {
                .count() >= 2;
   }
 
-  std::array<std::int64_t, 8> rise_along_edges(const BoxedTriangle& triangle,
-                                               const GridCell& cell) const;
+  static std::array<std::int64_t, 8> rise_along_edges(const BoxedTriangle& triangle,
+                                                      const Point& lower, const Point& upper);
 
   static constexpr std::size_t kNone = ~std::size_t{0};
 
@@ -192,16 +192,19 @@ class MaskSectors::Visit {
   Triangles visitors_;
 };
 
-// Sums the crossings along the cell's edges: each corner is reached from the corner before it on
+// Sums the crossings along a cell's edges: each corner is reached from the corner before it on
 // the way from the least corner.
 std::array<std::int64_t, 8> MaskSectors::Visit::rise_along_edges(const BoxedTriangle& triangle,
-                                                                 const GridCell& cell) const {
+                                                                 const Point& lower,
+                                                                 const Point& upper) {
   std::array<std::int64_t, 8> steps{};
+  std::array<Point, 8> corners{lower};
   for (unsigned which = 1; which < 8; ++which) {
     const unsigned before = which & (which - 1);
-    const DownwardSegment edge(
-        {sectors_.grid_.corner(cell, which), sectors_.grid_.corner(cell, before)},
-        axis_of_edge(which, before));
+    const unsigned axis = axis_of_edge(which, before);
+    corners[which] = corners[before];
+    corners[which][axis] = upper[axis];
+    const DownwardSegment edge({corners[which], corners[before]}, axis);
     steps[which] = steps[before] + edge.crossing(triangle);
   }
   return steps;

@@ -59,13 +59,13 @@ void Triangles::set(std::uint32_t position, const storage::SpillKey& key, const 
 
 void Triangles::sort() {
   struct SortKey {
-    std::uint64_t code;
+    storage::SpillKey key;
     std::uint32_t position;
   };
   std::vector<SortKey> order(size());
-  for (std::uint32_t i = 0; i < size(); ++i) order[i] = {code(i), i};
-  const auto precedes = [this](const SortKey& a, const SortKey& b) {
-    return a.code != b.code ? a.code < b.code : index(a.position) < index(b.position);
+  for (std::uint32_t i = 0; i < size(); ++i) order[i] = {key(i), i};
+  const auto precedes = [](const SortKey& a, const SortKey& b) {
+    return a.key.first != b.key.first ? a.key.first < b.key.first : a.key.second < b.key.second;
   };
   if (!merge_runs(order, precedes)) return;
   std::vector<std::byte> sorted(records_.size());
