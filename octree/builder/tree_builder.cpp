@@ -76,7 +76,6 @@ class TreeBuild {
   Result<void> resume_work();
   Result<void> check_space(const Result<MeshSize>& size);
   Result<void> order_triangles();
-  Result<void> cut(const TriangleRuns& runs);
   Result<void> read();
   Result<void> resume_mesh();
   Result<void> set_mesh(const OrderedMesh& mesh);
@@ -135,11 +134,7 @@ Result<void> TreeBuild::check_space(const Result<MeshSize>& size) {
 Result<void> TreeBuild::order_triangles() {
   const bool ordered_before = files_.work() && files_.work()->mesh();
   if (const auto ordered = ordered_before ? resume_mesh() : read(); !ordered) return ordered;
-  return cut(*whole_);
-}
-
-Result<void> TreeBuild::cut(const TriangleRuns& runs) {
-  auto above = cut_chunks(runs, model_.frame.has_strays(), seams_.chunk_triangles);
+  auto above = cut_chunks(*whole_, model_.frame.has_strays(), seams_.chunk_triangles);
   if (!above) return above.error();
   model_.above = *std::move(above);
   return {};
@@ -235,7 +230,9 @@ Result<void> TreeBuild::cut_out_part() {
   if (!part_) return {};
   whole_.reset();
   if (part_->size() == 0) return no_triangle_touches(model_.frame);
-  if (const auto cut_up = cut(*part_); !cut_up) return cut_up.error();
+  auto above = cut_chunks(*part_, model_.frame.has_strays(), seams_.chunk_triangles);
+  if (!above) return above.error();
+  model_.above = *std::move(above);
   const std::uint64_t triangles = part_->size();
   const MeshSize part{triangles, std::min(size_.vertices, 3 * triangles), size_.float64};
   // Of the resumed bytes, all but those of triangles count.
@@ -334,9 +331,8 @@ Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::p
   if (options.box)
     if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->with_checkpoint();
-  // As query/serve/batch_threads.cpp does: oneTBB must allow more threads than processors, or it
-  // writes a warning. Fewer are left to the arena, so that the caller's other work with oneTBB is
-  // not slowed down.
+  // As query/serve/batch_threads.cpp does: oneTBB warns of more threads than it allows. Fewer are
+  // left to the arena, so that the caller's other work with oneTBB is not slowed down.
   constexpr auto kAllowed = tbb::global_control::max_allowed_parallelism;
   std::optional<tbb::global_control> limit;
   if (memory->threads > tbb::info::default_concurrency())
