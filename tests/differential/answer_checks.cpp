@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "octree/geometry/triangle_distance.h"
+#include "octree/geometry/work_limit.h"
 #include "octree/nearest/nearest.h"
 #include "tests/oracle/pseudo_normal.h"
 #include "tests/oracle/winding.h"
@@ -126,6 +127,14 @@ void expect_narrow(const BuiltModel& model, const Vec3& query, const ClosestPoin
   EXPECT_LE(Wide(answer.upper) - Wide(answer.lower), Wide(farthest) * Wide(0x1p-39) + unresolved);
 }
 
+// Work that suffices for every query. Records are visited for the distance, for each of six exit
+// segments and for the normal. Each triangle may then take several exact signs.
+std::uint64_t sufficient_work(const ModelInfo& info) {
+  constexpr std::uint64_t kTimes = 8, kSignsOfTriangle = 10;
+  return kTimes * (info.nodes + info.blocks +
+                   kSignsOfTriangle * octree::WorkUnits::kLargeSign * info.triangles);
+}
+
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // The normal is the pseudo-normal of the feature or its opposite. It points out of the solid where
@@ -230,8 +239,7 @@ ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const QueryOptio
       EXPECT_LE(answer.upper - answer.lower, options.max_error);
       break;
     case Status::kDegraded:
-      // Records are visited for the distance, for each of six exit segments and for the normal.
-      EXPECT_LT(options.max_work, 8 * (model.model().info().nodes + model.model().info().blocks));
+      EXPECT_LT(options.max_work, sufficient_work(model.model().info()));
       break;
     case Status::kBeyondMaxDistance:
       EXPECT_EQ(answer.triangle, kNoTriangle);

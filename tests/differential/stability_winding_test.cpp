@@ -135,15 +135,17 @@ TEST(StabilityWinding, LimitedWork) {
   std::vector<Vec3> queries;
   for (int i = 0; i < 60; ++i) queries.push_back(random.in_cube() * 1.1);
   std::size_t certain_before = 0;
-  for (std::uint32_t nodes = 1; nodes < 2 * (info.nodes + info.blocks); nodes *= 2) {
+  // Up to the moments of every node and the solid angles of every triangle.
+  const std::uint64_t all = 3 * info.nodes + info.blocks + info.triangles;
+  for (std::uint32_t units = 1; units < 2 * all; units *= 2) {
     std::size_t certain = 0;
     for (const Vec3& query : queries) {
-      const Containment found = model.probe().contains(query, {.max_work = nodes});
+      const Containment found = model.probe().contains(query, {.max_work = units});
       ASSERT_EQ(found.side == Side::kUnknown, found.status == Status::kDegraded);
       if (found.side == Side::kUnknown) continue;
       ++certain;
       const long double w = std::fabs(open_winding(query, faces).value);
-      EXPECT_EQ(found.side, w > 0.5L ? Side::kInside : Side::kOutside) << nodes;
+      EXPECT_EQ(found.side, w > 0.5L ? Side::kInside : Side::kOutside) << units;
     }
     EXPECT_GE(certain, certain_before);
     certain_before = certain;
