@@ -205,13 +205,7 @@ class NearestTraversal {
   // bound  of the block
   HWY_INLINE void visit_block(const BlockView& block, float bound) {
     const BlockHeader& header = block.header();
-    // The block is too small for float, or the query too far away.
-    if (!can_filter(float_query_, header.extent)) {
-      const unsigned count = header.vertex_count() <= 3 ? different(block) : header.triangle_count;
-      if (!may_evaluate(bound)) return;
-      for (unsigned i = 0; i < count; ++i) add_candidate(block, i, 0);
-      return;
-    }
+    if (!can_filter(float_query_, header.extent)) return visit_unfiltered(block, bound);
     if (blocks_.full()) add_candidates_of_blocks();
     const FloatOffset from(query_, block.vertex(0));
     FilteredTriangles& filtered = blocks_.next();
@@ -244,6 +238,18 @@ class NearestTraversal {
     }
     pending_bound_ = std::min(pending_bound_, bound);
     return true;
+  }
+
+  // Visits a block that is too small or too large for float, or too far away.
+  HWY_NOINLINE void visit_unfiltered(const BlockView& block, float bound) {
+    const BlockHeader& header = block.header();
+    const unsigned count = header.vertex_count() <= 3 ? different(block) : header.triangle_count;
+    unsigned near = 0;
+    for (unsigned i = 0; i < count; ++i)
+      if (!is_beyond(block.triangle(i), query_, float_query_, best_.reach())) near |= 1U << i;
+    if (near == 0 || !may_evaluate(bound)) return;
+    for (; near != 0; near &= near - 1)
+      add_candidate(block, static_cast<unsigned>(std::countr_zero(near)), 0);
   }
 
   // Filter values above this belong to triangles that cannot be nearest.

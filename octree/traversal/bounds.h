@@ -57,12 +57,12 @@ struct FloatQuery {
   static FloatQuery from(double x, double y, double z, double bound_slack = kAbsoluteBoundSlack) {
     const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
     FloatQuery query;
+    query.slack = kFloatQueryRounding * largest + bound_slack;
     query.usable = largest < kMaxFloatQuery;
     if (!query.usable) return query;
     query.x = static_cast<float>(x);
     query.y = static_cast<float>(y);
     query.z = static_cast<float>(z);
-    query.slack = kFloatQueryRounding * largest + bound_slack;
     return query;
   }
 };
@@ -106,6 +106,16 @@ inline double certified(const FloatQuery& query, float bound_squared) {
 /// Returns whether float suffices to filter a block's triangles for a query.
 inline bool can_filter(const FloatQuery& query, float block_extent) {
   return query.usable && block_extent >= kFilterMinExtent && block_extent <= kFilterMaxExtent;
+}
+
+/// Returns whether the box of a triangle proves that its value exceeds `distance`: for blocks that
+/// cannot be filtered in float. A difference in double errs by 2^-53 of itself.
+inline bool is_beyond(const Triangle& triangle, const Point& point, const FloatQuery& query,
+                      double distance) {
+  const Point lower = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
+  const Point upper = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
+  const double gap = (lower - point).cwiseMax(point - upper).maxCoeff();
+  return gap > (distance + query.slack) * kBoundInflation;
 }
 
 /// Returns an upper bound on the distance to a triangle with this filter value.

@@ -154,10 +154,13 @@ void add_children_within(const Node& node, const FloatQuery& query, float thresh
 
 unsigned triangles_within(const BlockView& block, const Point& point, const FloatQuery& wide,
                           double distance, double (&nearest)[kMaxBlockTriangles]) noexcept {
-  // The block is too small for float, or the query too far away.
+  // The block is too small or too large for float, or the query too far away.
   if (!can_filter(wide, block.header().extent)) {
     std::fill_n(nearest, block.triangle_count(), 0.0);
-    return (1U << block.triangle_count()) - 1;
+    unsigned within = 0;
+    for (unsigned i = 0; i < block.triangle_count(); ++i)
+      if (!is_beyond(block.triangle(i), point, wide, distance)) within |= 1U << i;
+    return within;
   }
   const float limit = filter_threshold(wide, distance, block.header().extent);
   return HWY_DYNAMIC_DISPATCH(triangles_on_target)(block, point, limit, nearest);
