@@ -160,21 +160,9 @@ TEST_F(WorkLimits, BoundSolidAngles) {
   });
 }
 
-TEST(CoincidentTriangles, AreEvaluatedOnceForEachFewBlocks) {
-  for (const std::size_t count : {2'000u, 8'000u}) {
-    const SampleTree sample = build_sample(repeated(count));
-    SamplePages pages(sample);
-    const TreeInfo tree = tree_info(sample);
-    TraversalStats work;
-    const NearestAnswer answer = nearest(tree, Point(0.1, 0.2, 0.3), {}, pages.reader(), work);
-    EXPECT_EQ(answer.triangle, 0u);
-    EXPECT_LE(work.triangles, 128u);
-    EXPECT_LE(work.units, 5 * tree.record_count);
-  }
-}
-
-TEST(CoincidentTriangles, OfAPointTakeNoWideNumbers) {
-  const SampleTree sample = build_sample(Soup(4000, {Vec3{1, 1, 1}, Vec3{1, 1, 1}, Vec3{1, 1, 1}}));
+// Few of the triangles, which coincide, are evaluated for a query beside them.
+void expect_few_evaluated(const Soup& coincident) {
+  const SampleTree sample = build_sample(coincident);
   SamplePages pages(sample);
   const TreeInfo tree = tree_info(sample);
   TraversalStats work;
@@ -182,6 +170,14 @@ TEST(CoincidentTriangles, OfAPointTakeNoWideNumbers) {
   EXPECT_EQ(answer.triangle, 0u);
   EXPECT_LE(work.triangles, 128u);
   EXPECT_LE(work.units, 5 * tree.record_count);
+}
+
+TEST(CoincidentTriangles, AreEvaluatedOnceForEachFewBlocks) {
+  for (const std::size_t count : {2'000u, 8'000u}) expect_few_evaluated(repeated(count));
+}
+
+TEST(CoincidentTriangles, OfAPointTakeNoWideNumbers) {
+  expect_few_evaluated(Soup(4000, {Vec3{1, 1, 1}, Vec3{1, 1, 1}, Vec3{1, 1, 1}}));
 }
 
 }  // namespace

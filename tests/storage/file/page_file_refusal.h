@@ -51,6 +51,24 @@ class PageFileRefusal : public testing::Test {
                           said);
   }
 
+  using ModelChange = std::function<void(ModelRecord&)>;
+  void expect_model_accepted(const ModelChange& make) {
+    FileImage image = good();
+    image.change_header([&](FileHeader& header) { make(header.model); });
+    image.seal_header();
+    EXPECT_EQ(refusal_of(image).text[0], 0);
+  }
+  // The model that `make` makes is refused once `change` has changed it.
+  void expect_changed_model_refused(const ModelChange& make, const ModelChange& change,
+                                    const char* said) {
+    expect_model_refused(
+        [&](ModelRecord& model) {
+          make(model);
+          change(model);
+        },
+        said);
+  }
+
   void expect_entry_refused(std::uint32_t page, const std::function<void(PageEntry&)>& change,
                             const char* said) {
     FileImage image = good();

@@ -16,19 +16,10 @@ TEST_F(PageFileRefusal, RefusesBadRegions) {
     }
     m.region_winding = -3;
   };
-  const auto expect_region_refused = [&](const std::function<void(ModelRecord&)>& change,
-                                         const char* said) {
-    expect_model_refused(
-        [&](ModelRecord& m) {
-          make_region(m);
-          change(m);
-        },
-        said);
+  const auto expect_region_refused = [&](const auto& change, const char* said) {
+    expect_changed_model_refused(make_region, change, said);
   };
-  FileImage region = good();
-  region.change_header([&](FileHeader& h) { make_region(h.model); });
-  region.seal_header();
-  EXPECT_EQ(refusal_of(region).text[0], 0);
+  expect_model_accepted(make_region);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double value : {kNan, kInfinity, -kInfinity}) {
       expect_region_refused([&](ModelRecord& m) { m.region_lower[axis] = value; }, "region");
@@ -68,19 +59,10 @@ TEST_F(PageFileRefusal, RefusesBadCores) {
     m.stray_edge = 0x1p10;
     for (int axis = 0; axis < 3; ++axis) m.core_upper[axis] = 0;
   };
-  const auto expect_core_refused = [&](const std::function<void(ModelRecord&)>& change,
-                                       const char* said) {
-    expect_model_refused(
-        [&](ModelRecord& m) {
-          make_core(m);
-          change(m);
-        },
-        said);
+  const auto expect_core_refused = [&](const auto& change, const char* said) {
+    expect_changed_model_refused(make_core, change, said);
   };
-  FileImage parted = good();
-  parted.change_header([&](FileHeader& h) { make_core(h.model); });
-  parted.seal_header();
-  EXPECT_EQ(refusal_of(parted).text[0], 0);
+  expect_model_accepted(make_core);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double value : {kNan, kInfinity, -kInfinity, -9.0, 9.0}) {
       expect_core_refused([&](ModelRecord& m) { m.core_lower[axis] = value; }, "core");
