@@ -72,9 +72,8 @@ bool apart_along_normal(const Centred& centred, const Triangle& triangle) {
 }  // namespace
 
 bool may_touch(const Triangle& triangle, const Point& lower, const Point& upper) {
-  const auto& [a, b, c] = triangle;
-  if ((a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any() ||
-      (a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any())
+  if ((least_corner(triangle).array() > upper.array()).any() ||
+      (greatest_corner(triangle).array() < lower.array()).any())
     return false;
   // Fast path: most triangles that touch a cell have a corner in it.
   for (const Point& corner : triangle)

@@ -100,8 +100,8 @@ int perturbed_side(const Triangle& triangle, const Point& point, WorkLimit* limi
 
 bool lies_on(const Point& point, const Triangle& triangle, WorkLimit* limit) noexcept {
   const auto& [a, b, c] = triangle;
-  if ((point.array() < a.cwiseMin(b).cwiseMin(c).array()).any() ||
-      (point.array() > a.cwiseMax(b).cwiseMax(c).array()).any())
+  if ((point.array() < least_corner(triangle).array()).any() ||
+      (point.array() > greatest_corner(triangle).array()).any())
     return false;
   if (orientation(a, b, c, point, limit) != 0) return false;
   // A point in the triangle's plane lies on the triangle if, seen along each axis, it is not on

@@ -101,11 +101,6 @@ void refine_face(const Point& query, const Triangle& triangle, TriangleResults& 
 
 }  // namespace
 
-bool has_equal_corners(const TriangleView& triangles, unsigned triangle) noexcept {
-  const Triangle corners = triangles.triangle(static_cast<unsigned>(std::countr_zero(triangle)));
-  return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
-}
-
 void refine_flat(const Point& query, const TriangleView& triangles, unsigned triangle,
                  TriangleResults& results) noexcept {
   const auto lane = static_cast<unsigned>(std::countr_zero(triangle));

@@ -17,6 +17,20 @@ namespace planetree::octree {
 using Point = Eigen::Vector3d;
 using Triangle = std::array<Point, 3>;
 
+/// Returns the least and the greatest corner of a triangle's box.
+inline Point least_corner(const Triangle& triangle) {
+  return triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
+}
+inline Point greatest_corner(const Triangle& triangle) {
+  return triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
+}
+
+/// Returns whether two corners are equal. Such a triangle has no face, and nothing crosses it.
+inline bool has_equal_corners(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return a == b || b == c || c == a;
+}
+
 /// The value that triangles are compared by.
 struct TriangleValue {
   double squared = 0;  ///< squared distance, rounded
@@ -133,9 +147,6 @@ struct TriangleRows {
       for (auto& row : corner) row[to] = row[from];
   }
 };
-
-/// Returns whether the triangle with a bit in `triangle` has two equal corners, and so no face.
-bool has_equal_corners(const TriangleView& triangles, unsigned triangle) noexcept;
 
 /// Evaluates the triangle with a bit in `triangle` again with 113 bits. evaluate_triangles() found
 /// its face too flat for double.

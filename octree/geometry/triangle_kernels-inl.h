@@ -181,7 +181,8 @@ HWY_NOINLINE unsigned refine_flat_faces(const TriangleView& triangles, unsigned 
   unsigned refused = 0;
   for (; flat != 0; flat &= flat - 1) {
     const unsigned triangle = flat & (0U - flat);
-    if (has_equal_corners(triangles, triangle)) continue;
+    const auto lane = static_cast<unsigned>(std::countr_zero(flat));
+    if (has_equal_corners(triangles.triangle(lane))) continue;
     if (work.take(WorkUnits::kFlatFace))
       refine_flat(query, triangles, triangle, results);
     else

@@ -112,9 +112,8 @@ inline bool can_filter(const FloatQuery& query, float block_extent) {
 /// cannot be filtered in float. A difference in double errs by 2^-53 of itself.
 inline bool is_beyond(const Triangle& triangle, const Point& point, const FloatQuery& query,
                       double distance) {
-  const Point lower = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
-  const Point upper = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
-  const double gap = (lower - point).cwiseMax(point - upper).maxCoeff();
+  const Point below = least_corner(triangle) - point, above = point - greatest_corner(triangle);
+  const double gap = below.cwiseMax(above).maxCoeff();
   return gap > (distance + query.slack) * kBoundInflation;
 }
 

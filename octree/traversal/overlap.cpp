@@ -238,12 +238,12 @@ OctantCodes::NearOctants OctantCodes::near_octants(const BlockView& block) const
     return hits;
   }
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
-    const auto [a, b, c] = block.triangle(i);
-    const Point least = a.cwiseMin(b).cwiseMin(c), greatest = a.cwiseMax(b).cwiseMax(c);
+    const Triangle triangle = block.triangle(i);
+    const Point least = least_corner(triangle), greatest = greatest_corner(triangle);
     const bool apart =
         (greatest.array() < box_[0].array()).any() || (least.array() > box_[1].array()).any();
     hits.by_box[i] = apart ? 0 : kOctants[code(greatest, least)];
-    for (const Point& corner : {a, b, c})
+    for (const Point& corner : triangle)
       if (((corner.array() >= box_[0].array()) && (corner.array() <= box_[1].array())).all())
         hits.with_vertex |= kOctants[code(corner, corner)];
   }

@@ -83,9 +83,9 @@ unsigned boxes_met(const BlockView& block, const PerturbedSegment& segment) {
   const Point upper = segment.from.cwiseMax(segment.to);
   unsigned found = 0;
   for (unsigned i = 0; i < block.triangle_count(); ++i) {
-    const auto [a, b, c] = block.triangle(i);
-    const bool apart = (a.cwiseMax(b).cwiseMax(c).array() < lower.array()).any() ||
-                       (a.cwiseMin(b).cwiseMin(c).array() > upper.array()).any();
+    const Triangle triangle = block.triangle(i);
+    const bool apart = (greatest_corner(triangle).array() < lower.array()).any() ||
+                       (least_corner(triangle).array() > upper.array()).any();
     found |= (apart ? 0U : 1U) << i;
   }
   return found;

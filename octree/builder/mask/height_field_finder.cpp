@@ -90,8 +90,8 @@ class Prism {
   /// its front towards the first end and meets the limits of HeightField.
   bool accepts(const Triangle& rotated) const {
     const auto& [a, b, c] = rotated;
-    if ((a.cwiseMin(b).cwiseMin(c).array() > upper_.array()).any() ||
-        (a.cwiseMax(b).cwiseMax(c).array() < lower_.array()).any())
+    if ((least_corner(rotated).array() > upper_.array()).any() ||
+        (greatest_corner(rotated).array() < lower_.array()).any())
       return true;
     const auto [least, greatest] = std::minmax({a.z(), b.z(), c.z()});
     if (!(least > lower_.z() + kPrismClearance && greatest < upper_.z() - kPrismClearance))

@@ -150,7 +150,7 @@ class MaskSectors::Visit {
     if (!in_root && !may_touch(triangle.corners, lower, upper)) return;
     Touched touched{static_cast<std::uint32_t>(at),
                     at != own_ && sectors_.grid_.has_part_of(sector.cell)};
-    if (may_cross_edges(triangle, lower, upper) && !is_segment(triangle.corners))
+    if (may_cross_edges(triangle, lower, upper) && !has_equal_corners(triangle.corners))
       touched.rise = rise_along_edges(triangle, lower, upper);
     touched_.push_back(touched);
   }

@@ -27,7 +27,7 @@ double longest_edge(const Point& lower, const Point& upper) { return (upper - lo
 }  // namespace
 
 void CornerSample::add(const Vec3& corner) {
-  if (added_++ % step_ != 0) return;
+  if ((added_++ & (step_ - 1)) != 0) return;
   if (corners_.size() == kMaxCorners) {
     for (std::size_t i = 0; 2 * i < corners_.size(); ++i) corners_[i] = corners_[2 * i];
     corners_.resize(kMaxCorners / 2);
@@ -67,8 +67,7 @@ CoreFinder::CoreFinder(const CornerSample& sample, const Point& lower, const Poi
 }
 
 void CoreFinder::add(const Triangle& triangle) {
-  const Point least = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
-  const Point greatest = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
+  const Point least = least_corner(triangle), greatest = greatest_corner(triangle);
   if ((least.array() >= window_lower_.array()).all() &&
       (greatest.array() <= window_upper_.array()).all()) {
     core_.lower = core_count_ == 0 ? least : Point(core_.lower.cwiseMin(least));

@@ -27,7 +27,7 @@ class CornerSample {
 
   std::vector<std::array<double, 3>> corners_;
   std::uint64_t added_ = 0;
-  std::uint64_t step_ = 1;  // every step_-th triangle is in the sample
+  std::uint64_t step_ = 1;  // every step_-th triangle is in the sample; a power of two
 };
 
 /// Tells the core of a model, in which nearly all of its triangles are, from a few stray triangles

@@ -16,9 +16,7 @@ std::uint32_t cell_coordinate(double from_lower) {
 }  // namespace
 
 std::uint64_t morton_code_of(const Triangle& triangle, const Point& lower) {
-  const Point least = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
-  const Point greatest = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
-  const Point centre = (least + greatest) * 0.5 - lower;
+  const Point centre = (least_corner(triangle) + greatest_corner(triangle)) * 0.5 - lower;
   return morton_code(cell_coordinate(centre.x()), cell_coordinate(centre.y()),
                      cell_coordinate(centre.z()));
 }

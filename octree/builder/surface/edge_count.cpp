@@ -10,7 +10,7 @@ EdgeCount::EdgeCount(const std::array<Point, 8>& corners, std::int64_t winding,
     : corners_(corners), winding_(winding), triangles_(triangles) {
   for (const std::uint32_t position : positions) {
     const unsigned sides = sides_crossed(triangles[position]);
-    if ((sides & (sides - 1)) != 0 && !is_segment(triangles[position].corners))
+    if ((sides & (sides - 1)) != 0 && !has_equal_corners(triangles[position].corners))
       near_.push_back({position, sides});
   }
 }

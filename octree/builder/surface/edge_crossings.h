@@ -14,21 +14,12 @@ namespace planetree::octree {
 /// A triangle and its box. The box fills one cache line, and mostly nothing else is read.
 struct alignas(64) BoxedTriangle {
   explicit BoxedTriangle(const Triangle& triangle)
-      : least(triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2])),
-        greatest(triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2])),
-        corners(triangle) {}
+      : least(least_corner(triangle)), greatest(greatest_corner(triangle)), corners(triangle) {}
 
   Point least, greatest;
   Triangle corners;
   std::int64_t copies = 1;  ///< triangles with these corners that this one stands for
 };
-
-/// Whether two corners are equal. Nothing crosses such a triangle, and it takes long to find that
-/// exactly.
-inline bool is_segment(const Triangle& triangle) {
-  const auto& [a, b, c] = triangle;
-  return a == b || b == c || c == a;
-}
 
 /// A segment along one axis, from its greater end down to its lesser end.
 class DownwardSegment {
