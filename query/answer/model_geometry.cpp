@@ -5,6 +5,11 @@
 namespace planetree::query {
 namespace {
 
+// Converts a corner of a box from the input's coordinates.
+octree::Point point_in_frame(const Scale& scale, const double (&corner)[3]) {
+  return scale.in(Vec3{corner[0], corner[1], corner[2]});
+}
+
 octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale) {
   const storage::ModelRecord& model = header.model;
   octree::TreeInfo tree;
@@ -12,10 +17,10 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
   tree.root_link = model.root_link;
   tree.shape = block_shape(model);
   tree.record_count = model.node_count + model.block_count;
-  tree.box_lower = scale.in(Vec3{model.box_lower[0], model.box_lower[1], model.box_lower[2]});
-  tree.box_upper = scale.in(Vec3{model.box_upper[0], model.box_upper[1], model.box_upper[2]});
-  tree.core_lower = scale.in(Vec3{model.core_lower[0], model.core_lower[1], model.core_lower[2]});
-  tree.core_upper = scale.in(Vec3{model.core_upper[0], model.core_upper[1], model.core_upper[2]});
+  tree.box_lower = point_in_frame(scale, model.box_lower);
+  tree.box_upper = point_in_frame(scale, model.box_upper);
+  tree.core_lower = point_in_frame(scale, model.core_lower);
+  tree.core_upper = point_in_frame(scale, model.core_upper);
   tree.set_strays(model.stray_count, model.stray_edge);
   tree.centre = {model.centre[0], model.centre[1], model.centre[2]};
   tree.sample = {model.sample[0], model.sample[1], model.sample[2]};
@@ -38,9 +43,8 @@ octree::MaskInfo mask_info(const storage::FileHeader& header, const octree::Tree
 octree::Region region_of(const storage::ModelRecord& model) {
   if (!model.has_region()) return {};
   const Scale scale(model.scale_exponent);
-  const auto point = [&scale](const double(&v)[3]) { return scale.in(Vec3{v[0], v[1], v[2]}); };
-  return {point(model.region_lower), point(model.region_upper), point(model.box_lower),
-          point(model.box_upper)};
+  return {point_in_frame(scale, model.region_lower), point_in_frame(scale, model.region_upper),
+          point_in_frame(scale, model.box_lower), point_in_frame(scale, model.box_upper)};
 }
 
 ModelGeometry::ModelGeometry(const storage::FileHeader& header)

@@ -96,27 +96,22 @@ Result<void> TriangleSpool::progress(std::uint64_t bytes_done, std::uint64_t byt
   return progress_ ? progress_(progress_context_, bytes_done, bytes_total) : Result<void>();
 }
 
-// Calls use(triangles) with a batch as it was read.
-template <class Use>
-Result<void> TriangleSpool::read_batch(const Batch& batch, const Use& use) const {
-  if (batch.held.size() > 0) {
-    use(batch.held);
-    return {};
-  }
+// Reads a batch that is in the file.
+Result<Triangles> TriangleSpool::read_batch(const Batch& batch) const {
   std::vector<std::byte> records(batch.bytes);
   if (const auto read = file_.read(batch.offset, records); !read) return read.error();
-  use(Triangles(std::move(records), batch.float64));
-  return {};
+  return Triangles(std::move(records), batch.float64);
 }
 
 // Looks at all triangles again only if some may be stray.
 Result<void> TriangleSpool::find_core() {
   CoreFinder finder(sample_, frame_.input_lower, frame_.input_upper);
   for (std::size_t i = 0; finder.may_have_strays() && i < batches_.size(); ++i) {
-    const auto read = read_batch(batches_[i], [&finder](const Triangles& triangles) {
-      for (std::uint32_t at = 0; at < triangles.size(); ++at) finder.add(triangles.corners(at));
-    });
-    if (!read) return read;
+    const bool is_held = batches_[i].held.size() > 0;
+    const auto read = is_held ? Result<Triangles>(Triangles()) : read_batch(batches_[i]);
+    if (!read) return read.error();
+    const Triangles& triangles = is_held ? batches_[i].held : *read;
+    for (std::uint32_t at = 0; at < triangles.size(); ++at) finder.add(triangles.corners(at));
   }
   const CoreFinder::Core core = finder.found();
   frame_.input_core_lower = core.lower;
@@ -153,21 +148,20 @@ Result<Triangles> TriangleSpool::take_batch(std::size_t at) {
   Triangles triangles = std::move(batch.held);
   batch.held = Triangles(batch.float64);
   if (triangles.size() == 0) {
-    std::vector<std::byte> records(batch.bytes);
-    if (const auto read = file_.read(batch.offset, records); !read) return read.error();
-    triangles = Triangles(std::move(records), batch.float64);
+    auto read = read_batch(batch);
+    if (!read) return read;
+    triangles = *std::move(read);
   }
   if (frame_.float64 && !batch.float64) triangles = widened(triangles);
   const Point lower = frame_.core_lower(), upper = frame_.core_upper();
-  const auto is_in_core = [&](const Triangle& corners) {
-    return std::all_of(corners.begin(), corners.end(), [&](const Point& corner) {
-      return (corner.array() >= lower.array()).all() && (corner.array() <= upper.array()).all();
-    });
+  const auto is_stray = [&](const Triangle& corners) {
+    return frame_.has_strays() && ((least_corner(corners).array() < lower.array()).any() ||
+                                   (greatest_corner(corners).array() > upper.array()).any());
   };
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     Triangle corners = triangles.corners(i);
     for (Point& corner : corners) corner = frame_.scaled(corner);
-    const std::uint64_t stray = is_in_core(corners) ? 0 : kStrayCode;
+    const std::uint64_t stray = is_stray(corners) ? kStrayCode : 0;
     triangles.set(i, {morton_code_of(corners, lower) | stray, triangles.index(i)}, corners);
   }
   return triangles;

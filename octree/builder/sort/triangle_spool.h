@@ -57,8 +57,7 @@ class TriangleSpool final : public TriangleSink {
   Result<void> spill_batch(Batch& batch);
   Result<void> find_core();
   void choose_scale();
-  template <class Use>
-  Result<void> read_batch(const Batch& batch, const Use& use) const;
+  Result<Triangles> read_batch(const Batch& batch) const;
 
   const std::uint32_t batch_triangles_;
   std::uint64_t held_bytes_;

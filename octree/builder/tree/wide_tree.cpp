@@ -114,9 +114,9 @@ class Collapser {
   std::uint32_t add_node(std::uint32_t from, const FloatBox& box) {
     const auto at = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
-    const Opening opening = from == 0 && keeps_root_
-                                ? Opening{{binary_[0].left, binary_[0].right}, 2}
-                                : opened_.of(from);
+    const bool is_kept_root = from == 0 && keeps_root_;
+    const Opening opening =
+        is_kept_root ? Opening{{binary_[0].left, binary_[0].right}, 2} : opened_.of(from);
     tree_.nodes[at].box = box;
     tree_.nodes[at].child_count = static_cast<std::uint8_t>(opening.count);
     unsigned height = 0;
@@ -127,8 +127,7 @@ class Collapser {
         child.index = add_block(child.begin, child.end);
       } else {
         // A child of a kept root begins a page, which stores its box as it is.
-        const bool begins_page = from == 0 && keeps_root_;
-        child.index = add_node(opening.child[i], begins_page ? child.true_box : child.box);
+        child.index = add_node(opening.child[i], is_kept_root ? child.true_box : child.box);
         height = std::max<unsigned>(height, tree_.nodes[child.index].height);
       }
       tree_.nodes[at].children[i] = child;
