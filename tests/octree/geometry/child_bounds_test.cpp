@@ -155,6 +155,19 @@ TEST(Bounds, PruneNothingWhereTheQueryIsTooFarForFloat) {
   EXPECT_EQ(certified(far, 1e30f), 0);
 }
 
+// The value of a triangle with an edge of length E errs by up to 2^-42 of it.
+TEST(Bounds, AreAsUncertainAsTheLongestStrayAtTheCore) {
+  TreeInfo tree;
+  const Point query(0.3, -0.2, 0.9);
+  const double usual = FloatQuery::from(query, tree).slack;
+  tree.set_strays(3, 0);
+  EXPECT_EQ(FloatQuery::from(query, tree).slack, usual);
+  EXPECT_EQ(tree.span(tree.centre), kMaxDiagonal);
+  tree.set_strays(3, 0x1p20);
+  EXPECT_GE(FloatQuery::from(query, tree).slack, usual + 0x1p20 * 0x1p-41);
+  EXPECT_GE(tree.span(query), 0x1p20);
+}
+
 TEST(Bounds, CertifiedDistanceMatchesPruneThreshold) {
   const FloatQuery query = FloatQuery::from(0.3, -0.2, 0.9);
   for (const double distance : {0.0, 1e-12, 1e-3, 0.7, 1e5})

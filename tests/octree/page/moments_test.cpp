@@ -120,6 +120,26 @@ TEST(Multipoles, AreUnknownInsideTheBox) {
                           [](const auto& share) { return share.error == Multipoles::kUnknown; }));
 }
 
+TEST(Multipoles, AreUnknownWhereTheMomentsAre) {
+  const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
+  SamplePages pages(sample);
+  const std::byte* root = pages.record(LinkFormat(65536), sample.plan.node_links[0]);
+  struct alignas(kSlotBytes) {
+    Node node;
+    NodeMoments moments;
+  } copy{*reinterpret_cast<const Node*>(root),
+         NodeMoments::of(*reinterpret_cast<const Node*>(root))};
+  const Multipoles multipoles(Point(0, 0, 9), tree_info(sample));
+  std::array<Multipoles::Share, kFanOut> shares;
+  multipoles.shares(copy.node, shares);
+  EXPECT_LT(shares[0].error, Multipoles::kUnknown);
+  EXPECT_LT(shares[1].error, Multipoles::kUnknown);
+  copy.moments.area[0] = copy.moments.second[1] = kMaxShortFloat;
+  multipoles.shares(copy.node, shares);
+  EXPECT_EQ(shares[0].error, Multipoles::kUnknown);
+  EXPECT_EQ(shares[1].error, Multipoles::kUnknown);
+}
+
 // Moments come back as encoded, independent of the page they are in.
 TEST(Moments, RoundTripThroughAPage) {
   const SampleTree sample = build_sample(scattered(900, 0.1), 4096, 0, true);

@@ -72,6 +72,31 @@ TEST(BuiltTree, HeightIsThatOfTheRoot) {
   }
 }
 
+// The steps of a box as large as that of the strays would resolve nothing of the core.
+TEST(BuiltTree, KeepsTheCoreApartFromStrays) {
+  Soup soup = sphere(4);
+  soup.push_back({Vec3{1e9, 0, 0}, Vec3{1e9, 1, 0}, Vec3{1e9, 0, 1}});
+  soup.push_back({Vec3{-1e9, 0, 0}, Vec3{-1e9, 1, 0}, Vec3{-1e9, 0, 1}});
+  const ChunkedTree sample(soup, 200);
+  ASSERT_GT(sample.above.chunks.size(), 5u);
+  const TreeInfo tree = sample.tree->info();
+  EXPECT_TRUE(tree.has_strays);
+  TreeFrames frames(*sample.tree);
+  TraversalStats work;
+  LinkResolver records(tree, frames.reader());
+  const std::byte* found = records.find(tree.root_link, work);
+  ASSERT_NE(found, nullptr);
+  const Node root = *reinterpret_cast<const Node*>(found);
+  ASSERT_EQ(root.child_count, 2);
+  found = records.find(root.link[0], work);
+  ASSERT_NE(found, nullptr);
+  EXPECT_NE(records.page(), 0u);
+  const FloatBox box = reinterpret_cast<const Node*>(found)->box;
+  const FloatBox core = ChunkedTree(sphere(4), 1 << 20).chunks[0].box;
+  EXPECT_EQ(box.lower, core.lower);
+  EXPECT_EQ(box.upper, core.upper);
+}
+
 TEST(BuiltTree, ReportsTheModelsBox) {
   const ChunkedTree sample(sphere(3), 40);
   const TreeInfo tree = sample.tree->info();
