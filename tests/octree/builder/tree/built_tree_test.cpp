@@ -83,7 +83,8 @@ TEST(BuiltTree, KeepsTheCoreApartFromStrays) {
   EXPECT_TRUE(tree.has_strays);
   TreeFrames frames(*sample.tree);
   TraversalStats work;
-  LinkResolver records(tree, frames.reader());
+  const PageReader reader = frames.reader();
+  LinkResolver records(tree, reader);
   const std::byte* found = records.find(tree.root_link, work);
   ASSERT_NE(found, nullptr);
   const Node root = *reinterpret_cast<const Node*>(found);
