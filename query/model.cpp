@@ -94,6 +94,7 @@ Pager::Limits limits_of(const storage::FileHeader& header, const OpenOptions& op
   limits.arena.probe_bytes = sizeof(ProbeState);
   if (header.model.mask_page_count > 0)
     limits.arena.side_grid_bytes = octree::SideGrid::bytes(header.model.triangle_count);
+  if (header.model.cap_count > 0) limits.arena.side_grid_bytes += octree::CapGrid::kBytes;
   limits.arena.page_trace_capacity = options.page_trace_capacity;
   limits.arena.page_count = header.page_count;
   return limits;
@@ -118,8 +119,15 @@ Result<void> ModelState::fill_side_grid() {
   if (!reader) return reader.error();
   PageAccessor accessor(*reader, Wait::kForPages);
   ModelGeometry& geometry = serving_->geometry;
-  geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.region.has_walls(),
-                          geometry.scale.exponent(), accessor.pages(), serving_->arena.side_grid);
+  std::span<std::byte> memory = serving_->arena.side_grid;
+  if (geometry.tree.caps) {
+    geometry.cap_grid.fill(geometry.caps, geometry.mask.lower, accessor.pages(),
+                           memory.first(octree::CapGrid::kBytes));
+    memory = memory.subspan(octree::CapGrid::kBytes);
+  }
+  geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.cap_grid,
+                          geometry.region.has_walls(), geometry.scale.exponent(), accessor.pages(),
+                          memory);
   return {};
 }
 

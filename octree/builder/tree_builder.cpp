@@ -15,6 +15,7 @@
 
 #include "octree/builder/build_files.h"
 #include "octree/builder/build_identity.h"
+#include "octree/builder/cap_tree.h"
 #include "octree/builder/job/build_memory.h"
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
@@ -108,8 +109,9 @@ class TreeBuild {
   BuiltModel model_;
   std::vector<std::string> notes_;  // of the reader
   std::optional<TriangleRuns> whole_;
-  std::optional<TriangleRuns> part_;    // triangles of whole_ that touch the region
-  std::optional<MaskSectors> sectors_;  // only if the model is watertight
+  std::optional<TriangleRuns> part_;  // triangles of whole_ that touch the region
+  std::optional<CapTree> caps_;
+  std::optional<MaskSectors> sectors_;
   std::optional<BuiltTree> tree_;
 };
 
@@ -196,15 +198,17 @@ Region TreeBuild::region() const {
 
 Result<void> TreeBuild::look_at_surface() {
   if (model_.box) part_.emplace(model_.shape.float64, memory_.part_bytes, files_.triangles());
+  caps_.emplace(model_.frame, model_.shape, options_.page_bytes, memory_.cap_bytes,
+                files_.triangles(), files_.pages());
   const Checkpoint* const work = files_.work();
   if (work && work->surface()) {
     model_.edges = work->surface()->edges;
     model_.cut = work->surface()->cut;
+    caps_->resume(work->surface()->caps);
     if (part_) part_->add_extent(work->surface()->kept);
   } else if (const auto matched = match_edges(); !matched) {
     return matched;
   }
-  model_.shape.moments = model_.edges.unbalanced_edges > 0;
   if (model_.box) return {};
   model_.cut.triangle_count = model_.frame.triangle_count;
   model_.cut.sample_triangle = model_.frame.sample_triangle;
@@ -214,15 +218,18 @@ Result<void> TreeBuild::look_at_surface() {
 
 Result<void> TreeBuild::match_edges() {
   RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
-  auto edges =
-      octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),
-                          progress_, [&cut](const Triangles& chunk) { return cut.add(chunk); });
+  CapChain boundary(memory_.cap_bytes, files_.scratch());
+  auto edges = octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes,
+                                   files_.scratch(), progress_, boundary,
+                                   [&cut](const Triangles& chunk) { return cut.add(chunk); });
   if (!edges) return edges.error();
   model_.edges = *std::move(edges);
+  if (const auto closed = caps_->close(boundary, cut); !closed) return closed;
   model_.cut = cut.found();
   if (!files_.work()) return {};
   return keep(SurfaceWork{model_.edges, model_.cut,
-                          part_ ? part_->extents() : std::vector<TriangleRuns::Extent>()});
+                          part_ ? part_->extents() : std::vector<TriangleRuns::Extent>(),
+                          caps_->work()});
 }
 
 // The rest of the input is not needed from here on.
@@ -244,13 +251,13 @@ Result<void> TreeBuild::cut_out_part() {
 }
 
 Result<void> TreeBuild::build_chunks() {
-  if (model_.edges.unbalanced_edges == 0) {
-    sectors_.emplace(model_.frame.core_lower(), region(), model_.cut.winding, model_.frame.float64,
-                     memory_.visitor_bytes, files_.triangles());
-    const bool strays = model_.frame.has_strays();
-    const auto divided = sectors_->divide(runs(), strays, seams_.sector_triangles);
-    if (!divided) return divided;
-  }
+  sectors_.emplace(model_.frame.core_lower(), region(), model_.cut.winding, model_.frame.float64,
+                   memory_.visitor_bytes, files_.triangles());
+  if (const auto divided =
+          sectors_->divide(runs(), model_.frame.has_strays(), seams_.sector_triangles);
+      !divided)
+    return divided;
+  if (const auto built = caps_->build(*sectors_, seams_.chunk_triangles); !built) return built;
   model_.chunks.resize(model_.above.chunks.size());
   resume_chunks();
   return for_each_chunk(
@@ -263,7 +270,7 @@ void TreeBuild::resume_chunks() {
   if (!files_.work()) return;
   for (std::uint32_t i = 0; i < model_.chunks.size(); ++i) {
     auto chunk = files_.work()->take_chunk(i);
-    if (!chunk || (sectors_ && !sectors_->add_extent(chunk->part))) continue;
+    if (!chunk || !sectors_->add_extent(chunk->part)) continue;
     model_.chunks[i] = std::move(chunk->built);
   }
 }
@@ -271,11 +278,10 @@ void TreeBuild::resume_chunks() {
 Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
   triangles.sort();
   ChunkWork chunk;
-  if (sectors_) {
-    auto part = sectors_->add(triangles);
-    if (!part) return part.error();
+  if (auto part = sectors_->add(triangles); part)
     chunk.part = *std::move(part);
-  }
+  else
+    return part.error();
   auto built = build_chunk(triangles, model_.frame.centre(), model_.shape, options_.page_bytes,
                            files_.pages());
   if (!built) return built.error();
@@ -288,12 +294,12 @@ Result<void> TreeBuild::build(std::size_t number, Triangles& triangles) {
 Result<void> TreeBuild::number_pages() {
   tree_.emplace(model_.frame, model_.above, model_.chunks, model_.shape, options_.page_bytes,
                 files_.pages());
-  return tree_->check();
+  if (const auto checked = tree_->check(); !checked) return checked;
+  return caps_->number_pages(tree_->pages().size());
 }
 
-// Only a watertight model has a mask: its winding numbers are constant off the surface.
 Result<void> TreeBuild::colour_cells() {
-  if (!sectors_ || sectors_->touched_count() == 0) return {};
+  if (sectors_->touched_count() == 0) return {};
   model_.mask.emplace(options_.page_bytes, model_.frame.float64, files_.pages());
   auto earlier =
       files_.work() ? files_.work()->take_sectors() : std::map<std::uint32_t, BuiltSector>();
@@ -303,14 +309,16 @@ Result<void> TreeBuild::colour_cells() {
     const auto kept = keep(number, region);
     return kept ? count.add() : kept;
   };
-  const auto built = model_.mask->build(*sectors_, runs(), &*tree_, done);
+  const BuiltTrees trees(&*tree_, caps_->tree());
+  const auto built = model_.mask->build(*sectors_, runs(), trees, done);
   sectors_.reset();
   return built;
 }
 
 Result<BuildReport> TreeBuild::write_pages() {
   writing_ = true;
-  const auto header = write_tree(model_, *tree_, output_, options_, seams_.calls, progress_);
+  const auto header =
+      write_tree(model_, *tree_, *caps_, output_, options_, seams_.calls, progress_);
   if (!header) return header.error();
   if (const auto removed = files_.remove_work(); !removed) return removed.error();
   return BuildReport{*header, model_.frame, files_.disk_bytes(), notes_};

@@ -59,22 +59,34 @@ void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::Mode
   model.mask_levels = static_cast<std::uint8_t>(built.mask->levels());
 }
 
+void describe_caps(const CapTree& caps, storage::ModelRecord& model) {
+  const BuiltTree* const tree = caps.tree();
+  if (!tree) return;
+  model.cap_count = caps.count();
+  model.cap_area = caps.area();
+  model.cap_node_count = tree->node_count();
+  model.cap_block_count = tree->block_count();
+  model.cap_page_count = tree->pages().size();
+  model.cap_root_link = tree->pages().root_link();
+}
+
 }  // namespace
 
 Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree& tree,
-                                       const std::filesystem::path& output,
+                                       const CapTree& caps, const std::filesystem::path& output,
                                        const BuildOptions& options, storage::FileCalls& calls,
                                        BuildProgress& progress) {
   const TreePages& pages = tree.pages();
   const std::uint32_t mask_pages = built.mask ? built.mask->size() : 0;
-  const std::uint32_t page_count = pages.size() + mask_pages;
+  const BuiltTrees trees(&tree, caps.tree());
+  const std::uint32_t page_count = trees.page_count() + mask_pages;
   auto writer = storage::PageWriter::create(output, page_count, options.replace, calls);
   if (!writer) return writer.error();
   PageAppender appender(*writer, progress, page_count);
   // Triangles beyond a wall may touch the lines that prove a height field.
   const bool has_walls = built.box && built.box->region(built.frame).has_walls();
   std::optional<HeightFieldMarks> height_fields;
-  if (built.mask && !has_walls) height_fields.emplace(tree, *built.mask);
+  if (built.mask && !has_walls) height_fields.emplace(trees, *built.mask);
   const auto appended = appender.append(pages.size(), [&](std::uint32_t number) {
     auto page = pages.encode(number);
     if (page && height_fields)
@@ -82,14 +94,23 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
     return page;
   });
   if (!appended) return appended.error();
+  if (trees.caps) {
+    writer->begin_caps();
+    const TreePages& cap_pages = trees.caps->pages();
+    const auto capped = appender.append(cap_pages.size(), [&](std::uint32_t page) {
+      return cap_pages.encode(cap_pages.first() + page);
+    });
+    if (!capped) return capped.error();
+  }
   writer->begin_mask();
   const auto masked = appender.append(
-      mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, pages.size()); });
+      mask_pages, [&](std::uint32_t page) { return built.mask->encode(page, trees.page_count()); });
   if (!masked) return masked.error();
   storage::ModelRecord model{};
   describe_mesh(built, model);
   describe_region(built, model);
   describe_tree(built, tree, model);
+  describe_caps(caps, model);
   return writer->finish(model, options.page_bytes);
 }
 

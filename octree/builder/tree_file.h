@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "octree/builder/cap_tree.h"
 #include "octree/builder/job/build_options.h"
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/job/model_frame.h"
@@ -30,18 +31,18 @@ struct BuiltModel {
   std::optional<RegionBox> box;
   ChunkTree above;
   std::vector<BuiltChunk> chunks;  ///< in the order of above.chunks
-  std::optional<BuiltMask> mask;   ///< only if the model is watertight
+  std::optional<BuiltMask> mask;   ///< only if triangles are in the region
 };
 
 /// Joins the parts and writes the file, completely or not at all.
 ///
-/// tree     the tree of the model's chunks.
+/// tree     the tree of the model's chunks, and `caps` that of its caps.
 /// calls    the system.
 /// return   the header as written.
 /// errors   those of SpillFile and PageWriter.
 /// Uses the calling thread's TBB arena.
 Result<storage::FileHeader> write_tree(const BuiltModel& model, const BuiltTree& tree,
-                                       const std::filesystem::path& output,
+                                       const CapTree& caps, const std::filesystem::path& output,
                                        const BuildOptions& options, storage::FileCalls& calls,
                                        BuildProgress& progress);
 

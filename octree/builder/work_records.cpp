@@ -32,7 +32,8 @@ bool SpillExtent::take(const OrderedMesh& mesh) {
 }
 
 bool SpillExtent::take(const SurfaceWork& surface, bool float64) {
-  return take(surface.kept, surface.cut.triangle_count, float64);
+  return take(surface.kept, surface.cut.triangle_count, float64) &&
+         take(surface.caps.runs, surface.caps.count, float64);
 }
 
 bool SpillExtent::take(const std::vector<SpilledPage>& pages, std::size_t head_bytes) {

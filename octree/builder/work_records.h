@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "octree/builder/cap_tree.h"
 #include "octree/builder/job/record_fields.h"
 #include "octree/builder/mask/built_mask.h"
 #include "octree/builder/mask/mask_sectors.h"
@@ -21,12 +22,13 @@ struct SurfaceWork {
   EdgeBalance edges;
   SurfaceCut cut;
   std::vector<TriangleRuns::Extent> kept;  ///< runs of the triangles that touch a region
+  CapWork caps;
 };
 
 /// Result of building a chunk.
 struct ChunkWork {
   BuiltChunk built;
-  MaskSectors::Part part;  ///< only if the model is watertight
+  MaskSectors::Part part;
 };
 
 /// Adds up the parts of a file that records refer to. take() refuses a record that is invalid or
@@ -93,7 +95,12 @@ void fields(Record& record, Value& cut) {
 
 template <class Record, IsA<SurfaceWork> Value>
 void fields(Record& record, Value& surface) {
-  record(surface.edges, surface.cut, surface.kept);
+  record(surface.edges, surface.cut, surface.kept, surface.caps);
+}
+
+template <class Record, IsA<CapWork> Value>
+void fields(Record& record, Value& caps) {
+  record(caps.count, caps.area, caps.runs);
 }
 
 template <class Record, IsA<SpilledPage> Value>

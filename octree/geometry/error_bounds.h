@@ -193,6 +193,8 @@ inline constexpr double kAsinOverTwoPi = 0.25;
 inline constexpr double kAngleError = 0x1p-50;
 /// Relative error of a sum of three error terms: two additions err by 2 u.
 inline constexpr double kWindingErrorInflation = 1 + 0x1p-50;
+/// Relative error of a whole number less the share of the triangles at a point, and of that share.
+inline constexpr double kStarRounding = 0x1p-52;
 /// On the surface: a winding number of a smaller error has a certain sign, or is below 1/4 where
 /// its magnitude is below the error.
 inline constexpr double kMaxSurfaceWindingError = 0.125;

@@ -54,8 +54,8 @@ void SideGrid::measure(const Point& size, unsigned level, bool clipped, int scal
 
 // Fills in the cells of a level and what is known about the grey ones. Returns false if `memory` is
 // too small for it.
-bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool clipped,
-                          std::span<std::byte> memory) {
+bool SideGrid::fill_cells(const MaskInfo& mask, const CapGrid& caps, const PageReader& pages,
+                          bool clipped, std::span<std::byte> memory) {
   const double brick_count = 1.0 * bricks_along(0) * bricks_along(1) * bricks_along(2);
   if (brick_count > static_cast<double>(memory.size())) return false;
   const auto bricks = static_cast<std::size_t>(brick_count);
@@ -68,7 +68,7 @@ bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool cl
   const std::span<SideGridCells::Codes> filled(
       reinterpret_cast<SideGridCells::Codes*>(memory.data() + filled_at), bricks);
   std::uninitialized_fill(filled.begin(), filled.end(), SideGridCells::kUnfilled);
-  SideGridBuilder builder(*this, filled, mask, pages, clipped);
+  SideGridBuilder builder(*this, filled, mask, caps, pages, clipped);
   builder.fill_cells();
   cells_.first_word = reinterpret_cast<std::uint32_t*>(memory.data());
   cells_.words = reinterpret_cast<std::uint64_t*>(memory.data() + index_bytes);
@@ -85,8 +85,8 @@ bool SideGrid::fill_cells(const MaskInfo& mask, const PageReader& pages, bool cl
   return true;
 }
 
-void SideGrid::fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, int scale,
-                    const PageReader& pages, std::span<std::byte> memory) noexcept {
+void SideGrid::fill(const MaskInfo& mask, const TreeInfo& tree, const CapGrid& caps, bool clipped,
+                    int scale, const PageReader& pages, std::span<std::byte> memory) noexcept {
   // A forged header may state a box that does not fit into the root.
   const Point size = tree.core_upper - mask.lower;
   const bool fits = (size.array() >= 0).all() && (size.array() <= 2).all();
@@ -96,7 +96,7 @@ void SideGrid::fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, in
   // Takes the finest level that fits into the memory.
   for (unsigned level = kLevels - 2; level > 0; --level) {
     measure(size, level, clipped, scale);
-    if (fill_cells(mask, pages, clipped, memory)) return;
+    if (fill_cells(mask, caps, pages, clipped, memory)) return;
   }
   *this = {};
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "octree/geometry/cell_grid.h"
+#include "octree/mask/cap_grid.h"
 #include "octree/mask/grid_coordinates.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid_cells.h"
@@ -37,7 +38,7 @@ using SideGridLookup = int (*)(const GridCoordinates& coordinates, const SideGri
 SideGridLookup fastest_side_grid_lookup() noexcept;
 
 /// A table of a mask's cells of one level, with a rim of cells around the core, which are white
-/// if there are no strays and else unknown. Of
+/// if there are no strays and no caps nearby, and else unknown. Of
 /// grey cells it also has the colours of two more levels, and the slabs of leaves. One lookup tells
 /// the side of most points and reads no page. For other points the grid has records of the mask, so
 /// that a lookup in the mask need not start at the root. The grid is filled once. Then any thread
@@ -57,10 +58,11 @@ class SideGrid {
   /// Fills the grid from a mask's first pages, as far as these are available.
   ///
   /// clipped  cells are clamped to the walls of a region, so that octants may not be halves.
+  /// caps     cells where it is not clear are unknown.
   /// scale    coordinates in the model frame are those of the input times 2^scale.
   /// memory   storage of the grid, aligned to 16 bytes; must outlive this.
-  void fill(const MaskInfo& mask, const TreeInfo& tree, bool clipped, int scale,
-            const PageReader& pages, std::span<std::byte> memory) noexcept;
+  void fill(const MaskInfo& mask, const TreeInfo& tree, const CapGrid& caps, bool clipped,
+            int scale, const PageReader& pages, std::span<std::byte> memory) noexcept;
 
   static constexpr int kUnknown = SideGridCells::kUnknown;
 
@@ -156,7 +158,7 @@ class SideGrid {
     return ((width_[axis] - 1) >> SideGridCells::kBrickBits) + 1;
   }
   void measure(const Point& size, unsigned level, bool clipped, int scale);
-  bool fill_cells(const MaskInfo& mask, const PageReader& pages, bool clipped,
+  bool fill_cells(const MaskInfo& mask, const CapGrid& caps, const PageReader& pages, bool clipped,
                   std::span<std::byte> memory);
 
   GridCoordinates coordinates_;

@@ -17,8 +17,8 @@ class SideGrid::SideGridBuilder {
  public:
   /// cells  receives the codes of bricks; not used once these are laid out.
   SideGridBuilder(SideGrid& grid, std::span<SideGridCells::Codes> cells, const MaskInfo& mask,
-                  const PageReader& pages, bool clipped)
-      : grid_(grid), cells_(cells), mask_(mask), pages_(pages), clipped_(clipped) {}
+                  const CapGrid& caps, const PageReader& pages, bool clipped)
+      : grid_(grid), cells_(cells), mask_(mask), caps_(caps), pages_(pages), clipped_(clipped) {}
 
   void fill_cells() {
     fill_rim();
@@ -55,7 +55,7 @@ class SideGrid::SideGridBuilder {
       for (std::uint32_t y = 0; y < end(1); ++y) {
         const bool all = in_rim(2, z) || in_rim(1, y);
         for (std::uint32_t x = 0; x < end(0); ++x)
-          if (all || in_rim(0, x)) set({x, y, z}, SideGridCells::kWhite);
+          if ((all || in_rim(0, x)) && is_clear({x, y, z})) set({x, y, z}, SideGridCells::kWhite);
       }
   }
 
@@ -112,7 +112,8 @@ class SideGrid::SideGridBuilder {
       if (!record) continue;
       if ((node.leaf >> octant & 1) != 0)
         note(at, octant,
-             read_leaf(record, records_->child_link(node, octant), cell.child(octant)).record(0));
+             read_leaf(record, records_->child_link(node, octant), cell.child(octant))
+                 .record(0, is_clear(at, octant)));
       else
         note(at, octant, SideGridRecord::of_node(*reinterpret_cast<const MaskNode*>(record)));
     }
@@ -127,8 +128,9 @@ class SideGrid::SideGridBuilder {
     CellSlab slab{};
     unsigned touched = 0xff;  // octants of the leaf that listed blocks touch
 
-    SideGridRecord record(unsigned above) const {
-      return listed ? SideGridRecord::of_list(head, link, slab, touched, above)
+    // clear  whether the slab tells sides
+    SideGridRecord record(unsigned above, bool clear) const {
+      return listed ? SideGridRecord::of_list(head, link, clear ? slab : CellSlab{}, touched, above)
                     : SideGridRecord::of_leaf(link, above);
     }
   };
@@ -161,14 +163,14 @@ class SideGrid::SideGridBuilder {
         if ((leaf.touched >> of_leaf & 1) == 0)
           fill(at, octant, corner_number(leaf.head, of_leaf));
         else
-          note(at, octant, leaf.record(above));
+          note(at, octant, leaf.record(above, is_clear(at, octant)));
       }
     });
   }
 
   void fill(const Position& at, unsigned octant, int winding) {
     if (!is_certain(winding)) return note(at, octant, SideGridRecord::of_colour(winding));
-    if (pass_ != Pass::kOctants || !is_listed_at(at)) return;
+    if (pass_ != Pass::kOctants || !is_listed_at(at) || !is_clear(at, octant)) return;
     const SideGridCells::Octant filled =
         grid_.cells_.octant_of(grid_.coordinates_.cell_at(at), octant);
     filled.group.unknown &= ~filled.bit;
@@ -183,6 +185,18 @@ class SideGrid::SideGridBuilder {
   // A page that was missing in the first pass may be available later; its cells are not listed.
   bool is_listed_at(const Position& at) const {
     return grid_.cells_.code_of(grid_.coordinates_.cell_at(at)) == SideGridCells::kListed;
+  }
+  // Whether the caps leave sides in a cell of the grid, or in an octant of it, to the mask.
+  bool is_clear(const Position& at) const { return is_clear_box(at, {0, 0, 0}, 4); }
+  bool is_clear(const Position& at, unsigned octant) const {
+    return is_clear_box(at, {2 * (octant & 1), octant & 2, octant >> 1 & 2}, 2);
+  }
+  // offset, width  in octants of octants
+  bool is_clear_box(const Position& at, const Position& offset, int width) const {
+    Point lower;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      lower[axis] = grid_.side(axis, 4 * (std::int64_t{at[axis]} - kRim) + offset[axis]);
+    return caps_.is_clear_box(lower, lower + Point::Constant(width * grid_.min_side_));
   }
   void set(const Position& at, SideGridCells::Code code) {
     const SideGridCells::Cell cell = grid_.coordinates_.cell_at(at);
@@ -199,10 +213,13 @@ class SideGrid::SideGridBuilder {
   }
 
   void fill_colour(const GridCell& cell, int winding) {
-    if (is_certain(winding))
-      each_cell(cell, [&](const Position& at) {
+    if (!is_certain(winding)) return;
+    const CellGrid grid(mask_.lower);
+    const bool all_clear = caps_.is_clear_box(grid.lower(cell), grid.upper(cell));
+    each_cell(cell, [&](const Position& at) {
+      if (all_clear || is_clear(at))
         set(at, winding == 0 ? SideGridCells::kWhite : SideGridCells::kInside);
-      });
+    });
   }
   // Calls call(position) for each of the grid's cells within a cell.
   template <class Call>
@@ -220,6 +237,7 @@ class SideGrid::SideGridBuilder {
   SideGrid& grid_;
   const std::span<SideGridCells::Codes> cells_;
   const MaskInfo& mask_;
+  const CapGrid& caps_;
   const PageReader pages_;
   const bool clipped_;
   MaskRecords* records_ = nullptr;

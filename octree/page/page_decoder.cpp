@@ -259,7 +259,7 @@ const char* PageDecoder::link_to_page(Node& parent, std::size_t child) {
   if (next_page_link_ >= streams_.head.page_link_count) return "its page links do not add up";
   const std::uint32_t link = streams_.page_links[next_page_link_++];
   const std::uint32_t page = links_.page(link);
-  if (page <= info_.page_number || page >= info_.page_count)
+  if (page <= info_.page_number || page - info_.first_page >= info_.page_count)
     return "a link leads to a page that cannot be below it";
   parent.link[child] = link;
   return nullptr;

@@ -43,8 +43,7 @@ void take_nodes(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
 const char* take_corners(StreamReader& layout, RawStreams& s, const BlockShape& shape) {
   std::size_t bytes = 0, triangles = 0;
   for (std::size_t i = 0; i < s.head.block_count; ++i) {
-    if (s.is_height_field(i) && shape.moments)
-      return "a surface that is not watertight has a height field";
+    if (s.is_height_field(i) && shape.moments) return "a cap is in a height field";
     const unsigned triangle_count = s.triangle_count(i);
     const unsigned vertex_count = s.vertex_counts[i];
     if (triangle_count == 0 || triangle_count > kMaxBlockTriangles || vertex_count == 0 ||

@@ -64,6 +64,7 @@ struct PageReader {
 struct TreeInfo {
   std::uint32_t page_bytes = 0;
   std::uint32_t root_link = 0;
+  std::uint32_t first_page = 0;  ///< first page of the tree in the file
   BlockShape shape;
   std::uint64_t record_count = 0;  ///< nodes and blocks together
   Point box_lower = Point::Zero();
@@ -76,7 +77,12 @@ struct TreeInfo {
   bool has_strays = false;                   ///< some triangle is not in the core
   double stray_edge = 0;                     ///< see storage::ModelRecord::stray_edge
   double bound_slack = kAbsoluteBoundSlack;  ///< octree::bound_slack() of stray_edge
+  /// Tree of the caps that close the surface; null: the surface is watertight, or this is a tree of
+  /// caps. Its nodes have moments; otherwise blocks have the shape of the surface's.
+  const TreeInfo* caps = nullptr;
 
+  /// Returns whether a page of the file, of the surface or of its caps, is of the caps.
+  bool is_of_caps(std::uint32_t page) const { return caps && page >= caps->first_page; }
   void set_strays(std::uint64_t count, double edge) {
     has_strays = count > 0;
     stray_edge = edge;

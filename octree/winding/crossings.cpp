@@ -26,7 +26,8 @@ class CrossingSum {
   CrossingSum(const PerturbedSegment& segment, WorkLimit& limit)
       : segment_(segment), limit_(limit) {}
 
-  void add(const Triangle& triangle) {
+  void add(const Triangle& triangle, bool is_cap) {
+    caps_ |= static_cast<unsigned>(is_cap) << size_;
     if (size_ == 0)
       rows_.fill(0, triangle);
     else
@@ -43,22 +44,25 @@ class CrossingSum {
 
  private:
   void test() {
-    const unsigned used = (1U << size_) - 1;
+    const unsigned used = (1U << size_) - 1, caps = caps_;
     size_ = 0;
+    caps_ = 0;
     if (!limit_.take()) return;
     const CrossedTriangles crossed = cross_triangles(rows_, segment_);
     sum_.difference += std::popcount(crossed.forward & used);
     sum_.difference -= std::popcount(crossed.backward & used);
     for (unsigned unsure = crossed.unsure & used; unsure != 0; unsure &= unsure - 1) {
       if (!limit_.take(WorkUnits::kExactCrossing)) return;
-      add_exactly(rows_.triangle(static_cast<unsigned>(std::countr_zero(unsure))));
+      const auto at = static_cast<unsigned>(std::countr_zero(unsure));
+      add_exactly(rows_.triangle(at), (caps >> at & 1) != 0);
     }
   }
 
   // Many triangles may coincide; only the first of them is tested.
-  void add_exactly(const Triangle& triangle) {
-    if (triangle != tested_) {
-      sum_.on_surface = sum_.on_surface || lies_on(segment_.from, triangle, &limit_);
+  void add_exactly(const Triangle& triangle, bool is_cap) {
+    if (triangle != tested_ || is_cap != tested_is_cap_) {
+      sum_.on_surface = sum_.on_surface || (!is_cap && lies_on(segment_.from, triangle, &limit_));
+      tested_is_cap_ = is_cap;
       tested_crossing_ = crossing(segment_, triangle, &limit_);
       tested_ = triangle;
     }
@@ -68,11 +72,13 @@ class CrossingSum {
   const PerturbedSegment& segment_;
   WorkLimit& limit_;
   std::size_t size_ = 0;
+  unsigned caps_ = 0;  // which of the rows are caps, one bit each
   TriangleRows<kTrianglesAtOnce> rows_;
   Crossings sum_;
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   // The last triangle tested by exact signs.
   Triangle tested_{Point::Constant(kNone), Point::Constant(kNone), Point::Constant(kNone)};
+  bool tested_is_cap_ = false;
   int tested_crossing_ = 0;
 };
 
@@ -107,13 +113,13 @@ class BlockCrossings {
         crossings_(segment, limit),
         work_(work) {}
 
-  void visit(const BlockView& block) {
+  void visit(const BlockView& block, bool is_of_caps) {
     const float* vertices = block.float_vertices();
     const FloatSegment& in_float = is_stray(block) ? stray_segment_ : block_segment_;
     unsigned met =
         vertices ? triangles_met(block.header(), vertices, in_float) : boxes_met(block, segment_);
     for (; met != 0; met &= met - 1) {
-      crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))));
+      crossings_.add(block.triangle(static_cast<unsigned>(std::countr_zero(met))), is_of_caps);
       ++work_.triangles;
     }
   }
@@ -148,10 +154,14 @@ Crossings count_on_target(const TreeInfo& tree, const PerturbedSegment& segment,
   const FloatSegment node_segment = FloatSegment::between(segment.from, segment.to, tree.centre, 0);
   WorkLimit limit(work.units, max_work);
   BlockCrossings crossings(tree, segment, limit, work);
-  const auto visit = [&](const BlockView& block, std::uint32_t)
-                         HWY_ATTR { crossings.visit(block); };
   const auto meeting = [&](const Node& node) HWY_ATTR { return children_met(node, node_segment); };
-  const bool complete = TreeWalk(tree, pages, work).run(max_work, visit, meeting);
+  const auto walk = [&](const TreeInfo& walked, bool is_of_caps) {
+    const auto visit = [&](const BlockView& block, std::uint32_t)
+                           HWY_ATTR { crossings.visit(block, is_of_caps); };
+    return TreeWalk(walked, pages, work).run(limit.left(), visit, meeting);
+  };
+  bool complete = walk(tree, false);
+  if (tree.caps && complete) complete = walk(*tree.caps, true);
   return crossings.found(complete);
 }
 
@@ -161,6 +171,7 @@ Crossings count_in_blocks_on_target(const TreeInfo& tree, const PerturbedSegment
   WorkLimit limit(work.units, max_work);
   if (!limit.take(blocks.size())) return {.complete = false};
   LinkResolver records(tree, pages);
+  const LinkFormat links(tree.page_bytes);
   for (const std::uint32_t link : blocks) records.prefetch(link);
   BlockCrossings crossings(tree, segment, limit, work);
   bool complete = true;
@@ -169,7 +180,7 @@ Crossings count_in_blocks_on_target(const TreeInfo& tree, const PerturbedSegment
     complete = complete && record;
     if (!record) continue;
     ++work.blocks;
-    crossings.visit(BlockView(record, tree.shape));
+    crossings.visit(BlockView(record, tree.shape), tree.is_of_caps(links.page(link)));
   }
   return crossings.found(complete);
 }

@@ -61,13 +61,18 @@ class OpenList {
 class WindingSum {
  public:
   WindingSum(const TreeInfo& tree, const Point& point, std::uint64_t max_work,
-             const PageReader& pages, TraversalStats& work)
+             const PageReader& pages, TraversalStats& work, const WindingBase& base,
+             WindingGoal goal)
       : tree_(tree),
         point_(point),
+        goal_(goal),
         work_(work),
         limit_(work.units, max_work),
         multipoles_(point, tree),
-        records_(tree, pages) {}
+        records_(tree, pages) {
+    value_.add(base.value);
+    error_.add(base.error);
+  }
 
   WindingNumber run() {
     // At most the number of records: in a forged tree links could lead in circles.
@@ -87,9 +92,10 @@ class WindingSum {
     }
     complete_ = complete_ && !limit_.exceeded();
     WindingNumber result = sum();
-    // On the surface, records that were lost leave the error below its limit without telling the
-    // sign that all records tell.
-    result.complete = complete_ || (on_surface_ ? result.sign_is_certain() : decided());
+    // Records that were lost may leave the error below its limit without telling the sign that all
+    // records tell.
+    result.complete =
+        complete_ || (goal_ == WindingGoal::kSign ? result.sign_is_certain() : decided());
     return result;
   }
 
@@ -107,13 +113,13 @@ class WindingSum {
   bool decided() const {
     if (unknown_ > 0) return false;
     const WindingNumber so_far = sum();
-    if (!on_surface_) return so_far.above_half() || so_far.below_half();
+    if (goal_ == WindingGoal::kHalf) return so_far.above_half() || so_far.below_half();
     return so_far.sign_is_certain() || so_far.error < kMaxSurfaceWindingError;
   }
 
   void add_proxy(const Proxy& proxy) {
     if (proxy.known()) {
-      value_.add(proxy.share.value);
+      value_.add(-proxy.share.value);
       error_.add(proxy.share.error);
     } else {
       ++unknown_;
@@ -121,7 +127,7 @@ class WindingSum {
   }
   void remove_proxy(const Proxy& proxy) {
     if (proxy.known()) {
-      value_.add(-proxy.share.value);
+      value_.add(proxy.share.value);
       error_.add(-proxy.share.error);
     } else {
       --unknown_;
@@ -169,7 +175,7 @@ class WindingSum {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       ++work_.triangles;
       const WindingShare share = winding_share(point_, block.triangle(i), &limit_);
-      value_.add(share.value);
+      value_.add(-share.value);
       error_.add(share.error);
       on_surface_ = on_surface_ || share.on_surface;
     }
@@ -177,6 +183,7 @@ class WindingSum {
 
   const TreeInfo& tree_;
   const Point& point_;
+  const WindingGoal goal_;
   TraversalStats& work_;
   WorkLimit limit_;
   const Multipoles multipoles_;
@@ -193,8 +200,9 @@ class WindingSum {
 }  // namespace
 
 WindingNumber winding_number(const TreeInfo& tree, const Point& point, std::uint64_t max_work,
-                             const PageReader& pages, TraversalStats& work) noexcept {
-  return WindingSum(tree, point, max_work, pages, work).run();
+                             const PageReader& pages, TraversalStats& work, const WindingBase& base,
+                             WindingGoal goal) noexcept {
+  return WindingSum(tree, point, max_work, pages, work, base, goal).run();
 }
 
 }  // namespace planetree::octree

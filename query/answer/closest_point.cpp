@@ -210,7 +210,8 @@ class ClosestPointQuery {
   // limited work: they fetch the pages for other queries, which may have to search the mask. A
   // region with walls has no height fields, even if its file says so.
   bool faces_decide(const octree::NearestAnswer& nearest) {
-    if (!remember_ || !octree::HeightField::tells_side(nearest) || model_.region.has_walls())
+    if (!remember_ || !octree::HeightField::tells_side(nearest) || model_.region.has_walls() ||
+        !model_.cap_grid.is_clear_between(nearest.point, point_))
       return false;
     // Finding all faces at a vertex may visit many nodes. Enough must be left for the search.
     if (nearest.feature != Feature::kFace && work_left() < kNodesForFaces) return false;

@@ -28,6 +28,15 @@ octree::TreeInfo tree_info(const storage::FileHeader& header, const Scale& scale
   return tree;
 }
 
+octree::TreeInfo cap_info(const storage::FileHeader& header, const octree::TreeInfo& surface) {
+  octree::TreeInfo caps = surface;
+  caps.first_page = header.first_cap_page();
+  caps.root_link = header.model.cap_root_link;
+  caps.shape = cap_shape(header.model);
+  caps.record_count = header.model.cap_node_count + header.model.cap_block_count;
+  return caps;
+}
+
 octree::MaskInfo mask_info(const storage::FileHeader& header, const octree::TreeInfo& tree) {
   octree::MaskInfo mask;
   mask.page_bytes = header.page_bytes;
@@ -50,10 +59,15 @@ octree::Region region_of(const storage::ModelRecord& model) {
 ModelGeometry::ModelGeometry(const storage::FileHeader& header)
     : scale(header.model.scale_exponent),
       tree(tree_info(header, scale)),
+      caps(cap_info(header, tree)),
       mask(mask_info(header, tree)),
       region(region_of(header.model)),
       region_corner(region.clamped(tree.core_lower)),
-      region_winding(header.model.region_winding),
-      watertight(header.model.unbalanced_edge_count == 0) {}
+      cap_area(header.model.cap_area),
+      region_winding(header.model.region_winding) {
+  if (header.model.cap_count == 0) return;
+  tree.caps = &caps;
+  cap_grid = octree::CapGrid::unfilled();
+}
 
 }  // namespace planetree::query

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "octree/geometry/cell_grid.h"
+#include "octree/mask/cap_grid.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/traversal/tree_view.h"
@@ -15,15 +16,19 @@ namespace planetree::query {
 /// is filled; then any number of threads may read it. Lengths are in the model frame.
 struct ModelGeometry {
   explicit ModelGeometry(const storage::FileHeader& header);
+  ModelGeometry(const ModelGeometry&) = delete;  // `tree` points to `caps`
+  ModelGeometry& operator=(const ModelGeometry&) = delete;
 
   Scale scale;
-  octree::TreeInfo tree;
+  octree::TreeInfo tree;  ///< tree.caps is null if the surface is watertight
+  octree::TreeInfo caps;
   octree::MaskInfo mask;
   octree::SideGrid side_grid;   ///< empty until filled
+  octree::CapGrid cap_grid;     ///< if there are caps, nothing is clear until it is filled
   octree::Region region;        ///< part of space whose surface the file holds
   octree::Point region_corner;  ///< a point of the region; see region_winding
-  std::int64_t region_winding;  ///< winding number at `region_corner`; only if watertight
-  bool watertight;              ///< no edge is unbalanced
+  double cap_area;              ///< sum of the caps' areas
+  std::int64_t region_winding;  ///< winding number at `region_corner`, caps included
 };
 
 /// Returns the part of space in which a file holds the whole surface, model frame.

@@ -8,7 +8,7 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/nearest/nearest.h"
-#include "octree/winding/winding_number.h"
+#include "query/answer/open_side.h"
 #include "query/answer/query_context.h"
 #include "query/answer/side_search.h"
 
@@ -17,49 +17,22 @@ namespace {
 
 using octree::Point;
 
-SideResult by_crossings(const ModelGeometry& model, const Point& point, std::uint64_t max_work,
-                        const octree::PageReader& pages, octree::TraversalStats& work,
-                        SideReason* reason) {
+// The triangles missing from a file of a region may change sides beyond its walls.
+constexpr SideResult kBeyondWall{Side::kUnknown, Status::kDegraded};
+
+// Finds the side of a point of the region.
+SideResult find_known_side(const ModelGeometry& model, const Point& point, std::uint64_t max_work,
+                           const octree::PageReader& pages, octree::TraversalStats& work,
+                           SideReason* reason) {
   if (outside_box(model.tree, point)) {
     if (reason) reason->rule = SideReason::Rule::kOutsideBox;
-    return {Side::kOutside};
+    if (!model.tree.caps) return {Side::kOutside};
+    return OpenSide(model, point, max_work, pages, work, reason, nullptr).run({Side::kOutside});
   }
-  return SideSearch(model, point, max_work, pages, work, reason).run();
-}
-
-// Returns whether the triangles missing from a file of a region may change a point's side: beyond a
-// wall of the region; and anywhere in a model that is not watertight, where winding numbers are not
-// constant off the surface.
-bool is_unknowable(const ModelGeometry& model, const Point& point) {
-  const octree::Region& region = model.region;
-  return region.has_walls() && (!region.holds(point) || !model.watertight);
-}
-
-// Rounds to the nearest whole number; clamps to +-2^62.
-std::int64_t rounded(double value) {
-  constexpr double kMaxWindingNumber = 0x1p62;  // fits std::int64_t
-  return static_cast<std::int64_t>(
-      std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMaxWindingNumber, kMaxWindingNumber));
-}
-
-SideResult by_winding_number(const octree::TreeInfo& tree, const Point& point,
-                             std::uint64_t max_work, const octree::PageReader& pages,
-                             octree::TraversalStats& work, SideReason* reason) {
-  if (reason) reason->rule = SideReason::Rule::kWindingNumber;
-  // Seen from so far away, all triangles together have no measurable solid angle.
-  if (!(point.cwiseAbs().maxCoeff() <= octree::kMaxQueryCoordinate)) return {Side::kOutside};
-  const octree::WindingNumber w = octree::winding_number(tree, point, max_work, pages, work);
-  if (reason) {
-    reason->value = w.value;
-    reason->error = w.error;
-  }
-  if (w.on_surface) {
-    const int sign = w.sign_is_certain() ? (w.value < 0 ? -1 : 1) : 0;
-    return {Side::kOnSurface, Status::kExact, sign, false, w.complete};
-  }
-  if (w.above_half()) return {Side::kInside, Status::kExact, rounded(w.value)};
-  if (w.below_half()) return {Side::kOutside, Status::kExact};
-  return {Side::kUnknown, w.complete ? Status::kExact : Status::kDegraded};
+  SideSearch search(model, point, max_work, pages, work, reason);
+  const SideResult closed = search.run();
+  if (!model.tree.caps) return closed;
+  return OpenSide(model, point, search.work_left(), pages, work, reason, &search).run(closed);
 }
 
 double largest_coordinate(const octree::Triangle& triangle) {
@@ -102,12 +75,11 @@ SideResult find_side(const ModelGeometry& model, const Point& point, std::uint64
                      const octree::PageReader& pages, octree::TraversalStats& work,
                      SideReason* reason) noexcept {
   if (reason) *reason = {};
-  if (is_unknowable(model, point)) {
+  if (!model.region.holds(point)) {
     if (reason) reason->rule = SideReason::Rule::kRegion;
-    return {};
+    return kBeyondWall;
   }
-  return model.watertight ? by_crossings(model, point, max_work, pages, work, reason)
-                          : by_winding_number(model.tree, point, max_work, pages, work, reason);
+  return find_known_side(model, point, max_work, pages, work, reason);
 }
 
 std::optional<SideResult> side_without_pages(const ModelGeometry& model, const Point& point,
@@ -115,14 +87,16 @@ std::optional<SideResult> side_without_pages(const ModelGeometry& model, const P
   if (lookup.winding != octree::SideGrid::kUnknown)
     return SideResult{lookup.winding != 0 ? Side::kInside : Side::kOutside, Status::kExact,
                       lookup.winding};
-  if (is_unknowable(model, point)) return SideResult{};
-  if (model.watertight && outside_box(model.tree, point)) return SideResult{Side::kOutside};
+  if (!model.region.holds(point)) return kBeyondWall;
+  if (!model.tree.caps && outside_box(model.tree, point)) return SideResult{Side::kOutside};
   return {};
 }
 
 bool is_cached_side(const ModelGeometry& model, const Point& point, double clear,
                     SideCache& cache) noexcept {
-  if (!model.region.holds(point) || !cache.same_side(point, clear)) return false;
+  if (!model.region.holds(point) || !cache.same_side(point, clear) ||
+      !model.cap_grid.is_clear_between(cache.point(), point))
+    return false;
   cache.move_to(point, clear);
   return true;
 }
@@ -131,14 +105,15 @@ SideResult find_side(const ModelGeometry& model, const Point& point,
                      const octree::SideGrid::Lookup& lookup, double clear, SideCache& cache,
                      std::uint64_t max_work, const octree::PageReader& pages,
                      octree::TraversalStats& work) noexcept {
-  if (!model.watertight || !model.region.holds(point) || outside_box(model.tree, point))
+  if (!model.region.holds(point) || outside_box(model.tree, point))
     return find_side(model, point, max_work, pages, work);
   if (is_cached_side(model, point, clear, cache)) return cache.side_result();
   SideSearch search(model, point, max_work, pages, work, nullptr, {&cache, &lookup});
-  const SideResult side_result = search.run();
-  if (side_result.status == Status::kExact)
-    cache.note(point, side_result, search.has_exact_winding(), clear);
-  return side_result;
+  const SideResult closed = search.run();
+  if (closed.status == Status::kExact && model.cap_grid.is_clear(point))
+    cache.note(point, closed, search.has_exact_winding(), clear);
+  if (!model.tree.caps) return closed;
+  return OpenSide(model, point, search.work_left(), pages, work, nullptr, &search).run(closed);
 }
 
 SideResult find_containment(const QueryContext& context, const Vec3& query,

@@ -10,8 +10,15 @@ namespace planetree::query {
 
 using octree::Point;
 
-SideResult SideSearch::run() {
-  if (search_mask()) return side_result_;
+SideResult SideSearch::run() { return search_mask() ? side_result_ : cross_out(); }
+
+SideResult SideSearch::count_exactly(std::uint64_t max_work) {
+  work_before_ = work_.units;
+  max_work_ = max_work;
+  return cross_out();
+}
+
+SideResult SideSearch::cross_out() {
   // Usually the first segment decides. Another may do without a page that is missing.
   const octree::Region& region = model_.region;
   const ExitSegments segments(model_.tree, point_);

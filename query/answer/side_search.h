@@ -64,9 +64,9 @@ struct SideHints {
   const octree::SideGrid::Lookup* lookup = nullptr;  ///< result of look_up_side_grid()
 };
 
-/// Finds the side of one point of a watertight model. The point is in the model's box and in its
-/// region. Where the mask alone does not tell, the search counts the crossings of a segment from
-/// the point to an end of known winding number.
+/// Finds the side of one point with respect to the surface and its caps. The point is in the
+/// model's box and in its region. Where the mask alone does not tell, the search counts the
+/// crossings of a segment from the point to an end of known winding number.
 class SideSearch {
  public:
   /// The arguments must outlive this; `reason` may be null.
@@ -86,17 +86,22 @@ class SideSearch {
   /// Runs the search, once. kDegraded if pages were missing or the work was spent.
   SideResult run();
 
+  /// Counts crossings out of the model, for a point whose winding number is known but for its size.
+  /// The number of the result is exact. Unknown if pages were missing or the work was spent.
+  SideResult count_exactly(std::uint64_t max_work);
+
+  std::uint64_t work_left() const {
+    const std::uint64_t spent = work_.units - work_before_;
+    return spent < max_work_ ? max_work_ - spent : 0;
+  }
   /// Whether the winding number of the result is exact. If not, only its sign is right.
   bool has_exact_winding() const { return has_exact_winding_; }
 
  private:
   // The functions that return bool set the result and return true, or return false if they cannot
   // decide.
-  std::uint64_t work_left() const {
-    const std::uint64_t spent = work_.units - work_before_;
-    return spent < max_work_ ? max_work_ - spent : 0;
-  }
   bool search_mask();
+  SideResult cross_out();
   bool use_lookup(const octree::MaskLookup& found);
   bool cross_to_corner(const octree::MaskLookup& found);
   bool decide_by_slab(const octree::MaskLookup& found);
@@ -110,13 +115,13 @@ class SideSearch {
 
   const ModelGeometry& model_;
   const octree::Point& point_;
-  const std::uint64_t max_work_;
+  std::uint64_t max_work_;
   const octree::PageReader& pages_;
   octree::TraversalStats& work_;
   SideReason* const reason_;  // may be null
   SideCache* const cache_;    // null: not used
   const octree::SideGrid::Lookup* const lookup_;
-  const std::uint64_t work_before_;
+  std::uint64_t work_before_;
   SideResult side_result_;
   bool has_exact_winding_ = false;
 };

@@ -10,10 +10,11 @@
 
 namespace planetree::query {
 
-/// Returns the layout of the blocks of a file.
+/// Returns the layout of the nodes and blocks of a file's surface, and of its caps.
 octree::BlockShape block_shape(const storage::ModelRecord& model) noexcept;
+octree::BlockShape cap_shape(const storage::ModelRecord& model) noexcept;
 
-/// Decodes a distance page or a mask page into its frame.
+/// Decodes a distance page, a cap page or a mask page into its frame.
 ///
 /// entry   entry of the page in the page table
 /// page    page number, below header.page_count

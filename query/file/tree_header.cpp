@@ -24,19 +24,32 @@ bool take_slots(std::uint64_t& slots, std::uint64_t records, std::uint64_t recor
   return true;
 }
 
+// Returns whether so many nodes and blocks fit into a number of pages.
+bool fits(const storage::FileHeader& header, std::uint32_t pages, std::uint64_t nodes,
+          unsigned node_slots, std::uint64_t blocks) {
+  std::uint64_t slots = std::uint64_t{pages} * (header.page_bytes / octree::kSlotBytes);
+  return take_slots(slots, nodes, node_slots) && take_slots(slots, blocks, kMinBlockSlots);
+}
+
 }  // namespace
 
 Result<void> check_tree_header(const storage::FileHeader& header) noexcept {
   const storage::ModelRecord& model = header.model;
-  if (octree::LinkFormat(header.page_bytes).page(model.root_link) != 0)
+  const std::uint32_t first_cap_page = header.first_cap_page();
+  const octree::LinkFormat links(header.page_bytes);
+  if (links.page(model.root_link) != 0)
     return bad_tree(offsetof(storage::ModelRecord, root_link),
                     "the tree's root is not on the first page");
-  std::uint64_t slots =
-      std::uint64_t{header.first_mask_page()} * (header.page_bytes / octree::kSlotBytes);
-  if (!take_slots(slots, model.node_count, octree::kNodeSlots) ||
-      !take_slots(slots, model.block_count, kMinBlockSlots))
+  if (!fits(header, first_cap_page, model.node_count, octree::kNodeSlots, model.block_count))
     return bad_tree(offsetof(storage::ModelRecord, node_count),
                     "the header states more nodes and blocks than its pages can hold");
+  if (model.cap_count > 0 && links.page(model.cap_root_link) != first_cap_page)
+    return bad_tree(offsetof(storage::ModelRecord, cap_root_link),
+                    "the root of the caps is not on the first page of caps");
+  if (!fits(header, model.cap_page_count, model.cap_node_count,
+            octree::kNodeSlots + octree::kMomentSlots, model.cap_block_count))
+    return bad_tree(offsetof(storage::ModelRecord, cap_node_count),
+                    "the header states more nodes and blocks of caps than its pages can hold");
   return {};
 }
 

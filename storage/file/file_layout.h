@@ -13,16 +13,16 @@
 ///   0                      header          kHeaderBytes
 ///   kHeaderBytes           page table      page_count * sizeof(PageEntry)
 ///   ...                    pages           stored bytes from page 0 on, without gaps: distance
-///                                          pages, then mask pages
-///   file_bytes - 640       header's copy   kHeaderBytes
+///                                          pages, cap pages, mask pages
+///   file_bytes - 704       header's copy   kHeaderBytes
 namespace planetree::storage {
 
 static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 11;
-inline constexpr std::size_t kHeaderBytes = 640;
+inline constexpr std::uint16_t kFormatVersion = 12;
+inline constexpr std::size_t kHeaderBytes = 704;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
 inline constexpr std::uint32_t kMaxPageBytes = 262144;
@@ -79,6 +79,13 @@ struct ModelRecord {
   /// Model frame: no less than any edge of a stray that has an edge longer than its gap to the
   /// core; 0 if there is none. Distances to such strays are less certain.
   double stray_edge;
+  std::uint64_t cap_count;        ///< caps that close the surface; 0: it is watertight
+  std::uint64_t cap_node_count;   ///< nodes of the tree of caps
+  std::uint64_t cap_block_count;  ///< blocks of the tree of caps
+  double cap_area;                ///< sum of the caps' areas; model frame
+  std::uint32_t cap_page_count;   ///< cap pages, between distance pages and mask pages
+  std::uint32_t cap_root_link;    ///< link to the root of the tree of caps
+  std::uint8_t cap_reserved[24];  ///< zero
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   /// Number of usable triangles of the whole input.
@@ -86,7 +93,7 @@ struct ModelRecord {
     return has_region() ? input_triangles : triangle_count;
   }
 };
-static_assert(sizeof(ModelRecord) == 512);
+static_assert(sizeof(ModelRecord) == 576);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
@@ -105,10 +112,16 @@ struct FileHeader {
   std::uint8_t reserved[40];  ///< zero
   std::uint64_t header_hash;  ///< XXH3-64 of all bytes before this field
 
-  /// Number of the first mask page; page_count if there is none. All pages before it are distance
-  /// pages, all pages from it on are mask pages.
+  /// Number of the first mask page; page_count if there is none. All pages from it on are mask
+  /// pages.
   [[nodiscard]] std::uint32_t first_mask_page() const noexcept {
     return page_count - (model.mask_page_count < page_count ? model.mask_page_count : page_count);
+  }
+  /// Number of the first cap page; first_mask_page() if there is none. All pages before it are
+  /// distance pages.
+  [[nodiscard]] std::uint32_t first_cap_page() const noexcept {
+    const std::uint32_t end = first_mask_page();
+    return end - (model.cap_page_count < end ? model.cap_page_count : end);
   }
 };
 static_assert(sizeof(FileHeader) == kHeaderBytes);
@@ -118,8 +131,8 @@ static_assert(std::is_trivially_copyable_v<FileHeader>);
 enum class Codec : std::uint32_t { kStored = 0, kLz4 = 1 };
 
 /// Entry of one page in the page table. The page's key is the minimum octcode of its subtrees and
-/// an ordinal among the pages with that octcode. Distance pages are numbered first, then mask
-/// pages, each kind in the order of keys.
+/// an ordinal among the pages with that octcode. Distance pages are numbered first, then cap pages,
+/// then mask pages, each kind in the order of keys.
 struct PageEntry {
   std::uint64_t offset;        ///< offset of the stored bytes in the file
   std::uint64_t check;         ///< XXH3-64 of the stored bytes seeded with the page number,

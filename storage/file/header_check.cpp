@@ -18,6 +18,7 @@ constexpr int kMaxMaskLevel = 19;
 constexpr std::int32_t kMaxScaleExponent = 1200;
 // Lengths in the model frame that bounds can be made of.
 constexpr double kMaxStrayEdge = 0x1p60;
+constexpr double kMaxCapArea = 0x1p1000;
 constexpr std::uint64_t kMaxWinding = std::uint64_t{1} << 62;
 
 Error damaged(std::uint64_t page, std::uint64_t offset, const char* cause) noexcept {
@@ -122,7 +123,8 @@ Result<void> check_tiling(const FileHeader& header, std::span<const PageEntry> e
       return bad_entry(page, "the page does not start where the one before ends");
     }
     if (const Result<void> checked = check_entry(header, page, entry); !checked) return checked;
-    if (page > 0 && page != header.first_mask_page() && !key_less(entries[page - 1], entry)) {
+    if (page > 0 && page != header.first_cap_page() && page != header.first_mask_page() &&
+        !key_less(entries[page - 1], entry)) {
       return bad_entry(page, "the page's key does not follow the one before");
     }
     offset += entry.stored_bytes;
@@ -213,9 +215,11 @@ Result<void> check_region(const ModelRecord& model) noexcept {
     return bad_model(offsetof(ModelRecord, input_triangles),
                      "a region has more triangles than the input");
   }
-  // Each triangle contributes at most 1 to a winding number. The limit of kMaxWinding keeps sums of
-  // winding numbers from overflowing.
-  const auto maximum = static_cast<std::int64_t>(std::min(model.input_triangles, kMaxWinding));
+  // Each triangle and each cap contributes at most 1/2 to a winding number. The limit of
+  // kMaxWinding keeps sums of winding numbers from overflowing.
+  const std::uint64_t caps = std::min(model.cap_count, kMaxWinding);
+  const auto maximum = static_cast<std::int64_t>(
+      model.has_region() ? std::min(model.input_triangles, kMaxWinding) / 2 + caps / 2 + 1 : 0);
   if (model.region_winding > maximum || model.region_winding < -maximum) {
     return bad_model(offsetof(ModelRecord, region_winding),
                      "the winding number at the region's corner is out of range");
@@ -224,10 +228,6 @@ Result<void> check_region(const ModelRecord& model) noexcept {
 }
 
 Result<void> check_mask(const ModelRecord& model) noexcept {
-  if (model.mask_page_count > 0 && model.unbalanced_edge_count > 0) {
-    return bad_model(offsetof(ModelRecord, mask_page_count),
-                     "there is a mask of a surface that is not watertight");
-  }
   if ((model.mask_page_count > 0) != (model.mask_cell_count > 0) ||
       (model.mask_page_count == 0 && model.mask_levels > 0) || model.mask_levels > kMaxMaskLevel) {
     return bad_model(offsetof(ModelRecord, mask_cell_count), "the mask's size is out of range");
@@ -235,6 +235,25 @@ Result<void> check_mask(const ModelRecord& model) noexcept {
   if (!all_zero(model.mask_reserved)) {
     return bad_model(offsetof(ModelRecord, mask_reserved),
                      "the mask's reserved bytes are not zero");
+  }
+  return {};
+}
+
+// An edge that is not balanced has at least one cap. A tree of caps has at least one block.
+Result<void> check_caps(const ModelRecord& model) noexcept {
+  const bool has_caps = model.cap_count > 0;
+  if (has_caps != (model.unbalanced_edge_count > 0) || has_caps != (model.cap_page_count > 0) ||
+      has_caps != (model.cap_block_count > 0) || (!has_caps && model.cap_node_count > 0)) {
+    return bad_model(offsetof(ModelRecord, cap_count),
+                     "the caps are not those of the unbalanced edges");
+  }
+  if (!(model.cap_area >= 0 && model.cap_area <= kMaxCapArea) ||
+      (!has_caps && (model.cap_area > 0 || model.cap_root_link > 0))) {
+    return bad_model(offsetof(ModelRecord, cap_area), "the area of the caps is out of range");
+  }
+  if (!all_zero(model.cap_reserved)) {
+    return bad_model(offsetof(ModelRecord, cap_reserved),
+                     "the reserved bytes of the caps are not zero");
   }
   return {};
 }
@@ -258,8 +277,10 @@ Result<void> check_header(const FileHeader& header, std::uint64_t actual_bytes) 
   if (!all_zero(header.reserved)) {
     return bad_header(offsetof(FileHeader, reserved), "the header's reserved bytes are not zero");
   }
-  if (header.model.mask_page_count >= header.page_count) {
-    return bad_model(offsetof(ModelRecord, mask_page_count), "there are only pages of the mask");
+  if (header.model.mask_page_count >= header.page_count ||
+      header.model.cap_page_count >= header.page_count - header.model.mask_page_count) {
+    return bad_model(offsetof(ModelRecord, mask_page_count),
+                     "there are only pages of the mask and of caps");
   }
   return check_model(header.model);
 }
@@ -297,6 +318,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   }
   if (const Result<void> checked = check_core(model); !checked) return checked;
   if (const Result<void> checked = check_mask(model); !checked) return checked;
+  if (const Result<void> checked = check_caps(model); !checked) return checked;
   if (const Result<void> checked = check_region(model); !checked) return checked;
   return check_unbalanced_edges(model);
 }

@@ -38,7 +38,8 @@ Result<BuildMemory> BuildMemory::share(std::uint64_t bytes, unsigned threads) {
   memory.pages_bytes = left / 8;
   memory.edge_bytes = left / 16;
   memory.visitor_bytes = left / 16;
-  memory.part_bytes = memory.spool_bytes;  // the spool is empty by then
+  memory.cap_bytes = left / 32;
+  memory.part_bytes = memory.spool_bytes - 2 * memory.cap_bytes;  // the spool is empty by then
   return memory;
 }
 
@@ -49,6 +50,7 @@ BuildMemory BuildMemory::with_checkpoint() const {
   memory.pages_bytes = 0;
   memory.visitor_bytes = 0;
   memory.part_bytes = 0;
+  memory.cap_bytes = 0;
   return memory;
 }
 

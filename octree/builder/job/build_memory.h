@@ -21,6 +21,7 @@ struct BuildMemory {
   std::uint64_t runs_bytes = 0;       ///< sorted triangles
   std::uint64_t pages_bytes = 0;      ///< pages, until they are written
   std::uint64_t edge_bytes = 0;       ///< edges that chunks share
+  std::uint64_t cap_bytes = 0;        ///< edges that caps close, then caps
   std::uint64_t visitor_bytes = 0;    ///< triangles that touch other sectors than their own
   std::uint64_t part_bytes = 0;       ///< sorted triangles that touch the region
 

@@ -89,12 +89,14 @@ BlockLister::Outcome BlockLister::list(const GridCell& cell, const PageReader& p
                                        MaskBlocks& blocks) const {
   NearBlocks near(grid_, cell);
   TraversalStats work;
-  const bool complete =
-      BoxWalk(tree_, near.lower(), near.upper(), pages, work)
-          .run_while(
-              kMaxVisits,
-              [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); },
-              [&near] { return !near.too_many(); });
+  const auto walk = [&](const TreeInfo& tree) {
+    return BoxWalk(tree, near.lower(), near.upper(), pages, work)
+        .run_while(
+            kMaxVisits,
+            [&](const BlockView& block, std::uint32_t link) { near.look_at(block, link); },
+            [&near] { return !near.too_many(); });
+  };
+  const bool complete = walk(tree_) && (!tree_.caps || walk(*tree_.caps));
   if (near.too_many() || work.nodes + work.blocks >= kMaxVisits) return Outcome::kTooMany;
   if (!complete) return Outcome::kLost;
   return near.list(blocks) ? Outcome::kListed : Outcome::kTooMany;

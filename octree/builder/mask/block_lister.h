@@ -8,8 +8,9 @@
 
 namespace planetree::octree {
 
-/// Finds the blocks of a tree that have triangles in a cell of its mask, and the octants of the
-/// cell that they touch, so that a query in the cell need not traverse the tree to them.
+/// Finds the blocks of a surface and of its caps that have triangles in a cell of the mask, and the
+/// octants of the cell that they touch, so that a query in the cell need not traverse the tree to
+/// them.
 class BlockLister {
  public:
   /// Both arguments must outlive this.

@@ -8,7 +8,7 @@
 namespace planetree::octree {
 
 Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& runs,
-                              const BuiltTree* tree, const SectorCall& done) {
+                              const BuiltTrees& trees, const SectorCall& done) {
   sectors_.resize(sectors.all().size());
   const bool alone = sectors_.size() == 1;
   const auto known = [this](std::size_t at) -> const SectorRoot* {
@@ -23,7 +23,7 @@ Result<void> BuiltMask::build(const MaskSectors& sectors, const TriangleRuns& ru
     sectors_[at].built = *std::move(built);
     return done(static_cast<std::uint32_t>(at), sectors_[at].built);
   };
-  auto above = build_mask(sectors, runs, tree, known, take);
+  auto above = build_mask(sectors, runs, trees, known, take);
   if (!above) return above.error();
   for (std::uint32_t at = 0; at < sectors_.size(); ++at)
     if (known(at) && sectors.all()[at].touched) sectors_[at].built = std::move(known_[at]);

@@ -43,10 +43,10 @@ class BuiltMask {
 
   /// Builds the mask except for the sectors that were resumed. Call it once.
   ///
-  /// tree    see build_mask().
+  /// trees   see build_mask().
   /// errors  those of build_mask(), SpillFile and `done`; kBadArgument: more pages than links of 32
   ///         bits can address, 2^19 for pages of 64 KiB.
-  Result<void> build(const MaskSectors& sectors, const TriangleRuns& runs, const BuiltTree* tree,
+  Result<void> build(const MaskSectors& sectors, const TriangleRuns& runs, const BuiltTrees& trees,
                      const SectorCall& done);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "octree/builder/sort/morton_order.h"
 #include "octree/geometry/strict_math.h"
 
 namespace planetree::octree {
@@ -32,6 +33,7 @@ void join_copies(std::vector<BoxedTriangle>& triangles, std::size_t first) {
       continue;
     }
     triangles[kept].copies += std::exchange(triangles[order[i]].copies, 0);
+    triangles[kept].is_cap |= triangles[order[i]].is_cap;
   }
   triangles.erase(
       std::remove_if(std::next(triangles.begin(), static_cast<std::ptrdiff_t>(first)),
@@ -55,6 +57,7 @@ std::vector<BoxedTriangle> distinct(const Triangles& triangles) {
         ++found.back().copies;
       else
         found.emplace_back(corners);
+      found.back().is_cap |= is_cap(triangles.index(i));
     }
     if (found.size() - first > 1) join_copies(found, first);
   }

@@ -188,9 +188,14 @@ bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader
       difference += crossing(line, near.triangle(static_cast<unsigned>(std::countr_zero(middle))));
   };
   // The line crosses all accepted triangles from the front, so that the difference only falls.
-  const bool complete =
-      BoxWalk(tree_, centre - half, centre + half, pages, work)
-          .run_while(kMaxRecords, look_at, [&] { return accepts && difference >= -1; });
+  bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
+                      .run_while(kMaxRecords, look_at, [&] { return accepts && difference >= -1; });
+  const auto look_at_caps = [&](const BlockView& near, std::uint32_t) {
+    accepts = classify_triangles(near, in_float, prism.origin()).met == 0;
+  };
+  if (complete && accepts && tree_.caps)
+    complete = BoxWalk(*tree_.caps, centre - half, centre + half, pages, work)
+                   .run_while(kMaxRecords, look_at_caps, [&] { return accepts; });
   // The winding number behind is one more than that in front.
   return complete && accepts && difference == -1 &&
          winding_at(tree_, mask_, line.from, pages, work) == 0;

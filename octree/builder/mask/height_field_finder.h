@@ -10,17 +10,17 @@ namespace planetree::octree {
 ///
 /// The proof is for a prism, a box around the block. Nothing touches its two ends, and the first
 /// end is outside of the solid. All triangles in it rise towards the first end, so that crossings
-/// only add up. A line through the middle crosses one of them.
+/// only add up. A line through the middle crosses one of them. No cap meets it.
 class HeightFieldFinder {
  public:
-  /// tree, mask  of a whole watertight model; both must outlive this.
+  /// tree, mask  of a whole model; both must outlive this.
   HeightFieldFinder(const TreeInfo& tree, const MaskInfo& mask) : tree_(tree), mask_(mask) {}
 
   /// Whether the block's own triangles do not rule it out. Most proofs that fail do so by these.
   static bool may_be_height_field(const BlockView& block);
 
   /// block   need not be in a frame of `pages`.
-  /// pages   those of the tree and of the mask.
+  /// pages   those of the trees and of the mask.
   /// work    what was visited is added.
   /// return  false where it cannot be proven, and where pages are missing.
   bool is_height_field(const BlockView& block, const PageReader& pages, TraversalStats& work) const;

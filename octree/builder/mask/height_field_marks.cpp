@@ -15,12 +15,12 @@ constexpr std::uint64_t kVisitsPerBlock = 128;
 
 }  // namespace
 
-HeightFieldMarks::HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask)
-    : info_(tree.info()), workspaces_([&tree, &mask] {
-        return Workspace{TreeFrames(tree, &mask), {}};
+HeightFieldMarks::HeightFieldMarks(const BuiltTrees& trees, const BuiltMask& mask)
+    : info_(trees.info(cap_info_)), workspaces_([&trees, &mask] {
+        return Workspace{TreeFrames(trees, &mask), {}};
       }) {
   mask_.page_bytes = info_.page_bytes;
-  mask_.first_page = tree.pages().size();
+  mask_.first_page = trees.page_count();
   mask_.page_count = mask.size();
   mask_.lower = info_.core_lower;
   mask_.beside_strays = info_.has_strays;

@@ -15,13 +15,13 @@
 
 namespace planetree::octree {
 
-/// Marks the blocks that are in height fields, in the pages of a watertight model that is built but
-/// not written. The marks depend on the model alone.
+/// Marks the blocks that are in height fields, in the pages of a model that is built but not
+/// written. The marks depend on the model alone.
 /// threads  any number.
 class HeightFieldMarks {
  public:
   /// Both arguments must outlive this.
-  HeightFieldMarks(const BuiltTree& tree, const BuiltMask& mask);
+  HeightFieldMarks(const BuiltTrees& trees, const BuiltMask& mask);
 
   /// Marks the blocks of a distance page.
   /// number  page number in the file.
@@ -38,6 +38,7 @@ class HeightFieldMarks {
     std::vector<Line> page;  // a copy: traversals may evict its frame
   };
 
+  TreeInfo cap_info_;
   const TreeInfo info_;
   MaskInfo mask_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;

@@ -98,11 +98,11 @@ class MaskJoin {
 /// Lists blocks for the cells of sectors.
 class CellBlocks {
  public:
-  // tree  null: lists none.
-  CellBlocks(const BuiltTree* tree, const ClippedGrid& grid) {
-    if (!tree) return;
-    frames_.emplace(*tree);
-    info_ = tree->info();
+  // trees  without a surface: lists none.
+  CellBlocks(const BuiltTrees& trees, const ClippedGrid& grid) {
+    if (!trees.surface) return;
+    frames_.emplace(trees);
+    info_ = trees.info(cap_info_);
     lister_.emplace(info_, grid);
   }
   CellBlocks(const CellBlocks&) = delete;
@@ -115,7 +115,7 @@ class CellBlocks {
   Result<void> state() const { return frames_ ? frames_->state() : Result<void>(); }
 
  private:
-  TreeInfo info_;
+  TreeInfo info_, cap_info_;
   std::optional<TreeFrames> frames_;
   std::optional<BlockLister> lister_;
 };
@@ -136,12 +136,12 @@ SectorRoot SectorRoot::of(const MaskTree& mask, std::size_t sector) {
 }
 
 Result<MaskTree> build_mask(const MaskSectors& sectors, const TriangleRuns& runs,
-                            const BuiltTree* tree, const KnownRoots& known,
+                            const BuiltTrees& trees, const KnownRoots& known,
                             const SectorSink& take) {
   const MaskJoin join(sectors);
   std::vector<SectorRoot> roots(sectors.all().size());
   tbb::enumerable_thread_specific<CellBlocks> threads(
-      [&] { return CellBlocks(tree, sectors.grid()); });
+      [&] { return CellBlocks(trees, sectors.grid()); });
   const auto built = for_each_in_parallel(roots.size(), [&](std::size_t at) -> Result<void> {
     const MaskSectors::Region& sector = sectors.all()[at];
     if (sector.divided() || !sector.touched) return {};

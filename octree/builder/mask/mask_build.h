@@ -31,8 +31,8 @@ using KnownRoots = std::function<const SectorRoot*(std::size_t sector)>;
 /// box. It is carried from there to the least corner of every sector, by the crossings of the
 /// sectors' edges.
 ///
-/// sectors  those of a watertight model, with all its triangles added.
-/// tree     the blocks that cells list are its blocks; null: cells list none.
+/// sectors  those of the model, with all triangles of the surface and of its caps added.
+/// trees    the blocks that cells list are their blocks; without a surface, cells list none.
 /// known    `take` is not called for sectors whose roots are known.
 /// return   the cells above the sectors, and the sectors' roots.
 /// errors   those of reading spilled data, of TreeFrames, and of `take`.
@@ -42,6 +42,7 @@ using KnownRoots = std::function<const SectorRoot*(std::size_t sector)>;
 ///         models", section 3.1; winding numbers at corners, in place of parity along a line, are
 ///         ours.
 Result<MaskTree> build_mask(const MaskSectors& sectors, const TriangleRuns& runs,
-                            const BuiltTree* tree, const KnownRoots& known, const SectorSink& take);
+                            const BuiltTrees& trees, const KnownRoots& known,
+                            const SectorSink& take);
 
 }  // namespace planetree::octree

@@ -191,6 +191,10 @@ class SectorMask {
   bool make_special(const GreyCell& grey, MaskTree& tree, std::size_t index) const {
     const std::size_t count = grey.triangles.size();
     if (grey.count < kTrianglesPerPlane || count > kMaxSpecialTriangles) return false;
+    // The planes of a special cell also tell which points are on the surface.
+    if (std::any_of(grey.triangles.begin(), grey.triangles.end(),
+                    [this](std::uint32_t position) { return triangles_[position].is_cap; }))
+      return false;
     // A few triangles, far apart in the list, usually decide.
     constexpr std::size_t kSamples = 8;
     std::vector<Triangle> triangles;

@@ -8,11 +8,11 @@
 
 namespace planetree::octree {
 
-TreeFrames::TreeFrames(const BuiltTree& tree, const BuiltMask* mask)
-    : tree_(tree),
+TreeFrames::TreeFrames(const BuiltTrees& trees, const BuiltMask* mask)
+    : trees_(trees),
       mask_(mask),
-      page_lines_(tree.info_of_page(0).page_bytes / kSlotBytes),
-      max_(std::min<std::size_t>(tree.pages().size() + (mask ? mask->size() : 0),
+      page_lines_(trees.surface->info_of_page(0).page_bytes / kSlotBytes),
+      max_(std::min<std::size_t>(trees.page_count() + (mask ? mask->size() : 0),
                                  kBytes / kSlotBytes / page_lines_)) {
   lines_.reserve(max_ * page_lines_);
   frames_.reserve(max_);
@@ -42,13 +42,16 @@ const std::byte* TreeFrames::peek(void* frames, std::uint32_t number) noexcept {
 }
 
 Result<void> TreeFrames::decode(std::uint32_t number, std::span<std::byte> frame) const {
-  const std::uint32_t tree_pages = tree_.pages().size();
-  const bool of_tree = number < tree_pages;
-  const auto raw =
-      of_tree ? tree_.pages().encode(number) : mask_->encode(number - tree_pages, tree_pages);
+  const std::uint32_t tree_pages = trees_.page_count();
+  if (number < tree_pages) {
+    const BuiltTree& tree = trees_.tree_of_page(number);
+    const auto raw = tree.pages().encode(number);
+    if (!raw) return raw.error();
+    return decode_page(raw->bytes, tree.info_of_page(number), frame);
+  }
+  const auto raw = mask_->encode(number - tree_pages, tree_pages);
   if (!raw) return raw.error();
-  if (of_tree) return decode_page(raw->bytes, tree_.info_of_page(number), frame);
-  PageInfo info = tree_.info_of_page(0);
+  PageInfo info = trees_.surface->info_of_page(0);
   info.first_page = tree_pages;
   info.page_count = mask_->size();
   info.page_number = number;

@@ -13,15 +13,15 @@
 
 namespace planetree::octree {
 
-/// Frames of the pages of a tree that is being built, and of its mask, for traversals. Keeps the
-/// pages that were used last. One thread.
+/// Frames of the pages of the trees of a model that is being built, and of its mask, for
+/// traversals. Keeps the pages that were used last. One thread.
 class TreeFrames {
  public:
   /// Maximum memory of the frames.
   static constexpr std::size_t kBytes = std::size_t{16} << 20;
 
-  /// tree, mask  must outlive this. If `mask` is null there are only the pages of the tree.
-  explicit TreeFrames(const BuiltTree& tree, const BuiltMask* mask = nullptr);
+  /// trees, mask  must outlive this. If `mask` is null there are only the pages of the trees.
+  explicit TreeFrames(const BuiltTrees& trees, const BuiltMask* mask = nullptr);
   TreeFrames(const TreeFrames&) = delete;
   TreeFrames& operator=(const TreeFrames&) = delete;
 
@@ -48,7 +48,7 @@ class TreeFrames {
   std::size_t acquire_frame();
   std::span<std::byte> bytes_of(std::size_t frame);
 
-  const BuiltTree& tree_;
+  const BuiltTrees trees_;
   const BuiltMask* const mask_;
   const std::size_t page_lines_;
   const std::size_t max_;

@@ -11,6 +11,10 @@ namespace planetree::octree {
 /// Bit above the Morton code in the code of a stray triangle, so that strays come after the core.
 inline constexpr std::uint64_t kStrayCode = std::uint64_t{1} << kMortonBits;
 
+/// Bit in the index of a cap where caps are among triangles of the surface.
+inline constexpr std::uint64_t kCapIndex = std::uint64_t{1} << 63;
+constexpr bool is_cap(std::uint64_t index) { return (index & kCapIndex) != 0; }
+
 /// Returns the Morton code in the code of a triangle.
 constexpr std::uint64_t morton_part(std::uint64_t code) { return code & (kStrayCode - 1); }
 constexpr bool is_stray(std::uint64_t code) { return (code & kStrayCode) != 0; }

@@ -113,11 +113,13 @@ class EdgeTable {
 
 /// Unbalanced edges with hashes in some range, and those with the least ends among them.
 struct UnbalancedEnds {
+  std::vector<std::pair<Ends, std::int64_t>> all;  // with the net number of faces
   std::uint64_t count = 0;
   std::vector<Ends> least;
 
-  void note(const Ends& ends) {
+  void note(const Ends& ends, std::int64_t net) {
     ++count;
+    all.emplace_back(ends, net);
     list(ends);
   }
   void join(const UnbalancedEnds& other) {
@@ -138,7 +140,7 @@ UnbalancedEnds unbalanced_ends(std::vector<LeftOver> edges) {
     const Ends& ends = edges[i].ends;
     std::int64_t net = 0;
     for (; i < edges.size() && edges[i].ends == ends; ++i) net += edges[i].net;
-    if (net != 0) unbalanced.note(edges[i - 1].ends);
+    if (net != 0) unbalanced.note(edges[i - 1].ends, net);
   }
   return unbalanced;
 }
@@ -162,7 +164,7 @@ Result<void> EdgeCensus::add(const Triangles& chunk) {
   return {};
 }
 
-Result<EdgeBalance> EdgeCensus::balance() {
+Result<EdgeBalance> EdgeCensus::balance(CapChain& boundary) {
   // The hashes are divided into equal ranges; their number is a power of two.
   const std::uint64_t shares = std::bit_ceil(left_over_.size() / kEdgesAtOnce + 1);
   const auto cut = [&](std::uint64_t share) -> Result<storage::SpillRuns::Cut> {
@@ -182,6 +184,9 @@ Result<EdgeBalance> EdgeCensus::balance() {
     const UnbalancedEnds some = unbalanced_ends(std::move(edges));
     const std::lock_guard lock(mutex);
     unbalanced.join(some);
+    for (const auto& [e, net] : some.all)
+      if (const auto added = boundary.add({e[0], e[1], e[2]}, {e[3], e[4], e[5]}, net); !added)
+        return added;
     return {};
   });
   if (!balanced) return balanced.error();

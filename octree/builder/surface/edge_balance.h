@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "octree/builder/sort/triangles.h"
+#include "octree/builder/surface/cap_chain.h"
 #include "octree/geometry/triangle_distance.h"
 #include "storage/file/file_layout.h"
 #include "storage/spill/spill_runs.h"
@@ -59,7 +60,10 @@ class EdgeCensus {
 
   /// Returns the number of unbalanced edges, and the ends of those listed. Call it after the last
   /// part. Uses the calling thread's TBB arena.
-  Result<EdgeBalance> balance();
+  ///
+  /// boundary  receives every unbalanced edge.
+  /// errors    those of SpillFile and CapChain.
+  Result<EdgeBalance> balance(CapChain& boundary);
 
  private:
   storage::SpillRuns left_over_;

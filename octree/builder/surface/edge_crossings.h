@@ -19,6 +19,7 @@ struct alignas(64) BoxedTriangle {
   Point least, greatest;
   Triangle corners;
   std::int64_t copies = 1;  ///< triangles with these corners that this one stands for
+  bool is_cap = false;      ///< one of these is a cap
 };
 
 /// A segment along one axis, from its greater end down to its lesser end.

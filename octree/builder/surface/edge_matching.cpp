@@ -7,7 +7,8 @@ namespace planetree::octree {
 
 Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress, const ChunkCall& also) {
+                                BuildProgress& progress, CapChain& boundary,
+                                const ChunkCall& also) {
   const auto is_done = [](std::size_t) { return false; };
   EdgeCensus census(held_bytes, scratch);
   const auto add = [&](std::size_t, const Triangles& chunk) {
@@ -16,7 +17,7 @@ Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chun
   };
   const auto added = for_each_chunk(runs, chunks, progress, BuildPhase::kMatching, is_done, add);
   if (!added) return added.error();
-  auto balance = census.balance();
+  auto balance = census.balance(boundary);
   if (!balance || balance->unbalanced_edges == 0) return balance;
   EdgeFaces faces(*balance);
   const auto look = [&](std::size_t, const Triangles& chunk) -> Result<void> {

@@ -7,6 +7,7 @@
 #include "octree/builder/job/build_progress.h"
 #include "octree/builder/sort/chunks.h"
 #include "octree/builder/sort/triangle_runs.h"
+#include "octree/builder/surface/cap_chain.h"
 #include "octree/builder/surface/edge_balance.h"
 #include "planetree/error.h"
 #include "storage/spill/spill_file.h"
@@ -22,10 +23,11 @@ using ChunkCall = std::function<Result<void>(const Triangles& triangles)>;
 /// also        called for every chunk, once.
 /// held_bytes  maximum of edges in memory that are left over by chunks.
 /// scratch     receives the others.
-/// errors      those of SpillFile and `also`.
+/// boundary    receives every unbalanced edge.
+/// errors      those of SpillFile, CapChain and `also`.
 /// Uses the calling thread's TBB arena.
 Result<EdgeBalance> match_edges(const TriangleRuns& runs, const std::vector<Chunk>& chunks,
                                 std::uint64_t held_bytes, storage::SpillFile& scratch,
-                                BuildProgress& progress, const ChunkCall& also);
+                                BuildProgress& progress, CapChain& boundary, const ChunkCall& also);
 
 }  // namespace planetree::octree

@@ -35,6 +35,11 @@ class RegionCut {
   /// Adds a part of the surface, each triangle once, in any order. Any number of threads.
   Result<void> add(const Triangles& triangles);
 
+  /// Counts the crossings of a cap of the surface. One thread.
+  void add_cap(const Triangle& cap) {
+    found_.winding += exit_segment_.crossing(BoxedTriangle(cap));
+  }
+
   /// The result, after the last part.
   const SurfaceCut& found() const { return found_; }
 

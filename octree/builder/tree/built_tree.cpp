@@ -6,13 +6,14 @@ namespace planetree::octree {
 
 BuiltTree::BuiltTree(const ModelFrame& frame, const ChunkTree& above,
                      const std::vector<BuiltChunk>& chunks, const BlockShape& shape,
-                     std::uint32_t page_bytes, const storage::SpillFile& file)
+                     std::uint32_t page_bytes, const storage::SpillFile& file,
+                     std::uint32_t first_page)
     : frame_(frame),
       chunks_(chunks),
       shape_(shape),
       page_bytes_(page_bytes),
       top_tree_(build_top_tree(above, chunks, shape, page_bytes)),
-      numbers_(top_tree_, chunks, page_bytes),
+      numbers_(top_tree_, chunks, page_bytes, first_page),
       pages_(top_tree_, chunks, numbers_, shape, file),
       node_count_(top_tree_.tree.nodes.size()) {
   for (const BuiltChunk& chunk : chunks) {
@@ -28,6 +29,7 @@ unsigned BuiltTree::height() const {
 TreeInfo BuiltTree::info() const {
   TreeInfo info;
   info.page_bytes = page_bytes_;
+  info.first_page = pages_.first();
   info.root_link = pages_.root_link();
   info.shape = shape_;
   info.record_count = node_count_ + block_count_;
@@ -41,9 +43,10 @@ TreeInfo BuiltTree::info() const {
 }
 
 PageInfo BuiltTree::info_of_page(std::uint32_t number) const {
-  const NumberedPage& page = numbers_.pages()[number];
+  const NumberedPage& page = numbers_.page(number);
   PageInfo info;
   info.page_bytes = page_bytes_;
+  info.first_page = pages_.first();
   info.page_count = pages_.size();
   info.shape = shape_;
   info.page_number = number;

@@ -22,8 +22,10 @@ class BuiltTree {
   /// All arguments must outlive this.
   /// chunks  those of `above`.
   /// file    has the pages of the chunks.
+  /// first_page  number of the tree's first page in the file.
   BuiltTree(const ModelFrame& frame, const ChunkTree& above, const std::vector<BuiltChunk>& chunks,
-            const BlockShape& shape, std::uint32_t page_bytes, const storage::SpillFile& file);
+            const BlockShape& shape, std::uint32_t page_bytes, const storage::SpillFile& file,
+            std::uint32_t first_page = 0);
   BuiltTree(const BuiltTree&) = delete;
   BuiltTree& operator=(const BuiltTree&) = delete;
 
@@ -50,6 +52,34 @@ class BuiltTree {
   const TreePages pages_;
   std::uint64_t node_count_ = 0;
   std::uint64_t block_count_ = 0;
+};
+
+/// The trees of a model that is built but not written.
+struct BuiltTrees {
+  const BuiltTree* surface;
+  const BuiltTree* caps;  ///< null: there are none
+
+  // A surface without caps needs no more than its tree.
+  BuiltTrees(const BuiltTree* tree,  // NOLINT(google-explicit-constructor)
+             const BuiltTree* tree_of_caps = nullptr)
+      : surface(tree), caps(tree_of_caps) {}
+
+  /// Number of the pages of both, which are the first of the file.
+  std::uint32_t page_count() const {
+    return surface->pages().size() + (caps ? caps->pages().size() : 0);
+  }
+  /// Facts for traversals. `cap_info` receives those of the caps, and must outlive the result.
+  TreeInfo info(TreeInfo& cap_info) const {
+    TreeInfo info = surface->info();
+    if (caps) {
+      cap_info = caps->info();
+      info.caps = &cap_info;
+    }
+    return info;
+  }
+  const BuiltTree& tree_of_page(std::uint32_t number) const {
+    return surface->pages().has(number) ? *surface : *caps;
+  }
 };
 
 }  // namespace planetree::octree

@@ -17,8 +17,11 @@ auto rank(const NumberedPage& page) {
 }  // namespace
 
 PageNumbers::PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
-                         std::uint32_t page_bytes)
-    : links_(page_bytes), of_top_tree_(top_tree.plan.pages.size()), of_chunk_(chunks.size()) {
+                         std::uint32_t page_bytes, std::uint32_t first_page)
+    : links_(page_bytes),
+      first_page_(first_page),
+      of_top_tree_(top_tree.plan.pages.size()),
+      of_chunk_(chunks.size()) {
   for (std::uint32_t i = 0; i < top_tree.plan.pages.size(); ++i)
     pages_.push_back({top_tree.plan.pages[i].octcode, 0, NumberedPage::kTopTree, i});
   for (std::uint32_t chunk = 0; chunk < chunks.size(); ++chunk) {
@@ -33,15 +36,15 @@ PageNumbers::PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>&
     if (number > 0 && pages_[number - 1].octcode == page.octcode)
       page.ordinal = pages_[number - 1].ordinal + 1;
     auto& numbers = page.chunk == NumberedPage::kTopTree ? of_top_tree_ : of_chunk_[page.chunk];
-    numbers[page.index] = number;
+    numbers[page.index] = first_page + number;
   }
 }
 
 Result<void> PageNumbers::check() const {
-  if (pages_.size() <= links_.max_pages()) return {};
+  if (first_page_ + std::uint64_t{pages_.size()} <= links_.max_pages()) return {};
   return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
                     "%zu pages, more than links can address; build with a larger page size",
-                    pages_.size());
+                    first_page_ + pages_.size());
 }
 
 std::uint32_t PageNumbers::link(std::uint32_t chunk, std::uint32_t link) const {

@@ -19,22 +19,27 @@ struct NumberedPage {
   std::uint32_t index = 0;         ///< among the pages of the chunk or the top tree
 };
 
-/// The pages of the top tree and of all chunks, in the order of the file.
+/// The pages of the top tree and of all chunks, in the order of the file, and their numbers there.
 class PageNumbers {
  public:
   PageNumbers(const TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
-              std::uint32_t page_bytes);
+              std::uint32_t page_bytes, std::uint32_t first_page);
 
   /// errors  kBadArgument: more pages than links of 31 bits can address, 2^21 for pages of 64 KiB.
   Result<void> check() const;
 
-  const std::vector<NumberedPage>& pages() const { return pages_; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(pages_.size()); }
+  std::uint32_t first_page() const { return first_page_; }
+  /// The page with a number in the file.
+  const NumberedPage& page(std::uint32_t number) const { return pages_[number - first_page_]; }
+  /// The number in the file of a page of the top tree.
   std::uint32_t top_tree_page(std::size_t index) const { return of_top_tree_[index]; }
   /// The link in the file for a link within a chunk.
   std::uint32_t link(std::uint32_t chunk, std::uint32_t link) const;
 
  private:
   const LinkFormat links_;
+  const std::uint32_t first_page_;
   std::vector<NumberedPage> pages_;
   std::vector<std::uint32_t> of_top_tree_;
   std::vector<std::vector<std::uint32_t>> of_chunk_;

@@ -21,7 +21,7 @@ TreePages::TreePages(TopTree& top_tree, const std::vector<BuiltChunk>& chunks,
   for (std::size_t i = 0; i < plan.pages.size(); ++i) {
     PlannedPage& page = plan.pages[i];
     page.number = numbers.top_tree_page(i);
-    page.ordinal = numbers.pages()[page.number].ordinal;
+    page.ordinal = numbers.page(page.number).ordinal;
     std::uint32_t slot = frame_head_slots(plan.page_bytes);
     for (const std::uint32_t node : page.nodes) {
       plan.node_links[node] = links.make(false, page.number, slot);
@@ -36,7 +36,7 @@ std::uint32_t TreePages::root_link() const {
 }
 
 Result<FilePage> TreePages::encode(std::uint32_t number) const {
-  const NumberedPage& page = numbers_.pages()[number];
+  const NumberedPage& page = numbers_.page(number);
   if (page.chunk == NumberedPage::kTopTree) {
     const Triangles none;
     const ChunkVertices no_vertices(none);

@@ -20,8 +20,12 @@ class TreePages {
   TreePages(TopTree& top_tree, const std::vector<BuiltChunk>& chunks, const PageNumbers& numbers,
             const BlockShape& shape, const storage::SpillFile& file);
 
-  std::uint32_t size() const { return static_cast<std::uint32_t>(numbers_.pages().size()); }
+  std::uint32_t size() const { return numbers_.size(); }
+  std::uint32_t first() const { return numbers_.first_page(); }
+  /// Whether a page of the file is one of these.
+  bool has(std::uint32_t number) const { return number - first() < size(); }
   std::uint32_t root_link() const;
+  /// number  in the file.
   Result<FilePage> encode(std::uint32_t number) const;
 
  private:

@@ -51,7 +51,7 @@ class MaskPrefetcherTest : public testing::Test {
     tree.core_lower = tree.box_lower;
     tree.core_upper = tree.box_upper;
     // The memory holds a grid of a level far above the leaves.
-    side_grid_.fill(mask_, tree, false, 0, pages_.resident_reader(), memory_);
+    side_grid_.fill(mask_, tree, CapGrid(), false, 0, pages_.resident_reader(), memory_);
   }
   std::vector<Point> points(std::size_t count) const {
     Noise noise(9);

@@ -32,7 +32,7 @@ class RandomSideGrid : public testing::Test {
   SideGrid grid_of(MaskPages& pages, PageReader reader, std::size_t bytes) {
     SideGrid grid;
     memory_.resize(bytes);
-    grid.fill(pages.mask(lower_), tree_of(lower_, size_), false, 0, reader, memory_);
+    grid.fill(pages.mask(lower_), tree_of(lower_, size_), CapGrid(), false, 0, reader, memory_);
     return grid;
   }
   // Random points, half of them on the sides of cells.

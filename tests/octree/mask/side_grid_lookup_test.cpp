@@ -21,7 +21,8 @@ TEST_F(SideGridLookupTest, FastLookupAgreesWithLook) {
   for (const int scale : {0, 3, -200, 900, -900}) {
     SideGrid grid;
     memory_.resize(kMany);
-    grid.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
+    grid.fill(pages.mask(lower_), tree_of(lower_, size_), CapGrid(), false, scale, pages.reader(),
+              memory_);
     std::size_t known = 0, certain = 0;
     for (const Point& point : points(4000)) {
       const Point input = point * std::ldexp(1.0, -scale);
@@ -68,7 +69,8 @@ TEST_F(SideGridLookupTest, FastLookupIsUnknownOutOfRange) {
   for (const int scale : {0, 901, -901}) {
     SideGrid grid;
     memory_.resize(kMany);
-    grid.fill(pages.mask(lower_), tree_of(lower_, size_), false, scale, pages.reader(), memory_);
+    grid.fill(pages.mask(lower_), tree_of(lower_, size_), CapGrid(), false, scale, pages.reader(),
+              memory_);
     for (const double value : {infinite, -infinite, std::nan(""), 1e300, -1e300})
       for (unsigned axis = 0; axis < 3; ++axis) {
         Point point = lower_ + size_ / 2;

@@ -117,7 +117,8 @@ TEST_F(SideGridTest, KnowsOnlyColoursWhereCellsAreClipped) {
   MaskPages pages(random_mask(6), 1 << 20, kRandomMaskPage);
   SideGrid grid;
   memory_.resize(kMany);
-  grid.fill(pages.mask(lower_), tree_of(lower_, size_), true, 0, pages.reader(), memory_);
+  grid.fill(pages.mask(lower_), tree_of(lower_, size_), CapGrid(), true, 0, pages.reader(),
+            memory_);
   std::size_t known = 0;
   for (const Point& point : points(4000)) {
     const int winding = grid.look(point).winding;
@@ -146,7 +147,8 @@ TEST_F(SideGridTest, AgreesWithTheMaskNearCellFaces) {
     const Point lower = lower_ + Point::Constant(far);
     SideGrid grid;
     memory_.resize(kMany);
-    grid.fill(pages.mask(lower), tree_of(lower, size_), false, 0, pages.reader(), memory_);
+    grid.fill(pages.mask(lower), tree_of(lower, size_), CapGrid(), false, 0, pages.reader(),
+              memory_);
     Noise noise(11);
     std::size_t known = 0;
     for (unsigned i = 0; i < 6000; ++i) {
@@ -173,7 +175,8 @@ TEST_F(SideGridTest, RefusesBoxesThatDoNotFitTheRoot) {
   for (const double side : {2.1, -0.1, 8589934591.0, 1e300, kInfinity, kInfinity - kInfinity}) {
     SideGrid grid;
     memory_.resize(kMany);
-    grid.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), false, 0, pages.reader(), memory_);
+    grid.fill(pages.mask(lower_), tree_of(lower_, {side, 1, 1}), CapGrid(), false, 0,
+              pages.reader(), memory_);
     EXPECT_EQ(grid.look(lower_ + size_ / 2).winding, SideGrid::kUnknown) << side;
   }
   EXPECT_TRUE(pages.take_queried().empty());
@@ -237,7 +240,8 @@ TEST_F(SideGridTest, StaysInItsMemoryWhilePagesChange) {
           }};
       const std::unique_ptr<std::byte[]> memory(new std::byte[bytes]);
       SideGrid grid;
-      grid.fill(one.mask(lower_), tree_of(lower_, size_), false, 0, reader, {memory.get(), bytes});
+      grid.fill(one.mask(lower_), tree_of(lower_, size_), CapGrid(), false, 0, reader,
+                {memory.get(), bytes});
       for (const Point& point : points(500))
         known += grid.look(point).winding != SideGrid::kUnknown;
     }

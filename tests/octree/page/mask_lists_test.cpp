@@ -76,7 +76,7 @@ TEST(MaskLists, EmptyOctantsHaveTheirCornersWindingNumber) {
 TEST(MaskLists, MatchTheBlocksOfTheTree) {
   const MaskWithLists sample(sphere(5), 1 << 20);
   const TreeInfo info = sample.tree.tree->info();
-  TreeFrames frames(*sample.tree.tree);
+  TreeFrames frames(sample.tree.tree.get());
   const BlockLister lister(info, sample.grid);
   std::map<Kind, std::size_t> kinds;
   each_entry(sample.mask, [&](const GridCell& cell, std::uint32_t at) {

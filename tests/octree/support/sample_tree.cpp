@@ -149,7 +149,8 @@ EdgeBalance balance_of(const SampleMesh& mesh, std::uint32_t part_triangles) {
   add_parts([&](const Triangles& part) {
     if (!census.add(part)) std::abort();
   });
-  EdgeFaces faces(*census.balance());
+  CapChain boundary(1000, spill_file());
+  EdgeFaces faces(*census.balance(boundary));
   add_parts([&](const Triangles& part) { faces.look_at(part); });
   return faces.balance();
 }

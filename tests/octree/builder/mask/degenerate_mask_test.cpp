@@ -120,7 +120,7 @@ TEST(MaskTree, HasFewCellsIfTrianglesAreDegenerate) {
 // The line through a block's middle crosses copies of its triangle in hundreds of blocks.
 TEST(HeightFieldFinder, StopsAtTheSecondTriangleOnTheLine) {
   const HeightFieldModel model(degenerate("coincident-solid", 20000));
-  TreeFrames frames(*model.tree.tree, &model.mask);
+  TreeFrames frames(model.tree.tree.get(), &model.mask);
   const HeightFieldFinder finder(model.info, model.mask_info);
   std::size_t blocks = 0, marked = 0;
   TraversalStats work;

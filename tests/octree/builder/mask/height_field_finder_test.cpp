@@ -21,7 +21,7 @@ struct Marks {
 using BlockCall = std::function<void(const BlockView&, bool marked)>;
 
 Marks each_mark(const HeightFieldModel& model, const BlockCall& look) {
-  TreeFrames frames(*model.tree.tree, &model.mask);
+  TreeFrames frames(model.tree.tree.get(), &model.mask);
   const HeightFieldFinder finder(model.info, model.mask_info);
   Marks marks;
   model.each_block([&](const BlockView& block, std::uint32_t) {
@@ -181,7 +181,7 @@ TEST(HeightFieldFinder, FindsNoneTooFarFromTheOrigin) {
 TEST(HeightFieldFinder, FindsNoneWhereAPageIsMissing) {
   const HeightFieldModel model(sphere(4));
   const HeightFieldFinder finder(model.info, model.mask_info);
-  TreeFrames frames(*model.tree.tree, &model.mask);
+  TreeFrames frames(model.tree.tree.get(), &model.mask);
   struct Withholding {
     PageReader pages;
     std::uint32_t from, to;

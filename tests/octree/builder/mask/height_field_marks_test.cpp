@@ -40,7 +40,7 @@ FilePage unmarked(FilePage page, std::size_t blocks) {
 TEST(HeightFieldMarks, MatchTheBlocksFound) {
   const HeightFieldModel model(joined({sphere(4), translated(sphere(4), {0.9, 0, 0})}));
   std::vector<std::vector<bool>> found(model.tree.tree->pages().size());
-  TreeFrames frames(*model.tree.tree, &model.mask);
+  TreeFrames frames(model.tree.tree.get(), &model.mask);
   const HeightFieldFinder finder(model.info, model.mask_info);
   TraversalStats work;
   std::size_t height_fields = 0, in_none = 0;
@@ -50,7 +50,7 @@ TEST(HeightFieldMarks, MatchTheBlocksFound) {
   });
   ASSERT_GT(height_fields, 0u);
   ASSERT_GT(in_none, 0u);
-  HeightFieldMarks marks(*model.tree.tree, model.mask);
+  HeightFieldMarks marks(model.tree.tree.get(), model.mask);
   const std::vector<FilePage> before = pages_of(model);
   for (std::uint32_t number = 0; number < before.size(); ++number) {
     FilePage page = before[number];
@@ -63,7 +63,8 @@ TEST(HeightFieldMarks, MatchTheBlocksFound) {
 TEST(HeightFieldMarks, DoNotDependOnThreads) {
   const HeightFieldModel model(sphere(5));
   std::vector<FilePage> one = pages_of(model), many = one;
-  HeightFieldMarks marks(*model.tree.tree, model.mask), others(*model.tree.tree, model.mask);
+  HeightFieldMarks marks(model.tree.tree.get(), model.mask),
+      others(model.tree.tree.get(), model.mask);
   for (std::uint32_t number = 0; number < one.size(); ++number)
     ASSERT_TRUE(marks.mark(number, one[number]));
   tbb::parallel_for(std::size_t{0}, many.size(), [&](std::size_t number) {
@@ -86,7 +87,7 @@ TEST(HeightFieldMarks, FailOnReadErrors) {
     calls = storage::FaultyCalls();
     calls.fault = storage::FaultyCalls::Fault::kError;
     calls.fault_at = static_cast<int>(failures);
-    HeightFieldMarks marks(*model.tree.tree, model.mask);
+    HeightFieldMarks marks(model.tree.tree.get(), model.mask);
     const auto marked = marks.mark(last, pages[last]);
     failed = !marked;
     EXPECT_TRUE(marked || marked.error().code == ErrorCode::kReadFailed);

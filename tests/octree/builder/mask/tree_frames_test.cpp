@@ -46,7 +46,7 @@ void expect_page(const ChunkedTree& sample, TreeFrames& frames, std::uint32_t pa
 TEST(TreeFrames, MatchDecodedPages) {
   for (const std::uint32_t page_bytes : {4096u, kLargePages}) {
     const ChunkedTree sample(sphere(4), 40, page_bytes);
-    TreeFrames frames(*sample.tree);
+    TreeFrames frames(sample.tree.get());
     const std::uint32_t count = sample.tree->pages().size();
     ASSERT_GT(count, kHeld);
     for (std::uint32_t page = 0; page < count; ++page) expect_page(sample, frames, page);
@@ -59,7 +59,7 @@ TEST(TreeFrames, MatchDecodedPages) {
 
 TEST(TreeFrames, KeepTheMostRecentlyUsed) {
   const ChunkedTree sample = many_pages();
-  TreeFrames frames(*sample.tree);
+  TreeFrames frames(sample.tree.get());
   const std::uint32_t count = sample.tree->pages().size();
   ASSERT_GT(count, kHeld + 2);
   for (std::uint32_t page = 0; page < count; ++page) {
@@ -77,7 +77,7 @@ TEST(TreeFrames, KeepTheMostRecentlyUsed) {
 
 TEST(TreeFrames, KeepNoMorePagesThanFit) {
   const ChunkedTree sample = many_pages();
-  TreeFrames frames(*sample.tree);
+  TreeFrames frames(sample.tree.get());
   const std::uint32_t count = sample.tree->pages().size();
   for (std::uint32_t page = 0; page < count; ++page) ASSERT_NE(page_of(frames, page), nullptr);
   std::size_t held = 0;
@@ -92,7 +92,7 @@ TEST(TreeFrames, MatchDecodedMaskPages) {
   const HeightFieldModel model(sphere(5));
   const std::uint32_t first = model.mask_info.first_page;
   ASSERT_GT(model.mask.size(), 2u);
-  TreeFrames frames(*model.tree.tree, &model.mask);
+  TreeFrames frames(model.tree.tree.get(), &model.mask);
   for (std::uint32_t i = 0; i < model.mask.size(); ++i) {
     const auto raw = model.mask.encode(i, first);
     ASSERT_TRUE(raw);
@@ -130,7 +130,7 @@ class FramesAfterReadErrors : public testing::Test {
 
 TEST_F(FramesAfterReadErrors, KeepTheError) {
   const ChunkedTree sample = many_pages(file_);
-  TreeFrames frames(*sample.tree);
+  TreeFrames frames(sample.tree.get());
   const std::uint32_t last = sample.tree->pages().size() - 1;
   ASSERT_NE(page_of(frames, last), nullptr);
   lose_disk();

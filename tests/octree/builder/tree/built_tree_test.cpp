@@ -36,7 +36,7 @@ TEST(BuiltTree, HoldsTheTrianglesOfAllChunks) {
     EXPECT_EQ(sample.above.chunks.size() > 1, c.soup.size() > c.chunk_triangles);
     ASSERT_TRUE(sample.tree->check());
     const TreeInfo tree = sample.tree->info();
-    TreeFrames frames(*sample.tree);
+    TreeFrames frames(sample.tree.get());
     TraversalStats work;
     std::set<std::uint64_t> found;
     std::set<std::uint32_t> links;
@@ -62,7 +62,7 @@ TEST(BuiltTree, HeightIsThatOfTheRoot) {
     SCOPED_TRACE(c.name);
     const ChunkedTree sample(c.soup, c.chunk_triangles);
     const TreeInfo tree = sample.tree->info();
-    TreeFrames frames(*sample.tree);
+    TreeFrames frames(sample.tree.get());
     TraversalStats work;
     const std::byte* root = LinkResolver(tree, frames.reader()).find(tree.root_link, work);
     ASSERT_NE(root, nullptr);
@@ -81,7 +81,7 @@ TEST(BuiltTree, KeepsTheCoreApartFromStrays) {
   ASSERT_GT(sample.above.chunks.size(), 5u);
   const TreeInfo tree = sample.tree->info();
   EXPECT_TRUE(tree.has_strays);
-  TreeFrames frames(*sample.tree);
+  TreeFrames frames(sample.tree.get());
   TraversalStats work;
   const PageReader reader = frames.reader();
   LinkResolver records(tree, reader);
