@@ -31,16 +31,15 @@ TreePages::TreePages(const std::filesystem::path& path) {
   model_ = header.model;
   shape_.float64 = model_.vertex_kind == storage::VertexKind::kFloat64;
   shape_.wide_ids = model_.triangle_id_bytes == 8;
-  shape_.moments = model_.unbalanced_edge_count != 0;
   links_ = octree::LinkFormat(header.page_bytes);
   std::vector<std::byte> stored(header.max_stored_bytes), raw(header.max_raw_bytes);
-  for (std::uint32_t page = 0; page < header.page_count; ++page) {
+  for (std::uint32_t page = 0; page < header.first_cap_page(); ++page) {
     const storage::PageEntry& entry = file.entries()[page];
     const std::span<std::byte> bytes(raw.data(), entry.raw_bytes);
     need(file.read_page(page, stored, bytes));
     octree::PageInfo info;
     info.page_bytes = header.page_bytes;
-    info.page_count = header.page_count;
+    info.page_count = header.first_cap_page();
     info.shape = shape_;
     info.page_number = page;
     info.octcode = entry.octcode;
