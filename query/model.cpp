@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <new>
 #include <utility>
 
@@ -31,6 +32,8 @@ ModelInfo describe(const storage::PageFile& file) {
   info.core_upper = {model.core_upper[0], model.core_upper[1], model.core_upper[2]};
   info.strays = model.stray_count;
   info.unbalanced_edges = model.unbalanced_edge_count;
+  info.caps = model.cap_count;
+  info.cap_area = std::ldexp(model.cap_area, -2 * model.scale_exponent);
   info.input_triangles = model.usable_triangles();
   info.has_region = model.has_region();
   info.region_lower = {model.region_lower[0], model.region_lower[1], model.region_lower[2]};
@@ -45,8 +48,9 @@ ModelInfo describe(const storage::PageFile& file) {
   info.section_bytes.headers = 2 * sizeof header;
   info.section_bytes.page_table = file.entries().size_bytes();
   for (std::uint32_t page = 0; page < header.page_count; ++page)
-    (page < header.first_mask_page() ? info.section_bytes.distance_pages
-                                     : info.section_bytes.mask_pages) +=
+    (page < header.first_cap_page()    ? info.section_bytes.distance_pages
+     : page < header.first_mask_page() ? info.section_bytes.cap_pages
+                                       : info.section_bytes.mask_pages) +=
         file.entries()[page].stored_bytes;
   info.content_id[0] = header.content_id[0];
   info.content_id[1] = header.content_id[1];

@@ -132,7 +132,7 @@ int Inspection::show_nodes() {
   IssueList issues;
   for (const Issue& issue : parts_.issues()) issues.add(issue);
   Json pages = Json::array();
-  for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
+  for (std::uint32_t page = 0; page < parts_.first_cap_page(); ++page) {
     const storage::PageEntry& entry = parts_.entries()[page];
     if (!arguments_.node->matches(entry.octcode)) continue;
     Json json = {{"page", page},

@@ -26,24 +26,28 @@ struct ModelInfo {
   ///
   /// Every interval, and every side that is known, is right for the whole input. An answer is exact
   /// if the surface is nearer to the query point than every wall. It is then the answer for the
-  /// whole input. Otherwise it is not exact. Sides are unknown beyond a wall. If there is a wall
-  /// and the surface is not watertight, all sides are unknown.
+  /// whole input. Otherwise it is not exact. Sides are unknown beyond a wall.
   bool has_region = false;
   Vec3 region_lower,                   ///< lower corner of the region
       region_upper;                    ///< upper corner of the region
   std::uint64_t unbalanced_edges = 0;  ///< edges that are not balanced, see watertight()
-  bool float64 = false;                ///< whether coordinates are doubles; not all fit a float
-  std::uint64_t nodes = 0;             ///< inner nodes of the tree
-  std::uint64_t blocks = 0;            ///< leaves of the tree: blocks of up to 16 triangles
-  std::uint32_t levels = 0;            ///< height of the tree, in nodes
-  std::uint32_t pages = 0;             ///< distance and mask pages; numbers go from 0
-  std::uint32_t page_bytes = 0;        ///< maximum bytes of a decoded page; a power of two
-  std::uint64_t file_bytes = 0;        ///< length of the file
+  /// Number of caps: triangles that close the surface, for finding sides. They are no part of the
+  /// surface: no distance, point, normal or index is of a cap.
+  std::uint64_t caps = 0;
+  double cap_area = 0;           ///< sum of the caps' areas, square units
+  bool float64 = false;          ///< whether coordinates are doubles; not all fit a float
+  std::uint64_t nodes = 0;       ///< inner nodes of the tree
+  std::uint64_t blocks = 0;      ///< leaves of the tree: blocks of up to 16 triangles
+  std::uint32_t levels = 0;      ///< height of the tree, in nodes
+  std::uint32_t pages = 0;       ///< pages of all parts; numbers go from 0
+  std::uint32_t page_bytes = 0;  ///< maximum bytes of a decoded page; a power of two
+  std::uint64_t file_bytes = 0;  ///< length of the file
   /// Stored bytes of each part of the file. They add up to `file_bytes`.
   struct {
     std::uint64_t headers = 0;         ///< header and its copy
     std::uint64_t page_table = 0;      ///< page table
     std::uint64_t distance_pages = 0;  ///< pages of the tree
+    std::uint64_t cap_pages = 0;       ///< pages of the caps that close the surface
     std::uint64_t mask_pages = 0;      ///< pages of the mask
   } section_bytes;                     ///< stored bytes of each part
   std::uint64_t content_id[2] = {};    ///< hash over the hashes of all pages, low word first

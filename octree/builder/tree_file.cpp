@@ -66,6 +66,7 @@ void describe_caps(const CapTree& caps, storage::ModelRecord& model) {
   model.cap_area = caps.area();
   model.cap_node_count = tree->node_count();
   model.cap_block_count = tree->block_count();
+  model.cap_height = static_cast<std::uint8_t>(tree->height());
   model.cap_page_count = tree->pages().size();
   model.cap_root_link = tree->pages().root_link();
 }

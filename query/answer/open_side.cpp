@@ -1,6 +1,7 @@
 #include "query/answer/open_side.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
@@ -25,7 +26,11 @@ std::int64_t rounded(double value) {
 }  // namespace
 
 SideResult OpenSide::run(const SideResult& result) {
-  if (result.side == Side::kUnknown || caps_cannot_matter()) return result;
+  if (result.side == Side::kUnknown) return result;
+  if (caps_cannot_matter()) {
+    if (reason_) reason_->caps_cannot_matter = true;
+    return result;
+  }
   SideResult closed = result;
   if (closed.side == Side::kOnSurface) return beside_triangles(closed);
   const bool is_exact = !search_ || search_->has_exact_winding();
@@ -37,7 +42,8 @@ SideResult OpenSide::run(const SideResult& result) {
     if (!know_exactly(closed)) return kUnknownSide;
     w = less_caps({static_cast<double>(closed.winding), 0}, WindingGoal::kHalf);
   }
-  return w.on_surface ? beside_triangles(closed) : result_of(w);
+  return w.on_surface ? beside_triangles(closed)
+                      : result_of(w, static_cast<double>(closed.winding));
 }
 
 // Whether the share of the caps is below one half because they are far away or small.
@@ -70,14 +76,15 @@ SideResult OpenSide::beside_triangles(const SideResult& found) {
   const octree::WindingBase base{static_cast<double>(closed.winding) - star.value,
                                  star.error + octree::kStarRounding * (1 + std::fabs(star.value))};
   const WindingNumber w = less_caps(base, on_surface ? WindingGoal::kSign : WindingGoal::kHalf);
-  if (!on_surface) return result_of(w);
+  if (!on_surface) return result_of(w, static_cast<double>(closed.winding));
   const int sign = w.sign_is_certain() ? (w.value < 0 ? -1 : 1) : 0;
   return {Side::kOnSurface, Status::kExact, sign, false, w.complete};
 }
 
-SideResult OpenSide::result_of(const WindingNumber& w) const {
+SideResult OpenSide::result_of(const WindingNumber& w, double closed) const {
   if (reason_) {
     reason_->rule = SideReason::Rule::kWindingNumber;
+    reason_->closed = closed;
     reason_->value = w.value;
     reason_->error = w.error;
   }

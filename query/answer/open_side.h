@@ -38,7 +38,7 @@ class OpenSide {
   bool caps_cannot_matter() const;
   bool know_exactly(SideResult& closed);
   SideResult beside_triangles(const SideResult& closed);
-  SideResult result_of(const octree::WindingNumber& w) const;
+  SideResult result_of(const octree::WindingNumber& w, double closed) const;
   octree::WindingNumber less_caps(const octree::WindingBase& base, octree::WindingGoal goal) {
     return octree::winding_number(model_.caps, point_, limit_.left(), pages_, work_, base, goal);
   }

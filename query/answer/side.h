@@ -24,12 +24,12 @@ struct QueryContext;
 struct SideResult {
   Side side = Side::kUnknown;
   Status status = Status::kExact;  ///< kDegraded: pages were missing or the work was spent
-  /// Watertight models: a number with the sign of the point's winding number, or 0 if that is 0.
-  /// Other models: the winding number, rounded to a whole number; 0 if the side is unknown.
-  /// For a point on the surface see `beside`.
+  /// A number with the sign of the point's winding number, or 0 if that is 0. Where caps matter:
+  /// the winding number, rounded to a whole number if the point is inside, else 0. For a point on
+  /// the surface see `beside`.
   std::int64_t winding = 0;
   /// Meaning of `winding` for a point on the surface. True: it is that of the perturbed point.
-  /// False (models that are not watertight): it is the sign of the winding number of the surface
+  /// False (where caps matter): it is the sign of the winding number of the surface
   /// without the triangles that the point is on, or 0 if that sign is uncertain.
   bool beside = true;
   /// False for a point on the surface if pages were missing, or the work was spent, before the sign
@@ -38,8 +38,8 @@ struct SideResult {
 };
 
 /// The last side and the last mask cell that a probe's queries found, for the next queries nearby.
-/// For watertight models only, since in others winding numbers are not constant off the surface. It
-/// allocates nothing. One thread at a time may use it. All lengths are in the model frame.
+/// Of a surface with caps, it holds points that the caps cannot matter to. It allocates nothing.
+/// One thread at a time may use it. All lengths are in the model frame.
 class SideCache {
  public:
   /// Returns the cached lookup if the point is in its mask cell, else null.
@@ -111,8 +111,7 @@ class SideCache {
 struct SideReason {
   enum class Rule : std::uint8_t {
     kNone,           ///< the side is unknown
-    kRegion,         ///< the side cannot be known: the file is of a region, and the point is beyond
-                     ///< a wall or the model is not watertight
+    kRegion,         ///< the side cannot be known: the point is beyond a wall of the file's region
     kOutsideBox,     ///< the point is outside of the model's box
     kColour,         ///< `cell` is white, black or inverted
     kPlanes,         ///< `cell` is special
@@ -120,7 +119,7 @@ struct SideReason {
     kCorner,         ///< `crossings` to `end`, a corner of `cell`
     kWayOut,         ///< `crossings` to `end`, which is outside of the model's box or is
                      ///< ModelGeometry::region_corner
-    kWindingNumber,  ///< the model is not watertight: `value`, right within `error`
+    kWindingNumber,  ///< `value`, right within `error`: `closed` less the share of the caps
   };
   Rule rule = Rule::kNone;
   octree::GridCell cell;  ///< the smallest cell of the mask that was reached
@@ -128,6 +127,8 @@ struct SideReason {
   octree::Point end = octree::Point::Zero();  ///< model frame
   std::int64_t known = 0;                     ///< winding number at `end`
   std::int64_t crossings = 0;                 ///< its change from `end` to the point
+  bool caps_cannot_matter = false;            ///< there are caps, too far away to change the side
+  double closed = 0;                          ///< winding number with the caps
   double value = 0;                           ///< winding number of the point
   double error = 0;                           ///< error bound of `value`
 };
@@ -138,14 +139,14 @@ struct SideReason {
 /// max_work  maximum work in units, see octree::WorkLimit
 /// work      counters that the search adds to
 /// reason    receives how the side was found; may be null
-/// return    kUnknown if degraded or if the side cannot be known (Rule::kRegion); also if the model
-///           is not watertight and the winding number is one half up to rounding
+/// return    kUnknown, and degraded, if pages were missing, the work was spent, the side cannot be
+///           known (Rule::kRegion), or the winding number is one half up to rounding
 SideResult find_side(const ModelGeometry& model, const octree::Point& point, std::uint64_t max_work,
                      const octree::PageReader& pages, octree::TraversalStats& work,
                      SideReason* reason = nullptr) noexcept;
 
-/// Looks a point up in the side grid. Finds nothing beyond a wall of the region, nor in a model
-/// that is not watertight, which has no mask. Accepts any point of the model frame.
+/// Looks a point up in the side grid. Finds nothing beyond a wall of the region. Accepts any point
+/// of the model frame.
 ///
 /// frames  for prefetching the mask record that a search reads next
 inline octree::SideGrid::Lookup look_up_side_grid(const ModelGeometry& model,
@@ -158,9 +159,9 @@ inline octree::SideGrid::Lookup look_up_side_grid(const ModelGeometry& model,
   return known ? model.side_grid.look(point, ahead) : octree::SideGrid::Lookup{};
 }
 
-/// Returns what find_side() would, if that takes no page: beyond a wall of a region, in a region of
-/// a model that is not watertight, outside of a watertight model's box, or where the side grid has
-/// the side. Else returns nothing. Accepts any point of the model frame.
+/// Returns what find_side() would, if that takes no page: beyond a wall of a region, outside of a
+/// watertight model's box, or where the side grid has the side. Else returns nothing. Accepts any
+/// point of the model frame.
 ///
 /// lookup  result of look_up_side_grid() for the point
 std::optional<SideResult> side_without_pages(const ModelGeometry& model, const octree::Point& point,

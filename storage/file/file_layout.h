@@ -85,7 +85,8 @@ struct ModelRecord {
   double cap_area;                ///< sum of the caps' areas; model frame
   std::uint32_t cap_page_count;   ///< cap pages, between distance pages and mask pages
   std::uint32_t cap_root_link;    ///< link to the root of the tree of caps
-  std::uint8_t cap_reserved[24];  ///< zero
+  std::uint8_t cap_height;        ///< of the tree of caps, as `height`
+  std::uint8_t cap_reserved[23];  ///< zero
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   /// Number of usable triangles of the whole input.

@@ -251,6 +251,10 @@ Result<void> check_caps(const ModelRecord& model) noexcept {
       (!has_caps && (model.cap_area > 0 || model.cap_root_link > 0))) {
     return bad_model(offsetof(ModelRecord, cap_area), "the area of the caps is out of range");
   }
+  if (model.cap_height > kMaxHeight || (!has_caps && model.cap_height > 0)) {
+    return bad_model(offsetof(ModelRecord, cap_height),
+                     "the height of the tree of caps is out of range");
+  }
   if (!all_zero(model.cap_reserved)) {
     return bad_model(offsetof(ModelRecord, cap_reserved),
                      "the reserved bytes of the caps are not zero");

@@ -23,6 +23,12 @@ class EdgeCheck {
   void add(const octree::Triangle& triangle);
   /// What is wrong with the header. Empty if nothing is.
   [[nodiscard]] std::optional<std::string> finding() const;
+  /// Whether these triangles and others, such as caps, are watertight together.
+  [[nodiscard]] bool are_closed_by(const EdgeCheck& others) const {
+    octree::EdgeSum sum = edges_;
+    sum.add(others.edges_);
+    return sum.is_watertight();
+  }
 
  private:
   void count(const octree::Point& from, const octree::Point& to);

@@ -37,20 +37,63 @@ struct OpenNode {
   std::uint8_t children_left = 0;
 };
 
+/// What the header states of one of the file's trees.
+struct TreeSection {
+  bool is_of_caps = false;
+  std::uint32_t first_page = 0, end_page = 0;
+  std::uint32_t root_link = 0;
+  std::uint8_t height = 0;
+  std::uint64_t nodes = 0, blocks = 0, triangles = 0;
+  std::uint64_t indices = 0;  // triangles have lesser indices
+
+  static TreeSection of_surface(const FileParts& parts) {
+    const storage::ModelRecord& model = parts.header()->model;
+    return {false,
+            0,
+            parts.first_cap_page(),
+            model.root_link,
+            model.height,
+            model.node_count,
+            model.block_count,
+            model.triangle_count,
+            model.usable_triangles() + model.skipped_count};
+  }
+  static TreeSection of_caps(const FileParts& parts) {
+    const storage::ModelRecord& model = parts.header()->model;
+    return {true,
+            parts.first_cap_page(),
+            parts.first_mask_page(),
+            model.cap_root_link,
+            model.cap_height,
+            model.cap_node_count,
+            model.cap_block_count,
+            model.cap_count,
+            model.cap_count};
+  }
+};
+
+/// Checks the pages of one tree. Counts what it finds in the report.
 class TreeCheck {
  public:
-  TreeCheck(FileParts& parts, bool full)
-      : parts_(parts), header_(*parts.header()), links_(header_.page_bytes) {
-    if (full) geometry_.emplace(header_, report_.issues);
-  }
+  // geometry  null: only the structure is checked
+  TreeCheck(FileParts& parts, const TreeSection& section, GeometryCheck* geometry,
+            CheckReport& report)
+      : parts_(parts),
+        header_(*parts.header()),
+        section_(section),
+        links_(header_.page_bytes),
+        report_(report),
+        geometry_(geometry),
+        nodes_before_(report.nodes),
+        blocks_before_(report.blocks) {}
 
-  CheckReport run(const CheckProgress& progress);
+  /// Returns whether all pages were readable and all links led to records.
+  bool run(const CheckProgress& progress);
 
  private:
   using Links = SubtreeLinks<SubtreeClaim>;
   using Chain = std::shared_ptr<const Bounds>;
 
-  void check_model();
   void check_page(std::uint32_t page);
   void check_roots();
   void check_root_node(std::uint32_t index, const FloatBox& box);
@@ -76,9 +119,12 @@ class TreeCheck {
 
   FileParts& parts_;
   const storage::FileHeader& header_;
+  const TreeSection section_;
   octree::LinkFormat links_;
-  CheckReport report_;
-  std::optional<GeometryCheck> geometry_;
+  CheckReport& report_;
+  GeometryCheck* const geometry_;
+  const std::uint64_t nodes_before_, blocks_before_;
+  std::uint64_t triangles_ = 0;
   Links pending_;
   std::map<std::uint64_t, OpenNode> open_nodes_;
   bool complete_ = true;  // whether all pages so far were readable and all links led to records
@@ -90,43 +136,21 @@ class TreeCheck {
   std::map<std::uint32_t, Chain> block_bounds_;  // by slot
 };
 
-CheckReport TreeCheck::run(const CheckProgress& progress) {
-  for (const Issue& issue : parts_.issues()) report_.issues.add(issue);
-  check_model();
-  const std::uint32_t root = header_.model.root_link;
+bool TreeCheck::run(const CheckProgress& progress) {
+  const std::uint32_t root = section_.root_link;
   SubtreeClaim whole;
   whole.is_root = true;
   pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, whole);
-  if (parts_.first_mask_page() == 0) complete_ = false;
-  for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
+  if (section_.first_page == section_.end_page) complete_ = false;
+  for (std::uint32_t page = section_.first_page; page < section_.end_page; ++page) {
     check_page(page);
     if (progress) progress(page + 1);
   }
-  if (links_.page(root) >= parts_.first_mask_page() && parts_.page_count() > 0)
+  if ((links_.page(root) < section_.first_page || links_.page(root) >= section_.end_page) &&
+      parts_.page_count() > 0)
     report_whole(IssueCode::kLinkTarget, "the header's link to the root leads to no page");
   check_counts();
-  if (geometry_) geometry_->finish(complete_);
-  const auto is_proving = [this] { return geometry_ && report_.issues.count() == 0; };
-  check_mask(parts_, is_proving(), report_, progress);
-  if (is_proving()) check_height_fields(parts_, report_.issues);
-  return std::move(report_);
-}
-
-/// Checks the fields of the header's model record that need no page.
-void TreeCheck::check_model() {
-  const storage::ModelRecord& model = header_.model;
-  const auto wrong = [this](const char* message) {
-    report_.issues.add(
-        {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
-  };
-  if (model.triangle_count == 0) wrong("the header states that there is no triangle");
-  if (model.skipped_count > ~std::uint64_t{0} - model.usable_triangles())
-    return wrong("the header's counts of triangles overflow");
-  const std::uint64_t indices = model.usable_triangles() + model.skipped_count;
-  const bool names_one = model.first_skipped != storage::kNoTriangle;
-  if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
-    wrong("the index of the first skipped triangle does not fit the number of skipped ones");
-  if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
+  return complete_;
 }
 
 void TreeCheck::check_page(std::uint32_t page) {
@@ -169,7 +193,7 @@ void TreeCheck::check_roots() {
     const auto claim = pending_.take({page_, slot, true});
     if (claim) {
       block_bounds_[slot] = claim->bounds;
-      if (claim->is_root && header_.model.height != 0)
+      if (claim->is_root && section_.height != 0)
         report(IssueCode::kHeight, "the root is a block, but the header's height is not 0");
     } else if (complete_) {
       report(IssueCode::kSubtreeUnlinked,
@@ -196,10 +220,10 @@ void TreeCheck::check_root_node(std::uint32_t index, const FloatBox& box) {
   }
   const std::uint8_t height = frame_->node(index).height;
   if (claim->is_root) {
-    check_root_box(box);
-    if (height != header_.model.height)
+    if (!section_.is_of_caps) check_root_box(box);
+    if (height != section_.height)
       report(IssueCode::kHeight, fmt::format("the root's height is {}, but the header states {}",
-                                             height, header_.model.height));
+                                             height, section_.height));
     return;
   }
   node_bounds_[index] = claim->bounds;
@@ -280,15 +304,15 @@ void TreeCheck::follow_link(std::uint32_t index, unsigned child, OpenNode& open)
 }
 
 void TreeCheck::check_blocks() {
-  const std::uint64_t indices = header_.model.usable_triangles() + header_.model.skipped_count;
   frame_->for_each_block([&](std::uint32_t, std::uint32_t slot) {
     const octree::BlockView block = frame_->block(slot);
-    report_.triangles += block.triangle_count();
+    triangles_ += block.triangle_count();
     // Indices ascend within a block.
     const std::uint64_t last = block.id(block.triangle_count() - 1);
-    if (last >= indices)
+    if (last >= section_.indices)
       report(IssueCode::kTriangleRange,
-             fmt::format("a triangle has index {}, but the model has {} indices", last, indices));
+             fmt::format("a {} has index {}, but the model has {} indices",
+                         section_.is_of_caps ? "cap" : "triangle", last, section_.indices));
     if (!geometry_) return;
     const auto bounds = block_bounds_.find(slot);
     geometry_->add(block, page_, bounds == block_bounds_.end() ? nullptr : bounds->second.get());
@@ -320,19 +344,52 @@ void TreeCheck::compare(const char* what, std::uint64_t stated, std::uint64_t fo
 }
 
 void TreeCheck::check_counts() {
+  if (!section_.is_of_caps) report_.triangles += triangles_;
   if (!complete_) return;
-  const storage::ModelRecord& model = header_.model;
-  compare("nodes", model.node_count, report_.nodes);
-  compare("blocks", model.block_count, report_.blocks);
-  compare("triangles", model.triangle_count, report_.triangles);
+  const bool caps = section_.is_of_caps;
+  compare(caps ? "nodes of caps" : "nodes", section_.nodes, report_.nodes - nodes_before_);
+  compare(caps ? "blocks of caps" : "blocks", section_.blocks, report_.blocks - blocks_before_);
+  compare(caps ? "caps" : "triangles", section_.triangles, triangles_);
+}
+
+/// Checks the fields of the header's model record that need no page.
+void check_model(const storage::ModelRecord& model, IssueList& issues) {
+  const auto wrong = [&issues](const char* message) {
+    issues.add(
+        {IssueCode::kHeaderField, Error::kNowhere, offsetof(storage::FileHeader, model), message});
+  };
+  if (model.triangle_count == 0) wrong("the header states that there is no triangle");
+  if (model.skipped_count > ~std::uint64_t{0} - model.usable_triangles())
+    return wrong("the header's counts of triangles overflow");
+  const std::uint64_t indices = model.usable_triangles() + model.skipped_count;
+  const bool names_one = model.first_skipped != storage::kNoTriangle;
+  if (names_one != (model.skipped_count > 0) || (names_one && model.first_skipped >= indices))
+    wrong("the index of the first skipped triangle does not fit the number of skipped ones");
+  if (model.sample_triangle >= indices) wrong("the sample triangle's index is out of range");
 }
 
 }  // namespace
 
 CheckReport check_file(FileParts& parts, bool full, const CheckProgress& progress) {
-  if (parts.header() != nullptr) return TreeCheck(parts, full).run(progress);
   CheckReport report;
   for (const Issue& issue : parts.issues()) report.issues.add(issue);
+  if (parts.header() == nullptr) return report;
+  const storage::FileHeader& header = *parts.header();
+  check_model(header.model, report.issues);
+  std::optional<GeometryCheck> surface, caps;
+  if (full) surface.emplace(header, report.issues);
+  const TreeSection of_surface = TreeSection::of_surface(parts);
+  bool complete = TreeCheck(parts, of_surface, surface ? &*surface : nullptr, report).run(progress);
+  if (surface) surface->finish(complete);
+  if (header.model.cap_count > 0 || parts.first_cap_page() < parts.first_mask_page()) {
+    if (full) caps.emplace(header, report.issues, true);
+    const TreeSection of_caps = TreeSection::of_caps(parts);
+    complete = TreeCheck(parts, of_caps, caps ? &*caps : nullptr, report).run(progress) && complete;
+    if (caps) caps->finish_caps(complete, *surface);
+  }
+  const auto is_proving = [&] { return full && report.issues.count() == 0; };
+  check_mask(parts, is_proving(), report, progress);
+  if (is_proving()) check_height_fields(parts, report.issues);
   return report;
 }
 

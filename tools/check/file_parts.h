@@ -44,11 +44,17 @@ class FileParts {
   /// The page table, unchecked. Empty without a header or if the file ends within the table.
   std::span<const storage::PageEntry> entries() const { return entries_; }
   std::uint32_t page_count() const { return static_cast<std::uint32_t>(entries_.size()); }
-  /// Number of the first mask page. Pages before it are distance pages.
+  /// Number of the first mask page.
   std::uint32_t first_mask_page() const {
     return std::min(header_.first_mask_page(), page_count());
   }
-  octree::BlockShape shape() const { return query::block_shape(header_.model); }
+  /// Number of the first cap page. Pages before it are distance pages.
+  std::uint32_t first_cap_page() const { return std::min(header_.first_cap_page(), page_count()); }
+  /// Layout of the page read last: of the surface or, if it is a cap page, of the caps.
+  octree::BlockShape shape() const {
+    const bool caps = page_ >= first_cap_page() && page_ < first_mask_page();
+    return caps ? query::cap_shape(header_.model) : query::block_shape(header_.model);
+  }
 
   /// Reads a page's stored bytes, checks the hash and decompresses them. Empty if sound.
   std::optional<Issue> read_page(std::uint32_t page);
@@ -57,14 +63,16 @@ class FileParts {
 
   /// Raw bytes of the page read last. Valid until the next read.
   std::span<const std::byte> raw() const { return raw_; }
-  /// Splits the raw bytes of a distance page into streams. False if they do not fit the page head.
+  /// Splits the raw bytes of a distance page or a cap page into streams. False if they do not fit
+  /// the page head.
   bool read(octree::RawStreams& streams) const;
   /// Splits the raw bytes of a mask page into streams. False if they do not fit the page head or
   /// the page is not a mask page.
   bool read(octree::MaskStreams& streams) const;
   /// Head of the page read last, if that is a mask page.
   std::optional<octree::MaskPageHead> mask_head() const;
-  /// The page decoded last, which must be a distance page. Valid until the next decode_page().
+  /// The page decoded last, which must be a distance page or a cap page. Valid until the next
+  /// decode_page().
   FrameView frame() const { return FrameView(frame_.data(), shape()); }
   const std::byte* frame_bytes() const { return frame_.data(); }
 

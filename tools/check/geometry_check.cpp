@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "octree/geometry/cell_overlap.h"
 #include "octree/traversal/bounds.h"
 #include "query/answer/model_geometry.h"
@@ -53,9 +55,10 @@ Vec3 vec3_of(const double (&values)[3]) { return {values[0], values[1], values[2
 
 }  // namespace
 
-GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issues)
+GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issues, bool of_caps)
     : model_(header.model),
       issues_(issues),
+      of_caps_(of_caps),
       edges_(model_),
       lower_(Point::Constant(kInfinity)),
       upper_(Point::Constant(-kInfinity)) {
@@ -79,7 +82,7 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
   for (unsigned i = 0; i < block.triangle_count(); ++i) add_triangle(block.triangle(i), page);
   if (bounds == nullptr) return;
   check_vertices(block, page, *bounds);
-  if (model_.unbalanced_edge_count != 0 && !moments_fit(*bounds, block, point_of(model_.centre)))
+  if (of_caps_ && !moments_fit(*bounds, block, point_of(model_.centre)))
     report(IssueCode::kMoments, page,
            fmt::format(
                "the moments stated for the block of triangle {} are not those of its triangles",
@@ -88,12 +91,14 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
 
 void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
   edges_.add(triangle);
-  if (has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
+  if (of_caps_)
+    area_ += 0.5 * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+  else if (has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
     report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
 }
 
 void GeometryCheck::add_node(const octree::Node& node, std::uint32_t page, const Bounds& bounds) {
-  if (model_.unbalanced_edge_count != 0 && !moments_fit(bounds, node))
+  if (of_caps_ && !moments_fit(bounds, node))
     report(IssueCode::kMoments, page, "a node's moments are not the sums of its children's");
 }
 
@@ -103,7 +108,7 @@ void GeometryCheck::add_ids(const octree::BlockView& block, std::uint32_t page) 
     min_id_ = std::min(min_id_, id);
     if (!insert(id))
       report(IssueCode::kTriangleTwice, page, fmt::format("triangle {} appears twice", id));
-    if (id == model_.sample_triangle) check_sample(block, i, page);
+    if (!of_caps_ && id == model_.sample_triangle) check_sample(block, i, page);
   }
 }
 
@@ -172,6 +177,25 @@ void GeometryCheck::finish(bool complete) {
         IssueCode::kSample,
         fmt::format("the header's sample triangle is {}, but the least index of a triangle is {}",
                     model_.sample_triangle, min_id_));
+}
+
+void GeometryCheck::finish_caps(bool complete, const GeometryCheck& surface) {
+  if (!complete) return;
+  const auto wrong = [this](std::string message) {
+    issues_.add({IssueCode::kCaps, Error::kNowhere, Error::kNowhere, std::move(message)});
+  };
+  const query::Scale scale(model_.scale_exponent);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(scale.in(model_.box_lower[axis]) <= lower_[axis] &&
+          upper_[axis] <= scale.in(model_.box_upper[axis])))
+      wrong(fmt::format("a cap lies outside of the header's box along {}", "xyz"[axis]));
+  // With walls faces are missing, so that edges cannot be checked.
+  if (!has_walls_ && !surface.edges_.are_closed_by(edges_))
+    wrong("the surface and its caps are not watertight together");
+  // Sums in another order differ by rounding.
+  if (!(std::fabs(area_ - model_.cap_area) <= 1e-9 * area_))
+    wrong(fmt::format("the area of the caps is {:.6g}, but the header states {:.6g}", area_,
+                      model_.cap_area));
 }
 
 }  // namespace planetree::tools

@@ -27,7 +27,8 @@ struct Bounds {
 /// header's box, sample and unbalanced edges.
 class GeometryCheck {
  public:
-  GeometryCheck(const storage::FileHeader& header, IssueList& issues);
+  /// of_caps  checks the tree of caps, not the surface
+  GeometryCheck(const storage::FileHeader& header, IssueList& issues, bool of_caps = false);
 
   /// Checks a block.
   ///
@@ -39,6 +40,10 @@ class GeometryCheck {
   ///
   /// complete  whether all blocks were added; otherwise nothing is checked
   void finish(bool complete);
+  /// Checks that the caps close the surface, each is there once, and none is out of the box.
+  ///
+  /// complete  whether all blocks of both were added; otherwise nothing is checked
+  void finish_caps(bool complete, const GeometryCheck& surface);
 
  private:
   void add_triangle(const octree::Triangle& triangle, std::uint32_t page);
@@ -51,9 +56,11 @@ class GeometryCheck {
 
   const storage::ModelRecord& model_;
   IssueList& issues_;
+  const bool of_caps_;
   // One bit per triangle index seen, in pieces, so that memory does not depend on unchecked counts.
   std::unordered_map<std::uint64_t, std::array<std::uint64_t, 8>> seen_;
   std::uint64_t min_id_ = storage::kNoTriangle;
+  double area_ = 0;  // of the caps
   bool sample_seen_ = false;
   EdgeCheck edges_;
   octree::Point lower_, upper_;                // of all vertices, model frame

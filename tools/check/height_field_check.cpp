@@ -19,7 +19,7 @@ class HeightFieldCheck {
   HeightFieldCheck(FileParts& parts, IssueList& issues) : parts_(parts), issues_(issues) {}
 
   void run() {
-    for (std::uint32_t page = 0; page < parts_.first_mask_page(); ++page) {
+    for (std::uint32_t page = 0; page < parts_.first_cap_page(); ++page) {
       std::optional<Issue> issue = parts_.read_page(page);
       if (!issue) issue = parts_.decode_page();
       if (issue) return issues_.add(*std::move(issue));

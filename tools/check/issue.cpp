@@ -41,7 +41,8 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "MASK_BLOCKS",
                                                                   "MASK_SLAB",
                                                                   "BLOCK_HEIGHT_FIELD",
-                                                                  "REGION"};
+                                                                  "REGION",
+                                                                  "CAPS"};
 static_assert(!kNames.back().empty());
 
 }  // namespace

@@ -46,8 +46,9 @@ enum class IssueCode : std::uint8_t {
   kMaskSlab,
   kBlockHeightField,
   kRegion,
+  kCaps,
 };
-inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kRegion) + 1;
+inline constexpr std::size_t kIssueCodeCount = static_cast<std::size_t>(IssueCode::kCaps) + 1;
 
 /// The code's name in reports, such as "PAGE_CHECKSUM".
 [[nodiscard]] std::string_view issue_name(IssueCode code);

@@ -54,15 +54,14 @@ std::string crossings_text(const Explanation& explanation) {
       vector_text(explanation.end), reason.known, reason.crossings);
 }
 
-std::string reason_text(const Explanation& explanation) {
+std::string rule_text(const Explanation& explanation) {
   const std::string cell =
       fmt::format("cell {} of the mask", cell_text(explanation.reason.cell.octcode()));
   switch (explanation.reason.rule) {
     case Rule::kNone:
       return "pages that decide the side cannot be read";
     case Rule::kRegion:
-      return "the file is of a region, and the point is beyond a wall or the surface is not "
-             "watertight";
+      return "the file is of a region, and the point is beyond a wall";
     case Rule::kOutsideBox:
       return "the point is outside of the model's box";
     case Rule::kColour:
@@ -79,11 +78,16 @@ std::string reason_text(const Explanation& explanation) {
       return crossings_text(explanation);
     case Rule::kWindingNumber:
       return fmt::format(
-          "the surface is not watertight; the winding number at the point is {:.6g}, with an error "
-          "of at most {:.2g}",
-          explanation.reason.value, explanation.reason.error);
+          "the surface with its caps has the winding number {:g} there; less the caps' share it is "
+          "{:.6g}, with an error of at most {:.2g}",
+          explanation.reason.closed, explanation.reason.value, explanation.reason.error);
   }
   return {};
+}
+
+std::string reason_text(const Explanation& explanation) {
+  return rule_text(explanation) +
+         (explanation.reason.caps_cannot_matter ? "; the caps are too far away to matter" : "");
 }
 
 Json work_json(const octree::TraversalStats& work) {
@@ -149,7 +153,8 @@ Json explanation_json(const Explanation& explanation) {
                          {"winding_there", reason.known},
                          {"change", reason.crossings}};
   if (reason.rule == Rule::kWindingNumber)
-    json["winding_number"] = {{"value", reason.value}, {"error", reason.error}};
+    json["winding_number"] = {
+        {"with_caps", reason.closed}, {"value", reason.value}, {"error", reason.error}};
   json["distance"] = answer.distance;
   json["lower"] = answer.lower;
   json["upper"] = answer.upper;

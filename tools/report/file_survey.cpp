@@ -38,9 +38,11 @@ class Surveyor {
     std::optional<Issue> issue = parts_.read_page(row.number);
     if (!issue) issue = parts_.decode_page();
     const bool mask = row.number >= parts_.first_mask_page();
+    const bool caps = !mask && row.number >= parts_.first_cap_page();
     if (issue) {
       survey_.issues.add(*std::move(issue));
       if (mask) return mask_.skip_page(row.number);
+      if (caps) return;
       return pending_.finish_page(row.number, [](const auto&, const auto&) {});
     }
     if (mask) {
@@ -49,6 +51,7 @@ class Surveyor {
       return mask_.add(row.number);
     }
     row.head = add_streams<octree::RawStreams>(survey_.streams);
+    if (caps) return;
     const FrameView frame = parts_.frame();
     frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {
       survey_.height_fields += frame.block(slot).header().is_height_field() ? 1 : 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "query/answer/model_geometry.h"
@@ -19,6 +20,7 @@ struct Sections {
   std::uint64_t headers = 0;
   std::uint64_t page_table = 0;
   std::uint64_t distance_pages = 0;
+  std::uint64_t cap_pages = 0;
   std::uint64_t mask_pages = 0;
 };
 
@@ -27,8 +29,9 @@ Sections sections_of(const FileParts& parts) {
   sections.headers = 2 * storage::kHeaderBytes;
   sections.page_table = parts.entries().size_bytes();
   for (std::uint32_t page = 0; page < parts.page_count(); ++page)
-    (page < parts.first_mask_page() ? sections.distance_pages : sections.mask_pages) +=
-        parts.entries()[page].stored_bytes;
+    (page < parts.first_cap_page()    ? sections.distance_pages
+     : page < parts.first_mask_page() ? sections.cap_pages
+                                      : sections.mask_pages) += parts.entries()[page].stored_bytes;
   return sections;
 }
 
@@ -86,6 +89,7 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
   return {{"headers", sections.headers},
           {"page_table", sections.page_table},
           {"distance_pages", sections.distance_pages},
+          {"cap_pages", sections.cap_pages},
           {"mask_pages", sections.mask_pages},
           {"within_pages", raw},
           {"within_pages_by_stream", streams}};
@@ -97,8 +101,7 @@ std::string point_text(const double (&values)[3]) {
 
 // The rule for sides, in one word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
-  if (model.unbalanced_edge_count == 0) return "crossings";
-  return query::region_of(model).has_walls() ? "none" : "winding";
+  return model.unbalanced_edge_count == 0 ? "crossings" : "winding";
 }
 
 Json region_json(const storage::ModelRecord& model) {
@@ -133,14 +136,19 @@ Json unbalanced_edges_json(const storage::ModelRecord& model) {
   return edges;
 }
 
+// The area of the caps in the input's units.
+double cap_area(const storage::ModelRecord& model) {
+  return std::ldexp(model.cap_area, -2 * model.scale_exponent);
+}
+
 std::string surface_text(const storage::ModelRecord& model) {
   if (model.unbalanced_edge_count == 0)
     return "  surface     watertight; sides by crossings, exactly\n";
-  std::string text = fmt::format("  surface     not watertight; {}: {} unbalanced edges\n",
-                                 query::region_of(model).has_walls()
-                                     ? "sides unknown, because the file is of a region with walls"
-                                     : "sides by winding number",
-                                 grouped_count(model.unbalanced_edge_count));
+  std::string text = fmt::format(
+      "  surface     not watertight: {} unbalanced edges, closed by {} caps of area {:.6g}; sides "
+      "by "
+      "winding number\n",
+      grouped_count(model.unbalanced_edge_count), grouped_count(model.cap_count), cap_area(model));
   for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
@@ -190,6 +198,12 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"sign_rule", sign_rule(model)},
                {"unbalanced_edges", model.unbalanced_edge_count},
                {"first_unbalanced_edges", unbalanced_edges_json(model)},
+               {"caps",
+                {{"count", model.cap_count},
+                 {"area", cap_area(model)},
+                 {"nodes", model.cap_node_count},
+                 {"blocks", model.cap_block_count},
+                 {"pages", model.cap_page_count}}},
                {"levels", model.height},
                {"nodes", model.node_count},
                {"blocks", model.block_count},
@@ -236,11 +250,13 @@ std::string summary_text(const std::string& name, const FileParts& parts,
       grouped_count(survey.height_fields), share(model.triangle_count, model.block_count));
   text += mask_text(survey, sections, model.triangle_count);
   text += fmt::format(
-      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, "
+      "  file        {}, {:.2f} bytes a triangle: headers {}, page table {}, distance pages {}, {}"
       "mask pages {}\n",
       short_bytes(parts.actual_bytes()), share(header.file_bytes, model.triangle_count),
       short_bytes(sections.headers), short_bytes(sections.page_table),
-      short_bytes(sections.distance_pages), short_bytes(sections.mask_pages));
+      short_bytes(sections.distance_pages),
+      model.cap_count > 0 ? fmt::format("cap pages {}, ", short_bytes(sections.cap_pages)) : "",
+      short_bytes(sections.mask_pages));
   text += fmt::format("  pages       {}, {} each in memory; {}\n", grouped_count(header.page_count),
                       short_bytes(header.page_bytes), raw_text(survey));
   text += fmt::format("  content id  {}\n", content_id_text(header.content_id));
