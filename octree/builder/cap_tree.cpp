@@ -79,4 +79,15 @@ Result<void> CapTree::number_pages(std::uint32_t first_page) {
   return tree_->check();
 }
 
+void CapTree::describe(storage::ModelRecord& model) const {
+  if (!tree_) return;
+  model.cap_count = count_;
+  model.cap_area = area_;
+  model.cap_node_count = tree_->node_count();
+  model.cap_block_count = tree_->block_count();
+  model.cap_height = static_cast<std::uint8_t>(tree_->height());
+  model.cap_page_count = tree_->pages().size();
+  model.cap_root_link = tree_->pages().root_link();
+}
+
 }  // namespace planetree::octree

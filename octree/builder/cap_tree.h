@@ -14,6 +14,7 @@
 #include "octree/builder/tree/built_tree.h"
 #include "octree/builder/tree/chunk_build.h"
 #include "planetree/error.h"
+#include "storage/file/file_layout.h"
 #include "storage/spill/spill_file.h"
 
 namespace planetree::octree {
@@ -45,7 +46,6 @@ class CapTree {
   CapWork work() const { return {count_, area_, runs_.extents()}; }
 
   std::uint64_t count() const { return count_; }
-  double area() const { return area_; }
 
   /// Builds the tree, and adds the caps to the sectors of the mask.
   /// max_triangles  maximum of a chunk.
@@ -57,6 +57,8 @@ class CapTree {
 
   /// The tree, after number_pages(); null if there are no caps.
   const BuiltTree* tree() const { return tree_ ? &*tree_ : nullptr; }
+  /// Writes the figures of the caps into the model record, after number_pages().
+  void describe(storage::ModelRecord& model) const;
 
  private:
   Result<void> add(const Triangle& cap, RegionCut& cut);

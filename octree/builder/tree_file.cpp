@@ -59,18 +59,6 @@ void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::Mode
   model.mask_levels = static_cast<std::uint8_t>(built.mask->levels());
 }
 
-void describe_caps(const CapTree& caps, storage::ModelRecord& model) {
-  const BuiltTree* const tree = caps.tree();
-  if (!tree) return;
-  model.cap_count = caps.count();
-  model.cap_area = caps.area();
-  model.cap_node_count = tree->node_count();
-  model.cap_block_count = tree->block_count();
-  model.cap_height = static_cast<std::uint8_t>(tree->height());
-  model.cap_page_count = tree->pages().size();
-  model.cap_root_link = tree->pages().root_link();
-}
-
 }  // namespace
 
 Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree& tree,
@@ -111,7 +99,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   describe_mesh(built, model);
   describe_region(built, model);
   describe_tree(built, tree, model);
-  describe_caps(caps, model);
+  caps.describe(model);
   return writer->finish(model, options.page_bytes);
 }
 

@@ -112,8 +112,7 @@ class SideGrid::SideGridBuilder {
       if (!record) continue;
       if ((node.leaf >> octant & 1) != 0)
         note(at, octant,
-             read_leaf(record, records_->child_link(node, octant), cell.child(octant))
-                 .record(0, is_clear(at, octant)));
+             read_leaf(record, records_->child_link(node, octant), cell.child(octant)).record(0));
       else
         note(at, octant, SideGridRecord::of_node(*reinterpret_cast<const MaskNode*>(record)));
     }
@@ -128,9 +127,8 @@ class SideGrid::SideGridBuilder {
     CellSlab slab{};
     unsigned touched = 0xff;  // octants of the leaf that listed blocks touch
 
-    // clear  whether the slab tells sides
-    SideGridRecord record(unsigned above, bool clear) const {
-      return listed ? SideGridRecord::of_list(head, link, clear ? slab : CellSlab{}, touched, above)
+    SideGridRecord record(unsigned above) const {
+      return listed ? SideGridRecord::of_list(head, link, slab, touched, above)
                     : SideGridRecord::of_leaf(link, above);
     }
   };
@@ -163,7 +161,7 @@ class SideGrid::SideGridBuilder {
         if ((leaf.touched >> of_leaf & 1) == 0)
           fill(at, octant, corner_number(leaf.head, of_leaf));
         else
-          note(at, octant, leaf.record(above, is_clear(at, octant)));
+          note(at, octant, leaf.record(above));
       }
     });
   }
@@ -177,7 +175,8 @@ class SideGrid::SideGridBuilder {
     if (winding != 0) filled.group.inside |= filled.bit;
   }
   void note(const Position& at, unsigned octant, const SideGridRecord& record) {
-    if (pass_ != Pass::kRecords || !is_listed_at(at)) return;
+    // A record tells sides too.
+    if (pass_ != Pass::kRecords || !is_listed_at(at) || !is_clear(at, octant)) return;
     const SideGridCells::Octant noted =
         grid_.cells_.octant_of(grid_.coordinates_.cell_at(at), octant);
     if (noted.is_unknown()) grid_.cells_.records[noted.record()] = record;

@@ -119,7 +119,7 @@ class WindingSum {
 
   void add_proxy(const Proxy& proxy) {
     if (proxy.known()) {
-      value_.add(-proxy.share.value);
+      value_.add(proxy.share.value);
       error_.add(proxy.share.error);
     } else {
       ++unknown_;
@@ -127,7 +127,7 @@ class WindingSum {
   }
   void remove_proxy(const Proxy& proxy) {
     if (proxy.known()) {
-      value_.add(proxy.share.value);
+      value_.add(-proxy.share.value);
       error_.add(-proxy.share.error);
     } else {
       --unknown_;
@@ -175,7 +175,7 @@ class WindingSum {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       ++work_.triangles;
       const WindingShare share = winding_share(point_, block.triangle(i), &limit_);
-      value_.add(-share.value);
+      value_.add(share.value);
       error_.add(share.error);
       on_surface_ = on_surface_ || share.on_surface;
     }

