@@ -38,18 +38,33 @@ std::uint64_t spilled_bytes(const MeshSize& size, const BuildMemory& memory,
                              : excess(bytes, excess(held_bytes, memory.batch_triangles * record));
 }
 
+// By Euler's formula for a surface without handles, about 2 V - F edges belong to one face only.
+std::uint64_t border_edges(const MeshSize& size) {
+  return std::min(excess(2 * size.vertices, size.triangles), 3 * size.triangles);
+}
+
+/// The caps of a surface. A hole has fewer caps than edges. Of triangles that share no edges, each
+/// has one.
+MeshSize caps_of(const MeshSize& size) {
+  const std::uint64_t edges = border_edges(size);
+  return {std::min(edges, size.triangles), edges, size.float64};
+}
+
 std::uint64_t edge_bytes(const MeshSize& size, const BuildMemory& memory) {
-  // By Euler's formula for a surface without handles, about 2 V - F edges belong to one face only.
-  const std::uint64_t border_edges =
-      std::min(excess(2 * size.vertices, size.triangles), 3 * size.triangles);
-  const std::uint64_t bytes =
-      EdgeCensus::kEdgeBytes * (border_edges + size.triangles / kTrianglesPerBorderEdge);
-  return bytes <= memory.edge_bytes ? 0 : bytes;
+  const std::uint64_t border = border_edges(size);
+  const std::uint64_t matched =
+      EdgeCensus::kEdgeBytes * (border + size.triangles / kTrianglesPerBorderEdge);
+  // The first round of closing the border leaves two edges in three; of triangles that share no
+  // edges, it is the last but one.
+  const std::uint64_t closed = 2 * EdgeCensus::kEdgeBytes * border;
+  const std::uint64_t caps = Triangles::record_bytes(size.float64) * caps_of(size).triangles;
+  return (matched <= memory.edge_bytes ? 0 : matched) + (closed <= memory.cap_bytes ? 0 : closed) +
+         (caps <= memory.cap_bytes ? 0 : caps);
 }
 
 std::uint64_t visitor_bytes(const MeshSize& size, const BuildMemory& memory) {
-  const std::uint64_t bytes =
-      Triangles::record_bytes(size.float64) * (size.triangles / kTrianglesPerVisitor);
+  const std::uint64_t bytes = Triangles::record_bytes(size.float64) *
+                              (size.triangles / kTrianglesPerVisitor + caps_of(size).triangles);
   return bytes <= memory.visitor_bytes ? 0 : bytes;
 }
 
@@ -80,7 +95,8 @@ constexpr const char* kTemporaryRemedy =
 
 SpaceNeed SpaceNeed::after_cutting(const MeshSize& part, const BuildMemory& memory,
                                    std::uint64_t kept_bytes) {
-  const std::uint64_t pages = raw_page_bytes(part);
+  const MeshSize caps = caps_of(part);
+  const std::uint64_t pages = raw_page_bytes(part) + raw_page_bytes(caps);
   const std::uint64_t to_keep = visitor_bytes(part, memory) + excess(pages, memory.pages_bytes);
   // Stored pages are not longer than raw ones, and each page, of 4 KiB or more, has 40 bytes in the
   // table.

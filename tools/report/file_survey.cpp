@@ -26,7 +26,7 @@ class Surveyor {
     const std::uint32_t root = parts_.header()->model.root_link;
     pending_.add({links_.page(root), links_.slot(root), links_.is_leaf(root)}, 0);
     for (std::uint32_t page = 0; page < parts_.page_count(); ++page) {
-      PageRow row{page, parts_.entries()[page], {}, {}};
+      PageRow row{page, parts_.entries()[page], {}, {}, false};
       survey_page(row);
       if (!visit(row)) break;
     }
@@ -39,6 +39,7 @@ class Surveyor {
     if (!issue) issue = parts_.decode_page();
     const bool mask = row.number >= parts_.first_mask_page();
     const bool caps = !mask && row.number >= parts_.first_cap_page();
+    row.is_of_caps = caps;
     if (issue) {
       survey_.issues.add(*std::move(issue));
       if (mask) return mask_.skip_page(row.number);
@@ -50,7 +51,7 @@ class Surveyor {
       survey_.lists += row.mask->listed_count;
       return mask_.add(row.number);
     }
-    row.head = add_streams<octree::RawStreams>(survey_.streams);
+    row.head = add_streams<octree::RawStreams>(caps ? survey_.cap_streams : survey_.streams);
     if (caps) return;
     const FrameView frame = parts_.frame();
     frame.for_each_block([&](std::uint32_t, std::uint32_t slot) {

@@ -135,15 +135,17 @@ std::string page_line(const PageRow& row) {
     return fmt::format("{} {:>32} {:>9} {:>9}\n", key, "unreadable", entry.raw_bytes,
                        entry.stored_bytes);
   const octree::PageHead& head = *row.head;
-  return fmt::format("{} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9}\n", key,
+  return fmt::format("{} {:>8} {:>6} {:>6} {:>9} {:>9} {:>9}{}\n", key,
                      head.root_node_count + head.root_block_count, head.node_count,
-                     head.block_count, head.triangle_count, entry.raw_bytes, entry.stored_bytes);
+                     head.block_count, head.triangle_count, entry.raw_bytes, entry.stored_bytes,
+                     row.is_of_caps ? " caps" : "");
 }
 
 Json page_json(const PageRow& row) {
   Json json = {{"page", row.number}, {"readable", row.head || row.mask}};
   json.update(entry_json(row.entry));
   if (row.mask) json["mask_cells"] = row.mask->record_count;
+  if (row.mask || row.head) json["kind"] = row.mask ? "mask" : row.is_of_caps ? "caps" : "distance";
   if (!row.head) return json;
   const octree::PageHead& head = *row.head;
   json["subtrees"] = head.root_node_count + head.root_block_count;

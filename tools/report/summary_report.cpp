@@ -72,7 +72,7 @@ std::string mask_text(const FileSurvey& survey, const Sections& sections, std::u
 
 std::array<std::uint64_t, kStreamGroupCount> bytes_by_group(const FileSurvey& survey) {
   std::array<std::uint64_t, kStreamGroupCount> bytes{};
-  for (const auto* rows : {&survey.streams, &survey.mask_streams})
+  for (const auto* rows : {&survey.streams, &survey.cap_streams, &survey.mask_streams})
     for (const StreamRow& row : *rows) bytes[static_cast<std::size_t>(row.group)] += row.bytes;
   return bytes;
 }
@@ -84,8 +84,12 @@ Json bytes_json(const FileParts& parts, const FileSurvey& survey) {
   for (std::size_t i = 0; i < kStreamGroupCount; ++i)
     raw[std::string(group_name(static_cast<StreamGroup>(i)))] = groups[i];
   Json streams = Json::object();
-  for (const auto* rows : {&survey.streams, &survey.mask_streams})
-    for (const StreamRow& row : *rows) streams[std::string(row.name)] = row.bytes;
+  for (const auto* rows : {&survey.streams, &survey.cap_streams, &survey.mask_streams})
+    for (const StreamRow& row : *rows) {
+      // Streams of distance pages and of cap pages have the same names.
+      const std::string name(row.name);
+      streams[name] = streams.value(name, std::uint64_t{0}) + row.bytes;
+    }
   return {{"headers", sections.headers},
           {"page_table", sections.page_table},
           {"distance_pages", sections.distance_pages},

@@ -59,9 +59,13 @@ inline CheckReport check(storage::FileCalls& calls, bool full = true) {
   return check_file(*parts, full);
 }
 
+/// Checks a file of these bytes. The proof of a mask opens it again, so that it must exist.
 inline CheckReport check(std::span<const std::byte> bytes, bool full = true) {
-  MemoryFile file(bytes);
-  return check(file, full);
+  const storage::TemporaryDirectory folder;
+  storage::write_bytes(folder / "file", bytes);
+  auto parts = FileParts::open(folder / "file");
+  EXPECT_TRUE(parts);
+  return check_file(*parts, full);
 }
 
 inline Codes codes_of(const CheckReport& report) {

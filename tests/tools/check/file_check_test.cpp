@@ -64,7 +64,7 @@ TEST(FileCheckOfDamage, FindsEveryFlippedBit) {
     }
     bytes[bit / 8] ^= mask;
   }
-  EXPECT_EQ(check(file).issues.count(), 0u);
+  EXPECT_EQ(check(bytes).issues.count(), 0u);
 }
 
 // Built as large models are: in several chunks, with a mask of many sectors.

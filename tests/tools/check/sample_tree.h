@@ -102,6 +102,8 @@ class RawPage {
 /// Changes that forge() makes to a tree.
 struct Forgery {
   std::function<void(std::uint32_t page, RawPage&)> page = [](std::uint32_t, RawPage&) {};
+  /// A page of the caps; numbers start at their first page.
+  std::function<void(std::uint32_t page, RawPage&)> caps = [](std::uint32_t, RawPage&) {};
   /// A page of the mask; numbers start at its first page.
   std::function<void(std::uint32_t page, octree::RawMaskPage&)> mask = [](std::uint32_t,
                                                                           octree::RawMaskPage&) {};
@@ -120,13 +122,16 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
   octree::BlockShape shape;
   shape.float64 = file->header().model.vertex_kind == storage::VertexKind::kFloat64;
   shape.wide_ids = file->header().model.triangle_id_bytes == 8;
-  shape.moments = file->header().model.unbalanced_edge_count != 0;
+  octree::BlockShape cap_shape = shape;
+  cap_shape.moments = true;
+  const std::uint32_t first_cap_page = file->header().first_cap_page();
   const std::uint32_t first_mask_page = file->header().first_mask_page();
   const auto changed = [&](std::uint32_t page, const std::vector<std::byte>& raw) {
     if (page < first_mask_page) {
-      RawPage distance_page(raw, shape);
-      forgery.page(page, distance_page);
-      return distance_page.bytes();
+      const bool caps = page >= first_cap_page;
+      RawPage of_tree(raw, caps ? cap_shape : shape);
+      (caps ? forgery.caps : forgery.page)(caps ? page - first_cap_page : page, of_tree);
+      return of_tree.bytes();
     }
     auto mask_page = octree::RawMaskPage::of(raw, shape.float64);
     forgery.mask(page - first_mask_page, mask_page);
@@ -137,6 +142,7 @@ inline void forge(const std::filesystem::path& from, const std::filesystem::path
     const storage::PageEntry& entry = file->entries()[page];
     std::vector<std::byte> raw(entry.raw_bytes);
     ASSERT_TRUE(file->read_page(page, scratch, raw));
+    if (page == first_cap_page && page < first_mask_page) writer->begin_caps();
     if (page == first_mask_page) writer->begin_mask();
     const std::vector<std::byte> bytes = changed(page, raw);
     storage::StoredPage stored = storage::compress_page(bytes);
