@@ -195,9 +195,16 @@ TEST_F(FileCheck, FindsWrongFiguresOfCaps) {
 
 TEST_F(FileCheck, FindsCapsThatDoNotCloseTheSurface) {
   Forgery forgery;
-  // Moves a vertex of a cap by its last bit.
-  forgery.caps = [](std::uint32_t page, RawPage& raw) {
-    if (page == 0) raw.set("vertices", 0, raw.get<std::uint32_t>("vertices", 0) ^ 1U);
+  // Moves a vertex of a cap a little.
+  bool moved = false;
+  forgery.caps = [&moved](std::uint32_t, RawPage& raw) {
+    const std::size_t count = raw.elements("vertices");
+    for (std::size_t at = 0; !moved && at < count; ++at) {
+      const auto old = raw.get<float>("vertices", at);
+      if (old < 0.25F) continue;
+      raw.set("vertices", at, std::nextafter(old, 0.0F));
+      moved = true;
+    }
   };
   EXPECT_EQ(codes_of_forgery(forgery), Codes{"CAPS"});
 }
