@@ -3,8 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "octree/builder/job/parallel.h"
 #include "octree/builder/sort/morton_order.h"
 #include "octree/geometry/strict_math.h"
@@ -40,7 +38,7 @@ Result<void> CapTree::add(const Triangle& cap, RegionCut& cut) {
                       "the surface has more unbalanced edges than a file of 32-bit indices can "
                       "close; join its vertices, or build parts of it");
   cut.add_cap(cap);
-  area_ += 0.5 * (cap[1] - cap[0]).cross(cap[2] - cap[0]).norm();
+  area_ += area_of(cap);
   batch_.add({morton_code_of(cap, frame_.core_lower()), count_++}, cap);
   if (batch_.size() < kCapsAtOnce) return {};
   return runs_.add(std::exchange(batch_, Triangles(shape_.float64)));

@@ -31,6 +31,14 @@ inline bool has_equal_corners(const Triangle& triangle) {
   return a == b || b == c || c == a;
 }
 
+/// Returns the area of a triangle, in plain double.
+inline double area_of(const Triangle& triangle) {
+  const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const Point normal(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+                     u.x() * v.y() - u.y() * v.x());
+  return 0.5 * normal.norm();
+}
+
 /// The value that triangles are compared by.
 struct TriangleValue {
   double squared = 0;  ///< squared distance, rounded

@@ -2,8 +2,6 @@
 
 #include <bit>
 
-#include <Eigen/Geometry>
-
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/tree_limits.h"
@@ -114,7 +112,7 @@ class CapGrid::Filler {
       double gap2 = 0;
       for (unsigned axis = 0; axis < 3; ++axis) gap2 += gap_of(axis, least[axis], greatest[axis]);
       if (!(gap2 > 0)) return false;
-      share_ += kOverFourPi * 0.5 * (cap[1] - cap[0]).cross(cap[2] - cap[0]).norm() / gap2;
+      share_ += kOverFourPi * area_of(cap) / gap2;
     }
     return true;
   }

@@ -322,9 +322,9 @@ Result<void> check_model(const ModelRecord& model) noexcept {
   }
   if (const Result<void> checked = check_core(model); !checked) return checked;
   if (const Result<void> checked = check_mask(model); !checked) return checked;
-  if (const Result<void> checked = check_caps(model); !checked) return checked;
   if (const Result<void> checked = check_region(model); !checked) return checked;
-  return check_unbalanced_edges(model);
+  if (const Result<void> checked = check_unbalanced_edges(model); !checked) return checked;
+  return check_caps(model);
 }
 
 Result<void> check_table(const FileHeader& header, std::span<const PageEntry> entries) noexcept {

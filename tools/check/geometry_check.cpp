@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
 #include "octree/geometry/cell_overlap.h"
 #include "octree/traversal/bounds.h"
 #include "query/answer/model_geometry.h"
@@ -92,7 +90,7 @@ void GeometryCheck::add(const octree::BlockView& block, std::uint32_t page, cons
 void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t page) {
   edges_.add(triangle);
   if (of_caps_)
-    area_ += 0.5 * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+    area_ += octree::area_of(triangle);
   else if (has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
     report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
 }

@@ -1,6 +1,7 @@
 #include "tests/storage/file/page_file_refusal.h"
 
 #include <cmath>
+#include <functional>
 
 namespace planetree::storage {
 namespace {
@@ -21,7 +22,7 @@ TEST_F(PageFileRefusal, RefusesOtherVersionsAndUnknownFeatures) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported, "version 11");
+  expect_refused(image, ErrorCode::kUnsupported, "version 12");
 }
 
 TEST_F(PageFileRefusal, AcceptsUnknownCompatibleFeatures) {
@@ -103,12 +104,6 @@ TEST_F(PageFileRefusal, RefusesBadModelFields) {
         m.mask_levels = 20;
       },
       "mask's size");
-  expect_model_refused(
-      [](ModelRecord& m) {
-        m.mask_cell_count = m.mask_page_count = 1;
-        m.unbalanced_edge_count = 1;
-      },
-      "not watertight");
   for (const int at : {0, 4}) {
     expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
   }
@@ -138,6 +133,43 @@ TEST_F(PageFileRefusal, RefusesUnbalancedEdgesThatDisagreeWithTheirCount) {
           m.unbalanced_edge[0].to[2] = value;
         },
         "is not unbalanced");
+}
+
+TEST_F(PageFileRefusal, RefusesCapsThatAreNotThoseOfTheEdges) {
+  const UnbalancedEdge edge{{0, 0, 0}, {1, 0, 0}, 0, 1, 0};
+  const auto open = [&](ModelRecord& m) {
+    m.unbalanced_edge_count = 1;
+    m.unbalanced_edge[0] = edge;
+    m.cap_count = m.cap_block_count = 1;
+    m.cap_page_count = 1;
+    m.cap_area = 0.5;
+  };
+  using Change = std::function<void(ModelRecord&)>;
+  for (const Change& change :
+       {Change([](ModelRecord& m) { m.cap_count = 0; }),
+        Change([](ModelRecord& m) { m.cap_block_count = 0; }),
+        Change([](ModelRecord& m) { m.cap_page_count = 0; }), Change([](ModelRecord& m) {
+          m.unbalanced_edge_count = 0;
+          m.unbalanced_edge[0] = {};
+        })})
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          open(m);
+          change(m);
+        },
+        "caps are not those");
+  expect_model_refused([](ModelRecord& m) { m.cap_node_count = 1; }, "caps are not those");
+  for (const double area : {-1.0, kNan, kInfinity})
+    expect_model_refused(
+        [&](ModelRecord& m) {
+          open(m);
+          m.cap_area = area;
+        },
+        "area of the caps");
+  expect_model_refused([](ModelRecord& m) { m.cap_area = 1; }, "area of the caps");
+  expect_model_refused([](ModelRecord& m) { m.cap_root_link = 1; }, "area of the caps");
+  expect_model_refused([](ModelRecord& m) { m.cap_height = 1; }, "tree of caps");
+  expect_model_refused([](ModelRecord& m) { m.cap_reserved[0] = 1; }, "reserved");
 }
 
 TEST_F(PageFileRefusal, AcceptsModelsAtTheLimits) {
