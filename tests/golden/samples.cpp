@@ -1,6 +1,7 @@
 #include "tests/golden/samples.h"
 
 #include <fstream>
+#include <iomanip>
 #include <stdexcept>
 
 #include "octree/builder/mesh/mesh_reader.h"
@@ -44,12 +45,15 @@ const std::vector<Sample>& samples() {
       {"sheet.obj", "sheet.ptree", 4096},
       {"sphere.ply", "sphere.ptree", 4096},
       {"boxes.obj", "boxes.ptree", 4096},
+      {"tube.obj", "tube.ptree", 4096},
   };
   return all;
 }
 
+const Sample& sheet_sample() { return samples()[1]; }
 const Sample& sphere_sample() { return samples()[2]; }
 const Sample& boxes_sample() { return samples()[3]; }
+const Sample& tube_sample() { return samples()[4]; }
 
 const Sample& region_sample() {
   static const Sample sample = {"boxes.obj", "region.ptree", 4096,
@@ -76,6 +80,20 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);
   return read_file(folder / "built.ptree");
+}
+
+std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count) {
+  const storage::TemporaryDirectory folder;
+  std::ofstream mesh(folder / "mesh.obj");
+  mesh << std::setprecision(17);
+  for (const MeshTriangle& triangle : mesh_triangles(sample.mesh_path())) {
+    if (triangle.id < count) continue;
+    for (const Vec3& corner : triangle.corners)
+      mesh << "v " << corner.x << ' ' << corner.y << ' ' << corner.z << '\n';
+    mesh << "f -3 -2 -1\n";
+  }
+  mesh.close();
+  return build_bytes(folder / "mesh.obj", sample.page_bytes, 1);
 }
 
 std::vector<MeshTriangle> mesh_triangles(const std::filesystem::path& mesh) {
