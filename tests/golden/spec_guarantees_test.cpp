@@ -21,9 +21,28 @@
 namespace planetree::golden {
 namespace {
 
-class SpecGuarantees : public testing::TestWithParam<Sample> {
+/// A tree of a sample: that of its surface or that of its caps.
+struct SampleTree {
+  Sample sample;
+  SpecTree::Of of;
+};
+
+std::vector<SampleTree> sample_trees() {
+  std::vector<SampleTree> found;
+  for (const Sample& sample : samples()) found.push_back({sample, SpecTree::Of::kSurface});
+  for (const Sample& sample : {sheet_sample(), tube_sample()})
+    found.push_back({sample, SpecTree::Of::kCaps});
+  return found;
+}
+
+std::string tree_name(const testing::TestParamInfo<SampleTree>& info) {
+  return sample_name({info.param.sample, info.index}) +
+         (info.param.of == SpecTree::Of::kCaps ? "_caps" : "");
+}
+
+class SpecGuarantees : public testing::TestWithParam<SampleTree> {
  protected:
-  SpecGuarantees() : tree_(SpecFile(read_file(GetParam().ptree_path()))) {}
+  SpecGuarantees() : tree_(SpecFile(read_file(GetParam().sample.ptree_path())), GetParam().of) {}
 
   // Calls look(page number, link, node) for every node.
   template <class Look>
@@ -35,10 +54,10 @@ class SpecGuarantees : public testing::TestWithParam<Sample> {
   SpecTree tree_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(samples()), sample_name);
+INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(sample_trees()), tree_name);
 
 TEST_P(SpecGuarantees, RecordsFormOneTree) {
-  std::set<std::uint32_t> linked = {tree_.header().root_link};
+  std::set<std::uint32_t> linked = {tree_.root_link()};
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children)
       EXPECT_TRUE(linked.insert(child.link).second) << "linked twice";
@@ -51,8 +70,8 @@ TEST_P(SpecGuarantees, RecordsFormOneTree) {
     for (const auto& [link, block] : page.blocks) EXPECT_TRUE(linked.contains(link));
   }
   EXPECT_EQ(linked.size(), nodes + blocks);
-  EXPECT_EQ(tree_.header().node_count, nodes);
-  EXPECT_EQ(tree_.header().block_count, blocks);
+  EXPECT_EQ(tree_.counts().nodes, nodes);
+  EXPECT_EQ(tree_.counts().blocks, blocks);
 }
 
 TEST_P(SpecGuarantees, LinksBetweenPagesLeadDownToRoots) {
@@ -67,8 +86,8 @@ TEST_P(SpecGuarantees, LinksBetweenPagesLeadDownToRoots) {
     }
   });
   EXPECT_EQ(parent_of.size(), tree_.pages().size() - 1);
-  EXPECT_EQ(tree_.page_of(tree_.header().root_link), 0u);
-  EXPECT_EQ(tree_.pages()[0].roots, std::set{tree_.header().root_link});
+  EXPECT_EQ(tree_.page_of(tree_.root_link()), 0u);
+  EXPECT_EQ(tree_.pages()[0].roots, std::set{tree_.root_link()});
 }
 
 TEST_P(SpecGuarantees, BoxesNestWithinAndAcrossPages) {
@@ -133,7 +152,7 @@ TEST_P(SpecGuarantees, DiscsEncloseWithTheirSlack) {
 }
 
 TEST_P(SpecGuarantees, RootBoxIsTight) {
-  const std::uint32_t root = tree_.header().root_link;
+  const std::uint32_t root = tree_.root_link();
   if (SpecTree::is_block(root)) return;  // a block has no box of its own
   const std::vector<SpecPoint> corners = corners_below(tree_, root);
   const SpecBox& box = tree_.node(root).box;
@@ -159,8 +178,8 @@ TEST_P(SpecGuarantees, HeightsAreThoseOfTheLongestPath) {
     EXPECT_GE(node.children.size(), 2u);
     EXPECT_LE(node.children.size(), 8u);
   });
-  const std::uint32_t root = tree_.header().root_link;
-  EXPECT_EQ(tree_.header().height, SpecTree::is_block(root) ? 0 : tree_.node(root).height);
+  const std::uint32_t root = tree_.root_link();
+  EXPECT_EQ(tree_.counts().height, SpecTree::is_block(root) ? 0 : tree_.node(root).height);
 }
 
 TEST_P(SpecGuarantees, BlocksAreSmallAndAscend) {
