@@ -30,6 +30,20 @@ class Collector final : public octree::TriangleSink {
   std::vector<MeshTriangle> found;
 };
 
+// Builds a file of triangles that share no vertex records, with pages of 4096 bytes.
+std::vector<std::byte> build_triangles(const std::vector<MeshTriangle>& triangles) {
+  const storage::TemporaryDirectory folder;
+  std::ofstream mesh(folder / "mesh.obj");
+  mesh << std::setprecision(17);
+  for (const MeshTriangle& triangle : triangles) {
+    for (const Vec3& corner : triangle.corners)
+      mesh << "v " << corner.x << ' ' << corner.y << ' ' << corner.z << '\n';
+    mesh << "f -3 -2 -1\n";
+  }
+  mesh.close();
+  return build_bytes(folder / "mesh.obj", 4096, 1);
+}
+
 }  // namespace
 
 std::filesystem::path Sample::mesh_path() const { return kFolder / mesh; }
@@ -83,17 +97,21 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
 }
 
 std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count) {
-  const storage::TemporaryDirectory folder;
-  std::ofstream mesh(folder / "mesh.obj");
-  mesh << std::setprecision(17);
-  for (const MeshTriangle& triangle : mesh_triangles(sample.mesh_path())) {
-    if (triangle.id < count) continue;
-    for (const Vec3& corner : triangle.corners)
-      mesh << "v " << corner.x << ' ' << corner.y << ' ' << corner.z << '\n';
-    mesh << "f -3 -2 -1\n";
+  std::vector<MeshTriangle> triangles = mesh_triangles(sample.mesh_path());
+  std::erase_if(triangles, [count](const MeshTriangle& triangle) { return triangle.id < count; });
+  return build_triangles(triangles);
+}
+
+std::vector<std::byte> build_loose_sphere() {
+  std::vector<MeshTriangle> triangles = mesh_triangles(sphere_sample().mesh_path());
+  for (MeshTriangle& triangle : triangles) {
+    const auto [a, b, c] = triangle.corners;
+    const Vec3 sum = {a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
+    for (Vec3& corner : triangle.corners)
+      corner = {corner.x + (sum.x / 3 - corner.x) / 16, corner.y + (sum.y / 3 - corner.y) / 16,
+                corner.z + (sum.z / 3 - corner.z) / 16};
   }
-  mesh.close();
-  return build_bytes(folder / "mesh.obj", sample.page_bytes, 1);
+  return build_triangles(triangles);
 }
 
 std::vector<MeshTriangle> mesh_triangles(const std::filesystem::path& mesh) {

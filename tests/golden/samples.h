@@ -48,8 +48,11 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
                                    const std::optional<octree::RegionBox>& box = std::nullopt);
 
 /// The bytes of the file built from a sample's mesh without its first `count` triangles, and so
-/// with a hole. Vertices are not shared.
+/// with a hole.
 std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count);
+/// The bytes of the file built from the triangles of the sphere, each a little smaller, so that
+/// they do not touch each other. Its caps have several pages.
+std::vector<std::byte> build_loose_sphere();
 
 struct MeshTriangle {
   std::uint64_t id;

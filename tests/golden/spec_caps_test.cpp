@@ -179,6 +179,21 @@ TEST(SpecCapsOfRegions, TellTheSidesOfTheWholeSurface) {
     EXPECT_GT(seen[side], 50);
 }
 
+// Triangles that touch nothing, each with a cap that has it as its other side.
+TEST(SpecCapsOfLooseTriangles, TellTheSidesThatSolidAnglesTell) {
+  const storage::TemporaryDirectory folder;
+  storage::write_bytes(folder / "loose.ptree", build_loose_sphere());
+  const SpecFile file(read_file(folder / "loose.ptree"));
+  const std::vector<SpecTriangle> surface = surface_of(file), caps = caps_of(file);
+  EXPECT_EQ(caps.size(), surface.size());
+  EXPECT_GT(file.header().cap_pages, 2u);
+  EXPECT_EQ(unbalanced_edges({surface}), file.header().unbalanced_edges);
+  EXPECT_EQ(unbalanced_edges({surface, caps}), 0u);
+  std::map<SpecSide, int> seen = compare_sides(file, folder / "loose.ptree", surface);
+  EXPECT_GT(seen[SpecSide::kInside], 50);
+  EXPECT_GT(seen[SpecSide::kOutside], 50);
+}
+
 // The holes of two boxes. Only surfaces with large flat parts have special leaves.
 TEST(SpecCapsOfFlatSurfaces, TouchNoSpecialLeaf) {
   const storage::TemporaryDirectory folder;

@@ -1,5 +1,5 @@
-// Checks "Guarantees of the tree" and "Page keys" in the samples, as the independent reader decodes
-// them.
+// Checks "Guarantees of the tree" and "Page keys" in the samples and in a file of many caps, as the
+// independent reader decodes them.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -21,28 +21,31 @@
 namespace planetree::golden {
 namespace {
 
-/// A tree of a sample: that of its surface or that of its caps.
-struct SampleTree {
-  Sample sample;
+/// A tree of a file: that of its surface or that of its caps.
+struct FileTree {
+  std::string name;
+  std::function<std::vector<std::byte>()> bytes;
   SpecTree::Of of;
 };
 
-std::vector<SampleTree> sample_trees() {
-  std::vector<SampleTree> found;
-  for (const Sample& sample : samples()) found.push_back({sample, SpecTree::Of::kSurface});
-  for (const Sample& sample : {sheet_sample(), tube_sample()})
-    found.push_back({sample, SpecTree::Of::kCaps});
+std::vector<FileTree> file_trees() {
+  const auto bytes_of = [](const Sample& sample) {
+    return [path = sample.ptree_path()] { return read_file(path); };
+  };
+  std::vector<FileTree> found;
+  for (const Sample& sample : samples())
+    found.push_back({sample_name({sample, 0}), bytes_of(sample), SpecTree::Of::kSurface});
+  found.push_back({"caps_of_sheet", bytes_of(sheet_sample()), SpecTree::Of::kCaps});
+  found.push_back({"caps_of_tube", bytes_of(tube_sample()), SpecTree::Of::kCaps});
+  found.push_back({"caps_of_loose_sphere", build_loose_sphere, SpecTree::Of::kCaps});
   return found;
 }
 
-std::string tree_name(const testing::TestParamInfo<SampleTree>& info) {
-  return sample_name({info.param.sample, info.index}) +
-         (info.param.of == SpecTree::Of::kCaps ? "_caps" : "");
-}
+std::string tree_name(const testing::TestParamInfo<FileTree>& info) { return info.param.name; }
 
-class SpecGuarantees : public testing::TestWithParam<SampleTree> {
+class SpecGuarantees : public testing::TestWithParam<FileTree> {
  protected:
-  SpecGuarantees() : tree_(SpecFile(read_file(GetParam().sample.ptree_path())), GetParam().of) {}
+  SpecGuarantees() : tree_(SpecFile(GetParam().bytes()), GetParam().of) {}
 
   // Calls look(page number, link, node) for every node.
   template <class Look>
@@ -54,7 +57,7 @@ class SpecGuarantees : public testing::TestWithParam<SampleTree> {
   SpecTree tree_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(sample_trees()), tree_name);
+INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(file_trees()), tree_name);
 
 TEST_P(SpecGuarantees, RecordsFormOneTree) {
   std::set<std::uint32_t> linked = {tree_.root_link()};
