@@ -1,16 +1,17 @@
 // The caps of files are those that appendix B of the specification describes, in the same order.
 
 #include <gtest/gtest.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "storage/file/checksum.h"
 #include "tests/golden/samples.h"
 #include "tests/golden/spec_tree.h"
 
@@ -33,7 +34,7 @@ using Rank = std::pair<std::uint64_t, SpecPoint>;
 
 Rank rank(const SpecPoint& vertex, int round) {
   const std::array<double, 4> words = {vertex[0], vertex[1], vertex[2], static_cast<double>(round)};
-  return {XXH3_64bits(words.data(), sizeof words), vertex};
+  return {storage::hash64(std::as_bytes(std::span(words))), vertex};
 }
 
 // Pairs the edges that enter a vertex, ordered by their other ends, with those that leave it.

@@ -220,44 +220,68 @@ TEST(SpecCapsOfFlatSurfaces, TouchNoSpecialLeaf) {
   EXPECT_GT(seen[SpecSide::kOutside], 50);
 }
 
-// A cube without its lid, whose rim is not flat. The points on its caps are exact.
+// A cube without its lid, whose rim is not flat.
+// turn  0 to 23: which axis is up, and which axes are mirrored.
+void write_open_cube(const std::filesystem::path& path, int turn) {
+  constexpr int kCorners[8][3] = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0},
+                                  {0, 0, 8}, {8, 0, 6}, {8, 8, 8}, {0, 8, 6}};
+  std::ofstream mesh(path);
+  for (const auto& corner : kCorners) {
+    mesh << 'v';
+    for (int axis = 0; axis < 3; ++axis)
+      mesh << ' ' << corner[(axis + turn) % 3] * ((turn / 3 >> axis & 1) != 0 ? -1 : 1);
+    mesh << '\n';
+  }
+  mesh << "f 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\nf 1 4 3\nf 1 3 "
+          "2\n";
+}
+
+std::ptrdiff_t count_on(const std::vector<SpecTriangle>& triangles, const SpecPoint& p) {
+  return std::ranges::count_if(
+      triangles, [&p](const SpecTriangle& triangle) { return is_on(p, triangle.corners); });
+}
+
+// Points of a triangle that are exact for corners that are small whole numbers.
+std::vector<SpecPoint> points_on(const SpecTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  std::vector<SpecPoint> points;
+  for (int u = 0; u <= 8; ++u)
+    for (int v = 0; u + v <= 8; ++v) {
+      SpecPoint& point = points.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        point[axis] = ((8 - u - v) * a[axis] + u * b[axis] + v * c[axis]) / 8;
+    }
+  return points;
+}
+
+// The direction of the infinitesimal step differs from turn to turn, relative to the caps.
 TEST(SpecCapsWithPointsOnThem, TellTheSidesThatSolidAnglesTell) {
   const storage::TemporaryDirectory folder;
-  std::ofstream(folder / "cube.obj")
-      << "v 0 0 0\nv 8 0 0\nv 8 8 0\nv 0 8 0\nv 0 0 8\nv 8 0 6\nv 8 8 8\nv 0 8 6\n"
-         "f 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n"
-         "f 1 4 3\nf 1 3 2\n";
-  storage::write_bytes(folder / "cube.ptree", build_bytes(folder / "cube.obj", 4096, 1));
-  const SpecFile file(read_file(folder / "cube.ptree"));
-  const std::vector<SpecTriangle> surface = surface_of(file), caps = caps_of(file);
-  ASSERT_EQ(caps.size(), 2u);
-  const auto count_on = [](const std::vector<SpecTriangle>& triangles, const SpecPoint& p) {
-    return std::ranges::count_if(
-        triangles, [&p](const SpecTriangle& triangle) { return is_on(p, triangle.corners); });
-  };
-  const SpecSides sides(file);
-  LibrarySides library(folder / "cube.ptree");
   int on_one = 0, on_both = 0;
-  for (const SpecTriangle& cap : caps)
-    for (int i = 0; i < 45; ++i) {
-      const double u = i % 9 / 8., v = i / 9 / 8.;
-      if (u + v > 1) continue;
-      SpecPoint p{};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        p[axis] = (1 - u - v) * cap.corners[0][axis] + u * cap.corners[1][axis] +
-                  v * cap.corners[2][axis];
-      if (count_on(surface, p) > 0) {
-        EXPECT_EQ(sides.side(p), SpecSide::kOnSurface);
-        continue;
+  for (int turn = 0; turn < 24; ++turn) {
+    write_open_cube(folder / "cube.obj", turn);
+    storage::write_bytes(folder / "cube.ptree", build_bytes(folder / "cube.obj", 4096, 1));
+    const SpecFile file(read_file(folder / "cube.ptree"));
+    const std::vector<SpecTriangle> surface = surface_of(file), caps = caps_of(file);
+    ASSERT_EQ(caps.size(), 2u);
+    const SpecSides sides(file);
+    LibrarySides library(folder / "cube.ptree");
+    for (const SpecTriangle& cap : caps)
+      for (const SpecPoint& p : points_on(cap)) {
+        if (count_on(surface, p) > 0) {
+          EXPECT_EQ(sides.side(p), SpecSide::kOnSurface);
+          EXPECT_EQ(library.side(p), Side::kOnSurface);
+          continue;
+        }
+        ++(count_on(caps, p) == 2 ? on_both : on_one);
+        const double w = std::fabs(winding_number(surface, p));
+        ASSERT_GT(std::fabs(w - 0.5), 1e-9);
+        EXPECT_EQ(sides.side(p), w > 0.5 ? SpecSide::kInside : SpecSide::kOutside) << w;
+        EXPECT_EQ(library.side(p), w > 0.5 ? Side::kInside : Side::kOutside) << w;
       }
-      ++(count_on(caps, p) == 2 ? on_both : on_one);
-      const double w = winding_number(surface, p);
-      ASSERT_GT(std::fabs(w - 0.5), 1e-9);
-      EXPECT_EQ(sides.side(p), w > 0.5 ? SpecSide::kInside : SpecSide::kOutside) << w;
-      EXPECT_EQ(library.side(p), w > 0.5 ? Side::kInside : Side::kOutside) << w;
-    }
-  EXPECT_GT(on_one, 20);
-  EXPECT_GT(on_both, 0);
+  }
+  EXPECT_GT(on_one, 500);
+  EXPECT_GT(on_both, 100);
 }
 
 }  // namespace
