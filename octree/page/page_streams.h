@@ -18,9 +18,9 @@
 ///     child normals         2 planes of i16: u, v
 ///     child slabs           2 planes of i16: lower, upper
 ///     child radii           u16
-///     child dipoles         3 planes of i16: x, y, z            } only in models that
-///     child quadrupoles     5 planes of i8: xx, yy, xy, yz, zx  } are not watertight
-///     child areas           u16, a ShortFloat                   } (octree/page/moments.h)
+///     child dipoles         3 planes of i16: x, y, z            } only in cap pages
+///     child quadrupoles     5 planes of i8: xx, yy, xy, yz, zx  } (octree/page/moments.h)
+///     child areas           u16, a ShortFloat                   }
 ///     child second moments  u16, a ShortFloat                   }
 ///     page links            u32 a child of kind kPage
 ///     triangle counts       u8 a block, with kHeightFieldBit and kCompactBit

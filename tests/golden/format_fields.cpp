@@ -99,6 +99,14 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, core_upper)
       .PLANETREE_FIELD(ModelRecord, stray_count)
       .PLANETREE_FIELD(ModelRecord, stray_edge)
+      .PLANETREE_FIELD(ModelRecord, cap_count)
+      .PLANETREE_FIELD(ModelRecord, cap_node_count)
+      .PLANETREE_FIELD(ModelRecord, cap_block_count)
+      .PLANETREE_FIELD(ModelRecord, cap_area)
+      .PLANETREE_FIELD(ModelRecord, cap_page_count)
+      .PLANETREE_FIELD(ModelRecord, cap_root_link)
+      .PLANETREE_FIELD(ModelRecord, cap_height)
+      .PLANETREE_FIELD(ModelRecord, cap_reserved)
       .take();
 }
 

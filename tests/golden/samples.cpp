@@ -1,6 +1,7 @@
 #include "tests/golden/samples.h"
 
 #include <fstream>
+#include <iomanip>
 #include <stdexcept>
 
 #include "octree/builder/mesh/mesh_reader.h"
@@ -29,6 +30,20 @@ class Collector final : public octree::TriangleSink {
   std::vector<MeshTriangle> found;
 };
 
+// Builds a file of triangles that share no vertex records, with pages of 4096 bytes.
+std::vector<std::byte> build_triangles(const std::vector<MeshTriangle>& triangles) {
+  const storage::TemporaryDirectory folder;
+  std::ofstream mesh(folder / "mesh.obj");
+  mesh << std::setprecision(17);
+  for (const MeshTriangle& triangle : triangles) {
+    for (const Vec3& corner : triangle.corners)
+      mesh << "v " << corner.x << ' ' << corner.y << ' ' << corner.z << '\n';
+    mesh << "f -3 -2 -1\n";
+  }
+  mesh.close();
+  return build_bytes(folder / "mesh.obj", 4096, 1);
+}
+
 }  // namespace
 
 std::filesystem::path Sample::mesh_path() const { return kFolder / mesh; }
@@ -44,12 +59,15 @@ const std::vector<Sample>& samples() {
       {"sheet.obj", "sheet.ptree", 4096},
       {"sphere.ply", "sphere.ptree", 4096},
       {"boxes.obj", "boxes.ptree", 4096},
+      {"tube.obj", "tube.ptree", 4096},
   };
   return all;
 }
 
+const Sample& sheet_sample() { return samples()[1]; }
 const Sample& sphere_sample() { return samples()[2]; }
 const Sample& boxes_sample() { return samples()[3]; }
+const Sample& tube_sample() { return samples()[4]; }
 
 const Sample& region_sample() {
   static const Sample sample = {"boxes.obj", "region.ptree", 4096,
@@ -76,6 +94,24 @@ std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint3
   const auto report = octree::build_tree(mesh, folder / "built.ptree", options, silence);
   if (!report) throw std::runtime_error(report.error().text);
   return read_file(folder / "built.ptree");
+}
+
+std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count) {
+  std::vector<MeshTriangle> triangles = mesh_triangles(sample.mesh_path());
+  std::erase_if(triangles, [count](const MeshTriangle& triangle) { return triangle.id < count; });
+  return build_triangles(triangles);
+}
+
+std::vector<std::byte> build_loose_sphere() {
+  std::vector<MeshTriangle> triangles = mesh_triangles(sphere_sample().mesh_path());
+  for (MeshTriangle& triangle : triangles) {
+    const auto [a, b, c] = triangle.corners;
+    const Vec3 sum = {a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
+    for (Vec3& corner : triangle.corners)
+      corner = {corner.x + (sum.x / 3 - corner.x) / 16, corner.y + (sum.y / 3 - corner.y) / 16,
+                corner.z + (sum.z / 3 - corner.z) / 16};
+  }
+  return build_triangles(triangles);
 }
 
 std::vector<MeshTriangle> mesh_triangles(const std::filesystem::path& mesh) {

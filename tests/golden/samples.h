@@ -30,6 +30,10 @@ struct Sample {
 std::string sample_name(const testing::TestParamInfo<Sample>& info);
 
 const std::vector<Sample>& samples();
+/// The samples that are not watertight. The caps of the sheet are one block, those of the tube have
+/// nodes.
+const Sample& sheet_sample();
+const Sample& tube_sample();
 /// The sample of a sphere, with enough triangles for several pages of 4096 bytes.
 const Sample& sphere_sample();
 /// The sample of a region, which samples() does not contain, and the sample of its whole mesh.
@@ -42,6 +46,13 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 std::vector<std::byte> build_bytes(const std::filesystem::path& mesh, std::uint32_t page_bytes,
                                    unsigned threads,
                                    const std::optional<octree::RegionBox>& box = std::nullopt);
+
+/// The bytes of the file built from a sample's mesh without its first `count` triangles, and so
+/// with a hole.
+std::vector<std::byte> build_with_hole(const Sample& sample, std::uint64_t count);
+/// The bytes of the file built from the triangles of the sphere, each a little smaller, so that
+/// they do not touch each other. Its caps have several pages.
+std::vector<std::byte> build_loose_sphere();
 
 struct MeshTriangle {
   std::uint64_t id;

@@ -1,5 +1,5 @@
-// Checks "Guarantees of the tree" and "Page keys" in the samples, as the independent reader decodes
-// them.
+// Checks "Guarantees of the tree" and "Page keys" in the samples and in a file of many caps, as the
+// independent reader decodes them.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -21,9 +21,31 @@
 namespace planetree::golden {
 namespace {
 
-class SpecGuarantees : public testing::TestWithParam<Sample> {
+/// A tree of a file: that of its surface or that of its caps.
+struct FileTree {
+  std::string name;
+  std::function<std::vector<std::byte>()> bytes;
+  SpecTree::Of of;
+};
+
+std::vector<FileTree> file_trees() {
+  const auto bytes_of = [](const Sample& sample) {
+    return [path = sample.ptree_path()] { return read_file(path); };
+  };
+  std::vector<FileTree> found;
+  for (const Sample& sample : samples())
+    found.push_back({sample_name({sample, 0}), bytes_of(sample), SpecTree::Of::kSurface});
+  found.push_back({"caps_of_sheet", bytes_of(sheet_sample()), SpecTree::Of::kCaps});
+  found.push_back({"caps_of_tube", bytes_of(tube_sample()), SpecTree::Of::kCaps});
+  found.push_back({"caps_of_loose_sphere", build_loose_sphere, SpecTree::Of::kCaps});
+  return found;
+}
+
+std::string tree_name(const testing::TestParamInfo<FileTree>& info) { return info.param.name; }
+
+class SpecGuarantees : public testing::TestWithParam<FileTree> {
  protected:
-  SpecGuarantees() : tree_(SpecFile(read_file(GetParam().ptree_path()))) {}
+  SpecGuarantees() : tree_(SpecFile(GetParam().bytes()), GetParam().of) {}
 
   // Calls look(page number, link, node) for every node.
   template <class Look>
@@ -35,10 +57,10 @@ class SpecGuarantees : public testing::TestWithParam<Sample> {
   SpecTree tree_;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(samples()), sample_name);
+INSTANTIATE_TEST_SUITE_P(All, SpecGuarantees, testing::ValuesIn(file_trees()), tree_name);
 
 TEST_P(SpecGuarantees, RecordsFormOneTree) {
-  std::set<std::uint32_t> linked = {tree_.header().root_link};
+  std::set<std::uint32_t> linked = {tree_.root_link()};
   each_node([&](std::uint32_t, std::uint32_t, const SpecNode& node) {
     for (const SpecChild& child : node.children)
       EXPECT_TRUE(linked.insert(child.link).second) << "linked twice";
@@ -51,8 +73,8 @@ TEST_P(SpecGuarantees, RecordsFormOneTree) {
     for (const auto& [link, block] : page.blocks) EXPECT_TRUE(linked.contains(link));
   }
   EXPECT_EQ(linked.size(), nodes + blocks);
-  EXPECT_EQ(tree_.header().node_count, nodes);
-  EXPECT_EQ(tree_.header().block_count, blocks);
+  EXPECT_EQ(tree_.counts().nodes, nodes);
+  EXPECT_EQ(tree_.counts().blocks, blocks);
 }
 
 TEST_P(SpecGuarantees, LinksBetweenPagesLeadDownToRoots) {
@@ -67,8 +89,8 @@ TEST_P(SpecGuarantees, LinksBetweenPagesLeadDownToRoots) {
     }
   });
   EXPECT_EQ(parent_of.size(), tree_.pages().size() - 1);
-  EXPECT_EQ(tree_.page_of(tree_.header().root_link), 0u);
-  EXPECT_EQ(tree_.pages()[0].roots, std::set{tree_.header().root_link});
+  EXPECT_EQ(tree_.page_of(tree_.root_link()), 0u);
+  EXPECT_EQ(tree_.pages()[0].roots, std::set{tree_.root_link()});
 }
 
 TEST_P(SpecGuarantees, BoxesNestWithinAndAcrossPages) {
@@ -133,7 +155,7 @@ TEST_P(SpecGuarantees, DiscsEncloseWithTheirSlack) {
 }
 
 TEST_P(SpecGuarantees, RootBoxIsTight) {
-  const std::uint32_t root = tree_.header().root_link;
+  const std::uint32_t root = tree_.root_link();
   if (SpecTree::is_block(root)) return;  // a block has no box of its own
   const std::vector<SpecPoint> corners = corners_below(tree_, root);
   const SpecBox& box = tree_.node(root).box;
@@ -159,8 +181,8 @@ TEST_P(SpecGuarantees, HeightsAreThoseOfTheLongestPath) {
     EXPECT_GE(node.children.size(), 2u);
     EXPECT_LE(node.children.size(), 8u);
   });
-  const std::uint32_t root = tree_.header().root_link;
-  EXPECT_EQ(tree_.header().height, SpecTree::is_block(root) ? 0 : tree_.node(root).height);
+  const std::uint32_t root = tree_.root_link();
+  EXPECT_EQ(tree_.counts().height, SpecTree::is_block(root) ? 0 : tree_.node(root).height);
 }
 
 TEST_P(SpecGuarantees, BlocksAreSmallAndAscend) {

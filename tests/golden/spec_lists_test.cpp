@@ -1,6 +1,6 @@
 // Checks "Lists of blocks" and "Slabs of listed leaves" in the samples, as the independent reader
-// decodes them: against every triangle of the tree, clipped exactly by octants or by the cell, and
-// against sums of solid angles.
+// decodes them: against every triangle and every cap, clipped exactly by octants or by the cell,
+// and against sums of solid angles.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,9 @@
 namespace planetree::golden {
 namespace {
 
-std::vector<Sample> listing_samples() { return {sphere_sample(), boxes_sample(), region_sample()}; }
+std::vector<Sample> listing_samples() {
+  return {sphere_sample(), boxes_sample(), region_sample(), sheet_sample(), tube_sample()};
+}
 
 octree::Point to_point(const SpecPoint& point) { return {point[0], point[1], point[2]}; }
 
@@ -38,9 +40,13 @@ class SpecLists : public testing::TestWithParam<Sample> {
         tree_(file_),
         whole_(SpecFile(read_file(
             (GetParam().box ? boxes_sample() : GetParam()).ptree_path()))),  // without a region
-        all_(whole_.triangles(whole_.header().root_link)) {
-    for (const SpecPage& page : tree_.pages())
-      blocks_.insert(page.blocks.begin(), page.blocks.end());
+        all_(whole_.triangles(whole_.root_link())) {
+    add_blocks(tree_);
+    if (!file_.header().open()) return;
+    const SpecTree caps(file_, SpecTree::Of::kCaps);
+    add_blocks(caps);
+    const std::vector<SpecTriangle> triangles = caps.triangles(caps.root_link());
+    all_.insert(all_.end(), triangles.begin(), triangles.end());
   }
 
   void each_listed(const std::function<void(const SpecCell&, const SpecMaskRecord&)>& look) const {
@@ -74,10 +80,14 @@ class SpecLists : public testing::TestWithParam<Sample> {
   SpecMask mask_;
   SpecTree tree_;
   SpecTree whole_;
-  std::vector<SpecTriangle> all_;
+  std::vector<SpecTriangle> all_;  // of the closed surface
   std::map<std::uint32_t, SpecBlock> blocks_;
 
  private:
+  void add_blocks(const SpecTree& tree) {
+    for (const SpecPage& page : tree.pages())
+      blocks_.insert(page.blocks.begin(), page.blocks.end());
+  }
   octree::Point corner(const SpecCell& cell, unsigned number) const {
     return to_point(mask_.corner(cell, number));
   }
@@ -184,7 +194,7 @@ TEST_P(SpecLists, HaveSlabsThatBoundTheSurface) {
     if (!slab.bounds_below() && !slab.bounds_above()) return;
     const SpecPoint end = mask_.in_cell(cell, mask_.corner(cell, 7));
     for (const SpecListedBlock& listed : record.blocks)
-      for (const SpecTriangle& triangle : tree_.block(listed.link).triangles) {
+      for (const SpecTriangle& triangle : blocks_.at(listed.link).triangles) {
         std::array<SpecPoint, 3> corners{};
         for (std::size_t i = 0; i < 3; ++i) corners[i] = mask_.in_cell(cell, triangle.corners[i]);
         for (const SpecPoint& point : clipped(corners, {}, end)) {

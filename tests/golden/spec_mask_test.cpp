@@ -1,5 +1,5 @@
 // Checks "Mask" and "Mask page" in the samples, as the independent reader decodes them, against
-// sums of solid angles.
+// sums of solid angles of the surface and its caps.
 
 #include "tests/golden/spec_mask.h"
 
@@ -12,7 +12,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tests/golden/samples.h"
@@ -26,26 +25,25 @@ double volume(const SpecPoint& a, const SpecPoint& b, const SpecPoint& c) {
   return dot(a, cross(b, c));
 }
 
-constexpr std::string_view kOpenMesh = "sheet.obj";
-
-std::vector<Sample> watertight_samples() {
-  std::vector<Sample> found = samples();
-  std::erase_if(found, [](const Sample& sample) { return sample.mesh == kOpenMesh; });
-  return found;
-}
-
 class SpecMasks : public testing::TestWithParam<Sample> {
  protected:
   SpecMasks()
       : file_(read_file(GetParam().ptree_path())),
         mask_(file_),
         tree_(file_),
-        triangles_(tree_.triangles(tree_.header().root_link)) {}
+        triangles_(tree_.triangles(tree_.root_link())) {
+    if (!file_.header().open()) return;
+    caps_.emplace_back(file_, SpecTree::Of::kCaps);
+    const std::vector<SpecTriangle> caps = caps_[0].triangles(caps_[0].root_link());
+    triangles_.insert(triangles_.end(), caps.begin(), caps.end());
+  }
 
-  // The winding number, or nothing if the point is so close to the surface that rounding decides.
+  // The winding number of the closed surface, or nothing if the point is so close to it that
+  // rounding decides.
   std::optional<int> winding(const SpecPoint& point) const {
     const double number = winding_number(triangles_, point);
-    if (std::fabs(number - std::round(number)) > 1e-6 || tree_.nearest(point).distance < 1e-9)
+    if (std::fabs(number - std::round(number)) > 1e-6 || tree_.nearest(point).distance < 1e-9 ||
+        (!caps_.empty() && caps_[0].nearest(point).distance < 1e-9))
       return std::nullopt;
     return static_cast<int>(std::round(number));
   }
@@ -59,23 +57,17 @@ class SpecMasks : public testing::TestWithParam<Sample> {
   SpecFile file_;
   SpecMask mask_;
   SpecTree tree_;
-  std::vector<SpecTriangle> triangles_;
+  std::vector<SpecTree> caps_;           // one, or none
+  std::vector<SpecTriangle> triangles_;  // the caps last
 };
 
-INSTANTIATE_TEST_SUITE_P(All, SpecMasks, testing::ValuesIn(watertight_samples()), sample_name);
-
-TEST(SpecMaskSamples, ExistForEveryWatertightMesh) {
-  for (const Sample& sample : samples()) {
-    const SpecHeader header = SpecFile(read_file(sample.ptree_path())).header();
-    EXPECT_EQ(header.mask_pages > 0, sample.mesh != kOpenMesh) << sample.mesh;
-  }
-}
+INSTANTIATE_TEST_SUITE_P(All, SpecMasks, testing::ValuesIn(samples()), sample_name);
 
 // Plain leaves occur where many blocks meet: see spec_lists_test.cpp.
 TEST(SpecMaskSamples, HaveRecordsOfAllKindsButPlainLeaves) {
   std::set<unsigned> kinds;
   unsigned inverted = 0;
-  for (const Sample& sample : watertight_samples())
+  for (const Sample& sample : samples())
     SpecMask(SpecFile(read_file(sample.ptree_path())))
         .each_grey([&](const SpecCell&, const SpecMaskRecord& record) {
           kinds.insert(record.kind);
@@ -86,6 +78,7 @@ TEST(SpecMaskSamples, HaveRecordsOfAllKindsButPlainLeaves) {
 }
 
 TEST_P(SpecMasks, RecordsFormOneTree) {
+  EXPECT_GT(file_.header().mask_pages, 0u);
   std::size_t records = 0, visited = 0;
   unsigned levels = 0;
   for (const SpecMaskPage& page : mask_.pages()) records += page.records.size();

@@ -20,7 +20,7 @@ static_assert(sizeof(Head) == 40);
 class PageReader {
  public:
   PageReader(std::span<const std::byte> raw, std::uint32_t number, const SpecHeader& header)
-      : header_(header), number_(number), layout_(raw) {
+      : header_(header), number_(number), of_caps_(number >= header.c()), layout_(raw) {
     std::memcpy(&head_, layout_.bytes(40).data(), 40);
     require(head_.page_number == number, "another page");
   }
@@ -48,7 +48,7 @@ class PageReader {
     normals_ = layout_.byte_split<std::int16_t>(2u * head_.children);
     slabs_ = layout_.byte_split<std::int16_t>(2u * head_.children);
     radii_ = layout_.byte_split<std::uint16_t>(head_.children);
-    if (header_.open) {
+    if (of_caps_) {
       vectors_ = layout_.byte_split<std::int16_t>(3u * head_.children);
       firsts_ = layout_.byte_split<std::int8_t>(5u * head_.children);
       areas_ = layout_.byte_split<std::uint16_t>(head_.children);
@@ -64,9 +64,8 @@ class PageReader {
       compact_.push_back((count >> 6 & 1) != 0);
       count &= 0x3f;
     }
-    require(
-        (!header_.open && !header_.has_walls()) || std::ranges::count(is_height_field_, true) == 0,
-        "a height field of an open surface or of a region with walls");
+    require((!of_caps_ && !header_.has_walls()) || std::ranges::count(is_height_field_, true) == 0,
+            "a height field of caps or of a region with walls");
     vertex_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
     new_counts_ = layout_.byte_split<std::uint8_t>(head_.blocks);
     vertex_refs_ = layout_.byte_split<std::uint16_t>(head_.vertex_refs);
@@ -92,7 +91,7 @@ class PageReader {
   void place_records() {
     const std::uint32_t slots = header_.page_bytes / 64;
     std::uint32_t slot = 1 + (header_.page_bytes + 32767) / 32768;
-    for (std::size_t i = 0; i < head_.nodes; ++i, slot += header_.open ? 7 : 5)
+    for (std::size_t i = 0; i < head_.nodes; ++i, slot += of_caps_ ? 7 : 5)
       node_links_.push_back(number_ * slots + slot);
     for (std::size_t j = 0; j < head_.blocks; ++j) {
       block_links_.push_back(0x80000000 | (number_ * slots + slot));
@@ -117,7 +116,7 @@ class PageReader {
         if (kind == 0) boxes.at(next_node) = read.box;
         read.link = kind == 0   ? node_links_.at(next_node++)
                     : kind == 1 ? block_links_.at(next_block++)
-                                : page_links_.at(next_link++);
+                                : page_link(next_link++);
         node.children.push_back(read);
       }
       page.nodes[node_links_[i]] = node;
@@ -125,6 +124,13 @@ class PageReader {
     require(child == head_.children && next_node == head_.nodes && next_block == head_.blocks &&
                 next_link == head_.page_links,
             "children do not add up");
+  }
+
+  std::uint32_t page_link(std::size_t at) const {
+    const std::uint32_t link = page_links_.at(at);
+    const std::uint32_t page = (link & 0x7fffffff) / (header_.page_bytes / 64);
+    require(number_ < page && page < (of_caps_ ? header_.d() : header_.c()), "a page link");
+    return link;
   }
 
   SpecChild read_child(const SpecBox& parent, std::size_t child) const {
@@ -143,7 +149,7 @@ class PageReader {
     disc.slab_lower = static_cast<float>(slabs_[child]) * disc.unit;
     disc.slab_upper = static_cast<float>(slabs_[n + child]) * disc.unit;
     disc.radius = static_cast<float>(radii_[child]) * disc.unit;
-    if (header_.open) read.moments = read_moments(child);
+    if (of_caps_) read.moments = read_moments(child);
     return read;
   }
 
@@ -210,6 +216,7 @@ class PageReader {
 
   const SpecHeader& header_;
   std::uint32_t number_;
+  bool of_caps_;
   StreamReader layout_;
   Head head_{};
   std::vector<float> root_boxes_;

@@ -8,7 +8,8 @@
 
 namespace planetree::golden {
 
-/// Decodes the raw bytes of page `number` ("Distance page", "Bounds").
+/// Decodes the raw bytes of page `number`, a distance page or a cap page ("Distance page",
+/// "Bounds").
 SpecPage decode_spec_page(std::span<const std::byte> raw, std::uint32_t number,
                           const SpecHeader& header);
 

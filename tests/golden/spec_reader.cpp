@@ -30,7 +30,7 @@ std::uint64_t hash64(Bytes bytes, std::uint64_t seed) {
 bool is_whole(Bytes header) {
   constexpr unsigned char kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
   return std::memcmp(header.data(), kMagic, 8) == 0 &&
-         hash64(header.first(632), 0) == get<std::uint64_t>(header, 632);
+         hash64(header.first(696), 0) == get<std::uint64_t>(header, 696);
 }
 
 // "Region": sides within the mesh's box are walls.
@@ -49,8 +49,26 @@ void read_region(Bytes model, SpecHeader& read) {
   }
 }
 
+void read_caps(Bytes model, SpecHeader& read) {
+  read.unbalanced_edges = get<std::uint64_t>(model, 168);
+  read.cap_count = get<std::uint64_t>(model, 512);
+  read.cap_node_count = get<std::uint64_t>(model, 520);
+  read.cap_block_count = get<std::uint64_t>(model, 528);
+  read.cap_area = get<double>(model, 536);
+  read.cap_pages = get<std::uint32_t>(model, 544);
+  read.cap_root_link = get<std::uint32_t>(model, 548);
+  read.cap_height = get<std::uint8_t>(model, 552);
+  for (const bool has_some :
+       {read.cap_pages > 0, read.cap_block_count > 0, read.unbalanced_edges > 0})
+    require(has_some == (read.cap_count > 0), "caps");
+  require((read.cap_node_count > 0) == (read.cap_count > 16), "nodes of caps");
+  require(read.mask_pages + read.cap_pages < read.page_count, "no distance page");
+  for (std::size_t at = 553; at < 576; ++at)
+    require(get<std::uint8_t>(model, at) == 0, "reserved bytes of caps");
+}
+
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 512);
+  const Bytes model = header.subspan(80, 576);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -69,12 +87,12 @@ SpecHeader read_header(Bytes header) {
   read.scale_exponent = get<std::int32_t>(model, 152);
   read.root_link = get<std::uint32_t>(model, 156);
   read.float64 = get<std::uint8_t>(model, 160) == 1;
-  read.open = get<std::uint64_t>(model, 168) != 0;
   read.wide_ids = get<std::uint8_t>(model, 161) == 8;
   read.height = get<std::uint8_t>(model, 162);
   read.mask_cells = get<std::uint64_t>(model, 368);
   read.mask_pages = get<std::uint32_t>(model, 376);
   read.mask_levels = get<std::uint8_t>(model, 380);
+  read_caps(model, read);
   read_region(model, read);
   return read;
 }
@@ -90,8 +108,8 @@ bool SpecHeader::has_walls() const {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 11, "another version");
-  require(get<std::uint16_t>(header, 10) == 640, "header length");
+  require(get<std::uint16_t>(header, 8) == 12, "another version");
+  require(get<std::uint16_t>(header, 10) == 704, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
   header_ = read_header(header);
@@ -101,33 +119,33 @@ SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
 
 Bytes SpecFile::choose_header() const {
   const Bytes all(bytes_);
-  require(all.size() >= 1321, "too short");
-  if (is_whole(all.first(640))) return all.first(640);
-  require(is_whole(all.last(640)), "no whole header");
-  return all.last(640);
+  require(all.size() >= 1449, "too short");
+  if (is_whole(all.first(704))) return all.first(704);
+  require(is_whole(all.last(704)), "no whole header");
+  return all.last(704);
 }
 
 void SpecFile::check_table(Bytes header) const {
-  const Bytes table = Bytes(bytes_).subspan(640, std::size_t{40} * header_.page_count);
+  const Bytes table = Bytes(bytes_).subspan(704, std::size_t{40} * header_.page_count);
   require(hash64(table, 0) == get<std::uint64_t>(header, 56), "table hash");
   std::vector<std::uint64_t> page_hashes;
-  std::uint64_t end = 640 + table.size();
+  std::uint64_t end = 704 + table.size();
   std::pair<std::uint64_t, std::uint32_t> last_key{};
   for (std::uint32_t k = 0; k < header_.page_count; ++k) {
     page_hashes.push_back(get<std::uint64_t>(entry(k), 8) ^ content_id_);
     require(get<std::uint64_t>(entry(k), 0) == end, "pages do not tile the file");
     end += get<std::uint32_t>(entry(k), 32);
     const std::pair key(get<std::uint64_t>(entry(k), 16), get<std::uint32_t>(entry(k), 24));
-    require(k == 0 || k == header_.d() || last_key < key, "order of keys");
+    require(k == 0 || k == header_.c() || k == header_.d() || last_key < key, "order of keys");
     last_key = key;
   }
-  require(end == bytes_.size() - 640, "pages do not tile the file");
+  require(end == bytes_.size() - 704, "pages do not tile the file");
   const XXH128_hash_t id = XXH3_128bits(page_hashes.data(), 8 * page_hashes.size());
   require(id.low64 == content_id_ && id.high64 == get<std::uint64_t>(header, 48), "content id");
 }
 
 Bytes SpecFile::entry(std::uint32_t number) const {
-  return Bytes(bytes_).subspan(640 + std::size_t{40} * number, 40);
+  return Bytes(bytes_).subspan(704 + std::size_t{40} * number, 40);
 }
 
 std::vector<std::byte> SpecFile::raw_page(std::uint32_t number) const {

@@ -27,7 +27,6 @@ struct SpecHeader {
   std::int32_t scale_exponent;
   std::uint32_t root_link;
   bool float64, wide_ids;
-  bool open;  ///< not watertight: nodes have moments
   unsigned height;
   std::uint64_t mask_cells;
   std::uint32_t mask_pages;
@@ -35,7 +34,15 @@ struct SpecHeader {
   std::uint64_t input_triangles;     ///< 0: the file has no region
   SpecPoint wall_lower, wall_upper;  ///< walls of the region, model frame; infinite if none
   std::int64_t region_winding;
+  std::uint64_t unbalanced_edges, cap_count, cap_node_count, cap_block_count;
+  double cap_area;
+  std::uint32_t cap_pages, cap_root_link;
+  unsigned cap_height;
   bool has_walls() const;
+  /// Whether the surface is not watertight.
+  bool open() const { return cap_count > 0; }
+  /// Number of the first cap page.
+  std::uint32_t c() const { return d() - cap_pages; }
   /// Number of the first mask page.
   std::uint32_t d() const { return page_count - mask_pages; }
 };
@@ -59,7 +66,7 @@ struct SpecMoments {
 struct SpecChild {
   SpecBox box;
   SpecDisc disc;
-  SpecMoments moments;  ///< zero if the node has none
+  SpecMoments moments;  ///< of caps only, otherwise zero
   std::uint32_t link;
 };
 

@@ -85,7 +85,7 @@ TEST_F(SpecRegion, HasTheHeaderOfTheWhole) {
   EXPECT_EQ(part.box_upper, whole.box_upper);
   EXPECT_EQ(part.centre, whole.centre);
   EXPECT_EQ(part.scale_exponent, whole.scale_exponent);
-  EXPECT_EQ(part.open, whole.open);
+  EXPECT_EQ(part.open(), whole.open());
   EXPECT_EQ(whole.input_triangles, 0u);
 }
 

@@ -55,12 +55,20 @@ double disc_bound(const SpecDisc& disc, const SpecPoint& q) {
 
 }  // namespace
 
-SpecTree::SpecTree(const SpecFile& file) : header_(file.header()) {
-  for (std::uint32_t k = 0; k < header_.d(); ++k) pages_.push_back(file.page(k));
+SpecTree::SpecTree(const SpecFile& file, Of of)
+    : header_(file.header()), of_caps_(of == Of::kCaps) {
+  const std::uint32_t end = of_caps_ ? header_.d() : header_.c();
+  for (std::uint32_t k = of_caps_ ? header_.c() : 0; k < end; ++k) pages_.push_back(file.page(k));
+}
+
+SpecCounts SpecTree::counts() const {
+  if (!of_caps_)
+    return {header_.triangle_count, header_.node_count, header_.block_count, header_.height};
+  return {header_.cap_count, header_.cap_node_count, header_.cap_block_count, header_.cap_height};
 }
 
 std::uint32_t SpecTree::page_of(std::uint32_t link) const {
-  return (link & 0x7fffffff) / (header_.page_bytes / 64);
+  return (link & 0x7fffffff) / (header_.page_bytes / 64) - (of_caps_ ? header_.c() : 0);
 }
 
 const SpecNode& SpecTree::node(std::uint32_t link) const {
@@ -97,7 +105,7 @@ SpecNearest SpecTree::nearest(const SpecPoint& point) const {
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
   SpecNearest best{~std::uint64_t{0}, std::numeric_limits<double>::infinity()};
-  heap.emplace(0.0, header_.root_link);
+  heap.emplace(0.0, root_link());
   while (!heap.empty()) {
     const auto [bound, link] = heap.top();
     heap.pop();

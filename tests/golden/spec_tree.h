@@ -12,17 +12,29 @@ struct SpecNearest {
   double distance;
 };
 
-/// The tree of a file, with all its pages. Part of the independent reader: see spec_reader.h.
+/// What the header states about a tree.
+struct SpecCounts {
+  std::uint64_t triangles, nodes, blocks;
+  unsigned height;
+};
+
+/// A tree of a file, with all its pages. Part of the independent reader: see spec_reader.h.
 class SpecTree {
  public:
-  explicit SpecTree(const SpecFile& file);
+  enum class Of { kSurface, kCaps };
+
+  /// The file must have caps if their tree is asked for.
+  explicit SpecTree(const SpecFile& file, Of of = Of::kSurface);
 
   const SpecHeader& header() const { return header_; }
+  SpecCounts counts() const;
+  std::uint32_t root_link() const { return of_caps_ ? header_.cap_root_link : header_.root_link; }
   const std::vector<SpecPage>& pages() const { return pages_; }
 
   /// The record that a link leads to. Throws if there is none.
   const SpecNode& node(std::uint32_t link) const;
   const SpecBlock& block(std::uint32_t link) const;
+  /// The page that a link leads to, counted from the first one of the tree.
   std::uint32_t page_of(std::uint32_t link) const;
   static bool is_block(std::uint32_t link) { return link >> 31 != 0; }
 
@@ -37,6 +49,7 @@ class SpecTree {
   double child_bound(const SpecChild& child, const SpecPoint& from_centre) const;
 
   SpecHeader header_;
+  bool of_caps_;
   std::vector<SpecPage> pages_;
 };
 

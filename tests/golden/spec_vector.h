@@ -21,6 +21,8 @@ inline double dot(const SpecPoint& a, const SpecPoint& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+inline double length(const SpecPoint& a) { return std::sqrt(dot(a, a)); }
+
 /// The sum of all solid angles over 4 pi.
 inline double winding_number(const std::vector<SpecTriangle>& triangles, const SpecPoint& point) {
   double sum = 0;
