@@ -266,8 +266,7 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       [&arguments](const std::string& text) { arguments.options.box = box_of(text); },
       "Build only the triangles that touch this box, in model units. Sides and watertightness are "
       "those of the whole mesh. Answers are exact where the surface is nearer than the box's "
-      "walls; intervals hold everywhere. Sides are known within the box, if the mesh is "
-      "watertight");
+      "walls; intervals hold everywhere. Sides are known within the box");
   subcommand.flag(
       "--resume", arguments.options.resume,
       "Keep a checkpoint in the directory OUT.ptree.work, next to the output or in --temp-dir, "

@@ -63,10 +63,10 @@ class PLANETREE_API Probe {
   /// surface the point is. Coordinates that are smaller than about 2^-1022 times the model's
   /// longest edge are rounded first.
   ///
-  /// The side is kUnknown if pages or work are missing, or if the file of a region does not
-  /// determine it (see ModelInfo::has_region). If the surface is not watertight, the side is also
-  /// kUnknown if the magnitude of the winding number differs from 1/2 by less than about 2^-45
-  /// times the number of triangles.
+  /// The side is kUnknown, and the status kDegraded, if pages or work are missing, or if the point
+  /// is beyond a wall of the file's region (see ModelInfo::has_region). If the surface is not
+  /// watertight, it is also kUnknown if the magnitude of the winding number differs from 1/2 by
+  /// less than about 2^-45 times the number of caps (ModelInfo::caps).
   ///
   /// query    query point, model units. A coordinate that is NaN or infinite gives kBadQuery.
   /// options  only `wait` and `max_work` have an effect. A value of any option that is out of range

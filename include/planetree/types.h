@@ -53,17 +53,17 @@ enum class Side : std::uint8_t {
 /// What is proven of an answer. The status concerns all requested parts: kDegraded if any part is
 /// not proven. The interval contains the true distance for every status.
 enum class Status : std::uint8_t {
-  /// No triangle that the query skipped can be nearer, and no page or work was missing for side and
-  /// normal. The side may still be kUnknown if the file does not determine it: if |w| is too close
-  /// to 1/2, or in the file of a region. If the query point is 10^12 or more diagonals of the
+  /// No triangle that the query skipped can be nearer, and side and normal are proven, so that the
+  /// side is not kUnknown. If the query point is 10^12 or more diagonals of the
   /// model's box away, the interval is wider than the model. The triangle is then that of least
   /// computed distance, and another one may be nearer.
   kExact,
   /// Not exact, but upper - lower <= QueryOptions::max_error. A triangle other than the reported
   /// one may be nearer. The side is as for kExact. The normal is that of the reported triangle.
   kWithinError,
-  /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, or triangles
-  /// outside of the region may be nearer (see ModelInfo::has_region).
+  /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, triangles outside
+  /// of the region may be nearer (see ModelInfo::has_region), or the side is unknown because |w| is
+  /// 1/2 to the last bits or the query is beyond a wall of the region.
   kDegraded,
   /// No surface within QueryOptions::max_distance. The side is computed as usual and may be
   /// kUnknown.
@@ -152,9 +152,9 @@ struct ClosestPoint {
   /// - If `side` is kOutside, the normal points towards the query point; if kInside, away from it.
   ///   So beside an open surface that encloses no space, it points towards the query point on both
   ///   sides of the surface.
-  /// - If `side` is kOnSurface, the normal points out of the solid if the surface is watertight.
-  ///   Otherwise it follows the orientation of the mesh, and is reversed if the winding number is
-  ///   negative.
+  /// - If `side` is kOnSurface, the normal points out of the solid. Where both sides of the surface
+  ///   are outside or both inside, it follows the orientation of the mesh, and is reversed if the
+  ///   winding number of the rest of the surface is negative.
   ///
   /// It is (0, 0, 1) if no normal was requested, no triangle was found, or no face at the nearest
   /// point has area.
