@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "octree/geometry/cell_grid.h"
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/traversal/tree_view.h"
+#include "planetree/types.h"
 #include "query/file/scale.h"
 #include "storage/file/file_layout.h"
 
@@ -24,6 +27,14 @@ struct ModelGeometry {
   octree::Point region_corner;  ///< a point of the region; see region_winding
   std::int64_t region_winding;  ///< winding number at `region_corner`; only if watertight
   bool watertight;              ///< no edge is unbalanced
+  /// Whether each SideRule decides sides by the nearest feature, for this file.
+  std::array<bool, 3> by_surface{false, false, true};
+
+  /// Whether the rule, which may be out of range, decides sides by the winding number.
+  bool by_winding_number(SideRule rule) const noexcept {
+    const auto at = static_cast<std::size_t>(rule);
+    return at < by_surface.size() && !by_surface[at];
+  }
 };
 
 /// Returns the part of space in which a file holds the whole surface, model frame.
