@@ -32,6 +32,13 @@ struct ModelInfo {
   Vec3 region_lower,                   ///< lower corner of the region
       region_upper;                    ///< upper corner of the region
   std::uint64_t unbalanced_edges = 0;  ///< edges that are not balanced, see watertight()
+  /// How sides are decided by default: SideRule::kSolid or kSurface. An open surface of an openness
+  /// of 0.375 or more is taken for a sheet, unless BuildOptions::side says otherwise.
+  SideRule side_rule = SideRule::kSolid;
+  bool side_is_chosen = false;  ///< whether BuildOptions::side chose the rule
+  /// How open the surface of the input is: the length of the sum of the triangles' area vectors,
+  /// divided by the sum of their areas. 0 for a closed surface, 1 for a flat sheet.
+  double openness = 0;
   bool float64 = false;                ///< whether coordinates are doubles; not all fit a float
   std::uint64_t nodes = 0;             ///< inner nodes of the tree
   std::uint64_t blocks = 0;            ///< leaves of the tree: blocks of up to 16 triangles

@@ -19,6 +19,7 @@
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/mesh_size.h"
+#include "octree/builder/openness.h"
 #include "octree/builder/sort/each_chunk.h"
 #include "octree/builder/sort/ordered_mesh.h"
 #include "octree/builder/sort/triangle_runs.h"
@@ -200,6 +201,7 @@ Result<void> TreeBuild::look_at_surface() {
   if (work && work->surface()) {
     model_.edges = work->surface()->edges;
     model_.cut = work->surface()->cut;
+    model_.openness = work->surface()->openness;
     if (part_) part_->add_extent(work->surface()->kept);
   } else if (const auto matched = match_edges(); !matched) {
     return matched;
@@ -214,14 +216,18 @@ Result<void> TreeBuild::look_at_surface() {
 
 Result<void> TreeBuild::match_edges() {
   RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
-  auto edges =
-      octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),
-                          progress_, [&cut](const Triangles& chunk) { return cut.add(chunk); });
+  Openness openness;
+  auto edges = octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes,
+                                   files_.scratch(), progress_, [&](const Triangles& chunk) {
+                                     openness.add(chunk);
+                                     return cut.add(chunk);
+                                   });
   if (!edges) return edges.error();
   model_.edges = *std::move(edges);
   model_.cut = cut.found();
+  model_.openness = openness.value();
   if (!files_.work()) return {};
-  return keep(SurfaceWork{model_.edges, model_.cut,
+  return keep(SurfaceWork{model_.edges, model_.cut, model_.openness,
                           part_ ? part_->extents() : std::vector<TriangleRuns::Extent>()});
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "octree/builder/mask/height_field_marks.h"
+#include "octree/builder/openness.h"
 #include "octree/builder/tree/page_appender.h"
 #include "octree/geometry/strict_math.h"
 #include "storage/file/page_writer.h"
@@ -48,6 +49,17 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
   model.region_winding = built.cut.winding;
 }
 
+// A surface without a border is not a sheet, whatever the rounding of its openness.
+void describe_side_rule(const BuiltModel& built, const BuildOptions& options,
+                        storage::ModelRecord& model) {
+  const bool is_sheet =
+      built.edges.unbalanced_edges > 0 && built.openness >= Openness::kOfSheet;
+  model.openness = built.openness;
+  model.side_is_chosen = options.side ? 1 : 0;
+  model.side_rule =
+      options.side.value_or(is_sheet ? storage::SideRule::kSurface : storage::SideRule::kSolid);
+}
+
 void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::ModelRecord& model) {
   model.node_count = tree.node_count();
   model.block_count = tree.block_count();
@@ -89,6 +101,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   storage::ModelRecord model{};
   describe_mesh(built, model);
   describe_region(built, model);
+  describe_side_rule(built, options, model);
   describe_tree(built, tree, model);
   return writer->finish(model, options.page_bytes);
 }

@@ -25,7 +25,8 @@ struct BuiltModel {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
   BlockShape shape;
-  EdgeBalance edges;  ///< edges of the whole input, as the frame is
+  EdgeBalance edges;    ///< edges of the whole input, as the frame is
+  double openness = 0;  ///< Openness of the whole input
   SurfaceCut cut;
   std::optional<RegionBox> box;
   ChunkTree above;

@@ -20,6 +20,7 @@ namespace planetree::octree {
 struct SurfaceWork {
   EdgeBalance edges;
   SurfaceCut cut;
+  double openness = 0;                     ///< Openness of the whole input
   std::vector<TriangleRuns::Extent> kept;  ///< runs of the triangles that touch a region
 };
 
@@ -93,7 +94,7 @@ void fields(Record& record, Value& cut) {
 
 template <class Record, IsA<SurfaceWork> Value>
 void fields(Record& record, Value& surface) {
-  record(surface.edges, surface.cut, surface.kept);
+  record(surface.edges, surface.cut, surface.openness, surface.kept);
 }
 
 template <class Record, IsA<SpilledPage> Value>

@@ -54,6 +54,7 @@ ModelGeometry::ModelGeometry(const storage::FileHeader& header)
       region(region_of(header.model)),
       region_corner(region.clamped(tree.core_lower)),
       region_winding(header.model.region_winding),
-      watertight(header.model.unbalanced_edge_count == 0) {}
+      watertight(header.model.unbalanced_edge_count == 0),
+      by_surface{header.model.side_rule == storage::SideRule::kSurface, false, true} {}
 
 }  // namespace planetree::query

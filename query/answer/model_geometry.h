@@ -28,7 +28,7 @@ struct ModelGeometry {
   std::int64_t region_winding;  ///< winding number at `region_corner`; only if watertight
   bool watertight;              ///< no edge is unbalanced
   /// Whether each SideRule decides sides by the nearest feature, for this file.
-  std::array<bool, 3> by_surface{false, false, true};
+  std::array<bool, 3> by_surface;
 
   /// Whether the rule, which may be out of range, decides sides by the winding number.
   bool by_winding_number(SideRule rule) const noexcept {

@@ -121,6 +121,7 @@ struct SideReason {
     kWayOut,         ///< `crossings` to `end`, which is outside of the model's box or is
                      ///< ModelGeometry::region_corner
     kWindingNumber,  ///< the model is not watertight: `value`, right within `error`
+    kFront,          ///< the model is a sheet: in front of the nearest feature, or behind it
   };
   Rule rule = Rule::kNone;
   octree::GridCell cell;  ///< the smallest cell of the mask that was reached

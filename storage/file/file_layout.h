@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little,
               "planetree reads and writes its structs in place: little-endian machines only");
 
 inline constexpr std::uint8_t kMagic[8] = {0x89, 'P', 'T', 'R', 'E', 'E', 0x0d, 0x0a};
-inline constexpr std::uint16_t kFormatVersion = 11;
+inline constexpr std::uint16_t kFormatVersion = 12;
 inline constexpr std::size_t kHeaderBytes = 640;
 inline constexpr std::uint64_t kKnownIncompatibleFeatures = 0;
 inline constexpr std::uint32_t kMinPageBytes = 4096;
@@ -29,6 +29,12 @@ inline constexpr std::uint32_t kMaxPageBytes = 262144;
 inline constexpr std::uint64_t kNoTriangle = ~std::uint64_t{0};
 
 enum class VertexKind : std::uint8_t { kFloat32 = 0, kFloat64 = 1 };
+
+/// How queries decide sides, unless they choose a rule themselves.
+enum class SideRule : std::uint8_t {
+  kSolid = 0,   ///< by the winding number
+  kSurface = 1  ///< by the pseudo-normal of the nearest feature
+};
 
 /// An edge along which more triangles run in one direction than in the other.
 struct UnbalancedEdge {
@@ -79,6 +85,12 @@ struct ModelRecord {
   /// Model frame: no less than any edge of a stray that has an edge longer than its gap to the
   /// core; 0 if there is none. Distances to such strays are less certain.
   double stray_edge;
+  /// How open the surface of the whole input is: the length of the sum of the area vectors, divided
+  /// by the sum of the areas; 0 to 1.
+  double openness;
+  SideRule side_rule;           ///< how queries decide sides by default
+  std::uint8_t side_is_chosen;  ///< 1: the builder was told side_rule; 0: it follows from openness
+  std::uint8_t side_reserved[6];  ///< zero
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   /// Number of usable triangles of the whole input.
@@ -86,7 +98,7 @@ struct ModelRecord {
     return has_region() ? input_triangles : triangle_count;
   }
 };
-static_assert(sizeof(ModelRecord) == 512);
+static_assert(sizeof(ModelRecord) == 528);
 
 struct FileHeader {
   std::uint8_t magic[8];                ///< kMagic
@@ -102,7 +114,7 @@ struct FileHeader {
   std::uint32_t max_raw_bytes;          ///< largest PageEntry::raw_bytes
   std::uint64_t max_stored_bytes;       ///< largest PageEntry::stored_bytes
   ModelRecord model;
-  std::uint8_t reserved[40];  ///< zero
+  std::uint8_t reserved[24];  ///< zero
   std::uint64_t header_hash;  ///< XXH3-64 of all bytes before this field
 
   /// Number of the first mask page; page_count if there is none. All pages before it are distance

@@ -97,6 +97,7 @@ std::string point_text(const double (&values)[3]) {
 
 // The rule for sides, in one word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
+  if (model.side_rule == storage::SideRule::kSurface) return "surface";
   if (model.unbalanced_edge_count == 0) return "crossings";
   return query::region_of(model).has_walls() ? "none" : "winding";
 }
@@ -133,14 +134,23 @@ Json unbalanced_edges_json(const storage::ModelRecord& model) {
   return edges;
 }
 
+std::string_view rule_text(const storage::ModelRecord& model) {
+  if (model.side_rule == storage::SideRule::kSurface)
+    return "sides by the nearest face, edge or vertex";
+  if (model.unbalanced_edge_count == 0) return "sides by crossings, exactly";
+  return query::region_of(model).has_walls()
+             ? "sides unknown, because the file is of a region with walls"
+             : "sides by winding number";
+}
+
 std::string surface_text(const storage::ModelRecord& model) {
+  const std::string_view why = model.side_is_chosen != 0 ? ", as the build was told" : "";
   if (model.unbalanced_edge_count == 0)
-    return "  surface     watertight; sides by crossings, exactly\n";
-  std::string text = fmt::format("  surface     not watertight; {}: {} unbalanced edges\n",
-                                 query::region_of(model).has_walls()
-                                     ? "sides unknown, because the file is of a region with walls"
-                                     : "sides by winding number",
-                                 grouped_count(model.unbalanced_edge_count));
+    return fmt::format("  surface     watertight; {}{}\n", rule_text(model), why);
+  std::string text =
+      fmt::format("  surface     not watertight; {}{}: {} unbalanced edges, openness {:.3g}\n",
+                  rule_text(model), why, grouped_count(model.unbalanced_edge_count),
+                  model.openness);
   for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
@@ -188,6 +198,8 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
                {"watertight", model.unbalanced_edge_count == 0},
                {"sign_rule", sign_rule(model)},
+               {"sign_rule_is_chosen", model.side_is_chosen != 0},
+               {"openness", model.openness},
                {"unbalanced_edges", model.unbalanced_edge_count},
                {"first_unbalanced_edges", unbalanced_edges_json(model)},
                {"levels", model.height},
