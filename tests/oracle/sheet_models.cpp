@@ -1,6 +1,6 @@
 #include "tests/oracle/sheet_models.h"
 
-#include <cmath>
+#include <vector>
 
 namespace planetree::oracle {
 namespace {
@@ -21,26 +21,25 @@ Soup grid(unsigned columns, unsigned rows, const Vertex& vertex, const Omits& om
   return faces;
 }
 
-template <class Height>
-Soup height_map(unsigned steps, const Height& height) {
-  const auto vertex = [&](unsigned i, unsigned j) {
-    const double x = 2.0 * i / steps - 1, y = 2.0 * j / steps - 1;
-    return Vec3{x, y, height(x, y)};
-  };
-  return grid(steps, steps, vertex, [](unsigned, unsigned) { return false; });
-}
-
 }  // namespace
 
 Soup hills(unsigned steps) {
   Random random(39);
-  return height_map(steps, [&random](double x, double y) {
-    return 0.4 * x * y - 0.3 * x * x * x + 0.2 * random.unit();
-  });
+  std::vector<double> bumps((steps + 1) * (steps + 1));
+  for (double& bump : bumps) bump = random.unit() * 2.4 / steps;
+  const auto vertex = [&](unsigned i, unsigned j) {
+    const double x = 2.0 * i / steps - 1, y = 2.0 * j / steps - 1;
+    return Vec3{x, y, 0.4 * x * y - 0.3 * x * x * x + bumps[j * (steps + 1) + i]};
+  };
+  return grid(steps, steps, vertex, [](unsigned, unsigned) { return false; });
 }
 
 Soup bowl(unsigned steps) {
-  return height_map(steps, [](double x, double y) { return 0.7 * (x * x + y * y); });
+  const auto vertex = [steps](unsigned i, unsigned j) {
+    const double x = 2.0 * i / steps - 1, y = 2.0 * j / steps - 1;
+    return Vec3{x, y, 0.7 * (x * x + y * y)};
+  };
+  return grid(steps, steps, vertex, [](unsigned, unsigned) { return false; });
 }
 
 Soup half_pipe(unsigned steps) {
