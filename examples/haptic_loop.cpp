@@ -112,13 +112,14 @@ int stroke(Session& session) {
 int press(Session& session, double x, double y, bool two_sided, bool from_below) {
   const double way = from_below ? 1 : -1;
   const double step = 1e-4 * session.diagonal, near = 200 * step;
-  constexpr double kPush = 1;                           // force of the hand
-  const double stiffness = kPush / (8 * step);          // a depth of 8 steps balances it
+  constexpr double kPush = 1;                   // force of the hand
+  const double stiffness = kPush / (8 * step);  // a depth of 8 steps balances it
   const double radius = two_sided ? 100 * step : 0;
 
   // Before the first tick: goes near the surface in steps as long as the way that is free.
   const double beyond = 0.1 * session.diagonal;
-  Vec3 tip{x, y, from_below ? session.info.core_lower.z - beyond : session.info.core_upper.z + beyond};
+  Vec3 tip{x, y,
+           from_below ? session.info.core_lower.z - beyond : session.info.core_upper.z + beyond};
   planetree::QueryOptions options;
   options.parts = planetree::kDistance;
   for (int i = 0; i < 1000; ++i) {

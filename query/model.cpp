@@ -31,8 +31,8 @@ ModelInfo describe(const storage::PageFile& file) {
   info.core_upper = {model.core_upper[0], model.core_upper[1], model.core_upper[2]};
   info.strays = model.stray_count;
   info.unbalanced_edges = model.unbalanced_edge_count;
-  info.side_rule = model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface
-                                                                  : SideRule::kSolid;
+  info.side_rule =
+      model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface : SideRule::kSolid;
   info.side_is_chosen = model.side_is_chosen != 0;
   info.openness = model.openness;
   info.input_triangles = model.usable_triangles();

@@ -49,13 +49,14 @@ class ProbeState {
   /// See Probe::contains.
   Containment contains(const Vec3& query, const QueryOptions& options) noexcept;
   /// Returns the answer of contains() if the side grid tells it by integers, as for most points of
-  /// a solid; else kUnknown. It computes nothing with doubles, so the thread may be in any floating-point
-  /// mode. It looks nothing up if the grid did not decide the last query.
+  /// a solid; else kUnknown. It computes nothing with doubles, so the thread may be in any
+  /// floating-point mode. It looks nothing up if the grid did not decide the last query.
   Containment contains_fast(const Vec3& query, const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
-    model_.requests(reader_.index()).motion.store(
-        {position, velocity, last_parts_, static_cast<std::uint64_t>(last_side_rule_)});
+    model_.requests(reader_.index())
+        .motion.store(
+            {position, velocity, last_parts_, static_cast<std::uint64_t>(last_side_rule_)});
   }
   /// See FetchProbe::fetch_pages.
   void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,

@@ -279,7 +279,8 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       subcommand.word(
           "--side", {"auto", "solid", "surface"},
           [&arguments](const std::string& name) { arguments.options.side = choices.at(name); },
-          "How queries decide sides by default. solid: by the winding number; surface: an open sheet "
+          "How queries decide sides by default. solid: by the winding number; surface: an open "
+          "sheet "
           "such as a terrain has a front and a back, and the nearest face, edge or vertex decides; "
           "auto: surface if the mesh is not watertight and the sum of its area vectors is at least "
           "0.375 of its area"),

@@ -213,10 +213,10 @@ struct BuildReport {
   /// Number of polygons that cross themselves, have more than 2^20 corners, or would take long to
   /// split. They are split into fans, which may reach beyond them.
   std::uint64_t fanned_polygons = 0;
-  std::string first_fanned_text;          ///< names the first of them; empty if there is none
-  std::uint64_t vertices = 0;             ///< vertex records of the input
-  std::uint64_t strays = 0;               ///< triangles of the input far outside of all others
-  std::uint64_t unbalanced_edges = 0;     ///< edges that are not balanced, see watertight()
+  std::string first_fanned_text;       ///< names the first of them; empty if there is none
+  std::uint64_t vertices = 0;          ///< vertex records of the input
+  std::uint64_t strays = 0;            ///< triangles of the input far outside of all others
+  std::uint64_t unbalanced_edges = 0;  ///< edges that are not balanced, see watertight()
   /// How sides are decided by default: SideRule::kSolid or kSurface. An open surface of an openness
   /// of 0.375 or more is taken for a sheet, unless BuildOptions::side says otherwise.
   SideRule side_rule = SideRule::kSolid;
@@ -241,7 +241,8 @@ struct BuildReport {
 /// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, `side`, `float64`, and the releases of planetree and LZ4, and on nothing else.
+/// `page_bytes`, `box`, `side`, `float64`, and the releases of planetree and LZ4, and on nothing
+/// else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.

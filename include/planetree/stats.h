@@ -39,13 +39,13 @@ struct ModelInfo {
   /// How open the surface of the input is: the length of the sum of the triangles' area vectors,
   /// divided by the sum of their areas. 0 for a closed surface, 1 for a flat sheet.
   double openness = 0;
-  bool float64 = false;                ///< whether coordinates are doubles; not all fit a float
-  std::uint64_t nodes = 0;             ///< inner nodes of the tree
-  std::uint64_t blocks = 0;            ///< leaves of the tree: blocks of up to 16 triangles
-  std::uint32_t levels = 0;            ///< height of the tree, in nodes
-  std::uint32_t pages = 0;             ///< distance and mask pages; numbers go from 0
-  std::uint32_t page_bytes = 0;        ///< maximum bytes of a decoded page; a power of two
-  std::uint64_t file_bytes = 0;        ///< length of the file
+  bool float64 = false;          ///< whether coordinates are doubles; not all fit a float
+  std::uint64_t nodes = 0;       ///< inner nodes of the tree
+  std::uint64_t blocks = 0;      ///< leaves of the tree: blocks of up to 16 triangles
+  std::uint32_t levels = 0;      ///< height of the tree, in nodes
+  std::uint32_t pages = 0;       ///< distance and mask pages; numbers go from 0
+  std::uint32_t page_bytes = 0;  ///< maximum bytes of a decoded page; a power of two
+  std::uint64_t file_bytes = 0;  ///< length of the file
   /// Stored bytes of each part of the file. They add up to `file_bytes`.
   struct {
     std::uint64_t headers = 0;         ///< header and its copy

@@ -59,7 +59,8 @@ enum class SideRule : std::uint8_t {
   /// The surface bounds a solid: by the winding number, see Side.
   kSolid,
   /// The surface is an open sheet, such as a terrain: by the nearest face, edge or vertex. The side
-  /// is kOutside in front of its angle-weighted pseudo-normal, kInside behind it. A point exactly in
+  /// is kOutside in front of its angle-weighted pseudo-normal, kInside behind it. A point exactly
+  /// in
   /// the plane of the pseudo-normal, as beyond a border of a flat sheet, is kOutside. If the sum of
   /// the normals cancels, the nearest face of least index decides. The side is exact or kUnknown.
   /// It belongs to the nearest triangle, so the query searches for that whatever `max_error` is.
@@ -80,7 +81,8 @@ enum class NormalRule : std::uint8_t {
 enum class Status : std::uint8_t {
   /// No triangle that the query skipped can be nearer, and no page or work was missing for side and
   /// normal. By SideRule::kSolid the side may still be kUnknown if the file does not determine it:
-  /// if |w| is too close to 1/2, or in the file of a region. If the query point is 10^12 or more diagonals of the
+  /// if |w| is too close to 1/2, or in the file of a region. If the query point is 10^12 or more
+  /// diagonals of the
   /// model's box away, the interval is wider than the model. The triangle is then that of least
   /// computed distance, and another one may be nearer.
   kExact,
@@ -90,7 +92,8 @@ enum class Status : std::uint8_t {
   /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, or triangles
   /// outside of the region may be nearer (see ModelInfo::has_region).
   kDegraded,
-  /// No surface within QueryOptions::max_distance. By SideRule::kSolid the side is computed as usual
+  /// No surface within QueryOptions::max_distance. By SideRule::kSolid the side is computed as
+  /// usual
   /// and may be kUnknown. By SideRule::kSurface it is kUnknown.
   kBeyondMaxDistance,
   kBadQuery,  ///< a coordinate of the query point is not finite, or an option is out of range
@@ -127,8 +130,8 @@ struct QueryOptions {
   /// kNormal only `side` and `status` are set: `distance` and `upper` are infinite, `lower` is 0
   /// and `triangle` is kNoTriangle. With 0 the query computes nothing.
   std::uint32_t parts = kAllParts;
-  Wait wait = Wait::kForPages;                   ///< blocking or real-time query
-  SideRule side_rule = SideRule::kOfFile;        ///< how the side is decided
+  Wait wait = Wait::kForPages;                    ///< blocking or real-time query
+  SideRule side_rule = SideRule::kOfFile;         ///< how the side is decided
   NormalRule normal_rule = NormalRule::kOutward;  ///< which way the contact normal points
   /// The search may stop once upper - lower <= max_error. Model units, finite, >= 0. With 0 the
   /// search continues until the answer is exact.

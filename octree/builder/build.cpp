@@ -159,8 +159,8 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.vertices = model.vertex_count;
   report.strays = model.stray_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
-  report.side_rule = model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface
-                                                                    : SideRule::kSolid;
+  report.side_rule =
+      model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface : SideRule::kSolid;
   report.side_is_chosen = model.side_is_chosen != 0;
   report.openness = model.openness;
   report.nodes = model.node_count;

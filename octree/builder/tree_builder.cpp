@@ -9,13 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
 #include "octree/builder/build_files.h"
 #include "octree/builder/build_identity.h"
 #include "octree/builder/job/build_memory.h"
+#include "octree/builder/job/build_threads.h"
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/mesh_size.h"
@@ -28,7 +25,6 @@
 #include "octree/builder/tree/built_tree.h"
 #include "octree/builder/tree_file.h"
 #include "octree/geometry/strict_math.h"
-#include "planetree/model.h"
 
 namespace planetree::octree {
 namespace {
@@ -337,15 +333,7 @@ Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::p
   if (options.box)
     if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->with_checkpoint();
-  // As query/serve/batch_threads.cpp does: oneTBB warns of more threads than it allows. Fewer are
-  // left to the arena, so that the caller's other work with oneTBB is not slowed down.
-  constexpr auto kAllowed = tbb::global_control::max_allowed_parallelism;
-  std::optional<tbb::global_control> limit;
-  if (memory->threads > tbb::info::default_concurrency())
-    limit.emplace(kAllowed, std::size_t{OpenOptions::kMaxBatchThreads});
-  const std::size_t allowed = tbb::global_control::active_value(kAllowed);
-  tbb::task_arena arena(std::min(memory->threads, static_cast<int>(allowed)));
-  return arena.execute([&] {
+  return BuildThreads(memory->threads).run([&] {
     TreeBuild build(input, output, options, *memory, progress, seams);
     auto report = build.run();
     if (!report) build.report_failure();

@@ -52,8 +52,7 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
 // A surface without a border is not a sheet, whatever the rounding of its openness.
 void describe_side_rule(const BuiltModel& built, const BuildOptions& options,
                         storage::ModelRecord& model) {
-  const bool is_sheet =
-      built.edges.unbalanced_edges > 0 && built.openness >= Openness::kOfSheet;
+  const bool is_sheet = built.edges.unbalanced_edges > 0 && built.openness >= Openness::kOfSheet;
   model.openness = built.openness;
   model.side_is_chosen = options.side ? 1 : 0;
   model.side_rule =

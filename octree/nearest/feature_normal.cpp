@@ -212,7 +212,7 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
   found.side = 0;
   found.front = Front::kUnknown;
   WorkLimit limit(work.units, max_work);
-  if (nearest.feature == Feature::kFace) 
+  if (nearest.feature == Feature::kFace)
     return normal_of_face(query, nearest, limit, found, front_side);
   // Corners of the feature that holds the nearest point: one of a vertex, two of an edge.
   const Point* ends[3] = {};

@@ -116,7 +116,8 @@ FrontSide::Sum FrontSide::sum_in_double() const {
     const Point u = face.next - face.from, v = face.last - face.from;
     const Point normal = u.cross(v);
     const double area2 = normal.squaredNorm(), sides2 = u.squaredNorm() * v.squaredNorm();
-    if (!is_mild(u.squaredNorm()) || !is_mild(v.squaredNorm()) || !(area2 > kThinFaceSine2 * sides2))
+    if (!is_mild(u.squaredNorm()) || !is_mild(v.squaredNorm()) ||
+        !(area2 > kThinFaceSine2 * sides2))
       return {0, 0, false};
     const double sine = std::sqrt(area2 / sides2);
     const double weight = by_angle_ ? angle_between(u, v) : 1;
@@ -152,8 +153,8 @@ Front FrontSide::sum_in_quad() const {
 }
 
 Front front_of_all_within(const TreeInfo& tree, const Point& query, double reach,
-                          std::uint64_t max_work, const PageReader& pages, TraversalStats& work,
-                          bool& complete) noexcept {
+                          std::uint64_t max_work, const PageReader& pages,
+                          TraversalStats& work) noexcept {
   // Rounding of the box's sides is far below this share of coordinates and reach.
   const double rim = kNormRounding * (query.cwiseAbs().maxCoeff() + reach) + kUnresolvedLength;
   const Point lower = query.array() - (reach + rim), upper = query.array() + (reach + rim);
@@ -174,13 +175,13 @@ Front front_of_all_within(const TreeInfo& tree, const Point& query, double reach
       other = other || normal_sign(a, b, c, axis, &limit) != 0;
   };
   BoxWalk walk(tree, lower, upper, pages, work);
-  complete = walk.run(limit.left(), [&](const BlockView& block, std::uint32_t) {
+  const bool complete = walk.run(limit.left(), [&](const BlockView& block, std::uint32_t) {
     for (unsigned i = 0; i < block.triangle_count() && !limit.exceeded(); ++i)
       look_at(block.triangle(i));
   });
-  complete = complete && !limit.exceeded();
+  if (limit.exceeded()) return Front::kUnknown;
   // One triangle proves this, whatever was missing.
-  if (on_surface && !limit.exceeded()) return Front::kOnSurface;
+  if (on_surface) return Front::kOnSurface;
   if (!complete || other || in_front == behind) return Front::kUnknown;
   return in_front ? Front::kInFront : Front::kBehind;
 }

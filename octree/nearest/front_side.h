@@ -83,15 +83,15 @@ class FrontSide {
 };
 
 /// Returns kInFront if a query is in front of all triangles within `reach`, kBehind if it is behind
-/// all of them, kOnSurface if it is on one, else kUnknown. Triangles without area count only for
+/// all of them, kOnSurface if it is on one, else kUnknown, also if pages or work were missing.
+/// Triangles without area count only for
 /// kOnSurface. For queries so near to the surface that rounding leaves their nearest feature
 /// uncertain: the true one has only faces within reach, so it decides as they do.
 ///
 /// reach     at least the distance to the surface, model frame
 /// max_work  maximum work in units, see WorkLimit
-/// complete  receives whether no page and no work was missing
 Front front_of_all_within(const TreeInfo& tree, const Point& query, double reach,
-                          std::uint64_t max_work, const PageReader& pages, TraversalStats& work,
-                          bool& complete) noexcept;
+                          std::uint64_t max_work, const PageReader& pages,
+                          TraversalStats& work) noexcept;
 
 }  // namespace planetree::octree

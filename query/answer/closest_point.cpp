@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "octree/geometry/error_bounds.h"
-#include "octree/geometry/predicates.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_prefetcher.h"
 #include "octree/nearest/feature_normal.h"
 #include "octree/nearest/front_side.h"
 #include "octree/nearest/height_field.h"
 #include "query/answer/query_context.h"
+#include "query/answer/sheet_side.h"
 #include "query/answer/side.h"
 
 namespace planetree::query {
@@ -224,51 +224,15 @@ class ClosestPointQuery {
 
   // Finds the side by SideRule::kSurface.
   [[gnu::noinline]] const SideResult& classify_by_front(const octree::NearestAnswer& nearest) {
-    side_result_ = {Side::kUnknown, Status::kDegraded};
-    if (!is_proven(nearest)) return side_result_;
-    switch (front(nearest)) {
-      case octree::Front::kInFront:
-      case octree::Front::kLevel:
-        side_result_ = {Side::kOutside, Status::kExact};
-        break;
-      case octree::Front::kBehind:
-        side_result_ = {Side::kInside, Status::kExact};
-        break;
-      case octree::Front::kOnSurface:
-        side_result_ = {Side::kOnSurface, Status::kExact};
-        break;
-      case octree::Front::kUnknown:
-        break;
-    }
-    return side_result_;
-  }
-
-  // Whether the nearest triangle is known, as far as distances computed in double tell.
-  bool is_proven(const octree::NearestAnswer& nearest) const {
-    return nearest.status == Status::kExact && nearest.triangle != kNoTriangle && !far_ &&
-           nearest.upper - nearest.lower < model_.tree.span(model_.tree.centre);
+    const bool is_known = !far_ && is_proven(model_.tree, nearest);
+    return side_result_ = side_of(is_known ? front(nearest) : octree::Front::kUnknown);
   }
 
   octree::Front front(const octree::NearestAnswer& nearest) {
-    if (!has_front_) front_ = find_front(nearest);
-    has_front_ = true;
-    return front_;
-  }
-
-  octree::Front find_front(const octree::NearestAnswer& nearest) {
-    if (octree::WorkLimit limit(work_.units, work_left());
-        nearest.distance < kCertainDistance && octree::lies_on(point_, nearest.corners, &limit) &&
-        !limit.exceeded())
-      return octree::Front::kOnSurface;
-    // So near to the surface, the nearest feature may be another one than that of the answer.
-    if (is_proven(nearest) && !(nearest.lower > kCertainShare * nearest.upper)) {
-      bool complete = false;
-      const octree::Front all = octree::front_of_all_within(
-          model_.tree, point_, nearest.upper, work_left(), pages_, work_, complete);
-      if (!complete) mark_degraded();
-      return all;
-    }
-    return feature(nearest).front;
+    if (!front_)
+      front_ = front_at_surface(model_.tree, point_, nearest, work_left(), pages_, work_);
+    if (!front_) front_ = feature(nearest).front;
+    return *front_;
   }
 
   bool side_grid_decides(octree::SideGrid::Lookup& lookup) {
@@ -346,12 +310,6 @@ class ClosestPointQuery {
   }
 
   static constexpr std::uint64_t kNodesForFaces = 512;  // minimum of work left to look for faces
-  // Share of the upper bound of a distance that the lower bound exceeds if the query is certainly
-  // off the surface and its nearest feature is that of the answer.
-  static constexpr double kCertainShare = 0.5;
-  // A query that lies on a triangle has a smaller computed distance: values err by less than 2^-42
-  // of the distance of the farthest corner.
-  static constexpr double kCertainDistance = 0x1p-36;
 
   const ModelGeometry& model_;
   const octree::PageReader& pages_;
@@ -370,9 +328,8 @@ class ClosestPointQuery {
   ClosestPoint& answer_;
   octree::FeatureNormal feature_;  // at the nearest point, if has_feature_
   bool has_feature_ = false;
-  octree::Front front_ = octree::Front::kUnknown;  // if has_front_
-  bool has_front_ = false;
-  SideResult side_result_;  // a side that is not in the side cache
+  std::optional<octree::Front> front_;  // empty until found
+  SideResult side_result_;              // a side that is not in the side cache
   bool incomplete_ = false;
 };
 

@@ -22,8 +22,8 @@ struct FetchRequest {
 
 /// Position and velocity of a probe, as given to Probe::motion.
 struct Motion {
-  Vec3 position;            ///< model units
-  Vec3 velocity;            ///< model units per second
+  Vec3 position;                ///< model units
+  Vec3 velocity;                ///< model units per second
   std::uint64_t parts = 0;      ///< parts of the probe's last query
   std::uint64_t side_rule = 0;  ///< its side rule
 };

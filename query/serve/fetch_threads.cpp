@@ -98,7 +98,8 @@ bool FetchWorker::prefetch_position(std::size_t index) noexcept {
   const unsigned at = kPositionsAhead - --progress.positions_left;
   const Seconds ahead = std::clamp(2 * slowest_fetch_, kMinTimeAhead, kMaxTimeAhead);
   probe_->fetch_pages(position_after(progress.motion, ahead * at / kPositionsAhead),
-                      blocking_options(progress.motion.parts, progress.motion.side_rule), true, stop_);
+                      blocking_options(progress.motion.parts, progress.motion.side_rule), true,
+                      stop_);
   return true;
 }
 

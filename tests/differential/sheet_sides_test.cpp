@@ -85,8 +85,7 @@ TEST(SheetSides, WithinAnUlpOfTheSurface) {
   Tally tally;
   for (const Soup& sheet : {hills(12), bowl(12), moebius_strip(32), holed_panel(9)}) {
     BuiltModel model(sheet, {4096, 1 << 20, 1});
-    for (int i = 0; i < 500; ++i)
-      expect_side_of(model, beside(random, sheet, -64, -44), tally);
+    for (int i = 0; i < 500; ++i) expect_side_of(model, beside(random, sheet, -64, -44), tally);
   }
   EXPECT_EQ(tally.wrong, 0);
   EXPECT_LE(tally.unknown, 600);

@@ -11,8 +11,9 @@ namespace planetree::oracle {
 
 struct FrontAnswer {
   Side side = Side::kUnknown;
-  /// Features that are equally near, up to 1e-14 of the squared distance, disagree; or the query is in the plane of the pseudo-normal up to
-  /// 1e-13 of the distance, or the normals there cancel: then any side is right.
+  /// Features that are equally near, up to 1e-14 of the squared distance, disagree; or the query is
+  /// in the plane of the pseudo-normal up to 1e-13 of the distance, or the normals there cancel:
+  /// then any side is right.
   bool is_ambiguous = false;
 };
 

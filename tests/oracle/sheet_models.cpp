@@ -69,7 +69,8 @@ Soup holed_panel(unsigned steps) {
   const auto vertex = [steps](unsigned i, unsigned j) {
     return Vec3{2.0 * i / steps - 1, 2.0 * j / steps - 1, 0};
   };
-  return grid(steps, steps, vertex, [](unsigned i, unsigned j) { return i % 3 == 1 && j % 3 == 1; });
+  return grid(steps, steps, vertex,
+              [](unsigned i, unsigned j) { return i % 3 == 1 && j % 3 == 1; });
 }
 
 }  // namespace planetree::oracle

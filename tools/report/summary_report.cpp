@@ -147,10 +147,9 @@ std::string surface_text(const storage::ModelRecord& model) {
   const std::string_view why = model.side_is_chosen != 0 ? ", as the build was told" : "";
   if (model.unbalanced_edge_count == 0)
     return fmt::format("  surface     watertight; {}{}\n", rule_text(model), why);
-  std::string text =
-      fmt::format("  surface     not watertight; {}{}: {} unbalanced edges, openness {:.3g}\n",
-                  rule_text(model), why, grouped_count(model.unbalanced_edge_count),
-                  model.openness);
+  std::string text = fmt::format(
+      "  surface     not watertight; {}{}: {} unbalanced edges, openness {:.3g}\n",
+      rule_text(model), why, grouped_count(model.unbalanced_edge_count), model.openness);
   for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
