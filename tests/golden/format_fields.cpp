@@ -99,6 +99,10 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, core_upper)
       .PLANETREE_FIELD(ModelRecord, stray_count)
       .PLANETREE_FIELD(ModelRecord, stray_edge)
+      .PLANETREE_FIELD(ModelRecord, openness)
+      .PLANETREE_FIELD(ModelRecord, side_rule)
+      .PLANETREE_FIELD(ModelRecord, side_is_chosen)
+      .PLANETREE_FIELD(ModelRecord, side_reserved)
       .take();
 }
 

@@ -50,7 +50,7 @@ void read_region(Bytes model, SpecHeader& read) {
 }
 
 SpecHeader read_header(Bytes header) {
-  const Bytes model = header.subspan(80, 512);
+  const Bytes model = header.subspan(80, 528);
   SpecHeader read{};
   read.page_bytes = get<std::uint32_t>(header, 12);
   read.page_count = get<std::uint32_t>(header, 64);
@@ -63,6 +63,9 @@ SpecHeader read_header(Bytes header) {
   read.core_upper = get<SpecPoint>(model, 472);
   read.stray_count = get<std::uint64_t>(model, 496);
   read.stray_edge = get<double>(model, 504);
+  read.openness = get<double>(model, 512);
+  read.by_surface = get<std::uint8_t>(model, 520) == 1;
+  read.side_is_chosen = get<std::uint8_t>(model, 521) == 1;
   read.centre = get<SpecPoint>(model, 96);
   read.sample = get<SpecPoint>(model, 120);
   read.sample_triangle = get<std::uint64_t>(model, 144);
@@ -90,7 +93,7 @@ bool SpecHeader::has_walls() const {
 
 SpecFile::SpecFile(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {
   const Bytes header = choose_header();
-  require(get<std::uint16_t>(header, 8) == 11, "another version");
+  require(get<std::uint16_t>(header, 8) == 12, "another version");
   require(get<std::uint16_t>(header, 10) == 640, "header length");
   require(get<std::uint64_t>(header, 16) == 0, "unknown features");
   require(get<std::uint64_t>(header, 32) == bytes_.size(), "file length");
