@@ -26,8 +26,9 @@ struct ModelInfo {
   ///
   /// Every interval, and every side that is known, is right for the whole input. An answer is exact
   /// if the surface is nearer to the query point than every wall. It is then the answer for the
-  /// whole input. Otherwise it is not exact. Sides are unknown beyond a wall. If there is a wall
-  /// and the surface is not watertight, all sides are unknown.
+  /// whole input. Otherwise it is not exact. By SideRule::kSolid sides are unknown beyond a wall,
+  /// and if there is a wall and the surface is not watertight, all sides are unknown. By
+  /// SideRule::kSurface a side is known if the nearest triangle is.
   bool has_region = false;
   Vec3 region_lower,                   ///< lower corner of the region
       region_upper;                    ///< upper corner of the region

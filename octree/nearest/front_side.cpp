@@ -122,7 +122,7 @@ FrontSide::Sum FrontSide::sum_in_double() const {
     const double sine = std::sqrt(area2 / sides2);
     const double weight = by_angle_ ? angle_between(u, v) : 1;
     sum.value += weight * (way.dot(normal) / std::sqrt(area2));
-    sum.error += distance * (kHeightSineError / sine + kHeightError);
+    sum.error += distance * (kFrontSineError / sine + kFrontError);
   }
   return sum;
 }
@@ -145,8 +145,8 @@ Front FrontSide::sum_in_quad() const {
                                       std::max(0.0, static_cast<double>(corner.sine))),
                              corner);
     value += weight * (dot(way, normal) / area);
-    error += distance * (ldexp(Quad(1), kWideHeightSineErrorBits) / corner.sine +
-                         ldexp(Quad(1), kWideHeightErrorBits));
+    error += distance * (ldexp(Quad(1), kWideFrontSineErrorBits) / corner.sine +
+                         ldexp(Quad(1), kWideFrontErrorBits));
   }
   const Quad magnitude = value < 0 ? Quad(-value) : value;
   return magnitude > error ? front_of(value > 0 ? 1 : -1) : Front::kUnknown;

@@ -158,6 +158,7 @@ TEST_F(FileCheck, FindsWrongUnbalancedEdges) {
   // The nodes of a watertight model have no moments.
   EXPECT_EQ(codes_of_model([](auto& model) {
               model.unbalanced_edge_count = 0;
+              model.side_rule = storage::SideRule::kSolid;
               for (auto& edge : model.unbalanced_edge) edge = {};
             }),
             Codes{"PAGE_STRUCTURE"});
@@ -216,6 +217,7 @@ TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
   Forgery forgery;
   forgery.model = [](storage::ModelRecord& model) {
     model.unbalanced_edge_count = 0;
+    model.side_rule = storage::SideRule::kSolid;
     for (auto& edge : model.unbalanced_edge) edge = {};
   };
   forge(folder / "tree.ptree", folder / "forged.ptree", forgery);

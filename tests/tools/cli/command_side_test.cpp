@@ -27,7 +27,7 @@ class CommandSide : public Command {
     return asked(point, std::move(options))["side"];
   }
   static double up(const std::string& point, std::vector<std::string> options = {}) {
-    return asked(point, std::move(options))["normal"][2];
+    return asked(point, std::move(options))["nz"];
   }
 
   static constexpr const char* kSquare =
