@@ -53,7 +53,7 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
 void describe_side_rule(const BuiltModel& built, const BuildOptions& options,
                         storage::ModelRecord& model) {
   const bool is_sheet = built.edges.unbalanced_edges > 0 && built.openness >= Openness::kOfSheet;
-  model.openness = built.openness;
+  model.openness = built.edges.unbalanced_edges > 0 ? built.openness : 0;
   model.side_is_chosen = options.side ? 1 : 0;
   model.side_rule =
       options.side.value_or(is_sheet ? storage::SideRule::kSurface : storage::SideRule::kSolid);

@@ -161,7 +161,7 @@ inline constexpr double kMinNormalEdge = 0x1p-200;
 inline constexpr double kCancelledNormalShare = 0x1p-40;
 /// Error of an angle times the height of a query over a face, as shares of the distance: of what
 /// grows with the inverse of the sine at the corner, and of the rest. octree/nearest/front_side.cpp
-/// derives 4 (64 u) and 4 (32 u) + 2^-49 + 192 (4 u); both are doubled or more.
+/// derives 4 (64 u) and 4 (32 u) + 2^-49; both are doubled or more.
 inline constexpr double kFrontSineError = 512 * kDoubleRoundoff;
 inline constexpr double kFrontError = 4096 * kDoubleRoundoff;
 /// The same with 113 bits, as powers of two; the angle is right to 2^-100.

@@ -59,7 +59,7 @@ class Fan {
         measure(triangle, corner, next - vertex_, last - vertex_);
       if (sides_) has_area_ ? sides_->add(triangle, normal_, area2_) : sides_->add_unknown();
       if (!has_area_) continue;
-      if (front_side_) front_side_->add(triangle, corner, index, limit_);
+      if (front_side_) front_side_->add(triangle, corner, index, weight_, limit_);
       face.normal = normal_;
       face.index = index;
       face.corner = corner;
@@ -145,7 +145,7 @@ void normal_of_face(const Point& query, const NearestAnswer& nearest, WorkLimit&
   }
   if (front_side) {
     front_side->begin(false);
-    front_side->add(nearest.corners, 0, nearest.triangle, limit);
+    front_side->add(nearest.corners, 0, nearest.triangle, 1, limit);
     found.front = front_side->front(false, limit);
     found.complete = !limit.exceeded();
   }

@@ -60,13 +60,16 @@ Quad refined_angle(double near, const SineCosine& of) {
 
 void FrontSide::begin(bool by_angle) {
   by_angle_ = by_angle;
-  has_front_ = has_behind_ = has_level_ = is_full_ = false;
-  count_ = 0;
+  has_front_ = has_behind_ = has_level_ = false;
   first_index_ = kNoTriangle;
   first_side_ = 0;
+  sum_ = error_ = 0;
+  is_mild_ = true;
+  count_ = 0;
 }
 
-void FrontSide::add(const Triangle& face, unsigned corner, std::uint64_t index, WorkLimit& limit) {
+void FrontSide::add(const Triangle& face, unsigned corner, std::uint64_t index, double weight,
+                    WorkLimit& limit) {
   const Point &from = face[corner], &next = face[(corner + 1) % 3], &last = face[(corner + 2) % 3];
   const int side = orientation(from, next, last, query_, &limit);
   has_front_ = has_front_ || side > 0;
@@ -76,10 +79,30 @@ void FrontSide::add(const Triangle& face, unsigned corner, std::uint64_t index, 
     first_index_ = index;
     first_side_ = side;
   }
-  if (count_ == kMax)
-    is_full_ = true;
-  else
-    faces_[count_++] = {index, corner, side, from, next, last};
+  if (side == 0) return;
+  add_in_double(next - from, last - from, query_ - from, weight);
+  if (count_ < kMax) faces_[count_] = {index, corner, from, next, last};
+  ++count_;
+}
+
+// With s the sine at the corner and w the way to the query: a cross product errs by 16 u |u| |v|,
+// its direction by 16 u / s, the height by |w| (64 u / s + 32 u), and the angle, at most pi, by
+// 2^-49. A unit is far below the rest.
+void FrontSide::add_in_double(const Point& u, const Point& v, const Point& way, double weight) {
+  const auto is_mild = [](double square) {
+    return square > kMinAngleLength2 && square < kMaxAngleLength2;
+  };
+  const double u2 = u.squaredNorm(), v2 = v.squaredNorm(), way2 = way.squaredNorm();
+  is_mild_ = is_mild_ && is_mild(u2) && is_mild(v2) && is_mild(way2);
+  if (!is_mild_) return;
+  const Point normal = u.cross(v);
+  const double area2 = normal.squaredNorm();
+  is_mild_ = area2 > kThinFaceSine2 * u2 * v2;
+  if (!is_mild_) return;
+  const double height = way.dot(normal) / std::sqrt(area2 * way2);
+  sum_ += static_cast<std::int64_t>(weight * height / kUnit);
+  error_ += static_cast<std::int64_t>((kFrontSineError * std::sqrt(u2 * v2 / area2) + kFrontError) /
+                                      kUnit);
 }
 
 Front FrontSide::front(bool cancelled, WorkLimit& limit) {
@@ -87,44 +110,15 @@ Front FrontSide::front(bool cancelled, WorkLimit& limit) {
   if (cancelled) return front_of(first_side_);
   if (!has_behind_) return front_of(has_front_ ? 1 : 0);
   if (!has_front_) return front_of(-1);
-  if (is_full_) return Front::kUnknown;
-  // The order in which faces are found must not matter.
+  if (is_mild_ && sum_ > error_) return Front::kInFront;
+  if (is_mild_ && -sum_ > error_) return Front::kBehind;
+  const unsigned units = by_angle_ ? WorkUnits::kWideCornerHeight : WorkUnits::kWideHeight;
+  if (count_ > kMax || !limit.try_take(count_ * units)) return Front::kUnknown;
   std::sort(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(count_),
             [](const Face& a, const Face& b) {
               return a.index != b.index ? a.index < b.index : a.corner < b.corner;
             });
-  const Sum sum = sum_in_double();
-  if (sum.is_valid && std::fabs(sum.value) > sum.error) return front_of(sum.value > 0 ? 1 : -1);
-  const unsigned units = by_angle_ ? WorkUnits::kWideCornerHeight : WorkUnits::kWideHeight;
-  if (!limit.try_take(count_ * units)) return Front::kUnknown;
   return sum_in_quad();
-}
-
-// With s the sine at the corner and w the way to the query: a cross product errs by 16 u |u| |v|,
-// its direction by 16 u / s, the height by |w| (64 u / s + 32 u), the angle, at most pi, by 2^-49,
-// and the sum by one rounding of all terms for each of at most 192 terms.
-FrontSide::Sum FrontSide::sum_in_double() const {
-  Sum sum;
-  const Point way = query_ - faces_[0].from;
-  const double distance = way.norm();
-  const auto is_mild = [](double square) {
-    return square > kMinNormalEdge * kMinNormalEdge && square < kMaxAngleLength2;
-  };
-  if (!is_mild(way.squaredNorm())) return {0, 0, false};
-  for (const Face& face : std::span(faces_).first(count_)) {
-    if (face.side == 0) continue;
-    const Point u = face.next - face.from, v = face.last - face.from;
-    const Point normal = u.cross(v);
-    const double area2 = normal.squaredNorm(), sides2 = u.squaredNorm() * v.squaredNorm();
-    if (!is_mild(u.squaredNorm()) || !is_mild(v.squaredNorm()) ||
-        !(area2 > kThinFaceSine2 * sides2))
-      return {0, 0, false};
-    const double sine = std::sqrt(area2 / sides2);
-    const double weight = by_angle_ ? angle_between(u, v) : 1;
-    sum.value += weight * (way.dot(normal) / std::sqrt(area2));
-    sum.error += distance * (kFrontSineError / sine + kFrontError);
-  }
-  return sum;
 }
 
 // The same bounds with 113 bits; sine, cosine and angle are right to 2^-100.
@@ -133,7 +127,6 @@ Front FrontSide::sum_in_quad() const {
   const Quad distance = sqrt(dot(way, way));
   Quad value = 0, error = 0;
   for (const Face& face : std::span(faces_).first(count_)) {
-    if (face.side == 0) continue;
     const Vector3<Quad> u = wide_way(face.from, face.next), v = wide_way(face.from, face.last);
     const Vector3<Quad> normal = cross(u, v);
     const Quad area = sqrt(dot(normal, normal)), sides = sqrt(dot(u, u) * dot(v, v));

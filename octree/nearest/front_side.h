@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "octree/geometry/triangle_distance.h"
-#include "octree/traversal/nearby_lists.h"
 #include "octree/traversal/tree_view.h"
 
 namespace planetree::octree {
@@ -28,7 +27,8 @@ enum class Front : std::uint8_t {
 /// Proof of the sign. The feature lies in the planes of all its faces, so (query - x) . n_i has the
 /// sign of an exact determinant. If none of these is negative, or none positive, the sign of the
 /// sum is known without any rounding. Otherwise the sum is computed in double with a bound on its
-/// error, and then with 113 bits. What that cannot tell is unknown.
+/// error, and then with 113 bits, if the faces are not too many. What that cannot tell is unknown.
+/// The result does not depend on the order in which faces are added.
 ///
 /// source  the pseudo-normal is from Baerentzen & Aanaes 2005; the proof is our own
 class FrontSide {
@@ -44,8 +44,10 @@ class FrontSide {
   /// Adds a face that has area.
   ///
   /// corner  number of a corner that is an end of the feature, the same for all faces
+  /// weight  angle at that corner if the feature is a vertex, right to 2^-50; else 1
   /// limit   charged for exact signs; the caller charges the rest
-  void add(const Triangle& face, unsigned corner, std::uint64_t index, WorkLimit& limit);
+  void add(const Triangle& face, unsigned corner, std::uint64_t index, double weight,
+           WorkLimit& limit);
 
   /// Returns the side of the pseudo-normal.
   ///
@@ -54,32 +56,31 @@ class FrontSide {
   Front front(bool cancelled, WorkLimit& limit);
 
  private:
+  __extension__ using Int128 = __int128;
+
   struct Face {
     std::uint64_t index;
     unsigned corner;
-    int side;
     Point from, next, last;  // corners, from the one at the feature on
   };
-  // A sum is at most `error` away from `value`.
-  struct Sum {
-    double value = 0;
-    double error = 0;
-    bool is_valid = true;
-  };
 
-  Sum sum_in_double() const;
+  void add_in_double(const Point& u, const Point& v, const Point& way, double weight);
   Front sum_in_quad() const;
 
-  static constexpr std::size_t kMax = NearbyTriangles::kMax;
+  static constexpr std::size_t kMax = 32;  // faces that are summed with 113 bits
+  static constexpr double kUnit = 0x1p-60;
 
   const Point& query_;
   bool by_angle_ = false;
   bool has_front_ = false, has_behind_ = false, has_level_ = false;
-  std::size_t count_ = 0;
-  bool is_full_ = false;  // more faces than faces_ can hold were added
   std::uint64_t first_index_ = 0;
   int first_side_ = 0;
-  std::array<Face, kMax> faces_;
+  // The sum in double and its error, as shares of the distance and in whole units, so that the
+  // order of the faces does not matter.
+  Int128 sum_ = 0, error_ = 0;
+  bool is_mild_ = true;  // no face takes wider numbers
+  std::size_t count_ = 0;
+  std::array<Face, kMax> faces_;  // without those in whose plane the query is
 };
 
 /// Returns kInFront if a query is in front of all triangles within `reach`, kBehind if it is behind
