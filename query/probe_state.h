@@ -83,7 +83,7 @@ class ProbeState {
   PageTraceWriter trace_;
   std::unique_ptr<BatchBuffers> batch_buffers_;
   std::uint32_t last_parts_ = kAllParts;         // parts that the last query computed
-  SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule
+  SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule; not of contains_fast()
   Coherence coherence_;
 };
 
@@ -99,7 +99,6 @@ inline Containment ProbeState::contains_fast(const Vec3& query,
   const int winding = model_.geometry.side_grid.find_fast(query.x, query.y, query.z);
   if (winding == octree::SideGrid::kUnknown) return {};
   last_parts_ = kSide;
-  last_side_rule_ = options.side_rule;
   trace_.begin_query(options.wait);
   return {winding != 0 ? Side::kInside : Side::kOutside, Status::kExact};
 }

@@ -54,7 +54,12 @@ ModelGeometry::ModelGeometry(const storage::FileHeader& header)
       region(region_of(header.model)),
       region_corner(region.clamped(tree.core_lower)),
       region_winding(header.model.region_winding),
-      watertight(header.model.unbalanced_edge_count == 0),
-      by_surface{header.model.side_rule == storage::SideRule::kSurface, false, true} {}
+      watertight(header.model.unbalanced_edge_count == 0) {
+  const auto set = [this](SideRule rule, bool by_winding_number) {
+    by_winding_number_[static_cast<std::uint8_t>(rule)] = by_winding_number;
+  };
+  set(SideRule::kOfFile, header.model.side_rule == storage::SideRule::kSolid);
+  set(SideRule::kSolid, true);
+}
 
 }  // namespace planetree::query

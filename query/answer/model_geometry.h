@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "octree/geometry/cell_grid.h"
@@ -27,14 +26,15 @@ struct ModelGeometry {
   octree::Point region_corner;  ///< a point of the region; see region_winding
   std::int64_t region_winding;  ///< winding number at `region_corner`; only if watertight
   bool watertight;              ///< no edge is unbalanced
-  /// Whether each SideRule decides sides by the nearest feature, for this file.
-  std::array<bool, 3> by_surface;
 
-  /// Whether the rule, which may be out of range, decides sides by the winding number.
+  /// Whether a rule decides the sides of this model by the winding number; false if it is out of
+  /// range.
   bool by_winding_number(SideRule rule) const noexcept {
-    const auto at = static_cast<std::size_t>(rule);
-    return at < by_surface.size() && !by_surface[at];
+    return by_winding_number_[static_cast<std::uint8_t>(rule)];
   }
+
+ private:
+  std::array<bool, 256> by_winding_number_{};  // of each value that a SideRule may have
 };
 
 /// Returns the part of space in which a file holds the whole surface, model frame.

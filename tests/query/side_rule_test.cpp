@@ -19,7 +19,7 @@ QueryOptions with_rule(SideRule side, NormalRule normals = NormalRule::kOutward)
 
 TEST(SideRuleOfSolid, IsThatOfTheFileByDefault) {
   const SampleModel sample = SampleModel::masked(octree::sphere(3));
-  const Model model = sample.open();
+  const Model model = sample.open(std::uint64_t{64} << 20, 2);
   Probe left = make_probe(model), right = make_probe(model);
   EXPECT_EQ(model.info().side_rule, SideRule::kSolid);
   for (const Vec3& query : random_queries(500, -2, 2)) {
