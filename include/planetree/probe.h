@@ -71,7 +71,8 @@ class PLANETREE_API Probe {
   /// times the number of triangles.
   ///
   /// query    query point, model units. A coordinate that is NaN or infinite gives kBadQuery.
-  /// options  only `wait`, `max_work` and `side_rule` have an effect. A value of any option that is out of range
+  /// options  only `wait`, `max_work` and `side_rule` have an effect. A value of any option that is
+  /// out of range
   ///          gives kBadQuery.
   Containment contains(Vec3 query, const QueryOptions& options = {}) noexcept;
 

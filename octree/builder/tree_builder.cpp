@@ -16,7 +16,7 @@
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/mesh_size.h"
-#include "octree/builder/openness.h"
+#include "octree/builder/shared_area_sums.h"
 #include "octree/builder/sort/each_chunk.h"
 #include "octree/builder/sort/ordered_mesh.h"
 #include "octree/builder/sort/triangle_runs.h"
@@ -212,16 +212,16 @@ Result<void> TreeBuild::look_at_surface() {
 
 Result<void> TreeBuild::match_edges() {
   RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
-  Openness openness;
+  SharedAreaSums areas;
   auto edges = octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes,
                                    files_.scratch(), progress_, [&](const Triangles& chunk) {
-                                     openness.add(chunk);
+                                     areas.add(chunk);
                                      return cut.add(chunk);
                                    });
   if (!edges) return edges.error();
   model_.edges = *std::move(edges);
   model_.cut = cut.found();
-  model_.openness = openness.value();
+  model_.openness = areas.openness();
   if (!files_.work()) return {};
   return keep(SurfaceWork{model_.edges, model_.cut, model_.openness,
                           part_ ? part_->extents() : std::vector<TriangleRuns::Extent>()});

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "octree/builder/mask/height_field_marks.h"
-#include "octree/builder/openness.h"
 #include "octree/builder/tree/page_appender.h"
+#include "octree/geometry/area_sums.h"
 #include "octree/geometry/strict_math.h"
 #include "storage/file/page_writer.h"
 
@@ -52,7 +52,8 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
 // A surface without a border is not a sheet, whatever the rounding of its openness.
 void describe_side_rule(const BuiltModel& built, const BuildOptions& options,
                         storage::ModelRecord& model) {
-  const bool is_sheet = built.edges.unbalanced_edges > 0 && built.openness >= Openness::kOfSheet;
+  const bool is_sheet =
+      built.edges.unbalanced_edges > 0 && built.openness >= AreaSums::kOpennessOfSheet;
   model.openness = built.edges.unbalanced_edges > 0 ? built.openness : 0;
   model.side_is_chosen = options.side ? 1 : 0;
   model.side_rule =

@@ -20,7 +20,7 @@ namespace planetree::octree {
 struct SurfaceWork {
   EdgeBalance edges;
   SurfaceCut cut;
-  double openness = 0;                     ///< Openness of the whole input
+  double openness = 0;                     ///< openness of the whole input
   std::vector<TriangleRuns::Extent> kept;  ///< runs of the triangles that touch a region
 };
 

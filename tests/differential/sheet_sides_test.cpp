@@ -173,7 +173,7 @@ TEST(SheetSides, TheBuilderTellsSheetsFromSolids) {
   cube.resize(cube.size() - 2);
   EXPECT_EQ(rule_of(cube), SideRule::kSolid);
   Soup holed = ball(4);
-  for (std::size_t i = 0; i < holed.size(); i += 99) holed.erase(holed.begin() + i);
+  for (std::ptrdiff_t i = 0; i < std::ssize(holed); i += 99) holed.erase(holed.begin() + i);
   EXPECT_EQ(rule_of(holed), SideRule::kSolid);
 }
 

@@ -154,11 +154,16 @@ TEST_F(FileCheck, FindsAWrongSample) {
   EXPECT_EQ(codes_of_model([](auto& model) { model.sample_triangle = 5; }), Codes{"SAMPLE"});
 }
 
+TEST_F(FileCheck, FindsAWrongOpenness) {
+  EXPECT_EQ(codes_of_model([](auto& model) { model.openness *= 0.5; }), Codes{"OPENNESS"});
+}
+
 TEST_F(FileCheck, FindsWrongUnbalancedEdges) {
   // The nodes of a watertight model have no moments.
   EXPECT_EQ(codes_of_model([](auto& model) {
               model.unbalanced_edge_count = 0;
               model.side_rule = storage::SideRule::kSolid;
+              model.openness = 0;
               for (auto& edge : model.unbalanced_edge) edge = {};
             }),
             Codes{"PAGE_STRUCTURE"});
@@ -218,6 +223,7 @@ TEST(FileCheckOfShapes, FindsABlockThatIsNotWatertight) {
   forgery.model = [](storage::ModelRecord& model) {
     model.unbalanced_edge_count = 0;
     model.side_rule = storage::SideRule::kSolid;
+    model.openness = 0;
     for (auto& edge : model.unbalanced_edge) edge = {};
   };
   forge(folder / "tree.ptree", folder / "forged.ptree", forgery);

@@ -30,8 +30,7 @@ class CommandSide : public Command {
     return asked(point, std::move(options))["nz"];
   }
 
-  static constexpr const char* kSquare =
-      "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n";
+  static constexpr const char* kSquare = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n";
 };
 
 TEST_F(CommandSide, OfASheetIsThatOfTheNearestFace) {
@@ -64,6 +63,16 @@ TEST_F(CommandSide, FollowsTheBuildersOption) {
   EXPECT_EQ(side("0.1,0.1,0.1"), "inside");
   EXPECT_EQ(side("0.1,0.1,-0.1"), "outside");
   EXPECT_EQ(run({"verify", "side.ptree", "--full"}).status, 0);
+}
+
+TEST_F(CommandSide, BelongsToTheNearestTriangleWhateverTheErrorAllowed) {
+  const auto status = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"query", "tree.ptree", "--max-error", "100"});
+    const std::string row = run(options, "4,4,9\n").output;
+    return row.substr(row.rfind(',') + 1);
+  };
+  EXPECT_EQ(status({}), "exact\n");
+  EXPECT_EQ(status({"--parts", "distance"}), "within_error\n");
 }
 
 TEST_F(CommandSide, RefusesOtherWords) {

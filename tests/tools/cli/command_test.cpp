@@ -230,9 +230,6 @@ TEST_F(Command, QueryObeysItsLimits) {
   const Outcome coarse =
       run({"query", "tree.ptree", "--max-error", "100", "--side", "solid"}, "4,4,9\n");
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
-  // The side of a sheet belongs to the nearest triangle.
-  const Outcome sheet = run({"query", "tree.ptree", "--max-error", "100"}, "4,4,9\n");
-  EXPECT_TRUE(lines_of(sheet.output).back().ends_with("exact"));
 }
 
 TEST_F(Command, QueryContainsGivesSidesOnly) {
