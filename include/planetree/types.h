@@ -134,7 +134,8 @@ struct QueryOptions {
   SideRule side_rule = SideRule::kOfFile;         ///< how the side is decided
   NormalRule normal_rule = NormalRule::kOutward;  ///< which way the contact normal points
   /// The search may stop once upper - lower <= max_error. Model units, finite, >= 0. With 0 the
-  /// search continues until the answer is exact.
+  /// search continues until the answer is exact. It also does if SideRule::kSurface is to tell the
+  /// side.
   double max_error = 0;
   /// The search finds surface at this distance or nearer. If there is none, the status is
   /// kBeyondMaxDistance. Model units, >= 0, may be infinite.

@@ -74,6 +74,7 @@ void expect_sides(const Soup& sheet, std::uint64_t seed) {
   Tally tally;
   const int count = static_cast<int>(1500 * test_effort());
   for (int i = 0; i < count; ++i) expect_side_of(model, beside(random, sheet), tally);
+  for (int i = 0; i < count / 5; ++i) expect_side_of(model, beside(random, sheet, 6, 36), tally);
   EXPECT_EQ(tally.wrong, 0);
   EXPECT_LE(tally.unknown, count / 50);
   EXPECT_LE(tally.ambiguous, count / 5);
@@ -89,6 +90,18 @@ TEST(SheetSides, WithinAnUlpOfTheSurface) {
   }
   EXPECT_EQ(tally.wrong, 0);
   EXPECT_LE(tally.unknown, 600);
+}
+
+// Degenerate, overlapping and needle-like faces, beside which many sides are unknown.
+TEST(SheetSides, OfNastyModelsAreNeverWrong) {
+  Random random(8);
+  Tally tally;
+  for (const NastyFamily& family : nasty_families()) {
+    BuiltModel model(family.make(random), {4096, 1 << 20, 1});
+    for (int i = 0; i < 60; ++i)
+      expect_side_of(model, nasty_query(random, model.triangles(), 1), tally);
+  }
+  EXPECT_EQ(tally.wrong, 0);
 }
 
 TEST(SheetSides, BesideHills) { expect_sides(hills(12), 1); }
