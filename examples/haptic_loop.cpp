@@ -1,7 +1,13 @@
-// The loop of a haptic device, without the device. A tool tip is pushed into a surface and drawn
-// along it, in 1000 ticks a second. While the tip is below the surface, a proxy stays on the
-// surface and a spring pulls the tip to it: the god-object method (Zilles and Salisbury, 1995).
-// usage: haptic_loop MODEL.ptree
+// The loop of a haptic device, without the device: 1000 ticks a second.
+//
+// haptic_loop MODEL.ptree
+//   A tool tip is pushed into the top of a model and drawn along it. While the tip is below the
+//   surface, a proxy stays on the surface and a spring pulls the tip to it: the god-object method
+//   (Zilles and Salisbury, 1995).
+// haptic_loop MODEL.ptree X,Y [two-sided] [below]
+//   A hand presses the tip down over a place of the model until it rests, or up from below. A tip
+//   that touches from two sides is a ball, and the normal points to it: so it rests on a thin sheet
+//   from the front and from the back, also where the sheet has no front, as a Moebius strip.
 
 #include <planetree/planetree.h>
 
@@ -9,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <thread>
 
 using planetree::Vec3;
@@ -17,6 +24,7 @@ namespace {
 
 constexpr std::chrono::microseconds kPeriod(1000);
 constexpr int kTicks = 1000;
+constexpr double kTicksPerSecond = 1e6 / static_cast<double>(kPeriod.count());
 
 Vec3 sum(const Vec3& a, const Vec3& b, double times) {
   return {a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
@@ -27,35 +35,136 @@ double length(const Vec3& a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.
 // Computes the force. Keeps the last contact for ticks at which the answer is not exact.
 class Spring {
  public:
-  explicit Spring(double stiffness) : stiffness_(stiffness) {}
+  // radius  of the tip, if it touches the surface from either side; 0: it is a point that touches
+  //         the surface once it is inside.
+  Spring(double stiffness, double radius) : stiffness_(stiffness), radius_(radius) {}
 
   Vec3 force(const Vec3& tip, const planetree::ClosestPoint& answer) {
     if (answer.status == planetree::Status::kExact) {
-      touching_ = answer.side == planetree::Side::kInside;
+      touching_ = radius_ > 0 ? answer.distance < radius_ : answer.signed_distance() < 0;
       contact_ = answer.point;
       normal_ = answer.normal;
-    } else if (answer.lower > 0 && answer.side == planetree::Side::kOutside) {
+    } else if (answer.lower > radius_ &&
+               (radius_ > 0 || answer.side == planetree::Side::kOutside)) {
       // The interval may be wide, but it proves that the tip is clear of the surface.
       touching_ = false;
     }
     // Otherwise pages are missing: the plane of the last contact stands for the surface.
     if (!touching_) return {};
     const Vec3 way = sum(contact_, tip, -1);
-    const double depth = way.x * normal_.x + way.y * normal_.y + way.z * normal_.z;
+    const double depth = way.x * normal_.x + way.y * normal_.y + way.z * normal_.z + radius_;
     return depth > 0 ? sum({}, normal_, stiffness_ * depth) : Vec3{};
   }
 
  private:
   const double stiffness_;  // force per model unit
+  const double radius_;
   bool touching_ = false;
   Vec3 contact_, normal_;
 };
 
+struct Session {
+  const planetree::ModelInfo& info;
+  planetree::Probe& probe;
+  double diagonal;
+  int touching = 0, uncertain = 0;
+  double strongest = 0;
+
+  // One tick: the force on a tip that moves by `move` a tick.
+  Vec3 force(Spring& spring, const Vec3& tip, const Vec3& move,
+             const planetree::QueryOptions& options) {
+    probe.motion(tip, sum({}, move, kTicksPerSecond));
+    const planetree::ClosestPoint answer = probe.closest_point(tip, options);
+    const Vec3 force = spring.force(tip, answer);
+    strongest = std::max(strongest, length(force));
+    touching += length(force) > 0;
+    uncertain += answer.status != planetree::Status::kExact;
+    return force;
+  }
+  void report() const {
+    std::printf("%d ticks: %d with contact, %d uncertain; strongest force %.3g\n", kTicks, touching,
+                uncertain, strongest);
+  }
+};
+
+// The tip starts above the middle of the model's top, moves down into the model, then sideways.
+int stroke(Session& session) {
+  const Vec3 size = sum(session.info.core_upper, session.info.core_lower, -1);
+  Vec3 tip = sum(session.info.core_lower, size, 0.5);
+  tip.z = session.info.core_upper.z + 0.01 * session.diagonal;
+  const double step = 1e-4 * session.diagonal;
+  Spring spring(1 / step, 0);
+  planetree::QueryOptions options;
+  options.wait = planetree::Wait::kNever;
+  auto due = std::chrono::steady_clock::now();
+  for (int tick = 0; tick < kTicks; ++tick) {
+    std::this_thread::sleep_until(due += kPeriod);
+    const bool sinking = session.touching < kTicks / 10;
+    const Vec3 move = sinking ? Vec3{0, 0, -step} : Vec3{step, 0, 0};
+    tip = sum(tip, move, 1);
+    session.force(spring, tip, move, options);
+  }
+  session.report();
+  return session.touching > 0 ? 0 : 1;
+}
+
+// The hand moves the tip up or down with constant force against friction, and the spring stops it.
+int press(Session& session, double x, double y, bool two_sided, bool from_below) {
+  const double way = from_below ? 1 : -1;
+  const double step = 1e-4 * session.diagonal, near = 200 * step;
+  constexpr double kPush = 1;                   // force of the hand
+  const double stiffness = kPush / (8 * step);  // a depth of 8 steps balances it
+  const double radius = two_sided ? 100 * step : 0;
+
+  // Before the first tick: goes near the surface in steps as long as the way that is free.
+  const double beyond = 0.1 * session.diagonal;
+  Vec3 tip{x, y,
+           from_below ? session.info.core_lower.z - beyond : session.info.core_upper.z + beyond};
+  planetree::QueryOptions options;
+  options.parts = planetree::kDistance;
+  for (int i = 0; i < 1000; ++i) {
+    const double free = session.probe.closest_point(tip, options).lower - near;
+    if (free < step) break;
+    tip.z += way * free;
+  }
+
+  options = {};
+  options.wait = planetree::Wait::kNever;
+  options.normal_rule =
+      two_sided ? planetree::NormalRule::kTowardQuery : planetree::NormalRule::kOutward;
+  Spring spring(stiffness, radius);
+  double speed = way * step;  // model units a tick
+  int pulled_through = 0;
+  auto due = std::chrono::steady_clock::now();
+  for (int tick = 0; tick < kTicks; ++tick) {
+    std::this_thread::sleep_until(due += kPeriod);
+    const double force = session.force(spring, tip, {0, 0, speed}, options).z;
+    pulled_through += way * force > 0;
+    speed = step * (way * kPush + force) / kPush;
+    tip.z += speed;
+  }
+  session.report();
+  const bool rests = std::fabs(speed) < 0.01 * step && session.touching > 0;
+  std::printf("%s at %.6g; %d ticks pulled the tip through\n", rests ? "at rest" : "moving", tip.z,
+              pulled_through);
+  return rests && pulled_through == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: haptic_loop MODEL.ptree\n");
+  double x = 0, y = 0;
+  bool two_sided = false, from_below = false;
+  const bool is_press = argc >= 3 && std::sscanf(argv[2], "%lf,%lf", &x, &y) == 2;
+  bool is_valid = argc == 2 || is_press;
+  for (int i = 3; i < argc; ++i) {
+    const bool is_side = std::strcmp(argv[i], "two-sided") == 0;
+    two_sided = two_sided || is_side;
+    from_below = from_below || !is_side;
+    is_valid = is_valid && (is_side || std::strcmp(argv[i], "below") == 0);
+  }
+  if (!is_valid) {
+    std::fprintf(stderr, "usage: haptic_loop MODEL.ptree [X,Y [two-sided] [below]]\n");
     return 2;
   }
   planetree::OpenOptions options;
@@ -70,35 +179,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "haptic_loop: %s\n", probe.error().text);
     return 1;
   }
-
-  // The tip starts above the middle of the model's top, moves down into the model, then sideways.
   const planetree::ModelInfo& info = model->info();
-  const Vec3 size = sum(info.core_upper, info.core_lower, -1);
-  const double diagonal = length(size);
-  Vec3 tip = sum(info.core_lower, size, 0.5);
-  tip.z = info.core_upper.z + 0.01 * diagonal;
-  const double per_second = 1e6 / static_cast<double>(kPeriod.count());
-  const double step = 1e-4 * diagonal;
-
-  Spring spring(1 / step);
-  planetree::QueryOptions query_options;
-  query_options.wait = planetree::Wait::kNever;
-  double strongest = 0;
-  int touching = 0, uncertain = 0;
-  auto due = std::chrono::steady_clock::now();
-  for (int tick = 0; tick < kTicks; ++tick) {
-    std::this_thread::sleep_until(due += kPeriod);
-    const bool sinking = touching < kTicks / 10;
-    const Vec3 move = sinking ? Vec3{0, 0, -step} : Vec3{step, 0, 0};
-    tip = sum(tip, move, 1);
-    probe->motion(tip, sum({}, move, per_second));
-    const planetree::ClosestPoint answer = probe->closest_point(tip, query_options);
-    const double force = length(spring.force(tip, answer));
-    strongest = std::max(strongest, force);
-    touching += force > 0;
-    uncertain += answer.status != planetree::Status::kExact;
-  }
-  std::printf("%d ticks: %d with contact, %d uncertain; strongest force %.3g\n", kTicks, touching,
-              uncertain, strongest);
-  return touching > 0 ? 0 : 1;
+  Session session{info, *probe, length(sum(info.core_upper, info.core_lower, -1))};
+  return is_press ? press(session, x, y, two_sided, from_below) : stroke(session);
 }

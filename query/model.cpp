@@ -34,6 +34,10 @@ ModelInfo describe(const storage::PageFile& file) {
   info.unbalanced_edges = model.unbalanced_edge_count;
   info.caps = model.cap_count;
   info.cap_area = std::ldexp(model.cap_area, -2 * model.scale_exponent);
+  info.side_rule =
+      model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface : SideRule::kSolid;
+  info.side_is_chosen = model.side_is_chosen != 0;
+  info.openness = model.openness;
   info.input_triangles = model.usable_triangles();
   info.has_region = model.has_region();
   info.region_lower = {model.region_lower[0], model.region_lower[1], model.region_lower[2]};

@@ -19,7 +19,9 @@ namespace planetree::query {
 void ProbeState::request(const Vec3& query, const QueryOptions& options,
                          std::uint32_t parts) noexcept {
   model_.requests(reader_.index())
-      .missed.store({query, options.max_error, options.max_distance, options.max_work, parts});
+      .missed.store({query, options.max_error, options.max_distance, options.max_work, parts,
+                     static_cast<std::uint64_t>(options.side_rule),
+                     static_cast<std::uint64_t>(options.normal_rule)});
 }
 
 ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& options) noexcept {
@@ -34,6 +36,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
       {model_.geometry, accessor.pages(), coherence_, work}, query, limited, answer);
   if (incomplete && accessor.missed()) request(query, limited, limited.parts);
   last_parts_ = computed_parts(options.parts);
+  last_side_rule_ = options.side_rule;
   if (answer.status == Status::kDegraded) model_.degraded.fetch_add(1, std::memory_order_relaxed);
   return answer;
 }
@@ -57,10 +60,20 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   return {side.side, side.status};
 }
 
+// The side of a sheet is that of its nearest feature, so it takes a search for that.
+[[gnu::noinline]] Containment ProbeState::find_front(const Vec3& query,
+                                                     QueryOptions options) noexcept {
+  options.parts = kSide;
+  const ClosestPoint answer = closest_point(query, options);
+  return {answer.side, answer.status};
+}
+
 Containment ProbeState::contains(const Vec3& query, const QueryOptions& options) noexcept {
   if (!is_valid(query, options)) return {};
+  if (!model_.geometry.by_winding_number(options.side_rule)) return find_front(query, options);
   const octree::Point scaled = model_.geometry.scale.in(query);
   last_parts_ = kSide;
+  last_side_rule_ = options.side_rule;
   PageTraceWriter* const trace = trace_.begin_query(options.wait);
   const octree::SideGrid::Lookup lookup =
       look_up_side_grid(model_.geometry, scaled, frames_of(reader_));

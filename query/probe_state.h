@@ -48,13 +48,15 @@ class ProbeState {
   ClosestPoint closest_point(const Vec3& query, const QueryOptions& options) noexcept;
   /// See Probe::contains.
   Containment contains(const Vec3& query, const QueryOptions& options) noexcept;
-  /// Returns the answer of contains() if the side grid tells it by integers, as for most points;
-  /// else kUnknown. It computes nothing with doubles, so the thread may be in any floating-point
-  /// mode. It looks nothing up if the grid did not decide the last query.
+  /// Returns the answer of contains() if the side grid tells it by integers, as for most points of
+  /// a solid; else kUnknown. It computes nothing with doubles, so the thread may be in any
+  /// floating-point mode. It looks nothing up if the grid did not decide the last query.
   Containment contains_fast(const Vec3& query, const QueryOptions& options) noexcept;
   /// See Probe::motion.
   void note_motion(const Vec3& position, const Vec3& velocity) noexcept {
-    model_.requests(reader_.index()).motion.store({position, velocity, last_parts_});
+    model_.requests(reader_.index())
+        .motion.store(
+            {position, velocity, last_parts_, static_cast<std::uint64_t>(last_side_rule_)});
   }
   /// See FetchProbe::fetch_pages.
   void fetch_pages(const Vec3& query, const QueryOptions& options, bool is_prefetch,
@@ -71,6 +73,7 @@ class ProbeState {
   Containment search_side(const Vec3& query, const QueryOptions& options,
                           const octree::Point& scaled, const octree::SideGrid::Lookup& lookup,
                           PageTraceWriter* trace) noexcept;
+  Containment find_front(const Vec3& query, QueryOptions options) noexcept;
   void request(const Vec3& query, const QueryOptions& options, std::uint32_t parts) noexcept;
 
   // First, so that it is destroyed last: once the reader slot is released, another thread may make
@@ -79,7 +82,8 @@ class ProbeState {
   const ServingModel& model_;
   PageTraceWriter trace_;
   std::unique_ptr<BatchBuffers> batch_buffers_;
-  std::uint32_t last_parts_ = kAllParts;  // parts that the last query computed
+  std::uint32_t last_parts_ = kAllParts;         // parts that the last query computed
+  SideRule last_side_rule_ = SideRule::kOfFile;  // its side rule; not of contains_fast()
   Coherence coherence_;
 };
 
@@ -89,7 +93,9 @@ inline Containment ProbeState::contains_fast(const Vec3& query,
   const std::uint64_t infinite = bits(std::numeric_limits<double>::infinity());
   const bool is_valid = bits(options.max_error) < infinite &&
                         bits(options.max_distance) <= infinite && (options.parts & ~kAllParts) == 0;
-  if (!coherence_.side_grid_answered || !is_valid) return {};
+  if (!coherence_.side_grid_answered || !is_valid ||
+      !model_.geometry.by_winding_number(options.side_rule))
+    return {};
   const int winding = model_.geometry.side_grid.find_fast(query.x, query.y, query.z);
   if (winding == octree::SideGrid::kUnknown) return {};
   last_parts_ = kSide;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -114,6 +115,8 @@ std::string json_report(const BuildArguments& arguments, const BuildReport& buil
       {"vertices", built.vertices},
       {"watertight", built.watertight()},
       {"unbalanced_edges", built.unbalanced_edges},
+      {"side_rule", built.side_rule == SideRule::kSurface ? "surface" : "solid"},
+      {"openness", built.openness},
       {"levels", built.levels},
       {"nodes", built.nodes},
       {"blocks", built.blocks},
@@ -139,12 +142,13 @@ std::string plain_report(const BuildArguments& arguments, const BuildReport& bui
   const std::string surface = built.watertight()
                                   ? "watertight"
                                   : grouped_count(built.unbalanced_edges) + " unbalanced edges";
+  const std::string sheet = built.side_rule == SideRule::kSurface ? ", a sheet" : "";
   const std::string strays =
       built.strays > 0 ? grouped_count(built.strays) + " of them far outside, " : std::string();
   return fmt::format(
       "{}: {}{} triangles, {}{}, {} in {} pages ({:.1f} bytes a triangle), in {:.1f} s ({} "
       "triangles/s), {} peak memory\n",
-      arguments.output.string(), grouped_count(built.triangles), part, strays, surface,
+      arguments.output.string(), grouped_count(built.triangles), part, strays, surface + sheet,
       short_bytes(built.file_bytes), grouped_count(built.pages), bytes_per_triangle(built), seconds,
       short_count(static_cast<double>(built.input_triangles) / seconds),
       short_bytes(built.peak_resident_bytes));
@@ -267,6 +271,19 @@ void add_build(CLI::App& app, Console& console, std::function<int()>& action) {
       "Build only the triangles that touch this box, in model units. Sides and watertightness are "
       "those of the whole mesh. Answers are exact where the surface is nearer than the box's "
       "walls; intervals hold everywhere. Sides are known within the box");
+  static const std::map<std::string, SideChoice> choices = {{"auto", SideChoice::kAuto},
+                                                            {"solid", SideChoice::kSolid},
+                                                            {"surface", SideChoice::kSurface}};
+  subcommand.default_text(
+      subcommand.word(
+          "--side", {"auto", "solid", "surface"},
+          [&arguments](const std::string& name) { arguments.options.side = choices.at(name); },
+          "How queries decide sides by default. solid: by the winding number; surface: an open "
+          "sheet "
+          "such as a terrain has a front and a back, and the nearest face, edge or vertex decides; "
+          "auto: surface if the mesh is not watertight and the sum of its area vectors is at least "
+          "0.375 of its area"),
+      "auto");
   subcommand.flag(
       "--resume", arguments.options.resume,
       "Keep a checkpoint in the directory OUT.ptree.work, next to the output or in --temp-dir, "

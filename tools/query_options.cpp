@@ -89,6 +89,27 @@ void add_answers(SubcommandOptions& subcommand, QueryArguments& arguments) {
       "The other columns of csv are empty, the other keys of jsonl are left out, the other numbers "
       "of f64 are NaN");
   subcommand.default_text(parts, "distance,side,normal");
+  static const std::map<std::string, SideRule> rules = {{"solid", SideRule::kSolid},
+                                                        {"surface", SideRule::kSurface}};
+  subcommand.default_text(
+      subcommand.word(
+          "--side", {"solid", "surface"},
+          [&arguments](const std::string& name) { arguments.options.side_rule = rules.at(name); },
+          "solid: a point is inside by its winding number; surface: inside means behind the "
+          "nearest face, edge or vertex, as its normal points, for terrains and other open sheets"),
+      "as the file says");
+  static const std::map<std::string, NormalRule> normals = {
+      {"outward", NormalRule::kOutward}, {"toward-query", NormalRule::kTowardQuery}};
+  const auto normal = subcommand.default_text(
+      subcommand.word(
+          "--normals", {"outward", "toward-query"},
+          [&arguments](const std::string& name) {
+            arguments.options.normal_rule = normals.at(name);
+          },
+          "outward: out of the solid, or as a sheet's faces are oriented; toward-query: to the "
+          "point's side of the surface"),
+      "outward");
+  subcommand.exclude(normal, contains);
   subcommand.exclude(is_signed, contains);
   subcommand.exclude(parts, contains);
   subcommand.default_text(

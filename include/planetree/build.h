@@ -131,8 +131,15 @@ struct Box {
       upper;   ///< upper corner
 };
 
-/// Options of build(). Of these, only `page_bytes`, `box` and `float64` change the bytes of the
-/// file.
+/// How a build decides which SideRule queries use by default.
+enum class SideChoice : std::uint8_t {
+  kAuto,    ///< by BuildReport::openness; a watertight surface is a solid
+  kSolid,   ///< SideRule::kSolid
+  kSurface  ///< SideRule::kSurface
+};
+
+/// Options of build(). Of these, only `page_bytes`, `box`, `side` and `float64` change the bytes of
+/// the file.
 struct BuildOptions {
   /// Maximum memory of the build in bytes, at least kMinMemoryBytes. It limits the resident memory
   /// of the whole process if the rest of the program takes less than 64 MiB. Arrays of a BuildInput
@@ -154,6 +161,8 @@ struct BuildOptions {
   /// Builds only the triangles that touch this box, the region; see ModelInfo::has_region. Its
   /// corners must be finite, and `lower` at most `upper` on each axis.
   std::optional<Box> box;
+  /// How queries decide sides by default; see SideRule.
+  SideChoice side = SideChoice::kAuto;
   /// Keeps a checkpoint: completed work in a directory that is removed when the file is complete. A
   /// later build of the same input and options resumes it. The directory is `OUTPUT.work` beside
   /// the output. If `temp_directory` is set, it is there, and its name also has a hash of the
@@ -204,10 +213,17 @@ struct BuildReport {
   /// Number of polygons that cross themselves, have more than 2^20 corners, or would take long to
   /// split. They are split into fans, which may reach beyond them.
   std::uint64_t fanned_polygons = 0;
-  std::string first_fanned_text;          ///< names the first of them; empty if there is none
-  std::uint64_t vertices = 0;             ///< vertex records of the input
-  std::uint64_t strays = 0;               ///< triangles of the input far outside of all others
-  std::uint64_t unbalanced_edges = 0;     ///< edges that are not balanced, see watertight()
+  std::string first_fanned_text;       ///< names the first of them; empty if there is none
+  std::uint64_t vertices = 0;          ///< vertex records of the input
+  std::uint64_t strays = 0;            ///< triangles of the input far outside of all others
+  std::uint64_t unbalanced_edges = 0;  ///< edges that are not balanced, see watertight()
+  /// How sides are decided by default: SideRule::kSolid or kSurface. An open surface of an openness
+  /// of 0.375 or more is taken for a sheet, unless BuildOptions::side says otherwise.
+  SideRule side_rule = SideRule::kSolid;
+  bool side_is_chosen = false;  ///< whether BuildOptions::side chose the rule
+  /// How open the surface of the input is: the length of the sum of the triangles' area vectors,
+  /// divided by the sum of their areas. 0 for a closed surface, 1 for a flat sheet.
+  double openness = 0;
   std::uint64_t nodes = 0;                ///< inner nodes of the tree
   std::uint64_t blocks = 0;               ///< leaves of the tree: blocks of up to 16 triangles
   std::uint32_t levels = 0;               ///< height of the tree, in nodes
@@ -225,7 +241,8 @@ struct BuildReport {
 /// Builds the .ptree file of a mesh. The file appears under its name when it is complete. After an
 /// error or a cancelled build an earlier file of that name is unchanged, and no new file is left,
 /// except for the checkpoint of BuildOptions::resume. The bytes of the file depend on the input,
-/// `page_bytes`, `box`, `float64`, and the releases of planetree and LZ4, and on nothing else.
+/// `page_bytes`, `box`, `side`, `float64`, and the releases of planetree and LZ4, and on nothing
+/// else.
 ///
 /// input    triangles in any order. Records that cannot be used are skipped and counted.
 /// output   the file. Its directory must exist.

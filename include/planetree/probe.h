@@ -63,13 +63,16 @@ class PLANETREE_API Probe {
   /// surface the point is. Coordinates that are smaller than about 2^-1022 times the model's
   /// longest edge are rounded first.
   ///
+  /// By SideRule::kSurface this searches the nearest triangle, as closest_point() does.
+  ///
   /// The side is kUnknown, and the status kDegraded, if pages or work are missing, or if the point
   /// is beyond a wall of the file's region (see ModelInfo::has_region). If the surface is not
   /// watertight, it is also kUnknown if the magnitude of the winding number differs from 1/2 by
   /// less than about 2^-45 times the number of caps (ModelInfo::caps).
   ///
   /// query    query point, model units. A coordinate that is NaN or infinite gives kBadQuery.
-  /// options  only `wait` and `max_work` have an effect. A value of any option that is out of range
+  /// options  only `wait`, `max_work` and `side_rule` have an effect. A value of any option that is
+  /// out of range
   ///          gives kBadQuery.
   Containment contains(Vec3 query, const QueryOptions& options = {}) noexcept;
 

@@ -26,7 +26,8 @@ struct ModelInfo {
   ///
   /// Every interval, and every side that is known, is right for the whole input. An answer is exact
   /// if the surface is nearer to the query point than every wall. It is then the answer for the
-  /// whole input. Otherwise it is not exact. Sides are unknown beyond a wall.
+  /// whole input. Otherwise it is not exact. By SideRule::kSolid sides are unknown beyond a wall.
+  /// By SideRule::kSurface a side is known if the nearest triangle is.
   bool has_region = false;
   Vec3 region_lower,                   ///< lower corner of the region
       region_upper;                    ///< upper corner of the region
@@ -34,7 +35,14 @@ struct ModelInfo {
   /// Number of caps: triangles that close the surface, for finding sides. They are no part of the
   /// surface: no distance, point, normal or index is of a cap.
   std::uint64_t caps = 0;
-  double cap_area = 0;           ///< sum of the caps' areas, square units
+  double cap_area = 0;  ///< sum of the caps' areas, square units
+  /// How sides are decided by default: SideRule::kSolid or kSurface. An open surface of an openness
+  /// of 0.375 or more is taken for a sheet, unless BuildOptions::side says otherwise.
+  SideRule side_rule = SideRule::kSolid;
+  bool side_is_chosen = false;  ///< whether BuildOptions::side chose the rule
+  /// How open the surface of the input is: the length of the sum of the triangles' area vectors,
+  /// divided by the sum of their areas. 0 for a closed surface, 1 for a flat sheet.
+  double openness = 0;
   bool float64 = false;          ///< whether coordinates are doubles; not all fit a float
   std::uint64_t nodes = 0;       ///< inner nodes of the tree
   std::uint64_t blocks = 0;      ///< leaves of the tree: blocks of up to 16 triangles

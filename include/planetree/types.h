@@ -35,19 +35,45 @@ enum class Feature : std::uint8_t {
 /// the same orientation enclose it, if a solid that the mesh has twice encloses it, or if an
 /// inside-out solid does. A cavity whose surface has the opposite orientation is outside. Across a
 /// hole in the surface w changes smoothly, and the side changes where |w| = 1/2, as if a surface
-/// closed the hole.
+/// closed the hole. All this holds by SideRule::kSolid. By SideRule::kSurface the nearest feature
+/// decides.
 ///
 /// source  Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
 ///         numbers".
 enum class Side : std::uint8_t {
-  kInside,     ///< off the surface, |w| > 1/2
-  kOutside,    ///< off the surface, |w| < 1/2
+  kInside,     ///< off the surface, |w| > 1/2, or behind a sheet
+  kOutside,    ///< off the surface, |w| < 1/2, or in front of a sheet
   kOnSurface,  ///< exactly on a triangle
   /// Not known, for one of these reasons: the side was not requested; a page is missing or
   /// unreadable; QueryOptions::max_work is spent; |w| is too close to 1/2 to decide; or the file
   /// has the triangles of a region only, and these do not determine the side (see
-  /// ModelInfo::has_region).
+  /// ModelInfo::has_region). By SideRule::kSurface also if the nearest triangle is not proven, if
+  /// no face at the nearest point has area, or if wide numbers cannot tell the sign.
   kUnknown,
+};
+
+/// How the side of a point is decided.
+enum class SideRule : std::uint8_t {
+  /// As the file says: ModelInfo::side_rule, which the builder chose (BuildOptions::side).
+  kOfFile,
+  /// The surface bounds a solid: by the winding number, see Side.
+  kSolid,
+  /// The surface is an open sheet, such as a terrain: by the nearest face, edge or vertex. The side
+  /// is kOutside in front of its angle-weighted pseudo-normal, kInside behind it. A point exactly
+  /// in
+  /// the plane of the pseudo-normal, as beyond a border of a flat sheet, is kOutside. If the sum of
+  /// the normals cancels, the nearest face of least index decides. The side is exact or kUnknown.
+  /// It belongs to the nearest triangle, so the query searches for that whatever `max_error` is.
+  ///
+  /// source  Baerentzen & Aanaes 2005, "Signed distance computation using the angle weighted
+  ///         pseudonormal".
+  kSurface,
+};
+
+/// Which way the contact normal points.
+enum class NormalRule : std::uint8_t {
+  kOutward,      ///< out of the solid, or, by SideRule::kSurface, as the mesh is oriented
+  kTowardQuery,  ///< to the query's side of the surface; on the surface, as the mesh is oriented
 };
 
 /// What is proven of an answer. The status concerns all requested parts: kDegraded if any part is
@@ -65,8 +91,9 @@ enum class Status : std::uint8_t {
   /// of the region may be nearer (see ModelInfo::has_region), or the side is unknown because |w| is
   /// 1/2 to the last bits or the query is beyond a wall of the region.
   kDegraded,
-  /// No surface within QueryOptions::max_distance. The side is computed as usual and may be
-  /// kUnknown.
+  /// No surface within QueryOptions::max_distance. By SideRule::kSolid the side is computed as
+  /// usual
+  /// and may be kUnknown. By SideRule::kSurface it is kUnknown.
   kBeyondMaxDistance,
   kBadQuery,  ///< a coordinate of the query point is not finite, or an option is out of range
 };
@@ -102,9 +129,12 @@ struct QueryOptions {
   /// kNormal only `side` and `status` are set: `distance` and `upper` are infinite, `lower` is 0
   /// and `triangle` is kNoTriangle. With 0 the query computes nothing.
   std::uint32_t parts = kAllParts;
-  Wait wait = Wait::kForPages;  ///< blocking or real-time query
+  Wait wait = Wait::kForPages;                    ///< blocking or real-time query
+  SideRule side_rule = SideRule::kOfFile;         ///< how the side is decided
+  NormalRule normal_rule = NormalRule::kOutward;  ///< which way the contact normal points
   /// The search may stop once upper - lower <= max_error. Model units, finite, >= 0. With 0 the
-  /// search continues until the answer is exact.
+  /// search continues until the answer is exact. It also does if SideRule::kSurface is to tell the
+  /// side.
   double max_error = 0;
   /// The search finds surface at this distance or nearer. If there is none, the status is
   /// kBeyondMaxDistance. Model units, >= 0, may be infinite.
@@ -144,7 +174,10 @@ struct ClosestPoint {
   /// requested.
   Vec3 point;
   /// Contact normal, of length 1: the angle-weighted pseudo-normal of the nearest face, edge or
-  /// vertex. The first rule that applies decides its sign:
+  /// vertex. By SideRule::kSurface it follows the orientation of the mesh. By
+  /// NormalRule::kTowardQuery it points to the query's side of the surface, whatever the side rule;
+  /// if that is not proven, it follows the orientation of the mesh and the status is kDegraded.
+  /// Otherwise the first rule that applies decides its sign:
   ///
   /// - If `side` is kUnknown, the normal follows the orientation of the mesh.
   /// - If `triangle` is not proven to be the nearest, the normal follows the orientation of the
@@ -178,7 +211,8 @@ struct ClosestPoint {
 /// The answer to a query for the side alone.
 struct Containment {
   Side side = Side::kUnknown;  ///< side of the query point
-  /// kDegraded if the side is unknown because pages or work were missing, kBadQuery, else kExact.
+  /// kDegraded if the side is unknown because pages, work or, by SideRule::kSurface, a proof were
+  /// missing; kBadQuery; else kExact.
   Status status = Status::kBadQuery;
 };
 

@@ -127,6 +127,9 @@ octree::BuildOptions inner_options(const BuildOptions& options) {
   inner.temp_directory = options.temp_directory;
   inner.float64 = options.float64;
   inner.strict = options.strict;
+  if (options.side != SideChoice::kAuto)
+    inner.side = options.side == SideChoice::kSurface ? storage::SideRule::kSurface
+                                                      : storage::SideRule::kSolid;
   inner.replace = options.replace;
   if (options.box) inner.box = {options.box->lower, options.box->upper};
   inner.resume = options.resume;
@@ -156,6 +159,10 @@ BuildReport report_of(const octree::BuildReport& built) {
   report.vertices = model.vertex_count;
   report.strays = model.stray_count;
   report.unbalanced_edges = model.unbalanced_edge_count;
+  report.side_rule =
+      model.side_rule == storage::SideRule::kSurface ? SideRule::kSurface : SideRule::kSolid;
+  report.side_is_chosen = model.side_is_chosen != 0;
+  report.openness = model.openness;
   report.nodes = model.node_count;
   report.blocks = model.block_count;
   report.levels = model.height;

@@ -12,11 +12,12 @@
 #include "octree/builder/build_files.h"
 #include "octree/builder/build_identity.h"
 #include "octree/builder/cap_tree.h"
-#include "octree/builder/job/build_arena.h"
 #include "octree/builder/job/build_memory.h"
+#include "octree/builder/job/build_threads.h"
 #include "octree/builder/job/phase_count.h"
 #include "octree/builder/mesh/mesh_format.h"
 #include "octree/builder/mesh/mesh_size.h"
+#include "octree/builder/shared_area_sums.h"
 #include "octree/builder/sort/each_chunk.h"
 #include "octree/builder/sort/ordered_mesh.h"
 #include "octree/builder/sort/triangle_runs.h"
@@ -201,6 +202,7 @@ Result<void> TreeBuild::look_at_surface() {
     model_.edges = work->surface()->edges;
     model_.cut = work->surface()->cut;
     caps_->resume(work->surface()->caps);
+    model_.openness = work->surface()->openness;
     if (part_) part_->add_extent(work->surface()->kept);
   } else if (const auto matched = match_edges(); !matched) {
     return matched;
@@ -214,16 +216,21 @@ Result<void> TreeBuild::look_at_surface() {
 
 Result<void> TreeBuild::match_edges() {
   RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
+  SharedAreaSums areas;
   CapChain boundary(memory_.cap_bytes, files_.scratch());
-  auto edges = octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes,
-                                   files_.scratch(), progress_, boundary,
-                                   [&cut](const Triangles& chunk) { return cut.add(chunk); });
+  auto edges =
+      octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),
+                          progress_, boundary, [&](const Triangles& chunk) {
+                            areas.add(chunk);
+                            return cut.add(chunk);
+                          });
   if (!edges) return edges.error();
   model_.edges = *std::move(edges);
   if (const auto closed = caps_->close(boundary, cut); !closed) return closed;
   model_.cut = cut.found();
+  model_.openness = areas.openness();
   if (!files_.work()) return {};
-  return keep(SurfaceWork{model_.edges, model_.cut,
+  return keep(SurfaceWork{model_.edges, model_.cut, model_.openness,
                           part_ ? part_->extents() : std::vector<TriangleRuns::Extent>(),
                           caps_->work()});
 }
@@ -335,7 +342,7 @@ Result<BuildReport> build_tree(const BuildInput& input, const std::filesystem::p
   if (options.box)
     if (const auto checked = options.box->check(); !checked) return checked.error();
   if (options.resume) memory = memory->with_checkpoint();
-  return in_build_arena(memory->threads, [&] {
+  return BuildThreads(memory->threads).run([&] {
     TreeBuild build(input, output, options, *memory, progress, seams);
     auto report = build.run();
     if (!report) build.report_failure();

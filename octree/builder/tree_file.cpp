@@ -4,6 +4,7 @@
 
 #include "octree/builder/mask/height_field_marks.h"
 #include "octree/builder/tree/page_appender.h"
+#include "octree/geometry/area_sums.h"
 #include "octree/geometry/strict_math.h"
 #include "storage/file/page_writer.h"
 
@@ -46,6 +47,17 @@ void describe_region(const BuiltModel& built, storage::ModelRecord& model) {
     model.region_upper[axis] = to[axis] + 0.0;
   }
   model.region_winding = built.cut.winding;
+}
+
+// A surface without a border is not a sheet, whatever the rounding of its openness.
+void describe_side_rule(const BuiltModel& built, const BuildOptions& options,
+                        storage::ModelRecord& model) {
+  const bool is_sheet =
+      built.edges.unbalanced_edges > 0 && built.openness >= AreaSums::kOpennessOfSheet;
+  model.openness = built.edges.unbalanced_edges > 0 ? built.openness : 0;
+  model.side_is_chosen = options.side ? 1 : 0;
+  model.side_rule =
+      options.side.value_or(is_sheet ? storage::SideRule::kSurface : storage::SideRule::kSolid);
 }
 
 void describe_tree(const BuiltModel& built, const BuiltTree& tree, storage::ModelRecord& model) {
@@ -98,6 +110,7 @@ Result<storage::FileHeader> write_tree(const BuiltModel& built, const BuiltTree&
   storage::ModelRecord model{};
   describe_mesh(built, model);
   describe_region(built, model);
+  describe_side_rule(built, options, model);
   describe_tree(built, tree, model);
   caps.describe(model);
   return writer->finish(model, options.page_bytes);

@@ -26,7 +26,8 @@ struct BuiltModel {
   ModelFrame frame;
   std::uint64_t vertex_records = 0;
   BlockShape shape;
-  EdgeBalance edges;  ///< edges of the whole input, as the frame is
+  EdgeBalance edges;    ///< edges of the whole input, as the frame is
+  double openness = 0;  ///< openness of the whole input, see AreaSums
   SurfaceCut cut;
   std::optional<RegionBox> box;
   ChunkTree above;

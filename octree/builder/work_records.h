@@ -21,6 +21,7 @@ namespace planetree::octree {
 struct SurfaceWork {
   EdgeBalance edges;
   SurfaceCut cut;
+  double openness = 0;                     ///< openness of the whole input
   std::vector<TriangleRuns::Extent> kept;  ///< runs of the triangles that touch a region
   CapWork caps;
 };
@@ -95,7 +96,7 @@ void fields(Record& record, Value& cut) {
 
 template <class Record, IsA<SurfaceWork> Value>
 void fields(Record& record, Value& surface) {
-  record(surface.edges, surface.cut, surface.kept, surface.caps);
+  record(surface.edges, surface.cut, surface.openness, surface.kept, surface.caps);
 }
 
 template <class Record, IsA<CapWork> Value>

@@ -159,6 +159,13 @@ inline constexpr double kMinNormalEdge = 0x1p-200;
 /// A sum of normals shorter than this share of its weights counts as zero. A choice and no proof: a
 /// unit normal errs by 5 u over its face's sine.
 inline constexpr double kCancelledNormalShare = 0x1p-40;
+/// Error of an angle times the height of a query over a face, as shares of the distance: of what
+/// grows with the inverse of the sine at the corner, and of the rest. octree/nearest/front_side.cpp
+/// derives 4 (64 u) and 4 (32 u) + 2^-49; both are doubled or more.
+inline constexpr double kFrontSineError = 512 * kDoubleRoundoff;
+inline constexpr double kFrontError = 4096 * kDoubleRoundoff;
+/// The same with 113 bits, as powers of two; the angle is right to 2^-100.
+inline constexpr int kWideFrontSineErrorBits = -104, kWideFrontErrorBits = -96;
 /// A query nearer to its nearest point than this share of the coordinates is in no direction from
 /// it. The point errs by kNearestPointRounding; 2^15 of that are left.
 inline constexpr double kMinDirectionShare = 0x1p-36;

@@ -107,7 +107,9 @@ struct WorkUnits {
   static constexpr unsigned kLargeSign = 100;      ///< in 4160 bits
   static constexpr unsigned kQuadAngle = 24;       ///< solid angle in 113 bits
   static constexpr unsigned kWidestAngle = 16000;  ///< in 4096 bits
-  static constexpr unsigned kParentSearch = 4;     ///< search of a page for the parent of a record
+  static constexpr unsigned kWideHeight = 32;      ///< height over a face in 113 bits
+  static constexpr unsigned kWideCornerHeight = 64;  ///< the same, times the angle at a corner
+  static constexpr unsigned kParentSearch = 4;  ///< search of a page for the parent of a record
   static constexpr unsigned kBallBlock =
       4;  ///< distances of a block's triangles from a ball's centre
 };

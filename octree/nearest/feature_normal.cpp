@@ -37,10 +37,11 @@ Point thin_normal(const Triangle& triangle) {
 class Fan {
  public:
   /// other  the edge's other end; null for a vertex.
-  /// sides  receives every face; may be null.
+  /// sides, front_side  receive every face; may be null.
   /// limit  charged for each face
-  Fan(const Point& vertex, const Point* other, FacingSides* sides, WorkLimit& limit)
-      : vertex_(vertex), other_(other), sides_(sides), limit_(limit) {}
+  Fan(const Point& vertex, const Point* other, FacingSides* sides, FrontSide* front_side,
+      WorkLimit& limit)
+      : vertex_(vertex), other_(other), sides_(sides), front_side_(front_side), limit_(limit) {}
 
   void add(const Triangle& triangle, std::uint64_t index) {
     for (unsigned corner = 0; corner < 3; ++corner) {
@@ -58,6 +59,7 @@ class Fan {
         measure(triangle, corner, next - vertex_, last - vertex_);
       if (sides_) has_area_ ? sides_->add(triangle, normal_, area2_) : sides_->add_unknown();
       if (!has_area_) continue;
+      if (front_side_) front_side_->add(triangle, corner, index, weight_, limit_);
       face.normal = normal_;
       face.index = index;
       face.corner = corner;
@@ -75,8 +77,11 @@ class Fan {
     });
     sum_up();
     const double length = sum_.norm();
-    return length > kCancelledNormalShare * weights_ ? Point(sum_ / length) : first_;
+    is_cancelled_ = !(length > kCancelledNormalShare * weights_);
+    return is_cancelled_ ? first_ : Point(sum_ / length);
   }
+  /// Whether normal() is that of one face, because the sum is zero up to rounding.
+  bool is_cancelled() const { return is_cancelled_; }
 
  private:
   struct Face {
@@ -110,8 +115,10 @@ class Fan {
   const Point& vertex_;
   const Point* other_;  ///< the edge's other end; null for a vertex
   FacingSides* sides_;
+  FrontSide* front_side_;
   WorkLimit& limit_;
   bool sorted_ = true;
+  bool is_cancelled_ = true;
   std::size_t count_ = 0;
   Face faces_[kSorted];
   Point sum_ = Point::Zero();
@@ -129,12 +136,18 @@ class Fan {
 
 /// Computes the normal where the nearest point is inside a face.
 void normal_of_face(const Point& query, const NearestAnswer& nearest, WorkLimit& limit,
-                    FeatureNormal& found) {
+                    FeatureNormal& found, FrontSide* front_side) {
   double area2 = 0;
   if (!face_normal(nearest.corners, found.normal, area2, &limit)) {
     found.normal = Point::Zero();
     found.complete = !limit.exceeded();
     return;
+  }
+  if (front_side) {
+    front_side->begin(false);
+    front_side->add(nearest.corners, 0, nearest.triangle, 1, limit);
+    found.front = front_side->front(false, limit);
+    found.complete = !limit.exceeded();
   }
   if (!nearest.is_height_field) return;
   FacingSides sides(query);
@@ -193,11 +206,14 @@ bool face_normal(const Triangle& triangle, Point& unit, double& area2, WorkLimit
 
 void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswer& nearest,
                     const CoherenceCache* coherence_cache, std::uint64_t max_work,
-                    const PageReader& pages, TraversalStats& work, FeatureNormal& found) noexcept {
+                    const PageReader& pages, TraversalStats& work, FeatureNormal& found,
+                    FrontSide* front_side) noexcept {
   found.complete = true;
   found.side = 0;
+  found.front = Front::kUnknown;
   WorkLimit limit(work.units, max_work);
-  if (nearest.feature == Feature::kFace) return normal_of_face(query, nearest, limit, found);
+  if (nearest.feature == Feature::kFace)
+    return normal_of_face(query, nearest, limit, found, front_side);
   // Corners of the feature that holds the nearest point: one of a vertex, two of an edge.
   const Point* ends[3] = {};
   double shares[3] = {};
@@ -210,7 +226,9 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
   const Point& vertex = *ends[0];
   const bool on_edge = nearest.feature == Feature::kEdge;
   FacingSides sides(query);
-  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.is_height_field ? &sides : nullptr, limit);
+  if (front_side) front_side->begin(!on_edge);
+  Fan fan(vertex, on_edge ? ends[1] : nullptr, nearest.is_height_field ? &sides : nullptr,
+          front_side, limit);
   if (on_edge) sides.end_after(std::min(shares[0], shares[1]) * (*ends[1] - vertex).norm());
   const bool use_cache = coherence_cache && coherence_cache->has_all_at(nearest.point);
   if (use_cache && coherence_cache->triangles().complete()) {
@@ -220,11 +238,16 @@ void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswe
     found.complete = walk_to(vertex, subtrees, fan, tree, limit.left(), pages, work);
     // So many faces are summed in the order of a walk from the root, which no cache changes.
     if (subtrees && !fan.is_sorted())
-      return feature_normal(tree, query, nearest, nullptr, limit.left(), pages, work, found);
+      return feature_normal(tree, query, nearest, nullptr, limit.left(), pages, work, found,
+                            front_side);
   }
   found.complete = found.complete && !limit.exceeded();
   found.normal = fan.normal();
   if (found.complete && nearest.is_height_field) found.side = sides.common();
+  if (found.complete && front_side) {
+    found.front = front_side->front(fan.is_cancelled(), limit);
+    found.complete = !limit.exceeded();
+  }
   // Not even the page of the nearest triangle was available: its own normal is the best known.
   double area2 = 0;
   if (!found.complete && found.normal.squaredNorm() == 0 &&

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "octree/nearest/front_side.h"
 #include "octree/nearest/nearest.h"
 #include "octree/traversal/tree_view.h"
 
@@ -33,6 +34,8 @@ struct FeatureNormal {
   /// FacingSides::common() if all faces were found and the nearest triangle's block is in a height
   /// field; else 0.
   int side = 0;
+  /// Side of the pseudo-normal that the query is on, if requested; never kOnSurface.
+  Front front = Front::kUnknown;
 };
 
 /// Computes the pseudo-normal at a nearest point: the normal of the face, the sum of the normals
@@ -47,11 +50,13 @@ struct FeatureNormal {
 /// max_work         maximum work in units, see WorkLimit.
 /// work             counters that the search adds to.
 /// found            receives the result, because returning a copy takes longer.
+/// front_side       finds FeatureNormal::front; null: not requested.
 /// threads          any; no allocation, no lock, no exception of its own.
 /// source           Baerentzen & Aanaes 2005, "Signed distance computation using the angle
 ///                  weighted pseudonormal".
 void feature_normal(const TreeInfo& tree, const Point& query, const NearestAnswer& nearest,
                     const CoherenceCache* coherence_cache, std::uint64_t max_work,
-                    const PageReader& pages, TraversalStats& work, FeatureNormal& found) noexcept;
+                    const PageReader& pages, TraversalStats& work, FeatureNormal& found,
+                    FrontSide* front_side = nullptr) noexcept;
 
 }  // namespace planetree::octree

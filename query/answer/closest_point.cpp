@@ -9,8 +9,10 @@
 #include "octree/geometry/strict_math.h"
 #include "octree/mask/mask_prefetcher.h"
 #include "octree/nearest/feature_normal.h"
+#include "octree/nearest/front_side.h"
 #include "octree/nearest/height_field.h"
 #include "query/answer/query_context.h"
+#include "query/answer/sheet_side.h"
 #include "query/answer/side.h"
 
 namespace planetree::query {
@@ -96,6 +98,8 @@ class ClosestPointQuery {
         options_(options),
         max_units_(max_units(options)),
         remember_(may_use_coherence(coherence_, options)),
+        by_winding_number_(model_.by_winding_number(options.side_rule)),
+        needs_front_(needs_front(options)),
         scaled_(model_.scale.in(query)),
         far_(is_far(scaled_)),
         point_(within_reach(scaled_, query)),
@@ -107,6 +111,7 @@ class ClosestPointQuery {
   // Returns whether a part is not exact because pages were missing or the work was spent.
   bool run() {
     const std::uint32_t parts = computed_parts(options_.parts);
+    if (parts == kSide && !by_winding_number_) return find_side_of_sheet();
     octree::NearestAnswer nearest =
         (parts & kDistance) != 0 ? find_nearest((parts & kSide) != 0) : octree::NearestAnswer();
     if ((parts & kDistance) != 0) report_nearest(nearest);
@@ -121,10 +126,29 @@ class ClosestPointQuery {
     return work_.units < max_units_ ? max_units_ - work_.units : 0;
   }
 
+  // Whether the query needs to know if it is in front of the nearest feature.
+  bool needs_front(const QueryOptions& options) const {
+    const std::uint32_t parts = computed_parts(options.parts);
+    return (!by_winding_number_ && (parts & kSide) != 0) ||
+           (options.normal_rule == NormalRule::kTowardQuery && (parts & kNormal) != 0);
+  }
+
+  // Finds the side alone, by SideRule::kSurface.
+  [[gnu::noinline]] bool find_side_of_sheet() {
+    octree::NearestLimits limits;
+    limits.max_work = options_.max_work;
+    octree::NearestAnswer nearest = far_ ? farthest(model_.tree, point_) : search_nearest(limits);
+    incomplete_ = nearest.status == Status::kDegraded;
+    account_for_missing_surface(model_.tree, point_, clearance(model_, point_, far_),
+                                limits.max_distance, nearest);
+    find_side(nearest, false);
+    return incomplete_;
+  }
+
   // Starts to prefetch what the search for the side will read, if a search of the mask is likely.
   void start_prefetch() {
     if (!pages_.prefetch_hook || !coherence_.searched_side || !remember_ || far_ ||
-        model_.region.has_walls() || coherence_.side.same_side(point_, 0))
+        !by_winding_number_ || model_.region.has_walls() || coherence_.side.same_side(point_, 0))
       return;
     prefetcher_.emplace(model_.mask, model_.side_grid, point_);
     if (prefetcher_->goes_on())
@@ -138,9 +162,15 @@ class ClosestPointQuery {
     if (far_) return farthest(model_.tree, point_);
     if (with_side) start_prefetch();
     octree::NearestLimits limits;
-    limits.max_error = model_.scale.in(options_.max_error);
+    // By the nearest feature the side belongs to the nearest triangle alone.
+    const bool may_err = by_winding_number_ || !with_side;
+    limits.max_error = may_err ? model_.scale.in(options_.max_error) : 0;
     limits.max_distance = model_.scale.in(options_.max_distance);
     limits.max_work = options_.max_work;
+    return search_nearest(limits);
+  }
+
+  octree::NearestAnswer search_nearest(octree::NearestLimits& limits) {
     if (options_.wait == Wait::kNever && coherence_.is_on) limits.known = &coherence_.last_nearest;
     return octree::nearest(model_.tree, point_, limits, pages_, work_,
                            coherence_.is_on ? &coherence_.nearest : nullptr);
@@ -165,7 +195,8 @@ class ClosestPointQuery {
   }
 
   const SideResult& find_side(const octree::NearestAnswer& nearest, bool with_normal) {
-    const SideResult& side = classify(nearest, with_normal);
+    const SideResult& side =
+        by_winding_number_ ? classify(nearest, with_normal) : classify_by_front(nearest);
     answer_.side = side.side;
     if (side.status == Status::kDegraded) mark_degraded();
     return side;
@@ -189,6 +220,19 @@ class ClosestPointQuery {
                                                 coherence_.side, work_left(), pages_, work_)
                              : query::find_side(model_, point_, work_left(), pages_, work_);
     return side_result_;
+  }
+
+  // Finds the side by SideRule::kSurface.
+  [[gnu::noinline]] const SideResult& classify_by_front(const octree::NearestAnswer& nearest) {
+    const bool is_known = !far_ && is_proven(model_.tree, nearest);
+    return side_result_ = side_of(is_known ? front(nearest) : octree::Front::kUnknown);
+  }
+
+  octree::Front front(const octree::NearestAnswer& nearest) {
+    if (!front_)
+      front_ = front_at_surface(model_.tree, point_, nearest, work_left(), pages_, work_);
+    if (!front_) front_ = feature(nearest).front;
+    return *front_;
   }
 
   bool side_grid_decides(octree::SideGrid::Lookup& lookup) {
@@ -224,6 +268,7 @@ class ClosestPointQuery {
   }
 
   void find_normal(const octree::NearestAnswer& nearest, const SideResult& side) {
+    if (needs_front_) return find_normal_by_front(nearest);
     const octree::FeatureNormal& faces = feature(nearest);
     const SideResult oriented =
         side_for_normal(model_, point_, side, nearest.feature, work_left(), pages_, work_);
@@ -233,8 +278,28 @@ class ClosestPointQuery {
     if (!faces.complete || !oriented.winding_is_known || limit.exceeded()) mark_degraded();
   }
 
+  [[gnu::noinline]] void find_normal_by_front(const octree::NearestAnswer& nearest) {
+    const octree::FeatureNormal& faces = feature(nearest);
+    octree::Point normal = faces.normal;
+    if (!(normal.squaredNorm() > 0)) normal = {0, 0, 1};
+    if (!faces.complete) mark_degraded();
+    if (options_.normal_rule == NormalRule::kTowardQuery) {
+      if (front(nearest) == octree::Front::kUnknown) mark_degraded();
+      if (front(nearest) == octree::Front::kBehind) normal = -normal;
+    }
+    answer_.normal = {normal.x(), normal.y(), normal.z()};
+  }
+
+  [[gnu::noinline]] void find_feature_and_front(const octree::NearestAnswer& nearest) {
+    octree::FrontSide front_side(point_);
+    octree::feature_normal(model_.tree, point_, nearest, remember_ ? &coherence_.nearest : nullptr,
+                           work_left(), pages_, work_, feature_, &front_side);
+  }
+
   const octree::FeatureNormal& feature(const octree::NearestAnswer& nearest) {
-    if (!has_feature_)
+    if (!has_feature_ && needs_front_)
+      find_feature_and_front(nearest);
+    else if (!has_feature_)
       octree::feature_normal(model_.tree, point_, nearest,
                              remember_ ? &coherence_.nearest : nullptr, work_left(), pages_, work_,
                              feature_);
@@ -257,6 +322,8 @@ class ClosestPointQuery {
   const QueryOptions& options_;
   const std::uint64_t max_units_;
   const bool remember_;
+  const bool by_winding_number_;  // decides the side; else the nearest feature
+  const bool needs_front_;
   const octree::Point scaled_;  // the query in the model frame
   const bool far_;
   const octree::Point point_;  // scaled_; for a far query see within_reach()
@@ -264,7 +331,8 @@ class ClosestPointQuery {
   ClosestPoint& answer_;
   octree::FeatureNormal feature_;  // at the nearest point, if has_feature_
   bool has_feature_ = false;
-  SideResult side_result_;  // a side that is not in the side cache
+  std::optional<octree::Front> front_;  // empty until found
+  SideResult side_result_;              // a side that is not in the side cache
   bool incomplete_ = false;
 };
 

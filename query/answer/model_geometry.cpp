@@ -65,6 +65,11 @@ ModelGeometry::ModelGeometry(const storage::FileHeader& header)
       region_corner(region.clamped(tree.core_lower)),
       cap_area(header.model.cap_area),
       region_winding(header.model.region_winding) {
+  const auto set = [this](SideRule rule, bool by_winding_number) {
+    by_winding_number_[static_cast<std::uint8_t>(rule)] = by_winding_number;
+  };
+  set(SideRule::kOfFile, header.model.side_rule == storage::SideRule::kSolid);
+  set(SideRule::kSolid, true);
   if (header.model.cap_count == 0) return;
   tree.caps = &caps;
   cap_grid = octree::CapGrid::unfilled();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "octree/geometry/cell_grid.h"
@@ -7,6 +8,7 @@
 #include "octree/mask/mask_lookup.h"
 #include "octree/mask/side_grid.h"
 #include "octree/traversal/tree_view.h"
+#include "planetree/types.h"
 #include "query/file/scale.h"
 #include "storage/file/file_layout.h"
 
@@ -29,6 +31,15 @@ struct ModelGeometry {
   octree::Point region_corner;  ///< a point of the region; see region_winding
   double cap_area;              ///< sum of the caps' areas
   std::int64_t region_winding;  ///< winding number at `region_corner`, caps included
+
+  /// Whether a rule decides the sides of this model by the winding number; false if it is out of
+  /// range.
+  bool by_winding_number(SideRule rule) const noexcept {
+    return by_winding_number_[static_cast<std::uint8_t>(rule)];
+  }
+
+ private:
+  std::array<bool, 256> by_winding_number_{};  // of each value that a SideRule may have
 };
 
 /// Returns the part of space in which a file holds the whole surface, model frame.

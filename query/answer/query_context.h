@@ -42,7 +42,8 @@ struct QueryContext {
 inline bool is_valid(const Vec3& query, const QueryOptions& options) {
   return std::isfinite(query.x) && std::isfinite(query.y) && std::isfinite(query.z) &&
          options.max_error >= 0 && std::isfinite(options.max_error) && options.max_distance >= 0 &&
-         (options.parts & ~kAllParts) == 0;
+         (options.parts & ~kAllParts) == 0 && options.side_rule <= SideRule::kSurface &&
+         options.normal_rule <= NormalRule::kTowardQuery;
 }
 
 /// Returns whether a coordinate of a point exceeds octree::kMaxQueryCoordinate or is not finite.

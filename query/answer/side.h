@@ -120,6 +120,7 @@ struct SideReason {
     kWayOut,         ///< `crossings` to `end`, which is outside of the model's box or is
                      ///< ModelGeometry::region_corner
     kWindingNumber,  ///< `value`, right within `error`: `closed` less the share of the caps
+    kFront,          ///< the model is a sheet: in front of the nearest feature, or behind it
   };
   Rule rule = Rule::kNone;
   octree::GridCell cell;  ///< the smallest cell of the mask that was reached

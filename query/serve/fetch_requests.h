@@ -16,13 +16,16 @@ struct FetchRequest {
   double max_distance = 0;
   std::uint64_t max_work = 0;
   std::uint64_t parts = 0;
+  std::uint64_t side_rule = 0;
+  std::uint64_t normal_rule = 0;
 };
 
 /// Position and velocity of a probe, as given to Probe::motion.
 struct Motion {
-  Vec3 position;            ///< model units
-  Vec3 velocity;            ///< model units per second
-  std::uint64_t parts = 0;  ///< parts of the probe's last query
+  Vec3 position;                ///< model units
+  Vec3 velocity;                ///< model units per second
+  std::uint64_t parts = 0;      ///< parts of the probe's last query
+  std::uint64_t side_rule = 0;  ///< its side rule
 };
 
 /// What one probe leaves for fetch threads. The probe's thread stores, a fetch thread loads.

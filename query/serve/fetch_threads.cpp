@@ -21,9 +21,10 @@ namespace {
 constexpr FetchWorker::Seconds kMinTimeAhead{0.005}, kMaxTimeAhead{0.2};
 constexpr unsigned kPositionsAhead = 4;
 
-QueryOptions blocking_options(std::uint64_t parts) {
+QueryOptions blocking_options(std::uint64_t parts, std::uint64_t side_rule) {
   QueryOptions options;
   options.parts = static_cast<std::uint32_t>(parts);
+  options.side_rule = static_cast<SideRule>(side_rule);
   options.max_work = QueryOptions::kRealTimeWork;
   return options;
 }
@@ -75,7 +76,8 @@ FetchWorker::Action FetchWorker::work() noexcept {
 bool FetchWorker::serve_request(std::size_t index) noexcept {
   FetchRequest request;
   if (!requests_[index].missed.load_newer(progress_[index].seen_request, request)) return false;
-  QueryOptions options = blocking_options(request.parts);
+  QueryOptions options = blocking_options(request.parts, request.side_rule);
+  options.normal_rule = static_cast<NormalRule>(request.normal_rule);
   options.max_error = request.max_error;
   options.max_distance = request.max_distance;
   // A query that starts from coherence may spend its work elsewhere than this one from the root.
@@ -96,7 +98,8 @@ bool FetchWorker::prefetch_position(std::size_t index) noexcept {
   const unsigned at = kPositionsAhead - --progress.positions_left;
   const Seconds ahead = std::clamp(2 * slowest_fetch_, kMinTimeAhead, kMaxTimeAhead);
   probe_->fetch_pages(position_after(progress.motion, ahead * at / kPositionsAhead),
-                      blocking_options(progress.motion.parts), true, stop_);
+                      blocking_options(progress.motion.parts, progress.motion.side_rule), true,
+                      stop_);
   return true;
 }
 

@@ -30,6 +30,12 @@ inline constexpr std::uint64_t kNoTriangle = ~std::uint64_t{0};
 
 enum class VertexKind : std::uint8_t { kFloat32 = 0, kFloat64 = 1 };
 
+/// How queries decide sides, unless they choose a rule themselves.
+enum class SideRule : std::uint8_t {
+  kSolid = 0,   ///< by the winding number
+  kSurface = 1  ///< by the pseudo-normal of the nearest feature
+};
+
 /// An edge along which more triangles run in one direction than in the other.
 struct UnbalancedEdge {
   double from[3];          ///< start of the edge in the direction of `triangle`; input coordinates
@@ -86,7 +92,13 @@ struct ModelRecord {
   std::uint32_t cap_page_count;   ///< cap pages, between distance pages and mask pages
   std::uint32_t cap_root_link;    ///< link to the root of the tree of caps
   std::uint8_t cap_height;        ///< of the tree of caps, as `height`
-  std::uint8_t cap_reserved[23];  ///< zero
+  std::uint8_t cap_reserved[7];   ///< zero
+  /// How open the surface of the whole input is: the length of the sum of the area vectors, divided
+  /// by the sum of the areas; 0 to 1.
+  double openness;
+  SideRule side_rule;           ///< how queries decide sides by default
+  std::uint8_t side_is_chosen;  ///< 1: the builder was told side_rule; 0: it follows from openness
+  std::uint8_t side_reserved[6];  ///< zero
 
   [[nodiscard]] bool has_region() const noexcept { return input_triangles > 0; }
   /// Number of usable triangles of the whole input.

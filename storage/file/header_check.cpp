@@ -227,6 +227,27 @@ Result<void> check_region(const ModelRecord& model) noexcept {
   return {};
 }
 
+Result<void> check_side_rule(const ModelRecord& model) noexcept {
+  if (!(model.openness >= 0 && model.openness <= 1)) {
+    return bad_model(offsetof(ModelRecord, openness), "the surface's openness is not from 0 to 1");
+  }
+  if (model.side_rule != SideRule::kSolid && model.side_rule != SideRule::kSurface) {
+    return bad_model(offsetof(ModelRecord, side_rule), "the rule for sides is unknown");
+  }
+  if (model.side_is_chosen > 1) {
+    return bad_model(offsetof(ModelRecord, side_is_chosen), "the rule's choice is neither 0 nor 1");
+  }
+  if (model.side_is_chosen == 0 && model.unbalanced_edge_count == 0 &&
+      model.side_rule != SideRule::kSolid) {
+    return bad_model(offsetof(ModelRecord, side_rule), "a watertight surface is taken for a sheet");
+  }
+  if (!all_zero(model.side_reserved)) {
+    return bad_model(offsetof(ModelRecord, side_reserved),
+                     "the reserved bytes of the rule for sides are not zero");
+  }
+  return {};
+}
+
 Result<void> check_mask(const ModelRecord& model) noexcept {
   if ((model.mask_page_count > 0) != (model.mask_cell_count > 0) ||
       (model.mask_page_count == 0 && model.mask_levels > 0) || model.mask_levels > kMaxMaskLevel) {
@@ -321,6 +342,7 @@ Result<void> check_model(const ModelRecord& model) noexcept {
     return bad_model(offsetof(ModelRecord, reserved), "the model's reserved bytes are not zero");
   }
   if (const Result<void> checked = check_core(model); !checked) return checked;
+  if (const Result<void> checked = check_side_rule(model); !checked) return checked;
   if (const Result<void> checked = check_mask(model); !checked) return checked;
   if (const Result<void> checked = check_region(model); !checked) return checked;
   if (const Result<void> checked = check_unbalanced_edges(model); !checked) return checked;

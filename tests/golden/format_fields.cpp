@@ -107,6 +107,10 @@ FormatStruct model_fields() {
       .PLANETREE_FIELD(ModelRecord, cap_root_link)
       .PLANETREE_FIELD(ModelRecord, cap_height)
       .PLANETREE_FIELD(ModelRecord, cap_reserved)
+      .PLANETREE_FIELD(ModelRecord, openness)
+      .PLANETREE_FIELD(ModelRecord, side_rule)
+      .PLANETREE_FIELD(ModelRecord, side_is_chosen)
+      .PLANETREE_FIELD(ModelRecord, side_reserved)
       .take();
 }
 

@@ -63,7 +63,7 @@ void read_caps(Bytes model, SpecHeader& read) {
     require(has_some == (read.cap_count > 0), "caps");
   require((read.cap_node_count > 0) == (read.cap_count > 16), "nodes of caps");
   require(read.mask_pages + read.cap_pages < read.page_count, "no distance page");
-  for (std::size_t at = 553; at < 576; ++at)
+  for (std::size_t at = 553; at < 560; ++at)
     require(get<std::uint8_t>(model, at) == 0, "reserved bytes of caps");
 }
 
@@ -81,6 +81,9 @@ SpecHeader read_header(Bytes header) {
   read.core_upper = get<SpecPoint>(model, 472);
   read.stray_count = get<std::uint64_t>(model, 496);
   read.stray_edge = get<double>(model, 504);
+  read.openness = get<double>(model, 560);
+  read.by_surface = get<std::uint8_t>(model, 568) == 1;
+  read.side_is_chosen = get<std::uint8_t>(model, 521) == 1;
   read.centre = get<SpecPoint>(model, 96);
   read.sample = get<SpecPoint>(model, 120);
   read.sample_triangle = get<std::uint64_t>(model, 144);

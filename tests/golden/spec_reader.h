@@ -23,6 +23,8 @@ struct SpecHeader {
   SpecPoint box_lower, box_upper, core_lower, core_upper, centre, sample;
   std::uint64_t stray_count;
   double stray_edge;
+  double openness;
+  bool by_surface, side_is_chosen;  ///< side_rule is 1; the writer's user chose it
   std::uint64_t sample_triangle;
   std::int32_t scale_exponent;
   std::uint32_t root_link;

@@ -83,6 +83,23 @@ TEST_P(SpecReader, FindsBoxAndSampleInTheMesh) {
   EXPECT_LT(longest, 2);
 }
 
+// The area vectors and their lengths, summed from the mesh.
+TEST_P(SpecReader, FindsHowOpenTheMeshIs) {
+  const SpecHeader header = open_tree(GetParam()).header();
+  double sum[3] = {}, area = 0;
+  for (const MeshTriangle& triangle : mesh_triangles(GetParam().mesh_path())) {
+    const auto& [a, b, c] = triangle.corners;
+    const double u[3] = {b.x - a.x, b.y - a.y, b.z - a.z}, v[3] = {c.x - a.x, c.y - a.y, c.z - a.z};
+    const double vector[3] = {(u[1] * v[2] - u[2] * v[1]) / 2, (u[2] * v[0] - u[0] * v[2]) / 2,
+                              (u[0] * v[1] - u[1] * v[0]) / 2};
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += vector[axis];
+    area += std::hypot(vector[0], vector[1], vector[2]);
+  }
+  EXPECT_NEAR(header.openness, std::hypot(sum[0], sum[1], sum[2]) / area, 1e-12);
+  EXPECT_EQ(header.by_surface, header.open() && header.openness >= 0.375);
+  EXPECT_FALSE(header.side_is_chosen);
+}
+
 // Reader and library share no code, so their rounding may differ in the last bits.
 TEST_P(SpecReader, AgreesWithTheLibrary) {
   const SpecTree tree = open_tree(GetParam());

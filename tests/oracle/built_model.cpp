@@ -67,6 +67,7 @@ void BuiltModel::build(const std::filesystem::path& mesh, const BuildChoices& ch
   }
   options.page_bytes = choices.page_bytes;
   options.box = choices.box;
+  options.side = choices.side;
   const auto report = octree::build_tree(mesh, path(), options, silent, seams);
   if (!report) give_up(report.error());
   scale_exponent_ = report->header.model.scale_exponent;

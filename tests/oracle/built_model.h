@@ -27,6 +27,8 @@ struct BuildChoices {
   std::uint64_t budget_bytes = std::uint64_t{64} << 20;
   unsigned max_probes = 1;
   std::optional<octree::RegionBox> box = std::nullopt;  ///< build only triangles that touch it
+  /// How sides are decided by default; empty: as the builder finds.
+  std::optional<storage::SideRule> side = storage::SideRule::kSolid;
 };
 
 /// A .ptree file built from a soup, opened, with a probe to query it. All files are in a temporary

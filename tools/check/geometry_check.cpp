@@ -91,7 +91,9 @@ void GeometryCheck::add_triangle(const octree::Triangle& triangle, std::uint32_t
   edges_.add(triangle);
   if (of_caps_)
     area_ += octree::area_of(triangle);
-  else if (has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
+  else
+    areas_.add(triangle);
+  if (!of_caps_ && has_walls_ && !octree::may_touch(triangle, region_lower_, region_upper_))
     report(IssueCode::kRegion, page, "a triangle does not touch the file's region");
 }
 
@@ -167,6 +169,10 @@ void GeometryCheck::finish(bool complete) {
   // With walls faces are missing, so that edges cannot be checked.
   if (auto finding = has_walls_ ? std::nullopt : edges_.finding())
     whole_file(IssueCode::kUnbalancedEdges, *std::move(finding));
+  const double openness = model_.unbalanced_edge_count > 0 ? areas_.openness() : 0;
+  if (!has_walls_ && openness != model_.openness)
+    whole_file(IssueCode::kOpenness, fmt::format("the header's openness is {:.17g}, not {:.17g}",
+                                                 model_.openness, openness));
   if (!sample_seen_)
     whole_file(IssueCode::kSample,
                fmt::format("the header's sample triangle {} is missing", model_.sample_triangle));

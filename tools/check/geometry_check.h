@@ -5,6 +5,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "octree/geometry/area_sums.h"
 #include "octree/geometry/child_bounds.h"
 #include "octree/page/frame.h"
 #include "octree/page/moments.h"
@@ -24,7 +25,7 @@ struct Bounds {
 };
 
 /// Checks in double that the stated float bounds hold for every triangle, and in the end the
-/// header's box, sample and unbalanced edges.
+/// header's box, sample, unbalanced edges and openness.
 class GeometryCheck {
  public:
   /// of_caps  checks the tree of caps, not the surface
@@ -63,6 +64,7 @@ class GeometryCheck {
   double area_ = 0;  // of the caps
   bool sample_seen_ = false;
   EdgeCheck edges_;
+  octree::AreaSums areas_;
   octree::Point lower_, upper_;                // of all vertices, model frame
   octree::Point region_lower_, region_upper_;  // the part of the region within the model's box
   bool has_walls_ = false;                     // whether the region has walls

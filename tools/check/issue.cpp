@@ -35,6 +35,7 @@ constexpr std::array<std::string_view, kIssueCodeCount> kNames = {"NOT_PLANETREE
                                                                   "MODEL_BOX",
                                                                   "SAMPLE",
                                                                   "UNBALANCED_EDGES",
+                                                                  "OPENNESS",
                                                                   "MASK_CORNER",
                                                                   "MASK_COLOUR",
                                                                   "MASK_PLANES",

@@ -39,6 +39,7 @@ enum class IssueCode : std::uint8_t {
   kModelBox,
   kSample,
   kUnbalancedEdges,
+  kOpenness,
   kMaskCorner,
   kMaskColour,
   kMaskPlanes,

@@ -43,6 +43,8 @@ std::string_view rule_word(Rule rule) {
       return "exit_segment";
     case Rule::kWindingNumber:
       return "winding_number";
+    case Rule::kFront:
+      return "nearest_feature";
   }
   return "none";
 }
@@ -81,6 +83,10 @@ std::string rule_text(const Explanation& explanation) {
           "the surface with its caps has the winding number {:g} there; less the caps' share it is "
           "{:.6g}, with an error of at most {:.2g}",
           explanation.reason.closed, explanation.reason.value, explanation.reason.error);
+    case Rule::kFront:
+      return fmt::format(
+          "the file says that the surface is a sheet; the pseudo-normal of the nearest {} decides",
+          feature_word(explanation.answer.feature));
   }
   return {};
 }
@@ -122,8 +128,11 @@ Result<Explanation> explain(const std::filesystem::path& path, const Vec3& query
   result.answer = probe->closest_point(query, {});
   query::PageAccessor accessor(probe->reader(), Wait::kForPages);
   constexpr std::uint64_t kAllNodes = ~std::uint64_t{0};
-  result.side_result =
-      query::find_side(model, point, kAllNodes, accessor.pages(), result.side_work, &result.reason);
+  if (model.by_winding_number(SideRule::kOfFile))
+    result.side_result = query::find_side(model, point, kAllNodes, accessor.pages(),
+                                          result.side_work, &result.reason);
+  else
+    result.reason.rule = Rule::kFront;
   result.pages_lost = opened->model->stats().quarantined_pages > 0;
   const octree::CellGrid grid(model.mask.lower);
   result.cell_lower = scale.out(grid.lower(result.reason.cell));

@@ -105,6 +105,7 @@ std::string point_text(const double (&values)[3]) {
 
 // The rule for sides, in one word.
 std::string_view sign_rule(const storage::ModelRecord& model) {
+  if (model.side_rule == storage::SideRule::kSurface) return "surface";
   return model.unbalanced_edge_count == 0 ? "crossings" : "winding";
 }
 
@@ -145,14 +146,22 @@ double cap_area(const storage::ModelRecord& model) {
   return std::ldexp(model.cap_area, -2 * model.scale_exponent);
 }
 
+std::string_view rule_text(const storage::ModelRecord& model) {
+  if (model.side_rule == storage::SideRule::kSurface)
+    return "sides by the nearest face, edge or vertex";
+  return model.unbalanced_edge_count == 0 ? "sides by crossings, exactly"
+                                          : "sides by winding number";
+}
+
 std::string surface_text(const storage::ModelRecord& model) {
+  const std::string_view why = model.side_is_chosen != 0 ? ", as the build was told" : "";
   if (model.unbalanced_edge_count == 0)
-    return "  surface     watertight; sides by crossings, exactly\n";
+    return fmt::format("  surface     watertight; {}{}\n", rule_text(model), why);
   std::string text = fmt::format(
-      "  surface     not watertight: {} unbalanced edges, closed by {} caps of area {:.6g}; sides "
-      "by "
-      "winding number\n",
-      grouped_count(model.unbalanced_edge_count), grouped_count(model.cap_count), cap_area(model));
+      "  surface     not watertight; {}{}: {} unbalanced edges, openness {:.3g}, closed by {} caps "
+      "of area {:.6g}\n",
+      rule_text(model), why, grouped_count(model.unbalanced_edge_count), model.openness,
+      grouped_count(model.cap_count), cap_area(model));
   for (const storage::UnbalancedEdge& edge : listed_unbalanced_edges(model))
     text += fmt::format("              {} to {} in triangle {}: {} faces that way, {} the other\n",
                         point_text(edge.from), point_text(edge.to), edge.triangle, edge.along,
@@ -200,6 +209,8 @@ Json summary_json(const FileParts& parts, const FileSurvey& survey) {
                {"coordinates", parts.shape().float64 ? "float64" : "float32"},
                {"watertight", model.unbalanced_edge_count == 0},
                {"sign_rule", sign_rule(model)},
+               {"sign_rule_is_chosen", model.side_is_chosen != 0},
+               {"openness", model.openness},
                {"unbalanced_edges", model.unbalanced_edge_count},
                {"first_unbalanced_edges", unbalanced_edges_json(model)},
                {"caps",

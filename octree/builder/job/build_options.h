@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "octree/builder/job/region_box.h"
+#include "storage/file/file_layout.h"
 
 namespace planetree::octree {
 
@@ -18,6 +19,8 @@ struct BuildOptions {
   bool float64 = false;                  ///< floats of a text are read as doubles
   bool strict = false;                   ///< a skipped record is an error
   bool replace = false;                  ///< an existing output may be replaced
+  /// How queries decide sides; empty: as the openness of the surface suggests.
+  std::optional<storage::SideRule> side;
   /// Builds only the triangles that touch this box. Points are inside or outside of the whole
   /// input.
   std::optional<RegionBox> box;

@@ -22,7 +22,8 @@ TEST_F(PageFileRefusal, RefusesOtherVersionsAndUnknownFeatures) {
   FileImage image = good();
   image.change_header([](FileHeader& h) { h.version = kFormatVersion + 1; });
   std::memset(image.bytes().data() + image.bytes().size() - kHeaderBytes, 0, kHeaderBytes);
-  expect_refused(image, ErrorCode::kUnsupported, "version 12");
+  expect_refused(image, ErrorCode::kUnsupported,
+                 std::string("version " + std::to_string(kFormatVersion)).c_str());
 }
 
 TEST_F(PageFileRefusal, AcceptsUnknownCompatibleFeatures) {
@@ -107,6 +108,27 @@ TEST_F(PageFileRefusal, RefusesBadModelFields) {
   for (const int at : {0, 4}) {
     expect_model_refused([&](ModelRecord& m) { m.reserved[at] = 1; }, "reserved");
   }
+}
+
+TEST_F(PageFileRefusal, RefusesBadRulesForSides) {
+  for (const double openness : {-0x1p-1074, 1.0000001, kNan, kInfinity})
+    expect_model_refused([&](ModelRecord& m) { m.openness = openness; }, "openness");
+  expect_model_refused([](ModelRecord& m) { m.side_rule = SideRule{2}; }, "rule for sides is unkn");
+  expect_model_refused([](ModelRecord& m) { m.side_is_chosen = 2; }, "neither 0 nor 1");
+  expect_model_refused([](ModelRecord& m) { m.side_rule = SideRule::kSurface; }, "for a sheet");
+  for (const int at : {0, 5})
+    expect_model_refused([&](ModelRecord& m) { m.side_reserved[at] = 1; }, "reserved");
+}
+
+TEST_F(PageFileRefusal, AcceptsAChosenRuleForSides) {
+  FileImage image = good();
+  image.change_header([](FileHeader& h) {
+    h.model.side_rule = SideRule::kSurface;
+    h.model.side_is_chosen = 1;
+    h.model.openness = 1;
+  });
+  image.seal_header();
+  EXPECT_EQ(refusal_of(image).text[0], 0);
 }
 
 TEST_F(PageFileRefusal, RefusesUnbalancedEdgesThatDisagreeWithTheirCount) {

@@ -154,6 +154,10 @@ TEST_F(FileCheck, FindsAWrongSample) {
   EXPECT_EQ(codes_of_model([](auto& model) { model.sample_triangle = 5; }), Codes{"SAMPLE"});
 }
 
+TEST_F(FileCheck, FindsAWrongOpenness) {
+  EXPECT_EQ(codes_of_model([](auto& model) { model.openness *= 0.5; }), Codes{"OPENNESS"});
+}
+
 TEST_F(FileCheck, FindsWrongUnbalancedEdges) {
   EXPECT_EQ(codes_of_model([](auto& model) { ++model.unbalanced_edge[2].along; }),
             Codes{"UNBALANCED_EDGES"});

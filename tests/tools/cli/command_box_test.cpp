@@ -14,9 +14,10 @@ const std::string kHoled = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/sheet.o
 /// Builds of a region, and what the subcommands report about them.
 class CommandBox : public Command {
  protected:
-  static Json build(const std::string& mesh, const std::string& box) {
+  static Json build(const std::string& mesh, const std::string& box,
+                    const std::string& side = "auto") {
     const Outcome result = run({"build", mesh, "-o", "part.ptree", "--force", "--page-size", "4K",
-                                "--box=" + box, "--json", "--quiet"});
+                                "--box=" + box, "--side", side, "--json", "--quiet"});
     EXPECT_EQ(result.status, 0) << result.errors;
     return Json::parse(result.output);
   }
@@ -90,10 +91,10 @@ TEST_F(CommandBox, ExplainsUnknownSides) {
   EXPECT_EQ(inspect({"--why", "5,1,1"})["rule"], "region");
   EXPECT_EQ(inspect({"--why", "5,1,1"})["side"], "unknown");
   EXPECT_EQ(inspect({"--why", "1,1,1"})["side"], "inside");
-  const Json held = build(kHoled, "-99,-99,-99,99,99,99");
+  const Json held = build(kHoled, "-99,-99,-99,99,99,99", "solid");
   EXPECT_EQ(held["triangles"], held["input_triangles"]);
   EXPECT_EQ(inspect()["sign_rule"], "winding");
-  build(kHoled, "0.15,0.15,-9,0.25,1,9");
+  build(kHoled, "0.15,0.15,-9,0.25,1,9", "solid");
   // Caps are those of the whole surface, so that sides within the walls are known.
   EXPECT_EQ(inspect()["sign_rule"], "winding");
   EXPECT_EQ(inspect({"--why", "0.2,0.2,3"})["side"], "outside");

@@ -83,20 +83,23 @@ TEST_F(Command, InspectCountsHeightFields) {
 TEST_F(Command, InspectReportsWatertightness) {
   const Json open = Json::parse(run({"inspect", "tree.ptree", "--json"}).output);
   EXPECT_EQ(open["watertight"], false);
-  EXPECT_EQ(open["sign_rule"], "winding");
+  EXPECT_EQ(open["sign_rule"], "surface");
+  EXPECT_EQ(open["sign_rule_is_chosen"], false);
+  EXPECT_GT(open["openness"], 0.375);
   EXPECT_EQ(open["unbalanced_edges"], 4 * kSide);
   ASSERT_EQ(open["first_unbalanced_edges"].size(), 3u);
   EXPECT_EQ(open["first_unbalanced_edges"][0]["triangle"], 0);
   EXPECT_EQ(open["first_unbalanced_edges"][0]["along"], 1);
   EXPECT_EQ(open["first_unbalanced_edges"][0]["against"], 0);
   const std::string text = run({"inspect", "tree.ptree"}).output;
-  EXPECT_NE(text.find("not watertight"), std::string::npos) << text;
+  EXPECT_NE(text.find("not watertight; sides by the nearest face"), std::string::npos) << text;
   EXPECT_NE(text.find("in triangle 0: 1 faces that way, 0 the other"), std::string::npos) << text;
   write("solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   build_sample("solid.obj", "solid.ptree");
   const Json closed = Json::parse(run({"inspect", "solid.ptree", "--json"}).output);
   EXPECT_EQ(closed["watertight"], true);
   EXPECT_EQ(closed["sign_rule"], "crossings");
+  EXPECT_EQ(closed["openness"], 0);
   EXPECT_EQ(closed["first_unbalanced_edges"], Json::array());
 }
 

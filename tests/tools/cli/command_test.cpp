@@ -223,10 +223,12 @@ TEST_F(Command, QueryAnswersThePointsBeforeABadLine) {
 }
 
 TEST_F(Command, QueryObeysItsLimits) {
-  const Outcome far = run({"query", "tree.ptree", "--max-distance", "2"}, "4,4,9\n");
+  const Outcome far =
+      run({"query", "tree.ptree", "--max-distance", "2", "--side", "solid"}, "4,4,9\n");
   EXPECT_EQ(lines_of(far.output).back(),
             "4,4,9,inf,2,inf,outside,0,0,0,0,0,1,,face,beyond_max_distance");
-  const Outcome coarse = run({"query", "tree.ptree", "--max-error", "100"}, "4,4,9\n");
+  const Outcome coarse =
+      run({"query", "tree.ptree", "--max-error", "100", "--side", "solid"}, "4,4,9\n");
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
 }
 

@@ -12,7 +12,7 @@ namespace planetree::tools {
 namespace {
 
 const std::string kBoxes = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/boxes.ptree";
-const std::string kHeightField = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/sheet.ptree";
+const std::string kSheet = PLANETREE_SOURCE_DIR "/format-spec/v1/samples/sheet.ptree";
 
 Json why(const std::string& file, const std::string& point) {
   const Outcome result = run({"inspect", file, "--why", point, "--json"});
@@ -58,8 +58,16 @@ TEST(Why, AgreesWithTheAnswersOfAProbe) {
   EXPECT_GT(corners, 10u);
 }
 
-TEST(Why, ReportsTheWindingNumberOfAnOpenSurface) {
-  const Json answer = why(kHeightField, "0.5,0.5,0.1");
+TEST(Why, NamesTheNearestFeatureOfASheet) {
+  const Json answer = why(kSheet, "0.5,0.5,9");
+  EXPECT_EQ(answer["rule"], "nearest_feature");
+  EXPECT_FALSE(answer.contains("cell"));
+}
+
+TEST_F(Command, WhyReportsTheWindingNumberOfAnOpenSolid) {
+  ASSERT_EQ(run({"build", "mesh.obj", "-o", "solid.ptree", "--side", "solid", "--quiet"}).status,
+            0);
+  const Json answer = why("solid.ptree", "0.5,0.5,0.1");
   EXPECT_EQ(answer["rule"], "winding_number");
   EXPECT_LT(answer["winding_number"]["error"], 0.5);
   EXPECT_FALSE(answer.contains("cell"));

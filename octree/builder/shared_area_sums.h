@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+
+#include "octree/builder/sort/triangles.h"
+#include "octree/geometry/area_sums.h"
+
+namespace planetree::octree {
+
+/// AreaSums of a surface whose parts any number of threads add.
+class SharedAreaSums {
+ public:
+  /// Adds a part of the model, each part once.
+  void add(const Triangles& part) {
+    AreaSums sums;
+    for (std::uint32_t i = 0; i < part.size(); ++i) sums.add(part.corners(i));
+    const std::lock_guard lock(mutex_);
+    sums_.add(sums);
+  }
+
+  /// Returns AreaSums::openness(). Call it after the last part.
+  double openness() const { return sums_.openness(); }
+
+ private:
+  std::mutex mutex_;
+  AreaSums sums_;
+};
+
+}  // namespace planetree::octree

@@ -1,0 +1,45 @@
+#include "octree/geometry/area_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "octree/geometry/strict_math.h"
+
+namespace planetree::octree {
+
+std::int64_t AreaSums::whole(double area) {
+  // Coordinates of a forged file may overflow to no number.
+  if (!(std::fabs(area) <= kMaxArea)) area = area > 0 ? kMaxArea : -kMaxArea;
+  return static_cast<std::int64_t>(area / kUnit);
+}
+
+void AreaSums::add(const Triangle& triangle) {
+  const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  double square = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Eigen::Index i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const double component = 0.5 * (u[i] * v[j] - u[j] * v[i]);
+    vector_[axis] += whole(component);
+    square += component * component;
+  }
+  area_ += whole(std::sqrt(square));
+}
+
+void AreaSums::add(const AreaSums& other) {
+  for (std::size_t axis = 0; axis < 3; ++axis) vector_[axis] += other.vector_[axis];
+  area_ += other.area_;
+}
+
+double AreaSums::openness() const {
+  if (area_ == 0) return 0;
+  const auto area = static_cast<double>(area_);
+  double square = 0;
+  for (const Int128 component : vector_) {
+    const double share = static_cast<double>(component) / area;
+    square += share * share;
+  }
+  return std::min(std::sqrt(square), 1.0);
+}
+
+}  // namespace planetree::octree
