@@ -77,7 +77,7 @@ class TreeBuild {
   Result<void> read();
   Result<void> resume_mesh();
   Result<void> set_mesh(const OrderedMesh& mesh);
-  Region region() const;
+  Region region() const { return model_.box ? model_.box->region(model_.frame) : Region(); }
   Result<void> look_at_surface();
   Result<void> match_edges();
   Result<void> cut_out_part();
@@ -187,10 +187,6 @@ Result<void> TreeBuild::set_mesh(const OrderedMesh& mesh) {
   return files_.check_space(
       SpaceNeed::after_reading(size_, memory_, work ? work->resumed_bytes() : 0,
                                work && work->surface(), model_.box.has_value()));
-}
-
-Region TreeBuild::region() const {
-  return model_.box ? model_.box->region(model_.frame) : Region();
 }
 
 Result<void> TreeBuild::look_at_surface() {

@@ -123,7 +123,7 @@ class LibrarySides {
 
   Side side(const SpecPoint& p) {
     const Vec3 query = {std::ldexp(p[0], back_), std::ldexp(p[1], back_), std::ldexp(p[2], back_)};
-    return probe_->closest_point(query).side;
+    return probe_->closest_point(query, {.side_rule = SideRule::kSolid}).side;
   }
 
  private:
