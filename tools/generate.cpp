@@ -15,6 +15,7 @@
 #include "tools/cli/size_text.h"
 #include "tools/cli/subcommand_options.h"
 #include "tools/shapes/generate_ply.h"
+#include "tools/shapes/shape_holes.h"
 
 namespace planetree::tools {
 namespace {
@@ -26,13 +27,30 @@ struct Outcome {
   double seconds;
 };
 
+Result<std::unique_ptr<Shape>> shape_of(const GenerateOptions& options) {
+  auto shape = make_shape(options.shape, options.triangles, options.seed);
+  if (!shape || options.holes == 0) return shape;
+  if (options.holes > (*shape)->triangle_count() / 2)
+    return make_error(ErrorCode::kBadArgument, Error::kNowhere, Error::kNowhere,
+                      "%llu holes are more than half of %llu triangles; leave out fewer",
+                      static_cast<unsigned long long>(options.holes),
+                      static_cast<unsigned long long>((*shape)->triangle_count()));
+  return std::unique_ptr<Shape>(
+      std::make_unique<HoledShape>(*std::move(shape), options.holes, options.seed));
+}
+
+std::string comment_of(const GenerateOptions& options, const Shape& shape) {
+  const std::string holes =
+      options.holes == 0 ? std::string() : fmt::format(", {} left out", options.holes);
+  return fmt::format("planetree {} of {} triangles{}, seed {}; lengths may be read as millimetres",
+                     shape_name(options.shape), shape.triangle_count(), holes, options.seed);
+}
+
 Result<Outcome> generate(const GenerateOptions& options) {
   const auto started = std::chrono::steady_clock::now();
-  const auto shape = make_shape(options.shape, options.triangles, options.seed);
+  const auto shape = shape_of(options);
   if (!shape) return shape.error();
-  const std::string comment =
-      fmt::format("planetree {} of {} triangles, seed {}; lengths may be read as millimetres",
-                  shape_name(options.shape), (*shape)->triangle_count(), options.seed);
+  const std::string comment = comment_of(options, **shape);
 
   auto file = OutputFile::create(options.output, options.force);
   if (!file) return file.error();
@@ -53,6 +71,7 @@ std::string json_report(const GenerateOptions& options, const Outcome& outcome) 
   const nlohmann::ordered_json report = {{"file", options.output.string()},
                                          {"shape", shape_name(options.shape)},
                                          {"seed", options.seed},
+                                         {"holes", options.holes},
                                          {"triangles", outcome.triangles},
                                          {"vertices", outcome.vertices},
                                          {"file_bytes", outcome.file_bytes},
@@ -119,6 +138,11 @@ void add_generate(CLI::App& app, Console& console, std::function<int()>& action)
           "--seed", options->seed, kAnyCount,
           "Seed for the noise of statue and terrain and for the positions of the soup"),
       "1");
+  subcommand.default_text(
+      subcommand.count(
+          "--holes", options->holes, kAnyCount,
+          "Number of triangles to leave out, spread over the model; at most half of them"),
+      "0");
   subcommand.flag("--json", options->json,
                   "Report as one JSON object; progress as JSON lines, on standard error");
   subcommand.flag("--quiet", options->quiet, "Show no progress");

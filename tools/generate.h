@@ -19,6 +19,7 @@ struct GenerateOptions {
   std::uint64_t triangles = 0;
   ShapeKind shape = ShapeKind::kStatue;
   std::uint64_t seed = 1;
+  std::uint64_t holes = 0;  ///< triangles to leave out
   bool json = false;
   bool quiet = false;
   bool force = false;

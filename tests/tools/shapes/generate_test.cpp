@@ -177,6 +177,8 @@ TEST_F(Generate, RefusesBadArguments) {
   EXPECT_EQ(run({output_, "--triangles", "10G"}), 2);
   EXPECT_EQ(run({output_, "--triangles", "100", "--shape", "teapot"}), 2);
   EXPECT_EQ(run({output_, "--triangles", "100", "--seed", "-1"}), 2);
+  EXPECT_EQ(run({output_, "--triangles", "100", "--holes", "90"}), 2);
+  EXPECT_NE(complained_.find("half"), std::string::npos);
   EXPECT_EQ(run({output_, "--triangles", "100", "--colour"}), 2);
   EXPECT_EQ(run({(folder_ / "absent/model.ply").string(), "--triangles", "100"}), 2);
   EXPECT_TRUE(fs::is_empty(folder_));

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/shapes/shape_holes.h"
 #include "tools/shapes/shape_lattice.h"
 #include "tools/shapes/shape_noise.h"
 
@@ -273,6 +274,32 @@ TEST(Shape, NamesRoundTrip) {
   EXPECT_EQ(shape_name(ShapeKind::kSoup), "soup");
   EXPECT_FALSE(shape_named("Statue"));
   EXPECT_FALSE(shape_named(""));
+}
+
+TEST(ShapeHoles, LeaveOutOneTriangleOfEachStretch) {
+  const auto whole = shape_of(ShapeKind::kSphere, 1000);
+  const std::uint64_t count = whole->triangle_count();
+  std::map<Corners, std::uint64_t> index;
+  for (std::uint64_t i = 0; i < count; ++i) index[whole->triangle(i)] = i;
+  for (const std::uint64_t holes :
+       {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{7}, count / 3, count / 2}) {
+    const HoledShape holed(shape_of(ShapeKind::kSphere, 1000), holes, kSeed);
+    ASSERT_EQ(holed.triangle_count(), count - holes);
+    const std::uint64_t size = holes == 0 ? count : count / holes;
+    std::set<std::uint64_t> stretches;
+    std::uint64_t next = 0;
+    const auto leave_out_until = [&](std::uint64_t end) {
+      for (; next < end; ++next) EXPECT_TRUE(stretches.insert(next / size).second);
+    };
+    for (std::uint64_t i = 0; i < holed.triangle_count(); ++i) {
+      const std::uint64_t at = index.at(holed.triangle(i));
+      ASSERT_GE(at, next);
+      leave_out_until(at);
+      next = at + 1;
+    }
+    leave_out_until(count);
+    EXPECT_EQ(stretches.size(), holes);
+  }
 }
 
 }  // namespace
