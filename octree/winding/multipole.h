@@ -97,10 +97,13 @@ inline Multipoles::Share Multipoles::share(const Node& node, const Moments& mome
   }
   const double delta = has_strays_ ? delta_ + kMultipoleQueryRounding * farthest : delta_;
   const double rho = std::sqrt(gap2) * (1 - kNormRounding) - delta;
-  if (!(rho > kMultipoleMinDistance) || !moments.are_known()) return {0, kUnknown};
+  // The middle of a forged box may overflow.
+  const double distance = way.norm();
+  if (!(rho > kMultipoleMinDistance) || !(distance < kUnknown) || !moments.are_known())
+    return {0, kUnknown};
   const double area = Moments::wide(moments.area), second = Moments::wide(moments.second);
   const double dipole_unit = moments.dipole_unit(), quadrupole_unit = moments.quadrupole_unit();
-  const double over_way = 1 / way.norm(), over_rho = 1 / rho;
+  const double over_way = 1 / distance, over_rho = 1 / rho;
   const double over_rho2 = over_rho * over_rho;
   const double share = std::sqrt(extent2) * over_way;
   double tail = 3 * over_rho2 * over_rho2;

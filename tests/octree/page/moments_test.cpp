@@ -120,6 +120,27 @@ TEST(Multipoles, AreUnknownInsideTheBox) {
                           [](const auto& share) { return share.error == Multipoles::kUnknown; }));
 }
 
+// Boxes of a forged page are finite, but the sum of their sides need not be.
+TEST(Multipoles, AreUnknownWhereTheMiddleOfABoxOverflows) {
+  const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
+  SamplePages pages(sample);
+  const std::byte* root = pages.record(LinkFormat(65536), sample.plan.node_links[0]);
+  struct alignas(kSlotBytes) {
+    Node node;
+    NodeMoments moments;
+  } copy{*reinterpret_cast<const Node*>(root),
+         NodeMoments::of(*reinterpret_cast<const Node*>(root))};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    copy.node.box.lower[axis] = 3e38F;
+    copy.node.box.upper[axis] = 3.2e38F;
+    copy.node.step[axis] = box_step(3e38F, 3.2e38F);
+  }
+  std::array<Multipoles::Share, kFanOut> shares;
+  Multipoles(Point(0, 0, 9), tree_info(sample)).shares(copy.node, shares);
+  EXPECT_EQ(shares[0].error, Multipoles::kUnknown);
+  EXPECT_EQ(shares[0].value, 0);
+}
+
 TEST(Multipoles, AreUnknownWhereTheMomentsAre) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
