@@ -18,8 +18,10 @@ constexpr double kSmallShare = kMaxClearShare / 64;
 /// Covers the rounding of coordinates relative to the centre, and of cells.
 constexpr double kClearSlack = 0x1p-24;
 constexpr double kOverFourPi = 0x1.45f306dc9c883p-4;
-/// Maximum number of records to visit for all cells. It bounds the time to open a model.
+/// Maximum number of records to visit for all cells, and of lookups of pages that are not resident.
+/// They bound the time to open a model.
 constexpr std::uint64_t kMaxVisits = std::uint64_t{1} << 17;
+constexpr std::uint64_t kMaxBrought = 1 << 12;
 
 }  // namespace
 
@@ -27,7 +29,7 @@ constexpr std::uint64_t kMaxVisits = std::uint64_t{1} << 17;
 class CapGrid::Filler {
  public:
   Filler(CapGrid& grid, const TreeInfo& caps, const PageReader& pages)
-      : grid_(grid), caps_(caps), records_(caps, pages) {}
+      : grid_(grid), caps_(caps), pages_(pages), records_(caps, pages) {}
 
   void run() {
     set_all(0, 0, false);
@@ -78,6 +80,7 @@ class CapGrid::Filler {
   bool open(std::uint32_t link) {
     if (left_ == 0) return false;
     --left_;
+    if (is_brought(link) && ++brought_ > kMaxBrought) left_ = 0;
     const std::byte* record = records_.find(link, work_);
     if (!record) return false;
     if (LinkFormat::is_leaf(link)) return add_block(BlockView(record, caps_.shape));
@@ -104,6 +107,12 @@ class CapGrid::Filler {
     return true;
   }
 
+  // Whether looking a record up has to fetch its page.
+  bool is_brought(std::uint32_t link) const {
+    return !records_.is_in_current_page(link) && pages_.peek &&
+           !pages_.peek(pages_.context, LinkFormat(caps_.page_bytes).page(link));
+  }
+
   bool add_block(const BlockView& block) {
     for (unsigned i = 0; i < block.triangle_count(); ++i) {
       const Triangle cap = block.triangle(i);
@@ -125,8 +134,10 @@ class CapGrid::Filler {
 
   CapGrid& grid_;
   const TreeInfo& caps_;
+  const PageReader& pages_;
   LinkResolver records_;
   TraversalStats work_;
+  std::uint64_t brought_ = 0;
   std::uint64_t left_ = kMaxVisits;
   Point lower_ = Point::Zero(), upper_ = Point::Zero();  // of the cell, relative to the centre
   double share_ = 0;

@@ -14,6 +14,7 @@ constexpr int kMaxMaskLevel = 19;
 constexpr std::int32_t kMaxScaleExponent = 1200;
 // Lengths in the model frame that bounds can be made of.
 constexpr double kMaxStrayEdge = 0x1p60;
+constexpr std::uint64_t kMaxShortIndices = std::uint64_t{1} << 32;
 constexpr double kMaxCapArea = 0x1p1000;
 constexpr std::uint64_t kMaxWinding = std::uint64_t{1} << 62;
 
@@ -142,6 +143,10 @@ Result<void> check_caps(const ModelRecord& model) noexcept {
       has_caps != (model.cap_block_count > 0) || (!has_caps && model.cap_node_count > 0)) {
     return bad_model(offsetof(ModelRecord, cap_count),
                      "the caps are not those of the unbalanced edges");
+  }
+  if (model.triangle_id_bytes == 4 && model.cap_count > kMaxShortIndices) {
+    return bad_model(offsetof(ModelRecord, cap_count),
+                     "there are more caps than indices of 32 bits can count");
   }
   if (!(model.cap_area >= 0 && model.cap_area <= kMaxCapArea) ||
       (!has_caps && (model.cap_area > 0 || model.cap_root_link > 0))) {

@@ -188,6 +188,12 @@ TEST_F(PageFileRefusal, RefusesCapsThatAreNotThoseOfTheEdges) {
           m.cap_area = area;
         },
         "area of the caps");
+  expect_model_refused(
+      [&](ModelRecord& m) {
+        open(m);
+        m.cap_count = (std::uint64_t{1} << 32) + 1;
+      },
+      "more caps than");
   expect_model_refused([](ModelRecord& m) { m.cap_area = 1; }, "area of the caps");
   expect_model_refused([](ModelRecord& m) { m.cap_root_link = 1; }, "area of the caps");
   expect_model_refused([](ModelRecord& m) { m.cap_height = 1; }, "tree of caps");
