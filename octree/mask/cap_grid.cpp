@@ -20,7 +20,8 @@ constexpr double kClearSlack = 0x1p-24;
 constexpr double kOverFourPi = 0x1.45f306dc9c883p-4;
 /// Maximum number of records to visit for all cells, and of lookups of pages that are not resident.
 /// They bound the time to open a model.
-constexpr std::uint64_t kMaxVisits = std::uint64_t{1} << 17;
+constexpr std::uint64_t kMinVisits = 1 << 8, kMaxVisits = std::uint64_t{1} << 17;
+constexpr std::uint64_t kVisitsPerRecord = 32;
 constexpr std::uint64_t kMaxBrought = 1 << 12;
 
 }  // namespace
@@ -28,8 +29,8 @@ constexpr std::uint64_t kMaxBrought = 1 << 12;
 /// Bounds the share of the caps over cells, the largest cells first.
 class CapGrid::Filler {
  public:
-  Filler(CapGrid& grid, const TreeInfo& caps, const PageReader& pages)
-      : grid_(grid), caps_(caps), pages_(pages), records_(caps, pages) {}
+  Filler(CapGrid& grid, const TreeInfo& caps, std::uint64_t visits, const PageReader& pages)
+      : grid_(grid), caps_(caps), pages_(pages), records_(caps, pages), left_(visits) {}
 
   void run() {
     set_all(0, 0, false);
@@ -138,18 +139,20 @@ class CapGrid::Filler {
   LinkResolver records_;
   TraversalStats work_;
   std::uint64_t brought_ = 0;
-  std::uint64_t left_ = kMaxVisits;
+  std::uint64_t left_;                                   // visits
   Point lower_ = Point::Zero(), upper_ = Point::Zero();  // of the cell, relative to the centre
   double share_ = 0;
   std::size_t size_ = 0;
   std::array<std::uint32_t, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
 };
 
-void CapGrid::fill(const TreeInfo& caps, const Point& lower, const PageReader& pages,
-                   std::span<std::byte> memory) noexcept {
+void CapGrid::fill(const TreeInfo& caps, std::uint64_t records, const Point& lower,
+                   const PageReader& pages, std::span<std::byte> memory) noexcept {
   lower_ = lower - Point::Constant(kMargin);
   clear_ = reinterpret_cast<std::uint64_t*>(memory.data());
-  Filler(*this, caps, pages).run();
+  const std::uint64_t few = std::min(records, kMaxVisits);
+  const std::uint64_t visits = std::clamp(kVisitsPerRecord * few, kMinVisits, kMaxVisits);
+  Filler(*this, caps, visits, pages).run();
 }
 
 bool CapGrid::all_are_clear(const std::array<std::uint32_t, 3>& from,

@@ -35,11 +35,14 @@ class CapGrid {
 
   /// Finds the clear cells.
   ///
-  /// caps    the tree of the caps.
-  /// lower   least corner of the octree's root cell, whose side is 2.
-  /// memory  kBytes, aligned to 8 bytes; must outlive this.
-  void fill(const TreeInfo& caps, const Point& lower, const PageReader& pages,
-            std::span<std::byte> memory) noexcept;
+  /// caps     the tree of the caps.
+  /// records  number of records of the surface's tree. It bounds the work: the cells of a small
+  /// model
+  ///          need not be small.
+  /// lower    least corner of the octree's root cell, whose side is 2.
+  /// memory   kBytes, aligned to 8 bytes; must outlive this.
+  void fill(const TreeInfo& caps, std::uint64_t records, const Point& lower,
+            const PageReader& pages, std::span<std::byte> memory) noexcept;
 
   /// Returns whether a point is in a clear cell.
   bool is_clear(const Point& point) const {

@@ -16,7 +16,7 @@ constexpr std::uint64_t kVisitsPerBlock = 128;
 }  // namespace
 
 HeightFieldMarks::HeightFieldMarks(const BuiltTrees& trees, const BuiltMask& mask)
-    : info_(trees.info(cap_info_)), workspaces_([&trees, &mask] {
+    : info_(trees.info(cap_info_)), workspaces_([trees, &mask] {
         return Workspace{TreeFrames(trees, &mask), {}};
       }) {
   mask_.page_bytes = info_.page_bytes;

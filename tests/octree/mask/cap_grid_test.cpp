@@ -31,7 +31,8 @@ class CapGridTest : public testing::Test {
 
   void fill() {
     reader_ = pages_.reader();
-    grid_.fill(info_, info_.core_lower, reader_, std::as_writable_bytes(std::span(memory_)));
+    grid_.fill(info_, 1 << 20, info_.core_lower, reader_,
+               std::as_writable_bytes(std::span(memory_)));
   }
 
   double share(const Point& point) const {
