@@ -104,8 +104,7 @@ class WholeAndRegion {
         options.max_error == 0 && options.max_distance == kNoWall && options.max_work > 1000;
     const double wall_margin = walls_.distance(query) - size_ * 1e-10;
     if (plain && truth.upper < wall_margin) {
-      EXPECT_EQ(answer.status,
-                answer.side == Side::kUnknown ? Status::kDegraded : Status::kExact);
+      EXPECT_EQ(answer.status, answer.side == Side::kUnknown ? Status::kDegraded : Status::kExact);
     }
     if (plain && truth.lower > wall_margin + size_ * 2e-10) {
       EXPECT_EQ(answer.status, Status::kDegraded);

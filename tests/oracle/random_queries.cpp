@@ -79,8 +79,8 @@ class Judge {
 
   bool interval_holds(const Vec3& query, const ClosestPoint& a) const {
     const Status expected = a.side == Side::kUnknown ? Status::kDegraded : Status::kExact;
-    return a.status == expected && a.triangle < model_.built.triangles().size() &&
-           0 <= a.lower && a.lower < a.upper && a.lower <= a.distance && a.distance <= a.upper &&
+    return a.status == expected && a.triangle < model_.built.triangles().size() && 0 <= a.lower &&
+           a.lower < a.upper && a.lower <= a.distance && a.distance <= a.upper &&
            intervals_.none_nearer(query, a.lower) && intervals_.reaches(query, a.triangle, a.upper);
   }
 
