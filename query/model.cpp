@@ -224,6 +224,7 @@ Stats ModelState::stats() const noexcept {
   stats.quarantined_pages = cache.quarantined;
   stats.waits_given_up = cache.given_up;
   stats.degraded_answers = serving_->degraded.load(std::memory_order_relaxed);
+  stats.degraded_without_misses = serving_->degraded_without_misses.load(std::memory_order_relaxed);
   for (const PageTrace& trace : serving_->arena.traces)
     stats.page_trace_dropped += trace.ring.dropped();
   for (const FetchRequests& fetch_requests : serving_->arena.fetch_requests)

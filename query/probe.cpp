@@ -37,7 +37,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
   if (incomplete && accessor.missed()) request(query, limited, limited.parts);
   last_parts_ = computed_parts(options.parts);
   last_side_rule_ = options.side_rule;
-  if (answer.status == Status::kDegraded) model_.degraded.fetch_add(1, std::memory_order_relaxed);
+  if (answer.status == Status::kDegraded) model_.count_degraded(accessor.missed());
   return answer;
 }
 
@@ -55,7 +55,7 @@ ClosestPoint ProbeState::closest_point(const Vec3& query, const QueryOptions& op
                                            query, scaled, lookup, limited);
   if (side.status == Status::kDegraded) {
     if (accessor.missed()) request(query, limited, kSide);
-    model_.degraded.fetch_add(1, std::memory_order_relaxed);
+    model_.count_degraded(accessor.missed());
   }
   return {side.side, side.status};
 }

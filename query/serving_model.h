@@ -31,6 +31,15 @@ struct ServingModel {
   BatchThreads* batch_threads = nullptr;  ///< null: batches run on the caller's thread
   std::span<const std::unique_ptr<ProbeState>> batch_probes;  ///< one per thread of batch_threads
   mutable std::atomic<std::uint64_t> degraded{0};             ///< number of degraded answers
+  mutable std::atomic<std::uint64_t> degraded_without_misses{0};  ///< of these, lacking no page
+
+  /// Counts a degraded answer.
+  ///
+  /// missed  its query lacked a page
+  void count_degraded(bool missed) const noexcept {
+    degraded.fetch_add(1, std::memory_order_relaxed);
+    if (!missed) degraded_without_misses.fetch_add(1, std::memory_order_relaxed);
+  }
 
   /// `reader` is the reader index of a probe.
   FetchRequests& requests(std::uint32_t reader) const noexcept {

@@ -77,6 +77,9 @@ struct Stats {
   std::uint64_t quarantined_pages = 0;  ///< pages found unreadable or damaged; never read again
   std::uint64_t waits_given_up = 0;     ///< waits that OpenOptions::wait_limit_ms ended
   std::uint64_t degraded_answers = 0;   ///< answers of Status::kDegraded
+  /// Of these, answers of queries that lacked no page: QueryOptions::max_work was spent, a wall of
+  /// the region is nearer than the surface, or the winding number is 1/2 to the last bits.
+  std::uint64_t degraded_without_misses = 0;
   /// Fetch requests: queries whose answers lacked pages. Most are real-time queries. The others are
   /// blocking queries that reached the wait limit. A newer request of a probe replaces an older one
   /// that no fetch thread has taken yet. The older one is never served.

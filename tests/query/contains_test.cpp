@@ -214,6 +214,7 @@ TEST_F(ContainsOpen, IsDegradedWhenTheWorkEnds) {
   EXPECT_EQ(found.side, Side::kUnknown);
   EXPECT_EQ(found.status, Status::kDegraded);
   EXPECT_EQ(model.stats().degraded_answers, 1u);
+  EXPECT_EQ(model.stats().degraded_without_misses, 1u);
   // With enough work the side is known, and more work does not change it.
   Side side = Side::kUnknown;
   for (std::uint32_t nodes = 2; nodes < 300; ++nodes) {

@@ -57,6 +57,7 @@ TEST_F(RealTime, AnswersAtOnceWithAnIntervalThatHolds) {
     }
   EXPECT_GT(degraded, 0u);
   EXPECT_EQ(model.stats().degraded_answers, degraded);
+  EXPECT_EQ(model.stats().degraded_without_misses, 0u);
 }
 
 TEST_F(RealTime, ReadsNothingItself) {
