@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "octree/builder/job/build_progress.h"
 #include "octree/builder/job/model_frame.h"
 #include "octree/builder/mask/mask_sectors.h"
 #include "octree/builder/sort/chunks.h"

@@ -20,6 +20,14 @@ using octree::Point;
 // The triangles missing from a file of a region may change sides beyond its walls.
 constexpr SideResult kBeyondWall{Side::kUnknown, Status::kDegraded};
 
+// Takes the caps' share from what a search found, if the surface has caps.
+SideResult less_caps(const ModelGeometry& model, const Point& point, const SideResult& closed,
+                     SideSearch& search, const octree::PageReader& pages,
+                     octree::TraversalStats& work, SideReason* reason) {
+  if (!model.tree.caps) return closed;
+  return OpenSide(model, point, search.work_left(), pages, work, reason, &search).run(closed);
+}
+
 // Finds the side of a point of the region.
 SideResult find_known_side(const ModelGeometry& model, const Point& point, std::uint64_t max_work,
                            const octree::PageReader& pages, octree::TraversalStats& work,
@@ -30,9 +38,7 @@ SideResult find_known_side(const ModelGeometry& model, const Point& point, std::
     return OpenSide(model, point, max_work, pages, work, reason, nullptr).run({Side::kOutside});
   }
   SideSearch search(model, point, max_work, pages, work, reason);
-  const SideResult closed = search.run();
-  if (!model.tree.caps) return closed;
-  return OpenSide(model, point, search.work_left(), pages, work, reason, &search).run(closed);
+  return less_caps(model, point, search.run(), search, pages, work, reason);
 }
 
 double largest_coordinate(const octree::Triangle& triangle) {
@@ -112,8 +118,7 @@ SideResult find_side(const ModelGeometry& model, const Point& point,
   const SideResult closed = search.run();
   if (closed.status == Status::kExact && model.cap_grid.is_clear(point))
     cache.note(point, closed, search.has_exact_winding(), clear);
-  if (!model.tree.caps) return closed;
-  return OpenSide(model, point, search.work_left(), pages, work, nullptr, &search).run(closed);
+  return less_caps(model, point, closed, search, pages, work, nullptr);
 }
 
 SideResult find_containment(const QueryContext& context, const Vec3& query,

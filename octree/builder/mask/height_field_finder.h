@@ -10,7 +10,8 @@ namespace planetree::octree {
 ///
 /// The proof is for a prism, a box around the block. Nothing touches its two ends, and the first
 /// end is outside of the solid. All triangles in it rise towards the first end, so that crossings
-/// only add up. A line through the middle crosses one of them. No cap meets it.
+/// only add up. A line through the middle crosses one of them. No cap
+/// meets the prism.
 class HeightFieldFinder {
  public:
   /// tree, mask  of a whole model; both must outlive this.

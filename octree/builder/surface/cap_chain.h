@@ -24,7 +24,7 @@ using CapSink = std::function<Result<void>(const Triangle& cap)>;
 /// gets n - 2 caps, most of which are as small as the edges. A hole of three edges gets the missing
 /// triangle. The caps depend on the edges alone.
 ///
-/// threads  any number may add edges; then one calls close().
+/// threads  one at a time.
 /// source   the idea of whole winding numbers of a closed surface less the solid angles of the
 ///          closure is from Martens, Trettner and Bessmeltsev 2026, "Antipodal winding numbers",
 ///          arXiv 2605.01536. Caps are planetree's own.

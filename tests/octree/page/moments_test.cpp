@@ -109,6 +109,16 @@ TEST(Multipoles, ErrorBoundsHold) {
   }
 }
 
+/// A copy of a node in a frame and of the moments behind it, to be changed.
+struct alignas(kSlotBytes) NodeWithMoments {
+  explicit NodeWithMoments(const std::byte* record)
+      : node(*reinterpret_cast<const Node*>(record)),
+        moments(NodeMoments::of(*reinterpret_cast<const Node*>(record))) {}
+
+  Node node;
+  NodeMoments moments;
+};
+
 TEST(Multipoles, AreUnknownInsideTheBox) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
@@ -125,11 +135,7 @@ TEST(Multipoles, AreUnknownWhereTheMiddleOfABoxOverflows) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
   const std::byte* root = pages.record(LinkFormat(65536), sample.plan.node_links[0]);
-  struct alignas(kSlotBytes) {
-    Node node;
-    NodeMoments moments;
-  } copy{*reinterpret_cast<const Node*>(root),
-         NodeMoments::of(*reinterpret_cast<const Node*>(root))};
+  NodeWithMoments copy(root);
   for (unsigned axis = 0; axis < 3; ++axis) {
     copy.node.box.lower[axis] = 3e38F;
     copy.node.box.upper[axis] = 3.2e38F;
@@ -145,11 +151,7 @@ TEST(Multipoles, AreUnknownWhereTheMomentsAre) {
   const SampleTree sample = build_sample(height_field(8), 65536, 0, true);
   SamplePages pages(sample);
   const std::byte* root = pages.record(LinkFormat(65536), sample.plan.node_links[0]);
-  struct alignas(kSlotBytes) {
-    Node node;
-    NodeMoments moments;
-  } copy{*reinterpret_cast<const Node*>(root),
-         NodeMoments::of(*reinterpret_cast<const Node*>(root))};
+  NodeWithMoments copy(root);
   const Multipoles multipoles(Point(0, 0, 9), tree_info(sample));
   std::array<Multipoles::Share, kFanOut> shares;
   multipoles.shares(copy.node, shares);
