@@ -41,7 +41,7 @@ struct ModelInfo {
   SideRule side_rule = SideRule::kSolid;
   bool side_is_chosen = false;  ///< whether BuildOptions::side chose the rule
   /// How open the surface of the input is: the length of the sum of the triangles' area vectors,
-  /// divided by the sum of their areas. 0 for a closed surface, 1 for a flat sheet.
+  /// divided by the sum of their areas, without strays. 0 if closed, 1 for a flat sheet.
   double openness = 0;
   bool float64 = false;          ///< whether coordinates are doubles; not all fit a float
   std::uint64_t nodes = 0;       ///< inner nodes of the tree

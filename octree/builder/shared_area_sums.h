@@ -11,9 +11,13 @@ namespace planetree::octree {
 /// AreaSums of a surface whose parts any number of threads add.
 class SharedAreaSums {
  public:
+  /// lower, upper  the core, model frame
+  SharedAreaSums(const Point& lower, const Point& upper)
+      : lower_(lower), upper_(upper), sums_(lower, upper) {}
+
   /// Adds a part of the model, each part once.
   void add(const Triangles& part) {
-    AreaSums sums;
+    AreaSums sums(lower_, upper_);
     for (std::uint32_t i = 0; i < part.size(); ++i) sums.add(part.corners(i));
     const std::lock_guard lock(mutex_);
     sums_.add(sums);
@@ -23,6 +27,7 @@ class SharedAreaSums {
   double openness() const { return sums_.openness(); }
 
  private:
+  const Point lower_, upper_;
   std::mutex mutex_;
   AreaSums sums_;
 };

@@ -212,7 +212,7 @@ Result<void> TreeBuild::look_at_surface() {
 
 Result<void> TreeBuild::match_edges() {
   RegionCut cut(model_.frame, region(), part_ ? &*part_ : nullptr);
-  SharedAreaSums areas;
+  SharedAreaSums areas(model_.frame.core_lower(), model_.frame.core_upper());
   CapChain boundary(memory_.cap_bytes, files_.scratch());
   auto edges =
       octree::match_edges(*whole_, model_.above.chunks, memory_.edge_bytes, files_.scratch(),

@@ -14,7 +14,13 @@ std::int64_t AreaSums::whole(double area) {
   return static_cast<std::int64_t>(area / kUnit);
 }
 
+bool AreaSums::is_in_core(const Triangle& triangle) const {
+  return (least_corner(triangle).array() >= lower_.array()).all() &&
+         (greatest_corner(triangle).array() <= upper_.array()).all();
+}
+
 void AreaSums::add(const Triangle& triangle) {
+  if (!is_in_core(triangle)) return;
   const Point u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   double square = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -13,10 +13,14 @@ namespace planetree::octree {
 /// a hemisphere, 1/3 for a tetrahedron and 1/5 for a cube less one face, and near 0 for a closed
 /// surface with many small holes.
 ///
-/// Sums are whole numbers, so that they do not depend on the order of the triangles. Triangles of
-/// an area below 2^-60 in the model frame do not count, and of strays no more than kMaxArea counts.
+/// Strays do not count: one wrong coordinate would outweigh a whole scan. Sums are whole numbers, so
+/// that they do not depend on the order of the triangles. Triangles of an area below 2^-60 in the
+/// model frame do not count.
 class AreaSums {
  public:
+  /// lower, upper  the core, model frame
+  AreaSums(const Point& lower, const Point& upper) : lower_(lower), upper_(upper) {}
+
   /// Least openness of a surface that is taken for a sheet, if it is not watertight. It lies
   /// between that of a tetrahedron less one face and that of a hemisphere.
   static constexpr double kOpennessOfSheet = 0.375;
@@ -33,11 +37,14 @@ class AreaSums {
   __extension__ using Int128 = __int128;
 
   static constexpr double kUnit = 0x1p-60;
-  /// Limit of an area and of the components of an area vector. Triangles of the core have less. In
-  /// units it fits 63 bits, so that 2^64 triangles fit 128.
+  /// Limit of an area and of the components of an area vector. Triangles of the core have less,
+  /// unless a file is forged. In units it fits 63 bits, so that 2^64 triangles fit 128.
   static constexpr double kMaxArea = 7;
   static std::int64_t whole(double area);
 
+  bool is_in_core(const Triangle& triangle) const;
+
+  const Point lower_, upper_;
   Int128 vector_[3] = {0, 0, 0};
   Int128 area_ = 0;
 };

@@ -98,16 +98,38 @@ std::uint32_t least_work(BuiltModel& model, const Vec3& query) {
   return low;
 }
 
-TEST_P(Stray, CostsHardlyAnyWork) {
-  BuiltModel alone(ball(6)), beside(ball(6) + strays(GetParam()));
+// Compares the work of queries to a statue alone and beside strays.
+void expect_hardly_any_work(const Soup& strays) {
+  BuiltModel alone(ball(6)), beside(ball(6) + strays);
   Random random(8);
   std::uint64_t work_alone = 0, work_beside = 0;
   for (int i = 0; i < 100; ++i) {
-    const Vec3 query = random_vector(random, 1.3);
+    // Every other query is near the surface, where faces decide sides.
+    Vec3 query = random_vector(random, 1.3);
+    if (i % 2 == 0) query = alone.closest_point(query).point * 1.001;
     work_alone += least_work(alone, query);
     work_beside += least_work(beside, query);
   }
   EXPECT_LE(work_beside, work_alone * 13 / 10);
+}
+
+TEST_P(Stray, CostsHardlyAnyWork) { expect_hardly_any_work(strays(GetParam())); }
+
+// One triangle far away, which nothing closes.
+Soup open_stray(double far) {
+  Soup all = stray({far, far, far});
+  all.resize(1);
+  return all;
+}
+
+TEST_P(Stray, CostsHardlyAnyWorkIfItIsOpen) { expect_hardly_any_work(open_stray(GetParam())); }
+
+TEST_P(Stray, DoesNotMakeASheetOfASolid) {
+  BuiltModel beside(statue() + open_stray(GetParam()));
+  EXPECT_EQ(beside.model().info().strays, 1u);
+  EXPECT_EQ(beside.model().info().side_rule, SideRule::kSolid);
+  EXPECT_LT(beside.model().info().openness, 1e-9);
+  EXPECT_EQ(beside.closest_point({0.1, 0.2, 0.3}).side, Side::kInside);
 }
 
 INSTANTIATE_TEST_SUITE_P(Far, Stray, testing::Values(1e3, 1e6, 1e8, 1e12, 1e15, 1e20, 1e30));

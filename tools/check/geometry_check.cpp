@@ -58,6 +58,8 @@ GeometryCheck::GeometryCheck(const storage::FileHeader& header, IssueList& issue
       issues_(issues),
       of_caps_(of_caps),
       edges_(model_),
+      areas_(query::Scale(model_.scale_exponent).in(vec3_of(model_.core_lower)),
+             query::Scale(model_.scale_exponent).in(vec3_of(model_.core_upper))),
       lower_(Point::Constant(kInfinity)),
       upper_(Point::Constant(-kInfinity)) {
   const query::Scale scale(model_.scale_exponent);

@@ -86,13 +86,17 @@ class Prism {
   Point box_centre() const { return back(middle_); }
   Point box_half() const { return rotated_.transpose().cwiseAbs() * ((upper_ - lower_) * 0.5); }
 
+  /// Whether the box of a triangle in the prism's frame does not meet the prism.
+  bool misses(const Triangle& rotated) const {
+    return (least_corner(rotated).array() > upper_.array()).any() ||
+           (greatest_corner(rotated).array() < lower_.array()).any();
+  }
+
   /// Whether a triangle in the prism's frame does not meet the prism, or is between the ends with
   /// its front towards the first end and meets the limits of HeightField.
   bool accepts(const Triangle& rotated) const {
+    if (misses(rotated)) return true;
     const auto& [a, b, c] = rotated;
-    if ((least_corner(rotated).array() > upper_.array()).any() ||
-        (greatest_corner(rotated).array() < lower_.array()).any())
-      return true;
     const auto [least, greatest] = std::minmax({a.z(), b.z(), c.z()});
     if (!(least > lower_.z() + kPrismClearance && greatest < upper_.z() - kPrismClearance))
       return false;
@@ -132,13 +136,19 @@ class Prism {
   Point lower_ = Point::Zero(), upper_ = Point::Zero(), middle_ = Point::Zero();
 };
 
-/// Whether all triangles of a block that meet a prism suit it.
-bool all_accepted(const BlockView& block, const Prism& prism, const PrismTriangles& found) {
-  for (unsigned unsure = found.met & ~found.rising; unsure != 0; unsure &= unsure - 1)
-    if (!prism.accepts(
-            prism.rotated(block.triangle(static_cast<unsigned>(std::countr_zero(unsure))))))
+/// Whether accepts(triangle in the prism's frame) holds for all triangles of a set.
+template <class Accepts>
+bool all_of(const BlockView& block, const Prism& prism, unsigned set, const Accepts& accepts) {
+  for (; set != 0; set &= set - 1)
+    if (!accepts(prism.rotated(block.triangle(static_cast<unsigned>(std::countr_zero(set))))))
       return false;
   return true;
+}
+
+/// Whether all triangles of a block that meet a prism suit it.
+bool all_accepted(const BlockView& block, const Prism& prism, const PrismTriangles& found) {
+  return all_of(block, prism, found.met & ~found.rising,
+                [&](const Triangle& rotated) { return prism.accepts(rotated); });
 }
 
 /// The winding number of a point that no triangle touches. Nothing where the mask does not tell it;
@@ -191,7 +201,9 @@ bool HeightFieldFinder::is_height_field(const BlockView& block, const PageReader
   bool complete = BoxWalk(tree_, centre - half, centre + half, pages, work)
                       .run_while(kMaxRecords, look_at, [&] { return accepts && difference >= -1; });
   const auto look_at_caps = [&](const BlockView& near, std::uint32_t) {
-    accepts = classify_triangles(near, in_float, prism.origin()).met == 0;
+    // In float, caps of strays may overflow and then seem to meet every prism.
+    accepts = all_of(near, prism, classify_triangles(near, in_float, prism.origin()).met,
+                     [&](const Triangle& rotated) { return prism.misses(rotated); });
   };
   if (complete && accepts && tree_.caps)
     complete = BoxWalk(*tree_.caps, centre - half, centre + half, pages, work)
