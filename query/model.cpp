@@ -129,8 +129,8 @@ Result<void> ModelState::fill_side_grid() {
   ModelGeometry& geometry = serving_->geometry;
   std::span<std::byte> memory = serving_->arena.side_grid;
   if (geometry.tree.caps) {
-    geometry.cap_grid.fill(geometry.caps, geometry.tree.record_count, geometry.mask.lower,
-                           accessor.pages(), memory.first(octree::CapGrid::kBytes));
+    geometry.cap_grid.fill(geometry.caps, geometry.tree, accessor.pages(),
+                           memory.first(octree::CapGrid::kBytes));
     memory = memory.subspan(octree::CapGrid::kBytes);
   }
   geometry.side_grid.fill(geometry.mask, geometry.tree, geometry.cap_grid,

@@ -97,9 +97,10 @@ class TraversalWork {
 struct WorkUnits {
   static constexpr unsigned kNearBlock = 4;    ///< distances of a block's triangles in double
   static constexpr unsigned kNearbyList = 16;  ///< distances of the triangles of a coherence cache
-  static constexpr unsigned kSolidAngles = 2;  ///< solid angles in double, in a unit
-  static constexpr unsigned kFlatFace = 24;    ///< distance from a face too flat for double
-  static constexpr unsigned kMoments = 2;      ///< shares of a node's children
+  static constexpr unsigned kSolidAngles =
+      2;  ///< solid angles that block_share() leaves out, in a unit
+  static constexpr unsigned kFlatFace = 24;        ///< distance from a face too flat for double
+  static constexpr unsigned kMoments = 2;          ///< shares of a node's children
   static constexpr unsigned kExactCrossing = 2;    ///< crossing of a triangle, but for exact signs
   static constexpr unsigned kThinNormal = 8;       ///< normal of a face too thin for double
   static constexpr unsigned kSmallSign = 1;        ///< exact sign in 128 bits

@@ -5,8 +5,10 @@
 #include "octree/geometry/error_bounds.h"
 #include "octree/geometry/strict_math.h"
 #include "octree/geometry/tree_limits.h"
+#include "octree/mask/cap_rim.h"
 #include "octree/page/moments.h"
 #include "octree/traversal/bounds.h"
+#include "octree/winding/winding_number.h"
 
 namespace planetree::octree {
 namespace {
@@ -23,50 +25,30 @@ constexpr double kOverFourPi = 0x1.45f306dc9c883p-4;
 constexpr std::uint64_t kMinVisits = 1 << 8, kMaxVisits = std::uint64_t{1} << 17;
 constexpr std::uint64_t kVisitsPerRecord = 32;
 constexpr std::uint64_t kMaxBrought = 1 << 12;
-
+/// The same for caps and edges of a rim that are looked at. A unit of work counts for
+/// kLooksPerUnit.
+constexpr std::uint64_t kMinLooks = 1 << 16, kMaxLooks = std::uint64_t{1} << 24;
+constexpr std::uint64_t kLooksPerRecord = 1 << 14, kLooksPerUnit = 32;
 }  // namespace
 
-/// Bounds the share of the caps over cells, the largest cells first.
-class CapGrid::Filler {
+/// Bounds the share of many caps over cells by their areas, the largest cells first. A cap of area
+/// a at a distance of at least d has a share of at most a / (4 pi d^2).
+class CapGrid::AreaFiller {
  public:
-  Filler(CapGrid& grid, const TreeInfo& caps, std::uint64_t visits, const PageReader& pages)
+  AreaFiller(CapGrid& grid, const TreeInfo& caps, std::uint64_t visits, const PageReader& pages)
       : grid_(grid), caps_(caps), pages_(pages), records_(caps, pages), left_(visits) {}
 
   void run() {
-    set_all(0, 0, false);
     for (unsigned level = 1; level <= kLevel && left_ > 0; ++level)
       for (std::uint64_t index = 0; index < std::uint64_t{1} << 3 * level && left_ > 0; ++index)
-        if (!is_set(level, index) && is_clear(level, index)) set_all(level, index, true);
+        if (!grid_.is_set(level, index) && is_clear(level, index)) grid_.set_clear(level, index);
   }
 
  private:
-  // Cells within a cell are side by side in Morton order.
-  static std::uint64_t first_of(unsigned level, std::uint64_t index) {
-    return index << 3 * (kLevel - level);
-  }
-  bool is_set(unsigned level, std::uint64_t index) const {
-    const std::uint64_t first = first_of(level, index);
-    return (grid_.clear_[first / 64] >> first % 64 & 1) != 0;
-  }
-  void set_all(unsigned level, std::uint64_t index, bool clear) {
-    const std::uint64_t first = first_of(level, index), count = first_of(level, 1);
-    if (count < 64) {
-      const std::uint64_t bits = ((std::uint64_t{1} << count) - 1) << first % 64;
-      std::uint64_t& word = grid_.clear_[first / 64];
-      word = clear ? word | bits : word & ~bits;
-    } else {
-      std::fill_n(grid_.clear_ + first / 64, count / 64, clear ? ~std::uint64_t{0} : 0);
-    }
-  }
-
   bool is_clear(unsigned level, std::uint64_t index) {
-    const double side = kSide / (1U << level);
-    const std::array<std::uint32_t, 3> at{gather_bits(index), gather_bits(index >> 1),
-                                          gather_bits(index >> 2)};
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      lower_[axis] = grid_.lower_[axis] + side * at[axis] - caps_.centre[axis] - kClearSlack;
-      upper_[axis] = lower_[axis] + side + 2 * kClearSlack;
-    }
+    grid_.find_box(level, index, lower_, upper_);
+    lower_ -= caps_.centre;
+    upper_ -= caps_.centre;
     share_ = 0;
     size_ = 0;
     push(caps_.root_link);
@@ -146,13 +128,117 @@ class CapGrid::Filler {
   std::array<std::uint32_t, (kFanOut - 1) * kMaxHeight + 2 * kFanOut> links_;
 };
 
-void CapGrid::fill(const TreeInfo& caps, std::uint64_t records, const Point& lower,
-                   const PageReader& pages, std::span<std::byte> memory) noexcept {
-  lower_ = lower - Point::Constant(kMargin);
+/// Bounds the share of few caps over cells: by that at the cell's centre, and by how much the rim
+/// lets it vary.
+class CapGrid::RimFiller {
+ public:
+  RimFiller(CapGrid& grid, const TreeInfo& caps, const CapRim& rim, std::uint64_t looks,
+            const PageReader& pages)
+      : grid_(grid), caps_(caps), rim_(rim), pages_(pages), left_(looks) {}
+
+  void run() {
+    for (unsigned cap = 0; cap < rim_.caps(); ++cap)
+      meeting_[0][cap] = static_cast<std::uint16_t>(cap);
+    // The largest cells first, for the looks may not suffice for the smallest.
+    for (unsigned level = 1; level <= kLevel && left_ > 0; ++level)
+      refine(0, 0, level, rim_.caps());
+  }
+
+ private:
+  // Tests the cells of the level `last` within a cell.
+  //
+  // caps  number of caps that may meet the cell around this one
+  void refine(unsigned level, std::uint64_t index, unsigned last, std::size_t caps) {
+    if (left_ == 0 || grid_.is_set(level, index)) return;
+    Point lower, upper;
+    grid_.find_box(level, index, lower, upper);
+    const auto& around = meeting_[level];
+    auto& here = meeting_[level + 1];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < caps; ++i)
+      if (rim_.may_meet(around[i], lower, upper)) here[count++] = around[i];
+    left_ -= std::min<std::uint64_t>(left_, caps + 1);
+    if (level < last) {
+      for (std::uint64_t octant = 0; octant < kFanOut; ++octant)
+        refine(level + 1, kFanOut * index + octant, last, count);
+    } else if (count == 0 && is_clear(lower, upper)) {
+      grid_.set_clear(level, index);
+    }
+  }
+
+  bool is_clear(const Point& lower, const Point& upper) {
+    if (left_ < rim_.edges()) return false;
+    left_ -= rim_.edges();
+    const double most = kMaxClearShare - rim_.variation(lower, upper);
+    if (!(most > 0)) return false;
+    const Point centre = (lower + upper) * 0.5;
+    return is_below(centre, most, 1) && is_below(centre, most, -1);
+  }
+
+  // Whether the share at a point, times a sign, is below a limit. Moved by the distance of the
+  // limit from one half, the share is decided soon on either side of it.
+  bool is_below(const Point& point, double most, double sign) {
+    const std::uint64_t before = work_.units;
+    const WindingNumber share = winding_number(caps_, point, left_ / kLooksPerUnit, pages_, work_,
+                                               {sign * (0.5 - most), 0x1p-40});
+    left_ -= std::min(left_, (work_.units - before) * kLooksPerUnit);
+    return share.complete && !share.on_surface && sign * share.value + share.error < 0.5;
+  }
+
+  CapGrid& grid_;
+  const TreeInfo& caps_;
+  const CapRim& rim_;
+  const PageReader& pages_;
+  std::uint64_t left_;  // looks
+  TraversalStats work_;
+  // Caps that may meet the cell of the level above.
+  std::array<std::array<std::uint16_t, CapRim::kMaxCaps>, kLevel + 2> meeting_;
+};
+
+void CapGrid::fill(const TreeInfo& caps, const TreeInfo& surface, const PageReader& pages,
+                   std::span<std::byte> memory) noexcept {
+  const double edge = (surface.core_upper - surface.core_lower).maxCoeff();
+  side_ = kSidePerCore * std::clamp(edge, 1.0, 2.0);
+  cells_per_unit_ = kWidth / side_;
+  lower_ = (surface.core_lower + surface.core_upper - Point::Constant(side_)) * 0.5;
   clear_ = reinterpret_cast<std::uint64_t*>(memory.data());
-  const std::uint64_t few = std::min(records, kMaxVisits);
-  const std::uint64_t visits = std::clamp(kVisitsPerRecord * few, kMinVisits, kMaxVisits);
-  Filler(*this, caps, visits, pages).run();
+  std::fill_n(clear_, kBytes / sizeof *clear_, 0);
+  const std::uint64_t records = std::min(surface.record_count, kMaxVisits);
+  CapRim rim;
+  rim.read(caps, pages);
+  if (rim.is_known()) {
+    const std::uint64_t looks = std::clamp(kLooksPerRecord * records, kMinLooks, kMaxLooks);
+    RimFiller(*this, caps, rim, looks, pages).run();
+  } else {
+    const std::uint64_t visits = std::clamp(kVisitsPerRecord * records, kMinVisits, kMaxVisits);
+    AreaFiller(*this, caps, visits, pages).run();
+  }
+}
+
+void CapGrid::find_box(unsigned level, std::uint64_t index, Point& lower, Point& upper) const {
+  const double side = side_ / (1U << level);
+  const std::array<std::uint32_t, 3> at{gather_bits(index), gather_bits(index >> 1),
+                                        gather_bits(index >> 2)};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    lower[axis] = lower_[axis] + side * at[axis] - kClearSlack;
+    upper[axis] = lower[axis] + side + 2 * kClearSlack;
+  }
+}
+
+bool CapGrid::is_set(unsigned level, std::uint64_t index) const {
+  const std::uint64_t first = first_of(level, index), count = first_of(level, 1);
+  if (count < 64)
+    return (~clear_[first / 64] >> first % 64 & ((std::uint64_t{1} << count) - 1)) == 0;
+  return std::all_of(clear_ + first / 64, clear_ + (first + count) / 64,
+                     [](std::uint64_t word) { return word == ~std::uint64_t{0}; });
+}
+
+void CapGrid::set_clear(unsigned level, std::uint64_t index) {
+  const std::uint64_t first = first_of(level, index), count = first_of(level, 1);
+  if (count < 64)
+    clear_[first / 64] |= ((std::uint64_t{1} << count) - 1) << first % 64;
+  else
+    std::fill_n(clear_ + first / 64, count / 64, ~std::uint64_t{0});
 }
 
 bool CapGrid::all_are_clear(const std::array<std::uint32_t, 3>& from,

@@ -15,7 +15,8 @@ namespace planetree::octree {
 /// Tells where caps have no influence on sides. In a clear cell there is no cap, and the caps'
 /// share of winding numbers is certainly below one half. So the winding number of the surface with
 /// its caps, which is whole and constant off the surface, tells the side there: inside unless it is
-/// 0. The cells are those of a cube a little larger than the octree's root cell.
+/// 0. The cells are those of a cube about the core, an eighth of its longest edge larger on each
+/// side.
 ///
 /// Filled once; then any thread may ask it.
 class CapGrid {
@@ -36,13 +37,11 @@ class CapGrid {
   /// Finds the clear cells.
   ///
   /// caps     the tree of the caps.
-  /// records  number of records of the surface's tree. It bounds the work: the cells of a small
-  /// model
-  ///          need not be small.
-  /// lower    least corner of the octree's root cell, whose side is 2.
+  /// surface  the tree of the surface. Its number of records bounds the work: the cells of a small
+  ///          model need not be small.
   /// memory   kBytes, aligned to 8 bytes; must outlive this.
-  void fill(const TreeInfo& caps, std::uint64_t records, const Point& lower,
-            const PageReader& pages, std::span<std::byte> memory) noexcept;
+  void fill(const TreeInfo& caps, const TreeInfo& surface, const PageReader& pages,
+            std::span<std::byte> memory) noexcept;
 
   /// Returns whether a point is in a clear cell.
   bool is_clear(const Point& point) const {
@@ -68,21 +67,29 @@ class CapGrid {
   }
 
  private:
-  class Filler;
-  static constexpr double kMargin = 0x1p-5;  // of the cube about the root cell
-  static constexpr double kSide = 2 + 2 * kMargin;
-  static constexpr double kCellsPerUnit = kWidth / kSide;
+  class AreaFiller;
+  class RimFiller;
+  static constexpr double kSidePerCore = 1.25;
   static constexpr std::uint32_t kMaxBetween = 4;  // cells along an axis
 
   // Returns false if a point is in no cell.
   bool cell_of(const Point& point, std::array<std::uint32_t, 3>& at) const {
     for (unsigned axis = 0; axis < 3; ++axis) {
-      const double steps = (point[axis] - lower_[axis]) * kCellsPerUnit;
+      const double steps = (point[axis] - lower_[axis]) * cells_per_unit_;
       if (!(steps >= 0 && steps < kWidth)) return false;
       at[axis] = static_cast<std::uint32_t>(steps);
     }
     return true;
   }
+  // Cells within a cell are side by side in Morton order.
+  static constexpr std::uint64_t first_of(unsigned level, std::uint64_t index) {
+    return index << 3 * (kLevel - level);
+  }
+  // Whether all cells within a cell of a level are clear.
+  bool is_set(unsigned level, std::uint64_t index) const;
+  void set_clear(unsigned level, std::uint64_t index);
+  // Box of a cell and its slack, model frame.
+  void find_box(unsigned level, std::uint64_t index, Point& lower, Point& upper) const;
   static std::uint64_t index_of(const std::array<std::uint32_t, 3>& at) {
     return morton_code(at[0], at[1], at[2]);
   }
@@ -93,7 +100,9 @@ class CapGrid {
   bool all_are_clear(const std::array<std::uint32_t, 3>& from,
                      const std::array<std::uint32_t, 3>& to) const;
 
-  Point lower_ = Point::Zero();     // of the cube
+  Point lower_ = Point::Zero();  // of the cube
+  double side_ = 2;              // of the cube
+  double cells_per_unit_ = 0;
   std::uint64_t* clear_ = nullptr;  // a bit for each cell, in Morton order; null: not filled
   bool has_caps_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,7 @@
 #include "octree/geometry/work_limit.h"
 #include "octree/page/frame.h"
 #include "octree/traversal/tree_view.h"
+#include "octree/winding/block_share.h"
 #include "octree/winding/multipole.h"
 
 namespace planetree::octree {
@@ -168,12 +170,15 @@ class WindingSum {
 
   void open_block(const BlockView& block, const Proxy& proxy) {
     ++work_.blocks;
-    if (!limit_.take((block.triangle_count() + WorkUnits::kSolidAngles - 1) /
-                     WorkUnits::kSolidAngles))
-      return;
+    work_.triangles += block.triangle_count();
+    const BlockShare sum = block_share(point_, block);
+    const auto unsure = static_cast<unsigned>(std::popcount(sum.unsure));
+    if (!limit_.take((unsure + WorkUnits::kSolidAngles - 1) / WorkUnits::kSolidAngles)) return;
     remove_proxy(proxy);
-    for (unsigned i = 0; i < block.triangle_count(); ++i) {
-      ++work_.triangles;
+    value_.add(sum.value);
+    error_.add(sum.error);
+    for (unsigned left = sum.unsure; left != 0; left &= left - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(left));
       const WindingShare share = winding_share(point_, block.triangle(i), &limit_);
       value_.add(share.value);
       error_.add(share.error);
