@@ -19,6 +19,7 @@
 #include "tools/manual/help_text.h"
 #include "tools/query.h"
 #include "tools/touch.h"
+#include "tools/trade.h"
 #include "tools/verify.h"
 
 namespace planetree::tools {
@@ -46,6 +47,7 @@ CommandLine::CommandLine(Console& console)
   add_inspect(app, console, action);
   add_verify(app, console, action);
   add_touch(app, console, action);
+  add_trade(app, console, action);
   app.set_version_flag("--version", kVersion, "Show the version");
 }
 

@@ -85,7 +85,9 @@ enum class Status : std::uint8_t {
   /// computed distance, and another one may be nearer.
   kExact,
   /// Not exact, but upper - lower <= QueryOptions::max_error. A triangle other than the reported
-  /// one may be nearer. The side is as for kExact. The normal is that of the reported triangle.
+  /// one may be nearer. The side is as for kExact. The normal is that of the reported triangle. In
+  /// a batch such an answer depends on the file and the query alone. A single query near the last
+  /// one of its probe may be answered exactly instead, where that costs less.
   kWithinError,
   /// Not exact: a page is missing or unreadable, QueryOptions::max_work is spent, triangles outside
   /// of the region may be nearer (see ModelInfo::has_region), or the side is unknown because |w| is

@@ -42,8 +42,11 @@ class CoherenceCache {
   /// distance  from `query` to the surface
   /// diagonal  of the model's core
   double wanted_radius(const Point& query, double distance, double diagonal) const {
-    const double step = step_to(query);
-    return step <= diagonal * kMaxStepShare ? radius_for(step, distance) : 0;
+    return is_near_last(query, diagonal) ? radius_for(step_to(query), distance) : 0;
+  }
+  /// Whether a query is so near the last one that a ball about it may serve the next ones.
+  bool is_near_last(const Point& query, double diagonal) const {
+    return step_to(query) <= diagonal * kMaxStepShare;
   }
   /// The triangles of subtrees() that reach into the ball; complete only if they are few.
   const NearbyTriangles& triangles() const { return triangles_; }
@@ -62,7 +65,7 @@ class CoherenceCache {
   void renew(const TreeInfo& tree, const Point& query, double distance, WorkLimit& limit,
              const PageReader& pages, TraversalStats& work) noexcept;
 
-  /// Records an exact answer.
+  /// Records a query and a surface point near it.
   void note(const Point& query, const Point& nearest) {
     last_ = query;
     last_nearest_ = nearest;

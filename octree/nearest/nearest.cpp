@@ -89,13 +89,32 @@ namespace planetree::octree {
 
 HWY_EXPORT(nearest_on_target);
 
+// Answers within an error, and exactly where that costs less.
+static NearestAnswer nearest_by_history(const TreeInfo& tree, const Point& query,
+                                        const NearestLimits& limits, const PageReader& pages,
+                                        TraversalStats& work, CoherenceCache& coherence_cache) {
+  NearestLimits exact = limits;
+  exact.max_error = 0;
+  const double diagonal = (tree.core_upper - tree.core_lower).norm();
+  if (exact.allow_any_way() && coherence_cache.is_near_last(query, diagonal))
+    return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, exact, pages, work,
+                                                   &coherence_cache);
+  const NearestAnswer answer =
+      HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work, nullptr);
+  if (answer.triangle != kNoTriangle) coherence_cache.note(query, answer.point);
+  return answer;
+}
+
 NearestAnswer nearest(const TreeInfo& tree, const Point& query, const NearestLimits& limits,
                       const PageReader& pages, TraversalStats& work,
                       CoherenceCache* coherence_cache) noexcept {
   assert(query.cwiseAbs().maxCoeff() <= kMaxQueryCoordinate);
-  const bool any_way = limits.known || limits.allow_any_way();
-  return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
-                                                 any_way ? coherence_cache : nullptr);
+  if (!limits.allow_history || limits.known || !coherence_cache) {
+    const bool any_way = limits.known || limits.allow_any_way();
+    return HWY_DYNAMIC_DISPATCH(nearest_on_target)(tree, query, limits, pages, work,
+                                                   any_way ? coherence_cache : nullptr);
+  }
+  return nearest_by_history(tree, query, limits, pages, work, *coherence_cache);
 }
 
 }  // namespace planetree::octree

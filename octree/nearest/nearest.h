@@ -33,12 +33,16 @@ struct NearestLimits {
   /// is evaluated again; its old distance is not used. If set, queries of limited work use the
   /// coherence cache too, so that answers that are not exact depend on earlier queries.
   const NearestAnswer* known = nullptr;
+  /// A query of unlimited work and an allowed error is answered exactly if it is so near the last
+  /// one that the coherence cache makes that cheaper. So its answer depends on earlier queries.
+  bool allow_history = false;
 
   /// Whether the answer is the same for every order of visits. With limited work or an allowed
   /// error it depends on that order. The order must then not depend on which pages are resident,
   /// and may depend on earlier queries only if `known` is set.
-  bool allow_any_way() const {
-    return max_error == 0 && max_work == std::numeric_limits<std::uint32_t>::max();
+  bool allow_any_way() const { return max_error == 0 && has_unlimited_work(); }
+  bool has_unlimited_work() const {
+    return max_work == std::numeric_limits<std::uint32_t>::max();
   }
 };
 

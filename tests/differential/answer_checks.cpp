@@ -222,7 +222,10 @@ void expect_side(BuiltModel& model, const Vec3& query) {
 ClosestPoint expect_sound(BuiltModel& model, const Vec3& query, const QueryOptions& options) {
   const ClosestPoint answer = model.closest_point(query, options);
   SCOPED_TRACE(words(query, options, answer));
-  expect_same_bits(answer, model.closest_point(query, options));
+  const ClosestPoint again = model.closest_point(query, options);
+  // Beside the last query, an exact answer may take the place of one within an error.
+  if (answer.status != Status::kWithinError || again.status != Status::kExact)
+    expect_same_bits(answer, again);
   const Wide truth = exact_distance(query, model.triangles());
   expect_interval_holds(answer, truth);
   const bool unlimited = options.max_error == 0 && options.max_distance == kInfinity &&

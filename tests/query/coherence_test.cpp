@@ -43,5 +43,57 @@ TEST_P(CoherenceTest, ChangesNoBitOfAnExactAnswer) {
   }
 }
 
+// Page lookups of a path of queries, by a probe of its own.
+std::uint64_t lookups(ModelState& model, double max_error) {
+  const auto probe = ProbeState::create(model.serving(), *model.claim_reader());
+  const Stats before = model.stats();
+  for (const Vec3& query : path_and_jumps())
+    probe->closest_point(query, {.parts = kDistance, .max_error = max_error});
+  const Stats after = model.stats();
+  return after.page_hits + after.page_misses - before.page_hits - before.page_misses;
+}
+
+TEST_P(CoherenceTest, AnAllowedErrorCostsNoMoreThanNone) {
+  const SampleModel sample = SampleModel::masked(octree::sphere(5));
+  OpenOptions options;
+  options.memory_budget_bytes = GetParam();
+  options.max_probes = 1;
+  const auto model = ModelState::open(sample.path(), options);
+  ASSERT_TRUE(model) << model.error().text;
+  lookups(**model, 0);
+  const std::uint64_t exact = lookups(**model, 0);
+  for (const double error : {1e-5, 1e-3, 1e-2, 1e-1})
+    EXPECT_LE(lookups(**model, error), exact * 102 / 100) << error;
+}
+
+TEST_P(CoherenceTest, LeavesAllowedErrorsInTheirIntervals) {
+  const SampleModel sample = SampleModel::masked(octree::sphere(5));
+  OpenOptions options;
+  options.memory_budget_bytes = GetParam();
+  options.max_probes = 2;
+  const auto model = ModelState::open(sample.path(), options);
+  ASSERT_TRUE(model) << model.error().text;
+  const auto kept = ProbeState::create((*model)->serving(), *(*model)->claim_reader());
+  const auto fresh = ProbeState::create((*model)->serving(), *(*model)->claim_reader());
+  fresh->coherence().is_on = false;
+  int within_error = 0, at = 0;
+  for (const Vec3& query : path_and_jumps()) {
+    const ClosestPoint exact = fresh->closest_point(query, {});
+    const double error = ++at % 3 == 0 ? 0 : at % 3 == 1 ? 1e-3 : 1e-1;
+    const ClosestPoint answer = kept->closest_point(query, {.max_error = error});
+    EXPECT_LE(answer.lower, exact.upper);
+    EXPECT_GE(answer.upper, exact.lower);
+    EXPECT_EQ(answer.side, exact.side);
+    if (answer.status == Status::kExact) {
+      EXPECT_EQ(bits_of(answer), bits_of(exact));
+    } else {
+      ++within_error;
+      EXPECT_EQ(answer.status, Status::kWithinError);
+      EXPECT_LE(answer.upper - answer.lower, error);
+    }
+  }
+  EXPECT_GT(within_error, 20);
+}
+
 }  // namespace
 }  // namespace planetree::query

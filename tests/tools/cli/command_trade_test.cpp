@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/tools/cli/command_fixture.h"
+#include "tools/trade/median_edge.h"
+
+namespace planetree::tools {
+namespace {
+
+class CommandTrade : public Command {
+ protected:
+  static Json measured(std::vector<std::string> options, const std::string& input = "") {
+    options.insert(options.begin(), {"trade", "tree.ptree", "--json", "--count", "50"});
+    const Outcome result = run(options, input);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return Json::parse(result.output);
+  }
+};
+
+TEST_F(CommandTrade, MeasuresEachSettingOnEachWorkload) {
+  const Json report = measured({});
+  EXPECT_EQ(report["triangles"], kTriangles);
+  EXPECT_GT(report["diagonal"], 0);
+  std::set<std::string> workloads;
+  int exact = 0, tolerant = 0, limited = 0, never = 0;
+  for (const Json& row : report["rows"]) {
+    workloads.insert(row["workload"]);
+    EXPECT_EQ(row["broken"], 0) << row;
+    EXPECT_EQ(row["side_wrong"], 0) << row;
+    EXPECT_GT(row["queries_per_second"], 0) << row;
+    EXPECT_LE(row["promised_p50"], row["promised_p99"]) << row;
+    const Json& options = row["options"];
+    if (options["wait"] == "never") {
+      ++never;
+    } else if (options["max_error"] > 0) {
+      ++tolerant;
+      EXPECT_LE(row["promised_max"], options["max_error"]) << row;
+      EXPECT_LE(row["true_max"], options["max_error"]) << row;
+    } else if (!options["max_work"].is_null()) {
+      ++limited;
+    } else {
+      ++exact;
+      EXPECT_EQ(row["true_max"], 0);
+      EXPECT_EQ(row["exact_share"], 1);
+      EXPECT_EQ(row["ratio_to_exact"], 1);
+      EXPECT_GT(row["pages_per_query"], 0);
+    }
+  }
+  EXPECT_EQ(workloads, (std::set<std::string>{"uniform", "near", "path"}));
+  EXPECT_EQ(exact, 3);
+  EXPECT_EQ(tolerant, 3 * 7);
+  EXPECT_EQ(limited, 3 * 7);
+  EXPECT_GT(never, 0);
+}
+
+TEST_F(CommandTrade, RecommendsOptionsThatKeepTheirError) {
+  const Json report = measured({});
+  ASSERT_EQ(report["recommended"].size(), 4u);
+  for (const Json& recommended : report["recommended"])
+    EXPECT_LE(recommended["options"]["max_error"], recommended["max_error"]);
+  EXPECT_NEAR(report["recommended"][0]["max_error"], 1e-4 * report["diagonal"].get<double>(),
+              1e-12);
+}
+
+TEST_F(CommandTrade, AsksAtGivenPoints) {
+  const Json report = measured({"--points", "-"}, "0,0,1\n1,1,1\n3,2,1\n");
+  for (const Json& row : report["rows"]) {
+    EXPECT_EQ(row["workload"], "points");
+    EXPECT_EQ(row["points"], 3);
+  }
+}
+
+TEST_F(CommandTrade, EndsWithTheCommandToUse) {
+  const Outcome result = run({"trade", "tree.ptree", "--count", "20", "--quiet"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_NE(result.output.find("uniform, 20 points"), std::string::npos);
+  EXPECT_NE(result.output.find("\nplanetree query tree.ptree POINTS"), std::string::npos);
+}
+
+TEST_F(CommandTrade, RefusesWhatItCannotMeasure) {
+  EXPECT_EQ(run({"trade", "tree.ptree", "--count", "0"}).status, 2);
+  EXPECT_EQ(run({"trade", "none.ptree"}).status, 2);
+  EXPECT_EQ(run({"trade", "mesh.obj"}).status, 1);
+  EXPECT_EQ(run({"trade", "tree.ptree", "--points", "-"}, "").status, 1);
+  write("one.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  ASSERT_EQ(run({"build", "one.obj", "-o", "one.ptree", "--quiet"}).status, 0);
+  const Outcome result = run({"trade", "one.ptree"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.errors.find("nothing to trade"), std::string::npos);
+}
+
+// Two triangles with legs of 1 and a shared hypotenuse.
+TEST_F(CommandTrade, MedianEdgeIsThatOfTheTriangles) {
+  write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  ASSERT_EQ(run({"build", "square.obj", "-o", "square.ptree", "--quiet"}).status, 0);
+  const auto edge = median_edge("square.ptree");
+  ASSERT_TRUE(edge);
+  EXPECT_EQ(*edge, 1);
+  EXPECT_FALSE(median_edge("square.obj"));
+}
+
+}  // namespace
+}  // namespace planetree::tools

@@ -1,0 +1,165 @@
+#include "tools/trade/trade_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tools/cli/size_text.h"
+#include "tools/cli/subcommand.h"
+
+namespace planetree::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double per_second(const TradeResult& result) {
+  return result.seconds > 0 ? static_cast<double>(result.points) / result.seconds : 0;
+}
+
+double pages_per_query(const TradeResult& result) {
+  return static_cast<double>(result.pages) / static_cast<double>(result.points);
+}
+
+std::string name_of(const TradeSetting& setting, double diagonal) {
+  if (setting.max_error > 0) return fmt::format("error {:.2g}", setting.max_error / diagonal);
+  if (setting.max_work != QueryOptions::kNoLimit) return fmt::format("work {}", setting.max_work);
+  if (setting.wait == Wait::kNever)
+    return fmt::format("no wait, {}", short_bytes(setting.memory_bytes));
+  return "exact";
+}
+
+std::string table_row(const TradeRow& row, std::size_t workload, const TradeRecord& record) {
+  const TradeResult& result = row.results[workload];
+  const auto share = [&](double length) { return length / record.diagonal; };
+  const bool dominated =
+      std::any_of(record.rows.begin(), record.rows.end(),
+                  [&](const TradeRow& other) { return row.is_dominated_by(other); });
+  return fmt::format(
+      "  {:<20}{:>9}{:>8.2f}{:>8.3f}  {:>8.1e}{:>9.1e}  {:>8.1e}{:>9.1e}{:>8}{:>8}{}\n",
+      name_of(row.setting, record.diagonal), short_count(per_second(result)), result.ratio_to_exact,
+      pages_per_query(result), share(result.promised.p50), share(result.promised.p99),
+      share(result.actual.p50), share(result.actual.p99), result.broken, result.side_unknown,
+      dominated ? "  -" : "");
+}
+
+std::string table(const TradeRecord& record, std::size_t workload) {
+  std::string text =
+      fmt::format("\n{}, {} points\n  {:<20}{:>9}{:>8}{:>8}  {:>17}  {:>17}{:>8}{:>8}\n",
+                  name_of(record.workloads[workload]),
+                  grouped_count(record.rows.front().results[workload].points), "", "queries",
+                  "time of", "pages", "promised error", "true error", "broken", "no side");
+  text += fmt::format("  {:<20}{:>9}{:>8}{:>8}  {:>8}{:>9}  {:>8}{:>9}\n", "", "a second", "exact",
+                      "a query", "p50", "p99", "p50", "p99");
+  for (const TradeRow& row : record.rows) text += table_row(row, workload, record);
+  return text;
+}
+
+/// The largest 99 % quantile of the true error over the workloads, and counts over all of them.
+struct Overall {
+  double actual_p99 = 0;
+  std::size_t broken = 0, points = 0;
+};
+Overall overall(const TradeRow& row) {
+  Overall all;
+  for (const TradeResult& result : row.results) {
+    all.actual_p99 = std::max(all.actual_p99, result.actual.p99);
+    all.broken += result.broken;
+    all.points += result.points;
+  }
+  return all;
+}
+
+std::string recommendation(const TradeGoal& goal, const TradeRow* row) {
+  if (!row) return fmt::format("  {:<24}no setting keeps it\n", goal.name);
+  const std::string options = row->setting.options();
+  const Overall all = overall(*row);
+  return fmt::format(
+      "  {:<24}{:<24}  {:.2f} of the time of exact answers; true error p99 {:.2g}; "
+      "broken {} of {}\n",
+      goal.name, options.empty() ? "exact answers" : options, row->ratio_to_exact(), all.actual_p99,
+      all.broken, grouped_count(all.points));
+}
+
+Json json_of(const TradeSetting& setting) {
+  return {
+      {"max_error", setting.max_error},
+      {"max_work", setting.max_work == QueryOptions::kNoLimit ? Json() : Json(setting.max_work)},
+      {"memory_bytes", setting.memory_bytes},
+      {"wait", setting.wait == Wait::kNever ? "never" : "for_pages"}};
+}
+
+Json json_of(const TradeRow& row, std::size_t workload, const TradeRecord& record) {
+  const TradeResult& result = row.results[workload];
+  const double points = static_cast<double>(result.points);
+  return {{"workload", name_of(record.workloads[workload])},
+          {"options", json_of(row.setting)},
+          {"points", result.points},
+          {"queries_per_second", per_second(result)},
+          {"ratio_to_exact", result.ratio_to_exact},
+          {"pages_per_query", pages_per_query(result)},
+          {"promised_p50", result.promised.p50},
+          {"promised_p99", result.promised.p99},
+          {"promised_max", result.promised.most},
+          {"true_p50", result.actual.p50},
+          {"true_p99", result.actual.p99},
+          {"true_max", result.actual.most},
+          {"broken", result.broken},
+          {"side_unknown", result.side_unknown},
+          {"side_wrong", result.side_wrong},
+          {"exact_share", static_cast<double>(result.exact) / points},
+          {"degraded_share", static_cast<double>(result.degraded) / points}};
+}
+
+}  // namespace
+
+std::vector<TradeGoal> trade_goals(const TradeRecord& record) {
+  std::vector<TradeGoal> goals;
+  for (const double share : {1e-4, 1e-3, 1e-2})
+    goals.push_back({share * record.diagonal, fmt::format("{:.0e} of the diagonal", share)});
+  if (record.median_edge > 0) goals.push_back({record.median_edge, "the median edge"});
+  return goals;
+}
+
+std::string trade_words(const TradeRecord& record) {
+  std::string text = fmt::format(
+      "{}: {} triangles, diagonal {:.6g}, median edge {:.3g}\n"
+      "Errors in the tables are shares of the diagonal. Rows marked - are no better in "
+      "time or promised error than another.\n",
+      record.file, grouped_count(record.triangles), record.diagonal, record.median_edge);
+  for (std::size_t i = 0; i < record.workloads.size(); ++i) text += table(record, i);
+  for (const std::uint64_t bytes : record.too_small)
+    text +=
+        fmt::format("\nnot measured within {}: the model needs more memory\n", short_bytes(bytes));
+  text += "\nFor an error of at most\n";
+  const TradeRow* last = nullptr;
+  for (const TradeGoal& goal : trade_goals(record)) {
+    const TradeRow* row = choose(record.rows, goal.max_error);
+    text += recommendation(goal, row);
+    if (row) last = row;
+  }
+  if (last)
+    text += fmt::format("\nplanetree query {} POINTS{}{}\n", record.file,
+                        last->setting.is_exact() ? "" : " ", last->setting.options());
+  return text;
+}
+
+std::string trade_json(const TradeRecord& record) {
+  Json rows = Json::array(), recommended = Json::array();
+  for (const TradeRow& row : record.rows)
+    for (std::size_t i = 0; i < record.workloads.size(); ++i)
+      rows.push_back(json_of(row, i, record));
+  for (const TradeGoal& goal : trade_goals(record))
+    if (const TradeRow* row = choose(record.rows, goal.max_error))
+      recommended.push_back({{"max_error", goal.max_error},
+                             {"options", json_of(row->setting)},
+                             {"ratio_to_exact", row->ratio_to_exact()}});
+  return json_line({{"file", record.file},
+                    {"triangles", record.triangles},
+                    {"diagonal", record.diagonal},
+                    {"median_edge", record.median_edge},
+                    {"rows", rows},
+                    {"recommended", recommended}});
+}
+
+}  // namespace planetree::tools
