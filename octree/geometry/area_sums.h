@@ -13,9 +13,9 @@ namespace planetree::octree {
 /// a hemisphere, 1/3 for a tetrahedron and 1/5 for a cube less one face, and near 0 for a closed
 /// surface with many small holes.
 ///
-/// Strays do not count: one wrong coordinate would outweigh a whole scan. Sums are whole numbers, so
-/// that they do not depend on the order of the triangles. Triangles of an area below 2^-60 in the
-/// model frame do not count.
+/// Strays do not count: one wrong coordinate would outweigh a whole scan. Sums are whole numbers,
+/// so that they do not depend on the order of the triangles. Triangles of an area below 2^-60 in
+/// the model frame do not count.
 class AreaSums {
  public:
   /// lower, upper  the core, model frame

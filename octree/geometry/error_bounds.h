@@ -196,8 +196,8 @@ inline constexpr int kWideHalfAngleErrorBits = 8;
 inline constexpr double kMinAngleLength2 = 0x1p-320, kMaxAngleLength2 = 0x1p320;
 /// Error of a share by that of its vector: asin(x) is at most (pi / 2) x, divided by 2 pi.
 inline constexpr double kAsinOverTwoPi = 0.25;
-/// Error of a share by one more factor of a product of unit vectors: the two quotients of the factor
-/// turn it by at most 1.5 u, and the product loses at most 2.3 u, divided by 2 pi.
+/// Error of a share by one more factor of a product of unit vectors: the two quotients of the
+/// factor turn it by at most 1.5 u, and the product loses at most 2.3 u, divided by 2 pi.
 inline constexpr double kTurnError = kDoubleRoundoff;
 /// Error of angle_of(). The first term that its series leaves out is below 2^-68 / 17.
 inline constexpr double kAngleError = 0x1p-50;

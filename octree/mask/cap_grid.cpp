@@ -27,8 +27,8 @@ constexpr std::uint64_t kVisitsPerRecord = 32;
 constexpr std::uint64_t kMaxBrought = 1 << 12;
 /// The same for caps and edges of a rim that are looked at. A unit of work counts for
 /// kLooksPerUnit.
-constexpr std::uint64_t kMinLooks = 1 << 16, kMaxLooks = std::uint64_t{1} << 24;
-constexpr std::uint64_t kLooksPerRecord = 1 << 14, kLooksPerUnit = 32;
+constexpr std::uint64_t kMinLooks = 1 << 14, kMaxLooks = std::uint64_t{1} << 24;
+constexpr std::uint64_t kLooksPerRecord = 1 << 11, kLooksPerUnit = 32;
 }  // namespace
 
 /// Bounds the share of many caps over cells by their areas, the largest cells first. A cap of area

@@ -41,9 +41,7 @@ struct NearestLimits {
   /// error it depends on that order. The order must then not depend on which pages are resident,
   /// and may depend on earlier queries only if `known` is set.
   bool allow_any_way() const { return max_error == 0 && has_unlimited_work(); }
-  bool has_unlimited_work() const {
-    return max_work == std::numeric_limits<std::uint32_t>::max();
-  }
+  bool has_unlimited_work() const { return max_work == std::numeric_limits<std::uint32_t>::max(); }
 };
 
 /// Finds the surface point nearest to `query` by a traversal of the tree, nearest child first. Near

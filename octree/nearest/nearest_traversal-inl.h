@@ -111,10 +111,17 @@ class NearestTraversal {
       return true;
     }
     const Frontier::Order order = order_;
-    if (!frontier_.pop(order, best_.threshold(), entry, skipped_.pruned)) return false;
+    const float threshold = threshold_for(order);
+    if (!frontier_.pop(order, threshold, entry, skipped_.pruned)) return false;
     if (order == Frontier::Order::kNearest && frontier_.is_ordered())
-      has_second = frontier_.pop(order, best_.threshold(), second, skipped_.pruned);
+      has_second = frontier_.pop(order, threshold, second, skipped_.pruned);
     return true;
+  }
+
+  // An allowed error ends the search early only far from the surface. Near it the exact triangle
+  // costs little more, and the side is cheaper to find beside it.
+  HWY_INLINE float threshold_for(Frontier::Order order) const {
+    return order == Frontier::Order::kNearest ? best_.threshold() : best_.exact_threshold();
   }
 
   // Visits a record. Returns true if a child of it is to be visited next; `entry` is then that
@@ -171,7 +178,7 @@ class NearestTraversal {
     const bool far = entry.bound > node.gate;
     order_ = far ? Frontier::Order::kNearest : Frontier::Order::kLast;
     const NearChildren children =
-        sorted_children(node, float_query_, far, best_.threshold(), group);
+        sorted_children(node, float_query_, far, threshold_for(order_), group);
     const unsigned near = children.count;
     // Selected without a branch.
     const float first_left = group.bound(near % kFanOut);

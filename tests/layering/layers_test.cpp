@@ -42,8 +42,7 @@ TEST(Layers, RefuseFoldersAboveOrBeside) {
             Lines{"storage/file/a.cpp may not include cache/limbo.h"});
   EXPECT_EQ(forbidden_in("cache/a.h", "#include \"storage/file/page_file.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("octree/page/a.h", "#include \"octree/traversal/bounds.h\"\n").size(), 1u);
-  EXPECT_EQ(forbidden_in("octree/winding/a.h", "#include \"octree/mask/cap_grid.h\"\n").size(),
-            1u);
+  EXPECT_EQ(forbidden_in("octree/winding/a.h", "#include \"octree/mask/cap_grid.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("octree/builder/a.cpp", "#include \"cache/limbo.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("query/answer/a.h", "#include \"query/serve/pager.h\"\n").size(), 1u);
   EXPECT_EQ(forbidden_in("query/a.cpp", "#include \"tools/cli/progress.h\"\n").size(), 1u);
