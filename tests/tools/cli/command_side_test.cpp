@@ -68,7 +68,7 @@ TEST_F(CommandSide, FollowsTheBuildersOption) {
 TEST_F(CommandSide, BelongsToTheNearestTriangleWhateverTheErrorAllowed) {
   const auto status = [](std::vector<std::string> options) {
     options.insert(options.begin(), {"query", "tree.ptree", "--max-error", "100"});
-    const std::string row = run(options, "4,4,90\n").output;
+    const std::string row = run(options, "7,7,30\n").output;
     return row.substr(row.rfind(',') + 1);
   };
   EXPECT_EQ(status({}), "exact\n");
