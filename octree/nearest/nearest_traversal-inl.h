@@ -90,8 +90,7 @@ class NearestTraversal {
   static constexpr unsigned kPrefetched = 3;     // children of a node, nearest first
   static constexpr unsigned kMaxBoxLookups = 4;  // skipped records whose boxes are looked up
 
-  // Visits everything near in a subtree. Not inlined, because the code is large and has two
-  // callers.
+  // Visits everything near in a subtree. Not inlined: it is large and has two callers.
   HWY_NOINLINE void search(float bound, std::uint32_t link) {
     FrontierEntry entry{bound, link, LinkResolver::kNoPage}, second{};
     bool has_second = false;

@@ -183,12 +183,12 @@ class OpenSides {
   Random& random_;
 };
 
-// 26,000 queries, at holes and caps among other places.
+// 101,200 queries, at holes and caps among other places.
 TEST(OpenSides, AreThoseOfTheSumOfSolidAngles) {
   for (const OpenModel& model : open_models()) {
     Random random(7);
     OpenSides sides(model, random);
-    for (int i = 0; i < static_cast<int>(2400 * test_effort()) && !testing::Test::HasFailure(); ++i)
+    for (int i = 0; i < static_cast<int>(9200 * test_effort()) && !testing::Test::HasFailure(); ++i)
       sides.check(sides.query());
   }
 }

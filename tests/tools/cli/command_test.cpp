@@ -228,7 +228,7 @@ TEST_F(Command, QueryObeysItsLimits) {
   EXPECT_EQ(lines_of(far.output).back(),
             "4,4,9,inf,2,inf,outside,0,0,0,0,0,1,,face,beyond_max_distance");
   const Outcome coarse =
-      run({"query", "tree.ptree", "--max-error", "100", "--side", "solid"}, "4,4,9\n");
+      run({"query", "tree.ptree", "--max-error", "100", "--side", "solid"}, "7,7,30\n");
   EXPECT_TRUE(lines_of(coarse.output).back().ends_with("within_error"));
 }
 
