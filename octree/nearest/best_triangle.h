@@ -115,8 +115,16 @@ struct SkippedBounds {
   float pruned = std::numeric_limits<float>::infinity();
   /// Least squared bound of the children whose page was missing or for which no work was left.
   float unread = std::numeric_limits<float>::infinity();
-  /// Some subtree whose page was missing has surface within this distance.
+  /// Some subtree has surface within this distance: one whose page was missing or, of queries of
+  /// little work that have found no triangle, one that was to be visited.
   double within = std::numeric_limits<double>::infinity();
+
+  /// Lowers `within` by the box of a subtree, in which there is some surface.
+  ///
+  /// offset  of the query from the model's centre
+  void bound_above(const FloatBox& box, const Point& offset) {
+    within = std::min(within, farthest_in_box(box, offset));
+  }
 };
 
 /// Makes the answer of a finished traversal.

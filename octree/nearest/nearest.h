@@ -41,6 +41,8 @@ struct NearestLimits {
   /// error it depends on that order. The order must then not depend on which pages are resident,
   /// and may depend on earlier queries only if `known` is set.
   bool allow_any_way() const { return max_error == 0 && has_unlimited_work(); }
+  /// Whether the work may be spent before any triangle is found.
+  bool has_little_work() const { return max_work <= 1024; }
   bool has_unlimited_work() const { return max_work == std::numeric_limits<std::uint32_t>::max(); }
 };
 

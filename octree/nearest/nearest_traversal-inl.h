@@ -117,8 +117,7 @@ class NearestTraversal {
     return true;
   }
 
-  // An allowed error ends the search early only far from the surface. Near it the exact triangle
-  // costs little more, and the side is cheaper to find beside it.
+  // Near the surface an allowed error saves little, and the side is cheaper to find exactly.
   HWY_INLINE float threshold_for(Frontier::Order order) const {
     return order == Frontier::Order::kNearest ? best_.threshold() : best_.exact_threshold();
   }
@@ -155,8 +154,7 @@ class NearestTraversal {
     if (entry.from == LinkResolver::kNoPage) return skip_subtree_of_ball(entry.link);
     const LinkResolver::Child child = records_.find_parent(entry.link, entry.from);
     if (!child.node) return;
-    const FloatBox box = child_box(*child.node, child.index);
-    skipped_.within = std::min(skipped_.within, farthest_in_box(box, query_ - tree_.centre));
+    skipped_.bound_above(child_box(*child.node, child.index), query_ - tree_.centre);
   }
 
   // Skips a subtree of the ball, whose box is in the list. The root is skipped here too, but it
@@ -191,6 +189,8 @@ class NearestTraversal {
       far ? prefetch<kNodeSlots>(nearest, group, near)
           : prefetch<kNearNodeSlots>(nearest, group, near);
     }
+    if (limits_.has_little_work() && near > 0 && !best_.found())
+      skipped_.bound_above(child_box(node, children.child()), query_ - tree_.centre);
     const bool is_next = !far && near > 0;
     frontier_.push(is_next ? 1 : 0, near, page);
     if (is_next) entry = {children.bound(), node.link[children.child()], page};

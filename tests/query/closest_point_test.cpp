@@ -234,6 +234,29 @@ TEST(ClosestPoint, IntervalHoldsForEveryAmountOfWork) {
   }
 }
 
+// Before any triangle is found, the boxes on the way to it bound the distance from above.
+TEST(ClosestPoint, IntervalNarrowsWithEveryDoublingOfWork) {
+  const SampleModel sample(sphere(6));
+  const Model model = sample.open();
+  Probe probe = make_probe(model);
+  std::vector<double> of_eight;
+  for (const Vec3& query : random_queries(200, -1.5, 1.5)) {
+    double last = std::numeric_limits<double>::infinity();
+    for (std::uint32_t work = 1; work <= 4096; work *= 2) {
+      const ClosestPoint answer =
+          probe.closest_point(query, {.parts = kDistance, .max_work = work});
+      EXPECT_TRUE(sample.interval_holds(answer, query));
+      const double width = answer.upper - answer.lower;
+      EXPECT_LE(width, last * (1 + 1e-6)) << work;
+      last = width;
+      if (work == 8) of_eight.push_back(width);
+    }
+  }
+  std::ranges::sort(of_eight);
+  EXPECT_LT(of_eight[100], 0.2);
+  EXPECT_LT(of_eight[197], 0.8);
+}
+
 TEST(ClosestPoint, DoesNotDependOnMemoryOrEarlierQueries) {
   const SampleModel sample(scattered(3000, 0.05));
   const Model large = sample.open(), small = sample.open(sample.min_budget());
